@@ -1,6 +1,7 @@
 """What every room uses: checks of input (`validate`), records, text tables, files, pictures (`figures`), a bracketed
 root."""
 
+from .arrays import BoolArray, ComplexArray, FloatArray, IntArray
 from .files import LOCK, FolderLock, OwnFiles, clear_checked, clear_parts, read_checked, write_checked, write_whole
 from .host import with_default_errors
 from .memory import release_freed_memory, releasing_memory, resident_memory

@@ -1,15 +1,25 @@
 """Pictures: what they share, and results drawn on given axes or on new ones of pyplot."""
 
+from __future__ import annotations
+
 import io
 from collections.abc import Callable
 from functools import wraps
 from importlib.resources import files
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from ..quantities import axis_label
 from ..units import converted, printed, unit_for
+from .arrays import FloatArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.axis import XAxis, YAxis
+    from matplotlib.figure import Figure
+    from matplotlib.image import AxesImage
+
 
 Plot = TypeVar("Plot", bound=Callable[..., Any])
 
@@ -45,7 +55,7 @@ def in_unit_for(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
     return converted(values, unit, name), printed(name)
 
 
-def new_figure(*args, layout: Any = "constrained", **kwargs):
+def new_figure(*args, layout: Any = "constrained", **kwargs: tuple[float, float]) -> Figure:
     """A figure without a window."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -74,7 +84,7 @@ def plain_words(text: str) -> str:
     return text.replace("$", r"\$")
 
 
-def axes_or_new(ax, layout="constrained"):
+def axes_or_new(ax: Axes | None, layout: str = "constrained") -> Axes:
     """``ax``, or the axes of a new figure."""
     if ax is not None:
         return ax
@@ -83,7 +93,9 @@ def axes_or_new(ax, layout="constrained"):
     return pyplot.subplots(figsize=(7, 4.5), layout=layout)[1]
 
 
-def friction_lines(axes, x, parts, **style) -> None:
+def friction_lines(
+    axes: Axes, x: FloatArray, parts: list[FloatArray] | tuple[FloatArray, FloatArray, FloatArray], **style: int | str
+) -> None:
     """Draw f, and its parts from the asperities and from the film, over ``x``. ``parts``: three arrays; ``style``: of
     the first."""
     f, contact, film = parts
@@ -93,12 +105,12 @@ def friction_lines(axes, x, parts, **style) -> None:
         axes.plot(x, part, color=color, lw=1, ls=(0, (4, 4)), label=label, **lone)  # f shows through where it is all
 
 
-def widened(x, *values):
+def widened(x: FloatArray, *values: FloatArray) -> tuple[FloatArray, ...]:
     """``x`` and ``values`` over it; a lone point as a short piece of x, as an area over a point shows nothing."""
     return (x, *values) if np.size(x) != 1 else (np.multiply(x, (0.97, 1.03)), *(np.repeat(v, 2) for v in values))
 
 
-def load_shares(axes, x, share) -> None:
+def load_shares(axes: Axes, x: FloatArray, share: FloatArray) -> None:
     """Draw the asperity load ratio, and above it the film load ratio, over ``x``."""
     x, share = widened(x, share)
     axes.fill_between(x, 0, share, color=RED, alpha=0.5, lw=0, label="asperity load $F_C/F_T$")
@@ -106,7 +118,7 @@ def load_shares(axes, x, share) -> None:
     axes.set(ylim=(0, 1), ylabel="load ratio (-)")
 
 
-def plain_ticks(axis) -> None:
+def plain_ticks(axis: XAxis | YAxis) -> None:
     """Numbers such as 0.2 and 0.5 on a logarithmic ``axis`` (``ax.xaxis``) of less than two decades, where matplotlib
     would write every tick as a product, so that they overlap, or none around a lone point. Ticks set by hand stay."""
     from matplotlib.ticker import FormatStrFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
@@ -120,7 +132,7 @@ def plain_ticks(axis) -> None:
         axis.set_minor_formatter(NullFormatter())
 
 
-def log_if_wide(axes, name: str, values: np.ndarray) -> None:
+def log_if_wide(axes: Axes, name: str, values: np.ndarray) -> None:
     """A logarithmic axis "x" or "y" where the positive ``values`` on it spread over more than a factor of 20."""
     if values.min() > 0 and values.max() > 20 * values.min():
         axes.set(**{f"{name}scale": "log"})
@@ -133,7 +145,7 @@ def speed_label(speed: np.ndarray) -> str:
     return f"entrainment speed |U| (m/s), {'both directions' if (speed > 0).any() else 'backwards'}"
 
 
-def key_above(axes, columns: int = 3) -> int:
+def key_above(axes: Axes, columns: int = 3) -> int:
     """The key of the lines above the axes, where it hides none, in so many ``columns`` at most as the figure has room
     for; returns the number of rows."""
     from matplotlib import rcParams
@@ -150,7 +162,16 @@ def key_above(axes, columns: int = 3) -> int:
     return rows
 
 
-def field_image(axes, x, y, values, colours: str, label: str, extend: str = "neither", **options):
+def field_image(
+    axes: Axes,
+    x: FloatArray,
+    y: FloatArray,
+    values: FloatArray,
+    colours: str,
+    label: str,
+    extend: str = "neither",
+    **options: float,
+) -> AxesImage:
     """``values`` (nx, ny) over cells at ``x`` and ``y`` [m], from above, with a bar of colours; returns the image. To
     scale, unless it would be too slender; then the axis says so."""
     half_x, half_y = (0.5 * (a[1] - a[0] if a.size > 1 else 1e-6) for a in (x, y))

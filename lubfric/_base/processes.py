@@ -1,5 +1,7 @@
 """Work on any executor, and the processes of a command. What a lost worker had is done again."""
 
+from __future__ import annotations
+
 import multiprocessing
 import os
 import signal
@@ -37,7 +39,7 @@ ENDING = (signal.SIGINT, signal.SIGTERM)
 MASKS = hasattr(signal, "pthread_sigmask")
 
 
-def checked_executor(executor):
+def checked_executor(executor: Any) -> Any:
     """Return ``executor``: None, a `concurrent.futures.Executor`, or that of a ``dask.distributed.Client``. Raises
     `InputError` for anything else."""
     if hasattr(executor, "get_executor"):
@@ -120,7 +122,7 @@ def spread(executor, jobs: Iterable[Callable[[], Iterator]]) -> Iterator:
             future.cancel()
 
 
-def _attempt(job):
+def _attempt(job: Callable[[], Iterable[Any]]) -> tuple[bool, Any]:
     """(True, the values) or (False, the exception): tells errors of a job from those of the executor."""
     try:
         return True, list(job())
@@ -142,8 +144,8 @@ def checked_workers(workers: int, executor) -> int:
 
 
 @contextmanager
-def pool(workers: int):
-    """An executor of ``workers`` processes, which start at once. They end with this process, however it ends. None for
+def pool(workers: int) -> Iterator[ProcessPoolExecutor | None]:
+    """Yield an executor of ``workers`` processes, which start at once. They end with this process, however it ends. None for
     one worker: then this process does the work itself."""
     if workers == 1:
         yield None
@@ -167,7 +169,7 @@ def pool(workers: int):
 
 
 @contextmanager
-def _held():
+def _held() -> Iterator[None]:
     """Signals wait while processes start: one that came before `_follow` would end in a traceback, or be lost."""
     before = signal.pthread_sigmask(signal.SIG_BLOCK, ENDING) if MASKS else ()
     try:
@@ -184,7 +186,7 @@ def _follow(parent: int) -> None:
     if MASKS:
         signal.pthread_sigmask(signal.SIG_UNBLOCK, ENDING)
 
-    def watch():
+    def watch() -> None:
         while os.getppid() == parent:
             time.sleep(WATCH)
         os._exit(1)

@@ -1,5 +1,7 @@
 """One bracketed root of an increasing function; it stops by the value of the function, not by the step."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -53,7 +55,7 @@ def increasing_root(
 class _Search:
     """One search: f, and its values so far."""
 
-    def __init__(self, f, tolerance: float, max_evaluations: int, first):
+    def __init__(self, f: Callable[..., Any], tolerance: float, max_evaluations: int, first: Any):
         self.f = f
         self.tolerance = tolerance
         self.max_evaluations = max_evaluations
@@ -65,7 +67,7 @@ class _Search:
         """(x, f(x))."""
         return self.keep(x, *self.f(x, self.last))
 
-    def keep(self, x: float, value: float, payload) -> tuple[float, float]:
+    def keep(self, x: float, value: float, payload: Any) -> tuple[float, float]:
         """(x, f(x)), found with its payload."""
         self.last = payload
         self.points.append((x, value))
@@ -85,7 +87,9 @@ class _Search:
         return Root(x, value, payload, tuple(abs(f) for _, f in self.points), status)
 
 
-def _bracket(search: _Search, x: float, step: float, bounds, slope: float | None):
+def _bracket(
+    search: _Search, x: float, step: float, bounds: tuple[float, float], slope: float | None
+) -> tuple[tuple[float, float], tuple[float, float]] | None:
     """Points (upper, lower) of both signs; None if the search ended before they were found."""
     lower = upper = None
     point = search.points[0] if search.points else search.at(x)
@@ -107,7 +111,7 @@ def _bracket(search: _Search, x: float, step: float, bounds, slope: float | None
     return None
 
 
-def _close_in(search: _Search, a, b) -> None:
+def _close_in(search: _Search, a: tuple[float, float], b: tuple[float, float]) -> None:
     """Evaluate between ``a`` and ``b``, of different signs, until the search is done, or until the bracket is down to
     rounding and f still jumps in it."""
     # the secant's first
@@ -127,7 +131,7 @@ def _close_in(search: _Search, a, b) -> None:
         fraction = _next_fraction(a, b, c)
 
 
-def _next_fraction(a, b, c) -> float:
+def _next_fraction(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]) -> float:
     """Inverse quadratic interpolation where it is safe (Chandrupatla), else bisection; in (0, 1)."""
     xi = (a[0] - b[0]) / (c[0] - b[0])
     phi = (a[1] - b[1]) / (c[1] - b[1])

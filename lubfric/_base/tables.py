@@ -80,7 +80,7 @@ def _no_formula(cell: Any) -> Any:
 class Columns(dict):
     """Columns of a table by name; a missing one is an `InputError`."""
 
-    def __missing__(self, name: str):
+    def __missing__(self, name: str) -> None:
         raise InputError(f"the table has no column {name!r}; give a table that 'lubfric run' wrote")
 
 

@@ -110,7 +110,7 @@ def positive(name: str, value: Any, unit: str, *, minimum: float = 0.0, maximum:
     return _within(name, value, unit, 0.0, -math.inf, maximum, least)
 
 
-def _within(name, value, unit, above, minimum, maximum, least) -> float:
+def _within(name: str, value: float, unit: str, above: float, minimum: float, maximum: float, least: float) -> float:
     largest = SANE.get(unit, (LEAST, LARGEST))[1]
     minimum, maximum = max(minimum, -largest), min(maximum, largest)
     low = f"({above:g}" if above >= minimum else f"[{minimum:g}"

@@ -9,11 +9,10 @@ from .flat import ContactCurve, FlatContact, asperity_curve, contact_curve, flat
 from .half_space import BOUNDARY, HalfSpaceContact, half_space_contact
 from .kernels import semiperiodic_coefficients
 from .operator import HalfSpace, even_transform, half_space
-from .problem import ContactProblem, contact_problem, on_grid
+from .problem import ContactProblem, TrialContact, contact_problem, on_grid
 from .refinement import (
     ContactResult,
     SearchResult,
-    TrialContact,
     contact_residuals,
     contact_result,
     evaluate,

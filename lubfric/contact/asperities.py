@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import FieldsOnly
+from .._base import FieldsOnly, FloatArray
 from ..errors import ConvergenceError
 from .asperity import AsperityResult, find_asperities
 from .cylinder import LoadedCylinder
@@ -78,7 +78,7 @@ class AsperityContact(FieldsOnly, RoughContact):
             periodic=(False, True),
         )
 
-    def _approach(self, film, load, carried) -> float:
+    def _approach(self, film: FloatArray, load: float, carried: Callable[..., Any]) -> float:
         """Return the approach [m] from first touch at which ``carried(approach)`` [N] of the map is ``load`` of the
         width."""
         from scipy.optimize import brentq

@@ -3,10 +3,11 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
-from .._base import increasing_root, validate, with_default_errors
+from .._base import FloatArray, increasing_root, validate, with_default_errors
 from ..errors import CONVERGED, STAGNATED, InputError, Report, returned
 from .asperity_find import FINDERS
 from .problem import on_grid
@@ -50,7 +51,13 @@ class AsperityResult:
 
 
 def find_asperities(
-    heights, spacing, e_prime, *, definition="summits", hardness=None, periodic=True
+    heights: FloatArray,
+    spacing: float | tuple[float, float],
+    e_prime: float,
+    *,
+    definition: str = "summits",
+    hardness: float | None = None,
+    periodic: bool | tuple[bool, bool] = True,
 ) -> Callable[..., AsperityResult]:
     """Return the function that gives the contact of a height map at a separation, a number or (nx, ny); arguments as in
     `asperity_contact`. Summits are looked for only once."""
@@ -64,7 +71,7 @@ def find_asperities(
     find = FINDERS[definition](heights, spacing, closed)
     whole = heights.size * spacing[0] * spacing[1]
 
-    def at(separation) -> AsperityResult:
+    def at(separation: FloatArray) -> AsperityResult:
         index, overlap, radius = find(np.broadcast_to(np.asarray(separation, dtype=float), heights.shape))
         area = math.pi * radius * overlap
         force = 2 / 3 * e_prime * np.sqrt(radius) * overlap**1.5
@@ -92,7 +99,14 @@ def find_asperities(
 
 @with_default_errors
 def asperity_contact(
-    heights, spacing, e_prime, *, separation, definition="summits", hardness=None, periodic=True
+    heights: FloatArray,
+    spacing: float | tuple[float, float],
+    e_prime: float,
+    *,
+    separation: float | FloatArray,
+    definition: str = "summits",
+    hardness: float | None = None,
+    periodic: bool | tuple[bool, bool] = True,
 ) -> AsperityResult:
     """Contact of a rough surface with a rigid flat at a given separation, by independent Hertz contacts.
 
@@ -128,16 +142,16 @@ def asperity_contact(
 
 @with_default_errors
 def separation_for_load(
-    heights,
-    spacing,
-    e_prime,
+    heights: FloatArray,
+    spacing: float | tuple[float, float],
+    e_prime: float | str,
     *,
-    mean_pressure,
-    definition="summits",
+    mean_pressure: float,
+    definition: str = "summits",
     hardness=None,
-    periodic=True,
-    tolerance=1e-3,
-    raise_on_failure=True,
+    periodic: bool = True,
+    tolerance: float = 1e-3,
+    raise_on_failure: bool = True,
 ) -> AsperityResult:
     """Return the separation at which independent asperities carry a given load.
 
@@ -178,12 +192,14 @@ def separation_for_load(
     return returned(replace(best, report=report), raise_on_failure)
 
 
-def _closest(contact_at, top: float, span: float, target: float, tolerance: float):
+def _closest(
+    contact_at: Callable[..., Any], top: float, span: float, target: float, tolerance: float
+) -> tuple[AsperityResult, int, tuple[float, ...]]:
     """Return the `AsperityResult` whose mean pressure is closest to ``target`` [Pa], of those that are ``contact_at``
     at separations from the ``top`` down over the ``span`` of the heights [m]; the number of approaches scanned, and the
     errors of the search in the last of them; none if the asperities carry less at every approach (then: the most)."""
 
-    def excess(approach, _=None):
+    def excess(approach: float, _: AsperityResult | None = None) -> tuple[float, AsperityResult]:
         result = contact_at(float(top - approach))
         return result.mean_pressure / target - 1, result
 

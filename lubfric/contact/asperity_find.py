@@ -2,14 +2,20 @@
 
 import math
 from collections import defaultdict
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
+
+from .._base import BoolArray, FloatArray, IntArray
 
 # Steps [cells] to one of each pair of opposite neighbours.
 AHEAD = ((0, 1), (1, -1), (1, 0), (1, 1))
 
 
-def _summit_finder(heights, spacing, periodic):
+def _summit_finder(
+    heights: FloatArray, spacing: tuple[float, float], periodic: tuple[bool, bool]
+) -> Callable[..., Any]:
     """The summits are found once; find(flat) -> (index, overlap, radius) of those that touch."""
     inside = np.ones(heights.shape, bool)
     for axis in range(2):
@@ -25,7 +31,7 @@ def _summit_finder(heights, spacing, periodic):
     along_y = 2 * heights[i, j] - heights[i, (j + 1) % ny] - heights[i, j - 1]
     radius = 2 / (along_x / spacing[0] ** 2 + along_y / spacing[1] ** 2)
 
-    def find(flat):
+    def find(flat: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
         overlap = heights[i, j] - flat[i, j]
         touching = overlap > 0
         return index[touching], overlap[touching], radius[touching]
@@ -33,10 +39,10 @@ def _summit_finder(heights, spacing, periodic):
     return find
 
 
-def _patch_finder(heights, spacing, periodic):
+def _patch_finder(heights: FloatArray, spacing: tuple[float, float], periodic: tuple[bool, bool]) -> Callable[..., Any]:
     """find(flat) -> (index of the largest overlap, that overlap, equivalent radius) of every region."""
 
-    def find(flat):
+    def find(flat: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
         overlap = (heights - flat).ravel()
         label = _joined(_labelled(heights > flat), periodic).ravel()
         cells = np.flatnonzero(label)
@@ -52,7 +58,7 @@ def _patch_finder(heights, spacing, periodic):
 FINDERS = {"summits": _summit_finder, "patches": _patch_finder}
 
 
-def _labelled(touching) -> np.ndarray:
+def _labelled(touching: BoolArray) -> np.ndarray:
     """Return the number of the region of every touching cell, from 1 on; 0 elsewhere. Neighbours touch diagonally
     too."""
     from scipy import ndimage
@@ -60,7 +66,7 @@ def _labelled(touching) -> np.ndarray:
     return ndimage.label(touching, np.ones((3, 3)))[0]
 
 
-def _crossings(label, periodic) -> np.ndarray:
+def _crossings(label: IntArray, periodic: tuple[bool, bool]) -> np.ndarray:
     """Return the regions that touch across a periodic edge, also diagonally: rows (region, region, by how many periods
     the second lies ahead along each axis)."""
     cells = np.argwhere(label)
@@ -74,7 +80,7 @@ def _crossings(label, periodic) -> np.ndarray:
     return rows[rows[:, 1] > 0]
 
 
-def _joined(label, periodic) -> np.ndarray:
+def _joined(label: IntArray, periodic: tuple[bool, bool]) -> np.ndarray:
     """Return ``label`` with one number for regions that touch across a periodic edge (also diagonally)."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components

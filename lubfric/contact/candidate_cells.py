@@ -13,10 +13,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
-from .operator import filtered, wavenumber
+from .._base import BoolArray, FloatArray, IntArray
+from .operator import HalfSpace, filtered, wavenumber
 
 # Share of the cells [-] from which all are taken: their numbers take more memory than they save. Halved and doubled by
 # `python -m verification.campaigns.benchmarks.contact_constants`.
@@ -42,7 +44,7 @@ class CandidateCells:
     ``deflection``: of the rows under pressure on them, both (n, ny) in single precision.
     """
 
-    def __init__(self, deflection, index, rows: slice, whole: tuple[int, int]):
+    def __init__(self, deflection: Callable[..., Any], index: IntArray | None, rows: slice, whole: tuple[int, int]):
         self.deflection = deflection
         self.index = index
         self.rows = rows
@@ -51,7 +53,7 @@ class CandidateCells:
         self._field = np.zeros(self.shape if index is not None else (0, 0), np.float32)
 
     @staticmethod
-    def flagged(operator, flags) -> CandidateCells:
+    def flagged(operator: HalfSpace, flags: BoolArray) -> CandidateCells:
         """Return the cells whose ``flags`` are set, or all if that is most of them. With a free axis x beside a
         periodic y, only the rows that contain some."""
         whole = flags.shape
@@ -67,11 +69,11 @@ class CandidateCells:
         many = np.count_nonzero(flags) > DENSE * flags.size
         return CandidateCells(deflection, None if many else np.flatnonzero(flags), rows, whole)
 
-    def gather(self, field) -> np.ndarray:
+    def gather(self, field: FloatArray) -> np.ndarray:
         """Return the values of a field of the rows, one axis."""
         return field.ravel() if self.index is None else field.ravel().take(self.index)
 
-    def field(self, values) -> np.ndarray:
+    def field(self, values: FloatArray) -> np.ndarray:
         """Return the field of the rows in single precision with these values, zero elsewhere; valid until the next
         call."""
         if self.index is None:
@@ -79,11 +81,11 @@ class CandidateCells:
         self._field.ravel()[self.index] = values
         return self._field
 
-    def take(self, field, dtype=float, factor: float = 1.0) -> np.ndarray:
+    def take(self, field: FloatArray, dtype: type = float, factor: float = 1.0) -> np.ndarray:
         """Return a copy of the values from a field of the whole patch, times ``factor``, in ``dtype``."""
         return (factor * self.gather(field[self.rows])).astype(dtype, copy=False)
 
-    def spread(self, values) -> np.ndarray:
+    def spread(self, values: FloatArray) -> np.ndarray:
         """Return the field of the whole patch with these values, zero elsewhere."""
         field = np.zeros(self.whole)
         field[self.rows].ravel()[slice(None) if self.index is None else self.index] = values
@@ -91,7 +93,7 @@ class CandidateCells:
 
 
 @lru_cache(maxsize=16)
-def nearest_coefficients(shape, spacing) -> tuple[float, float, float, float]:
+def nearest_coefficients(shape: tuple[int, int], spacing: tuple[float, float]) -> tuple[float, float, float, float]:
     """Return the mean of |k| [1/m] times 1, cos(kx dx), cos(ky dy) and the product of the two; an axis of one cell has
     no waves."""
     turns = [(np.arange(POINTS) + 0.5) * (np.pi / POINTS) if n > 1 else np.zeros(1) for n in shape]
@@ -104,7 +106,9 @@ def nearest_coefficients(shape, spacing) -> tuple[float, float, float, float]:
     return own, x_part, y_part, both
 
 
-def stencil(cells: CandidateCells, spacing, boundary, factor: float) -> Callable[[np.ndarray], np.ndarray]:
+def stencil(
+    cells: CandidateCells, spacing: tuple[float, float], boundary: tuple[str, str], factor: float
+) -> Callable[[np.ndarray], np.ndarray]:
     """Return the function that gives, from single-precision values on the ``cells``, the sums there of the nine points,
     less long waves, times ``factor``. The values of the other cells are zero; periodic axes wrap around."""
     shape = cells.shape
@@ -138,7 +142,7 @@ def stencil(cells: CandidateCells, spacing, boundary, factor: float) -> Callable
     return sums
 
 
-def _swept(padded, coefficients) -> np.ndarray:
+def _swept(padded: FloatArray, coefficients: tuple[float, float, float, float]) -> np.ndarray:
     """Return the sums for all cells, some rows at a time, within the cache."""
     own, along_x, along_y, across = coefficients
     sums = np.empty((padded.shape[0] - 2, padded.shape[1] - 2), np.float32)
@@ -156,14 +160,14 @@ def _swept(padded, coefficients) -> np.ndarray:
     return sums
 
 
-def _series(nearest, shape) -> np.ndarray:
+def _series(nearest: tuple[float, float, float, float], shape: tuple[int, int]) -> np.ndarray:
     """Return the cut series at the waves of a grid of ``shape`` cells, each FACTOR cells long."""
     own, along_x, along_y, across = nearest
     x, y = (np.cos(2 * np.pi * np.fft.rfftfreq(n, FACTOR)) for n in shape)
     return own + 2 * along_x * x[:, None] + 2 * along_y * y + 4 * across * x[:, None] * y
 
 
-def _summed(field) -> np.ndarray:
+def _summed(field: FloatArray) -> np.ndarray:
     """Sums over FACTOR x FACTOR cells; the last ones of an axis may have fewer."""
     for axis in (0, 1):
         field = np.moveaxis(field, axis, 0)

@@ -1,20 +1,27 @@
 """The nominally flat contact (paper, Sec. 3.1): one curve of mean gap against mean pressure, of the half-space or of
 independent asperities, for every speed and lubricant, under the film of the Hertz strip."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._base import FieldsOnly, validate
+from .._base import FieldsOnly, FloatArray, validate
 from ..errors import ConvergenceError, InputError
 from .asperity import find_asperities
 from .cylinder import LoadedCylinder
-from .operator import half_space
+from .operator import HalfSpace, half_space
 from .refinement import ContactResult
 from .rough_contract import ContactState, RoughContact, centred_axis, weighted_mean
 from .solve import solve_contact
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PchipInterpolator
+
 
 # Mean pressure over the heaviest [-] below which the light-load law of one asperity is used.
 LIGHTEST = 1e-6
@@ -95,7 +102,7 @@ class ContactCurve(FieldsOnly):
         return float(values[0]), touching, float(values[2]) * touching
 
     @cached_property
-    def _read(self):
+    def _read(self) -> PchipInterpolator:
         """Return (gap, logarithm of the area, plastic share of it) at a logarithm of the pressure between the nodes."""
         from scipy.interpolate import PchipInterpolator
 
@@ -105,7 +112,15 @@ class ContactCurve(FieldsOnly):
 
 
 def contact_curve(
-    heights, spacing, e_prime, *, heaviest, hardness=None, tolerance=1e-4, accuracy=3e-3, operator=None
+    heights: FloatArray,
+    spacing: float | tuple[float, float],
+    e_prime: float,
+    *,
+    heaviest: float,
+    hardness: float | None = None,
+    tolerance: float = 1e-4,
+    accuracy: float = 3e-3,
+    operator: HalfSpace | None = None,
 ) -> ContactCurve:
     """Solve the periodic contact of ``heights`` [m] from the pressure ``heaviest`` [Pa] down.
 
@@ -156,7 +171,7 @@ def _table(solved: dict[float, ContactResult]) -> np.ndarray:
     return np.array(rows).T
 
 
-def _inaccurate(pressure, gap, area, accuracy, halved) -> np.ndarray:
+def _inaccurate(pressure: FloatArray, gap: FloatArray, area: FloatArray, accuracy: float, halved: float) -> np.ndarray:
     """Intervals in which the interpolated gap, the load at that gap, or the area that is left to the film may be off by
     more than ``accuracy``. ``halved``: the error between two nodes, over that when one of them is left out."""
     log_pressure = np.log(pressure)
@@ -172,7 +187,7 @@ def _inaccurate(pressure, gap, area, accuracy, halved) -> np.ndarray:
     return off & ~deep & (-np.diff(log_pressure) > FINEST)
 
 
-def errors_between(pressure, values) -> np.ndarray:
+def errors_between(pressure: FloatArray, values: FloatArray) -> np.ndarray:
     """Return the estimated error of ``values`` between neighbouring nodes: the largest error at the four nodes around
     when each is left out. A curve of few summits has kinks, next to which the interpolation may meet a single node by
     chance."""
@@ -181,7 +196,7 @@ def errors_between(pressure, values) -> np.ndarray:
     return np.max([left_out_errors[i : left_out_errors.size - 3 + i] for i in range(4)], axis=0)
 
 
-def left_out(x, y) -> np.ndarray:
+def left_out(x: FloatArray, y: FloatArray) -> np.ndarray:
     """Return the error |y - cubic without that node| at the inner nodes (n - 2,) of ``x`` (n,), which rises or falls,
     and ``y`` (n,).
 
@@ -197,7 +212,16 @@ def left_out(x, y) -> np.ndarray:
     return np.array([abs(PchipInterpolator(np.delete(x, i), np.delete(y, i))(x[i]) - y[i]) for i in inner])
 
 
-def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, hardness=None) -> ContactCurve:
+def asperity_curve(
+    heights: FloatArray,
+    spacing: tuple[float, float],
+    e_prime: float,
+    *,
+    heaviest: float,
+    definition: str,
+    reading: str,
+    hardness: float | None = None,
+) -> ContactCurve:
     """Return the mean gap against mean pressure of independent asperities on a periodic map, from first touch on.
 
     ``reading``: "volume" or "mean-plane" (see the module) of heights [m] about their mean. The flat comes
@@ -231,7 +255,7 @@ def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, 
     return ContactCurve(pressure, gap, area, plastic, _curve_gap(heights, top, reading), 0, *errors)
 
 
-def _curve_gap(heights, separation, reading) -> float:
+def _curve_gap(heights: FloatArray, separation: float, reading: str) -> float:
     return float(np.maximum(separation - heights, 0.0).mean()) if reading == "volume" else float(separation)
 
 

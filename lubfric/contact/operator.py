@@ -10,11 +10,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property, partial, wraps
+from typing import Any
 
 import numpy as np
 from scipy import fft
 
-from .._base import FieldsOnly, FrozenArrays, validate
+from .._base import FieldsOnly, FloatArray, FrozenArrays, validate
 from ..errors import InputError
 from .kernels import line_coefficients, love_coefficients, semiperiodic_coefficients
 
@@ -26,11 +27,11 @@ PADDED = 32768
 NEGLIGIBLE = {np.dtype(np.float32): 1e-8, np.dtype(np.float64): 1e-16}
 
 
-def _once(method):
+def _once(method: Callable[..., Any]) -> Callable[..., Any]:
     """Keep what a method of an operator makes, by its arguments: it depends on nothing else."""
 
     @wraps(method)
-    def kept(self, *arguments):
+    def kept(self, *arguments: int | tuple[int, int]) -> Callable[..., Any] | HalfSpace:
         made = self.__dict__.setdefault("_made", {})
         key = (method.__name__, *arguments)
         if key not in made:
@@ -142,7 +143,7 @@ class HalfSpace(FrozenArrays, FieldsOnly):
 
 def half_space(
     shape: tuple[int, int],
-    spacing,
+    spacing: float | tuple[float, float],
     e_prime: float | None,
     boundary: str | tuple[str, str] = ("periodic", "periodic"),
     workers: int | None = None,
@@ -177,7 +178,13 @@ def _padded_length(n: int, kind: str) -> int:
     return n if kind == "periodic" else 4 * fft.next_fast_len(-(-(2 * n - 1) // 4), real=True)
 
 
-def _symbol(shape, spacing, e_prime, boundary, padded) -> np.ndarray:
+def _symbol(
+    shape: tuple[int, int],
+    spacing: tuple[float, float],
+    e_prime: float,
+    boundary: tuple[str, str],
+    padded: tuple[int, int],
+) -> np.ndarray:
     if boundary == ("periodic", "periodic"):
         k = wavenumber(shape, spacing)
         k[0, 0] = np.inf
@@ -191,7 +198,7 @@ def _symbol(shape, spacing, e_prime, boundary, padded) -> np.ndarray:
     return even_transform(partial, padded[1], axis=1)
 
 
-def wavenumber(shape, spacing) -> np.ndarray:
+def wavenumber(shape: tuple[int, int], spacing: tuple[float, float]) -> np.ndarray:
     """|k| [rad/m] at the non-negative frequencies (nx//2 + 1, ny//2 + 1)."""
     kx, ky = (2 * np.pi * fft.rfftfreq(n, d) for n, d in zip(shape, spacing))
     return np.hypot(kx[:, None], ky)
@@ -237,7 +244,7 @@ def _multiplied(columns: np.ndarray, symbol: np.ndarray, length: int, workers) -
     return fft.ifft(waves, axis=0, workers=workers, overwrite_x=True)
 
 
-def _reaches(kernel, negligible: float) -> np.ndarray:
+def _reaches(kernel: FloatArray, negligible: float) -> np.ndarray:
     """Return the number of rows beyond which a wave and all shorter ones do not deflect; it never rises from wave to
     wave."""
     notable = np.abs(kernel) > negligible * np.abs(kernel[0])

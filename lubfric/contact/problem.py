@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._base import validate
+from .._base import BoolArray, FloatArray, IntArray, validate
 from ..errors import InputError
 from .operator import HalfSpace, half_space
 
@@ -62,9 +62,35 @@ class ContactProblem:
         )
 
 
+@dataclass(frozen=True)
+class TrialContact:
+    """A pressure [Pa] with its displacement and gap [m] (nx, ny) and its approach [m].
+
+    ``scale`` [m]: the length in which residuals are measured; complementarity and penetration: the residuals. All have
+    the precision of the operator used.
+    """
+
+    pressure: np.ndarray
+    displacement: np.ndarray
+    gap: np.ndarray
+    approach: float
+    scale: float
+    residuals: dict[str, float]
+
+    @property
+    def residual(self) -> float:
+        """Return the worst residual."""
+        return max(self.residuals.values())
+
+    @property
+    def mean_gap(self) -> float:
+        """Return the mean of the gap [m] over all cells, zero where bodies overlap."""
+        return float(np.maximum(self.gap, 0.0).mean())
+
+
 def contact_problem(
     gap0: ArrayLike,
-    spacing,
+    spacing: float | tuple[float, float],
     e_prime: float | None,
     hardness: float | None = None,
     boundary: str | tuple[str, str] = ("periodic", "periodic"),
@@ -110,7 +136,7 @@ def on_grid(name: str, value: Any, shape: tuple[int, int], unit: str) -> np.ndar
     return validate.array(name, field, unit, ndim=2)
 
 
-def starting_pressure(problem: ContactProblem, start) -> np.ndarray | None:
+def starting_pressure(problem: ContactProblem, start: FloatArray | None) -> np.ndarray | None:
     """Return the pressure field [Pa] of an earlier result (or the field itself), limited to the hardness."""
     if start is None:
         return None
@@ -124,7 +150,7 @@ def starting_pressure(problem: ContactProblem, start) -> np.ndarray | None:
     return np.ascontiguousarray(np.minimum(pressure, problem.hardness))  # the solver writes through ravel()
 
 
-def with_load(pressure, load: float, hardness: float) -> np.ndarray:
+def with_load(pressure: FloatArray, load: float, hardness: float) -> np.ndarray:
     """Return ``clip(pressure + s, 0, hardness)`` with the shift s at which the sum is ``load``.
 
     This is the Euclidean projection, for 0 <= load <= hardness size. Newton's method works on the piecewise linear sum,
@@ -156,7 +182,7 @@ def with_load(pressure, load: float, hardness: float) -> np.ndarray:
     return result
 
 
-def rescaled(pressure, load: float, hardness: float) -> np.ndarray:
+def rescaled(pressure: FloatArray, load: float, hardness: float) -> np.ndarray:
     """Return ``pressure`` times a factor, yielded cells left as they are, and then `shifted` to carry ``load``."""
     loaded = np.flatnonzero(pressure > 0)
     values = pressure.ravel()[loaded]
@@ -164,7 +190,7 @@ def rescaled(pressure, load: float, hardness: float) -> np.ndarray:
     return _placed(pressure.shape, loaded, np.minimum(values * factor, hardness), load, hardness)
 
 
-def shifted(pressure, load: float, hardness: float) -> np.ndarray:
+def shifted(pressure: FloatArray, load: float, hardness: float) -> np.ndarray:
     """Return ``pressure`` with its elastic cells shifted by the same amount, within 0..hardness, so that it carries
     ``load``. If those cells cannot do it, all loaded cells are shifted, else all cells.
 
@@ -175,7 +201,7 @@ def shifted(pressure, load: float, hardness: float) -> np.ndarray:
     return _placed(pressure.shape, loaded, pressure.ravel()[loaded], load, hardness)
 
 
-def _placed(shape, loaded, values, load: float, hardness: float) -> np.ndarray:
+def _placed(shape: tuple[int, int], loaded: IntArray, values: FloatArray, load: float, hardness: float) -> np.ndarray:
     """Return the field of ``shape`` with these ``values``, `shifted`, on its cells ``loaded``."""
     field = np.zeros(shape)
     elastic = values < hardness
@@ -191,12 +217,12 @@ def _placed(shape, loaded, values, load: float, hardness: float) -> np.ndarray:
     return np.full(shape, load / field.size)
 
 
-def dot(a, b) -> float:
+def dot(a: FloatArray, b: FloatArray) -> float:
     """Sum of products, on this thread alone: BLAS threads would fight those of the transforms."""
     return float(np.einsum("i,i", a.ravel(), b.ravel()))
 
 
-def zero_level(height, yielded, elastic=None, otherwise: float = 0.0) -> float:
+def zero_level(height: FloatArray, yielded: BoolArray, elastic: BoolArray = None, otherwise: float = 0.0) -> float:
     """Return the approach [m] at which the mean gap over the ``elastic`` cells is zero, from the ``height`` of the gap.
 
     If no cell is elastic, it is halfway between the highest ``yielded`` cell and the lowest other one; if no cell is

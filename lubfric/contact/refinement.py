@@ -16,7 +16,7 @@ from .._base import Shown
 from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, Report, worst
 from .candidate_cells import CandidateCells
 from .operator import HalfSpace
-from .problem import ContactProblem, dot, rescaled, zero_level
+from .problem import ContactProblem, TrialContact, dot, rescaled, zero_level
 from .search import FIRST_PACE, CandidateSearch
 
 # Gap over the deepest overlap [-] below which a cell may come into contact. Halved and doubled by `python -m
@@ -83,32 +83,6 @@ class ContactResult(Shown):
             "contact area": f"{100 * self.contact_area_fraction:.3g} %",
             "status": self.report.status,
         }
-
-
-@dataclass(frozen=True)
-class TrialContact:
-    """A pressure [Pa] with its displacement and gap [m] (nx, ny) and its approach [m].
-
-    ``scale`` [m]: the length in which residuals are measured; complementarity and penetration: the residuals. All have
-    the precision of the operator used.
-    """
-
-    pressure: np.ndarray
-    displacement: np.ndarray
-    gap: np.ndarray
-    approach: float
-    scale: float
-    residuals: dict[str, float]
-
-    @property
-    def residual(self) -> float:
-        """Return the worst residual."""
-        return max(self.residuals.values())
-
-    @property
-    def mean_gap(self) -> float:
-        """Return the mean of the gap [m] over all cells, zero where bodies overlap."""
-        return float(np.maximum(self.gap, 0.0).mean())
 
 
 @dataclass(frozen=True)

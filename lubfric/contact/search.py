@@ -20,10 +20,10 @@ import math
 
 import numpy as np
 
-from .._base import count_work
-from .candidate_cells import stencil
+from .._base import BoolArray, FloatArray, count_work
+from .candidate_cells import CandidateCells, stencil
 from .operator import filtered, wavenumber
-from .problem import dot, with_load, zero_level
+from .problem import ContactProblem, TrialContact, dot, with_load, zero_level
 
 # Counted work [s of a usual core] of an iteration, over n log2 n of its n cells: 0.9 to 1.2e-9 was measured on maps of
 # 256 x 256 and 512 x 512 (`lubfric.solve_contact`, tolerance 1e-8).
@@ -63,7 +63,15 @@ class CandidateSearch:
     - ``trial``: the change to aim at.
     """
 
-    def __init__(self, problem, cells, state, load: float | None, pace: float, exact: bool):
+    def __init__(
+        self,
+        problem: ContactProblem,
+        cells: CandidateCells,
+        state: TrialContact,
+        load: float | None,
+        pace: float,
+        exact: bool,
+    ):
         operator = problem.operator
         base = cells.take(state.pressure)
         scale = state.scale
@@ -148,7 +156,7 @@ class CandidateSearch:
         self.residue *= self.weight
         self.overlap = max(0.0, -float(self.residue.min()))
 
-    def _share(self, free) -> float:
+    def _share(self, free: BoolArray) -> float:
         """Return the load that the free cells have to carry."""
         return float((self.change - self.lower).sum(where=free)) + self.target - float(self.change.sum())
 
@@ -220,13 +228,13 @@ class CandidateSearch:
         if self.given:
             self._project(aim)
 
-    def _limit(self, values, out) -> None:
+    def _limit(self, values: FloatArray, out: FloatArray) -> None:
         """``values`` within the limits, into ``out``; `numpy.clip` with arrays takes six times as long."""
         np.maximum(values, self.lower, out=out)
         if self.plastic:
             np.minimum(out, self.upper, out=out)
 
-    def _project(self, aim) -> None:
+    def _project(self, aim: FloatArray) -> None:
         """Make the trial by a bracketed shift of all cells, in double precision.
 
         This is needed when few of many cells stay in contact, or when the free cells cannot carry their share. Then all
@@ -254,12 +262,12 @@ class CandidateSearch:
         self.gap += self._answer(self.change - self.known) * np.float32(self.compliance)
         self.known[:] = self.change
 
-    def _rounded(self, pressure, base, cells) -> np.ndarray:
+    def _rounded(self, pressure: FloatArray, base: FloatArray, cells: slice | BoolArray) -> np.ndarray:
         """Change of the pressure on ``cells`` in single precision, the limits met to the last digit."""
         change = np.where(pressure <= 0, self.lower[cells], (pressure - base).astype(np.float32))
         return np.where(pressure >= self.hardness, self.upper[cells], change)
 
-    def _answer(self, way) -> np.ndarray:
+    def _answer(self, way: FloatArray) -> np.ndarray:
         """Return the deflection under a change of pressure, to be multiplied by the compliance."""
         self.convolutions += 1
         return self.cells.gather(self.cells.deflection(self.cells.field(way)))

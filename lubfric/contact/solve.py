@@ -5,10 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from .._base import increasing_root, validate, with_default_errors
+from .._base import FloatArray, increasing_root, validate, with_default_errors
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, returned
-from .problem import ContactProblem, contact_problem, rescaled, shifted, starting_pressure
-from .refinement import ContactResult, SearchResult, TrialContact, contact_result, refine, trial_contact
+from .operator import HalfSpace
+from .problem import ContactProblem, TrialContact, contact_problem, rescaled, shifted, starting_pressure
+from .refinement import ContactResult, SearchResult, contact_result, refine, trial_contact
 from .search import FIRST_PACE
 
 # Load over that of a start [-] beyond which new asperity contacts matter more than the old ones.
@@ -19,19 +20,19 @@ FLATTENED = 10.0
 
 @with_default_errors
 def solve_contact(
-    gap0,
-    spacing,
-    e_prime,
+    gap0: FloatArray,
+    spacing: float | tuple[float, float],
+    e_prime: float,
     *,
-    mean_pressure=None,
-    mean_gap=None,
-    hardness=None,
-    boundary=("periodic", "periodic"),
-    tolerance=1e-6,
-    start=None,
-    operator=None,
-    max_iterations=2000,
-    raise_on_failure=True,
+    mean_pressure: float | None = None,
+    mean_gap: float | None = None,
+    hardness: float | None = None,
+    boundary: tuple[str, str] = ("periodic", "periodic"),
+    tolerance: float = 1e-6,
+    start: FloatArray | None = None,
+    operator: HalfSpace | None = None,
+    max_iterations: int = 2000,
+    raise_on_failure: bool = True,
 ) -> ContactResult:
     """Return the pressure and gap of two rough bodies pressed together, without friction or adhesion.
 
@@ -76,14 +77,16 @@ def solve_contact(
     return returned(result, raise_on_failure)
 
 
-def _control(state: TrialContact, mean_pressure, mean_gap) -> dict[str, float]:
+def _control(state: TrialContact, mean_pressure: float | None, mean_gap: float | None) -> dict[str, float]:
     """Return the residual of what was prescribed."""
     if mean_gap is None:
         return {"load": float(abs(state.pressure.mean() - mean_pressure) / (mean_pressure or 1.0))}
     return {"volume": abs(state.mean_gap - mean_gap) / min(state.scale, mean_gap)}
 
 
-def _checked_control(problem: ContactProblem, mean_pressure, mean_gap) -> tuple[float | None, float | None]:
+def _checked_control(
+    problem: ContactProblem, mean_pressure: float | None, mean_gap: float | None
+) -> tuple[float | None, float | None]:
     """Return the load and mean gap, of which exactly one has to be given, in a range that has a solution."""
     if (mean_pressure is None) == (mean_gap is None):
         given = "both are given" if mean_gap is not None else "neither is given"
@@ -99,7 +102,14 @@ def _checked_control(problem: ContactProblem, mean_pressure, mean_gap) -> tuple[
     return mean_pressure, None
 
 
-def _solved(problem: ContactProblem, start, uniform: float, *, mean_pressure=None, approach=None) -> SearchResult:
+def _solved(
+    problem: ContactProblem,
+    start: FloatArray | None,
+    uniform: float,
+    *,
+    mean_pressure: float | None = None,
+    approach: float | None = None,
+) -> SearchResult:
     """Solve for a mean pressure [Pa] or an approach [m] from ``start``, made to carry the load. Without one, from
     coarser grids, the coarsest of which starts from a ``uniform`` pressure [Pa]."""
     load = None if mean_pressure is None else mean_pressure * problem.gap0.size
@@ -112,7 +122,9 @@ def _solved(problem: ContactProblem, start, uniform: float, *, mean_pressure=Non
     return refine(problem, start, load=load, level=approach)
 
 
-def _coarse_start(problem: ContactProblem, uniform, mean_pressure, approach) -> tuple[np.ndarray, float, float]:
+def _coarse_start(
+    problem: ContactProblem, uniform: float, mean_pressure: float | None, approach: float | None
+) -> tuple[np.ndarray, float, float]:
     """Return a loose solution on cells twice as long, which is made in the same way: its pressure, its pace, and the
     number of convolutions in units of this grid. A grid that cannot be halved starts from the ``uniform`` pressure."""
     coarse = problem.coarsened()
@@ -124,7 +136,7 @@ def _coarse_start(problem: ContactProblem, uniform, mean_pressure, approach) -> 
     return pressure, search.pace, search.convolutions * coarse.gap0.size / problem.gap0.size
 
 
-def _gap_controlled(problem: ContactProblem, mean_gap: float, start) -> SearchResult:
+def _gap_controlled(problem: ContactProblem, mean_gap: float, start: FloatArray | None) -> SearchResult:
     """Contact whose mean gap is ``mean_gap`` [m].
 
     In an elastic periodic contact the mean deflection is zero. So the approach is known, and one solve is enough.
@@ -147,7 +159,7 @@ def _gap_controlled(problem: ContactProblem, mean_gap: float, start) -> SearchRe
     return replace(again, notes=(note,), convolutions=again.convolutions + search.convolutions)
 
 
-def _load_searched(problem: ContactProblem, mean_gap: float, guess: float, start) -> SearchResult:
+def _load_searched(problem: ContactProblem, mean_gap: float, guess: float, start: FloatArray | None) -> SearchResult:
     """Find the load with that mean gap, by one bracketed root in the logarithm of the pressure.
 
     The mean gap falls with the load, so there is one root. Each solve starts from the last. No load exceeds the one
@@ -157,7 +169,7 @@ def _load_searched(problem: ContactProblem, mean_gap: float, guess: float, start
     spent = 0.0
     iterations = 0
 
-    def surplus(log_pressure, last: SearchResult | None):
+    def surplus(log_pressure: float, last: SearchResult | None) -> tuple[float, SearchResult]:
         nonlocal spent, iterations
         mean = math.exp(log_pressure)
         search = _solved(exact, last.state.pressure if last else start, mean, mean_pressure=mean)

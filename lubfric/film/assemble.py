@@ -4,12 +4,13 @@ import math
 
 import numpy as np
 
+from .._base import FloatArray
 from ..errors import CONVERGED, ITERATION_LIMIT, Report, worst
 from .ehl_result import EHLResult, central_film, smallest
 from .grid import hat_kernel
 from .problem import FilmProblem
 from .reynolds import FilmSolution
-from .start import solution_state
+from .start import FilmState, solution_state
 
 
 def grid_error(levels: list[FilmSolution]) -> float:
@@ -83,7 +84,15 @@ def _half_work(solution: FilmSolution) -> float:
     return 0.5 * float(np.diff(t.P) @ square - t.P[0] * (t.H[0] - 0.5 * t.X[0] ** 2))
 
 
-def reported(solver: str, solutions, residuals, tolerance, notes, failed=ITERATION_LIMIT, solves=None) -> Report:
+def reported(
+    solver: str,
+    solutions: list[FilmSolution],
+    residuals: dict[str, float],
+    tolerance: float,
+    notes: tuple[str, ...],
+    failed: str = ITERATION_LIMIT,
+    solves=None,
+) -> Report:
     """Return the report of ``solutions``, the last of which counts; ``failed``: its status if it has converged and a
     residual is still above the ``tolerance``; ``solves``: their number (None: one a step)."""
     history = tuple(e for solution in solutions for e in solution.history)
@@ -95,7 +104,14 @@ def reported(solver: str, solutions, residuals, tolerance, notes, failed=ITERATI
     return Report(solver, status, steps, residual, tolerance, residuals, history, evaluations, notes)
 
 
-def _report(problem, levels, first, tolerance, residuals, notes) -> Report:
+def _report(
+    problem: FilmProblem,
+    levels: list[FilmSolution],
+    first: list[FilmSolution],
+    tolerance: float,
+    residuals: dict[str, float],
+    notes: tuple[str, ...],
+) -> Report:
     last = levels[-1]
     inlet = last.terms.X[0] / problem.half_width
     centre = [central_film(level.terms.X, level.terms.H) for level in levels[-2:]]
@@ -146,7 +162,17 @@ def assemble(
     )
 
 
-def in_si(problem: FilmProblem, at, *, load, films, flow, rupture, constant, **known) -> EHLResult:
+def in_si(
+    problem: FilmProblem,
+    at: tuple[FloatArray, FloatArray, FloatArray],
+    *,
+    load: float,
+    films: tuple[float, float],
+    flow: float,
+    rupture: float,
+    constant: float,
+    **known: FilmState | Report | tuple[float, float],
+) -> EHLResult:
     """Return the result in SI units, seen along +x. ``at``: (X, P, H) at the nodes; ``load``: ∫ P dX between them;
     ``films``: the smallest, and that at X = 0; ``constant``: H00; ``known``: what has no unit to change."""
     (X, P, H) = at

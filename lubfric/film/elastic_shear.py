@@ -18,6 +18,7 @@ method: both sides are explicit in τ, and rise with it, so that each step is on
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -180,7 +181,7 @@ def _step(node: _Node, sliding: float, disc_rate: float, wet: float, total: floa
     return limit
 
 
-def _root(node: _Node, rise) -> float:
+def _root(node: _Node, rise: Callable[..., Any]) -> float:
     """Return the stress [Pa] at which ``rise``, a rising function of it, is zero; at most the limit at the node."""
     from scipy.optimize import brentq
 

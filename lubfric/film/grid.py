@@ -13,6 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .._base import FloatArray
+
 # Distance of the inlet over sqrt(2 R h) [-], beyond three half-widths.
 FAR_INLET = 30.0
 # Smallest cell where the pressure rises over the length of the rise [-].
@@ -68,14 +70,14 @@ def node_positions(half_width: float, film: float, n: int, distance: float | Non
     inner = RISE_CELL * rise
     outer = RUPTURE_CELL * rise
 
-    def index(x):
+    def index(x: float | FloatArray) -> float | FloatArray:
         return (
             np.arcsinh(RISE_GROWTH * (x + width) / inner) / RISE_GROWTH
             + np.arcsinh(RUPTURE_GROWTH * x / outer) / RUPTURE_GROWTH
             + CORE * np.arcsinh(x / scale)
         )
 
-    def density(x):
+    def density(x: FloatArray) -> FloatArray:
         return (
             1.0 / np.hypot(inner, RISE_GROWTH * (x + width))
             + 1.0 / np.hypot(outer, RUPTURE_GROWTH * x)

@@ -42,6 +42,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import solve_triangular
 
+from .._base import FloatArray
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report, returned
 from ..oil import ROELANDS_LOG_VISCOSITY, Lubricant, log_viscosity_ratio, shear_stress
 
@@ -167,10 +168,10 @@ def heated_film(
     matrix = flash_matrix(at, around.carried)
     speed = abs(around.sliding)
 
-    def heat(wall):
+    def heat(wall: FloatArray) -> FloatArray:
         return wet * np.abs(heated_stress(lubricant, p, h, around.sliding, wall)[0]) * speed + extra
 
-    def mismatch(rise, made):
+    def mismatch(rise: FloatArray, made: FloatArray) -> FloatArray:
         return matrix @ made - rise
 
     rise = np.zeros(at.size)
@@ -240,7 +241,7 @@ def _thermal(lubricant: Lubricant) -> tuple[float, float]:
     return lubricant.temperature, lubricant.temperature_coefficient
 
 
-def viscosity_at(lubricant: Lubricant, pressure, temperature) -> tuple[np.ndarray, np.ndarray]:
+def viscosity_at(lubricant: Lubricant, pressure: FloatArray, temperature: FloatArray) -> tuple[np.ndarray, np.ndarray]:
     """ln(eta [Pa s]) and -d ln(eta)/dT [1/K] at each pressure [Pa] and temperature [K]."""
     t0, beta = _thermal(lubricant)
     cold = np.log(lubricant.viscosity) + log_viscosity_ratio(lubricant, pressure)[0]
@@ -278,7 +279,16 @@ def heated_stress(
     return np.copysign(tau, sliding), tau * per_stress
 
 
-def _too_high(lubricant, p, h, speed, tau, log_eta, beta, mean) -> np.ndarray:
+def _too_high(
+    lubricant: Lubricant,
+    p: FloatArray,
+    h: FloatArray,
+    speed: float,
+    tau: FloatArray,
+    log_eta: FloatArray,
+    beta: FloatArray,
+    mean: FloatArray,
+) -> np.ndarray:
     """Return where ``tau`` is above the root: the film would be sheared faster than ``speed``, or carry more than its
     limit."""
     newtonian = tau

@@ -14,7 +14,7 @@ from operator import attrgetter
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._base import validate
+from .._base import FloatArray, validate
 from ..errors import InputError
 from ..oil import Lubricant
 from . import formulas
@@ -37,23 +37,23 @@ def composite_modulus(young_1: float, poisson_1: float, young_2: float, poisson_
     return 2 / validate.positive("compliance of the two bodies (1 - nu^2)/E", compliance, "1/Pa")
 
 
-def line_half_width(load_per_width: float, radius: float, e_prime: float):
+def line_half_width(load_per_width: float, radius: float, e_prime: float) -> float:
     """b [m] = sqrt(8 w R / (pi E')); w [N/m], R [m], E' [Pa]."""
     return np.sqrt(8 * load_per_width * radius / (np.pi * e_prime))
 
 
-def line_peak_pressure(load_per_width: float, radius: float, e_prime: float):
+def line_peak_pressure(load_per_width: float, radius: float, e_prime: float) -> float:
     """p_h [Pa] = 2 w / (pi b)."""
     return 2 * load_per_width / (np.pi * line_half_width(load_per_width, radius, e_prime))
 
 
-def line_pressure(x: ArrayLike, load_per_width: float, radius: float, e_prime: float):
+def line_pressure(x: ArrayLike, load_per_width: float, radius: float, e_prime: float) -> float | FloatArray:
     """p(x) [Pa] = p_h sqrt(1 - x^2/b^2) inside, 0 outside; x [m] from the centre line."""
     ratio = np.asarray(x) / line_half_width(load_per_width, radius, e_prime)
     return line_peak_pressure(load_per_width, radius, e_prime) * np.sqrt(np.maximum(1 - ratio**2, 0))
 
 
-def line_gap(x: ArrayLike, load_per_width: float, radius: float, e_prime: float):
+def line_gap(x: ArrayLike, load_per_width: float, radius: float, e_prime: float) -> float | FloatArray:
     """Gap [m] of the loaded contact, 0 inside; with X = |x|/b >= 1,
     ``g = b^2/(2R) [X sqrt(X^2-1) - ln(X + sqrt(X^2-1))]``."""
     b = line_half_width(load_per_width, radius, e_prime)
@@ -86,7 +86,7 @@ class LineContact:
     lubricant: Lubricant
     sliding: float | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         speed = validate.number("entrainment_speed", self.entrainment_speed, "m/s")
         if speed == 0.0:
             raise InputError("entrainment_speed = 0 m/s carries no steady film; give another speed")

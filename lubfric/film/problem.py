@@ -17,6 +17,7 @@ from operator import attrgetter
 
 import numpy as np
 
+from .._base import FloatArray
 from ..errors import InputError
 from ..oil import ShearLaw, density_ratio, log_viscosity_ratio
 from .formulas import moes_film, starved_inlet, starved_share
@@ -106,7 +107,7 @@ class FilmProblem:
         sheared = self.contact.sliding is not None and self.times < math.inf
         return law if law is not None and law.thins and sheared else None
 
-    def thinned(self, fluidity, H, gradient) -> tuple:
+    def thinned(self, fluidity: FloatArray, H: FloatArray, gradient: FloatArray) -> tuple:
         """Factor Φ of the pressure flow where 1/eta, film and dP/dX are given (n,), s dΦ/ds and b dΦ/db (`thinned`)."""
         contact = self.contact
         law = self.thins_by
@@ -118,12 +119,12 @@ class FilmProblem:
         b = 0.5 * self.pressure_unit * self.film_unit / (self.length_unit * critical) * np.abs(gradient) * H
         return thinned(law, s, b)
 
-    def log_viscosity(self, P) -> tuple[np.ndarray, np.ndarray]:
+    def log_viscosity(self, P: FloatArray) -> tuple[np.ndarray, np.ndarray]:
         """ln(eta/eta0) and its derivative with respect to P."""
         value, slope = log_viscosity_ratio(self.contact.lubricant, P * self.pressure_unit)
         return value, slope * self.pressure_unit
 
-    def density(self, P) -> tuple[np.ndarray, np.ndarray]:
+    def density(self, P: FloatArray) -> tuple[np.ndarray, np.ndarray]:
         """rho/rho0 and its derivative with respect to P."""
         value, slope = density_ratio(self.contact.lubricant, P * self.pressure_unit)
         return value, slope * self.pressure_unit

@@ -2,10 +2,13 @@
 is that of a constant viscosity."""
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
+from .._base import FloatArray
 from ..oil import Lubricant, log_viscosity_ratio
 
 # Points of the table of q(p).
@@ -15,14 +18,14 @@ FARTHEST = 1e4
 
 
 @lru_cache(maxsize=16)
-def true_pressure(lubricant: Lubricant):
+def true_pressure(lubricant: Lubricant) -> Callable[..., Any]:
     """p(q) [Pa] by the lubricant's law: the inverse of q = ∫ dp eta0/eta(p), infinite above the largest possible q."""
     if lubricant.viscosity_law == "constant":
         return np.positive
     alpha = lubricant.pressure_viscosity_coefficient
     if lubricant.viscosity_law == "barus":
 
-        def barus(q):
+        def barus(q: FloatArray) -> FloatArray:
             with np.errstate(divide="ignore"):
                 return -np.log1p(-np.minimum(alpha * q, 1.0)) / alpha
 

@@ -123,7 +123,7 @@ def linearise(grid: Grid, problem: FilmProblem, terms: ReynoldsTerms) -> tuple[n
 
 def _stretch_columns(
     grid: Grid, problem: FilmProblem, t: ReynoldsTerms, J: np.ndarray, by_H: np.ndarray, at_rupture: float
-):
+) -> None:
     """Add what the stretch s of the grid changes, of which e + a is the length: to the column of e, and in place of
     that of q if q is known."""
     n = grid.n

@@ -3,10 +3,12 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .._base import FloatArray
 from ..oil import Lubricant, carried_stress, shear_stress
 from .ehl_result import EHLResult
 from .elastic_shear import ElasticContact, elastic_shear
@@ -62,8 +64,8 @@ def shear_force(
     width: float,
     contact_fraction: Callable[[np.ndarray], np.ndarray],
     cavitated: str = "none",
-    warm=None,
-    heated=None,
+    warm: float | None = None,
+    heated: Callable[..., Any] | None = None,
     elastic: ElasticContact | None = None,
 ) -> ShearForce:
     """F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at the upper surface.
@@ -88,7 +90,7 @@ def shear_force(
     wet = 1.0 - contact_fraction(x * direction)
     resistance, parts, off = _rolling(p, h, 1.0 - wet, film.rolling)
 
-    def isothermal(at, pressure, thickness):
+    def isothermal(at: FloatArray, pressure: FloatArray, thickness: FloatArray) -> FloatArray:
         return shear_stress(lubricant, pressure, sliding / thickness)
 
     stress = isothermal if heated is None else heated
@@ -141,7 +143,9 @@ def spike_error(x: np.ndarray, tau: np.ndarray) -> float:
     return abs(coarse - fine) / 24
 
 
-def _rolling(p, h, touched, known: tuple[float, float] | None) -> tuple[float, float, float]:
+def _rolling(
+    p: FloatArray, h: FloatArray, touched: FloatArray, known: tuple[float, float] | None
+) -> tuple[float, float, float]:
     """Return ∫ (h/2) dp [N/m] without the share of the width that is ``touched``, the parts on which an error of the
     film acts, and the error of the sum."""
     rolls = 0.25 * (h[1:] + h[:-1]) * np.diff(p)
@@ -161,7 +165,7 @@ def rolling_error(p: np.ndarray, h: np.ndarray, share: ArrayLike) -> float:
     return float(abs(coarse - fine)) / 3
 
 
-def _upstream(h_inlet, distance, radius) -> tuple[float, float]:
+def _upstream(h_inlet: float, distance: float, radius: float) -> tuple[float, float]:
     """Return ∫ dx/h [-] and ∫ dx/h^2 [1/m] upstream of the first node, where the gap is parabolic: h = floor + x^2/2R.
 
     There Reynolds' equation gives (h/2) dp/dx = 6 eta0 U (1/h - h_flow/h^2).

@@ -17,6 +17,7 @@ doi:10.1115/1.3261526); without sliding, the flow between plates.
 
 import numpy as np
 
+from .._base import FloatArray
 from ..oil import Eyring, ShearLaw
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(12)
@@ -34,7 +35,7 @@ def thinned(law: ShearLaw, s: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np
     return _eyring(s, b) if isinstance(law, Eyring) else _by_quadrature(law, s, b)
 
 
-def _eyring(s, b):
+def _eyring(s: FloatArray, b: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     safe = np.maximum(b, SMALL)
     bent = np.where(b < SMALL, b**2 / 3 - b**4 / 45, safe / np.tanh(safe) - 1)  # c
     per_square = np.where(b < SMALL, 1 / 3 - b**2 / 45, bent / safe**2)
@@ -45,10 +46,10 @@ def _eyring(s, b):
     return factor, factor * tanh_squared, factor * by_b
 
 
-def _by_quadrature(law: ShearLaw, s, b):
+def _by_quadrature(law: ShearLaw, s: FloatArray, b: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     t = POINTS[:, None]
 
-    def rates(a):
+    def rates(a: FloatArray) -> tuple[FloatArray, FloatArray]:
         rate = law.inverse(a + b * t)
         return rate, law.tangent(np.abs(rate))[0]
 

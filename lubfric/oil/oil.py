@@ -49,7 +49,7 @@ class Oil(Shown):
     name: str = "oil"
     measured: MeasuredCoefficients | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         validate.choice("base", self.base, BASES)
         for name, value, unit, least, most in (
             ("density", self.density, "kg/m³ (at 15 °C)", 600, 2000),
@@ -66,11 +66,11 @@ class Oil(Shown):
         if self.estimate == "so-klaus" and self.base != "mineral":
             raise InputError(f"estimate = 'so-klaus' is for mineral oils, base = {self.base!r}; allowed: 'gold'")
 
-    def kinematic_viscosity(self, temperature: ArrayLike):
+    def kinematic_viscosity(self, temperature: ArrayLike) -> float:
         """nu [m²/s] at ``temperature`` [K], one or an array of them."""
         return at_each(self.viscosity_law, temperature)
 
-    def density_at(self, temperature: ArrayLike):
+    def density_at(self, temperature: ArrayLike) -> float:
         """Return density rho [kg/m³] at ``temperature`` [K], one or an array of them.
 
         It is the density at 15 °C, less ``density_slope`` times the distance from 15 °C. This straight line is good to
@@ -90,7 +90,7 @@ class Oil(Shown):
         GPa)."""
         return BASES[self.base]["conductivity"] if self.conductivity is None else self.conductivity
 
-    def viscosity(self, temperature: ArrayLike):
+    def viscosity(self, temperature: ArrayLike) -> float:
         """Return the dynamic viscosity eta = nu rho [Pa s] at ``temperature`` [K], one or an array of them."""
         return self.kinematic_viscosity(temperature) * self.density_at(temperature)
 

@@ -14,7 +14,7 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._base import validate
+from .._base import FloatArray, validate
 from ..errors import InputError
 
 # Activation temperature of the limiting stress [K] (Houpert, Flamand, Berthe 1981).
@@ -36,7 +36,7 @@ class ShearLaw:
         self.oil = oil
 
     @classmethod
-    def checked(cls, value):
+    def checked(cls, value: float) -> float:
         """Return the ``value`` of the key, checked beyond what keys.toml says of it."""
         return value
 
@@ -44,11 +44,11 @@ class ShearLaw:
         """tau_c [Pa] at each pressure [Pa], and its change with the pressure [-]; both numbers if that is 0."""
         self.refuse("critical", "everything", "leave the key out")
 
-    def warmth(self, temperature: ArrayLike):
+    def warmth(self, temperature: ArrayLike) -> None:
         """tau_c at a temperature [K] over that at the temperature of the lubricant."""
         self.refuse("warmth", "the heat of the film", "set numerics.heat = 'off'")
 
-    def critical_at(self, pressure: ArrayLike, temperature: ArrayLike):
+    def critical_at(self, pressure: ArrayLike, temperature: ArrayLike) -> float | FloatArray:
         """tau_c [Pa] at pressure [Pa] and temperature [K]."""
         return self.critical(pressure)[0] * self.warmth(temperature)
 
@@ -57,7 +57,7 @@ class ShearLaw:
         said = f" has a shear law without {part}, which {model} needs"
         raise InputError(said, f"lubricant.{self.key}", way_out=f"give it in lubfric/oil/shear_laws.py, or {way_out}")
 
-    def f(self, s: float | np.ndarray):
+    def f(self, s: float | np.ndarray) -> None:
         """tau/tau_c, odd in s."""
         self.refuse("f", "everything", "leave the key out")
 
@@ -65,19 +65,19 @@ class ShearLaw:
         """Φ = 1/f' and s dΦ/ds, at s >= 0."""
         self.refuse("tangent", "the deterministic model", "set numerics.model = 'load-sharing'")
 
-    def inverse(self, x: float | np.ndarray):
+    def inverse(self, x: float | np.ndarray) -> None:
         """s of tau/tau_c = x, odd in x."""
         self.refuse("inverse", "the heat of the film", "set numerics.heat = 'off'")
 
-    def as_temperature(self, temperature: ArrayLike):
+    def as_temperature(self, temperature: ArrayLike) -> float | FloatArray:
         """Return the `warmth` of a tau_c that is proportional to the temperature."""
         return np.asarray(temperature) / self.oil.temperature
 
-    def stress(self, newtonian: float | np.ndarray, critical: float | np.ndarray):
+    def stress(self, newtonian: float | np.ndarray, critical: float | np.ndarray) -> float | FloatArray:
         """Return the stress [Pa] at the ``newtonian`` one."""
         return critical * self.f(newtonian / critical)
 
-    def newtonian(self, stress: float | np.ndarray, critical: float | np.ndarray):
+    def newtonian(self, stress: float | np.ndarray, critical: float | np.ndarray) -> float | FloatArray:
         """Return the Newtonian stress [Pa] at the ``stress`` that there is."""
         return critical * self.inverse(stress / critical)
 
@@ -100,17 +100,17 @@ class Eyring(ShearLaw):
     thins = True
     warmth = ShearLaw.as_temperature
 
-    def critical(self, pressure: ArrayLike):
+    def critical(self, pressure: ArrayLike) -> tuple[float, float]:
         return self.oil.eyring_stress, 0.0
 
-    def f(self, s: float | np.ndarray):
+    def f(self, s: float | np.ndarray) -> FloatArray:
         return np.arcsinh(s)
 
-    def tangent(self, s: float | np.ndarray):
+    def tangent(self, s: float | np.ndarray) -> tuple[FloatArray, FloatArray]:
         factor = np.hypot(1.0, s)
         return factor, s * (s / factor)
 
-    def inverse(self, x: float | np.ndarray):
+    def inverse(self, x: float | np.ndarray) -> float | FloatArray:
         return np.sinh(x)
 
 
@@ -122,25 +122,25 @@ class Carreau(ShearLaw):
     warmth = ShearLaw.as_temperature
 
     @classmethod
-    def checked(cls, value):
+    def checked(cls, value: float | tuple[float, ...]) -> tuple[float, float]:
         if not isinstance(value, (list, tuple)) or len(value) != 2:
             raise InputError(f" = {validate.shown(value)}", "carreau", "[G, n]: critical stress in Pa and exponent")
         G = validate.positive("carreau (G)", value[0], "Pa")
         return G, validate.number("carreau (n)", value[1], "(-)", minimum=0.1, maximum=0.999)
 
-    def critical(self, pressure: ArrayLike):
+    def critical(self, pressure: ArrayLike) -> tuple[float, float]:
         return self.oil.carreau[0], 0.0
 
-    def f(self, s: float | np.ndarray):
+    def f(self, s: float | np.ndarray) -> FloatArray:
         return s * (1 + s**2) ** (0.5 * (self.oil.carreau[1] - 1))
 
-    def tangent(self, s: float | np.ndarray):
+    def tangent(self, s: float | np.ndarray) -> tuple[FloatArray, FloatArray]:
         n = self.oil.carreau[1]
         square = s**2
         factor = (1 + square) ** ((3 - n) / 2) / (1 + n * square)
         return factor, factor * ((3 - n) * square / (1 + square) - 2 * n * square / (1 + n * square))
 
-    def inverse(self, x: float | np.ndarray):
+    def inverse(self, x: float | np.ndarray) -> FloatArray:
         n = self.oil.carreau[1]
         log_x = np.log(np.maximum(np.abs(x), 1e-300))
         y = log_x + 0.5 * (1 / n - 1) * np.logaddexp(0, 2 * log_x)  # ln s by a law alike
@@ -157,22 +157,22 @@ class LimitingStress(ShearLaw):
     key = "limiting_stress_coefficient"
     others = ("limiting_stress_offset",)
 
-    def critical(self, pressure: ArrayLike):
+    def critical(self, pressure: ArrayLike) -> tuple[float | FloatArray, float]:
         slope = self.oil.limiting_stress_coefficient
         return self.oil.limiting_stress_offset + slope * np.maximum(pressure, 0.0), slope
 
-    def warmth(self, temperature: ArrayLike):
+    def warmth(self, temperature: ArrayLike) -> FloatArray:
         return np.exp(LIMIT_ACTIVATION * (1 / np.asarray(temperature) - 1 / self.oil.temperature))
 
     def twice(self) -> dict[str, Any]:
         """Return fields of a lubricant with twice this tau_c: those that it is proportional to."""
         return {key: 2 * getattr(self.oil, key) for key in (self.key, *self.others)}
 
-    def stress(self, newtonian: float | np.ndarray, critical: float | np.ndarray):
+    def stress(self, newtonian: float | np.ndarray, critical: float | np.ndarray) -> float | FloatArray:
         """Return the stress [Pa] at the ``newtonian`` one."""
         return np.clip(newtonian, -critical, critical)
 
-    def newtonian(self, stress: float | np.ndarray, critical: float | np.ndarray):
+    def newtonian(self, stress: float | np.ndarray, critical: float | np.ndarray) -> FloatArray:
         """Return the Newtonian stress [Pa] at the ``stress`` >= 0 that there is; infinite above what it bears."""
         return np.where(stress > critical, np.inf, stress)
 

@@ -1,14 +1,22 @@
 """The ``lubfric`` command. What one of the commands in commands.toml needs is imported when it runs."""
 
+from __future__ import annotations
+
 import argparse
+from argparse import Namespace
 from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from .._base import __version__, packaged
 from ..errors import ConvergenceError, InputError, LubfricError
 from ..units import number_of
 from .commands import INTERRUPTED, answer, interruptible, say
+
+if TYPE_CHECKING:
+    from ..scene import Scene
+
 
 CURVE = "a Stribeck curve"
 RATIOS = "a traction curve (--ratios)"
@@ -58,14 +66,14 @@ def parser() -> argparse.ArgumentParser:
     return whole
 
 
-def scene_of(arguments):
+def scene_of(arguments: Namespace) -> Scene:
     """The scene that the ``arguments`` name."""
     from ..scene import load_scene
 
     return load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
 
 
-def run(arguments) -> None:
+def run(arguments: Namespace) -> None:
     """Compute a curve or a run in time, and write it to a folder."""
     from ..samples import takes_strips
     from . import run_curve, run_history
@@ -87,7 +95,7 @@ def run(arguments) -> None:
     solve(scene, arguments)
 
 
-def info(arguments) -> None:
+def info(arguments: Namespace) -> None:
     """Say what a scene is."""
     from .describe import describe_scene
     from .run_curve import parse_speeds
@@ -100,7 +108,7 @@ def info(arguments) -> None:
     answer(description + "\n")
 
 
-def init(arguments) -> None:
+def init(arguments: Namespace) -> None:
     """Write a scene to start from."""
     from ..scene import write_template
 
@@ -108,7 +116,7 @@ def init(arguments) -> None:
     say(f"wrote {arguments.file}; 'lubfric info {arguments.file}' says what it means, 'lubfric run' computes it")
 
 
-def oils(_) -> None:
+def oils(_: Namespace) -> None:
     """List the named oils."""
     from ..oil import list_oils
 

@@ -1,6 +1,8 @@
 """What the commands share: messages, interrupts, and the folder that they write, in which only files of ours are ever
 replaced. A broken stream or an interrupt never costs what was computed."""
 
+from __future__ import annotations
+
 import json
 import os
 import platform
@@ -11,11 +13,12 @@ import tempfile
 import threading
 import time
 import tomllib
-from collections.abc import Callable, Iterable
+from argparse import Namespace
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, get_type_hints
+from typing import TYPE_CHECKING, Any, get_type_hints
 
 import numpy as np
 
@@ -28,12 +31,16 @@ from ..models.shared import (
 )
 from ..quantities import KEYS, Quantity, described
 from ..scene import Scene
-from ..studies import Law, Store, fingerprint_without_files, fits
+from ..studies import Law, Store, StribeckResult, TractionResult, fingerprint_without_files, fits
 from ..surface import rms_slope
 from .describe import SceneEstimate, estimate_scene
 from .pictures import plot_surface
 from .progress import clear_active
 from .report import report_page
+
+if TYPE_CHECKING:
+    from ..time import TransientResult
+
 
 # exit codes, as shells count them: the second argument of a KeyboardInterrupt
 INTERRUPTED = 130
@@ -98,13 +105,13 @@ def paced() -> Callable[[bool], bool]:
 
 
 @contextmanager
-def interruptible():
+def interruptible() -> Iterator[None]:
     """SIGTERM ends what is inside as Ctrl-C does, so that locks are dropped and files closed."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
 
-    def terminate(*_):
+    def terminate(*_) -> None:
         raise KeyboardInterrupt("terminated", TERMINATED)
 
     before = signal.signal(signal.SIGTERM, terminate)
@@ -115,7 +122,7 @@ def interruptible():
 
 
 @contextmanager
-def keeping(what: Callable[[], str]):
+def keeping(what: Callable[[], str]) -> Iterator[None]:
     """On an interrupt, say ``what()`` is kept, and that the same command goes on from there."""
     try:
         yield
@@ -144,7 +151,14 @@ OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
 
 
 @contextmanager
-def run_begun(scene: Scene, arguments, names: Iterable[str], kept: Callable[[], str] | None, *key, **places):
+def run_begun(
+    scene: Scene,
+    arguments: Namespace,
+    names: Iterable[str],
+    kept: Callable[[], str] | None,
+    *key: str | list[float],
+    **places: str | list[float],
+) -> Iterator[tuple[RunFolder, Prepared, SceneEstimate]]:
     """Begin a run of ``scene``, which writes files with these ``names``: its `RunFolder`, known again by ``key``, the
     scene made ready, and what is estimated of it (`SceneEstimate`) at ``places``. On an interrupt ``kept()`` is said, if anything is.
 
@@ -202,7 +216,7 @@ def _words(value) -> list[str]:
     return [value] if isinstance(value, str) else []
 
 
-def check_outputs(arguments, folder: Path, names: Iterable[str], patterns: Iterable[str] = ()) -> None:
+def check_outputs(arguments: Namespace, folder: Path, names: Iterable[str], patterns: Iterable[str] = ()) -> None:
     """Raise `InputError`, before any work, if ``folder`` cannot take the files ``names``: one of them is there and not
     ours, or one of these, or of ours that match ``patterns``, is an input of the command with these ``arguments``."""
     if folder.exists() and not folder.is_dir():
@@ -242,7 +256,13 @@ class RunFolder:
         except Exception as problem:  # of any kind: a picture must not cost the numbers
             self.failures.append(f"{name} was not drawn ({type(problem).__name__}: {validate.shown(str(problem))})")
 
-    def _record(self, prepared: Prepared, result, units: dict[str, Quantity], **numbers: object) -> dict:
+    def _record(
+        self,
+        prepared: Prepared,
+        result: StribeckResult | TractionResult | TransientResult,
+        units: dict[str, Quantity],
+        **numbers: object,
+    ) -> dict:
         """The record of a run: date, resolved input, map, versions, timing, report, violated assumptions, ``numbers``;
         ``units`` of these, beside those of the input."""
         import scipy
@@ -273,8 +293,8 @@ class RunFolder:
         prepared: Prepared,
         estimate: SceneEstimate,
         given: dict,
-        result,
-        units,
+        result: StribeckResult | TractionResult | TransientResult,
+        units: dict[str, Quantity],
         law: Law | str = "",
         unusual_values=(),
         **numbers: object,
@@ -306,7 +326,7 @@ class RunFolder:
 
 
 @contextmanager
-def run_folder(path: Path, begun: float, fingerprint: str = ""):
+def run_folder(path: Path, begun: float, fingerprint: str = "") -> Iterator[RunFolder]:
     """Lock ``path`` for a command that has ``begun``, and the run with that ``fingerprint``: a `RunFolder`.
 
     Raises `InputError` if another process writes to it, and `OutputError` if it cannot be used, or if a picture was not

@@ -12,6 +12,7 @@ from ..estimate import forecast
 from ..models.deterministic import MOST_WORK
 from ..models.shared import (
     UnmodelledEffect,
+    Validity,
     effect_in_words,
     expected,
     gathered,
@@ -127,7 +128,7 @@ def estimate_scene(
     )
 
 
-def _doubts(at) -> list[str]:
+def _doubts(at: list[tuple[float | None, Validity]] | tuple[tuple[float | None, Validity], ...]) -> list[str]:
     """Entries in words; ``at``: pairs of a speed [m/s], None for what is of bodies and map, and an entry."""
     fixed = [entry.text for speed, entry in at if speed is None]
     return [*fixed, *gathered([(speed, (entry,)) for speed, entry in at if speed is not None])]
@@ -141,7 +142,7 @@ def _plan(scene: Scene, surface: Surface) -> str:
     return f"{what} on {on}; numerical error of f at most {100 * scene.numerics.tolerance:g} %"
 
 
-def _model(scene: Scene, sample: Sample, surface: Surface, speeds, ratios) -> tuple[list[str], str]:
+def _model(scene: Scene, sample: Sample, surface: Surface, speeds: list[float], ratios) -> tuple[list[str], str]:
     """Which model will answer at the ``speeds`` [m/s] and ``ratios``, and why; and the time that all of them cost
     (`lubfric.estimate.friction`)."""
     model = scene.numerics.model
@@ -220,7 +221,7 @@ def _laps(history: History, duration: float) -> float:
     return duration / history.times[-1] if isinstance(history, Table) and history.repeat else 0.0
 
 
-def _course(scene: Scene, sample: Sample, surface: Surface, speeds) -> tuple[str, list[str]]:
+def _course(scene: Scene, sample: Sample, surface: Surface, speeds: list[float]) -> tuple[str, list[str]]:
     """Steps and time of a run, whose film is judged at the ``speeds`` [m/s], and its sample; by what runs of the
     paper's scene took (8 to 17 ms a step on 200 x 200 cells)."""
     plan = scene.transient
@@ -245,7 +246,7 @@ def _course(scene: Scene, sample: Sample, surface: Surface, speeds) -> tuple[str
     return f"{top}; {course}; about {in_words(seconds)} of processor time (an order of magnitude)", lines
 
 
-def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds) -> list[tuple[str, ...]]:
+def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[float]) -> list[tuple[str, ...]]:
     """At some of the ``speeds`` [m/s]: Moes numbers and the expected film under the whole load, whether the summits
     touch, and, unless a run in time has one sample for all, what the sample costs."""
     steady = scene.transient is None

@@ -1,17 +1,28 @@
 """Pictures of a run: the curve, the contact of one speed (Akchurin et al. 2015, Figs. 8-10), and what changes in
 time."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._base import figures
+from .._base import FloatArray, figures
 from ..studies import friction_over_speed, interval_band
 from ..time import friction_over_time, time_scale
 from ..units import converted, printed, unit_for, worded
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from ..estimate import FrictionResult
+    from ..models import ContactFields
+    from ..models.shared import Prepared
+
 
 WHOLE = 3.0  # times as long along y as along x: no more is drawn whole
 FRAMES = 150  # of an animation at most, spread over the run
@@ -49,7 +60,7 @@ class PictureOptions:
         width = WIDTH if self.width is None else self.width / INCH
         return width, max(width / WIDTH, LEAST_SCALE) * sum(heights)
 
-    def scale(self, axes, *, friction=None, f: np.ndarray | None = None) -> None:
+    def scale(self, axes: Axes, *, friction: Axes = None, f: np.ndarray | None = None) -> None:
         """Set the scales that the user chose: of x on ``axes``, and on the axes ``friction`` that of ``f``."""
         if self.x_scale:
             axes.set_xscale(self.x_scale)
@@ -113,7 +124,7 @@ def plot_stribeck(
     figure.savefig(path)
 
 
-def _films(axes, speed: np.ndarray, c: dict[str, np.ndarray]) -> None:
+def _films(axes: Axes, speed: np.ndarray, c: dict[str, np.ndarray]) -> None:
     """Draw the full-load film thickness and the central separation over ``speed``, and the roughness to compare."""
     separation = c["central_film"]
     film = c.get("full_load_film", np.full(speed.shape, np.nan))
@@ -169,7 +180,7 @@ def plot_traction(
     figure.savefig(path)
 
 
-def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> None:
+def _mark(figure: Figure, axes: Axes, speed: FloatArray, coefficient: FloatArray, entries: list[Sequence[Any]]) -> None:
     """Ring the points at which an assumption is violated, unless it is at all of them, and cross out those at which f
     is meaningless. The text below says which. Then the key of all lines."""
     severe = np.array([any(entry.severe for entry in violated) for violated in entries], dtype=bool)
@@ -188,7 +199,7 @@ def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> Non
 
 
 @figures.styled
-def plot_contact(path: Path, prepared, point) -> None:
+def plot_contact(path: Path, prepared: Prepared, point: FrictionResult) -> None:
     """Draw the fields of ``point``, a `lubfric.FrictionResult`, as PNG."""
     if point.deterministic is not None:
         figure = _one_gap(point.fields, point.speed, prepared.scene.bodies.half_width)
@@ -244,7 +255,7 @@ def _partly(y: np.ndarray, part: slice) -> str:
     return "" if part == slice(None) else f"; {some:.0f} of {1e6 * y[-1]:.0f} µm of the line"
 
 
-def _two_pressures(prepared, point, fields):
+def _two_pressures(prepared: Prepared, point: FrictionResult, fields: ContactFields) -> Figure:
     """Map of the contact pressure; beside it film and surfaces on a section through the highest pressure.
 
     The section shows what the paper's Fig. 10 shows: the smooth film h, the separation h_s = h - epsilon as the
@@ -287,13 +298,13 @@ def _two_pressures(prepared, point, fields):
     return figure
 
 
-def _hertz_strip(axes, half_width: float) -> None:
+def _hertz_strip(axes: Axes, half_width: float) -> None:
     for edge in (-half_width, half_width):
         axes.axvline(edge * 1e6, color=figures.GREY, lw=0.8, ls="--")
     axes.set_xlabel("x (µm), along the motion")
 
 
-def _section(axes, fields, row: int, *, touching: bool) -> None:
+def _section(axes: Axes, fields: ContactFields, row: int, *, touching: bool) -> None:
     """Draw heights above the mean of the rough surface, as high as the thinnest film and the summits need."""
     micro = fields.x * 1e6
     surface = fields.heights[:, row]
@@ -314,7 +325,7 @@ def _section(axes, fields, row: int, *, touching: bool) -> None:
 
 
 @figures.styled
-def plot_surface(path: Path, prepared) -> None:
+def plot_surface(path: Path, prepared: Prepared) -> None:
     """The map that the scene of ``prepared`` has, to scale, of a long line the beginning; and the bearing
     (Abbott-Firestone) curve of the whole of it."""
     surface = prepared.sample.map

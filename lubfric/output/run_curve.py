@@ -1,12 +1,16 @@
 """``lubfric run`` on a steady scene: its Stribeck curve, or (``--ratios``) its traction curve, written to a folder."""
 
+from __future__ import annotations
+
 import math
 import re
 import time
+from argparse import Namespace
 from collections.abc import Callable
 from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -31,6 +35,10 @@ from .fields import fields_bytes, vtk_bytes
 from .pictures import PANELS, PictureOptions, plot_compared, plot_contact, plot_history, plot_stribeck, plot_traction
 from .progress import ProgressLine
 
+if TYPE_CHECKING:
+    from .._base.tables import Columns
+
+
 SCALES = ("linear", "log")  # of an axis
 NARROWEST = 0.05  # m: width of a picture
 WIDEST = 0.6  # m: width of a picture
@@ -39,7 +47,7 @@ WORTH = 8  # speeds from which a second process gains more than it costs
 PATIENCE = 5.0  # s between two lines on how far a point is
 
 
-def run_sweep(scene: Scene, arguments) -> None:
+def run_sweep(scene: Scene, arguments: Namespace) -> None:
     """Compute a curve, and write stribeck.csv, stribeck.png, fields.npz, contact.png, surface.png, report.html,
     resolved.toml and, last, result.json to the folder ``arguments.out``; where the deterministic model corrected it,
     sharing.png, the same contact without them; where the curve has a formula, law.json and law.c; with ``.vtk`` also
@@ -58,7 +66,7 @@ def run_sweep(scene: Scene, arguments) -> None:
     names = ["stribeck.csv", "stribeck.png", "contact.png", "sharing.png", "law.json", "law.c"]
     names += [f"contact_{i}.vtk" for i in range(len(chosen) if arguments.vtk else 0)]
 
-    def on_point(*point):
+    def on_point(*point: float | FrictionResult | ValidityError) -> None:
         ended.append(point)
         shown.update(point[0], point[1])
         progress(*point)
@@ -84,7 +92,7 @@ def run_sweep(scene: Scene, arguments) -> None:
     _raise_if_failed(curve)
 
 
-def _default_workers(scene: Scene, speeds) -> int:
+def _default_workers(scene: Scene, speeds: str | list[float]) -> int:
     """Return the number of processes of a curve: all processors but one, and two at least, where that pays. The numbers do
     not depend on it."""
     several_speeds = speeds != studies.AUTO and len(speeds) >= WORTH and takes_strips(scene)
@@ -94,7 +102,7 @@ def _default_workers(scene: Scene, speeds) -> int:
     return max(2, studies.processors() - 1)
 
 
-def run_traction(scene: Scene, arguments) -> None:
+def run_traction(scene: Scene, arguments: Namespace) -> None:
     """Compute a traction curve, and write traction.csv, traction.png, surface.png, report.html, resolved.toml
     and, last, result.json to ``arguments.out``."""
     ratios = parse_ratios(arguments.ratios)
@@ -103,7 +111,7 @@ def run_traction(scene: Scene, arguments) -> None:
     progress = _progress("slide-roll ratio {:<9.4g}")
     with ProgressLine("ratios") as shown, begun as (folder, prepared, estimate):
 
-        def on_point(*point):
+        def on_point(*point: float | FrictionResult | ValidityError) -> None:
             shown.update(point[0], point[1])
             progress(*point)
 
@@ -128,7 +136,7 @@ def _write(
     folder: RunFolder,
     prepared: Prepared,
     curve: studies.CurveResult,
-    arguments,
+    arguments: Namespace,
     estimate: SceneEstimate,
     chosen: list[float],
 ) -> None:
@@ -174,7 +182,7 @@ def _law(curve: studies.CurveResult) -> studies.Law | str:
         return str(why)
 
 
-def _drawable(columns) -> np.ndarray:
+def _drawable(columns: Columns) -> np.ndarray:
     """Which rows of the table of a curve its picture can show: f is known, and over speeds something moves."""
     return np.isfinite(columns["coefficient"]) & ("ratio" in columns or columns["speed"] != 0)
 
@@ -196,7 +204,7 @@ def _point(curve: studies.CurveResult, index: int) -> dict:
     return {number: getattr(point, number) for number in NUMBERS} | swept | more
 
 
-def plot_again(arguments) -> None:
+def plot_again(arguments: Namespace) -> None:
     """Draw the picture of a run again from its table; of a Stribeck curve with the measured curve that the
     ``arguments`` of ``lubfric plot`` name."""
     folder = arguments.folder
@@ -228,7 +236,7 @@ def plot_again(arguments) -> None:
         OwnFiles(folder).replace({f"{name}.png": content})
 
 
-def _picture_options(arguments, name: str) -> PictureOptions:
+def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
     """Return the options of the picture of the table ``name`` by the ``arguments`` of ``lubfric plot``."""
     panels = PANELS
     if arguments.panels is not None:
@@ -246,7 +254,7 @@ def _picture_options(arguments, name: str) -> PictureOptions:
     return PictureOptions(panels=panels, width=width, **scales)
 
 
-def _points_of(source: Path, columns, record: dict) -> list[dict]:
+def _points_of(source: Path, columns: Columns, record: dict) -> list[dict]:
     """The points of a ``record`` that belong to the table ``source``, of which something can be drawn."""
     points = record.get("points", [])
     count = columns["coefficient"].size
@@ -259,7 +267,12 @@ def _points_of(source: Path, columns, record: dict) -> list[dict]:
 
 
 def _plot(
-    path, columns, title: str, points: list[dict], measured=None, options: PictureOptions = PictureOptions()
+    path: Path,
+    columns: Columns,
+    title: str,
+    points: list[dict],
+    measured=None,
+    options: PictureOptions = PictureOptions(),
 ) -> None:
     """The picture of the table of a curve; ``points``: those of its record."""
     unknown = {"value": math.nan, "limit": math.nan}  # numbers that are not finite are null in a record
@@ -387,7 +400,7 @@ def _moments_told(interval: float = PATIENCE) -> Callable[[str, int, int], None]
 def _progress(place: str) -> Callable:
     """What says how a point ended; ``place``: the template of its place on the curve."""
 
-    def on_point(done: int, total: int, value: float, outcome) -> None:
+    def on_point(done: int, total: int, value: float, outcome: FrictionResult | ValidityError) -> None:
         head = f"[{done:>{len(str(total))}}/{total}] {place.format(value)}"
         if isinstance(outcome, Exception):
             say(f"{head}: {'refused' if isinstance(outcome, ValidityError) else 'failed'}: {outcome}")

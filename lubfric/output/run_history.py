@@ -1,5 +1,7 @@
 """``lubfric run`` on a scene whose motion, load or lubricant changes in time."""
 
+from argparse import Namespace
+
 from .._base import figures, table_bytes
 from ..errors import ConvergenceError, LubfricError, ValidityError
 from ..models.shared import in_a_cell
@@ -12,7 +14,7 @@ from .pictures import animate, plot_history
 from .progress import ProgressLine
 
 
-def run_history(scene: Scene, arguments) -> None:
+def run_history(scene: Scene, arguments: Namespace) -> None:
     """Compute and write history.csv, history.png, fields.npz, surface.png, report.html, resolved.toml (with
     ``arguments.animation``: animation.gif) and, last, result.json to ``arguments.out``.
 
@@ -25,7 +27,7 @@ def run_history(scene: Scene, arguments) -> None:
     failure: LubfricError | None = None
     names = ["history.csv", "history.png", *["animation.gif"] * arguments.animation]
 
-    def on_step(now, duration, row):
+    def on_step(now: float, duration: float, row: dict[str, float] | None) -> None:
         nonlocal reached
         reached = now
         shown.update(now, duration)

@@ -1,16 +1,20 @@
 """``lubfric study`` and ``lubfric fit``: carry out a study file, or find numbers of a scene from a measured curve.
 Both write to a folder."""
 
+from __future__ import annotations
+
 import json
 import time
+from argparse import Namespace
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .. import studies
-from .._base import figures, plain, validate
+from .._base import IntArray, figures, plain, validate
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report
 from ..quantities import KEYS, axis_label, counted
 from ..units import numbers_of
@@ -19,8 +23,11 @@ from .commands import answer, check_outputs, keeping, made, paced, run_folder, s
 from .progress import ProgressLine
 from .study_report import answer_lines, study_page
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
-def run_study(arguments) -> None:
+
+def run_study(arguments: Namespace) -> None:
     """Plan, solve, write study.csv, study.png and report.html (and study.nc, study.parquet), and say the least and the
     largest f and power loss."""
     workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
@@ -95,7 +102,9 @@ def _picture(path: Path, result: studies.StudyResult) -> None:
     figure.savefig(path)
 
 
-def _draw_intervals(axes, over: np.ndarray, result: studies.StudyResult, order=slice(None)) -> None:
+def _draw_intervals(
+    axes: Axes, over: np.ndarray, result: studies.StudyResult, order: slice | IntArray = slice(None)
+) -> None:
     """Draw f of a study with its 95 % intervals, each as wide as it is, ``over`` (n,)."""
     f = result["coefficient"].ravel()[order]
     low, high = (result[f"uncertainty_{end}"].ravel()[order] for end in ("low", "high"))
@@ -138,7 +147,7 @@ def _progress(begun: float, shown: ProgressLine) -> Callable[[int, int], None]:
     return on_progress
 
 
-def run_fit(arguments) -> None:
+def run_fit(arguments: Namespace) -> None:
     """Say what it will cost, search, and write fitted.toml, fit.png and, last, fit.json."""
     for name in ("measured", "coefficient"):
         if getattr(arguments, name) is None:

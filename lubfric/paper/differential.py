@@ -96,7 +96,7 @@ def solve_differential_deflection(
     return returned(result, raise_on_failure)
 
 
-def domain_ends(problem: FilmProblem, domain) -> tuple[float, float]:
+def domain_ends(problem: FilmProblem, domain: tuple[float, float] | None) -> tuple[float, float]:
     """First and last node, in units of X."""
     b = problem.half_width
     unit = problem.length_unit
@@ -129,7 +129,12 @@ def _cells(problem: FilmProblem, ends: tuple[float, float], nodes: int | None, m
 
 
 def _ascend(
-    problem, ends: tuple[float, float], cells, tolerance, max_iterations, doubled
+    problem: FilmProblem,
+    ends: tuple[float, float],
+    cells: list[int],
+    tolerance: float,
+    max_iterations: int,
+    doubled: bool,
 ) -> list[DifferentialSolution]:
     """Solutions on grids of as many ``cells``; if these are ``doubled``, until two grids agree to the tolerance."""
     levels: list[DifferentialSolution] = []

@@ -5,10 +5,13 @@ ends. GMRES around it adds the weights of far pressures. So not only the answer 
 integral. Without GMRES (KRYLOV_LIMIT = 0) the far deflection lags one step behind, as in the original method.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from .._base import FloatArray, IntArray
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, worst
 from ..film import FilmProblem, step_length
 from . import differential_equations as equations
@@ -34,7 +37,7 @@ class DifferentialSolution:
     solves: int
 
 
-def near_solver(mesh: Mesh, problem: FilmProblem, t: DifferentialTerms):
+def near_solver(mesh: Mesh, problem: FilmProblem, t: DifferentialTerms) -> Callable[..., Any]:
     """Return the equations with near weights, factorised; None if the matrix is singular.
 
     The function returned takes the right sides: (N,) of the balances and of the second differences, (2,) of the closing
@@ -49,7 +52,7 @@ def near_solver(mesh: Mesh, problem: FilmProblem, t: DifferentialTerms):
     upper = max(3, 2 * m - 1)
     A = np.zeros((2 * lower + upper + 1, 2 * n), order="F")
 
-    def put(rows, columns, values):
+    def put(rows: int | IntArray, columns: int | IntArray, values: float | FloatArray) -> None:
         A[lower + upper + rows - columns, columns] += values
 
     _put_reynolds(mesh, t, put)
@@ -63,7 +66,7 @@ def near_solver(mesh: Mesh, problem: FilmProblem, t: DifferentialTerms):
     rows = np.stack([equations.tilt_row(mesh), equations.load_row(mesh, problem)])
     closing = rows @ border[0::2] + [[1.0, -1.0], [0.0, 0.0]]
 
-    def solve(balance, bend, ends):
+    def solve(balance: FloatArray, bend: FloatArray, ends: FloatArray) -> FloatArray:
         right = np.column_stack([balance, bend]).ravel()
         z, _ = dgbtrs(lu, lower, upper, right, pivots, overwrite_b=1)
         return z + border @ np.linalg.solve(closing, ends - rows @ z[0::2])
@@ -71,7 +74,7 @@ def near_solver(mesh: Mesh, problem: FilmProblem, t: DifferentialTerms):
     return solve
 
 
-def _put_reynolds(mesh: Mesh, t: DifferentialTerms, put) -> None:
+def _put_reynolds(mesh: Mesh, t: DifferentialTerms, put: Callable[..., Any]) -> None:
     put(0, 0, 1.0)
     put(0, 2, -equations.inlet_ratio(mesh))
     dry = np.arange(t.last + 1, mesh.size)
@@ -87,7 +90,7 @@ def _put_reynolds(mesh: Mesh, t: DifferentialTerms, put) -> None:
             put(2 * i, 2 * column + 1, sign * weight * t.by_H[face] / t.scale)
 
 
-def _put_film(mesh: Mesh, put) -> None:
+def _put_film(mesh: Mesh, put: Callable[..., Any]) -> None:
     n = mesh.size
     i = np.arange(1, n - 1)
     for shift, value in ((-1, 1.0), (0, -2.0), (1, 1.0)):
@@ -99,7 +102,7 @@ def _put_film(mesh: Mesh, put) -> None:
     put(2 * n - 1, 2 * n - 1, 1.0)
 
 
-def newton_step(mesh: Mesh, t: DifferentialTerms, near) -> tuple[np.ndarray, int]:
+def newton_step(mesh: Mesh, t: DifferentialTerms, near: Callable[..., Any]) -> tuple[np.ndarray, int]:
     """Return the change (2N,) of P and H in turn, and the number of banded solves.
 
     With A the near equations, which ``near`` solves, the change z solves A z = b + f, where f = far(z) is the effect of
@@ -108,7 +111,7 @@ def newton_step(mesh: Mesh, t: DifferentialTerms, near) -> tuple[np.ndarray, int
     """
     from scipy.sparse.linalg import LinearOperator, gmres
 
-    def far(z):
+    def far(z: FloatArray) -> FloatArray:
         f = equations.convolve(mesh.far_transform, z[0::2])
         f[[0, -1]] = 0.0
         return f
@@ -121,7 +124,7 @@ def newton_step(mesh: Mesh, t: DifferentialTerms, near) -> tuple[np.ndarray, int
         return z, 1
     answers = [z]
 
-    def left(f):
+    def left(f: FloatArray) -> FloatArray:
         answers.append(near(still, f, np.zeros(2)))
         return f - far(answers[-1])
 

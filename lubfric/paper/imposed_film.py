@@ -11,10 +11,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .._base import increasing_root, validate
+from .._base import FloatArray, increasing_root, validate
 from ..contact import (
     ContactProblem,
     ContactResult,
+    HalfSpace,
     SearchResult,
     TrialContact,
     contact_problem,
@@ -42,7 +43,7 @@ class ImposedFilm:
     weight: np.ndarray
     mean_film: float
 
-    def mean(self, field) -> float:
+    def mean(self, field: FloatArray) -> float:
         """Return the mean of a field over the area A."""
         return float(np.vdot(self.weight, field))
 
@@ -51,7 +52,7 @@ class ImposedFilm:
         """Return whether the film fits between the undeformed surfaces without contact."""
         return self.mean(self.problem.gap0) - self.mean_film <= self.problem.gap0.min()
 
-    def lubricated_offset(self, displacement, pressure) -> float:
+    def lubricated_offset(self, displacement: FloatArray, pressure: FloatArray) -> float:
         """epsilon [m] of Eq. (8) as printed: the lubricated part of A contains the volume of the film.
 
         It is NaN when the pressure leaves no cell of A free, because Eq. (8) then has no solution.
@@ -61,7 +62,7 @@ class ImposedFilm:
         volume = np.vdot(free, self.problem.gap0 + displacement)
         return float((volume - self.mean_film) / wet) if wet > 0 else math.nan
 
-    def offset(self, displacement, overlap=0.0) -> float:
+    def offset(self, displacement: FloatArray, overlap: float | FloatArray = 0.0) -> float:
         """epsilon [m] of Eq. (8) over all of A, where the gap of contact spots counts as zero: the same solution.
 
         ``overlap`` [m] is a field: the overlap of yielded cells, which contains no lubricant.
@@ -73,13 +74,20 @@ class ImposedFilm:
         mean film and the length in which `lubfric.solve_contact` measures residuals."""
         return (self.mean_film - self.mean(np.maximum(state.gap, 0.0))) / min(state.scale, self.mean_film)
 
-    def residual(self, pressure, displacement, offset) -> float:
+    def residual(self, pressure: FloatArray, displacement: FloatArray, offset: float) -> float:
         """Return the worst of complementarity, penetration and volume, as in `lubfric.paper.single_loop`."""
         state = trial_contact(self.problem, pressure, displacement, offset)
         return max(state.residual, abs(self.surplus(state)))
 
     def ended(
-        self, pressure, offset, status: str, convolutions: float, history, notes=(), iterations=None
+        self,
+        pressure: FloatArray,
+        offset: float,
+        status: str,
+        convolutions: float,
+        history: list[float],
+        notes: list[str] = (),
+        iterations: int | None = None,
     ) -> SearchResult:
         """Return the end of an iteration: its state is computed anew from the pressure and epsilon alone."""
         state = evaluate(self.problem, self.problem.operator, pressure, offset)
@@ -105,7 +113,15 @@ class ImposedFilm:
         return returned(result, raise_on_failure)
 
 
-def impose(heights, film, spacing, e_prime, *, weight=None, **problem) -> ImposedFilm:
+def impose(
+    heights: FloatArray,
+    film: float | FloatArray,
+    spacing: float,
+    e_prime: float,
+    *,
+    weight: float | FloatArray | None = None,
+    **problem: int | HalfSpace | tuple[str, str] | None,
+) -> ImposedFilm:
     """Return the validated contact; arguments as in `lubfric.paper.single_loop`."""
     heights = validate.array("heights", heights, "m", ndim=2)
     film = on_grid("film", film, heights.shape, "m")
@@ -118,7 +134,15 @@ def impose(heights, film, spacing, e_prime, *, weight=None, **problem) -> Impose
 
 
 def alternating(
-    heights, film, spacing, e_prime, *, update="root", max_iterations=100, raise_on_failure=True, **problem
+    heights: FloatArray,
+    film: FloatArray,
+    spacing: float,
+    e_prime: float,
+    *,
+    update: str = "root",
+    max_iterations: int = 100,
+    raise_on_failure: bool = True,
+    **problem: FloatArray | HalfSpace | tuple[str, str] | None,
 ) -> ContactResult:
     """Contact under the separation ``h - epsilon``: system (3) is solved at one epsilon after the other.
 

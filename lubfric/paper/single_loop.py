@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from .._base import validate
+from .._base import FloatArray, validate
 from ..contact import ContactResult, SearchResult
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED
 from .imposed_film import ImposedFilm, impose
@@ -29,16 +29,16 @@ PATIENCE = 200
 
 
 def single_loop(
-    heights,
-    film,
-    spacing,
-    e_prime,
+    heights: FloatArray,
+    film: float | FloatArray,
+    spacing: float,
+    e_prime: float,
     *,
-    form="consistent",
-    stop="residual",
-    separation_tolerance=1e-6,
-    max_iterations=2000,
-    raise_on_failure=True,
+    form: str = "consistent",
+    stop: str = "residual",
+    separation_tolerance: float = 1e-6,
+    max_iterations: int = 2000,
+    raise_on_failure: bool = True,
     **problem,
 ) -> ContactResult:
     """Contact of a rough surface under the separation ``h - epsilon``, with epsilon from the volume balance, Eq. (8).
@@ -70,7 +70,7 @@ def single_loop(
     validate.choice("stop", stop, STOPS)
     validate.positive("separation_tolerance", separation_tolerance, "(-)")
 
-    def iterate(pressure) -> SearchResult:
+    def iterate(pressure: FloatArray) -> SearchResult:
         with np.errstate(all="ignore"):  # a printed loop may overflow; it then ends as diverged
             return _ended(contact, FORMS[form](contact, pressure), stop, separation_tolerance)
 
@@ -196,7 +196,7 @@ def _ended(contact: ImposedFilm, iterates: Iterator[Iterate], stop: str, separat
     return contact.ended(*nearest, status, convolutions + 1, history, notes, iteration)
 
 
-def bulk(contact: ImposedFilm, pressure) -> float:
+def bulk(contact: ImposedFilm, pressure: FloatArray) -> float:
     """Return the smallest deflection [m/Pa] that one loaded cell, wherever it is, causes anywhere in A and the contact.
 
     It is the smallest deflection under a uniform pressure on the box around A and the contact. This is less than the

@@ -88,7 +88,7 @@ class Cells:
         return heights[self.coarsening[0] // 2 % factors[0] :: factors[0], factors[1] // 2 :: factors[1]]
 
 
-def choose_cells(spacing, lengths, half_width: float, reach: float) -> Cells:
+def choose_cells(spacing: tuple[float, float], lengths: tuple[float, float], half_width: float, reach: float) -> Cells:
     """At least four cells in each of the correlation ``lengths`` [m], and two in the half-width of the Hertz strip.
 
     Their lengths are ``spacing`` [m] times powers of two. Along x they cover at least ``reach`` [m].
@@ -97,7 +97,13 @@ def choose_cells(spacing, lengths, half_width: float, reach: float) -> Cells:
     return Cells((fx, fy), tuple(spacing), EVEN * math.ceil(reach / (EVEN * fx * spacing[0]) - 1e-9))
 
 
-def cells_of_a_box(spacing, lengths, half_width: float, shape: tuple[int, int], first: float | None = None) -> Cells:
+def cells_of_a_box(
+    spacing: tuple[float, float],
+    lengths: tuple[float, float],
+    half_width: float,
+    shape: tuple[int, int],
+    first: float | None = None,
+) -> Cells:
     """Return the largest cells over exactly the columns of ``shape``; where ``first`` is given, over exactly its rows too."""
     fx, fy = largest_factors(spacing, lengths, half_width)
     while shape[0] % (2 * fx) and fx > 1:
@@ -130,7 +136,7 @@ def reach_of(scene: Scene, sq: float) -> float:
     return 2 * math.sqrt(bodies.half_width**2 + 2 * bodies.radius * SUMMITS * sq)
 
 
-def largest_factors(spacing, lengths, half_width: float) -> tuple[int, int]:
+def largest_factors(spacing: tuple[float, float], lengths: tuple[float, float], half_width: float) -> tuple[int, int]:
     """Powers of two: the longest cells that still resolve the correlation ``lengths`` and the Hertz strip [m]."""
     along = min(lengths[0] / CELLS_PER_LENGTH, half_width / CELLS_PER_HALF_WIDTH)
     return _power_of_two(along / spacing[0]), _power_of_two(lengths[1] / (CELLS_PER_LENGTH * spacing[1]))

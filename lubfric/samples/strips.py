@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .._base import FieldsOnly, validate
+from .._base import FieldsOnly, FloatArray, validate
 from ..errors import InputError
 from ..quantities import counted
 from ..scene import ROUGH, Roughness, Scene, moves
@@ -91,7 +91,7 @@ class GeneratedStrips(FieldsOnly, Sample):
         """The first strips that were made so far, by their number, on which alone they depend."""
         return {}
 
-    def _generator(self, stream: int, spacing, shape) -> Callable[[int], Surface]:
+    def _generator(self, stream: int, spacing: tuple[float, float], shape: tuple[int, int]) -> Callable[[int], Surface]:
         """The function that makes a map of the ``stream`` from its number."""
         bodies = [_one_body(rough, name, stream, spacing, shape) for rough, name in self.roughness]
 
@@ -102,7 +102,9 @@ class GeneratedStrips(FieldsOnly, Sample):
         return made
 
 
-def _one_body(rough: Roughness, name: str, stream: int, spacing, shape) -> Callable[[int], Surface]:
+def _one_body(
+    rough: Roughness, name: str, stream: int, spacing: tuple[float, float], shape: tuple[int, int]
+) -> Callable[[int], Surface]:
     make = surface_generator((shape[0] * rough.oversize, shape[1]), spacing, **statistics(rough))
 
     def made(index: int) -> Surface:
@@ -174,7 +176,7 @@ class MeasuredStrips(Sample):
         last = self.surface.shape[0] - 1
         return self.surface.heights[np.minimum(np.where(columns < 0, -1 - columns, columns), 2 * last + 1 - columns)]
 
-    def _made(self, heights, spacing, note) -> Surface:
+    def _made(self, heights: FloatArray, spacing: tuple[float, float], note: str) -> Surface:
         notes = (*self.surface.notes, note)
         new = {"heights": heights, "spacing": spacing, "periodic_axes": (False, True), "notes": notes}
         return replace(self.surface, mask=None, **new)

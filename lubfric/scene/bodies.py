@@ -20,7 +20,7 @@ FRICTION_OVER = {"sliding_speed": "m/s", "temperature": "K"}  # what a table of 
 LARGEST = 2**26  # cells of a contact grid
 
 
-def pair(name: str, value, unit: str) -> tuple:
+def pair(name: str, value: tuple[float, float], unit: str) -> tuple:
     """A list or tuple of two values, one for each body."""
     if not isinstance(value, (list, tuple)) or len(value) != 2:
         raise InputError(f" = {validate.shown(value)} must be a pair, one value a body [{unit}]", name)
@@ -38,7 +38,7 @@ class FrictionTable:
     at: tuple[float, ...]
     values: tuple[float, ...]
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         validate.choice(f"{FRICTION} over", self.over, FRICTION_OVER)
         for name, unit, most in (("at", FRICTION_OVER[self.over], FASTEST), ("values", "(-)", KEYS[FRICTION].most)):
             numbers = validate.numbers(FRICTION, getattr(self, name), unit, most)
@@ -101,7 +101,7 @@ class Bodies(Shown):
     volumetric_heat: tuple[float, float] = (3.6e6, 3.6e6)
     boundary_friction_table: FrictionTable | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         validate.python_fields(self, "bodies")
         validate.in_range("bodies", self)
         if self.boundary_friction_table is not None:
@@ -163,7 +163,7 @@ class Motion(Shown):
     slide_roll_ratio: float = 2.0
     speeds: tuple[float, ...] = ()
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         validate.python_fields(self, "motion")
         validate.in_range("motion", self)
         for name in ("entrainment_speed", "slide_roll_ratio"):
@@ -199,7 +199,7 @@ class ContactDomain(Shown):
     model: str = "half-space"
     asperity_separation: str = "volume"
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         validate.python_fields(self, "contact")
         validate.in_range("contact", self)
         if self.geometry == "flat" and self.region != "hertz":

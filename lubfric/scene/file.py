@@ -52,12 +52,12 @@ def load_scene(source, *, surface_file=None, counterface_file=None) -> Scene:
     return scene_from_table(table, folder, name)
 
 
-def given_tables(source) -> dict:
+def given_tables(source: str) -> dict:
     """Return the tables of a scene file, or of a built-in scene, as they are written; ``source`` as in `load_scene`."""
     return dict(source) if isinstance(source, dict) else _read(source)[0]
 
 
-def read_toml(path, what: str) -> dict:
+def read_toml(path: Path, what: str) -> dict:
     """The tables of a TOML file; raises `InputError`, which says ``what`` it should be, where it cannot be read."""
     try:
         size = path.stat().st_size if isinstance(path, Path) else 0
@@ -75,7 +75,7 @@ def read_toml(path, what: str) -> dict:
         raise InputError(f"{said} (numbers have a decimal point; one with a unit stands in quotes: '12 mm')") from None
 
 
-def _put_map(table: dict, section: str, path) -> None:
+def _put_map(table: dict, section: str, path: str | Path) -> None:
     """Put the map at ``path`` in the place of the roughness in ``section`` of a scene's ``table``."""
     path = _map_path(f"{section}_file", path, Path())
     if not all(isinstance(table.get(name, {}), dict) for name in (section, "contact")):
@@ -89,7 +89,7 @@ def _put_map(table: dict, section: str, path) -> None:
     table |= {section: rough | {"file": str(path)}, "contact": contact}
 
 
-def _map_path(name: str, given, folder: Path) -> Path:
+def _map_path(name: str, given: str | Path, folder: Path) -> Path:
     """An existing file, its path absolute."""
     try:
         path = (folder / given).absolute()
@@ -165,7 +165,7 @@ def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
     return table, plan
 
 
-def _read(source) -> tuple[dict, Path, str]:
+def _read(source: str) -> tuple[dict, Path, str]:
     """Its tables, the folder that its files are relative to, and its name."""
     names = builtin_scenes()
     if not isinstance(source, (str, os.PathLike)):

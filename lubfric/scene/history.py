@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base import validate
+from .._base import FloatArray, validate
 from ..errors import InputError
 
 ROUNDING = 1e-12  # relative: times that are closer are one time
@@ -57,7 +57,7 @@ class Constant(History):
 
     value: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         self._check_numbers(value="(SI)")
 
     def at(self, time: float) -> float:
@@ -76,7 +76,7 @@ class Harmonic(History):
     phase: float = 0.0
     mean: float = 0.0
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         self._check_numbers(amplitude="(SI)", mean="(SI)", phase="rad")
         object.__setattr__(self, "frequency", validate.positive("history frequency", self.frequency, "Hz"))
 
@@ -107,7 +107,7 @@ class Table(History):
     values: tuple[float, ...] = ()
     repeat: bool = False
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         times = validate.array("history times", self.times, "s", ndim=1)
         values = validate.array("history values", self.values, "(SI)", ndim=1)
         if times.size != values.size or times.size < 2:
@@ -172,7 +172,7 @@ class Table(History):
             jump_times = np.append(jump_times, t[-1])
         return self._in_every_period(jump_times, duration)
 
-    def _in_every_period(self, times, duration: float) -> tuple[float, ...]:
+    def _in_every_period(self, times: FloatArray | list[float], duration: float) -> tuple[float, ...]:
         """The ``times`` of the table, in every period, from 0 to before ``duration``."""
         laps = np.arange(math.ceil(duration / self.times[-1]) if self.repeat else 1)
         every_time = np.unique(np.asarray(times, float)[None, :] + laps[:, None] * self.times[-1])
@@ -205,7 +205,7 @@ class Ramp(History):
     until: float = 1.0
     begin: float = 0.0
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         self._check_numbers(start="(SI)", end="(SI)")
         object.__setattr__(self, "begin", validate.nonnegative("history begin", self.begin, "s"))
         object.__setattr__(self, "until", validate.number("history until", self.until, "s", above=self.begin))

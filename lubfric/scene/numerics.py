@@ -1,7 +1,7 @@
 """How exactly a scene is solved, and by which methods."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 from .._base import Shown, packaged, validate
 from ..errors import InputError
@@ -59,11 +59,11 @@ class Numerics(Shown):
     accept: bool = False
     max_work: float | None = None
 
-    def __new__(cls, *args, **given):
+    def __new__(cls, *args: object, **given: bool | float | str | None) -> Self:
         refuse_dropped(given)
         return super().__new__(cls)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         validate.python_fields(self, "numerics")
         validate.in_range("numerics", self)
         validate.integer("numerics.workers", self.workers, minimum=1, maximum=MOST_THREADS)

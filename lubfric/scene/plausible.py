@@ -4,6 +4,7 @@ A value outside the usual range (keys.toml) is no error: it gets a sentence that
 usual.
 """
 
+from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
 from typing import Any
@@ -73,7 +74,7 @@ def _index(scene: Any) -> float | None:
 
 
 @contextmanager
-def naming_slips(section: str, values: dict):
+def naming_slips(section: str, values: dict) -> Iterator[None]:
     """Add the likely slip, if there is one, to an `InputError` about one of ``values``."""
     try:
         yield
@@ -85,7 +86,7 @@ def naming_slips(section: str, values: dict):
 
 
 @contextmanager
-def warn_unusual_values(scene: Any):
+def warn_unusual_values(scene: Any) -> Iterator[None]:
     """Add the unusual values of a scene to an `InputError` or `ConvergenceError`: they are its likely cause."""
     try:
         yield

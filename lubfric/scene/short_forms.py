@@ -25,7 +25,8 @@ from ..oil import (
 )
 from ..surface import PER_SQ
 from ..units import HV
-from .bodies import friction_of, pair
+from .bodies import Bodies, friction_of, pair
+from .roughness import Roughness
 
 MOST_SPEEDS = 1_000_000
 SOURCES = ("grade", "viscosity_index", "nu40", "nu100", "viscosity_table", "oil")
@@ -72,7 +73,7 @@ def _without_none(given: dict, section: str) -> dict:
     return {key: value for key, value in given.items() if key not in needless}
 
 
-def _of_radii(radii, *_) -> dict:
+def _of_radii(radii, *_: Bodies | dict[str, float | str] | None) -> dict:
     """R [m], 1/R = 1/R1 + 1/R2; a plane is inf, a hollow (the outer ring around a roller) negative."""
     first, second = pair("bodies.radii", radii, "m")
     for radius in (first, second):
@@ -86,7 +87,7 @@ def _of_radii(radii, *_) -> dict:
     return {"radius": 1 / curvature}
 
 
-def _of_materials(names, *_) -> dict:
+def _of_materials(names: str | list[str], *_: Bodies | dict[str, float | None] | None) -> dict:
     """Fields of one or two named materials (materials.toml)."""
     known = packaged(__package__, "materials.toml")
     both = (names, names) if isinstance(names, str) else pair("bodies.material", names, "names")
@@ -99,7 +100,7 @@ def _of_materials(names, *_) -> dict:
     }
 
 
-def _of_moduli(moduli, ratios, *_) -> dict:
+def _of_moduli(moduli: list[float], ratios: list[float], *_) -> dict:
     (e1, e2) = pair("bodies.young_modulus", moduli, "Pa")
     (nu1, nu2) = pair("bodies.poisson_ratio", ratios, "-")
     for e in (e1, e2):
@@ -108,7 +109,9 @@ def _of_moduli(moduli, ratios, *_) -> dict:
     return {"e_prime": composite_modulus(e1, nu1, e2, nu2)}
 
 
-def _of_hertz_pressure(pressure, given, old) -> dict:
+def _of_hertz_pressure(
+    pressure: float, given: dict[str, float | tuple[float, float] | None], old: Bodies | None
+) -> dict:
     """The load [N] of a peak Hertz pressure [Pa]: w = 2 pi R p²/E'."""
     validate.of_key("bodies.hertz_pressure", pressure)
     needed = ("radius", "width", "e_prime")
@@ -119,7 +122,7 @@ def _of_hertz_pressure(pressure, given, old) -> dict:
     return {"load": 2 * math.pi * radius * pressure**2 / e_prime * width}
 
 
-def _of_surface_speeds(speeds, *_) -> dict:
+def _of_surface_speeds(speeds: list[float], *_) -> dict:
     both = pair("motion.surface_speeds", speeds, "m/s")
     u1, u2 = (validate.number("motion.surface_speeds", u, "m/s") for u in both)
     if u1 + u2 == 0:
@@ -142,7 +145,7 @@ def speeds_of_range(name: str, value: Any) -> tuple[float, ...]:
 def _of_heights(key: str, per_sq: float) -> Callable[..., dict[str, Any]]:
     """What turns the ``key`` of a generated map, ``per_sq`` times its Sq, into Sq [m]."""
 
-    def plain(height, given, old) -> dict[str, float]:
+    def plain(height: float, given: dict[str, float | str | None], old: Roughness | None) -> dict[str, float]:
         if given.get("file", getattr(old, "file", None)) is not None:
             said = " is for generated maps, and this one is read from a file"
             raise InputError(said, f"surface.{key}", way_out="leave it out, or scale the map by sq")
@@ -151,7 +154,7 @@ def _of_heights(key: str, per_sq: float) -> Callable[..., dict[str, Any]]:
     return plain
 
 
-def resolve_oil(given: dict, old) -> dict:
+def resolve_oil(given: dict, old: Lubricant | None) -> dict:
     """Plain fields of [lubricant] from an oil at ``temperature`` [K]: viscosity, pressure-viscosity coefficient,
     temperature coefficient and law of the density (as given, else of the oil).
 
@@ -187,7 +190,7 @@ def resolve_oil(given: dict, old) -> dict:
     return oil_fields | given
 
 
-def _check_temperature(given: dict, old) -> None:
+def _check_temperature(given: dict, old: Lubricant | None) -> None:
     """Raise `InputError` for a new temperature that would leave the viscosity, a number, as it is."""
     if old is None or "viscosity" in given or given.get("temperature") in (None, old.temperature):
         return
@@ -211,7 +214,7 @@ def fields_of(oil: Oil, temperature: float) -> dict:
     }
 
 
-def of_celsius(celsius, *_) -> dict:
+def of_celsius(celsius: float, *_) -> dict:
     """The temperature [K] of ``lubricant.temperature_celsius``."""
     degrees = validate.number("lubricant.temperature_celsius", celsius, "°C")
     if degrees > 250:

@@ -63,7 +63,7 @@ class Transient:
         """The histories of all that changes."""
         return tuple(h for h in (getattr(self, name) for name in UNITS) if h is not None)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         validate.python_fields(self, "transient")
         validate.in_range("transient", self)
         validate.integer("transient.outputs", self.outputs, minimum=1, maximum=1_000_000)
@@ -119,7 +119,7 @@ def read_history(
     return Table(times=tuple(times), values=tuple(values), repeat=repeat)
 
 
-def _word(name: str, value) -> str:
+def _word(name: str, value: str) -> str:
     if not isinstance(value, str) or not value or "\0" in value:
         raise InputError(f"{name} = {validate.shown(value)}; give a word in quotes")
     return value

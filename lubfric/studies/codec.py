@@ -10,6 +10,7 @@ import json
 import math
 import re
 import sys
+from collections.abc import Callable
 from dataclasses import fields, is_dataclass
 from functools import cache
 from types import UnionType
@@ -26,7 +27,7 @@ DTYPE = re.compile(r"[<>|=][biufc]\d{1,2}|[<>=]U\d{1,6}")  # of arrays: numbers 
 ACCEPTED = {float: (float, int, np.floating, np.integer), int: (int, np.integer), bool: (bool, np.bool_)}
 
 
-def classes_of(*roots) -> dict[str, type]:
+def classes_of(*roots: type) -> dict[str, type]:
     """A table of classes by name: the dataclasses of this package among ``roots``, and all that these lead to by the
     types of their fields and by inheritance."""
     seen: set[type] = set()
@@ -45,7 +46,7 @@ def _name(kind: type) -> str:
     return f"{kind.__module__}.{kind.__name__}"
 
 
-def encode(value, field=getattr) -> list:
+def encode(value, field: Callable[..., Any] = getattr) -> list:
     """``value`` as bytes, in pieces that follow each other. It may be a tree of dataclasses, numbers, texts and
     arrays. ``field(object, name)`` gives what is encoded of a field of a dataclass."""
     arrays: list[bytes | memoryview] = []
@@ -102,7 +103,7 @@ def _hints(kind: Any) -> dict[str, Any]:
     return {name: float if isinstance(hints[name], TypeVar) else hints[name] for name in own}
 
 
-def _plain(value, arrays: list, field) -> Any:
+def _plain(value, arrays: list, field: Callable[..., Any]) -> Any:
     """JSON types for ``value``. Its arrays are added to ``arrays``."""
     if value is None or isinstance(value, (bool, int, str)):
         return value

@@ -4,7 +4,9 @@ scene."""
 import time
 from collections.abc import Sequence
 from numbers import Real
+from pathlib import Path
 from textwrap import shorten
+from typing import Any
 
 from ..errors import InputError
 from ..estimate import forecast
@@ -44,7 +46,7 @@ def in_words(seconds: float) -> str:
     return f"{float(f'{seconds:.2g}'):g} s"
 
 
-def explain(plan, store=None) -> str:
+def explain(plan: Any, store: Path | None = None) -> str:
     """Return the points of a `StudyPlan`, how many of them the folder ``store`` has already, and about how long the
     others will take, in words. Some of the maps are made. No point is solved."""
     about = "about " if plan.chooses_speeds else ""

@@ -56,7 +56,7 @@ def fit(
     *,
     start: dict[str, float] | None = None,
     starts: int | None = None,
-    executor=None,
+    executor: int | None = None,
     store=None,
     on_progress: Callable | None = None,
 ) -> FitResult:
@@ -114,7 +114,9 @@ def fit(
 
 
 @with_default_errors
-def explain_fit(scene: Scene, measured: Measured, parameters, *, starts: int | None = None) -> str:
+def explain_fit(
+    scene: Scene, measured: Measured, parameters: dict[str, tuple[float | str, float]], *, starts: int | None = None
+) -> str:
     """Return what a fit will do and about how long it will take, in words.
 
     The time is that of the work counted where the fit may begin and at the corners of the bounds. Maps are made, and no
@@ -167,7 +169,9 @@ def _curves(
     )
 
 
-def _checked(scene: Scene, measured: Measured, parameters) -> dict[str, Between]:
+def _checked(
+    scene: Scene, measured: Measured, parameters: dict[str, float | tuple[float | str, float]]
+) -> dict[str, Between]:
     """Return the bounds of ``parameters`` if scene and data can determine them; raises `InputError`."""
     validate.instance("scene", scene, Scene, "a scene to change: what lubfric.load_scene returned, not lubfric.prepare")
     validate.instance("measured", measured, Measured, "lubfric.read_measured(...) or lubfric.Measured(x, coefficient)")

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .._base import FloatArray
+
 # Probability of the residuals, if the fit describes the data, below which it is said not to.
 SIGNIFICANCE = 0.01
 
@@ -116,7 +118,7 @@ def probability_of_order(residuals: np.ndarray) -> float:
     if all orders of them are alike (J. von Neumann, Ann. Math. Statist. 12 (1941) 367-395)."""
     from scipy.stats import permutation_test
 
-    def neighbours(values: np.ndarray, axis: int = -1):
+    def neighbours(values: np.ndarray, axis: int = -1) -> float | FloatArray:
         values = np.moveaxis(values, axis, -1)
         return np.sum(values[..., 1:] * values[..., :-1], axis=-1)
 

@@ -44,7 +44,7 @@ class Measured:
     rolling: bool = True
     branch: np.ndarray | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         validate.choice("over", self.over, (SPEED, SLIP))
         validate.instance("rolling", self.rolling, bool, "True, or False if rolling is taken out of the coefficients")
         x = validate.array("x", self.x, "m/s" if self.over == SPEED else "-", ndim=1)
@@ -215,7 +215,7 @@ def values_at(parameters: dict[str, Between], unit: np.ndarray) -> dict[str, flo
     return {key: float(bounds.at(share)) for (key, bounds), share in zip(parameters.items(), unit)}
 
 
-def parameters_of(scene: Scene, bounds) -> dict[str, Between]:
+def parameters_of(scene: Scene, bounds: dict[str, float | tuple[float | str, float]]) -> dict[str, Between]:
     """What is sought, of {"section.key": (low, high)}: in its logarithm where the bounds are a factor of 10 or more
     apart. The scene is checked at both ends of each."""
     if not isinstance(bounds, dict) or not bounds:

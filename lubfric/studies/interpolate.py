@@ -16,6 +16,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from .._base import FloatArray
 from ..errors import InputError
 
 # Fewest solved speeds of a curve.
@@ -117,12 +118,12 @@ class Interpolant:
         least = min(NEAR * s.speed[s.contacts - 1], knee)  # not where contact is known
         return float(max(knee / away, least)), float(knee * away)
 
-    def at(self, speed, smooth: bool = True) -> np.ndarray:
+    def at(self, speed: FloatArray, smooth: bool = True) -> np.ndarray:
         """f at speeds [m/s] within the range. ``smooth=False``: by the other cubics."""
         speed = np.asarray(speed, dtype=float)
         return self.boundary(speed, smooth) + self.film(speed, smooth)
 
-    def error(self, speed) -> np.ndarray:
+    def error(self, speed: FloatArray) -> np.ndarray:
         """Estimated relative error at speeds [m/s]. It is the largest of three: the difference between the two kinds of
         cubics; the effect of the uncertain place of the knee, and of the power with which the contact ends there; and a
         share of the error at the neighbouring points when the curve goes through the other points only."""
@@ -249,7 +250,7 @@ def knee_of(samples: Samples) -> float | None:
     return float(min(lift_off, high))
 
 
-def _film_alone(speed, traction, at, smooth):
+def _film_alone(speed: FloatArray, traction: FloatArray, at: FloatArray, smooth: bool) -> FloatArray:
     """Interpolation where nothing touches, by cubics of t/sqrt(U) over 1/sqrt(U): a sqrt(U) + b + c/sqrt(U) + .... The
     friction of a Newtonian film between rigid bodies is proportional to sqrt(U), and that of a film at its limiting
     stress is constant."""
@@ -257,14 +258,14 @@ def _film_alone(speed, traction, at, smooth):
     return np.sqrt(at) * _cubic(-1 / root, traction / root, -1 / np.sqrt(at), smooth)
 
 
-def _of_logarithms(x, values, at, smooth):
+def _of_logarithms(x: FloatArray, values: FloatArray, at: FloatArray, smooth: bool) -> FloatArray:
     """`_cubic` of ln ``values`` if all are positive, else of the values."""
     if not np.all(values > 0.0):
         return _cubic(x, values, at, smooth)
     return np.exp(_cubic(x, np.log(values), at, smooth))
 
 
-def _steered(x, values, slopes, at, smooth):
+def _steered(x: FloatArray, values: FloatArray, slopes: FloatArray, at: FloatArray, smooth: bool) -> FloatArray:
     """The mean of the spline through the points and of cubics with the ``slopes`` known there; beyond the points a
     straight line. ``smooth=False``: these cubics alone."""
     from scipy.interpolate import CubicHermiteSpline, CubicSpline
@@ -279,7 +280,7 @@ def _steered(x, values, slopes, at, smooth):
     return cubics(inside) + cubics(inside, 1) * (at - inside)
 
 
-def _cubic(x, values, at, smooth):
+def _cubic(x: FloatArray, values: FloatArray, at: FloatArray, smooth: bool) -> FloatArray:
     """A cubic between the points ``x``; beyond them a straight line or, for the shape-preserving kind, the last
     secant."""
     from scipy.interpolate import CubicSpline, PchipInterpolator

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import Shown, plain, validate
+from .._base import FloatArray, Shown, plain, validate
 from ..errors import InputError
 from ..scene import Scene
 from .interpolate import Interpolant
@@ -92,7 +92,9 @@ class Law(Shown):
     rms: float
     interval: float
 
-    def __call__(self, speed, temperature=None, pressure=None, *, extrapolate: bool = False):
+    def __call__(
+        self, speed: float | FloatArray, temperature=None, pressure=None, *, extrapolate: bool = False
+    ) -> float | FloatArray:
         """f at ``speed`` [m/s] (either sign), ``temperature`` [K] and ``pressure`` [Pa], numbers or arrays; None: in
         the middle of the range. Raises `InputError` outside ``ranges``, unless ``extrapolate``. Slower than the slowest
         point, f goes to 0 at rest."""
@@ -169,7 +171,7 @@ def conditions_of(scene: Scene) -> tuple[float, float, float, float]:
     return temperature, oil.viscosity, slope, scene.bodies.mean_hertz_pressure
 
 
-def value(numbers: dict[str, float], U, T, p):
+def value(numbers: dict[str, float], U: FloatArray, T: FloatArray, p: FloatArray) -> FloatArray:
     """f by the formula."""
     names = numbers | {"U": U, "T": T, "p": p}
     with np.errstate(over="ignore", under="ignore", divide="ignore"):
@@ -178,11 +180,18 @@ def value(numbers: dict[str, float], U, T, p):
     return names["f"]
 
 
-def _expressions(numbers) -> dict[str, str]:
+def _expressions(numbers: dict[str, float]) -> dict[str, str]:
     return {"eta": WALTHER if "A" in numbers else "eta0"} | FORMULA
 
 
-def law_of(scene: Scene, curves: Iterable[tuple[Any, Interpolant]], f, low, high, model) -> Law:
+def law_of(
+    scene: Scene,
+    curves: Iterable[tuple[Any, Interpolant]],
+    f: FloatArray,
+    low: FloatArray,
+    high: FloatArray,
+    model: FloatArray,
+) -> Law:
     """The `Law` of solved curves of ``scene`` with their conditions (`conditions_of`). ``f``, ``low``, ``high``,
     ``model``: of all points, arrays with their intervals, and their errors by the model. Raises `InputError` where
     there are too few points, or f is not positive."""
@@ -209,7 +218,7 @@ def law_of(scene: Scene, curves: Iterable[tuple[Any, Interpolant]], f, low, high
     return Law(scene.name, numbers, ranges, float(abs(off).max()), float(np.sqrt(np.mean(off**2))), float(widths.max()))
 
 
-def law_of_study(result) -> Law:
+def law_of_study(result: Any) -> Law:
     """Friction of a study over speed and, as far as they were varied, temperature of the oil and load, as a formula for
     system simulations (`lubfric.studies.law`). Raises `InputError` where anything else was varied."""
     if result.paired:
@@ -224,7 +233,7 @@ def law_of_study(result) -> Law:
     return law_of(result.plan.scene, curves, *columns)
 
 
-def _viscosity(T, eta, coefficient) -> dict[str, float]:
+def _viscosity(T: FloatArray, eta: FloatArray, coefficient: FloatArray) -> dict[str, float]:
     """A and B of `WALTHER` through the viscosities, or through one with its slope; none without a temperature, or where
     at a single one the fluid is too thin for it."""
     thin = eta.min() <= THINNEST
@@ -244,7 +253,14 @@ def _viscosity(T, eta, coefficient) -> dict[str, float]:
     return {"A": float(np.mean(y - slope * x)), "B": float(-slope)}
 
 
-def _fitted(numbers, at, boundary, film, eta, rest) -> dict[str, float]:
+def _fitted(
+    numbers: dict[str, float],
+    at: tuple[FloatArray, FloatArray, FloatArray],
+    boundary: FloatArray,
+    film: FloatArray,
+    eta: FloatArray,
+    rest: float,
+) -> dict[str, float]:
     """The other numbers, by least squares of ln f from several starts."""
     from scipy.optimize import least_squares
 
@@ -262,10 +278,10 @@ def _fitted(numbers, at, boundary, film, eta, rest) -> dict[str, float]:
     bounds = POSITIVE | {"b": (POSITIVE["b"][0], OVER_REST * max(most, rest))}
     low, high = np.array([np.log(bounds[name]) if name in bounds else OTHERS for name in free]).T
 
-    def read(z) -> dict[str, float]:
+    def read(z: FloatArray) -> dict[str, float]:
         return numbers | start | {n: float(np.exp(v) if n in POSITIVE else v) for n, v in zip(free, z)}
 
-    def left(z):
+    def left(z: FloatArray) -> FloatArray:
         return np.log(np.maximum(value(read(z), U, T, p), 1e-9) / f)
 
     solution = []

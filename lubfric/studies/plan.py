@@ -103,7 +103,12 @@ def scenes_of(scene: Scene, axes: tuple[Axis, ...]) -> Iterator[Scene]:
 
 
 @with_default_errors
-def plan_study(scene: Scene, vary=None, speeds=None, points=None) -> StudyPlan:
+def plan_study(
+    scene: Scene,
+    vary=None,
+    speeds: str | list[float | str | list[float]] | tuple[float, ...] | None = None,
+    points=None,
+) -> StudyPlan:
     """Plan a study without solving anything.
 
     Parameters
@@ -166,7 +171,7 @@ def _digest_of_maps(scene: Scene) -> str:
         return str(error)
 
 
-def load_study(path, points=None) -> StudyPlan:
+def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
     """Return the plan in a study file.
 
     - ``scene``: a file relative to this one, or a built-in scene.
@@ -210,14 +215,14 @@ def load_study(path, points=None) -> StudyPlan:
     return plan_study(scene, vary, speeds, points)
 
 
-def _flat_rows(rows) -> Any:
+def _flat_rows(rows: list[dict[str, float | str | dict[str, float]]]) -> Any:
     """Return rows of a study file with dotted keys in place of tables within them."""
     if isinstance(rows, list):
         return [_flat(row, lambda value: not isinstance(value, dict)) if isinstance(row, dict) else row for row in rows]
     return _flat(rows, lambda value: not isinstance(value, dict)) if isinstance(rows, dict) else rows
 
 
-def _add(known: dict, key, values) -> None:
+def _add(known: dict, key: str | tuple[str, str], values) -> None:
     """Put ``values`` into ``known``. Raises `InputError` for a key that is there already, whose values would be
     lost."""
     if key in known:
@@ -235,14 +240,16 @@ def _flat(table: dict, is_value: Callable[[Any], bool]) -> dict[str, Any]:
     return flat
 
 
-def _lists(table, where: str, folder: Path) -> dict[str, list]:
+def _lists(
+    table: dict[str, dict[str, list[float | str]] | list[float | dict[str, float | str]]], where: str, folder: Path
+) -> dict[str, list]:
     """The lists of values by their keys. Files are relative to ``folder``."""
     validate.instance(f"[{where}]", table, dict, "keys of a scene with lists of values")
     lists = _flat(table, lambda value: not isinstance(value, dict))
     for key, values in lists.items():
         validate.instance(f"[{where}] {key}", values, list, "a list of values")
 
-    def path_from_folder(key: str, name) -> str:
+    def path_from_folder(key: str, name: str) -> str:
         path = (folder / str(name)).resolve()
         if not path.is_file():
             raise InputError(f"{key} = {name!r}: no such file in {folder}")
@@ -257,7 +264,7 @@ def _lists(table, where: str, folder: Path) -> dict[str, list]:
     return lists
 
 
-def _sampled(table, file: str) -> tuple:
+def _sampled(table: dict[str, int | dict[str, int | dict[str, float | str]]], file: str) -> tuple:
     """The key, or the keys, of [sample], and their values."""
     validate.instance("[sample]", table, dict, "a table")
     options = {key: table.pop(key) for key in SAMPLE_KEYS if key in table}

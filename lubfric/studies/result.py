@@ -8,13 +8,14 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, is_dataclass
 from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .._base import Shown, validate, with_default_errors
 from .._base.processes import checked_executor, checked_workers, pool, spread
-from ..errors import InputError
+from ..errors import InputError, ValidityError
 from ..quantities import NUMBERS
 from ..scene import Scene
 from ..units import worded
@@ -26,6 +27,12 @@ from .points import CONVERGED, MISSING, SPEED, UNUSED, MapError, solved_together
 from .store import PLANNED, Store, digest, opened, point_key
 from .study_table import StudyTable
 from .tables import label, plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    from ..estimate import FrictionResult
+
 
 PLAN = "plan"  # its key in the store
 PLAN_FIELDS = ("scene", "axes", "speeds", "keys", "point_speeds", "coordinates")  # what is stored of it
@@ -198,12 +205,12 @@ class StudyResult(Shown):
 def study(
     scene: Scene | StudyPlan,
     vary=None,
-    speeds=None,
+    speeds: str | list[float | list[float]] | tuple[float, ...] | None = None,
     *,
-    points=None,
-    executor=None,
+    points: dict[str, list[float] | tuple[float, float, float]] | list[dict[str, float]] | None = None,
+    executor: int | Executor | None = None,
     store=None,
-    on_progress=None,
+    on_progress: Callable[..., Any] | None = None,
     workers: int = 1,
 ) -> StudyResult:
     """Friction of a scene at every combination of given values, and at every entrainment speed or operating point.
@@ -253,7 +260,7 @@ def study(
         return _result(_carried_out(plan, executor, kept, on_progress))
 
 
-def _carried_out(plan: StudyPlan, executor, store: Store, on_progress: Callable | None) -> StudyTable:
+def _carried_out(plan: StudyPlan, executor: Executor | None, store: Store, on_progress: Callable | None) -> StudyTable:
     """Return the table of all points of a plan, those in the ``store`` and those that are solved now."""
     table = StudyTable(plan)
     table.read(store)
@@ -301,7 +308,7 @@ def _jobs(plan: StudyPlan, left: list, store: Store, together: int | None) -> It
         yield partial(solved_together, tuple(tasks), store.root)
 
 
-def _keep(store: Store, key: str, record) -> None:
+def _keep(store: Store, key: str, record: FrictionResult | InputError | ValidityError) -> None:
     """Keep a ``record`` that a worker could not, as it does not see the folder of the store."""
     if not store.has(key):
         store.add(key, record)

@@ -4,7 +4,7 @@ studies and runs of the command line, and states of runs in time, are kept in it
 import hashlib
 import os
 import warnings
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -54,7 +54,7 @@ class Store:
     add, and what was added outlives every failure of them. A record that was cut off or overwritten counts as absent.
     """
 
-    def __init__(self, root, classes: dict[str, type] = CLASSES):
+    def __init__(self, root: str | Path | None, classes: dict[str, type] = CLASSES):
         self.root = root
         self.classes = classes
         self.folder = None if root is None else Path(root) / POINTS
@@ -66,7 +66,7 @@ class Store:
             stored = _failure(outcome) if isinstance(outcome, LubfricError) else outcome
             write_checked(self._path(key), *encode(stored), sync=sync)
 
-    def get(self, key: str, kind: Any = Any):
+    def get(self, key: str, kind: Any = Any) -> FrictionResult | None:
         """What was added under ``key``, of the type ``kind``; None for what is absent. A record that cannot be read, is
         damaged, or of another version, counts as absent; a `UserWarning` reports it."""
         if self.folder is None or not os.path.lexists(self._path(key)):
@@ -105,7 +105,7 @@ class Store:
 
 
 @contextmanager
-def opened(folder, classes: dict[str, type] = CLASSES, name: str = "store"):
+def opened(folder, classes: dict[str, type] = CLASSES, name: str = "store") -> Iterator[Store]:
     """The `Store` in ``folder`` (None: none), which one caller at a time may fill. Raises `InputError` for a second.
     ``name``: of the argument that gives the folder."""
     if folder is None:
@@ -163,7 +163,7 @@ def digest(value: Any) -> str:
     return _digest(value, _counted)
 
 
-def _digest(value, counted) -> str:
+def _digest(value, counted: Callable[..., Any]) -> str:
     hashed = hashlib.sha256()
     for piece in encode(value, counted):
         hashed.update(piece)

@@ -1,6 +1,7 @@
 """The numbers of a study while it is carried out, in arrays: a point takes some 400 bytes, whatever its result holds."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +21,7 @@ class StudyTable:
     ended : keys of the curves that chose all their speeds
     """
 
-    def __init__(self, plan):
+    def __init__(self, plan: Any):
         self.plan = plan
         self.width = MOST if plan.chooses_speeds else 1 if plan.paired else len(plan.speeds)
         self.columns: dict[str, np.ndarray] = {}

@@ -1,13 +1,15 @@
 """Stribeck curves, friction over the speed; and traction curves, friction over the slide-roll ratio at one speed."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._base import validate, with_default_errors, write_whole
+from .._base import FloatArray, validate, with_default_errors, write_whole
 from .._base.jobs import parts_on
 from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import ITERATION_LIMIT, InputError, Report
@@ -126,7 +128,7 @@ def stribeck(
     model: str | None = None,
     fields=False,
     store=None,
-    on_point=None,
+    on_point: Callable[..., Any] | None = None,
     raise_on_failure: bool = True,
     workers: int = 1,
 ) -> StribeckResult:
@@ -252,12 +254,12 @@ class TractionResult(CurveResult):
 @with_default_errors
 def traction(
     scene: Scene | Prepared,
-    ratios,
+    ratios: FloatArray | list[float | str | list[float]],
     *,
     speed: float | None = None,
     tolerance: float | None = None,
     model: str | None = None,
-    on_point=None,
+    on_point: Callable[..., Any] | None = None,
     raise_on_failure: bool = True,
 ) -> TractionResult:
     """The traction curve of a scene: friction over the slide-roll ratio, at one entrainment speed.

@@ -1,5 +1,7 @@
 """Studies as tables for other tools, each imported only when its table is made; curves and studies drawn."""
 
+from __future__ import annotations
+
 import io
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -7,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from .._base import __version__, figures, files, table_bytes, validate, write_whole
+from .._base import FloatArray, __version__, figures, files, table_bytes, validate, write_whole
 from ..errors import InputError
 from ..quantities import COLUMNS, Quantity, axis_label, described, heading, worded_value
 from ..units import converted, unit_for
@@ -18,6 +20,8 @@ from .points import SPEED, STATUS, UNUSED, VALIDITY
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from .._base.tables import Columns
 
 OF_INTERVAL = (("model_error", 1.0, "--"), ("sampling_error", 2.0, ":"))  # column, times it in the interval, line
 BAND = "95 % interval"
@@ -71,12 +75,12 @@ def to_netcdf(result, path: str | Path) -> None:
         data.to_netcdf(part, engine="netcdf4")
 
 
-def to_csv(result, path: str | Path) -> None:
+def to_csv(result: Any, path: str | Path) -> None:
     """One row a point, the unit in the heading; nothing beyond the standard library needed."""
     write_whole(path, table_bytes({heading(name): values for name, values in columns_of_study(result).items()}))
 
 
-def columns_of_study(result) -> dict[str, np.ndarray]:
+def columns_of_study(result: Any) -> dict[str, np.ndarray]:
     """Return the columns of a table: the varied keys, the speed, the numbers, the status and the validity, one value for
     each point. Places that a curve did not need have no row."""
     shape = result.status.shape
@@ -90,7 +94,7 @@ def columns_of_study(result) -> dict[str, np.ndarray]:
     return {name: values[used] for name, values in columns.items()}
 
 
-def plot(result, ax: "Axes | None" = None, **style: Any):
+def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
     """f over speed, a line for each curve, on ``ax`` or new axes, which are returned; ``style``: of the lines. Many
     curves are coloured by the first number that is varied. Where speeds were chosen, the lines are interpolated."""
     from matplotlib import colormaps
@@ -133,7 +137,7 @@ def plot(result, ax: "Axes | None" = None, **style: Any):
     return axes
 
 
-def plot_points(result, quantity: str = "coefficient", ax: "Axes | None" = None, **style: Any):
+def plot_points(result, quantity: str = "coefficient", ax: Axes | None = None, **style: Any):
     """Draw a number of the operating points of a study with its 95 % interval over their position, angle or time, or
     over their number; one line for each combination of what else is varied. Returns the axes."""
     axes = figures.axes_or_new(ax)
@@ -165,7 +169,7 @@ def _in_people_units(values: np.ndarray, name: str) -> tuple[np.ndarray, str]:
     return values * converted(1.0, COLUMNS[name].unit, unit), axis_label(name, unit)
 
 
-def label(result, index) -> str:
+def label(result: Any, index: tuple[int, ...]) -> str:
     """What is varied at the position ``index`` along the axes of a study, in words."""
     places = dict(zip(result.dims, index))
     along = {
@@ -183,7 +187,12 @@ def check_tools(netcdf: bool, parquet: bool) -> None:
         validate.installed(name, "study")
 
 
-def interval_band(ax: "Axes", over: np.ndarray, columns, line=None) -> None:
+def interval_band(
+    ax: Axes,
+    over: np.ndarray,
+    columns: Columns | dict[str, FloatArray],
+    line: tuple[FloatArray, FloatArray] | None = None,
+) -> None:
     """The intervals of f as one band ``over`` speeds or ratios, if ``columns`` have them, with thin lines for what the
     model and the finite surface leave by themselves. ``line``: (speeds, f) of a smooth curve to draw them about."""
     unknown = np.full(over.shape, np.nan)
@@ -219,7 +228,7 @@ def interval_band(ax: "Axes", over: np.ndarray, columns, line=None) -> None:
             )
 
 
-def friction_over_speed(axes: "Axes", columns: dict[str, np.ndarray], **style: Any) -> np.ndarray:
+def friction_over_speed(axes: Axes, columns: dict[str, np.ndarray], **style: Any) -> np.ndarray:
     """Friction over the magnitude of the speed with its parts and the band of its intervals, by the ``columns`` of a
     `lubfric.StribeckResult`; between its points where f is `KNOWN` there. Returns the indices of the points drawn, in
     order: those that failed, and rest, are left out."""
@@ -257,7 +266,7 @@ def _line(columns: dict[str, np.ndarray]) -> tuple[np.ndarray, ...] | None:
     return fine, contact + film, contact, film
 
 
-def curve_axes(curve, ax=None, **style):
+def curve_axes(curve: Any, ax: Axes | None = None, **style: str) -> Axes:
     """Friction over speed, with its parts and the band of its intervals, on ``ax`` or new axes, which are returned;
     ``style``: of the line."""
     axes = figures.axes_or_new(ax)
@@ -265,7 +274,7 @@ def curve_axes(curve, ax=None, **style):
     return axes
 
 
-def plot_map(path: Path, study, across: str, up: str, title: str = "", quantity: str = "coefficient") -> None:
+def plot_map(path: Path, study: Any, across: str, up: str, title: str = "", quantity: str = "coefficient") -> None:
     """Draw ``quantity`` of a `StudyResult` as contours over two of its keys, for example ``"speed"`` and
     ``"motion.slide_roll_ratio"``.
 
@@ -304,7 +313,7 @@ def plot_map(path: Path, study, across: str, up: str, title: str = "", quantity:
     figure.savefig(path, dpi=150)
 
 
-def _table_of(ax, x, y, values, bar: str) -> None:
+def _table_of(ax: Axes, x: FloatArray, y: FloatArray, values: FloatArray, bar: str) -> None:
     """Few values (ny, nx) as a table of colours with their numbers: contours would say more than is known."""
     image = ax.imshow(values, origin="lower", aspect="auto", cmap="viridis")
     middle = 0.5 * (np.nanmin(values) + np.nanmax(values))

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import validate, with_default_errors
+from .._base import FloatArray, validate, with_default_errors
 from ..errors import InputError
 from ..quantities import KEYS
 from ..scene import SOURCES, Roughness, Scene, short_keys, typical
@@ -35,7 +35,7 @@ class Between:
     scale: str = "linear"
     unit: str = field(default="", init=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if isinstance(self.low, str) and isinstance(self.high, str):
             (low, unit) = in_si("low", self.low)
             (high, other) = in_si("high", self.high)
@@ -47,7 +47,7 @@ class Between:
         low = validate.number("low", self.low, "(of the key)", above=0.0 if self.scale == "log" else -math.inf)
         validate.number("high", self.high, "(of the key)", above=low)
 
-    def at(self, share: float):
+    def at(self, share: float) -> float | FloatArray:
         """Values at ``share`` in [0, 1] of the range, a number or an array."""
         if self.scale == "linear":
             return self.low + share * (self.high - self.low)
@@ -105,7 +105,9 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
 
 
 @with_default_errors
-def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tuple[float, ...]]:
+def sample(
+    ranges: list[int | Between] | None, count: int, sampler: str = "sobol", seed: int = 0
+) -> list[tuple[float, ...]]:
     """Points of a box, as values for keys that `lubfric.study` varies together.
 
     ``vary={("bodies.load", "lubricant.viscosity"): sample([Between("1 N", "10 N"), Between(0.01, 1, "log")], 64)}``
@@ -146,7 +148,9 @@ def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tu
     return list(zip(*values))
 
 
-def check_key(what: str, scene: Scene, key, seen, sections=SECTIONS) -> None:
+def check_key(
+    what: str, scene: Scene, key: str, seen: dict[str, Between] | set[str], sections: tuple[str, ...] = SECTIONS
+) -> None:
     """Raise `InputError` for a ``key`` of the argument ``what`` that is none in the ``sections`` of a scene, that is
     what a curve is over, or that was ``seen``."""
     section, _, field = str(key).partition(".")

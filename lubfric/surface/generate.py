@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .._base import validate, with_default_errors
+from .._base import FloatArray, validate, with_default_errors
 from ..errors import InputError
 from ..units import worded
 from .height_map import Surface
@@ -24,10 +24,10 @@ ROUNDING = 1e-13  # of the largest power: what the transform leaves where the sp
 
 @with_default_errors
 def generate_surface(
-    shape,
-    spacing,
+    shape: tuple[int, int],
+    spacing: float | tuple[float, float],
     *,
-    correlation_length,
+    correlation_length: float | tuple[float, float],
     seed: int,
     sq: float | None = None,
     acf: str = "exponential",
@@ -93,10 +93,10 @@ def generate_surface(
 
 
 def surface_generator(
-    shape,
-    spacing,
+    shape: tuple[int, int],
+    spacing: float | tuple[float, float],
     *,
-    correlation_length,
+    correlation_length: float,
     acf: str,
     decay_level: float,
     sq: float | None = None,
@@ -203,7 +203,9 @@ def _honed_generator(
     return made
 
 
-def _spectrum(shape, spacing, scales, acf, cutoff) -> np.ndarray:
+def _spectrum(
+    shape: tuple[int, int], spacing: tuple[float, float], scales: tuple[float, float], acf: str, cutoff
+) -> np.ndarray:
     """Power spectrum (nx, ny//2 + 1) of the periodic, zero-mean ACF on the grid."""
     from scipy import fft
 
@@ -230,7 +232,13 @@ def _spectrum(shape, spacing, scales, acf, cutoff) -> np.ndarray:
     return spectrum
 
 
-def _expected_lengths(spectrum, shape, spacing, lengths, level) -> list[float]:
+def _expected_lengths(
+    spectrum: FloatArray,
+    shape: tuple[int, int],
+    spacing: tuple[float, float],
+    lengths: tuple[float, float],
+    level: float,
+) -> list[float]:
     from scipy import fft
 
     acf = fft.irfft2(spectrum, shape)
@@ -247,7 +255,7 @@ def _expected_lengths(spectrum, shape, spacing, lengths, level) -> list[float]:
     return cutoffs
 
 
-def _found_length(surface, axis, level) -> str:
+def _found_length(surface: Surface, axis: int, level: float) -> str:
     try:
         return worded(correlation_length(surface, axis, level), "m")
     except InputError:

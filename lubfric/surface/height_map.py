@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._base import FrozenArrays, Shown, figures, validate
+from .._base import BoolArray, FloatArray, FrozenArrays, Shown, figures, validate
 from ..errors import InputError
 from . import prepare, regrid, statistics
 from .bearing import Bearing, bearing
@@ -47,7 +47,7 @@ class Surface(FrozenArrays, Shown):
     seed: int | None = None
     notes: tuple[str, ...] = ()
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         heights = validate.real_array("heights", self.heights, "m").copy()
         mask = _mask(self.mask, self.heights, heights.shape)
         if np.ma.is_masked(self.heights):
@@ -101,7 +101,7 @@ class Surface(FrozenArrays, Shown):
         )
         return f"{self.source}: {text}" if self.source else text
 
-    def plot(self, ax: "Axes | None" = None):
+    def plot(self, ax: "Axes | None" = None) -> Axes:
         """The heights in the plane, on ``ax`` or new axes, which are returned. The colours leave out single spikes,
         which the title then tells."""
         axes = figures.axes_or_new(ax, "compressed")
@@ -215,7 +215,7 @@ class Surface(FrozenArrays, Shown):
                 new = regrid.mirrored(new, axis)
         return new
 
-    def cropped(self, shape, start=None) -> Surface:
+    def cropped(self, shape: list[int] | tuple[int, int], start: tuple[int, int] | None = None) -> Surface:
         """``shape`` points from index ``start`` (default: centred); no longer periodic where cut."""
         shape = regrid.pair("shape", shape)
         start = tuple((n - m) // 2 for n, m in zip(self.shape, shape)) if start is None else tuple(start)
@@ -228,7 +228,9 @@ class Surface(FrozenArrays, Shown):
         closed = tuple(p and n == m for p, n, m in zip(self.periodic_axes, self.shape, shape))
         return self._with(self.heights[cut], f"cropped to {shape} from {start}", mask=mask, periodic_axes=closed)
 
-    def resampled(self, *, shape=None, spacing=None) -> Surface:
+    def resampled(
+        self, *, shape: tuple[int, int] | None = None, spacing: float | tuple[float, float] | None = None
+    ) -> Surface:
         """Return the map of this area on another grid; give ``shape`` (extent kept) or ``spacing`` [m] (a rest of
         less than one cell is cut off). Periodic axes by Fourier series (exact for a band-limited
         map), others as averages over the new cells; see `regrid.resample_axis`."""
@@ -241,7 +243,7 @@ class Surface(FrozenArrays, Shown):
             new = regrid.resampled(new, axis, shape[axis], spacing[axis])
         return new
 
-    def patch(self, shape, spacing=None) -> Surface:
+    def patch(self, shape: tuple[int, int], spacing=None) -> Surface:
         """Exactly ``shape`` points at ``spacing`` [m] (default: its own) for a contact grid. Axes that are periodic are
         repeated as often as needed; others are cut, and must be long enough."""
         shape, new = regrid.pair("shape", shape), self._filled("patch")
@@ -251,10 +253,12 @@ class Surface(FrozenArrays, Shown):
             new = regrid.fitted(new, axis, shape[axis])
         return new
 
-    def _with(self, heights, note: str, **changed) -> Surface:
+    def _with(
+        self, heights: FloatArray, note: str, **changed: BoolArray | tuple[bool | float, bool | float] | None
+    ) -> Surface:
         return replace(self, heights=heights, notes=(*self.notes, note), **changed)
 
-    def _filled(self, purpose) -> Surface:
+    def _filled(self, purpose: str) -> Surface:
         if not np.isfinite(self.heights).all():
             said = f"{100 * self.missing_fraction:.3g} % of the heights are unmeasured (NaN)"
             raise InputError(f"{said}; {purpose} takes none: call level() and fill() first")

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import validate
+from .._base import FloatArray, validate
 from ..errors import InputError
 
 Surface = Any  # `lubfric.Surface`, which is built of these functions
@@ -128,7 +128,7 @@ def autocorrelation(surface: Surface, axis: int = 0) -> tuple[np.ndarray, np.nda
     z = surface.heights - surface.measured.mean()
     length = n if periodic else fft.next_fast_len(2 * n, real=True)
 
-    def lagged_products(f):
+    def lagged_products(f: FloatArray) -> FloatArray:
         power = np.abs(fft.rfft(f, length, axis=axis)) ** 2
         return fft.irfft(power.sum(axis=1 - axis), length)[: n // 2 + 1]
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .._base import text_of, validate
+from .._base import FloatArray, text_of, validate
 from ..errors import InputError
 from ..quantities import counted
 from .header import LENGTHS, UNIT_WORDS, UNITS, Header, column_units, grid_of, read_header, statements
@@ -130,7 +130,9 @@ def _matrix(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
     )
 
 
-def _coordinates(path: Path, table, border: Border, numbers: np.ndarray, across: bool, spacing: Pair, steps: Pair):
+def _coordinates(
+    path: Path, table: NumberTable, border: Border, numbers: np.ndarray, across: bool, spacing: Pair, steps: Pair
+) -> tuple[FloatArray, tuple[float, float] | None, tuple[str]]:
     """Return the heights, the steps [m] of the coordinates beside them where these are known, and notes."""
     along, down = border.steps
     pair = (along, down) if across else (down, along)

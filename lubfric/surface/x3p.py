@@ -148,7 +148,7 @@ def _listed(root: ElementTree.Element, count: int, kind: str) -> np.ndarray:
 def _parse(document: bytes) -> ElementTree.Element:
     """Return the tree of main.xml; entities cannot be declared because a document type is refused."""
 
-    def refuse(*_):
+    def refuse(*_: int | str | None) -> None:
         raise _bad("main.xml", "a document type (DOCTYPE)", "none")
 
     guard = expat.ParserCreate()

@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base import validate
+from .._base import FloatArray, validate
 from ..errors import CONVERGED, ConvergenceError, InputError, Report, returned
 from ..film import smallest
 from ..oil import Lubricant
-from ..scene import checked_history
+from ..scene import Harmonic, Ramp, Table, checked_history
 from .film_setting import FINER, TIME_SHARE, ContactHistory, Setting, make_setting, steady_start
 from .march import Plan, Residual, Step, checked_times, grid_residual, initial_progress, plan_of, report_of, steps
 
@@ -37,12 +37,12 @@ class TransientFilm:
 
 def solve_transient_ehl(
     *,
-    load_per_width,
-    radius,
+    load_per_width: float | Harmonic,
+    radius: float | Ramp,
     e_prime: float,
-    entrainment_speed,
-    viscosity,
-    times,
+    entrainment_speed: float | Table,
+    viscosity: float,
+    times: FloatArray | list[float],
     pressure_viscosity_coefficient: float = 0.0,
     viscosity_law: str = "roelands",
     density_law: str = "constant",

@@ -24,6 +24,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .._base import FloatArray
 from ..film import FilmProblem, log_mean_fluidity
 from .film_grid import FixedGrid
 from .march import Memory
@@ -72,10 +73,10 @@ def outside(
     """
     s, h, weight = _nodes(a, film, curvature)
 
-    def moment(power, lever):
+    def moment(power: int, lever: int) -> float:
         return float(np.sum(weight * (s - a) ** lever / h**power))
 
-    def tail(lever):
+    def tail(lever: int) -> tuple[float, float, float, float]:
         two = moment(2, lever)
         three = moment(3, lever)
         lifted = moment(3, lever + 1)
@@ -209,7 +210,7 @@ class StepEquations:
             flow = sign * G[face] + stored[end]
             film = np.append(grid.kernel[end], 1.0)
 
-            def slope(value, by_flow, by_rate, by_film):
+            def slope(value: float, by_flow: float, by_rate: float, by_film: float) -> FloatArray:
                 return by_flow * flow + (by_rate * memory.rate + by_film) * film
 
             J[end] = -slope(*pressure)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .._base import FloatArray
 from ..film import UPWIND, face_weights, hat_kernel, trapezoidal
 
 # smallest cell / length of the pressure rise; growth with distance
@@ -97,7 +98,7 @@ def symmetric_nodes(
     high = outer + 0.5 * rise
     scale = high + small
 
-    def density(x):
+    def density(x: FloatArray) -> FloatArray:
         away = np.maximum(low - x, 0.0) + np.maximum(x - high, 0.0)
         return 1.0 / np.hypot(fine, EDGE_GROWTH * away) + CORE / np.hypot(scale, x)
 

@@ -14,11 +14,11 @@ difference of films, which is compared with the tolerance of a step. The last un
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
-from .._base import validate
+from .._base import FloatArray, validate
 from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, InputError, Report
 from ..scene import History
 from ..units import worded
@@ -103,7 +103,7 @@ class Plan:
         return float(self.times[-1])
 
 
-def checked_times(times) -> np.ndarray:
+def checked_times(times: FloatArray | list[float]) -> np.ndarray:
     """Output times [s]: increasing, the first >= 0, the last > 0."""
     times = validate.array("times", times, "s", ndim=1)
     if times[0] < 0.0 or np.any(np.diff(times) <= 0.0) or times[-1] <= 0.0:
@@ -216,7 +216,17 @@ def report_of(solver: str, plan: Plan, now: Progress, cells: str, residuals: dic
     )
 
 
-def advance(now: Progress, until: float, solver, tolerance: float, shortest: float) -> Progress | None:
+class Solver(Protocol):
+    """Solves the equations of a step, and states its error."""
+
+    def solve(self, time: float, memory: Memory, z: np.ndarray, payload: Any, /) -> Step:
+        """Return the step that ends at ``time`` [s], from the unknowns ``z``."""
+
+    def error_of(self, step: Step, difference: np.ndarray, /) -> float:
+        """Return the error of a step from the ``difference`` of its film by the order of the method."""
+
+
+def advance(now: Progress, until: float, solver: Solver, tolerance: float, shortest: float) -> Progress | None:
     """One step towards ``until`` [s]. It is halved if it would leave a tiny last step. If its solve fails, or its error
     is above ``tolerance``, it is repeated with a shorter step. None: even the shortest step [s] failed."""
     rejected = now.rejected
@@ -242,12 +252,12 @@ def advance(now: Progress, until: float, solver, tolerance: float, shortest: flo
 Attempt = tuple[tuple[Step, ...], Step, float, int]  # levels after the step, its solution, error, order
 
 
-def _solved(solver, time: float, memory: Memory, z: np.ndarray, payload: Any) -> Step | None:
+def _solved(solver: Solver, time: float, memory: Memory, z: np.ndarray, payload: Any) -> Step | None:
     solution = solver.solve(time, memory, z, payload)
     return replace(solution, time=time) if solution.status == CONVERGED else None
 
 
-def _pair(now: Progress, end: float, solver) -> Attempt | None:
+def _pair(now: Progress, end: float, solver: Solver) -> Attempt | None:
     """Backward Euler over the whole step and over its halves."""
     start = now.levels[-1]
     step = end - start.time
@@ -260,7 +270,7 @@ def _pair(now: Progress, end: float, solver) -> Attempt | None:
     return (start, _level(first), _level(second)), second, solver.error_of(second, whole.film - second.film), 1
 
 
-def _bdf2(now: Progress, end: float, solver) -> Attempt | None:
+def _bdf2(now: Progress, end: float, solver: Solver) -> Attempt | None:
     """BDF2 over the last two levels, from unknowns extrapolated along them, or from the last ones if that fails."""
     old, last = now.levels[-2:]
     step = end - last.time

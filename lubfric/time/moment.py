@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from .._base import FloatArray
 from ..estimate import (
     full_load_numbers,
     power_of_forces,
@@ -169,7 +170,7 @@ def film_shear(
     wet = np.flatnonzero(t.P > 0.0)
     speed = scene.motion.entrainment_speed
 
-    def cold(x, pressure, thickness):
+    def cold(x: FloatArray, pressure: FloatArray, thickness: FloatArray) -> FloatArray:
         return shear_stress(lubricant, pressure, sliding / thickness)
 
     isothermal = _summed(model, time, solution, cold, lubricant.viscosity * sliding)
@@ -190,7 +191,7 @@ def film_shear(
         return isothermal, replace(heat, typical=typical_heat(scene, *of_point))
     along = math.copysign(1.0, speed)
 
-    def hot(x, pressure, thickness):
+    def hot(x: FloatArray, pressure: FloatArray, thickness: FloatArray) -> FloatArray:
         return math.copysign(1.0, sliding) * np.abs(heated(x * along, pressure, thickness))
 
     return _summed(model, time, solution, hot), heat

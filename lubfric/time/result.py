@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._base import Shown, figures, validate
+from .._base import FloatArray, Shown, figures, validate
 from ..errors import Report
 from ..estimate import UncertaintyCurve
 from ..models.shared import (
@@ -185,7 +185,7 @@ class TransientResult(Shown):
             facts |= {"t": f"{t[0]:.4g} to {t[-1]:.4g} s", "f": f"{f.min():.4g} to {f.max():.4g}"}
         return facts | {"status": self.report.status}
 
-    def __getattr__(self, name):
+    def __getattr__(self, name: str) -> FloatArray:
         columns = self.__dict__.get("columns", {})
         if name in columns:
             return columns[name]

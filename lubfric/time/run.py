@@ -1,9 +1,13 @@
 """Friction in time: `transient`, and its state on disk after every step, so that a kill loses nothing."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .._base import with_default_errors
 from ..errors import InputError
@@ -37,7 +41,12 @@ STATE = tuple[int, Progress]  # what is kept of a run: how many outputs there ar
 
 @with_default_errors
 def transient(
-    scene: Scene | Prepared, times=None, *, checkpoint=None, on_step=None, raise_on_failure: bool = True
+    scene: Scene | Prepared,
+    times: ArrayLike | None = None,
+    *,
+    checkpoint: str | Path | None = None,
+    on_step: Callable[[float, float, dict[str, float] | None], None] | None = None,
+    raise_on_failure: bool = True,
 ) -> TransientResult:
     """Film, load sharing and friction of a scene while speed, load, radius or viscosity change in time.
 
@@ -130,7 +139,7 @@ def _marched(
     return progress, outputs
 
 
-def _with_plan(scene: Scene | Prepared, times) -> tuple[Scene | Prepared, np.ndarray]:
+def _with_plan(scene: Scene | Prepared, times: ArrayLike | None) -> tuple[Scene | Prepared, np.ndarray]:
     """The scene with what changes until the last output, and the output times [s]."""
     base = scene_of(scene)
     plan = base.transient

@@ -5,11 +5,14 @@ pressures (`rheology`). So the narrowest place limits the flow. The Couette flow
 the upstream difference is added, limited to half of the cell's own film.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
+from ..._base import BoolArray, FloatArray
 from .inlet import Inlet, inlet
 from .problem import Problem
 from .rheology import CellFluid, cell_fluid, mean_fluidity, thinning
@@ -25,17 +28,17 @@ class PressureFlow:
     by_h: tuple[np.ndarray, np.ndarray]
 
 
-def pressure_flow(problem: Problem, fluid: CellFluid, p, h, axis: int) -> PressureFlow:
+def pressure_flow(problem: Problem, fluid: CellFluid, p: FloatArray, h: FloatArray, axis: int) -> PressureFlow:
     """Pressure flow through the faces behind the cells along ``axis``: along x behind all but the last row, along y
     behind all (periodic)."""
 
-    def before(f):
+    def before(f: FloatArray) -> FloatArray:
         return f[:-1] if axis == 0 else f
 
-    def behind(f):
+    def behind(f: FloatArray) -> FloatArray:
         return f[1:] if axis == 0 else np.roll(f, -1, axis=1)
 
-    def mean(f):
+    def mean(f: FloatArray) -> FloatArray:
         return 0.5 * (before(f) + behind(f))
 
     film = mean(h)
@@ -49,7 +52,7 @@ def pressure_flow(problem: Problem, fluid: CellFluid, p, h, axis: int) -> Pressu
     mobility = density * cubed * fluidity / (12 * problem.lubricant.viscosity * problem.spacing[axis]) * thinner
     flow = mobility * (before(p) - behind(p))
 
-    def by_p(side, by_log, sign):
+    def by_p(side: Callable[..., Any], by_log: FloatArray, sign: float) -> FloatArray:
         laws = (1 - exponent) * by_log * side(fluid.log_slope) + 0.5 * side(fluid.density_slope) / density
         for part, tau_c, (_, slope) in zip(parts, critical, fluid.critical):
             if np.ndim(tau_c):
@@ -71,7 +74,7 @@ class CouetteFlow:
     by_fill: np.ndarray
 
 
-def couette_flow(problem: Problem, mass, fill, U: float) -> CouetteFlow:
+def couette_flow(problem: Problem, mass: FloatArray, fill: FloatArray, U: float) -> CouetteFlow:
     """Couette flow U rho h through the faces. ``mass`` (nx, ny): rho h [m]; ``fill``: the filled part of the cells. In
     the first cell the parabola gives the upstream difference."""
     step = np.empty_like(mass)
@@ -105,7 +108,9 @@ class MassBalance:
     inlet: Inlet
 
 
-def mass_balance(problem: Problem, pressure, gap, fill=1.0, follows_lubricant=False) -> MassBalance:
+def mass_balance(
+    problem: Problem, pressure: FloatArray, gap: FloatArray, fill: FloatArray = 1.0, follows_lubricant: bool = False
+) -> MassBalance:
     """Steady mass balance of the cells at pressure [Pa], gap [m] and filled part [-] (nx, ny); ``follows_lubricant``: without the
     Couette flow, of cells that move with it (`state.TimeHistory`)."""
     dx, dy = problem.spacing
@@ -133,10 +138,10 @@ class Stencil:
 
     NAMES = ("WW", "W", "S", 0, "N", "E")
 
-    def __init__(self, shape):
+    def __init__(self, shape: tuple[int, int]):
         self.data = np.zeros((len(self.NAMES), *shape))
 
-    def add(self, name, values, here=slice(None)):
+    def add(self, name: int | str, values: FloatArray, here: slice = slice(None)) -> None:
         """Add ``values`` to the coefficients of the neighbour ``name``, in the rows ``here``."""
         self.data[self.NAMES.index(name)][here] += values
 
@@ -152,7 +157,7 @@ class Stencil:
         return neighbours
 
 
-def derivatives(problem: Problem, at: MassBalance, open_) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def derivatives(problem: Problem, at: MassBalance, open_: BoolArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """d residual/dp [m/(s Pa)], /dh [1/s] and /dfill [m/s] as the data of a `Stencil` each; by h of ``open_`` cells
     (bool) (nx, ny) only."""
     dx, dy = problem.spacing

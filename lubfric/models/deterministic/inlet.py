@@ -8,14 +8,22 @@ If a film of given thickness arrives (`Lubricant.inlet_film`), no more than U ti
 cells then finds where the lubricant fills the gap; or, if that is upstream of them, Q falls to 0 there.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..._base import FloatArray
 from ...film import true_pressure
 from .problem import Problem
 from .rheology import cell_fluid, mean_fluidity, thinning
+
+if TYPE_CHECKING:
+    from ...oil import Lubricant
+
 
 POINTS = 24
 MOST = 0.8  # of Q times alpha: no converged film has that much upstream
@@ -50,7 +58,7 @@ class Inlet:
     rolling: np.ndarray
 
 
-def inlet(problem: Problem, pressure, film) -> Inlet:
+def inlet(problem: Problem, pressure: FloatArray, film: FloatArray) -> Inlet:
     """The `Inlet` upstream of the first cells, whose ``pressure`` [Pa] and ``film`` [m] are given (ny,). To the face
     before them the film continues up the parabola."""
     lubricant = problem.lubricant
@@ -104,13 +112,13 @@ def inlet(problem: Problem, pressure, film) -> Inlet:
     )
 
 
-def _ambient_thinning(problem: Problem, gap):
+def _ambient_thinning(problem: Problem, gap: FloatArray) -> float:
     lubricant = problem.lubricant
     critical = [law.critical(0.0)[0] or np.inf for law in lubricant.shear_laws]
     return thinning(lubricant, lubricant.viscosity * problem.sliding / gap, critical, along=True)[0]
 
 
-def _reduced(lubricant, pressure) -> tuple[np.ndarray, np.ndarray]:
+def _reduced(lubricant: Lubricant, pressure: FloatArray) -> tuple[np.ndarray, np.ndarray]:
     """∫_0^p eta0/eta dp and its derivative, with the viscosity exponential between 0 and p."""
     fluid = cell_fluid(lubricant, pressure)
     log_mean, _, by = mean_fluidity(np.zeros_like(pressure), fluid.log_viscosity)

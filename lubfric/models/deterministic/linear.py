@@ -7,13 +7,16 @@ every cell depends on every pressure. ``R_p + R_h diag(K)`` is sparse, and near 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 from scipy.sparse.linalg import splu
 
+from ..._base import FloatArray, IntArray
 from .flow import Stencil, derivatives
 from .state import RUPTURED, TOUCHING, Iterate, State, stored
 
@@ -109,25 +112,25 @@ class System:
         rows[1][own] += self.touching / self.film
         return rows
 
-    def _inner(self, rows):
+    def _inner(self, rows: FloatArray) -> FloatArray:
         inner = np.empty_like(rows)
         inner[self.order] = self.lu.solve(rows[self.order].astype(self.precision))
         return inner
 
-    def change(self, unknowns) -> Change:
+    def change(self, unknowns: FloatArray) -> Change:
         """The `Change` of scaled ``unknowns`` (n + 1,)."""
         cells = unknowns[:-1].reshape(self.at.gap.shape)
         approach = float(unknowns[-1] * self.film)
         pressure, fill, dent = (cells * scale for scale in (self.to_pressure, self.to_fill, self.to_dent))
         return Change(pressure, fill, dent, self.at.problem.operator.apply(pressure) + dent + approach, approach)
 
-    def apply(self, unknowns):
+    def apply(self, unknowns: FloatArray) -> FloatArray:
         """The Jacobian times scaled unknowns."""
         by = self.change(unknowns)
         rows = self.by_p @ by.pressure.ravel() + self.by_h @ by.gap.ravel() + self.by_fill @ by.fill.ravel()
         return np.append(rows, float((self.load_by_p * by.pressure).sum() + self.load_by_h @ by.gap[0]))
 
-    def precondition(self, rows):
+    def precondition(self, rows: FloatArray) -> FloatArray:
         """The inverse of the sparse part, bordered by h0 and the load."""
         inner = self._inner(rows[:-1])
         approach = (rows[-1] - float(self.load_row @ inner)) / self.schur
@@ -156,7 +159,14 @@ class System:
         return self.change(unknowns), iterations
 
 
-def gmres(apply, precondition, right, accuracy=ACCURACY, most=KRYLOV, cycles=CYCLES) -> tuple[np.ndarray, int]:
+def gmres(
+    apply: Callable[..., Any],
+    precondition: Callable[..., Any],
+    right: FloatArray,
+    accuracy: float = ACCURACY,
+    most: int = KRYLOV,
+    cycles: int = CYCLES,
+) -> tuple[np.ndarray, int]:
     """Solve ``apply(x) = right`` by right-preconditioned GMRES until |residual| <= accuracy |right|; restarted after
     ``most`` iterations, in all ``cycles`` times begun.
 
@@ -216,22 +226,24 @@ class Patterns:
         place[order] = np.arange(order.size)
         return Patterns(order, _pattern(row, column), _pattern(place[column], place[row]))
 
-    def rows(self, data) -> csr_matrix:
+    def rows(self, data: FloatArray) -> csr_matrix:
         """The matrix of the coefficients ``data`` (6, nx, ny)."""
         return self._made(csr_matrix, self.by_row, data)
 
-    def ordered(self, data) -> csc_matrix:
+    def ordered(self, data: FloatArray) -> csc_matrix:
         """Return the matrix with rows and columns in the order of elimination, without zeros: they would fill in."""
         matrix = self._made(csc_matrix, self.in_order, data).copy()
         matrix.eliminate_zeros()  # in place
         return matrix
 
-    def _made(self, kind, pattern, data):
+    def _made(
+        self, kind: type, pattern: tuple[IntArray, IntArray, IntArray], data: FloatArray
+    ) -> csc_matrix | csr_matrix:
         entries, indices, first = pattern
         return kind((data.ravel()[entries], indices, first), shape=(self.order.size,) * 2)
 
 
-def _pattern(line, across) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _pattern(line: IntArray, across: IntArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The pattern of entries (6, n) on the lines ``line`` of a matrix, sorted by it."""
     entries = np.lexsort((across.ravel(), line.ravel()))
     first = np.searchsorted(line.ravel()[entries], np.arange(line.shape[1] + 1))
@@ -274,7 +286,7 @@ def _box(cells: np.ndarray) -> list[np.ndarray]:
     return [*_box(cells[:, :middle]), *_box(cells[:, middle + 1 :]), cells[:, middle]]
 
 
-def _cut_across(cells: np.ndarray, order) -> list[np.ndarray]:
+def _cut_across(cells: np.ndarray, order: Callable[..., Any]) -> list[np.ndarray]:
     middle = cells.shape[0] // 2
     cut = cells[middle - 1 : middle + 1].T.ravel()
     return [*order(cells[: middle - 1]), *order(cells[middle + 1 :]), cut]

@@ -23,6 +23,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
+from ..._base import FloatArray
 from ...errors import CONVERGED, ITERATION_LIMIT, Report
 from ...film import LineContact
 from ...surface import Surface
@@ -132,7 +133,7 @@ def _history(
             return TimeHistory(extrapolated=at.mass, step=step)
         return TimeHistory(extrapolated=extrapolated_mass(at.mass, before.mass) - lost, step=step, last=at.mass)
 
-    def upstream(mass):
+    def upstream(mass: FloatArray) -> FloatArray:
         """Return the mass of the cell before each cell; before the first one by the parabola."""
         return np.concatenate([mass[:1] - problem.x[0] / problem.radius * cell, mass[:-1]])
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..._base import count_work
+from ..._base import BoolArray, count_work
 from .counted_work import work_of_steps
 from .linear import ACCURACY, Change, System
 from .problem import Problem
@@ -63,7 +63,15 @@ class NewtonResult:
 
 
 def newton(
-    problem: Problem, state: State, work: Work, *, tolerance, most, least=0.0, history=None, linear_accuracy=ACCURACY
+    problem: Problem,
+    state: State,
+    work: Work,
+    *,
+    tolerance: float,
+    most: int,
+    least: float = 0.0,
+    history: TimeHistory | None = None,
+    linear_accuracy: float = ACCURACY,
 ) -> NewtonResult:
     """At most ``most`` steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
 
@@ -102,7 +110,7 @@ def newton(
             return result
 
 
-def _stalled(history) -> bool:
+def _stalled(history: list[float]) -> bool:
     return len(history) > PATIENCE and not min(history[-PATIENCE:]) <= PROGRESS * min(history[:-PATIENCE])
 
 
@@ -128,7 +136,7 @@ def _longest(at: Iterate, step: Change) -> float:
     return float(max(SHORTEST, ((1 - KEEP) * at.gap[falling] / lost[falling]).min(initial=1.0)))
 
 
-def _merit(at: Iterate, apart) -> float:
+def _merit(at: Iterate, apart: BoolArray) -> float:
     """Σ |r| over the cells that were ``apart``, and the load error, both relative."""
     flow = at.mean_flow * apart.shape[1] / at.problem.spacing[0]
     merit = float(np.abs(at.residual[apart]).sum()) / flow + abs(at.load_error) / at.problem.load

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..._base import FloatArray
 from ...errors import Report
 from ...oil import Lubricant, shear_stress
 from ..shared import LIMIT_RANGE
@@ -147,7 +148,7 @@ def surface_shear(at: Iterate, law: np.ndarray, film: float) -> SurfaceShear:
     couette = (stress * wet).sum(axis=0) * dx + problem.lubricant.viscosity * problem.sliding * inlet.shearing
     by_gradient = (0.25 * (h[1:] + h[:-1]) * (p[1:] - p[:-1]) * both).sum(axis=0) + inlet.rolling
 
-    def on_flanks(heights: np.ndarray | None):
+    def on_flanks(heights: np.ndarray | None) -> float | FloatArray:
         """The force [N/m] along x of the pressure on the flanks of ``heights`` [m]; None: there are none."""
         return 0.0 if heights is None else (0.5 * (p[1:] + p[:-1]) * np.diff(heights, axis=0)).sum(axis=0)
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..._base import FloatArray
 from ...oil import Lubricant, density_ratio, log_viscosity_ratio
 
 THICKEST = 300.0  # of ln(eta/eta0): the exponential beyond it is not distinguished from a solid's
@@ -26,7 +27,7 @@ class CellFluid:
     critical: tuple
 
 
-def cell_fluid(lubricant: Lubricant, pressure) -> CellFluid:
+def cell_fluid(lubricant: Lubricant, pressure: FloatArray) -> CellFluid:
     """The laws of ``lubricant`` at ``pressure`` [Pa], any shape."""
     log_viscosity, log_slope = log_viscosity_ratio(lubricant, pressure)
     density, density_slope = density_ratio(lubricant, pressure)
@@ -34,7 +35,7 @@ def cell_fluid(lubricant: Lubricant, pressure) -> CellFluid:
     return CellFluid(np.minimum(log_viscosity, THICKEST), log_slope, density, density_slope, critical)
 
 
-def mean_fluidity(left, right) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def mean_fluidity(left: FloatArray, right: FloatArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """ln of the mean of exp(-l) between l = ``left`` and ``right`` (l linear between them), and its derivatives by
     both."""
     d = right - left
@@ -48,7 +49,7 @@ def mean_fluidity(left, right) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return log_mean, np.where(falling, higher, lower), np.where(falling, lower, higher)
 
 
-def thinning(lubricant: Lubricant, newtonian_stress, critical, along: bool):
+def thinning(lubricant: Lubricant, newtonian_stress: FloatArray, critical, along: bool):
     """Φ [-] at the Newtonian stress eta Δu/h [Pa] on faces, with the ``critical`` stress [Pa] of each law there; its
     derivative d ln Φ/d ln s; and the parts of the derivative that belong to the laws."""
     factor = 1.0

@@ -174,7 +174,7 @@ def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...]
         except LubfricError:  # at that speed: heat may leave no film there
             return None
 
-    def cells(made) -> int:
+    def cells(made: tuple[tuple[tuple[Strip, Strip, Strip], ...], BlockError] | None) -> int:
         return sum(one.problem.heights.size for piece in made[0] for one in piece) if made else 0
 
     pieces = prepared.memo.get(

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..._base import FloatArray, IntArray
 from ...contact import ContactResult, solve_contact
 from ...errors import CONVERGED, DIVERGED, ITERATION_LIMIT, Report, returned
 from .newton import NewtonResult, Work, march, newton
@@ -34,7 +35,7 @@ WHOLE = 0.3  # of a Newton step: from there the solution follows by longer ones,
 
 
 def solve_point(
-    problem: Problem, *, start: State | None = None, least=0.0, tolerance=TOLERANCE, most=MOST
+    problem: Problem, *, start: State | None = None, least: float = 0.0, tolerance: float = TOLERANCE, most: int = MOST
 ) -> DeterministicResult:
     """Solve gap, pressure and friction of ``problem`` on its own grid.
 
@@ -80,7 +81,7 @@ def solve_point(
 
 
 def _attempts(
-    problem: Problem, start: State | None, least, tolerance, work: Work
+    problem: Problem, start: State | None, least: float, tolerance: float, work: Work
 ) -> Iterator[tuple[str, NewtonResult]]:
     if start is not None:
         near = newton(problem, start, work, tolerance=tolerance, most=NEAR, least=least)
@@ -108,7 +109,7 @@ def _attempts(
         yield "in time from the dry contact", _in_time(problem, cold, tolerance, work)
 
 
-def dry_contact(problem: Problem, tolerance=DRY_TOLERANCE) -> ContactResult:
+def dry_contact(problem: Problem, tolerance: float = DRY_TOLERANCE) -> ContactResult:
     """Press the rough bodies together without fluid under the whole load."""
     return solve_contact(
         problem.rigid_gap,
@@ -182,7 +183,7 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
     kind = np.where((along < -0.5)[:, None], FLUID, np.where((along > nx_old - 0.5)[:, None], RUPTURED, nearest))
     fill = _interpolated(old.fill, np.clip(along, 0, nx_old - 1), across)
 
-    def state(pressure, kind, dent, approach) -> State:
+    def state(pressure: FloatArray, kind: IntArray, dent: FloatArray, approach: float) -> State:
         ruptured = kind == RUPTURED
         pressure = np.where(ruptured, 0.0, np.clip(pressure, 0.0, problem.hardness))
         yielded = pressure >= problem.hardness
@@ -205,7 +206,7 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
         return smooth, 0.0
     bare = dry_contact(coarse)
 
-    def on_dry(pressure) -> State:
+    def on_dry(pressure: FloatArray) -> State:
         sunk = np.where((kind == RUPTURED) & (pressure <= 0), RUPTURED, FLUID), np.maximum(-new.gap, 0.0)
         return state(pressure, *sunk, old.approach + bare.approach - new.approach)
 
@@ -219,7 +220,7 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
     return on_dry(new.pressure + _interpolated(old.pressure - bare.pressure, along, across)), WHOLE
 
 
-def _interpolated(field, along, across) -> np.ndarray:
+def _interpolated(field: FloatArray, along: FloatArray, across: FloatArray) -> np.ndarray:
     """Linear interpolation at the cells ``along`` x (zero outside) and ``across`` y (periodic), counted in cells."""
     i = np.floor(along).astype(int)
     j = np.floor(across).astype(int)

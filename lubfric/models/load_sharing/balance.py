@@ -174,7 +174,7 @@ def _response(point: Point, trial: Trial) -> Response:
     return respond(point.scene, point.tight(point.contact), trial.contact, trial.contact_load, *shape, film_of)
 
 
-def _beginning(point: Point, sq: float, start: Balance | None):
+def _beginning(point: Point, sq: float, start: Balance | None) -> tuple[float, float | None, float, Trial | None]:
     """Where the root is looked for: ln(F_H/F_C), the slope of the residual there (None: not known), the first step, and
     the trial to start from. Without ``start``: where the rigid isoviscous film is two Sq thick."""
     if start is None or start.film is None or start.response is None:
@@ -215,7 +215,9 @@ def predicted(point: Point, start: Balance) -> tuple[float, float | None]:
     return log_load_ratio, 0.5 * steepness
 
 
-def _seen_root(point: Point, log_load_ratio: float, slope: float | None, step: float, first) -> tuple[Point, Root]:
+def _seen_root(
+    point: Point, log_load_ratio: float, slope: float | None, step: float, first: tuple[float | None, Trial | None]
+) -> tuple[Point, Root]:
     """The root, and ``point`` with a contact so tight that its gap at the root is known as closely as it is closed: a
     root of the errors of a loose contact is none."""
     while True:
@@ -241,7 +243,9 @@ def _contact_tolerance(point: Point, contact: ContactState, volume: float) -> fl
     return now if (now or own) <= budget.SLACK * enough else 0.5 * enough
 
 
-def _root(point: Point, log_load_ratio: float, slope: float | None, step: float, first) -> Root:
+def _root(
+    point: Point, log_load_ratio: float, slope: float | None, step: float, first: tuple[float | None, Trial | None]
+) -> Root:
     load = point.scene.bodies.load
     most = point.contact.capacity
     lowest = max(math.log((load - most) / most), BOUNDS[0]) if most < load else BOUNDS[0]
@@ -317,7 +321,15 @@ def _cells(point: Point, film: EHLResult, friction: Forces) -> int:
     return min(2 * film.cells, max(budget.MOST_CELLS, now))
 
 
-def _report(scene: Scene, status: str, history, contact, film, notes, tolerance: float | None = None) -> Report:
+def _report(
+    scene: Scene,
+    status: str,
+    history: tuple[float, ...],
+    contact: ContactState,
+    film: EHLResult | None,
+    notes: tuple[str, ...],
+    tolerance: float | None = None,
+) -> Report:
     residuals = {"volume": min(history), "load": 0.0}
     if film is not None:
         residuals["film"] = film.report.residual

@@ -1,6 +1,8 @@
 """The friction of a film and a contact that share the load (paper, Eqs. 9-12)."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -85,7 +87,12 @@ def _elastic(scene: Scene, film: EHLResult, contact: ContactState, contact_load:
 
 
 def _shear(
-    scene: Scene, film: EHLResult, contact: ContactState, elastic: ElasticContact | None, warm=None, stress=None
+    scene: Scene,
+    film: EHLResult,
+    contact: ContactState,
+    elastic: ElasticContact | None,
+    warm: float | None = None,
+    stress: Callable[..., Any] | None = None,
 ) -> ShearForce:
     with np.errstate(over="ignore", invalid="ignore"):  # stresses far above the range of the law, reported by `excess`
         return shear_force(

@@ -3,6 +3,7 @@
 import math
 
 from ..shared import (
+    Prepared,
     Validity,
     of_deflection,
     of_ends,
@@ -16,7 +17,7 @@ from ..shared import (
 from .balance import Balance
 
 
-def limits_exceeded(prepared, speed: float, balance: Balance, ends: float) -> tuple[Validity, ...]:
+def limits_exceeded(prepared: Prepared, speed: float, balance: Balance, ends: float) -> tuple[Validity, ...]:
     """Entries for every assumption that ``balance`` violates. Those about bodies and map (`Prepared.known`) come
     first. ``ends``: the share of the contact's load on the edge columns of its patch."""
     scene = prepared.scene

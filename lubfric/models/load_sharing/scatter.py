@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...contact import HalfSpaceContact
+from ..._base import FloatArray
+from ...contact import ContactState, HalfSpaceContact, RoughContact
 from ...film import EHLResult
 from ...oil import shear_stress
 from ...samples import Sample, mirrored
@@ -27,23 +28,23 @@ FEWEST_WINDOWS = 3
 SPOT = 1.75  # correlation lengths along y in a block that counts as one contact spot
 
 
-def strip_gap(contact, state) -> np.ndarray:
+def strip_gap(contact: HalfSpaceContact, state: ContactState) -> np.ndarray:
     """G(y) [m] (ny,): the gap at every place along the line, averaged over the strip A. ``state``: a `ContactState`
     with fields."""
     return contact.weight @ np.maximum(state.fields.gap, 0.0) / contact.weight.sum()
 
 
-def line_load(contact, state) -> np.ndarray:
+def line_load(contact: HalfSpaceContact, state: ContactState) -> np.ndarray:
     """P(y) [N/m] (ny,): load per length at every place along the line."""
     return state.fields.pressure.sum(axis=0) * contact.spacing[0]
 
 
-def gap_influence(strip_gap, line_load, slope: float) -> np.ndarray:
+def gap_influence(strip_gap: FloatArray, line_load: FloatArray, slope: float) -> np.ndarray:
     """I(y) [m] (ny,): strip_gap G(y) [m], line_load P(y) [N/m], slope dG/dP [m²/N] at a given film."""
     return strip_gap - slope * (line_load - line_load.mean())
 
 
-def effective_spots(line_load, step: float, correlation_length: float) -> float:
+def effective_spots(line_load: FloatArray, step: float, correlation_length: float) -> float:
     """(sum P)²/sum P² over short blocks, about one contact spot each: the number of equally loaded spots that would
     carry the load as unevenly as these."""
     size = max(1, round(SPOT * correlation_length / step))
@@ -80,10 +81,10 @@ def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, sample
     touching = state.fields.pressure[:, rows] > 0
     squares = np.square(contact.heights[:, rows]).mean(axis=0) if sample.exact_sq else None
 
-    def error(influence) -> BlockError:
+    def error(influence: FloatArray) -> BlockError:
         return place_error(influence, step, sample, count, squares)
 
-    def at_given_load(values, slope: float) -> BlockError:
+    def at_given_load(values: FloatArray, slope: float) -> BlockError:
         return error(gap_influence(values, by_place, slope))
 
     of_friction = BlockError(0.0, 1)
@@ -117,7 +118,9 @@ def friction_influence(scene: Scene, contact: HalfSpaceContact, balance: Balance
     return gap_influence(values, line_load(contact, state), slope)
 
 
-def place_error(influence, step: float, sample: Sample, count: int, exact=None) -> BlockError:
+def place_error(
+    influence: FloatArray, step: float, sample: Sample, count: int, exact: FloatArray | None = None
+) -> BlockError:
     """Standard error of the mean of the ``influence`` of places along ``count`` strips, on cells of ``step`` [m]: from
     blocks (`block_error`). If there are three windows of a measured map or more, it is the larger of that and the one
     from windows, which show whether a surface differs from place to place."""
@@ -138,7 +141,14 @@ def film_stress(scene: Scene, contact: HalfSpaceContact, film: EHLResult) -> np.
 
 
 def moment_error(
-    contact, state, loads, softness: float, width: float, correlation_length: float, parts, thinning: float
+    contact: RoughContact,
+    state: ContactState,
+    loads: tuple[float, float],
+    softness: float,
+    width: float,
+    correlation_length: float,
+    parts: tuple[float, float],
+    thinning: float,
 ) -> float:
     """Relative standard error of f at one moment, from a `ContactState` with fields on ``contact``: 0 without contact,
     NaN if the line is too short.

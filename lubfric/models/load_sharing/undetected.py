@@ -1,10 +1,21 @@
 """Contact that a finite line misses by chance, where its film just clears its summits."""
 
+from __future__ import annotations
+
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..._base import FloatArray
+from .forces import Forces
 from .scatter import SPOT
+
+if TYPE_CHECKING:
+    from ...contact import HalfSpaceContact
+    from ...film import EHLResult
+    from ...scene import Scene
+
 
 # blocks, the latter of 25 correlation lengths
 FEWEST = 4
@@ -14,7 +25,9 @@ OVERLAP = math.gamma(2.5)  # mean of (excess/scale)^1.5 of an exponential excess
 EULER = 0.5772156649
 
 
-def undetected_contact(scene, contact, film, forces, correlation_length: float) -> float:
+def undetected_contact(
+    scene: Scene, contact: HalfSpaceContact, film: EHLResult, forces: Forces, correlation_length: float
+) -> float:
     """Relative effect of `undetected_load` on f; NaN if ``contact`` has no cells, or too few along y."""
     if contact.grid is None or not forces.coefficient:
         return math.nan
@@ -24,7 +37,14 @@ def undetected_contact(scene, contact, film, forces, correlation_length: float) 
     return _share(scene, load, forces)
 
 
-def undetected_load(heights, spacing, film, e_prime: float, width: float, correlation_length: float) -> float:
+def undetected_load(
+    heights: FloatArray,
+    spacing: tuple[float, float],
+    film: FloatArray,
+    e_prime: float,
+    width: float,
+    correlation_length: float,
+) -> float:
     """Expected contact load [N] of the whole width on summits higher than the highest one of the line, to an order of
     magnitude.
 
@@ -49,7 +69,7 @@ def undetected_load(heights, spacing, film, e_prime: float, width: float, correl
     return rate * spot / (size * step) * width
 
 
-def hidden_contact(scene, contact, forces, depth: float) -> float:
+def hidden_contact(scene: Scene, contact: HalfSpaceContact, forces: Forces, depth: float) -> float:
     """Relative effect on f of the highest summit of ``contact``, a piece, that is pressed ``depth`` [m] into a body, if
     every such piece has one."""
     bodies = scene.bodies
@@ -58,7 +78,7 @@ def hidden_contact(scene, contact, forces, depth: float) -> float:
     return _share(scene, load, forces)
 
 
-def _share(scene, load: float, forces) -> float:
+def _share(scene: Scene, load: float, forces: Forces) -> float:
     """Relative effect of a contact ``load`` [N] on f: by its own friction, where the surfaces slide, or by the load
     that the film loses, to whose friction that is at most in proportion."""
     bodies = scene.bodies
@@ -67,12 +87,12 @@ def _share(scene, load: float, forces) -> float:
     return load / bodies.load * max(own / friction, 1.0) if friction else math.inf
 
 
-def _spot(heights, spacing, e_prime: float, depth: float) -> float:
+def _spot(heights: FloatArray, spacing: tuple[float, float], e_prime: float, depth: float) -> float:
     """Load [N] of the highest summit, as a sphere that is pressed in by ``depth`` [m]."""
     return 4 / 3 * 0.5 * e_prime * math.sqrt(summit_radius(heights, spacing)) * depth**1.5
 
 
-def summit_radius(heights, spacing) -> float:
+def summit_radius(heights: FloatArray, spacing: tuple[float, float]) -> float:
     """Radius [m] of the highest summit that has neighbours on all sides, the geometric mean of both axes."""
     z = heights
     (dx, dy) = spacing

@@ -1,13 +1,21 @@
 """Checks of a solution: motion, film, shear stress and heat outside the range of the model."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
+from ..._base import FloatArray
 from ...contact import ridges
-from ...film import FAST, LARGEST, SLIDING
+from ...film import FAST, LARGEST, SLIDING, LineContact, ShearForce
 from ...oil import CELSIUS, NO_LIQUID
-from .heat import TYPICAL
+from .heat import TYPICAL, Heat
 from .validity import Validity
+
+if TYPE_CHECKING:
+    from ...scene import Scene
+
 
 # rho U h/eta
 LAMINAR = 1000.0
@@ -26,7 +34,7 @@ SHARE = 0.2  # of f: excess above which f is no answer
 FRICTION = 0.2  # of the film
 
 
-def of_motion(scene, speed: float, film: float) -> Iterator[Validity]:
+def of_motion(scene: Scene, speed: float, film: float) -> Iterator[Validity]:
     """Entries for sliding, inertia and turbulence at ``speed`` [m/s] and a film thickness [m] (NaN: no film)."""
     ratio = abs(scene.motion.slide_roll_ratio)
     if ratio > OPPOSED * (1 + 1e-12):
@@ -50,7 +58,9 @@ def of_motion(scene, speed: float, film: float) -> Iterator[Validity]:
             yield Validity(what, inertia, INERTIA, "", why, "less speed or more viscosity")
 
 
-def of_film(scene, thickness: float, peak: float, shear, film_load: float, force: float, heat) -> Iterator[Validity]:
+def of_film(
+    scene: Scene, thickness: float, peak: float, shear: ShearForce, film_load: float, force: float, heat: Heat
+) -> Iterator[Validity]:
     """Entries for a film of central ``thickness`` [m] and ``peak`` pressure [Pa]; the rest: `of_shear`, `of_heat`."""
     yield from of_pressure(scene, peak)
     yield from of_thickness(scene, thickness)
@@ -58,7 +68,7 @@ def of_film(scene, thickness: float, peak: float, shear, film_load: float, force
     yield from of_heat(scene, heat)
 
 
-def of_pressure(scene, peak: float) -> Iterator[Validity]:
+def of_pressure(scene: Scene, peak: float) -> Iterator[Validity]:
     """Entries for the highest film pressure ``peak`` [Pa]."""
     law = scene.lubricant.viscosity_law
     hertz_peak = 4 / math.pi * scene.bodies.mean_hertz_pressure
@@ -78,7 +88,7 @@ def of_pressure(scene, peak: float) -> Iterator[Validity]:
     yield Validity("film pressure", peak / 1e9, limit / 1e9, "GPa", consequence, remedy, severe)
 
 
-def of_thickness(scene, film: float) -> Iterator[Validity]:
+def of_thickness(scene: Scene, film: float) -> Iterator[Validity]:
     """Entries for the central film thickness ``film`` [m]."""
     radius = scene.bodies.radius
     if not film > THICK * radius:
@@ -87,7 +97,7 @@ def of_thickness(scene, film: float) -> Iterator[Validity]:
     yield Validity("film over radius", film / radius, THICK, "", why, "check bodies.radius, viscosity and speed")
 
 
-def of_inlet(scene, line, flow: float, friction: float) -> Iterator[Validity]:
+def of_inlet(scene: Scene, line: LineContact, flow: float, friction: float) -> Iterator[Validity]:
     """Entries for a film of ``line``, a `LineContact`, that a given inlet changes: its ``flow`` film [m] over that of a
     full one, by Moes; or what the lubricant farther out would add to ``friction`` |f| F_T [N] by rolling, 12 eta U R/x
     a width from x on: ∫ h/2 dp/dx dx, where the film is far thicker than where it rolls in."""
@@ -106,7 +116,7 @@ def of_inlet(scene, line, flow: float, friction: float) -> Iterator[Validity]:
         yield Validity(what, 100 * lost / friction, 100 * tolerance, "%", why, "leave it out for a full inlet")
 
 
-def of_deflection(scene, mean_gap: float, remedy: str = ANOTHER) -> Iterator[Validity]:
+def of_deflection(scene: Scene, mean_gap: float, remedy: str = ANOTHER) -> Iterator[Validity]:
     """Entries for a film that only its own pressure deflects, over a contact with that ``mean_gap`` [m]: the possible
     error of its share of the load."""
     change = scene.bodies.strip_rise / max(mean_gap, 1e-300)
@@ -125,7 +135,7 @@ def of_ends(share: float, length: float) -> Iterator[Validity]:
         yield Validity(what, 100 * share, 100 * ON_ENDS, "%", why, LONGER, True)
 
 
-def of_patches(scene, heights, area: float) -> Iterator[Validity]:
+def of_patches(scene: Scene, heights: FloatArray, area: float) -> Iterator[Validity]:
     """Entries for asperities that are patches of ``heights`` [m] (nx, ny), whose contact area is the fraction ``area``:
     half of their base area, since they are paraboloids."""
     if scene.contact.model != "patches" or area == 0:
@@ -137,12 +147,12 @@ def of_patches(scene, heights, area: float) -> Iterator[Validity]:
         yield Validity(what, count, 0, "", why, "contact.model = 'half-space', or 'summits'")
 
 
-def meaningless(shear) -> bool:
+def meaningless(shear: ShearForce) -> bool:
     """Whether most of the force of ``shear`` (`ShearForce`) comes from stresses that no oil carries."""
     return not shear.excess <= 0.5 * abs(shear.couette)
 
 
-def of_shear(scene, shear, film_load: float, friction_force: float) -> Iterator[Validity]:
+def of_shear(scene: Scene, shear: ShearForce, film_load: float, friction_force: float) -> Iterator[Validity]:
     """Entries for the ``shear`` (`ShearForce`) of a film that carries ``film_load``; ``friction_force``: f F_T; both in
     N, or both per width.
 
@@ -174,7 +184,7 @@ def of_shear(scene, shear, film_load: float, friction_force: float) -> Iterator[
         yield Validity(what, friction, FRICTION, "", why, remedy)
 
 
-def of_heat(scene, heat) -> Iterator[Validity]:
+def of_heat(scene: Scene, heat: Heat) -> Iterator[Validity]:
     """``heat``: `lubfric.models.shared.Heat` of a point."""
     tolerance = scene.numerics.tolerance
     if heat.used:
@@ -202,7 +212,7 @@ def of_heat(scene, heat) -> Iterator[Validity]:
         )
 
 
-def of_typical_heat(scene, change: float) -> Iterator[Validity]:
+def of_typical_heat(scene: Scene, change: float) -> Iterator[Validity]:
     """Entries for heat that is left out because the lubricant does not say how its viscosity falls with the
     temperature. ``change``: the share of f that a typical oil would lose by it (`typical_heat`)."""
     if change > scene.numerics.tolerance:

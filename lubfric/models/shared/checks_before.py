@@ -8,8 +8,8 @@ import numpy as np
 from ...errors import InputError
 from ...film import ShearForce, hertz
 from ...oil import carried_stress, shear_stress
-from ...scene import unusual_values
-from ...surface import correlation_length, rms_slope
+from ...scene import Bodies, Scene, unusual_values
+from ...surface import Surface, correlation_length, rms_slope
 from .checks import of_motion, of_pressure, of_shear
 from .validity import Validity
 
@@ -28,7 +28,7 @@ FEW = 10  # correlation lengths that a patch should be wide
 YIELDED = 4.5e9  # Pa, peak Hertz pressure that hard steel does not carry elastically
 
 
-def beforehand(scene, surface) -> tuple[Validity, ...]:
+def beforehand(scene: Scene, surface: Surface) -> tuple[Validity, ...]:
     """Entries for values far from the usual, for the bodies and for the map."""
     unusual = [
         Validity(name, value, limit, unit, "the value is unusual", "; ".join(filter(None, (CHECK, meant))))
@@ -38,7 +38,7 @@ def beforehand(scene, surface) -> tuple[Validity, ...]:
     return (*unusual, *of_bodies(scene.bodies), *of_map(rms_slope(surface)[2], surface.shape[1] / cells[1], cells))
 
 
-def _cells_of_length(surface, axis: int) -> float:
+def _cells_of_length(surface: Surface, axis: int) -> float:
     """Correlation length of the map along ``axis`` over its cells; NaN if it has no such length: a lay along that axis,
     a flat map, or one of a few cells."""
     if surface.shape[axis] < 8 or surface.sq == 0:
@@ -49,7 +49,7 @@ def _cells_of_length(surface, axis: int) -> float:
         return math.nan
 
 
-def of_bodies(bodies) -> Iterator[Validity]:
+def of_bodies(bodies: Bodies) -> Iterator[Validity]:
     """Half-space and elasticity of the Hertz contact."""
     wide = bodies.half_width / bodies.radius
     if wide > WIDE:
@@ -86,7 +86,7 @@ def of_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterato
             yield Validity(what, count, NOISE, "", "neighbouring heights are as good as noise", remedy, severe=True)
 
 
-def expected(scene, surface, speeds) -> tuple[tuple[float | None, Validity], ...]:
+def expected(scene: Scene, surface: Surface, speeds: list[float]) -> tuple[tuple[float | None, Validity], ...]:
     """Pairs (speed [m/s], entry). The speed is None if the entry is about bodies or map. Films are those expected
     under the whole load."""
     entries_by_speed = [(None, entry) for entry in beforehand(scene, surface)]
@@ -101,7 +101,7 @@ def expected(scene, surface, speeds) -> tuple[tuple[float | None, Validity], ...
     return tuple(entries_by_speed)
 
 
-def _of_film(scene, speed: float, film: float) -> list[Validity]:
+def _of_film(scene: Scene, speed: float, film: float) -> list[Validity]:
     """Entries for a ``film`` [m] of even thickness under the Hertz pressure."""
     bodies = scene.bodies
     lubricant = scene.lubricant

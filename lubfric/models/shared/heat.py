@@ -1,18 +1,24 @@
 """Heat of one operating point: modelled if leaving it out would change f by more than its share of the
 tolerance."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..._base import FloatArray
 from ...errors import InputError
 from ...film import (
     FAST,
     LARGEST,
+    EHLResult,
     FilmHeat,
     InletHeat,
+    ShearForce,
     Surroundings,
     heated_film,
     heated_stress,
@@ -20,7 +26,11 @@ from ...film import (
     isothermal_heat,
 )
 from ...oil import NO_LIQUID, Lubricant, shear_stress
-from ...scene import budget
+from ...scene import Scene, budget
+
+if TYPE_CHECKING:
+    from ...contact import ContactState
+
 
 NOTHING = 1e-9  # of the film: less heat than that is none
 TYPICAL = 343.15, 0.035  # K, 1/K: a mineral oil of ISO VG 68 at 70 °C
@@ -68,7 +78,7 @@ class Heat:
         """Whether the change of f by the temperatures was evaluated."""
         return math.isfinite(self.peclet)
 
-    def reason(self, scene) -> str:
+    def reason(self, scene: Scene) -> str:
         """Why the temperatures were not computed, in words; "" if they were."""
         if self.heated is not None:
             return ""
@@ -105,7 +115,7 @@ class Heat:
         return f"heat: {inlet}; flash {self.flash:.2g} K and film {self.film:.2g} K, f {-100 * self.change:+.2g} %"
 
 
-def inlet_at(scene, speed: float) -> tuple[InletHeat | None, bool]:
+def inlet_at(scene: Scene, speed: float) -> tuple[InletHeat | None, bool]:
     """Inlet heating of ``scene`` at ``speed`` [m/s], and whether the film is to be solved with it."""
     lubricant = scene.lubricant
     numerics = scene.numerics
@@ -124,7 +134,7 @@ def inlet_at(scene, speed: float) -> tuple[InletHeat | None, bool]:
     return inlet, wanted
 
 
-def film_lubricant(scene, speed: float) -> Lubricant:
+def film_lubricant(scene: Scene, speed: float) -> Lubricant:
     """The lubricant with which the film is solved: with the viscosity in the heated inlet at which Moes' film is
     thinner by the factor of `inlet_at`."""
     inlet, used = inlet_at(scene, speed)
@@ -139,7 +149,7 @@ def film_lubricant(scene, speed: float) -> Lubricant:
     lubricant = scene.lubricant
     whole = scene.line_contact(speed)
 
-    def thinner(log_share):
+    def thinner(log_share: float) -> float:
         made = replace(lubricant, viscosity=lubricant.viscosity * math.exp(log_share))
         return math.log(replace(whole, lubricant=made).moes_film / whole.moes_film)
 
@@ -150,7 +160,9 @@ def film_lubricant(scene, speed: float) -> Lubricant:
     return replace(lubricant, viscosity=lubricant.viscosity * math.exp(share))
 
 
-def point_heat(scene, film, contact, contact_load, force: float, shear) -> tuple[Heat, float | None, Callable | None]:
+def point_heat(
+    scene: Scene, film: EHLResult, contact: ContactState, contact_load: float, force: float, shear: ShearForce
+) -> tuple[Heat, float | None, Callable | None]:
     """Heat of ``film`` beside a ``contact`` that carries ``contact_load`` [N]; the viscosity [Pa s] of the warm inlet
     with which it was solved (None: as given); and the stress [Pa] of the heated film, stress(x, pressure, film) at
     positions x [m] running downstream (None: isothermal). ``force``: |f F_T| [N] and ``shear`` (`ShearForce`) without
@@ -173,13 +185,15 @@ def point_heat(scene, film, contact, contact_load, force: float, shear) -> tuple
     (x, *_, around) = nodes
     change = change_by(heated.stress)
 
-    def stress(at, pressure, thickness):
+    def stress(at: FloatArray, pressure: FloatArray, thickness: FloatArray) -> FloatArray:
         return heated_stress(lubricant, pressure, thickness, around.sliding, np.interp(at, x, heated.wall))[0]
 
     return Heat(inlet, used, change, heated, peclet), warm, stress
 
 
-def _nodes(scene, film, contact, contact_load: float, force: float):
+def _nodes(
+    scene: Scene, film: EHLResult, contact: ContactState, contact_load: float, force: float
+) -> tuple[tuple[FloatArray, FloatArray, FloatArray, Surroundings], Callable[..., Any]]:
     """Nodes running downstream, pressure and film there, and the `Surroundings`; and the function that tells by what
     share of ``force`` [N] a stress [Pa] (n,) makes the friction less than the isothermal stress does."""
     bodies = scene.bodies
@@ -199,13 +213,13 @@ def _nodes(scene, film, contact, contact_load: float, force: float):
     around = surroundings(scene, speed, wet, bodies.boundary_friction_coefficient * pressed)
     cold = np.abs(shear_stress(scene.lubricant, p, sliding / h))
 
-    def change_by(stress) -> float:
+    def change_by(stress: FloatArray) -> float:
         return float(bodies.width * np.trapezoid(wet * (cold - np.abs(stress)), x)) / max(force, 1e-300)
 
     return (x, p, h, around), change_by
 
 
-def surroundings(scene, speed: float, wet, spots) -> Surroundings:
+def surroundings(scene: Scene, speed: float, wet: FloatArray, spots: FloatArray) -> Surroundings:
     """What is around the nodes of a film at U = ``speed`` [m/s]: ``wet``, the share of the width that it covers, and
     the stress of contact ``spots`` [Pa], each (n,)."""
     speed, ratio = abs(speed), scene.motion.slide_roll_ratio
@@ -214,7 +228,9 @@ def surroundings(scene, speed: float, wet, spots) -> Surroundings:
     return Surroundings(carried, ratio * speed, wet, spots * abs(ratio * speed))
 
 
-def typical_heat(scene, film, contact, contact_load: float, force: float, shear) -> float:
+def typical_heat(
+    scene: Scene, film: EHLResult, contact: ContactState, contact_load: float, force: float, shear: ShearForce
+) -> float:
     """Share of ``force`` = |f F_T| [N] that the heat of film and surfaces would take away, at most, if the viscosity
     fell with the temperature as that of a typical oil (`TYPICAL`), from the stress of the isothermal film. 0 where the
     lubricant says how it falls, where ``numerics.heat`` is off, and where nothing slides. Arguments as of
@@ -231,7 +247,7 @@ def typical_heat(scene, film, contact, contact_load: float, force: float, shear)
     return change_by(isothermal_heat(like, *nodes).stress)
 
 
-def peclet_at(scene, speed: float) -> float:
+def peclet_at(scene: Scene, speed: float) -> float:
     """u b rho c/(2 k) of the faster surface at U = ``speed`` [m/s]; the smaller of both bodies."""
     bodies = scene.bodies
     faster = abs(speed) * (1 + 0.5 * abs(scene.motion.slide_roll_ratio))

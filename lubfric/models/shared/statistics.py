@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..._base import FloatArray
+
 MOST_BLOCKS = 32  # blocks of a line: more of them are no more independent
 ENOUGH_BLOCKS = 8  # blocks of the wanted length; a line with fewer is cut into shorter ones
 LEAST_BLOCKS = 5  # blocks, below which the error is not known
@@ -32,7 +34,9 @@ class BlockError:
     freedom: int
 
 
-def block_error(values: np.ndarray, step: float, correlation_length: float, exact=None) -> BlockError:
+def block_error(
+    values: np.ndarray, step: float, correlation_length: float, exact: FloatArray | None = None
+) -> BlockError:
     """Standard error of the mean of ``values`` (ny,), on cells of ``step`` [m], from block means.
 
     It is s/sqrt(n (1 - 0.56/b)) with n = 8 to 32 blocks, each at least b = 9 correlation lengths [m] long. If the line

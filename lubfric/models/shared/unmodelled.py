@@ -69,7 +69,7 @@ def unmodelled_effects(
     return tuple(sorted(kept, key=lambda lack: -abs(lack[1]) if math.isfinite(lack[1]) else 0.0))
 
 
-def _of_film(scene: Scene, sq: float, speed: float, known) -> list[UnmodelledEffect]:
+def _of_film(scene: Scene, sq: float, speed: float, known: tuple[float, float] | None) -> list[UnmodelledEffect]:
     """What needs a film."""
     line = scene.line_contact(speed)
     lubricant = scene.lubricant
@@ -110,7 +110,9 @@ def _of_film(scene: Scene, sq: float, speed: float, known) -> list[UnmodelledEff
     return effects
 
 
-def _scaled(f_b: float, before, after, known) -> tuple[float, float]:
+def _scaled(
+    f_b: float, before: tuple[float, float], after: tuple[float, float], known: tuple[float, float]
+) -> tuple[float, float]:
     """The parts ``after``, as changes from the guess ``before`` to what is ``known``: λ that gives the share known, and
     mu in proportion."""
     if not f_b:

@@ -1,5 +1,7 @@
 """`Validity`: one assumption of the model that is violated; and those of many points as a few sentences."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -29,7 +31,7 @@ class Validity:
     remedy: str
     severe: bool = False
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name, kind in (("value", float), ("limit", float), ("severe", bool)):
             object.__setattr__(self, name, kind(getattr(self, name)))
 
@@ -53,7 +55,7 @@ def sentence(text: str) -> str:
     return f"{first}{text[1:]}{'' if text.endswith(('.', '?')) else '.'}"
 
 
-def refused(entries: tuple[Validity, ...], accept: bool, result=None) -> None:
+def refused(entries: tuple[Validity, ...], accept: bool, result: object = None) -> None:
     """Raise `ValidityError` with ``result`` if one of ``entries`` is severe, unless ``accept``."""
     severe = [entry for entry in entries if entry.severe]
     if severe and not accept:
@@ -74,7 +76,9 @@ def in_a_cell(entries: Iterable[Validity]) -> str:
     return " | ".join(entry.text for entry in entries)
 
 
-def gathered(points, unit: str = "m/s", name: str = "speeds") -> tuple[str, ...]:
+def gathered(
+    points: list[tuple[float, tuple[Validity, ...]]], unit: str = "m/s", name: str = "speeds"
+) -> tuple[str, ...]:
     """One sentence for each assumption that is violated anywhere: at how many points, from where to where, and the
     worst value.
 
