@@ -98,7 +98,7 @@ def stribeck_curves(level: str, run: Run = Run()) -> Iterator[Item]:
     most = max(float(np.max(np.abs(change))) for change in plastic.values())
     headings = ("surface", "L [m]", "model", "speed [m/s]", "f mean [-]", "f lowest [-]", "f highest [-]")
     of_loads = ("L, Gaussian, 1/e [m]", "F_H mean [N]", "sd [N]", "lowest [N]", "highest [N]")
-    words = "f of the plastic surface against the elastic one: largest change"
+    words = "f of the plastic surface compared with the elastic one: largest change"
     source = "the paper: it changes little"
     yield Check(words, most, 0.05, 0.0, source, AT_MOST)
     title = "Fig. 8: the cylinder, three contact models"
@@ -122,9 +122,9 @@ def _draw_stribeck(speeds, curves, real, lengths, loads):
     canvas.legend(*panels[0].get_legend_handles_labels(), loc="outside lower left", ncols=3, fontsize=8, frameon=False)
     ax = panels[2]
     microns = np.array(lengths) * 1e6
-    ax.errorbar(microns, loads.mean(1), loads.std(1), fmt="o-", capsize=3, label="mean and sd")
+    ax.errorbar(microns, loads.mean(1), loads.std(1), fmt="o-", capsize=3, label="mean and standard deviation")
     ax.plot(np.repeat(microns, loads.shape[1]), loads.ravel(), ".", color="grey", ms=3, label="seeds")
-    ax.axhline(PAPER_FILM_LOAD, color="C1", ls="--", label="paper: 0.225 N")
+    ax.axhline(PAPER_FILM_LOAD, color="C1", ls="--", label="paper, 0.225 N")
     ax.set(title="film load at 0.001 m/s", xscale="log", ylim=(0, None))
     ax.set(xlabel="correlation length (µm), Gaussian, 1/e", ylabel="$F_H$ at 0.001 m/s (N)")
     ax.legend(fontsize=8)
@@ -134,23 +134,23 @@ def _draw_stribeck(speeds, curves, real, lengths, loads):
 def _agrees(speeds, most: float, real, table) -> str:
     inside = [f"{length * 1e6:g}" for length, _, _, low, high in table if low <= PAPER_FILM_LOAD <= high]
     below = [f"{length * 1e6:g}" for length, *_, high in table if high < PAPER_FILM_LOAD]
-    bracket = f"0.225 N lies inside the spread for {', '.join(inside) or 'none'} µm"
-    bracket += f" and above all of {', '.join(below)} µm" if below else ""
+    bracket = f"the paper's 0.225 N is within the range of the seeds for {', '.join(inside) or 'no length'} µm"
+    bracket += f", and above that range for {', '.join(below)} µm" if below else ""
     text = (
-        "All models meet in full film and at low speed. Plastic deformation lowers the friction slightly (at most "
-        f"{100 * most:.1f} %), as the paper finds. F_H at 0.001 m/s grows with the correlation length: {bracket}. "
+        "All models agree in full-film lubrication and at low speed. Plastic deformation lowers the friction slightly (at "
+        f"most {100 * most:.1f} %), as in the paper. F_H at 0.001 m/s grows with the correlation length: {bracket}. "
     )
     if not real:
         where = "(LUBFRIC_SURFACES, ../shared/surfaces)"
-        return f"{text}The real ground surface was not found {where} or left out of a quick run, and is skipped."
+        return f"{text}The measured ground surface is missing {where}, or this is a quick run; it is skipped."
     i = int(np.argmin(np.abs(speeds - 0.01)))
     result = ", ".join(
         f"f = {c[1][i]:.4f} (asperities {c[2][i]:.4f}) with the motion along its {axis}" for axis, c in real.items()
     )
     above = " and ".join(f"{100 * np.max(c[2] / c[0] - 1):.0f} %" for c in real.values())
     return (
-        f"{text}On the real ground surface, scaled to 100 nm: {result} at {speeds[i]:.2g} m/s; the asperity model is up "
-        f"to {above} above the half-space, as in the paper."
+        f"{text}On the measured ground surface, scaled to 100 nm, at {speeds[i]:.2g} m/s: {result}. The asperity model is "
+        f"up to {above} above the half-space, as in the paper."
     )
 
 
@@ -162,10 +162,11 @@ def _differs(curves) -> str:
         a, b = (100 * float(v[np.argmax(np.abs(v))]) for v in off)
         lines.append(f"{acf}: {a:+.0f} % (under the cylinder), {b:+.0f} % (flat strip)")
     return (
-        "The paper's asperity curve lies clearly above the other two. On generated surfaces its largest deviation from "
+        "In the paper the asperity curve is clearly above the other two. On generated surfaces its largest deviation from "
         f"the elastic half-space is {'; '.join(lines)}. On the flat strip, fine ripples (exponential) put the asperity "
-        "model above, broad summits below. Under the cylinder, independent asperities also miss the flattening by the "
-        "whole contact load. The paper's surface, asperities and measured friction in numbers are not published."
+        "model above, broad summits below. Under the cylinder, independent asperities also omit the flattening by the "
+        "total contact load. The surface, the asperities and the measured friction of the paper are not published as "
+        "numbers."
     )
 
 
@@ -184,30 +185,32 @@ def pressure_map(level: str, run: Run = Run()) -> Iterator[Item]:
         ax.set_title(f"{acf} ACF: $F_C$ = {point.contact_load:.3f} N, $F_H$ = {point.film_load:.3f} N")
         for edge in (-1, 1):
             ax.axvline(edge * scene.bodies.half_width * 1e6, color="grey", lw=0.7, ls="--")
-        spots = int(label(pressure > 0, np.ones((3, 3)))[1])
+        count = int(label(pressure > 0, np.ones((3, 3)))[1])
         areas = point.real_contact_area_fraction, point.plastic_area_fraction
-        rows.append((acf, point.contact_load, point.film_load, *areas, float(pressure.max()), spots))
-    (_, c1, h1, _, _, top1, spots1), (_, c2, h2, _, plastic2, top2, spots2) = rows
+        rows.append((acf, point.contact_load, point.film_load, *areas, float(pressure.max()), count))
+    (_, c1, h1, _, _, top1, count1), (_, c2, h2, _, plastic2, top2, count2) = rows
     yields = f" ({100 * plastic2:.2f} % of the strip)" if plastic2 else ""
     reached = (
-        f"The pressure reaches the hardness of 6 GPa at some spots, as in the paper{yields}." if top2 >= 6e9 else ""
+        f"The pressure reaches the hardness of 6 GPa at some places, as in the paper{yields}." if top2 >= 6e9 else ""
     )
     fractions = ("contact area fraction of the strip", "plastic area fraction")
-    headings = ("acf", "F_C [N]", "F_H [N]", *fractions, "highest pressure [Pa]", "contact spots in 90 um")
+    headings = ("acf", "F_C [N]", "F_H [N]", *fractions, "highest pressure [Pa]", "asperity contacts in 90 um")
     hardness = parts.the(PAPER.bodies.hardness, "hardness")
     yield Check("F_C + F_H, Gaussian", c1 + h1, PAPER.bodies.load, 1e-9, "load balance", unit="N")
     yield Check("highest pressure", max(top1, top2), hardness, 0.0, "hardness", AT_MOST, "Pa")
     title = "Fig. 9: contact pressure at 0.001 m/s"
     yield Table("fig9", title, headings, rows)
-    agrees = f"Almost all of the load is carried by few, small contact spots: F_C = {c1:.3f} and {c2:.3f} N, F_H = "
-    agrees += f"{h1:.3f} and {h2:.3f} N (paper: 5.275 and 0.225 N), {spots1} and {spots2} spots. {reached}"
+    agrees = f"Almost all of the load is carried by few, small asperity contacts: F_C = {c1:.3f} and {c2:.3f} N, F_H = "
+    agrees += (
+        f"{h1:.3f} and {h2:.3f} N (paper: 5.275 and 0.225 N), in {count1} and {count2} asperity contacts. {reached}"
+    )
     differs = f"On the smooth (Gaussian) surface the highest pressure is {top1 / 1e9:.1f} GPa. Only the sharper "
     differs += "summits of the exponential one yield. Contact reaches beyond the Hertz strip (dashed)."
     yield picture("fig9", title, agrees, differs, canvas)
 
 
 def sections(level: str, run: Run = Run()) -> Iterator[Item]:
-    """Fig. 10: film h, separation h - epsilon and surface z through a contact spot, at 0.001 and 0.3 m/s."""
+    """Fig. 10: film h, separation h - epsilon and surface z through an asperity contact, at 0.001 and 0.3 m/s."""
     canvas, panels = axes(1, 2, width=9.4, height=4.0)
     model = lubfric.prepare(PAPER)
     rows = []
@@ -235,13 +238,13 @@ def sections(level: str, run: Run = Run()) -> Iterator[Item]:
         columns = np.stack([np.full(x.size, speed), x, h, h - offset, z[:, line], gap], axis=1)
         rows += [tuple(row) for row in columns.tolist()]
         words.append(
-            f"At {speed:g} m/s the film is {weight @ h * 1e9:.0f} nm over the strip, F_H = {point.film_load:.3g} N, "
-            f"and {100 * point.real_contact_area_fraction:.1f} % of it are in contact."
+            f"At {speed:g} m/s the mean film over the Hertz strip is {weight @ h * 1e9:.0f} nm, F_H = "
+            f"{point.film_load:.3g} N, and {100 * point.real_contact_area_fraction:.1f} % of the strip is in contact."
         )
     yield Check("smallest gap over Sq", min(r[5] for r in rows) / 100e-9, 0.0, 0.01, "no penetration", AT_LEAST)
     title = "Fig. 10: film, separation and surface at 0.001 and 0.3 m/s"
     yield Table("fig10", title, ("speed [m/s]", "x [m]", "h [m]", "h_s [m]", "z [m]", "gap [m]"), rows)
-    agrees = "In boundary lubrication the separation cuts through the summits. In full film it clears them.\n\n- "
-    differs = "Where the surface is drawn above h_s, the contact deflects it: the gap h_s - z + u is zero there. u is "
-    differs += "known up to a constant, so the distance between h_s and z depends on it, and the gap does not."
+    agrees = "In boundary lubrication the separation lies below the summits, in full-film lubrication above them.\n\n- "
+    differs = "Where the surface is drawn above h_s, the contact deflects it: the gap h_s - z + u is zero there. The "
+    differs += "displacement u has a free constant; the distance between h_s and z depends on it, the gap does not."
     yield picture("fig10", title, agrees + "\n- ".join(words) + "\n", differs, canvas)

@@ -30,8 +30,8 @@ LAWS: dict[str, tuple[dict, str]] = {  # shear law of the film, and what deflect
     "Johnson": (LIMITED, "scaled"),
 }
 BASE: dict[str, Any] = {"acf": "exponential", "level": INVERSE_E, "model": ("summits", "volume"), "law": "Johnson"}
-BASE_LABEL = "base: summits, exponential ACF"
-READINGS: dict[str, dict[str, Any]] = {  # label: what differs from the base reading of the paper
+BASE_LABEL = "base case: summits, exponential ACF"
+ASSUMPTIONS: dict[str, dict[str, Any]] = {  # label: what differs from the base case
     BASE_LABEL: {},
     "Newtonian, film pressure only": {"law": "Newtonian"},
     "limited, film pressure only": {"law": "limited"},
@@ -47,7 +47,7 @@ SCENE = lubfric.load_scene("flat").with_(bodies={"hardness": None}, numerics={"m
 
 @lru_cache(maxsize=24)
 def pressed(pressure: float, acf: str, level: float, length: float, seed: int, count: int, model: tuple) -> Prepared:
-    """A surface with one of the models, made ready for a mean Hertz pressure [Pa]."""
+    """A surface with one of the models, prepared for a mean Hertz pressure [Pa]."""
     contact = {"model": model[0], "asperity_separation": model[1]}
     scene = SCENE.with_(bodies={"hertz_pressure": 4 / math.pi * pressure}, contact=contact)
     return prepare(scene, rough(length, acf, seed, count, level))
@@ -61,9 +61,9 @@ def friction_over_speed(ready: Prepared, law: str, speeds) -> np.ndarray:
 
 
 def both_models(case: tuple) -> list[list[list[float]]]:
-    """f over ``speeds`` by the asperities of a reading and by the half-space, at every load."""
+    """f over ``speeds`` by the asperities of one assumption and by the half-space, at every load."""
     label, length, seed, loads, speeds, count = case
-    r = BASE | READINGS[label]
+    r = BASE | ASSUMPTIONS[label]
     surface = (r["acf"], r["level"], length, seed, count)
     models = [[pressed(load, *surface, model) for model in (r["model"], HALF_SPACE)] for load in loads]
     return [[friction_over_speed(ready, r["law"], speeds).tolist() for ready in both] for both in models]
@@ -108,11 +108,11 @@ def friction_curves(level: str, run: Run = Run()) -> Iterator[Item]:
     yield bound(name, float(np.abs(apart).max()), 0.02, "Fig. 5 of the paper: they meet there")
     title = "Fig. 5: friction curves at 200 MPa mean Hertz pressure"
     yield Table("fig5", title, ("L [m]", "speed [m/s]", "f, summits [-]", "f, half-space [-]"), rows)
-    agrees = "The curves meet in boundary and in full-film lubrication and differ between. The asperity model lies "
-    agrees += f"above. The largest difference is at {at[0]:.2g} and {at[1]:.2g} m/s for L = 34 and 57 µm (paper: about "
-    agrees += "0.1 m/s)."
+    agrees = "The curves meet in boundary and in full-film lubrication, and differ in mixed lubrication, where the "
+    agrees += "asperity model gives more friction. The largest difference is at "
+    agrees += f"{at[0]:.2g} and {at[1]:.2g} m/s for L = 34 and 57 µm (paper: about 0.1 m/s)."
     differs = f"The difference is larger for the longer length here ({100 * d[0]:.0f} and {100 * d[1]:.0f} % of the "
-    differs += "half-space value). The paper has it the other way round: see Fig. 6. The paper does not state the load."
+    differs += "half-space value). In the paper it is smaller: see Fig. 6. The paper does not state the load."
     yield picture("fig5", title, agrees, differs, canvas)
 
 
@@ -120,7 +120,7 @@ def deviation_map(level: str, run: Run = Run()) -> Iterator[Item]:
     """Fig. 6: d over load and L, and what else d depends on."""
     quick = level == "quick"
     loads, speeds, count = (LOADS[1::2], SPEEDS[::2], 400) if quick else (LOADS, SPEEDS, 816)
-    labels = list(READINGS)[::4] if quick else list(READINGS)
+    labels = list(ASSUMPTIONS)[::4] if quick else list(ASSUMPTIONS)
     kinds = [(label, length, 1) for length in LENGTHS for label in sorted(labels, key=_surface)]
     kinds += [(BASE_LABEL, length, seed) for seed in ((2,) if quick else (2, 3)) for length in LENGTHS]
     cases = {f"{kind} at {len(loads)}": (*kind, loads, speeds, count) for kind in kinds}
@@ -137,14 +137,14 @@ def deviation_map(level: str, run: Run = Run()) -> Iterator[Item]:
     yield Check("largest d of summits on an exponential surface, %", most, 0.0, 0.0, source, AT_LEAST)
     title = "Fig. 6: d over load and L"
     pressures = ("mean Hertz pressure [Pa]", "peak Hertz pressure [Pa]")
-    columns = ("reading", "seed", "L [m]", *pressures, "d [%], + asperity model higher", "at speed [m/s]")
+    columns = ("assumption", "seed", "L [m]", *pressures, "d [%], + asperity model higher", "at speed [m/s]")
     yield Table("fig6", title, columns, rows)
     yield picture("fig6", title, *_verdict(d, labels, loads), _draw(d, labels, loads))
 
 
 def _surface(label: str) -> tuple:
-    """Readings of one surface and law stand together, so that its half-space is made ready once."""
-    r = BASE | READINGS[label]
+    """Return the key that groups readings of one surface and law, so that its half-space is prepared once."""
+    r = BASE | ASSUMPTIONS[label]
     return r["acf"], r["level"]
 
 
@@ -157,7 +157,7 @@ def _draw(d, labels, loads):
             panels[0].semilogx(mega, values, "-", color=colour, lw=0.7)
     panels[0].axhline(32, color="grey", lw=0.8, ls="--")
     panels[0].annotate("paper: up to 32 %", (mega[0], 34), color="grey", fontsize=8)
-    panels[0].set(title="base reading (thin: other seeds)", ylabel="d (%), + asperity model higher", ylim=(-62, 62))
+    panels[0].set(title="base case (thin: other seeds)", ylabel="d (%), + asperity model higher", ylim=(-62, 62))
     panels[0].legend()
     for ax, length in zip(panels[1:], LENGTHS):
         for i, label in enumerate(labels):
@@ -165,7 +165,7 @@ def _draw(d, labels, loads):
             style = {"ms": 4, "lw": 1.1, "color": f"C{i}" if i < 7 else "0.6", "label": label}
             ax.semilogx(mega, np.where(np.abs(values) <= 60, values, np.nan), "os^vDP*X"[i] + "-", **style)
         ax.axhline(0, color="grey", lw=0.8)
-        ax.set(title=f"readings, L = {length * 1e6:g} µm")
+        ax.set(title=f"assumptions, L = {length * 1e6:g} µm")
     handles, names = panels[2].get_legend_handles_labels()
     canvas.legend(handles, names, loc="outside lower center", ncols=4, fontsize=8, frameon=False)
     for ax in panels:
@@ -188,19 +188,20 @@ def _verdict(d, labels, loads) -> tuple[str, str]:
         f"{growth}: at most {most:.0f} % at {where / 1e6:g} MPa (other seeds: {min(seeds):.0f} to {max(seeds):.0f} %). "
         "The paper has up to 32 % at 1 GPa: the same order."
     )
-    smaller = "in no reading tried is it smaller at all loads"
+    smaller = "it is not smaller at all loads under any of the assumptions below"
     if shrinking:
-        smaller = f"smaller only for: {', '.join(shrinking)}"
+        smaller = f"it is smaller only with: {', '.join(shrinking)}"
     differs = (
         f"d does *not* shrink with L: at 57 µm it is {min(ratio):.1f} to {max(ratio):.1f} times that at 34 µm, and "
-        f"{smaller}. Our reading: less pressure flattens a longer wave of the same height (E' Sq/L), so the summits on "
-        "one hill share the load over a wider area, and independent asperities err more. Other readings:\n\n"
-        "- On smooth (Gaussian) surfaces broad summits merge. The asperity model carries too *little* at a given gap, "
-        "and d is negative.\n"
+        f"{smaller}. The likely cause: less pressure flattens a longer wave of the same height (E' Sq/L). So the "
+        "summits on one hill share the load over a wider area, and the error of independent asperities is larger. "
+        "Other assumptions:\n\n"
+        "- On smooth (Gaussian) surfaces broad summits merge. The asperity model carries too *little* load at a given "
+        "gap, and d is negative.\n"
         "- Contact patches grow together, and cannot carry more than some 50 to 120 MPa.\n"
-        "- L read at 0.1 of the autocorrelation roughens the surface and lowers d.\n"
-        "- Newtonian shear means nothing above some 300 MPa. The base takes a Ree-Eyring film (5 MPa) limited at 0.05 "
-        "p, and Johnson's modulus, which are assumptions.\n\n"
+        "- With L read at 0.1 of the autocorrelation the surface is rougher and d is lower.\n"
+        "- Above some 300 MPa Newtonian shear is unrealistic. The base case assumes a Ree-Eyring film (5 MPa) with a "
+        "limit of 0.05 p, and Johnson's modulus.\n\n"
         "Values beyond 60 % are in the table, not in the picture."
     )
     return agrees, differs

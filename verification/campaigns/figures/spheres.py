@@ -34,17 +34,15 @@ def unit_cell(distance: float, cell: float = CELL) -> tuple[np.ndarray, float]:
 
 
 def approaches(distance: float, loads, cell: float = CELL) -> tuple[np.ndarray, np.ndarray]:
-    """Approach [m] below first touch at each load per asperity [N], once with the mean deflection left out and once
-    kept.
-
-    The kept one is that of the paper's box.
+    """Approach [m] below first touch at each load per asperity [N], without and with the mean deflection of the
+    paper's box.
     """
     heights, step = unit_cell(distance, cell)
     free = []
     start = None
     for load in loads:
-        asked = {"mean_pressure": load / distance**2, "tolerance": 1e-6, "start": start}
-        start = solve_contact(HEIGHT - heights, step, E_PRIME, **asked)
+        pressed = {"mean_pressure": load / distance**2, "tolerance": 1e-6, "start": start}
+        start = solve_contact(HEIGHT - heights, step, E_PRIME, **pressed)
         free.append(start.approach)
     return np.array(free), np.array(free) + MEAN_OF_BOX * np.asarray(loads) / distance**2 * BOX / E_PRIME
 
@@ -59,7 +57,7 @@ def sphere_array(level: str, run: Run = Run()) -> Iterator[Item]:
     count, cell = (4, 4 * CELL) if level == "quick" else (9, CELL)
     loads = np.geomspace(5e-4, 2e-2, count)
     canvas, grid = axes(2, 2, width=9.0, height=7.6)
-    (sketch, asperities), (left_out, kept) = grid
+    (sketch, asperities), (without_mean, with_mean) = grid
     heights, step = unit_cell(20e-6, cell)
     side = 3 * heights.shape[0] * step * 1e6
     image(canvas, sketch, np.tile(heights, (3, 3)) * 1e9, (0, side, 0, side), "z (nm)", cmap="cividis")
@@ -72,7 +70,7 @@ def sphere_array(level: str, run: Run = Run()) -> Iterator[Item]:
         free, held = approaches(distance, loads, cell)
         result = find_asperities(*unit_cell(distance, cell), E_PRIME, definition="summits")
         alone = np.array([result(HEIGHT - a).load for a in free])
-        for ax, approach, load in ((asperities, free, alone), (left_out, free, loads), (kept, held, loads)):
+        for ax, approach, load in ((asperities, free, alone), (without_mean, free, loads), (with_mean, held, loads)):
             ax.plot(approach * 1e9, load * 1e3, "o-", label=f"{distance * 1e6:g} µm")
         rows += [(distance, *row) for row in zip(loads.tolist(), free.tolist(), held.tolist(), alone.tolist())]
         grows.append(float(np.median(loads / hertz_load(free))))
@@ -80,32 +78,32 @@ def sphere_array(level: str, run: Run = Run()) -> Iterator[Item]:
         worst = max(worst, float(np.max(np.abs(alone / hertz_load(free) - 1))))
     titles = (
         "asperity model (any spacing)",
-        "half-space, mean deflection left out",
-        "half-space, mean of the box kept",
+        "half-space, without the mean deflection",
+        "half-space, with the mean deflection of the box",
     )
-    for ax, title in zip((asperities, left_out, kept), titles):
+    for ax, title in zip((asperities, without_mean, with_mean), titles):
         a = np.linspace(0, ax.get_xlim()[1] * 1e-9, 60)
         ax.plot(a * 1e9, hertz_load(a) * 1e3, "k:", lw=1, label="one sphere (Hertz)")
         ax.set(title=title, xlabel="approach below first touch, 500 nm - $h_s$ (nm)", ylabel="load per asperity (mN)")
         ax.set_ylim(0, 21)
         ax.legend(title="spacing")
-    both = ("approach, mean left out [m]", "approach, mean kept [m]")
-    last = "asperity model at the approach with the mean left out [N]"
+    both = ("approach without mean deflection [m]", "approach with mean deflection [m]")
+    last = "asperity model at the approach without mean deflection [N]"
     headings = ("spacing [m]", "load per asperity [N]", *both, last)
     yield Check("asperity model against Hertz, any spacing", worst, 0.02, 0.0, "Hertz 1882", AT_MOST)
-    name = "load over Hertz with the mean kept falls as spheres come closer: smallest step"
+    name = "load over Hertz with the mean deflection falls as spheres come closer: smallest step"
     step = np.diff(falls).min()
     yield Check(name, step, 0.0, 0.0, "Fig. 4 of the paper", AT_LEAST)
     title = "Figs. 3 and 4: spheres of 30 µm, 14 to 40 µm apart"
     yield Table("fig4", title, headings, rows)
     kept_words, free_words = (", ".join(f"{r:.2f}" for r in ratios) for ratios in (falls, grows))
-    agrees = f"The asperity model does not depend on the spacing, and is Hertz to {100 * worst:.1f} %. In the "
-    agrees += (
-        "half-space model, *when the mean deflection of the box is kept*, the load at a given separation falls as the "
-    )
+    agrees = f"The asperity model does not depend on the spacing; it differs from Hertz by {100 * worst:.1f} %. In the "
+    agrees += "half-space model *with the mean deflection of the box*, the load at a given separation falls when the "
     agrees += f"spheres come closer: {kept_words} of Hertz at 14, 20, 30, 40 µm, as in Fig. 4."
-    differs = "In a periodic cell the mean deflection is a convention. When it is left out, the same solutions give "
-    differs += f"{free_words}: closer spheres carry slightly *more*. When it is kept, it grows with the box (here "
-    differs += "2.24 p a/E', Love's kernel summed over 230 µm). So Fig. 4 measures the size of the box as much as the "
-    differs += "interaction. In the friction model Eq. (8) removes the mean."
+    differs = "In a periodic cell the mean deflection is a convention. Without it, the same solutions give "
+    differs += f"{free_words} of Hertz: closer spheres carry slightly *more*. The mean deflection grows with the box "
+    differs += (
+        "(here 2.24 p a/E', Love's kernel summed over 230 µm). So Fig. 4 depends on the size of the box as much as "
+    )
+    differs += "on the interaction. In the friction model Eq. (8) removes the mean."
     yield picture("fig4", title, agrees, differs, canvas)

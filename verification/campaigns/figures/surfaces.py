@@ -24,7 +24,7 @@ def rough(length: float, acf: str = "exponential", seed: int = 1, count: int = C
 
 
 def generated_surfaces(level: str, run: Run = Run()) -> Iterator[Item]:
-    """Both lengths with both autocorrelation functions: what was asked of the maps, and what they have."""
+    """Both lengths with both autocorrelation functions: the length that the generator was given, and the lengths measured on the maps."""
     count = 400 if level == "quick" else COUNT
     canvas, grid = axes(2, 2, width=8.0, height=7.2)
     rows = []
@@ -39,13 +39,18 @@ def generated_surfaces(level: str, run: Run = Run()) -> Iterator[Item]:
             image(canvas, ax, surface.heights[:shown, :shown] * 1e9, (0, side, 0, side), "z (nm)", **colours)
             ax.set(title=f"{acf}, L = {length * 1e6:g} µm (1/e)", xlabel="x (µm)", ylabel="y (µm)")
     off = max(abs(r[k] / r[1] - 1) for r in rows for k in (3, 4))
-    headings = ("acf", "L asked [m]", "Sq [m]", "L along x [m]", "L along y [m]", "rms slope [-]")
-    yield Check("Sq of the last map", rows[-1][2], SQ, 1e-9, "what was asked of the generator", unit="m")
+    headings = ("acf", "L requested [m]", "Sq [m]", "L along x [m]", "L along y [m]", "rms slope [-]")
+    yield Check("Sq of the last map", rows[-1][2], SQ, 1e-9, "the Sq given to the generator", unit="m")
     yield Check("largest error of a measured length", off, 0.25, 0.0, "scatter of one map", AT_MOST)
     title = "Fig. 2: generated surfaces, L = 34 and 57 µm"
     yield Table("fig2", title, headings, rows)
-    agrees = f"Sq is 240 nm exactly and the measured lengths lie within {100 * off:.0f} % of those asked for (sampling "
-    agrees += "scatter of one map). The longer length gives broader hills and smaller slopes."
-    differs = "The paper gives neither the shape of the autocorrelation function nor the level at which L is read. The "
-    differs += "fine ripples of the exponential one decide what an asperity is in Figs. 5 and 6."
+    agrees = "Sq is 240 nm exactly. The measured correlation lengths are within "
+    agrees += (
+        f"{100 * off:.0f} % of the requested ones (scatter of one map). The longer length gives broader hills and "
+    )
+    agrees += "smaller slopes."
+    differs = (
+        "The paper gives neither the shape of the autocorrelation function nor the level at which L is read. With "
+    )
+    differs += "an exponential function, its fine ripples decide what an asperity is in Figs. 5 and 6."
     yield picture("fig2", title, agrees, differs, canvas)
