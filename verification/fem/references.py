@@ -22,11 +22,11 @@ from scipy.special import erf
 UNSTATED = 0.05
 GOT = {
     "printed": "printed",
-    "law": "a law that many books print",
+    "law": "textbook law",
     "derived": "quadrature of the published equations",
-    "read": "read in the publication's text",
-    "transcribed": "transcribed from the publication, not confirmed in a second place",
-    "quoted": "as another publication quotes it, not confirmed in a second place",
+    "read": "text of the publication",
+    "transcribed": "transcribed, no second source",
+    "quoted": "quoted by another publication",
 }
 
 

@@ -12,7 +12,7 @@ PARTS: tuple[tuple[str, str, str, dict], ...] = (
     ("answers-moving", "model.answers_moving:answers_moving", "The default answer where the roughness moves", {}),
     ("seeds", "model.seeds:seeds", "The default answer on fresh surfaces: coverage, bias, cost", {}),
     ("boundary-film", "model.boundary_film:boundary_film", "How thick the boundary film should be", {}),
-    ("rolling", "model.rolling:rolling", "Eq. (8) beside roughness that moves", {}),
+    ("rolling", "model.rolling:rolling", "load sharing compared with roughness that moves", {}),
     ("running-in", "model.running_in:running_in", "Running-in over the distance, beside published ranges", {}),
     ("moving-points", "model.random_moving:random_moving", "Random contacts under moving roughness", {}),
     ("grids", "model.film:grids", "One gap, one pressure on ever smaller cells", {}),

@@ -2,7 +2,7 @@
 and fluids of many kinds: how often f of the endless line lies within the interval.
 
 The reference of a case is solved once, and several answers, each on a surface of its own, are held beside it: the
-deterministic model on strips of another seed (of a measured map: on all of it), with about half of the errors asked.
+deterministic model on strips of another seed (of a measured map: on all of it), with about half of the target errors.
 """
 
 import itertools
@@ -55,7 +55,7 @@ GENERATED = {
     "ridges along": ("gaussian", (40e-6, 4e-6)),
 }
 MEASURED = ("ridges at 45 degrees", "plateau", "peaks", "self-affine")
-COLUMNS = ("", "answers", "off by", "interval", "inside", "Eq. (8) off by", "interval ", "inside ")
+COLUMNS = ("", "answers", "error", "interval", "inside", "paper: error", "interval ", "inside ")
 WAYS = {"default": {}, "load sharing": {"model": "paper"}}
 
 
@@ -183,7 +183,7 @@ def compared(name: str, result: list[tuple], failed: int, source: str) -> Iterat
         inside = float(np.mean(every[way][:, 1] <= every[way][:, 2])) if result else math.nan
         yield Check(f"{said}: share of {len(result)} intervals with f", inside, 1.0, 0.1, source, ABSOLUTE)
     yield Check(
-        "default answers that failed, or left moving roughness to Eq. (8)", failed, 0, 0.0, "the answers", REPORTED
+        "default answers that failed, or gave moving roughness to load sharing", failed, 0, 0.0, "the answers", REPORTED
     )
     yield drawn(name, every)
 
@@ -210,5 +210,5 @@ def drawn(name: str, every: dict[str, np.ndarray]) -> Figure:
     for way, label in (("load sharing", "load sharing alone"), ("default", "default answer")):
         curves.append((*100 * np.maximum(every[way][:, [2, 1]].T, 1e-4), "o", label))
     caption = "Error of f over what its interval allows; below the line it is covered"
-    labels: dict[str, Any] = {"xlabel": "allowed by interval and reference (%)", "ylabel": "f off by (%)"}
+    labels: dict[str, Any] = {"xlabel": "stated error of interval and reference (%)", "ylabel": "error of f (%)"}
     return chart(name, caption, curves, xscale="log", yscale="log", **labels)

@@ -56,8 +56,8 @@ def answers_moving(level: str, run: Run = Run()) -> Iterator[Item]:
     left = 0
     for case in cases(level):
         changes = [row for _, row in run.solved({f"{case}, {k}": (case, k) for k in CHANGES}, change, "changes")]
-        asked = {f"{case}, {seed}": (case, seed) for seed in range(1, 1 + SEEDS[level])}
-        rows = [row for _, row in run.solved(asked, answer, "answers")]
+        seeds = {f"{case}, {seed}": (case, seed) for seed in range(1, 1 + SEEDS[level])}
+        rows = [row for _, row in run.solved(seeds, answer, "answers")]
         fine = [row for row in rows if row["default"].get("by") == "deterministic"]
         left += len(rows) - len(fine)
         for row in fine if len(fine) > 2 and changes else ():

@@ -87,7 +87,7 @@ def rough(kind: str, sq: float, length: float) -> lubfric.Surface:
 
 
 def rolling(level: str, run: Run = Run()) -> Iterator[Item]:
-    """Eq. (8) beside moving roughness, its stated error beside the one found, and the share of the load on thin gaps
+    """Compare load sharing with moving roughness: f, its stated and its actual error, and the load ratio of thin gaps
     beside four published laws."""
     rows = list(run.solved(cases(level), solved))
     values = [(case, row) for case, row in rows if "failure" not in row]
@@ -96,11 +96,13 @@ def rolling(level: str, run: Run = Run()) -> Iterator[Item]:
     stated_error = np.where(off < 0, *sides.T)
     off = np.abs(off)
     yield Check("moving points that were not solved", len(rows) - len(values), 0, 0.0, "the solver's report", REPORTED)
-    name = f"Eq. (8) in rolling: share of {len(values)} points within its stated error"
+    name = f"load sharing in rolling: share of {len(values)} points within its stated error"
     yield Check(name, float(np.mean(off <= stated_error)), HOLDS, 0.0, "moving roughness", AT_LEAST)
     quantile = float(np.quantile(off / stated_error, SURE))
-    yield Check("Eq. (8) in rolling: error over the stated one, 99 % quantile", quantile, 1.0, 0.0, "moving", REPORTED)
-    columns = ("film/Sq", "f over Eq. (8)", "f over rest", "share: Eq. (8)", "at rest", "moving")
+    yield Check(
+        "load sharing in rolling: error over the stated one, 99 % quantile", quantile, 1.0, 0.0, "moving", REPORTED
+    )
+    columns = ("film/Sq", "f moving / paper", "f moving / at rest", "F_C/F_T: paper", "at rest", "moving")
     caption = "f of moving roughness, and the share of the load at 20 nm, lowest and highest of all that slide"
     yield Table("rolling", caption, columns, list(summary(values)))
     yield from shares(values)
@@ -108,7 +110,7 @@ def rolling(level: str, run: Run = Run()) -> Iterator[Item]:
 
 
 def stated(fast: dict) -> tuple[float, float]:
-    """The error that Eq. (8) states of itself where roughness moves, below and above f."""
+    """Return the error that load sharing states where roughness moves, below and above f."""
     return load_sharing_error(*(fast[name] for name in ("ratio", "share", "boundary", "shear", "rolling")))
 
 
@@ -158,6 +160,10 @@ def drawn(rows: list) -> Figure:
         dense = np.geomspace(min(RATIOS), max(RATIOS), 60)
         column[1].fill_between(dense, *load_share_band(dense), color="0.85")
         column[0].set(title=name, xscale="log", ylabel="f")
-        column[1].set(xlabel="film/Sq", ylabel="share of the load at 20 nm")
+        column[1].set(xlabel="film/Sq", ylabel="load ratio at 20 nm")
     grid[1, 1].legend(title="slide-roll ratio", fontsize=8, loc="upper right")
-    return plotting.finish("rolling", canvas, "Moving roughness (lines), Eq. (8) (dashed), four published laws (grey)")
+    return plotting.finish(
+        "rolling",
+        canvas,
+        "Moving roughness (lines), load-sharing model of the paper (dashed), four published laws (grey)",
+    )

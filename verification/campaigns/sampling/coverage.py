@@ -24,7 +24,7 @@ from . import SEED
 TRIALS = {"quick": 16, "default": 60, "full": 400}
 OTHERS = 200  # trials of other surfaces and loads, at most
 REPORTED = 1_000_000  # seeds of the truth begin so far behind those of the trials
-# of the truth; it is closed to so much of the standard error asked
+# of the truth; it is closed to this part of the target standard error
 PATCHES = 160
 FEWEST = 16
 CLOSE = 0.1
@@ -43,11 +43,11 @@ COLUMNS = ("case", "trials", "coverage", "bias")
 
 @dataclass(frozen=True)
 class CoverageCase:
-    """A scene, its speed [m/s], the relative standard error asked, and the bounds of the coverage."""
+    """A scene, its speed [m/s], the target of the relative standard error, and the bounds of the coverage."""
 
     name: str
     speed: float = 0.01
-    asked: float = 0.02
+    target: float = 0.02
     bounds: tuple[float, float] = (0.92, 0.98)
     changes: dict = field(default_factory=dict)
 
@@ -136,13 +136,13 @@ def truths(cases, seed: int, run: Run) -> dict[str, tuple[float, float]]:
 def trial(case_and_seed: tuple[CoverageCase, int]) -> dict:
     """One trial of a case."""
     case, seed = case_and_seed
-    return solve(case.scene(seed), case.speed, case.asked)
+    return solve(case.scene(seed), case.speed, case.target)
 
 
-def solve(scene, speed: float, asked: float) -> dict:
+def solve(scene, speed: float, target: float) -> dict:
     """One point with its interval and its processor seconds."""
     begun = time.process_time()
-    point = lubfric.friction(scene.with_(numerics={"sampling_tolerance": asked}), speed)
+    point = lubfric.friction(scene.with_(numerics={"sampling_tolerance": target}), speed)
     u = point.uncertainty
     f = point.coefficient
     half = f * math.hypot(u.numerical, stdtrit(max(u.freedom, 1.0), 0.975) * u.sampling)  # the truth, too, is Eq. (8)
@@ -167,7 +167,7 @@ def endless(case_and_seed: tuple[CoverageCase, int]) -> tuple[float, float]:
     change, own = _change(scene, case.speed, seed + 500, across)
     columns = 64 * round(LENGTHS * along / coarse[1] / 64)
     values: list[float] = []
-    while len(values) < FEWEST or (len(values) < PATCHES and _error(values) > CLOSE * case.asked):
+    while len(values) < FEWEST or (len(values) < PATCHES and _error(values) > CLOSE * case.target):
         surface = _surface(scene, (across, columns), coarse, seed + len(values))
         values.append(_plain(scene, surface, case.speed))
     return float(np.mean(values)) * (1 + change), math.hypot(_error(values), own)
@@ -227,7 +227,7 @@ def checks(result: Result) -> Iterator[Check]:
     yield within(f"{case.name}: coverage", float(result.covered.mean()), n, case.bounds, ENDLESS, decides)
     slack = RATIO + CHANCE / math.sqrt(2 * n)
     yield Check(f"{case.name}: reported over scatter", result.ratio, 1.0, slack, "scatter of the trials", ABSOLUTE)
-    slack = BIAS * case.asked + CHANCE * result.bias_error
+    slack = BIAS * case.target + CHANCE * result.bias_error
     yield Check(f"{case.name}: bias of f", result.bias, 0.0, slack, ENDLESS, ABSOLUTE)
 
 
@@ -248,7 +248,7 @@ def row(result: Result) -> tuple[str, ...]:
     """The numbers of a case as cells of a table (`COLUMNS`)."""
     return (
         result.case.name
-        + (f", asked {100 * result.case.asked:g} %" if result.case.asked != CoverageCase.asked else ""),
+        + (f", target {100 * result.case.target:g} %" if result.case.target != CoverageCase.target else ""),
         str(len(result.rows)),
         f"{100 * result.covered.mean():.1f} %",
         f"{100 * result.bias:+.2f} ± {100 * result.bias_error:.2f} %",

@@ -29,7 +29,7 @@ def stribeck() -> Cells:
 def roughness() -> Cells:
     """f of the built-in scene on other surfaces."""
     surfaces: dict[str, dict] = {
-        "as it is": {},
+        "built-in scene": {},
         "Sq 200 nm": {"sq": 200e-9},
         "Sq 50 nm": {"sq": 50e-9},
         "16 µm": {"correlation_length": 16e-6},
@@ -43,7 +43,7 @@ def roughness() -> Cells:
         [name, *(f"{f:.3f}" for f in lubfric.stribeck(scene.with_(surface=keys), speeds).coefficient)]
         for name, keys in surfaces.items()
     ]
-    return ["instead", *(f"f at {speed:g} m/s" for speed in speeds)], rows
+    return ["roughness", *(f"f at {speed:g} m/s" for speed in speeds)], rows
 
 
 def times() -> Cells:

@@ -11,6 +11,7 @@ from itertools import takewhile
 from ... import wording
 from ...catalogue import PUBLISHED, STUDIES
 from ...check import Check
+from ...fem.published import WEAK
 from ...fem.references import SOURCES, Source
 from ...run import Outcome, run_one
 from .measured import Cells
@@ -86,53 +87,45 @@ def formulations() -> Cells:
     return ["contact", *columns], list(rows.values())
 
 
-def publications() -> Cells:
-    """How many checks of `python -m verification published` passed, and how far ours is off: every source that differs
-    somewhere, and all others together."""
-    checks = [c for part in PUBLISHED for c in published_checks(part.name)]
-    groups: dict[str, list[Check]] = {}
-    agreed = []
-    for source in SOURCES.values():
-        mine = [c for c in checks if c.source == source.text]
-        alike = all(c.passed for c in mine)
-        agreed += [authors(source)] if alike else []
-        groups.setdefault("others" if alike else f"{authors(source)}, {source.place}", []).extend(mine)
-    groups["; ".join(dict.fromkeys(agreed))] = groups.pop("others")
-    rows = []
-    for name, mine in groups.items():
-        off = [round(100 * (c.measured / c.expected - 1), 4) + 0.0 for c in mine]
-        rows.append([name, f"{sum(c.passed for c in mine)} of {len(mine)}", f"{min(off):+.2g} to {max(off):+.2g} %"])
-    return ["source", "passed", "ours off by"], rows
-
-
-def rows_beside(part: str) -> Cells:
-    """Every check of a part of `python -m verification published`, with what both sides leave open."""
+def publications_of(part: str) -> Cells:
+    """Return the publications of a part of `python -m verification published`: how many values agree, and how well."""
     checks = published_checks(part)
-    sources = {source.text: source for source in SOURCES.values()}
     rows = []
-    for check in checks:
-        source = sources[check.source]
-        ours, theirs = check.errors
-        verdict = "agrees" if check.passed else f"differs: {check.cause or 'unknown'}"
-        unit = "" if check.unit == "1" else f" {check.unit}"
+    for source in SOURCES.values():
+        of_source = [check for check in checks if check.source == source.text]
+        if not of_source:
+            continue
+        agreed = f"{sum(check.passed for check in of_source)} of {len(of_source)}"
+        weak = sum(check.tolerance > WEAK * abs(check.expected) for check in of_source)
+        origin = f"{source.got}{source.note and '; ' + source.note}"
         rows.append(
             [
-                f"{check.name}{unit and ', in' + unit}",
-                f"{check.expected:.4g} ± {theirs:.2g}",
-                f"{check.measured:.4g} ± {ours:.2g}",
-                verdict,
-                authors(source),
+                f"{source.words}: {source.place}",
+                f"{agreed}{weak and f', {weak} weak' or ''}",
+                deviations(of_source),
+                origin,
             ]
         )
-    return ["quantity", "published", "lubfric", "verdict", "source"], rows
+    return ["publication", "agree", "lubfric - published", "origin of the published values"], rows
 
 
-def sources_of() -> Cells:
-    """The publications, the place of the numbers in them, and how they were got."""
-    rows = [
-        [source.words, source.place, f"{source.got}{source.note and '; ' + source.note}"] for source in SOURCES.values()
-    ]
-    return ["publication", "place", "how its numbers were got"], rows
+def deviations(checks: list[Check]) -> str:
+    """Return the lowest and the highest relative deviation; a published zero has none."""
+    relative = [100 * (check.measured / check.expected - 1) for check in checks if check.expected]
+    low, high = (f"{round(value, 2) + 0.0:+.2g}" for value in (min(relative), max(relative)))
+    return f"{low} %" if low == high else f"{low} to {high} %"
+
+
+def differing() -> Cells:
+    """Return every value of `python -m verification published` that differs by more than both bounds, with the cause."""
+    sources = {source.text: source for source in SOURCES.values()}
+    rows = []
+    for check in (c for part in PUBLISHED for c in published_checks(part.name) if not c.passed):
+        ours, theirs = check.errors
+        name = check.name if check.unit == "1" else f"{check.name}, in {check.unit}"
+        values = (f"{check.expected:.4g} ± {theirs:.2g}", f"{check.measured:.4g} ± {ours:.2g}")
+        rows.append([name, *values, check.cause or "unknown", authors(sources[check.source])])
+    return ["quantity", "published", "lubfric", "cause", "publication"], rows
 
 
 def authors(source: Source) -> str:
@@ -147,9 +140,8 @@ def authors(source: Source) -> str:
 
 TABLES: dict[str, Callable[[], Cells]] = {
     "load-sharing": load_sharing,
-    "publications": publications,
-    **{f"published-{part.name}": partial(rows_beside, part.name) for part in PUBLISHED},
-    "published-sources": sources_of,
+    **{f"published-{part.name}": partial(publications_of, part.name) for part in PUBLISHED},
+    "published-differing": differing,
     "rough-strip": partial(table_of, "rough_strip", "rough-strip"),
     "starved": partial(table_of, "starved", "starved"),
     "sharing-in-time": partial(table_of, "sharing_in_time", "sharing-in-time"),
