@@ -4,6 +4,7 @@ Python blocks of a page share one namespace, and a folder of their own. Command 
 but in this process; installing and testing is what the CI does, and is only looked at here.
 """
 
+import re
 import shlex
 import shutil
 import tomllib
@@ -79,9 +80,19 @@ def test_command_lines_are_understood(page):
             assert is_for(words, "cp") or is_for(words, "mpiexec"), words
 
 
+def quoted_outputs(page):
+    """The console output that the page quotes: text blocks that begin with a result, on one line each."""
+    return [" ".join(b.body.split()) for b in blocks(page) if b.language == "text" and b.body.startswith("f = ")]
+
+
+def printed(capture) -> str:
+    """What the commands printed so far, on one line, without wall-clock times."""
+    return re.sub(r" \(wall-clock time [^)]*\)", "", " ".join("".join(capture.readouterr()).split()))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("page", SHELL, ids=lambda p: p.name)
-def test_lubfric_command_lines_run(page, tmp_path, monkeypatch):
+def test_lubfric_command_lines_run(page, tmp_path, monkeypatch, capfd):
     """In one folder with the checkout's scenes and examples, one after the other, as the page tells them."""
     monkeypatch.chdir(tmp_path)
     shutil.copytree(ROOT / "docs" / "examples", tmp_path / "docs" / "examples")
@@ -89,6 +100,9 @@ def test_lubfric_command_lines_run(page, tmp_path, monkeypatch):
     for words in command_lines(page):
         if is_for(words, "lubfric"):
             assert main(words[1:]) == 0, words
+    output = printed(capfd)
+    for quoted in quoted_outputs(page):
+        assert quoted in output, f"{page.name} quotes what no command prints: {quoted}"
 
 
 def test_the_first_page_leads_to_a_curve_of_ones_own(tmp_path, monkeypatch):
