@@ -71,16 +71,18 @@ class ConvergenceError(LubfricError, RuntimeError):
 
 
 class WorkLimitError(ConvergenceError):
-    """A point needs more counted work than ``numerics.max_work`` [s] allows.
+    """A point, or a run, needs more counted work than ``numerics.max_work`` [s] allows.
 
-    ``limit`` is that number. The work is counted from cells and steps, never by a clock.
+    ``limit`` is that number; ``reached``: what was done until then, in words, and ``result``: the same. The work is
+    counted from cells and steps, never by a clock.
     """
 
-    def __init__(self, limit: float, report: Any = None, result: Any = None):
+    def __init__(self, limit: float, report: Any = None, result: Any = None, reached: str = ""):
         message = f"the solve needs more work than numerics.max_work = {limit:.4g} s; raise it, or loosen tolerance"
-        super().__init__(message, report, result)
-        self.args = (limit, report, result)
+        super().__init__(reached and f"{message}. {reached}" or message, report, result)
+        self.args = (limit, report, result, reached)
         self.limit = limit
+        self.reached = reached
 
     def worded(self) -> str:
         """Return the message without the hints."""
@@ -105,12 +107,14 @@ CONVERGED = "converged"
 ITERATION_LIMIT = "iteration_limit"
 STAGNATED = "stagnated"
 DIVERGED = "diverged"
+WORK_LIMIT = "work_limit"
 
 ADVICE = {
     CONVERGED: "",
     ITERATION_LIMIT: "loosen the tolerance (of a scene: numerics.tolerance), or raise max_iterations where it is given",
     STAGNATED: "the residual stopped falling: loosen the tolerance or refine the grid",
     DIVERGED: "the iteration left the physical range: check the input, or start closer",
+    WORK_LIMIT: "raise numerics.max_work, or loosen tolerance",
 }
 
 
@@ -131,7 +135,7 @@ class Report:
     Attributes
     ----------
     solver : name of the algorithm that produced the result
-    status : one of "converged", "iteration_limit", "stagnated", "diverged"
+    status : one of "converged", "iteration_limit", "stagnated", "diverged", "work_limit"
     iterations : outer iterations taken
     residual, tolerance : dimensionless
     residuals : final value of each measured residual by name

@@ -5,9 +5,9 @@
 inputs. Nothing here knows how a model solves: the contract is `lubfric.models.contract`.
 """
 
-from .friction import friction
+from .friction import LEAST_WORK, TIMES_ESTIMATE, friction
 from .full_load import full_load_numbers
-from .outlook import forecast
+from .outlook import Forecast, forecast
 from .power import power_of_forces
 from .result import FrictionResult, together
 from .sampled import sampled

@@ -4,10 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .._base import limited_work, work_left
 from ..errors import ConvergenceError
 from ..models import AUTO, Model, SampleSolution, models_up_to
 from ..models.shared import Prepared
 from .sampled import sampled
+
+# Counted work [s] that the cheapest model may take under "auto", however small numerics.max_work is: its answer is what
+# a point ends with.
+LEAST_WORK_OF_CHEAPEST = 10.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,7 +60,8 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, native: 
     (a severe warning), or if the next model declines (`Model.declines`) or does not converge. The strips of the first
     are the control of those that take one.
     """
-    first = sampled(prepared, speed, models[0], native=native)
+    with limited_work(max(work_left(), LEAST_WORK_OF_CHEAPEST)):
+        first = sampled(prepared, speed, models[0], native=native)
     choice = Choice(model=models[0], solution=first)
     for model in models[1:]:
         solution = choice.solution

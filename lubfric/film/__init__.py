@@ -28,6 +28,6 @@ from .hertz import HasLineContact, LineContact, composite_modulus
 from .nested import Effort
 from .problem import FilmProblem, film_problem
 from .reduced import true_pressure
-from .reynolds import log_mean_fluidity, step_length
+from .reynolds import count_film_step, log_mean_fluidity, step_length
 from .shear import ShearForce, above_carried, rolling_error, shear_force, spike_error
 from .start import FilmState, rupture_guess

@@ -25,26 +25,21 @@ from ..samples import (
     sample_of,
     takes_strips,
 )
-from ..scene import CHANGING, Harmonic, History, Scene, Table, gap_not_resolved, moves, warn_unusual_values
+from ..scene import CHANGING, Scene, gap_not_resolved, moves, warn_unusual_values
 from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
-from ..time import TIME_SHARE, speeds_of_run, work_of_run
+from ..time import estimated_run, periods, speeds_of_run
 from ..units import worded
 from .inputs import FACTS, input_rows
 
-# of a step; with it, steps in a period of a history; at the start
-STEP_TOLERANCE = 3e-5
-SWING = 80.0
-START = 30.0
-# s of a step in time: its film, and a cell of its contact
-FILM_STEP = 6e-3
-CELL_STEP = 1.5e-7
 # speeds at which the work is counted, and that stand in the table, about
 SOME = 25
 SHOWN = 6
-TABLE_CAPTION = (
-    "estimate by closed forms, to an order of magnitude: film under the whole load, asperity contact, and cost"
-)
+TABLE_CAPTION = "estimate by closed forms: film under the whole load, asperity contact, and cost"
+# How well times are estimated, in words: `python -m verification.campaigns.estimates` measures it.
+WITHIN_WORDS = "within a factor of about 3"
+# Processor seconds of ``lubfric run`` beside its solves: 1.0 to start, the others for pictures and files.
+COMMAND_SECONDS = 2.4
 # whether asperities touch, by the forecast
 ASPERITIES = {"touching": "yes", "none or a few summits": "few or none", "none": "no"}
 
@@ -57,6 +52,8 @@ class SceneEstimate:
     ----------
     sections : lines on "transient" (what changes in time), "surface", "contact", "model", "effects not modelled", "validity"
     cost : the time that it will take, in words; "" where it is not known
+    seconds : processor time of the solves
+    command_seconds : processor time of ``lubfric run``, with its start, pictures and files
     table : of some speeds, their headings first: expected film, whether it clears the summits, what the sample costs
     refusals : assumptions that fail by what is known so far, so that f means nothing
     effects : effects that are not modelled (`lubfric.models.shared.unmodelled_effects`)
@@ -64,6 +61,8 @@ class SceneEstimate:
 
     sections: dict[str, list[str]]
     cost: str
+    seconds: float
+    command_seconds: float
     table: list[tuple[str, ...]]
     refusals: list[str]
     effects: tuple[UnmodelledEffect, ...]
@@ -98,13 +97,13 @@ def estimate_scene(
         speeds = list(speeds_of_run(scene)) or [0.0]
         over = "a run in time"
         own = max(speeds)
-    model, cost = _model(scene, sample, surface, speeds, ratios)
-    cost = cost and f"about {cost} of processor time for {over} (an order of magnitude)"
+    model, seconds = _model(scene, sample, surface, speeds, ratios)
+    cost = f"about {in_words(seconds)} of processor time for {over} ({WITHIN_WORDS})" if seconds else ""
     if scene.transient is not None:
-        cost, lines = _course(scene, sample, surface, speeds)
+        cost, seconds, lines = _course(scene, sample, surface, speeds)
         changing = [*_histories(scene), cost, *lines]
     elif cost:
-        model.append(f"cost: {cost}")
+        model.append(f"cost: {cost}; 'lubfric run' takes {COMMAND_SECONDS:g} s more for start, pictures and files")
     at = expected(scene, surface, sorted(set(speeds)))
     refusals = _doubts([(speed, entry) for speed, entry in at if entry.severe])
     whole = sample.map
@@ -122,6 +121,8 @@ def estimate_scene(
     return SceneEstimate(
         sections=sections,
         cost=cost,
+        seconds=seconds,
+        command_seconds=seconds + COMMAND_SECONDS,
         table=_speed_table(scene, sample, surface, speeds),
         refusals=refusals,
         effects=effects,
@@ -142,19 +143,19 @@ def _plan(scene: Scene, surface: Surface) -> str:
     return f"{what} on {on}; numerical error of f at most {100 * scene.numerics.tolerance:g} %"
 
 
-def _model(scene: Scene, sample: Sample, surface: Surface, speeds: list[float], ratios) -> tuple[list[str], str]:
-    """Which model will answer at the ``speeds`` [m/s] and ``ratios``, and why; and the time that all of them cost
-    (`lubfric.estimate.friction`)."""
+def _model(scene: Scene, sample: Sample, surface: Surface, speeds: list[float], ratios) -> tuple[list[str], float]:
+    """Return which model will answer at the ``speeds`` [m/s] and ``ratios``, and why; and the processor seconds of all
+    of them (`lubfric.estimate.friction`; 0: not known here)."""
     model = scene.numerics.model
     why = gap_not_resolved(scene)
     unknown = "its model-form error is not known and not in the interval"
     if scene.transient is not None and model == "deterministic":
-        return ["deterministic model at all times (numerics.model)"], ""
+        return ["deterministic model at all times (numerics.model)"], 0.0
     if scene.transient is not None:
         rows = [f"load-sharing model at all times; {unknown}"]
         if moves(scene):
             rows.append("moving roughness is treated as stationary; numerics.model = 'deterministic' moves it")
-        return rows, ""
+        return rows, 0.0
     moving = sorted({abs(u) for u in speeds if u != 0})
     points = [(scene, speed) for speed in moving[:: max(1, len(moving) // SOME)]]
     if len(ratios):
@@ -191,7 +192,7 @@ def _model(scene: Scene, sample: Sample, surface: Surface, speeds: list[float], 
             takes += f"; where it takes more than {MOST_WORK:g} s, the load-sharing model answers alone"
         rows.append(takes)
     many = len(ratios) or len(moving)
-    return rows, in_words(sum(one.seconds for one in forecasts) * many / len(forecasts)) if forecasts else ""
+    return rows, sum(one.seconds for one in forecasts) * many / len(forecasts) if forecasts else 0.0
 
 
 def _histories(scene: Scene) -> list[str]:
@@ -203,47 +204,32 @@ def _histories(scene: Scene) -> list[str]:
         history = getattr(plan, name)
         if history is not None:
             low, high = history.range(plan.duration)
-            laps = _laps(history, plan.duration)
+            laps = periods(history, plan.duration)
             reverses = ": the motion reverses" if name == "speed" and low < 0 < high else ""
             said = f"{name}: {type(history).__name__.lower()}, {low:.4g} to {high:.4g} {unit}"
-            periods = f", {laps:.3g} {'period' if laps == 1 else 'periods'}" if laps else ""
-            rows.append(f"{said}{periods}{reverses}")
+            repeated = f", {laps:.3g} {'period' if laps == 1 else 'periods'}" if laps else ""
+            rows.append(f"{said}{repeated}{reverses}")
     start = "steady if there is entrainment, else at rest" if plan.initial == "auto" else plan.initial
     if plan.initial_film is not None:
         start = f"film of {worded(plan.initial_film, 'm')}"
     return [*rows, f"start: {start}"]
 
 
-def _laps(history: History, duration: float) -> float:
-    """How often a history repeats itself; 0 for one that does not."""
-    if isinstance(history, Harmonic):
-        return history.frequency * duration
-    return duration / history.times[-1] if isinstance(history, Table) and history.repeat else 0.0
-
-
-def _course(scene: Scene, sample: Sample, surface: Surface, speeds: list[float]) -> tuple[str, list[str]]:
-    """Steps and time of a run, whose film is judged at the ``speeds`` [m/s], and its sample; by what runs of the
-    paper's scene took (8 to 17 ms a step on 200 x 200 cells)."""
+def _course(scene: Scene, sample: Sample, surface: Surface, speeds: list[float]) -> tuple[str, float, list[str]]:
+    """Return the steps and the time of a run in words, its processor seconds, and its sample in words; ``speeds``
+    [m/s]: some of it."""
     plan = scene.transient
     assert plan is not None
-    forecasts = [forecast(scene, sample, surface, speed) for speed in speeds]
-    cells = surface.heights.size
+    estimate = estimated_run(scene, sample, surface)
     lines = []
-    if not sample.is_single_patch and scene.numerics.model != "deterministic":
-        most = max(forecasts, key=lambda one: one.strips)
-        cells = round(sample.cells.count * most.length / sample.cells.coarse[1])
-        target = f"sampling error of f at most {100 * scene.numerics.sampling_tolerance:g} % at {most.speed:.3g} m/s"
-        lines = [f"sample: {counted(most.strips, 'strips')} of the roughness, at all times ({target})"]
-    if scene.numerics.model == "deterministic":
-        steps, seconds = work_of_run(scene)
-    else:
-        tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")
-        swings = max((_laps(h, plan.duration) or 1.0 for h in plan.histories), default=0.5)
-        steps = max(plan.outputs, SWING * swings * (STEP_TOLERANCE / tolerance) ** (1 / 3)) + START
-        seconds = sum(one.seconds for one in forecasts) + steps * (FILM_STEP + CELL_STEP * cells)
+    if estimate.widest is not None:
+        target = f"sampling error of f at most {100 * scene.numerics.sampling_tolerance:g} %"
+        target += f" at {estimate.widest.speed:.3g} m/s"
+        lines = [f"sample: {counted(estimate.widest.strips, 'strips')} of the roughness, at all times ({target})"]
     top = f"top speed {max(speeds):.4g} m/s" if max(speeds) else "no entrainment"
-    course = f"{plan.duration:.4g} s in about {steps:.2g} steps, {counted(plan.outputs, 'outputs')}"
-    return f"{top}; {course}; about {in_words(seconds)} of processor time (an order of magnitude)", lines
+    course = f"{plan.duration:.4g} s in about {estimate.steps:.2g} steps, {counted(plan.outputs, 'outputs')}"
+    cost = f"about {in_words(estimate.seconds)} of processor time ({WITHIN_WORDS})"
+    return f"{top}; {course}; {cost}", estimate.seconds, lines
 
 
 def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[float]) -> list[tuple[str, ...]]:

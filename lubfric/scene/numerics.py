@@ -38,8 +38,9 @@ class Numerics(Shown):
     accept : True: results outside the range of the model are returned and marked, instead of refused
     cavitated_shear : "none", or "striated": shear of the streamers behind the rupture
     max_work : counted work [s of a usual core] that one point may take. A point that would take more is answered by
-        load sharing, with its interval, where the model is "auto", and refused otherwise. None: ten times the estimate
-        of `lubfric info`, at least 120 s
+        load sharing, with its interval, where the model is "auto", and refused otherwise. A run in time, or
+        `lubfric.run_in`, ends there with what it has reached. None: ten times the estimate of `lubfric info`, at least
+        120 s; no limit for `lubfric.run_in`
     workers : threads of the Fourier transforms
     """
 

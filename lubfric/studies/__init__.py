@@ -4,8 +4,8 @@ from .._base.processes import MOST_WORKERS, cluster, pool, processors
 from .choose import AUTO, CHOSEN, span
 from .codec import classes_of, fits
 from .curve import CurveResult, csv_bytes
-from .explain import in_words
-from .fit import explain_fit, fit
+from .explain import estimated_study, in_words
+from .fit import estimated_fit, explain_fit, fit
 from .fit_input import Measured, read_measured
 from .fit_result import FitResult
 from .law import Law

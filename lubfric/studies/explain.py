@@ -38,6 +38,30 @@ def curve_seconds(prepared: Prepared, speeds: Sequence[float]) -> float:
     return sum(seconds) * (1.0 if speeds else CHOSEN / len(at))
 
 
+def estimated_study(plan, store=None) -> float:
+    """Return the estimated processor seconds of the points of a `StudyPlan` that the folder ``store`` has not yet. Some
+    of the maps are made."""
+    table = StudyTable(plan)
+    table.read(Store(store))
+    return _seconds_left(plan, table)[0]
+
+
+def _seconds_left(plan, table: StudyTable) -> tuple[float, list[str]]:
+    """Return the estimated seconds of what is left of a study, from some of its scenes, and why some cannot be solved."""
+    left = [(plan.scenes[curve], speeds) for curve, _, speeds in table.left()]
+    some = left[:: -(-len(left) // SAMPLED)] if left else []
+    seconds = 0.0
+    failed = []
+    for scene, speeds in some:
+        try:
+            begun = time.process_time()  # of the map, which takes its time as well
+            one = curve_seconds(prepare(scene), speeds) + time.process_time() - begun
+            seconds += one * len(left) / len(some)
+        except InputError as error:
+            failed.append(f"  cannot be solved: {error}")
+    return seconds, failed
+
+
 def in_words(seconds: float) -> str:
     """A time in a suitable unit."""
     for unit, size in (("h", 3600.0), ("min", 60.0)):
@@ -64,25 +88,14 @@ def explain(plan: Any, store: Path | None = None) -> str:
         lines.append("  steady   every point; what changes in time in the scene ([transient]) is left out")
     table = StudyTable(plan)
     table.read(Store(store))
-    scenes = plan.scenes
-    left = [(scenes[curve], speeds) for curve, _, speeds in table.left()]
     held = len(table.ended) if plan.chooses_speeds else table.solved
     if held:
         total = len(plan.requested) if plan.chooses_speeds else sum(map(len, plan.requested.values()))
         what = "curves" if plan.chooses_speeds else "points"
         lines.append(f"  kept     {held} of {total} {what} are in {store} already")
-    if not left:
+    if not any(True for _ in table.left()):
         return "\n".join([*lines, "  time     nothing is left to solve"])
-    some = left[:: -(-len(left) // SAMPLED)]
-    seconds = 0.0
-    failed = []
-    for scene, speeds in some:
-        try:
-            begun = time.process_time()  # of the map, which takes its time as well
-            one = curve_seconds(prepare(scene), speeds) + time.process_time() - begun
-            seconds += one * len(left) / len(some)
-        except InputError as error:
-            failed.append(f"  cannot be solved: {error}")
+    seconds, failed = _seconds_left(plan, table)
     lines.append(f"  time     about {in_words(seconds)} on one core (within a factor of about {WITHIN:g})")
     return "\n".join([*lines, *dict.fromkeys(failed)])
 

@@ -148,14 +148,25 @@ def explain_fit(
         held = "include" if measured.rolling else "do not include"
         lines.append(f"  the coefficients {held} rolling friction, which averaging over both signs of slip takes out")
     coarse, fine = _curves(scene, measured, bounds)
-    begin = _start(scene, bounds, {})
-    searched = estimated_curves(len(bounds), starts)
-    fitted = 2 * len(bounds) + USUAL_CURVES
-    seconds = in_words(searched * _usual_seconds(coarse, begin) + fitted * _usual_seconds(fine, begin))
+    searched, fitted, seconds = _estimated(coarse, fine, _start(scene, bounds, {}), starts)
     lines.append(f"  search: about {counted(searched, 'curves')} of {counted(coarse.measured.x.size, 'points')} ")
     lines[-1] += "by the load-sharing model, over the whole bounds" if starts else "by the load-sharing model"
     lines.append(f"  fit: about {counted(fitted, 'curves')} of {counted(measured.x.size, 'points')}")
-    return "\n".join([*lines, f"  time: about {seconds} on one core (within a factor of about {WITHIN:g})"])
+    return "\n".join([*lines, f"  time: about {in_words(seconds)} on one core (within a factor of about {WITHIN:g})"])
+
+
+def estimated_fit(scene: Scene, measured: Measured, parameters, *, starts: int | None = None) -> float:
+    """Return the estimated processor seconds of a fit; arguments as for `lubfric.fit`."""
+    bounds = _checked(scene, measured, parameters)
+    coarse, fine = _curves(scene, measured, bounds)
+    return _estimated(coarse, fine, _start(scene, bounds, {}), _checked_starts(starts, len(bounds)))[2]
+
+
+def _estimated(coarse: FitCurves, fine: FitCurves, begin: np.ndarray, starts: int) -> tuple[int, int, float]:
+    """Return about how many curves the search and the fit compute, and their processor seconds."""
+    searched = estimated_curves(begin.size, starts)
+    fitted = 2 * begin.size + USUAL_CURVES
+    return searched, fitted, searched * _usual_seconds(coarse, begin) + fitted * _usual_seconds(fine, begin)
 
 
 def _curves(

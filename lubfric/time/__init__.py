@@ -1,5 +1,6 @@
 """Runs in time: the march, the film of smooth bodies in time, and two models of the mixed contact."""
 
+from .estimated import RunEstimate, estimated_run, periods
 from .film import TransientFilm, solve_transient_ehl
 from .film_grid import make_fixed_grid, symmetric_nodes
 from .film_setting import FIRST_STEP, TIME_SHARE, WET, ContactHistory, make_setting

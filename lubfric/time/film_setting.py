@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
-from ..film import Effort, FilmProblem, LineContact, hertz, solve_line_contact, step_length
+from ..film import Effort, FilmProblem, LineContact, count_film_step, hertz, solve_line_contact, step_length
 from ..oil import Lubricant
 from ..scene import History
 from .film_equations import Spring, StepEquations, StepTerms
@@ -236,6 +236,7 @@ def solve_step(equations: StepEquations, z: np.ndarray, *, tolerance: float = 1e
 
 def _iterated(equations: StepEquations, z: np.ndarray, tolerance: float, max_steps: int) -> Step:
     for step in range(max_steps + 1):
+        count_film_step(equations.grid.n)
         t = equations.evaluate(z)
         residual = equations.residual(t)
         status = ITERATION_LIMIT

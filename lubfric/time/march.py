@@ -19,7 +19,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from .._base import FloatArray, validate
-from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, InputError, Report
+from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, WORK_LIMIT, InputError, Report
 from ..scene import History
 from ..units import worded
 
@@ -179,9 +179,12 @@ def grid_residual(value: float) -> Residual:
     return Residual(value=value, what="the error of the film by its grid", where="at the start", advice=advice)
 
 
-def report_of(solver: str, plan: Plan, now: Progress, cells: str, residuals: dict[str, Residual]) -> Report:
+def report_of(
+    solver: str, plan: Plan, now: Progress, cells: str, residuals: dict[str, Residual], most_work: float = math.inf
+) -> Report:
     """Return the report of a run with these ``residuals``, and "step", the largest accepted local error. Its summary
-    names what was reached, and of a run that reached its end the largest residual and where it is."""
+    names what was reached, and of a run that reached its end the largest residual and where it is. ``most_work`` [s]:
+    the limit of counted work at which it ended, if it did."""
     residuals = {"step": Residual(value=now.worst, what="the local error of a step")} | residuals
     worst = max(residuals.values(), key=lambda residual: residual.value)
     status = CONVERGED
@@ -189,12 +192,19 @@ def report_of(solver: str, plan: Plan, now: Progress, cells: str, residuals: dic
     advice = ""
     if now.time < plan.end:
         status = STAGNATED
+        why = "The shortest step did not converge"
+        advice = "make the histories change less abruptly there, or set a looser transient.tolerance"
+        if math.isfinite(most_work):
+            status = WORK_LIMIT
+            why = f"What is left needs more work than numerics.max_work = {most_work:.4g} s allows"
+            advice = (
+                "raise numerics.max_work (a run with a checkpoint goes on from there), or loosen transient.tolerance"
+            )
         done = int(np.searchsorted(plan.times, now.time, side="right"))
         summary = (
             f"stopped at t = {worded(now.time, 's')} of {worded(plan.end, 's')}, {done} of {plan.times.size} outputs "
-            "are solved. The shortest step did not converge"
+            f"are solved. {why}"
         )
-        advice = "make the histories change less abruptly there, or set a looser transient.tolerance"
     elif not worst.value <= 1.0:
         status = ITERATION_LIMIT
         summary = (

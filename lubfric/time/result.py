@@ -193,9 +193,15 @@ class TransientResult(Shown):
 
 
 def collect(
-    model: TimeModel, grid_error: float, plan: Plan, progress: Progress, outputs: list[Output]
+    model: TimeModel,
+    grid_error: float,
+    plan: Plan,
+    progress: Progress,
+    outputs: list[Output],
+    most_work: float = math.inf,
 ) -> TransientResult:
-    """Return the result of the ``outputs`` so far. ``grid_error``: of a steady start, or NaN."""
+    """Return the result of the ``outputs`` so far. ``grid_error``: of a steady start, or NaN; ``most_work``: as in
+    `report_of`."""
     columns = {name: np.array([o.numbers.get(name, math.nan) for o in outputs], float) for name in OF_MOMENT}
     shape = (-1, model.x.size)
     residuals = {
@@ -212,7 +218,7 @@ def collect(
     by_load = columns["contact_load"] / columns["load"] * (columns["sliding_speed"] != 0)
     low, high = ends.pop(FRICTION_KEY, (0.0, 0.0))
     not_in = tuple(f"{name.partition('.')[2]} in its range: {NOT_IN}" for name in ends)
-    report = report_of("run in time", plan, progress, f"{model.cells}; surface: {surface}", residuals)
+    report = report_of("run in time", plan, progress, f"{model.cells}; surface: {surface}", residuals, most_work)
     if not prepared.sample.is_single_patch:
         renewal = 2 * prepared.scene.bodies.half_width + math.sqrt(math.pi) * prepared.sample.lengths[0]
     return TransientResult(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -9,8 +10,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._base import with_default_errors
-from ..errors import InputError
+from .._base import limited_work, unlimited_work, with_default_errors
+from ..errors import InputError, WorkLimitError
+from ..estimate import LEAST_WORK, TIMES_ESTIMATE
 from ..models.deterministic import State
 from ..models.shared import (
     Prepared,
@@ -20,6 +22,7 @@ from ..models.shared import (
 )
 from ..scene import Scene, Transient
 from ..studies import Store, classes_of, digest, fingerprint_without_files, opened
+from .estimated import estimated_run
 from .load_sharing_solver import Contact
 from .march import Plan, Progress, Step, checked_times, initial_progress, plan_of, steps
 from .model import Output, Start, TimeModel
@@ -87,17 +90,28 @@ def transient(
     - step: the largest accepted local error over that tolerance
     - mass, volume: the largest at an output, relative to their tolerances
     - grid: the discretisation error of the steady start over the film tolerance (if it starts steady)
+
+    A run ends at ``numerics.max_work`` [s] of counted work (None: ten times the estimate, at least 120 s), with the
+    outputs so far and the status "work_limit". The same run with a ``checkpoint`` and a larger limit goes on from there.
     """
     scene, times = _with_plan(scene, times)
-    start = MODELS[scene_of(scene).numerics.model](scene)
+    limit = scene_of(scene).numerics.max_work or math.inf
+    with limited_work(limit) as begun:
+        start = MODELS[scene_of(scene).numerics.model](scene)
     model = start.model
     plan = transient_of(model.scene)
     tolerance = plan.tolerance or model.time_error
     course = plan_of(times, plan.histories, model.first_step, tolerance, model.stops)
-    key = fingerprint_without_files(model.prepared, plan, times)
+    unlimited = replace(model.scene, numerics=replace(model.scene.numerics, max_work=None))
+    key = fingerprint_without_files(replace(model.prepared, scene=unlimited), plan, times)
+    if math.isinf(limit):
+        seconds = estimated_run(model.scene, model.prepared.sample, model.prepared.surface).seconds
+        limit = max(LEAST_WORK, TIMES_ESTIMATE * seconds)
     with opened(checkpoint, CLASSES, "checkpoint") as store:
-        progress, outputs = _marched(model, start.state, course, store, key, on_step)
-    result = collect(model, start.grid_error, course, progress, outputs)
+        progress, outputs, ended = _marched(
+            model, start.state, course, store, key, on_step, most_work=limit - begun.spent
+        )
+    result = collect(model, start.grid_error, course, progress, outputs, limit if ended else math.inf)
     if raise_on_failure:
         result.report.raise_if_failed(result)
         severe = sorted((e for entries in result.entries for e in entries if e.severe), key=lambda e: e.value)
@@ -113,9 +127,16 @@ def _output_keys(key: str, count: int) -> list[str]:
 
 
 def _marched(
-    model: TimeModel, start: Step, plan: Plan, store: Store, key: str, on_step: Callable | None
-) -> tuple[Progress, list[Output]]:
-    """Return the last progress of a run, and its outputs. The run continues from where the ``store`` has it under
+    model: TimeModel,
+    start: Step,
+    plan: Plan,
+    store: Store,
+    key: str,
+    on_step: Callable | None,
+    *,
+    most_work: float,
+) -> tuple[Progress, list[Output], bool]:
+    """Return the last progress of a run, its outputs, and whether ``most_work`` [s] of counted work ended it. The run continues from where the ``store`` has it under
     ``key``, if it does: from its state, with all outputs that the state counts, which were stored before it."""
     count, progress = store.get(key, STATE) or (0, initial_progress(start, plan))
     outputs: list[Output] = [*store.known(_output_keys(key, count), Output).values()]
@@ -129,14 +150,19 @@ def _marched(
 
     if not outputs and plan.times[0] == 0.0:
         record(progress)
-    for progress in steps(model, plan, progress):
-        if progress.at_output:
-            record(progress)
-        if store.folder is not None:
-            store.add(key, (len(outputs), model.resumable(progress)), sync=True)
-        if on_step is not None:
-            on_step(progress.time, plan.end, outputs[-1].numbers if progress.at_output else None)
-    return progress, outputs
+    try:
+        with limited_work(most_work):
+            for progress in steps(model, plan, progress):
+                with unlimited_work():  # of a step that is solved
+                    if progress.at_output:
+                        record(progress)
+                    if store.folder is not None:
+                        store.add(key, (len(outputs), model.resumable(progress)), sync=True)
+                    if on_step is not None:
+                        on_step(progress.time, plan.end, outputs[-1].numbers if progress.at_output else None)
+    except WorkLimitError:
+        return progress, outputs, True
+    return progress, outputs, False
 
 
 def _with_plan(scene: Scene | Prepared, times: ArrayLike | None) -> tuple[Scene | Prepared, np.ndarray]:

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from ..errors import CONVERGED, ConvergenceError, InputError, LubfricError
+from ..errors import CONVERGED, ConvergenceError, InputError, LubfricError, WorkLimitError
 from ..estimate import sampled
 from ..models.load_sharing import BalancedSample, PaperModel, PaperSolution, solve_balance
 from ..models.shared import (
@@ -231,6 +231,8 @@ def _needs(prepared: Prepared, sample: Sample, speeds: list[float]) -> np.ndarra
     for speed in speeds:
         try:
             balanced = _balanced(replace(prepared, sample=sample), speed)
+        except WorkLimitError:
+            raise
         except LubfricError:
             rows.append((sample.first, 0.0, math.nan, math.nan))
             continue

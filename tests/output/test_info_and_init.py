@@ -138,7 +138,7 @@ def test_info_tells_the_history_of_a_run_and_what_it_costs(plan, words):
     """Also of one that begins at rest, as a reciprocating scene does. Steps within a factor of 2.5 of those taken."""
     scene = SWINGING.with_(transient=lubfric.Transient(outputs=10, **plan))
     told = describe_scene(scene)
-    for each in (*words, f"{plan['duration']:g} s in about", "10 outputs", "an order of magnitude", "a run in time"):
+    for each in (*words, f"{plan['duration']:g} s in about", "10 outputs", "within a factor of", "a run in time"):
         assert each in told, (each, told)
     assert "no entrainment" not in told and "surface speeds" not in told
     steps = float(told.partition(" in about ")[2].partition(" steps")[0])

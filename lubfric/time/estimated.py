@@ -1,0 +1,68 @@
+"""Estimated steps and processor time of a run in time. Nothing is solved."""
+
+from dataclasses import dataclass
+
+from ..estimate import Forecast, forecast
+from ..samples import Sample
+from ..scene import Harmonic, History, Scene, Table
+from ..surface import Surface
+from .film_setting import TIME_SHARE
+from .scene_in_time import transient_of
+from .start import speeds_of_run
+from .transient_deterministic import work_of_run
+
+# Tolerance of a step at which the steps of runs of the paper's scene were counted [-].
+STEP_TOLERANCE = 3e-5
+
+# Steps in a period of a history, or in a history that does not repeat, at that tolerance.
+STEPS_OF_SWING = 80.0
+
+# Steps at the start of a run.
+STEPS_OF_START = 30.0
+
+# Processor seconds of the film in a step.
+FILM_STEP = 6e-3
+
+# Processor seconds of the contact in a step, over its cells.
+CELL_STEP = 1.5e-7
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunEstimate:
+    """About how many ``steps`` a run takes, and its processor ``seconds``; ``widest``: the forecast at the speed that
+    needs most strips of the roughness, whose sample all times share (None: the run has one strip)."""
+
+    steps: float
+    seconds: float
+    widest: Forecast | None = None
+
+
+def estimated_run(scene: Scene, sample: Sample, surface: Surface) -> RunEstimate:
+    """Return the estimate of the run of ``scene``; ``sample`` and ``surface`` as `lubfric.prepare` makes them.
+
+    A load-sharing run first solves steady friction at some of its speeds, for its strips. The number of steps follows
+    from the tolerance of a step with the order of the march, 2.
+    """
+    plan = transient_of(scene)
+    if scene.numerics.model == "deterministic":
+        steps, seconds = work_of_run(scene)
+        return RunEstimate(steps=steps, seconds=seconds)
+    forecasts = [forecast(scene, sample, surface, speed) for speed in speeds_of_run(scene) or [0.0]]
+    widest = None
+    cells = surface.heights.size
+    if not sample.is_single_patch:
+        widest = max(forecasts, key=lambda forecast: forecast.strips)
+        cells = round(sample.cells.count * widest.length / sample.cells.coarse[1])
+    tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")
+    swings = max((periods(history, plan.duration) or 1.0 for history in plan.histories), default=0.5)
+    changing = STEPS_OF_SWING * swings * (STEP_TOLERANCE / tolerance) ** (1 / 3)
+    steps = max(plan.outputs, changing) + STEPS_OF_START
+    seconds = sum(forecast.seconds for forecast in forecasts) + steps * (FILM_STEP + CELL_STEP * cells)
+    return RunEstimate(steps=steps, seconds=seconds, widest=widest)
+
+
+def periods(history: History, duration: float) -> float:
+    """Return how often ``history`` repeats itself in ``duration`` [s]; 0 for one that does not."""
+    if isinstance(history, Harmonic):
+        return history.frequency * duration
+    return duration / history.times[-1] if isinstance(history, Table) and history.repeat else 0.0

@@ -1,0 +1,5 @@
+"""Estimated times of runs against the processor time that they take, on random scenes of usual ranges.
+
+``python -m verification.campaigns.estimates COUNT [--budget S] [--kinds KIND ...]`` extends the table, one run after
+another; ``... 0`` shows what is in it.
+"""

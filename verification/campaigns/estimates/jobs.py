@@ -1,0 +1,218 @@
+"""Random runs of every kind, each with what lubfric estimates that it takes, and the call that does it."""
+
+import math
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+import lubfric
+from lubfric.output.describe import estimate_scene
+from lubfric.running_in import estimated_run_in
+from lubfric.scene import Harmonic, History, Table, Transient
+from lubfric.studies import estimated_fit, estimated_study
+
+KINDS = (
+    "rest auto",
+    "rest load-sharing",
+    "rest paper",
+    "rest deterministic",
+    "rolling auto",
+    "rolling load-sharing",
+    "rolling deterministic",
+    "curve",
+    "traction",
+    "study",
+    "fit",
+    "time",
+    "time deterministic",
+    "run-in",
+    "wear",
+    "command",
+)
+ROLLING = ("rolling auto", "rolling load-sharing", "rolling deterministic", "traction")
+# Model of a kind whose name does not say it.
+MODELS = {"curve": "paper", "study": "load-sharing", "fit": "load-sharing", "time": "paper", "run-in": "paper"}
+# Usual ranges, drawn evenly in the logarithm: radius [m], E' [Pa], Hertz pressure [Pa], Sq [m], correlation length [m],
+# viscosity [Pa s], and Moes' film of the whole load over Sq [-].
+RANGES = {
+    "radius": (2e-3, 3e-2),
+    "e_prime": (1.1e11, 2.4e11),
+    "pressure": (8e7, 1.2e9),
+    "sq": (5e-8, 4e-7),
+    "length": (4e-6, 3e-5),
+    "viscosity": (0.01, 0.3),
+    "ratio": (0.05, 5.0),
+}
+# Counted work [s] at which a point, or a run, is ended: its row has what it took until then.
+MOST_WORK = 40.0
+# Longest estimate of a run that is done [s], and draws until one is short enough.
+LONGEST = 30.0
+DRAWS = 100
+# Length of ridges over their width [-].
+RIDGE = 5.0
+# Speeds between which that film is searched [m/s].
+SPEEDS = (1e-7, 100.0)
+# Halvings of their logarithmic distance.
+HALVINGS = 60
+
+
+@dataclass(frozen=True, kw_only=True)
+class Job:
+    """A run: its ``kind`` and ``scene``, the ``estimate`` [s], and the call that does it."""
+
+    kind: str
+    scene: lubfric.Scene
+    estimate: Callable[[], float]
+    run: Callable[[], object]
+
+
+def drawn(seed: int) -> Job:
+    """Return the random run number ``seed``. Its kind follows from the number. A run that is estimated to take more than
+    `LONGEST`, or that is refused, is drawn again."""
+    kind = KINDS[seed % len(KINDS)]
+    for draw in range(DRAWS):
+        job = _drawn(np.random.default_rng([48, seed, draw]), kind)
+        with suppress(lubfric.InputError):  # a map too short for its correlation length
+            if job.estimate() <= LONGEST:
+                return job
+    raise RuntimeError(f"no run of the kind {kind!r} is short enough")
+
+
+def _drawn(rng: np.random.Generator, kind: str) -> Job:
+    scene = _scene(rng, kind)
+    speed = scene.motion.entrainment_speed
+    model = kind.rpartition(" ")[2]
+    model = MODELS.get(kind, model if model in ("auto", "paper", "deterministic") else "load-sharing")
+    scene = scene.with_(numerics={"model": model})
+    estimate = partial(_of_scene, scene)
+    run: Callable[[], object] = partial(lubfric.friction, scene, speed)
+    if kind == "curve":
+        estimate = partial(_of_scene, scene, speeds="auto")
+        run = partial(lubfric.stribeck, scene, "auto")
+    elif kind == "traction":
+        ratios = np.geomspace(0.005, 1.0, int(rng.integers(3, 9))).tolist()
+        estimate = partial(_of_scene, scene, ratios=ratios)
+        run = partial(lubfric.traction, scene, ratios, speed=speed)
+    elif kind == "study":
+        factors = {"bodies.load": [scene.bodies.load * f for f in (0.5, 1.0, 2.0)][: int(rng.integers(1, 4))]}
+        viscosities = {"lubricant.viscosity": [scene.lubricant.viscosity * f for f in (0.5, 1.0)]}
+        axes = factors | viscosities
+        speeds = [0.5 * speed, speed]
+        estimate = partial(_of_study, scene, axes, speeds)
+        run = partial(lubfric.study, scene, axes, speeds=speeds)
+    elif kind == "fit":
+        return _fit(rng, scene, speed)
+    elif kind.startswith("time"):
+        scene = _in_time(rng, scene, speed, model)
+        estimate = partial(_of_scene, scene)
+        run = partial(lubfric.transient, scene)
+    elif kind in ("run-in", "wear"):
+        scene = scene.with_(bodies={"hardness": 10.0 ** rng.uniform(9.3, 9.9)})
+        keys = {"distance": 10.0 ** rng.uniform(0, 2), "wear_coefficient": 1e-8} if kind == "wear" else {}
+        estimate = partial(estimated_run_in, scene, **keys)
+        run = partial(lubfric.run_in, scene, **keys)
+    elif kind == "command":
+        speeds = np.geomspace(0.5 * speed, 2 * speed, int(rng.integers(1, 5))).tolist()
+        scene = scene.with_(motion={"speeds": speeds})
+        estimate = partial(_of_scene, scene, speeds=[*speeds, speed], command=True)
+        run = partial(_command, scene)
+    return Job(kind=kind, scene=scene, estimate=estimate, run=run)
+
+
+def _scene(rng: np.random.Generator, kind: str) -> lubfric.Scene:
+    """Return a scene at the speed of its lambda ratio."""
+    value = {name: math.exp(rng.uniform(math.log(ends[0]), math.log(ends[1]))) for name, ends in RANGES.items()}
+    rolling = kind in ROLLING
+    friction = rng.uniform(0.08, 0.13)
+    oils: list[dict[str, object]] = [
+        {"eyring_stress": 10.0 ** rng.uniform(6.5, 7.2)},
+        {"eyring_stress": 10.0 ** rng.uniform(6.5, 7.2), "limiting_stress_coefficient": rng.uniform(0.05, 0.1)},
+        {"limiting_stress_coefficient": rng.uniform(0.05, 0.1)},
+    ]
+    length = value["length"]
+    lays = [length, length, (length, RIDGE * length), (RIDGE * length, length)]
+    scene = lubfric.load_scene("paper").with_(
+        bodies={
+            "radius": value["radius"],
+            "e_prime": value["e_prime"],
+            "hertz_pressure": value["pressure"],
+            "boundary_friction_coefficient": friction,
+        },
+        lubricant={"viscosity": value["viscosity"], "pressure_viscosity_coefficient": rng.uniform(12e-9, 26e-9)}
+        | oils[int(rng.integers(3))],
+        motion={"slide_roll_ratio": math.copysign(rng.uniform(0.02, 2.0), rng.uniform(-1, 1)) if rolling else 2.0},
+        surface={
+            "sq": value["sq"],
+            "correlation_length": lays[int(rng.integers(4))],
+            "acf": "exponential" if rng.random() < 0.3 else "gaussian",
+            "seed": int(rng.integers(2**31)),
+        },
+        numerics={"accept": True, "film_deflection": "scaled", "max_work": MOST_WORK},
+    )
+    (low, high) = map(math.log, SPEEDS)
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        thin = scene.line_contact(math.exp(middle)).moes_film < value["ratio"] * value["sq"]
+        (low, high) = (middle, high) if thin else (low, middle)
+    return scene.with_(motion={"entrainment_speed": math.exp(low), "speeds": [math.exp(low)]})
+
+
+def _in_time(rng: np.random.Generator, scene: lubfric.Scene, speed: float, model: str) -> lubfric.Scene:
+    """Return ``scene`` with a speed that changes in time: sinusoidally, or from rest."""
+    way = scene.bodies.half_width
+    duration = (1.0 if model == "deterministic" else 20.0) * way / speed
+    if rng.random() < 0.5:
+        history: History = Harmonic(mean=speed, amplitude=0.5 * speed, frequency=1.0 / duration)
+    else:
+        history = Table(times=(0.0, 0.5 * duration, duration), values=(0.2 * speed, speed, 0.6 * speed))
+    return scene.with_(transient=Transient(duration=duration, speed=history, outputs=20))
+
+
+def _fit(rng: np.random.Generator, scene: lubfric.Scene, speed: float) -> Job:
+    """Return a fit of one or two parameters to a curve of a formula, with scatter."""
+    speeds = np.geomspace(0.2 * speed, 5 * speed, int(rng.integers(4, 9)))
+    share = 1 / (1 + speeds / speed)
+    f = 0.11 * share + 0.03 * (1 - share)
+    measured = lubfric.Measured(x=speeds, coefficient=f * (1 + 0.02 * rng.standard_normal(f.size)))
+    parameters = {"bodies.boundary_friction_coefficient": (0.05, 0.15), "surface.sq": (3e-8, 6e-7)}
+    chosen = dict(list(parameters.items())[: int(rng.integers(1, 3))])
+    return Job(
+        kind="fit",
+        scene=scene,
+        estimate=partial(estimated_fit, scene, measured, chosen),
+        run=partial(lubfric.fit, scene, measured, chosen),
+    )
+
+
+def _of_scene(scene: lubfric.Scene, speeds=(), ratios=(), *, command: bool = False) -> float:
+    prepared = lubfric.prepare(scene)
+    estimate = estimate_scene(scene, prepared.sample, prepared.surface, speeds, ratios)
+    return estimate.command_seconds if command else estimate.seconds
+
+
+def _of_study(scene: lubfric.Scene, axes: dict, speeds: list[float]) -> float:
+    return estimated_study(lubfric.plan_study(scene, axes, speeds=speeds))
+
+
+def _command(scene: lubfric.Scene) -> None:
+    """Run ``lubfric run`` in a process of its own."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "scene.toml"
+        file.write_text(scene.to_toml())
+        command = [sys.executable, "-m", "lubfric", "run", str(file), "--out", str(Path(folder) / "out")]
+        subprocess.run(command, check=False, capture_output=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
+
+
+def seconds() -> float:
+    """Return the processor time [s] of this process and of those that it waited for."""
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(one.ru_utime + one.ru_stime for one in used)
