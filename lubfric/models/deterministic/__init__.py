@@ -11,6 +11,7 @@ from .moving_strip import (
     TIGHT,
     MovingEffort,
     MovingStrip,
+    SampleTarget,
     continued_strip,
     effort_for,
     moving_work,
@@ -37,3 +38,5 @@ from .shorter_cells import SHORT
 from .solve import dry_contact, solve_point
 from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, residuals
 from .strip_on_two_grids import StripOnTwoGrids, cells_of, numbers_of, strip_of
+from .summits import SummitControl, attenuated, control_of
+from .time_and_place import TimeAndPlace, mean_over_blocks

@@ -193,7 +193,8 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     by_film = BY_FILM.format(*(100 * change for change in levels.by_film))
     by_flow = (BY_FLOW.format(100 * levels.by_flow),) if levels.by_flow else ()
     by_inlet = (BY_INLET.format(100 * levels.by_inlet),) if levels.by_inlet else ()
-    notes = (*by_inlet, _division(results), by_film, *by_flow, *results[0].report.notes)
+    sample = (levels.note,) if levels.note else ()
+    notes = (*by_inlet, _division(results), by_film, *by_flow, *results[0].report.notes, *sample)
     words = _words_of_levels(levels)
     tolerance = scene.numerics.tolerance
     known = heat.text(tolerance)

@@ -34,6 +34,7 @@ from .point import (
     change_by_flow,
     thinned_less,
 )
+from .rough_bodies import summit_control
 from .shorter_cells import (
     changed,
     on_shorter_cells,
@@ -43,6 +44,7 @@ from .strip_on_two_grids import (
     numbers_of,
     solve_pair,
 )
+from .time_and_place import mean_over_blocks
 
 DIFFERENCE = 0.95  # of numerics.model_tolerance: half-width that the scatter of the difference may leave
 ALONE = 1.3  # scatter of the deterministic f between strips over that of blocks
@@ -54,6 +56,7 @@ GROWTH = (4.0, 2.0)  # factors by which the number of strips may grow, first and
 SPARE = (1.1, 1.2)  # what is spared of them there
 MOST_WORK = 120.0  # s, counted: of the strips of one point
 FEWEST = 3  # strips whose scatter tells an error
+SUMMITS = "f {:+.2g} % for the summits of the sample, compared with those of the endless surface"
 OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
 
 
@@ -68,7 +71,8 @@ class Levels:
       ``pieces``: of the third, each on shorter and shorter cells; ``shortest``: that of the fourth (empty: none).
     - relative errors of f: ``sampling``, standard, by the number of strips; ``difference``, standard, by that between
       the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips;
-      ``has_unsolved_cells``: whether shorter cells were needed and did not converge.
+      ``has_unsolved_cells``: whether shorter cells were needed and did not converge; ``note``: what the control of moving
+      roughness changed (empty: nothing).
     """
 
     numbers: dict[str, float]
@@ -85,18 +89,21 @@ class Levels:
     numerical: float
     length: float
     has_unsolved_cells: bool = False
+    note: str = ""
 
 
 @dataclass(frozen=True)
 class TwoLevelEstimate:
     """The first two levels: ``line``, ``numbers`` as in `Levels`; standard errors of f: ``whole``, and the part of it
-    that is the ``difference`` between the models; ``between``: standard deviation of f between strips."""
+    that is the ``difference`` between the models; ``between``: standard deviation of f between strips;
+    ``note``: what the control of moving roughness changed."""
 
     line: int
     numbers: dict[str, float]
     whole: BlockError
     difference: BlockError
     between: float
+    note: str = ""
 
     def wanted(self, numerics: Numerics, count: int, most: int) -> int:
         """Number of strips of the second level, at most ``most``, that the tolerances need; there are ``count``."""
@@ -131,6 +138,10 @@ def two_levels(
     numerics = prepared.scene.numerics
     load = prepared.scene.bodies.load
     most = max(1, min(prepared.sample.available, int(MOST_WORK / pairs[0].resolved.work)))
+    moving = [pair.resolved for pair in pairs if isinstance(pair.resolved, MovingStrip)]
+    if moving:
+        estimate = _of_moving(prepared, pairs, moving)
+        return estimate, max(estimate.wanted(numerics, len(pairs), most), len(pairs))
     estimates = [_sum(prepared, pairs, line) for line in (control, None) if line is None or len(pairs) <= line.count]
     estimates = [each for each in estimates if not each.line or 0 <= each.numbers["contact_load"] <= load]
     counts = [each.wanted(numerics, len(pairs), most) for each in estimates]
@@ -173,6 +184,7 @@ def levels_of(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]
         difference=difference,
         numerical=numerical,
         length=length,
+        note=estimate.note,
     )
 
 
@@ -191,6 +203,31 @@ def _sum(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], line: ControlVari
     whole = add_errors(_scatter(pairs, prepared.sample, line, unsolved), others)
     between = float(np.std(line.numbers["coefficient"]))
     return TwoLevelEstimate(line.count, numbers, whole, _scatter(pairs, prepared.sample, line, 1.0), between)
+
+
+def _of_moving(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], strips: Sequence[MovingStrip]) -> TwoLevelEstimate:
+    """Return the mean over ``strips`` whose roughness moves, with the control of their summits (`summits`)."""
+    rows = [numbers_of(prepared, strip.result) for strip in strips]
+    numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
+    samples = [strip.sample.half() if pair.mirrored else strip.sample for pair, strip in zip(pairs, strips)]
+    control = None if prepared.sample.is_single_patch else summit_control(prepared)
+    width = prepared.sample.lengths[1]
+    friction = mean_over_blocks(samples, "friction", width, control)
+    contact = mean_over_blocks(samples, "contact_load", width, control)
+    load = prepared.scene.bodies.load
+    if numbers["contact_load"] > 0 and 0 < contact.value < 1:  # else hardly anything rubs: the mean of the strips
+        contact_load = contact.value * load
+        times = contact_load / numbers["contact_load"]
+        for name in ("contact_load", "boundary_force", "boundary_film_load", "real_contact_area_fraction"):
+            numbers[name] *= times
+        numbers["real_contact_area"] *= times
+        numbers["film_load"] = load - contact_load
+    numbers["coefficient"] = friction.value
+    numbers["shear_force"] = load * friction.value - numbers["boundary_force"]
+    numbers["couette_force"] = numbers["shear_force"] - numbers["rolling_force"]
+    between = friction.plain.error * math.sqrt(len(strips))
+    note = SUMMITS.format(100 * friction.correction / friction.value) if friction.correction else ""
+    return TwoLevelEstimate(0, numbers, friction.error, BlockError(0.0, 1), between, note)
 
 
 def mean(values: Iterable[float]) -> float:

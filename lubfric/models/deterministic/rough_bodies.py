@@ -13,6 +13,7 @@ from ...scene import (
 from ...surface import Surface
 from ..shared import (
     Prepared,
+    ReferenceKey,
     on_strip,
 )
 from .moving import RoughBody
@@ -20,9 +21,16 @@ from .moving_strip import effort_for, moving_work
 from .problem import (
     reach,
 )
+from .summits import SummitControl, control_of
 
 HARDNESS = "bodies.hardness"
 MOST_WORK = 120.0  # s, counted: a point whose estimate is above it is left to load sharing by "auto" (docs/models.md)
+
+# Strips over which the control of moving roughness is averaged, at most: its error is a seventh of their scatter.
+CONTROL_STRIPS = 48
+
+# Cells of all these strips together, at most: about a second of processor time.
+CONTROL_CELLS = 4_000_000
 
 
 def strip_surface(prepared: Prepared, index: int) -> Surface:
@@ -53,6 +61,18 @@ def maps_of(prepared: Prepared, index: int) -> dict[str, Surface]:
     if len(moving) < 2 or prepared.joint:  # of a joint map all is that of surface 1
         return dict.fromkeys(moving[:1], strip_surface(prepared, index))
     return {name: sample.of_body(k).strip(index) for k, name in enumerate(moving)}
+
+
+def summit_control(prepared: Prepared) -> SummitControl:
+    """Return the control of the moving roughness of ``prepared``. It does not depend on the speed, and is made once."""
+
+    def make() -> SummitControl:
+        sample = prepared.sample
+        count = max(1, min(sample.available, CONTROL_STRIPS, CONTROL_CELLS // sample.strip(0).heights.size))
+        return control_of([sample.strip(index) for index in range(count)], prepared.scene.bodies.half_width)
+
+    key = ReferenceKey(prepared.sample.cells.coarsening, "attenuated summits", 0.0, True)
+    return prepared.memo.get(key, make)
 
 
 def moving_point_work(scene: Scene, sample: Sample, sq: float, speed: float, factors: tuple[int, int]) -> float:

@@ -10,14 +10,17 @@ from ...samples import Sample, mirrored
 from ...scene import Scene, moves
 from ...surface import Surface
 from ..shared import Prepared
-from .moving_strip import MovingStrip, continued_strip, solve_moving_strip, strip_at_rest
+from .moving_strip import MovingStrip, SampleTarget, continued_strip, solve_moving_strip, strip_at_rest
 from .point import Strip, change_of, solve_strip
 from .result import DeterministicResult
-from .rough_bodies import bodies_of, strip_surface
+from .rough_bodies import bodies_of, strip_surface, summit_control
 
 # cells, at least: in a correlation length, and in b along x
 PER_LENGTH = 2.0
 PER_HALF_WIDTH = 1.0
+# Part of numerics.sampling_tolerance: standard error of f at which a strip of moving roughness ends.
+MOVING_SAMPLE = 0.6
+
 MOVING = 4.0  # the former along x where roughness moves (docs/levels.md)
 
 
@@ -76,7 +79,8 @@ def longer_than(surface: Surface, factors: tuple[int, int], moving: bool = False
 def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int) -> StripOnTwoGrids:
     """Solve strip ``index`` by the deterministic model at ``speed`` [m/s], not 0, first on longer cells.
 
-    ``slope``: of friction over load [-] (None: found by a second solve). Raises `ConvergenceError`.
+    ``slope``: of friction over load [-] (None: found by a second solve; where the roughness moves, blocks of time and place
+    tell it). Raises `ConvergenceError`.
     """
     scene = prepared.scene
     surface, factors = strip_of(prepared, index)
@@ -89,7 +93,13 @@ def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int
         bodies = bodies_of(prepared, index, speed)
         longer = strip_at_rest(scene, bodies, speed, factors=longer_cells)
         strip = solve_moving_strip(
-            scene, bodies, speed, factors=factors, start=longer, slope=find_slope, for_continuation=True
+            scene,
+            bodies,
+            speed,
+            factors=factors,
+            start=longer,
+            for_continuation=True,
+            target=None if prepared.sample.is_single_patch else sample_target(prepared),
         )
         if isinstance(strip, MovingStrip) and longer_cells[1] > factors[1]:
             with suppress(ConvergenceError):  # then the change at rest is all that is known
@@ -101,6 +111,15 @@ def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + longer.work)
     is_mirrored = prepared.sample.is_single_patch and mirrored(surface.heights)
     return StripOnTwoGrids(strip, longer, is_mirrored, early_on_longer)
+
+
+def sample_target(prepared: Prepared) -> SampleTarget:
+    """Return how long a strip of moving roughness is followed (`MOVING_SAMPLE`)."""
+    return SampleTarget(
+        error=MOVING_SAMPLE * prepared.scene.numerics.sampling_tolerance,
+        correlation_length=prepared.sample.lengths[1],
+        control=summit_control(prepared),
+    )
 
 
 def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, float]:

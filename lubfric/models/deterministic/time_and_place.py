@@ -1,0 +1,142 @@
+"""What places of a strip rub at moments: the mean friction, and its standard error from blocks of time and place.
+
+In a block both are long enough to be nearly independent of the next. Over the blocks friction is a linear function of
+the control (`summits`) and of the load of the block, whose means on the endless line are known; what is left scatters by
+chance. So a part of a pass of the map tells its own error.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..shared import BlockError
+from .summits import SummitControl
+
+# Half-widths that roughness and film travel in a block, at least. At one place friction has a correlation over time of
+# exp(-(s/1.5 b)²) (needle roller, lambda ratio 0.5), with s the way travelled.
+TIME_BLOCK = 3.0
+
+# Half-widths: the correlation length 1.5 b of friction over time, without what the control explains.
+TIME_LENGTH = 1.3
+
+# Correlation lengths along y in a block, at least.
+PLACE_BLOCK = 4.0
+
+# Correlation lengths of a block at whose ends it is as its neighbours, for a Gaussian correlation (`block_error`).
+ENDS = 1 / math.sqrt(math.pi)
+
+# Degrees of freedom below which the error is not known.
+LEAST_FREEDOM = 4
+
+
+@dataclass(frozen=True, kw_only=True)
+class TimeAndPlace:
+    """Numbers of moments that follow each other, at all places along y (n, ny).
+
+    ``friction``, ``load``, ``contact_load`` [N/m]: the last of what rubs with f_b; ``summits`` [m]: the control.
+    ``travelled``: half-widths between two moments, of the film or the slowest rough body; ``spacing`` [m]: along y.
+    ``mean_load`` [N/m]: of all places at every moment.
+    """
+
+    friction: np.ndarray
+    load: np.ndarray
+    contact_load: np.ndarray
+    summits: np.ndarray
+    travelled: float
+    spacing: float
+    mean_load: float
+
+    def half(self) -> "TimeAndPlace":
+        """Return the first half of all places: of a mirrored map the others are the same once more."""
+        kept = self.friction.shape[1] // 2
+        return TimeAndPlace(
+            friction=self.friction[:, :kept],
+            load=self.load[:, :kept],
+            contact_load=self.contact_load[:, :kept],
+            summits=self.summits[:, :kept],
+            travelled=self.travelled,
+            spacing=self.spacing,
+            mean_load=self.mean_load,
+        )
+
+    def block_counts(self, correlation_length: float) -> tuple[int, int]:
+        """Return the numbers of blocks in time and along y, for a ``correlation_length`` [m] along y."""
+        (moments, places) = self.friction.shape
+        in_time = int(moments * self.travelled / TIME_BLOCK)
+        along_y = int(places * self.spacing / (PLACE_BLOCK * correlation_length))
+        return min(max(in_time, 1), moments), min(max(along_y, 1), places)
+
+    def independence(self, correlation_length: float) -> float:
+        """Return the variance of the mean over a block relative to that of independent ones (`block_error`)."""
+        in_time, along_y = self.block_counts(correlation_length)
+        way = self.friction.shape[0] // in_time * self.travelled / TIME_LENGTH
+        width = self.friction.shape[1] // along_y * self.spacing / correlation_length
+        return max(1 - ENDS / way, 0.1) * max(1 - ENDS / width, 0.1)
+
+
+@dataclass(frozen=True)
+class MeanOverBlocks:
+    """A mean over blocks, relative to the load: its ``value`` at the control and load of the endless line; ``plain``: without
+    them; standard errors of both; ``correction``: what the control changed."""
+
+    value: float
+    error: BlockError
+    plain: BlockError
+    correction: float
+
+
+def mean_over_blocks(
+    samples: Sequence[TimeAndPlace], name: str, correlation_length: float, control: SummitControl | None
+) -> MeanOverBlocks:
+    """Return the mean of the field ``name`` of `TimeAndPlace` over ``samples``, and its standard error.
+
+    ``correlation_length`` [m]: along y; ``control``: None, or one that is not known, is left out.
+    """
+    rows = []
+    places = 0
+    for sample in samples:
+        load = sample.mean_load
+        counts = sample.block_counts(correlation_length)
+        blocks = [_block_means(field, counts) for field in (getattr(sample, name), sample.summits, sample.load)]
+        rows.append(np.array([blocks[0] / load, blocks[1], blocks[2] / load - 1]))
+        places += sample.friction.size
+    values, summits, loads = np.concatenate(rows, axis=1)
+    mean = sum(float(getattr(sample, name).sum()) / sample.mean_load for sample in samples) / places
+    independence = samples[0].independence(correlation_length)
+    columns = [np.ones_like(values), loads]
+    plain = _residual(values, columns, independence)
+    if control is None or not control.is_known:
+        return MeanOverBlocks(mean, plain, plain, 0.0)
+    columns.append((summits - control.mean) / control.threshold)
+    rest = _residual(values, columns, independence)
+    slope = float(_fitted(values, columns)[-1])
+    excess = sum(float(sample.summits.sum()) for sample in samples) / places - control.mean
+    correction = -slope * excess / control.threshold
+    of_mean = slope * control.error / control.threshold
+    error = BlockError(math.hypot(rest.error, of_mean), rest.freedom)
+    return MeanOverBlocks(mean + correction, error, plain, correction)
+
+
+def _block_means(field: np.ndarray, counts: tuple[int, int]) -> np.ndarray:
+    """Return the means of ``field`` (n, ny) over blocks of equal size; a remainder at the ends is left out."""
+    in_time, along_y = counts
+    moments = field.shape[0] // in_time
+    places = field.shape[1] // along_y
+    kept = field[: in_time * moments, : along_y * places]
+    return kept.reshape(in_time, moments, along_y, places).mean(axis=(1, 3)).ravel()
+
+
+def _fitted(values: np.ndarray, columns: Sequence[np.ndarray]) -> np.ndarray:
+    factors, *_ = np.linalg.lstsq(np.stack(columns, axis=1), values, rcond=None)
+    return factors
+
+
+def _residual(values: np.ndarray, columns: Sequence[np.ndarray], independence: float) -> BlockError:
+    """Return the standard error of the mean of ``values`` that a linear function of ``columns`` leaves."""
+    freedom = values.size - len(columns)
+    if freedom < LEAST_FREEDOM:
+        return BlockError(math.inf, 0)
+    left = values - np.stack(columns, axis=1) @ _fitted(values, columns)
+    return BlockError(math.sqrt(float(left @ left) / (freedom * values.size * independence)), freedom)

@@ -1,0 +1,113 @@
+"""The sample of moving roughness: its control, blocks of time and place, and when a march ends."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.ndimage import gaussian_filter
+from scipy.stats import norm
+
+import lubfric
+from lubfric.models.deterministic import (
+    RoughBody,
+    SampleTarget,
+    SummitControl,
+    TimeAndPlace,
+    attenuated,
+    control_of,
+    mean_over_blocks,
+    solve_moving_strip,
+)
+from lubfric.surface import Surface, generate_surface
+
+LENGTH = 10e-6  # m: correlation length
+WAVE = 40e-6  # m
+
+
+def surface_of(heights, spacing=2e-6):
+    return Surface(heights, (spacing, spacing), periodic_axes=(True, True))
+
+
+@pytest.mark.parametrize("count", [1, 2, 5])
+def test_a_wave_keeps_the_part_of_its_height_that_the_formula_says(count):
+    x = np.arange(40) * 2e-6  # two of the wavelengths that keep half
+    heights = np.cos(2 * np.pi * count * x / 80e-6)[:, None] * np.ones(8)
+    ratio = (WAVE * count / 80e-6) ** 2
+    assert attenuated(surface_of(heights), WAVE).heights == pytest.approx(heights * ratio / (1 + ratio), abs=1e-12)
+
+
+def test_a_map_that_is_not_periodic_has_no_wave_from_its_step():
+    ramp = np.linspace(-1, 1, 64)[:, None] * np.ones(8)
+    open_map = Surface(ramp, (2e-6, 2e-6), periodic_axes=(False, True))
+    assert (
+        np.abs(attenuated(open_map, WAVE).heights).max()
+        < 0.3 * np.abs(attenuated(surface_of(ramp), WAVE).heights).max()
+    )
+
+
+def test_the_control_of_a_gaussian_surface_is_that_of_the_normal_distribution():
+    maps = [
+        generate_surface((96, 256), 2e-6, sq=1e-7, correlation_length=LENGTH, acf="gaussian", seed=k) for k in range(9)
+    ]
+    control = control_of(maps, WAVE)
+    expected = control.threshold * (norm.pdf(1) - norm.sf(1))
+    assert control.is_known and control.mean == pytest.approx(expected, abs=3 * control.error)
+    assert control.threshold < 0.9e-7 and not control_of(maps[:3], WAVE).is_known
+
+
+def sample_of(seed, moments=120, places=128):
+    """Friction that hangs on summits and load by 3 and 0.2, and on chance; each with its own way of 1 b and 10 µm."""
+    rng = np.random.default_rng(seed)
+    summits, load, chance = (
+        gaussian_filter(field, (7, 2.5), mode="wrap") for field in rng.standard_normal((3, moments, places))
+    )
+    scale = summits.std()
+    load = 1.0 + 0.1 * (load - load.mean(axis=1, keepdims=True)) / scale
+    summits = summits / scale
+    friction = 0.05 + 0.01 * summits + 0.2 * (load - 1) + 0.003 * chance / scale
+    return TimeAndPlace(
+        friction=friction, load=load, contact_load=load, summits=summits, travelled=0.1, spacing=2e-6, mean_load=1.0
+    )
+
+
+def test_blocks_tell_the_error_of_the_mean_with_and_without_the_control():
+    """Over sixty samples the deviation from the truth is as large as reported, and the control takes most of it."""
+    control = SummitControl(wave=WAVE, threshold=1.0, mean=0.0, scatter=0.0, count=48)
+    means = [mean_over_blocks([sample_of(seed)], "friction", LENGTH, control) for seed in range(60)]
+    plain = [mean_over_blocks([sample_of(seed)], "friction", LENGTH, None) for seed in range(60)]
+    for answers in (means, plain):
+        z = [(one.value - 0.05) / one.error.error for one in answers]
+        assert 0.75 < math.sqrt(np.mean(np.square(z))) < 1.25
+    assert np.std([one.value for one in means]) < 0.45 * np.std([one.value for one in plain])
+    assert all(one.value == other.value + one.correction for one, other in zip(means, plain))
+
+
+def test_a_short_sample_does_not_know_its_error():
+    short = mean_over_blocks([sample_of(1, moments=10, places=24)], "friction", LENGTH, None)
+    assert short.error.error == math.inf and short.error.freedom == 0
+
+
+def test_a_march_ends_when_its_error_is_within_the_target():
+    scene = lubfric.load_scene("paper").with_(
+        bodies={"load": 400.0}, motion={"slide_roll_ratio": 0.1}, lubricant={"eyring_stress": 5e6}
+    )
+    half_width = scene.bodies.half_width
+    surface, *others = (
+        generate_surface((96, 48), half_width / 5, sq=4e-8, correlation_length=half_width / 2, acf="gaussian", seed=k)
+        for k in range(8)
+    )
+    body = [RoughBody(surface, 0.3 * 1.05)]
+    control = control_of([surface, *others], half_width)
+    length = half_width / 2 / math.sqrt(math.log(10))
+
+    def followed(error):
+        target = SampleTarget(error=error, correlation_length=length, control=control)
+        return solve_moving_strip(scene, body, 0.3, target=target)
+
+    long, short = (followed(error) for error in (1e-9, 0.5))
+    counts = [strip.sample.friction.shape[0] for strip in (long, short)]
+    assert counts[0] == round(96 / 1.05) and counts[1] < 0.4 * counts[0]
+    assert short.series["coefficient"] == pytest.approx(long.series["coefficient"][: short.times.size], rel=1e-12)
+    reached = mean_over_blocks([short.sample], "friction", length, control)
+    assert reached.error.error < 0.5 * reached.value
+    assert reached.value == pytest.approx(long.result.coefficient, rel=4 * reached.error.error / reached.value)
