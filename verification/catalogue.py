@@ -28,7 +28,7 @@ class Study:
     options: dict = field(default_factory=dict)
     grade: str = "C"
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         file_name(self.name)
         module, _, function = self.target.partition(":")
         unknown = set(self.levels) - set(LEVELS)

@@ -70,7 +70,7 @@ class Check:
     errors: Sequence[float] = ()
     cause: str = ""
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for key in ("measured", "expected", "tolerance"):
             object.__setattr__(self, key, float(getattr(self, key)))
         wrong = ""
@@ -155,7 +155,7 @@ class Figure:
     data: bytes
     format: str = "svg"
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         file_name(self.name)
         if self.format not in ("svg", "png"):
             raise ValueError(f"figure {self.name!r}: format = {self.format!r}; allowed: svg, png")
@@ -180,7 +180,7 @@ class Field:
     point_data: dict[str, np.ndarray] = field(default_factory=dict)
     cell_data: dict[str, list[np.ndarray]] = field(default_factory=dict)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         file_name(self.name)
 
 

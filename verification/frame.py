@@ -135,7 +135,7 @@ def choose(command: Command, p: argparse.ArgumentParser, options: argparse.Names
     return offered
 
 
-def did_you_mean(word: str, options) -> str:
+def did_you_mean(word: str, options: dict[str, str] | list[str]) -> str:
     """' (did you mean ...?)' or an empty string."""
     matches = difflib.get_close_matches(word, list(options), n=1, cutoff=0.4)
     return f" (did you mean {matches[0]!r}?)" if matches else ""

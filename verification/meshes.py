@@ -9,7 +9,7 @@ from .check import Field
 CELL_NAMES = dict(MeshLine="line", MeshTri="triangle", MeshQuad="quad", MeshTet="tetra", MeshHex="hexahedron")
 
 
-def write_vtu(path, field: Field) -> Path:
+def write_vtu(path: Path, field: Field) -> Path:
     """Write ``field`` as a VTU file.
 
     Raises

@@ -1,15 +1,20 @@
 """The report as one HTML page. It has no script, fetches nothing, and can be read on a phone and without a network."""
 
 import base64
+from collections.abc import Iterator
 from html import escape
 from pathlib import Path
+from typing import Any
 
+from .check import Check, Figure, Table
+from .report import Report
+from .run import Outcome
 from .wording import allowed, by_grade, listed, number, seconds
 
 CSS = Path(__file__).with_name("page.css").read_text(encoding="utf-8")
 
 
-def render(report) -> str:
+def render(report: Report) -> str:
     """The whole page for a `report.Report`."""
     state = "good" if report.passed else "bad"
     failed = [(o, c) for o in report.outcomes for c in o.checks if c.failed]
@@ -32,7 +37,7 @@ def render(report) -> str:
     return "\n".join([*parts, "</body></html>\n"])
 
 
-def overview(report) -> str:
+def overview(report: Report) -> str:
     """A line for each study, with a link to its section."""
     done = {o.study.name: o for o in report.outcomes}
     rows = []
@@ -55,7 +60,7 @@ def overview(report) -> str:
     return html_table(("Study", "Verdict", "Checks", "By grade", "Time"), rows)
 
 
-def section(outcome) -> str:
+def section(outcome: Outcome) -> str:
     """Everything one study handed over."""
     parts = [
         f'<h2 id="{escape(outcome.study.name)}">{escape(outcome.study.title)}</h2>',
@@ -77,7 +82,7 @@ def section(outcome) -> str:
     return "\n".join(parts)
 
 
-def checks_table(checks) -> str:
+def checks_table(checks: list[Check] | tuple[Check, ...]) -> str:
     """The checks of a study, or the failed ones of all. Of very many only the failed ones are shown."""
     chosen = listed(tuple(checks))
     note = "" if len(chosen) == len(checks) else f"<p>{len(checks)} checks, all of them in report.json.</p>"
@@ -101,7 +106,7 @@ def checks_table(checks) -> str:
     return note + html_table(("Verdict", "Grade", "Check", "Measured", "Allowed", "Source", "Time"), rows)
 
 
-def beside_table(checks) -> str:
+def beside_table(checks: list[Check]) -> str:
     """Ours beside published values, each with its error; the deviation in per cent, and in units of both errors."""
     rows = []
     for c in checks:
@@ -115,14 +120,19 @@ def beside_table(checks) -> str:
     return html_table(("Verdict", "Quantity", "Theirs", "Ours", "Deviation", "In errors", "Source"), rows)
 
 
-def data_table(table) -> str:
+def data_table(table: Table) -> str:
     """A table of a study. A wide one scrolls inside its own box."""
     rows = ([escape(number(v)) for v in row] for row in table.rows)
     body = html_table([escape(str(c)) for c in table.columns], rows, "wide", table.caption)
     return f'<div class="scroll">{body}</div>'
 
 
-def html_table(columns, rows, kind: str = "cards", caption: str = "") -> str:
+def html_table(
+    columns: list[str] | tuple[str, ...],
+    rows: Iterator[Any] | list[tuple[str, ...]],
+    kind: str = "cards",
+    caption: str = "",
+) -> str:
     """A table of ready HTML cells; one of cards turns into them on a narrow screen."""
     head = "".join(f"<th>{c}</th>" for c in columns)
     body = []
@@ -134,7 +144,7 @@ def html_table(columns, rows, kind: str = "cards", caption: str = "") -> str:
     return f'<table class="{kind}">{top}<thead><tr>{head}</tr></thead><tbody>{"".join(body)}</tbody></table>'
 
 
-def figure(item) -> str:
+def figure(item: Figure) -> str:
     """A figure with its bytes inside the page."""
     kind = {"svg": "image/svg+xml", "png": "image/png"}[item.format]
     data = base64.b64encode(item.data).decode("ascii")

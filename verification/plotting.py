@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from .arrays import FloatArray
 from .check import Figure
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.axis import XAxis, YAxis
+    from matplotlib.figure import Figure as Canvas
     from matplotlib.typing import RcKeyType
 
 STYLE: dict[RcKeyType, Any] = {
@@ -27,7 +32,9 @@ STYLE: dict[RcKeyType, Any] = {
 }
 
 
-def axes(rows: int = 1, columns: int = 1, width: float = 6.4, height: float = 4.0, **options):
+def axes(
+    rows: int = 1, columns: int = 1, width: float = 6.4, height: float = 4.0, **options: Any
+) -> tuple[Canvas, Any]:
     """A figure in the report's style and its axes, as ``matplotlib.figure.Figure.subplots`` gives them."""
     import matplotlib
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -39,7 +46,7 @@ def axes(rows: int = 1, columns: int = 1, width: float = 6.4, height: float = 4.
         return canvas, canvas.subplots(rows, columns, **options)
 
 
-def panels(count: int, columns: int, width: float, height: float):
+def panels(count: int, columns: int, width: float, height: float) -> tuple[Canvas, Any]:
     """A figure of ``count`` panels in rows of at most ``columns``, each row so high, and its axes in a flat array."""
     columns = min(columns, count)
     rows = -(-count // columns)
@@ -49,7 +56,14 @@ def panels(count: int, columns: int, width: float, height: float):
     return canvas, grid.ravel()[:count]
 
 
-def chart(name: str, caption: str, curves, width: float = 6.0, height: float = 3.8, **settings) -> Figure:
+def chart(
+    name: str,
+    caption: str,
+    curves: Iterable[tuple[Any, ...]],
+    width: float = 6.0,
+    height: float = 3.8,
+    **settings: Any,
+) -> Figure:
     """One panel of ``curves``, each (x, y, style, label) and perhaps the errors of y, with ``settings`` of its axes."""
     canvas, ax = axes(width=width, height=height)
     for x, y, style, label, *error in curves:
@@ -59,14 +73,14 @@ def chart(name: str, caption: str, curves, width: float = 6.0, height: float = 3
     return finish(name, canvas, caption)
 
 
-def image(canvas, ax, field, extent, label: str, **options):
+def image(canvas: Canvas, ax: Axes, field: FloatArray, extent: Sequence[float], label: str, **options: Any) -> None:
     """A map (nx, ny) with x to the right and a labelled colour bar."""
     shown = ax.imshow(field.T, origin="lower", extent=extent, interpolation="nearest", **options)
     ax.grid(False)
     canvas.colorbar(shown, ax=ax, label=label, shrink=0.85)
 
 
-def plain_ticks(axis) -> None:
+def plain_ticks(axis: XAxis | YAxis) -> None:
     """Numbers such as 0.2 and 0.5 on a logarithmic ``axis`` (``ax.xaxis``) of less than two decades, where matplotlib
     would write every tick as a product, one over the other. Ticks that were chosen stay."""
     from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
@@ -78,7 +92,7 @@ def plain_ticks(axis) -> None:
         axis.set_minor_formatter(NullFormatter())
 
 
-def finish(name: str, canvas, caption: str, format: str = "svg", dpi: int = 160) -> Figure:
+def finish(name: str, canvas: Canvas, caption: str, format: str = "svg", dpi: int = 160) -> Figure:
     """The bytes of a drawn figure; "svg" for lines, "png" for dense fields."""
     import matplotlib
 

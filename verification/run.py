@@ -76,7 +76,11 @@ def quiet(check: Check) -> None:
 
 
 def run(
-    studies, level: str, progress: Progress = quiet, announce: Callable[[Study], None] = lambda study: None, workers=1
+    studies: tuple[Study, ...],
+    level: str,
+    progress: Progress = quiet,
+    announce: Callable[[Study], None] = lambda study: None,
+    workers: int = 1,
 ) -> Iterator[Outcome]:
     """Yield the `Outcome` of each study in order, run in this process or over several ``workers``. ``announce`` is
     called before each, ``progress`` on each check, where it runs."""

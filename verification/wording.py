@@ -53,7 +53,7 @@ def fraction(value: float) -> str:
     return f"{100 * value:.2g} %" if value >= 1e-5 or value == 0 else f"{value:.1e} relative"
 
 
-def number(value) -> str:
+def number(value: float) -> str:
     """A number for a person: six digits; "none" for one that is not finite."""
     if isinstance(value, float):
         return f"{value:.6g}" if math.isfinite(value) else "none"

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from functools import wraps
 from importlib.resources import files
-from typing import TYPE_CHECKING, Any, TypeVar
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
 
@@ -55,7 +56,7 @@ def in_unit_for(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
     return converted(values, unit, name), printed(name)
 
 
-def new_figure(*args, layout: Any = "constrained", **kwargs: tuple[float, float]) -> Figure:
+def new_figure(*args: Any, layout: Any = "constrained", **kwargs: Any) -> Figure:
     """A figure without a window."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -72,7 +73,9 @@ def make_ready() -> None:
     figure.savefig(io.BytesIO())
 
 
-def animated(path, figure, draw, frames, per_second: int, dpi: int) -> None:
+def animated(
+    path: str | Path, figure: Figure, draw: Callable[[int], Any], frames: int | Iterable[int], per_second: int, dpi: int
+) -> None:
     """Save what ``draw(frame)`` makes of ``figure`` as a GIF."""
     from matplotlib.animation import FuncAnimation, PillowWriter
 
@@ -93,15 +96,13 @@ def axes_or_new(ax: Axes | None, layout: str = "constrained") -> Axes:
     return pyplot.subplots(figsize=(7, 4.5), layout=layout)[1]
 
 
-def friction_lines(
-    axes: Axes, x: FloatArray, parts: list[FloatArray] | tuple[FloatArray, FloatArray, FloatArray], **style: int | str
-) -> None:
+def friction_lines(axes: Axes, x: FloatArray, parts: Sequence[FloatArray], **style: Any) -> None:
     """Draw f, and its parts from the asperities and from the film, over ``x``. ``parts``: three arrays; ``style``: of
     the first."""
     f, contact, film = parts
     axes.plot(x, f, **{"color": BLUE, "label": "friction coefficient"} | style)
     for part, color, label in ((contact, RED, "asperity friction"), (film, GREEN, "fluid friction")):
-        lone = {"marker": "_", "ms": 20} if np.size(x) == 1 else {}
+        lone: dict[str, Any] = {"marker": "_", "ms": 20} if np.size(x) == 1 else {}
         axes.plot(x, part, color=color, lw=1, ls=(0, (4, 4)), label=label, **lone)  # f shows through where it is all
 
 
@@ -152,12 +153,14 @@ def key_above(axes: Axes, columns: int = 3) -> int:
 
     labels = axes.get_legend_handles_labels()[1]
     size = min(rcParams["legend.fontsize"], KEY_SIZE) if not isinstance(rcParams["legend.fontsize"], str) else KEY_SIZE
-    room = 72 * 0.8 * axes.figure.get_figwidth() / (LETTER * size / KEY_SIZE)
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    room = 72 * 0.8 * figure.get_figwidth() / (LETTER * size / KEY_SIZE)
     rows = -(-len(labels) // columns)
     count = len(labels)
     while rows < count and sum(9 + max(map(len, labels[i : i + rows])) for i in range(0, count, rows)) > room:
         rows += 1
-    place = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.2}
+    place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.2}
     axes.legend(ncols=-(-len(labels) // max(rows, 1)) or 1, frameon=False, fontsize=size, **place)
     return rows
 
@@ -170,15 +173,15 @@ def field_image(
     colours: str,
     label: str,
     extend: str = "neither",
-    **options: float,
+    **options: Any,
 ) -> AxesImage:
     """``values`` (nx, ny) over cells at ``x`` and ``y`` [m], from above, with a bar of colours; returns the image. To
     scale, unless it would be too slender; then the axis says so."""
     half_x, half_y = (0.5 * (a[1] - a[0] if a.size > 1 else 1e-6) for a in (x, y))
-    extent = [1e6 * end for end in (x[0] - half_x, x[-1] + half_x, y[0] - half_y, y[-1] + half_y)]
+    extent = (1e6 * (x[0] - half_x), 1e6 * (x[-1] + half_x), 1e6 * (y[0] - half_y), 1e6 * (y[-1] + half_y))
     ratio = (extent[3] - extent[2]) / (extent[1] - extent[0])
     slender = not 1 / SLENDER <= ratio <= SLENDER
-    aspect = "auto" if slender else "equal"
+    aspect: Literal["auto", "equal"] = "auto" if slender else "equal"
     image = axes.imshow(values.T, origin="lower", aspect=aspect, cmap=colours, extent=extent, **options)
     axes.grid(False)
     axes.figure.colorbar(image, ax=axes, label=label, extend=extend)

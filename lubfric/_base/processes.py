@@ -51,7 +51,7 @@ def checked_executor(executor: Any) -> Any:
 
 
 @contextmanager
-def cluster(address: str):
+def cluster(address: str) -> Iterator[Any]:
     """Yield an executor of the Dask cluster whose scheduler listens at ``address``, such as "tcp://host:8786". Raises
     `InputError` where none does."""
     distributed = validate.installed("distributed", "cluster")
@@ -67,7 +67,7 @@ def cluster(address: str):
         client.close(timeout=CONNECT)
 
 
-def spread(executor, jobs: Iterable[Callable[[], Iterator]]) -> Iterator:
+def spread(executor: Any, jobs: Iterable[Callable[[], Iterator]]) -> Iterator:
     """Yield what the ``jobs`` yield. Done here, the values come at once; from an executor, those of a job come when it
     has ended.
 
@@ -135,7 +135,7 @@ def processors() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def checked_workers(workers: int, executor) -> int:
+def checked_workers(workers: int, executor: Any) -> int:
     """Return the number of processes; raises `InputError` for a wrong one, and for one beside an ``executor``."""
     workers = validate.integer("workers", workers, minimum=1, maximum=MOST_WORKERS)
     if workers > 1 and executor is not None:

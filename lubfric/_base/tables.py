@@ -34,7 +34,7 @@ def packaged(package: str, name: str) -> dict[str, Any]:
     return tomllib.loads((resources.files(package) / name).read_text(encoding="utf-8"))
 
 
-def plain(value: Any):
+def plain(value: Any) -> Any:
     """JSON types only: numpy scalars and tuples unpacked, NaN and infinity as null."""
     if isinstance(value, dict):
         return {str(k): plain(v) for k, v in value.items()}

@@ -144,11 +144,11 @@ def asperity_contact(
 def separation_for_load(
     heights: FloatArray,
     spacing: float | tuple[float, float],
-    e_prime: float | str,
+    e_prime: float,
     *,
     mean_pressure: float,
     definition: str = "summits",
-    hardness=None,
+    hardness: float | None = None,
     periodic: bool = True,
     tolerance: float = 1e-3,
     raise_on_failure: bool = True,

@@ -11,7 +11,7 @@ transform of cells four times as long, a sixteenth of the cells, contains it, an
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -142,7 +142,7 @@ def stencil(
     return sums
 
 
-def _swept(padded: FloatArray, coefficients: tuple[float, float, float, float]) -> np.ndarray:
+def _swept(padded: FloatArray, coefficients: Sequence[np.float32]) -> np.ndarray:
     """Return the sums for all cells, some rows at a time, within the cache."""
     own, along_x, along_y, across = coefficients
     sums = np.empty((padded.shape[0] - 2, padded.shape[1] - 2), np.float32)
@@ -160,7 +160,7 @@ def _swept(padded: FloatArray, coefficients: tuple[float, float, float, float]) 
     return sums
 
 
-def _series(nearest: tuple[float, float, float, float], shape: tuple[int, int]) -> np.ndarray:
+def _series(nearest: tuple[float, float, float, float], shape: tuple[int, ...]) -> np.ndarray:
     """Return the cut series at the waves of a grid of ``shape`` cells, each FACTOR cells long."""
     own, along_x, along_y, across = nearest
     x, y = (np.cos(2 * np.pi * np.fft.rfftfreq(n, FACTOR)) for n in shape)

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -136,7 +136,7 @@ def contact_curve(
     gap0 = np.max(heights) - heights
     touching_gap = float(gap0.mean())
     small = gap0.size <= SMALL
-    options = {"hardness": hardness, "tolerance": tolerance, "operator": operator}
+    options: dict[str, Any] = {"hardness": hardness, "tolerance": tolerance, "operator": operator}
     solved: dict[float, ContactResult] = {}
 
     def add(pressure: float, start: ContactResult | None) -> ContactResult:

@@ -198,7 +198,7 @@ def _symbol(
     return even_transform(partial, padded[1], axis=1)
 
 
-def wavenumber(shape: tuple[int, int], spacing: tuple[float, float]) -> np.ndarray:
+def wavenumber(shape: tuple[int, ...], spacing: tuple[float, ...]) -> np.ndarray:
     """|k| [rad/m] at the non-negative frequencies (nx//2 + 1, ny//2 + 1)."""
     kx, ky = (2 * np.pi * fft.rfftfreq(n, d) for n, d in zip(shape, spacing))
     return np.hypot(kx[:, None], ky)
@@ -214,7 +214,7 @@ def even_transform(coefficients: np.ndarray, length: int, axis: int = 0) -> np.n
     return np.ascontiguousarray(np.moveaxis(fft.rfft(even, axis=0).real, 0, axis))
 
 
-def filtered(field: np.ndarray, symbol: np.ndarray, padded: tuple[int, ...], workers) -> np.ndarray:
+def filtered(field: np.ndarray, symbol: np.ndarray, padded: tuple[int, ...], workers: int | None) -> np.ndarray:
     """Return ``field`` padded with zeros, multiplied by an even ``symbol`` in Fourier space, and cut back.
 
     Where axis 0 is padded, some columns after the other are. So the padded field is never held whole, and a block of
@@ -234,7 +234,7 @@ def filtered(field: np.ndarray, symbol: np.ndarray, padded: tuple[int, ...], wor
     return spectrum if my == ny else spectrum[:, :ny].copy()  # a part would hold on to the whole
 
 
-def _multiplied(columns: np.ndarray, symbol: np.ndarray, length: int, workers) -> np.ndarray:
+def _multiplied(columns: np.ndarray, symbol: np.ndarray, length: int, workers: int | None) -> np.ndarray:
     """Return the columns padded to ``length`` and multiplied by ``symbol`` in Fourier space; they may be written
     over."""
     waves = fft.fft(columns, n=length, axis=0, workers=workers, overwrite_x=True)

@@ -136,7 +136,7 @@ def on_grid(name: str, value: Any, shape: tuple[int, int], unit: str) -> np.ndar
     return validate.array(name, field, unit, ndim=2)
 
 
-def starting_pressure(problem: ContactProblem, start: FloatArray | None) -> np.ndarray | None:
+def starting_pressure(problem: ContactProblem, start: object) -> np.ndarray | None:
     """Return the pressure field [Pa] of an earlier result (or the field itself), limited to the hardness."""
     if start is None:
         return None
@@ -222,15 +222,16 @@ def dot(a: FloatArray, b: FloatArray) -> float:
     return float(np.einsum("i,i", a.ravel(), b.ravel()))
 
 
-def zero_level(height: FloatArray, yielded: BoolArray, elastic: BoolArray = None, otherwise: float = 0.0) -> float:
+def zero_level(
+    height: FloatArray, yielded: BoolArray, elastic: BoolArray | None = None, otherwise: float = 0.0
+) -> float:
     """Return the approach [m] at which the mean gap over the ``elastic`` cells is zero, from the ``height`` of the gap.
 
     If no cell is elastic, it is halfway between the highest ``yielded`` cell and the lowest other one; if no cell is
     loaded at all, ``otherwise``. elastic, yielded: flags.
     """
-    count = 0 if elastic is None else np.count_nonzero(elastic)
-    if count:
-        return dot(height, elastic.astype(height.dtype)) / count
+    if elastic is not None and elastic.any():
+        return dot(height, elastic.astype(height.dtype)) / np.count_nonzero(elastic)
     if not yielded.any():
         return otherwise
     highest = float(height[yielded].max())

@@ -29,7 +29,7 @@ def solve_contact(
     hardness: float | None = None,
     boundary: tuple[str, str] = ("periodic", "periodic"),
     tolerance: float = 1e-6,
-    start: FloatArray | None = None,
+    start: FloatArray | ContactResult | None = None,
     operator: HalfSpace | None = None,
     max_iterations: int = 2000,
     raise_on_failure: bool = True,
@@ -69,9 +69,10 @@ def solve_contact(
     touching = float(problem.gap0.mean())
     if mean_pressure == 0 or (mean_gap is not None and mean_gap >= touching):
         search = _separated(problem, touching if mean_gap is None else mean_gap)
-    elif mean_gap is None:
+    elif mean_pressure is not None:
         search = _solved(problem, start, mean_pressure, mean_pressure=mean_pressure)
     else:
+        assert mean_gap is not None  # one of both is given
         search = _gap_controlled(problem, mean_gap, start)
     result = contact_result(problem, search, _control(search.state, mean_pressure, mean_gap), ITERATION_LIMIT)
     return returned(result, raise_on_failure)

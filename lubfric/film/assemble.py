@@ -1,6 +1,8 @@
 """From solutions on nested grids to errors, report and result."""
 
 import math
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -10,7 +12,7 @@ from .ehl_result import EHLResult, central_film, smallest
 from .grid import hat_kernel
 from .problem import FilmProblem
 from .reynolds import FilmSolution
-from .start import FilmState, solution_state
+from .start import solution_state
 
 
 def grid_error(levels: list[FilmSolution]) -> float:
@@ -86,12 +88,12 @@ def _half_work(solution: FilmSolution) -> float:
 
 def reported(
     solver: str,
-    solutions: list[FilmSolution],
+    solutions: Sequence[Any],
     residuals: dict[str, float],
     tolerance: float,
     notes: tuple[str, ...],
     failed: str = ITERATION_LIMIT,
-    solves=None,
+    solves: int | None = None,
 ) -> Report:
     """Return the report of ``solutions``, the last of which counts; ``failed``: its status if it has converged and a
     residual is still above the ``tolerance``; ``solves``: their number (None: one a step)."""
@@ -164,14 +166,14 @@ def assemble(
 
 def in_si(
     problem: FilmProblem,
-    at: tuple[FloatArray, FloatArray, FloatArray],
+    at: Sequence[FloatArray],
     *,
     load: float,
     films: tuple[float, float],
     flow: float,
     rupture: float,
     constant: float,
-    **known: FilmState | Report | tuple[float, float],
+    **known: Any,
 ) -> EHLResult:
     """Return the result in SI units, seen along +x. ``at``: (X, P, H) at the nodes; ``load``: ∫ P dX between them;
     ``films``: the smallest, and that at X = 0; ``constant``: H00; ``known``: what has no unit to change."""

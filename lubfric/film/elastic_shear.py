@@ -181,7 +181,7 @@ def _step(node: _Node, sliding: float, disc_rate: float, wet: float, total: floa
     return limit
 
 
-def _root(node: _Node, rise: Callable[..., Any]) -> float:
+def _root(node: _Node, rise: Callable[[float], float]) -> float:
     """Return the stress [Pa] at which ``rise``, a rising function of it, is zero; at most the limit at the node."""
     from scipy.optimize import brentq
 

@@ -36,19 +36,19 @@ class ShearLaw:
         self.oil = oil
 
     @classmethod
-    def checked(cls, value: float) -> float:
+    def checked(cls, value: Any) -> Any:
         """Return the ``value`` of the key, checked beyond what keys.toml says of it."""
         return value
 
-    def critical(self, pressure: ArrayLike) -> tuple:
+    def critical(self, pressure: ArrayLike) -> tuple[Any, Any]:
         """tau_c [Pa] at each pressure [Pa], and its change with the pressure [-]; both numbers if that is 0."""
         self.refuse("critical", "everything", "leave the key out")
 
-    def warmth(self, temperature: ArrayLike) -> None:
+    def warmth(self, temperature: ArrayLike) -> FloatArray:
         """tau_c at a temperature [K] over that at the temperature of the lubricant."""
         self.refuse("warmth", "the heat of the film", "set numerics.heat = 'off'")
 
-    def critical_at(self, pressure: ArrayLike, temperature: ArrayLike) -> float | FloatArray:
+    def critical_at(self, pressure: ArrayLike, temperature: ArrayLike) -> FloatArray:
         """tau_c [Pa] at pressure [Pa] and temperature [K]."""
         return self.critical(pressure)[0] * self.warmth(temperature)
 
@@ -57,31 +57,31 @@ class ShearLaw:
         said = f" has a shear law without {part}, which {model} needs"
         raise InputError(said, f"lubricant.{self.key}", way_out=f"give it in lubfric/oil/shear_laws.py, or {way_out}")
 
-    def f(self, s: float | np.ndarray) -> None:
+    def f(self, s: float | np.ndarray) -> FloatArray:
         """tau/tau_c, odd in s."""
         self.refuse("f", "everything", "leave the key out")
 
-    def tangent(self, s: float | np.ndarray) -> tuple:
+    def tangent(self, s: float | np.ndarray) -> tuple[FloatArray, FloatArray]:
         """Φ = 1/f' and s dΦ/ds, at s >= 0."""
         self.refuse("tangent", "the deterministic model", "set numerics.model = 'load-sharing'")
 
-    def inverse(self, x: float | np.ndarray) -> None:
+    def inverse(self, x: float | np.ndarray) -> FloatArray:
         """s of tau/tau_c = x, odd in x."""
         self.refuse("inverse", "the heat of the film", "set numerics.heat = 'off'")
 
-    def as_temperature(self, temperature: ArrayLike) -> float | FloatArray:
+    def as_temperature(self, temperature: ArrayLike) -> FloatArray:
         """Return the `warmth` of a tau_c that is proportional to the temperature."""
         return np.asarray(temperature) / self.oil.temperature
 
-    def stress(self, newtonian: float | np.ndarray, critical: float | np.ndarray) -> float | FloatArray:
+    def stress(self, newtonian: float | np.ndarray, critical: float | np.ndarray) -> FloatArray:
         """Return the stress [Pa] at the ``newtonian`` one."""
         return critical * self.f(newtonian / critical)
 
-    def newtonian(self, stress: float | np.ndarray, critical: float | np.ndarray) -> float | FloatArray:
+    def newtonian(self, stress: float | np.ndarray, critical: float | np.ndarray) -> FloatArray:
         """Return the Newtonian stress [Pa] at the ``stress`` that there is."""
         return critical * self.inverse(stress / critical)
 
-    def thinning(self, s: float | np.ndarray, along: bool) -> tuple:
+    def thinning(self, s: float | np.ndarray, along: bool) -> tuple[Any, Any]:
         """Φ and s dΦ/ds of a small pressure flow beside the sliding: by the tangent 1/f' along it, by the secant s/f
         across (perturbation of a Couette flow: T. F. Conry, S. Wang, C. Cusano, J. Tribol. 109 (1987) 648-654,
         doi:10.1115/1.3261526)."""
@@ -100,7 +100,7 @@ class Eyring(ShearLaw):
     thins = True
     warmth = ShearLaw.as_temperature
 
-    def critical(self, pressure: ArrayLike) -> tuple[float, float]:
+    def critical(self, pressure: ArrayLike) -> tuple[Any, Any]:
         return self.oil.eyring_stress, 0.0
 
     def f(self, s: float | np.ndarray) -> FloatArray:
@@ -110,7 +110,7 @@ class Eyring(ShearLaw):
         factor = np.hypot(1.0, s)
         return factor, s * (s / factor)
 
-    def inverse(self, x: float | np.ndarray) -> float | FloatArray:
+    def inverse(self, x: float | np.ndarray) -> FloatArray:
         return np.sinh(x)
 
 
@@ -122,13 +122,13 @@ class Carreau(ShearLaw):
     warmth = ShearLaw.as_temperature
 
     @classmethod
-    def checked(cls, value: float | tuple[float, ...]) -> tuple[float, float]:
+    def checked(cls, value: Any) -> Any:
         if not isinstance(value, (list, tuple)) or len(value) != 2:
             raise InputError(f" = {validate.shown(value)}", "carreau", "[G, n]: critical stress in Pa and exponent")
         G = validate.positive("carreau (G)", value[0], "Pa")
         return G, validate.number("carreau (n)", value[1], "(-)", minimum=0.1, maximum=0.999)
 
-    def critical(self, pressure: ArrayLike) -> tuple[float, float]:
+    def critical(self, pressure: ArrayLike) -> tuple[Any, Any]:
         return self.oil.carreau[0], 0.0
 
     def f(self, s: float | np.ndarray) -> FloatArray:
@@ -157,7 +157,7 @@ class LimitingStress(ShearLaw):
     key = "limiting_stress_coefficient"
     others = ("limiting_stress_offset",)
 
-    def critical(self, pressure: ArrayLike) -> tuple[float | FloatArray, float]:
+    def critical(self, pressure: ArrayLike) -> tuple[Any, Any]:
         slope = self.oil.limiting_stress_coefficient
         return self.oil.limiting_stress_offset + slope * np.maximum(pressure, 0.0), slope
 
@@ -168,7 +168,7 @@ class LimitingStress(ShearLaw):
         """Return fields of a lubricant with twice this tau_c: those that it is proportional to."""
         return {key: 2 * getattr(self.oil, key) for key in (self.key, *self.others)}
 
-    def stress(self, newtonian: float | np.ndarray, critical: float | np.ndarray) -> float | FloatArray:
+    def stress(self, newtonian: float | np.ndarray, critical: float | np.ndarray) -> FloatArray:
         """Return the stress [Pa] at the ``newtonian`` one."""
         return np.clip(newtonian, -critical, critical)
 
@@ -176,7 +176,7 @@ class LimitingStress(ShearLaw):
         """Return the Newtonian stress [Pa] at the ``stress`` >= 0 that there is; infinite above what it bears."""
         return np.where(stress > critical, np.inf, stress)
 
-    def thinning(self, s: float | np.ndarray, along: bool) -> tuple:
+    def thinning(self, s: float | np.ndarray, along: bool) -> tuple[Any, Any]:
         """Φ and s dΦ/ds by the secant of ``1/eta_eff = 1/eta + Δu/(h tau_c)``, 1 + s, in both directions. (The tangent
         of a fluid at its limit is infinite.)"""
         return 1.0 + s, s

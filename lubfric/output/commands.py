@@ -31,7 +31,7 @@ from ..models.shared import (
 )
 from ..quantities import KEYS, Quantity, described
 from ..scene import Scene
-from ..studies import Law, Store, StribeckResult, TractionResult, fingerprint_without_files, fits
+from ..studies import Law, Store, fingerprint_without_files, fits
 from ..surface import rms_slope
 from .describe import SceneEstimate, estimate_scene
 from .pictures import plot_surface
@@ -39,7 +39,7 @@ from .progress import clear_active
 from .report import report_page
 
 if TYPE_CHECKING:
-    from ..time import TransientResult
+    pass
 
 
 # exit codes, as shells count them: the second argument of a KeyboardInterrupt
@@ -111,7 +111,7 @@ def interruptible() -> Iterator[None]:
         yield
         return
 
-    def terminate(*_) -> None:
+    def terminate(*_: object) -> None:
         raise KeyboardInterrupt("terminated", TERMINATED)
 
     before = signal.signal(signal.SIGTERM, terminate)
@@ -156,8 +156,8 @@ def run_begun(
     arguments: Namespace,
     names: Iterable[str],
     kept: Callable[[], str] | None,
-    *key: str | list[float],
-    **places: str | list[float],
+    *key: Any,
+    **places: Any,
 ) -> Iterator[tuple[RunFolder, Prepared, SceneEstimate]]:
     """Begin a run of ``scene``, which writes files with these ``names``: its `RunFolder`, known again by ``key``, the
     scene made ready, and what is estimated of it (`SceneEstimate`) at ``places``. On an interrupt ``kept()`` is said, if anything is.
@@ -209,7 +209,7 @@ def files_read(paths: Iterable) -> list[Path]:
     return list(read)
 
 
-def _words(value) -> list[str]:
+def _words(value: Any) -> list[str]:
     """All texts in the tables and lists of ``value``."""
     if isinstance(value, (dict, list)):
         return [word for part in (value.values() if isinstance(value, dict) else value) for word in _words(part)]
@@ -226,7 +226,7 @@ def check_outputs(arguments: Namespace, folder: Path, names: Iterable[str], patt
     own.check({*names, *own.among(patterns)}, inputs)
 
 
-def made(name: str, write: Callable, *arguments) -> bytes:
+def made(name: str, write: Callable, *arguments: Any) -> bytes:
     """The content of the file that ``write(path, *arguments)`` makes; ``name``: of the file."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / name
@@ -249,7 +249,7 @@ class RunFolder:
         self.contents: dict[str, bytes] = {}
         self.failures: list[str] = []
 
-    def draw(self, name: str, plot: Callable, *arguments) -> None:
+    def draw(self, name: str, plot: Callable, *arguments: Any) -> None:
         """Add the picture that ``plot(path, *arguments)`` saves. One that cannot be drawn is reported at the end."""
         try:
             self.contents[name] = made(name, plot, *arguments)
@@ -259,7 +259,7 @@ class RunFolder:
     def _record(
         self,
         prepared: Prepared,
-        result: StribeckResult | TractionResult | TransientResult,
+        result: Any,
         units: dict[str, Quantity],
         **numbers: object,
     ) -> dict:
@@ -293,10 +293,10 @@ class RunFolder:
         prepared: Prepared,
         estimate: SceneEstimate,
         given: dict,
-        result: StribeckResult | TractionResult | TransientResult,
+        result: Any,
         units: dict[str, Quantity],
         law: Law | str = "",
-        unusual_values=(),
+        unusual_values: Iterable[str] = (),
         **numbers: object,
     ) -> None:
         """Add the scene with its defaults, the picture of the roughness and the page, and put all of a run in the place

@@ -84,7 +84,7 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
 
 
 def estimate_scene(
-    scene: Scene, sample: Sample, surface: Surface, speeds: Sequence[float] | str = (), ratios=()
+    scene: Scene, sample: Sample, surface: Surface, speeds: Sequence[float] | str = (), ratios: Sequence[float] = ()
 ) -> SceneEstimate:
     """What is known of a ``scene`` before it is solved at ``speeds`` [m/s], as `describe_scene`; or at its own speed
     and the slide-roll ``ratios``. ``sample`` and ``surface``: as `lubfric.prepare` makes them."""
@@ -143,7 +143,9 @@ def _plan(scene: Scene, surface: Surface) -> str:
     return f"{what} on {on}; numerical error of f at most {100 * scene.numerics.tolerance:g} %"
 
 
-def _model(scene: Scene, sample: Sample, surface: Surface, speeds: list[float], ratios) -> tuple[list[str], float]:
+def _model(
+    scene: Scene, sample: Sample, surface: Surface, speeds: list[float], ratios: Sequence[float]
+) -> tuple[list[str], float]:
     """Return which model will answer at the ``speeds`` [m/s] and ``ratios``, and why; and the processor seconds of all
     of them (`lubfric.estimate.friction`; 0: not known here)."""
     model = scene.numerics.model

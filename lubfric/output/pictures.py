@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from ..estimate import FrictionResult
-    from ..models import ContactFields
     from ..models.shared import Prepared
+    from ..time import TransientResult
 
 
 WHOLE = 3.0  # times as long along y as along x: no more is drawn whole
@@ -60,7 +60,7 @@ class PictureOptions:
         width = WIDTH if self.width is None else self.width / INCH
         return width, max(width / WIDTH, LEAST_SCALE) * sum(heights)
 
-    def scale(self, axes: Axes, *, friction: Axes = None, f: np.ndarray | None = None) -> None:
+    def scale(self, axes: Axes, *, friction: Axes | None = None, f: np.ndarray | None = None) -> None:
         """Set the scales that the user chose: of x on ``axes``, and on the axes ``friction`` that of ``f``."""
         if self.x_scale:
             axes.set_xscale(self.x_scale)
@@ -84,7 +84,7 @@ def plot_stribeck(
     columns: dict[str, np.ndarray],
     title: str,
     entries: Sequence[Sequence[Any]],
-    measured=None,
+    measured: Any = None,
     options: PictureOptions = PictureOptions(),
 ) -> None:
     """Draw f, the load ratios and the film over the entrainment speed.
@@ -148,7 +148,7 @@ def plot_traction(
     columns: dict[str, np.ndarray],
     title: str,
     entries: Sequence[Sequence[Any]],
-    measured=None,
+    measured: Any = None,
     options: PictureOptions = PictureOptions(),
 ) -> None:
     """Draw f over the slide-roll ratio, and below, where they were computed, temperatures. Arguments as of
@@ -209,21 +209,22 @@ def plot_contact(path: Path, prepared: Prepared, point: FrictionResult) -> None:
 
 
 @figures.styled
-def plot_compared(path: Path, prepared, point) -> None:
+def plot_compared(path: Path, prepared: Prepared, point: FrictionResult) -> None:
     """Draw the fields of the load-sharing model with which ``point`` is compared, as PNG."""
     _two_pressures(prepared, point, point.compared_fields).savefig(path)
 
 
-def _one_gap(fields, speed: float, half_width: float):
+def _one_gap(fields: Any, speed: float, half_width: float) -> Figure:
     """Pressure, gap and shear around the Hertz strip, from above, in the part with the highest pressure."""
     from matplotlib.colors import LogNorm
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
 
     near = np.abs(fields.x) <= NEAR * half_width
     x = fields.x[near]
     y = fields.y
     part = _part(x, y, int(fields.pressure[near].max(axis=0).argmax()))
-    figure = figures.new_figure(figsize=(10.5, 5.5), layout="compressed")
-    figure.get_layout_engine().set(w_pad=PANEL_GAP)
+    engine = ConstrainedLayoutEngine(compress=True, w_pad=PANEL_GAP)
+    figure = figures.new_figure(figsize=(10.5, 5.5), layout=engine)
     for axes, (label, unit, field, colours, norm) in zip(
         figure.subplots(1, 3, sharey=True),
         (
@@ -255,7 +256,7 @@ def _partly(y: np.ndarray, part: slice) -> str:
     return "" if part == slice(None) else f"; {some:.0f} of {1e6 * y[-1]:.0f} µm of the line"
 
 
-def _two_pressures(prepared: Prepared, point: FrictionResult, fields: ContactFields) -> Figure:
+def _two_pressures(prepared: Prepared, point: FrictionResult, fields: Any) -> Figure:
     """Map of the contact pressure; beside it film and surfaces on a section through the highest pressure.
 
     The section shows what the paper's Fig. 10 shows: the smooth film h, the separation h_s = h - epsilon as the
@@ -263,7 +264,9 @@ def _two_pressures(prepared: Prepared, point: FrictionResult, fields: ContactFie
     It is chosen so that u has zero mean over the section.
     """
     touching = fields is not None and bool(fields.pressure.any())
-    film = point.balance.film
+    balance = point.balance
+    assert balance is not None  # of the load-sharing model
+    film = balance.film
     half_width = prepared.scene.bodies.half_width
     row = 0 if fields is None else int(fields.pressure.max(axis=0).argmax())
     if fields is not None and not touching:
@@ -275,7 +278,7 @@ def _two_pressures(prepared: Prepared, point: FrictionResult, fields: ContactFie
     ratios = [0.55 if slender else 1.0, 1.0][: sum(panels)]
     figure = figures.new_figure(figsize=(5.5 * sum(ratios), 5.0))
     axes = list(figure.subplots(1, sum(panels), squeeze=False, width_ratios=ratios).flat)
-    both = worded(point.balance.contact_load, "N"), worded(point.balance.film_load, "N")
+    both = worded(balance.contact_load, "N"), worded(balance.film_load, "N")
     loads = "load-sharing model, Eq. (8): U = {:g} m/s, $F_C$ = {}, $F_H$ = {}".format(point.speed, *both)
     if touching:
         pressure, unit = figures.in_unit_for(fields.pressure[:, part], "Pa")
@@ -304,7 +307,7 @@ def _hertz_strip(axes: Axes, half_width: float) -> None:
     axes.set_xlabel("x (µm), along the motion")
 
 
-def _section(axes: Axes, fields: ContactFields, row: int, *, touching: bool) -> None:
+def _section(axes: Axes, fields: Any, row: int, *, touching: bool) -> None:
     """Draw heights above the mean of the rough surface, as high as the thinnest film and the summits need."""
     micro = fields.x * 1e6
     surface = fields.heights[:, row]
@@ -387,7 +390,7 @@ def plot_history(
 
 
 @figures.styled
-def animate(path: Path, result, half_width: float) -> None:
+def animate(path: Path, result: TransientResult, half_width: float) -> None:
     """GIF of pressure and film along the contact over time."""
     count = result.time.size
     x = result.x

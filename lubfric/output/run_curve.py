@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -66,7 +66,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
     names = ["stribeck.csv", "stribeck.png", "contact.png", "sharing.png", "law.json", "law.c"]
     names += [f"contact_{i}.vtk" for i in range(len(chosen) if arguments.vtk else 0)]
 
-    def on_point(*point: float | FrictionResult | ValidityError) -> None:
+    def on_point(*point: Any) -> None:
         ended.append(point)
         shown.update(point[0], point[1])
         progress(*point)
@@ -111,7 +111,7 @@ def run_traction(scene: Scene, arguments: Namespace) -> None:
     progress = _progress("slide-roll ratio {:<9.4g}")
     with ProgressLine("ratios") as shown, begun as (folder, prepared, estimate):
 
-        def on_point(*point: float | FrictionResult | ValidityError) -> None:
+        def on_point(*point: Any) -> None:
             shown.update(point[0], point[1])
             progress(*point)
 
@@ -271,7 +271,7 @@ def _plot(
     columns: Columns,
     title: str,
     points: list[dict],
-    measured=None,
+    measured: Any = None,
     options: PictureOptions = PictureOptions(),
 ) -> None:
     """The picture of the table of a curve; ``points``: those of its record."""

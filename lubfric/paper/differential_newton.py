@@ -37,7 +37,7 @@ class DifferentialSolution:
     solves: int
 
 
-def near_solver(mesh: Mesh, problem: FilmProblem, t: DifferentialTerms) -> Callable[..., Any]:
+def near_solver(mesh: Mesh, problem: FilmProblem, t: DifferentialTerms) -> Callable[..., Any] | None:
     """Return the equations with near weights, factorised; None if the matrix is singular.
 
     The function returned takes the right sides: (N,) of the balances and of the second differences, (2,) of the closing

@@ -6,8 +6,9 @@ signs of this library the gap is ``g = h - epsilon - z + K p``.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,6 @@ from .._base import FloatArray, increasing_root, validate
 from ..contact import (
     ContactProblem,
     ContactResult,
-    HalfSpace,
     SearchResult,
     TrialContact,
     contact_problem,
@@ -85,8 +85,8 @@ class ImposedFilm:
         offset: float,
         status: str,
         convolutions: float,
-        history: list[float],
-        notes: list[str] = (),
+        history: Sequence[float],
+        notes: Sequence[str] = (),
         iterations: int | None = None,
     ) -> SearchResult:
         """Return the end of an iteration: its state is computed anew from the pressure and epsilon alone."""
@@ -115,12 +115,12 @@ class ImposedFilm:
 
 def impose(
     heights: FloatArray,
-    film: float | FloatArray,
+    film: Any,
     spacing: float,
     e_prime: float,
     *,
-    weight: float | FloatArray | None = None,
-    **problem: int | HalfSpace | tuple[str, str] | None,
+    weight: Any = None,
+    **problem: Any,
 ) -> ImposedFilm:
     """Return the validated contact; arguments as in `lubfric.paper.single_loop`."""
     heights = validate.array("heights", heights, "m", ndim=2)
@@ -142,7 +142,7 @@ def alternating(
     update: str = "root",
     max_iterations: int = 100,
     raise_on_failure: bool = True,
-    **problem: FloatArray | HalfSpace | tuple[str, str] | None,
+    **problem: Any,
 ) -> ContactResult:
     """Contact under the separation ``h - epsilon``: system (3) is solved at one epsilon after the other.
 
@@ -166,7 +166,7 @@ def alternating(
     return contact.solved(lambda first: _alternated(contact, first, update), f"alternating, {update}", raise_on_failure)
 
 
-def _alternated(contact: ImposedFilm, pressure, update: str) -> SearchResult:
+def _alternated(contact: ImposedFilm, pressure: FloatArray, update: str) -> SearchResult:
     """Each solve of system (3) starts from the last one."""
     problem = contact.problem
     state = evaluate(contact.problem, contact.problem.operator, pressure)
@@ -174,7 +174,7 @@ def _alternated(contact: ImposedFilm, pressure, update: str) -> SearchResult:
     tight = replace(problem, tolerance=0.3 * problem.tolerance, max_iterations=2000)
     offset = contact.offset(state.displacement)
 
-    def surplus(offset, _=None):
+    def surplus(offset: float, _: Any = None) -> tuple[float, tuple[FloatArray, float]]:
         """Return (film - volume)/min(L, film), which rises with epsilon, and the pressure."""
         nonlocal state, spent
         search = refine(tight, state.pressure.copy(), level=offset)

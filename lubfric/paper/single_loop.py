@@ -15,6 +15,7 @@ The form "consistent" (default) keeps the single loop, and changes what prevents
 """
 
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 
@@ -39,7 +40,7 @@ def single_loop(
     separation_tolerance: float = 1e-6,
     max_iterations: int = 2000,
     raise_on_failure: bool = True,
-    **problem,
+    **problem: Any,
 ) -> ContactResult:
     """Contact of a rough surface under the separation ``h - epsilon``, with epsilon from the volume balance, Eq. (8).
 

@@ -94,7 +94,7 @@ def choose_cells(spacing: tuple[float, float], lengths: tuple[float, float], hal
     Their lengths are ``spacing`` [m] times powers of two. Along x they cover at least ``reach`` [m].
     """
     fx, fy = largest_factors(spacing, lengths, half_width)
-    return Cells((fx, fy), tuple(spacing), EVEN * math.ceil(reach / (EVEN * fx * spacing[0]) - 1e-9))
+    return Cells((fx, fy), (spacing[0], spacing[1]), EVEN * math.ceil(reach / (EVEN * fx * spacing[0]) - 1e-9))
 
 
 def cells_of_a_box(
@@ -110,7 +110,7 @@ def cells_of_a_box(
         fx //= 2
     while first is not None and shape[1] % (2 * fy) and fy > 1:
         fy //= 2
-    return Cells((fx, fy), tuple(spacing), shape[0] // fx, first)
+    return Cells((fx, fy), (spacing[0], spacing[1]), shape[0] // fx, first)
 
 
 def correlation_lengths(rough: Roughness) -> tuple[float, float]:

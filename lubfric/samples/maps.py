@@ -134,7 +134,7 @@ def generated_map(rough: Roughness, domain: ContactDomain, name: str = "surface"
     if domain.shape is None or domain.spacing is None:
         raise InputError(f"contact.shape and contact.spacing [m] are needed for a generated {name}")
     surface = generate_surface(
-        tuple(rough.oversize * n for n in domain.shape),
+        (rough.oversize * domain.shape[0], rough.oversize * domain.shape[1]),
         validate.spacing("contact.spacing", domain.spacing),
         **statistics(rough),
         seed=rough.seed if name == "surface" else other_seed(rough.seed),

@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -178,7 +179,7 @@ class MeasuredStrips(Sample):
 
     def _made(self, heights: FloatArray, spacing: tuple[float, float], note: str) -> Surface:
         notes = (*self.surface.notes, note)
-        new = {"heights": heights, "spacing": spacing, "periodic_axes": (False, True), "notes": notes}
+        new: dict[str, Any] = {"heights": heights, "spacing": spacing, "periodic_axes": (False, True), "notes": notes}
         return replace(self.surface, mask=None, **new)
 
 

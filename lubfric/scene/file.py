@@ -2,9 +2,12 @@
 
 import os
 import tomllib
+from collections.abc import Mapping
 from difflib import get_close_matches
 from importlib import resources
+from importlib.resources.abc import Traversable
 from pathlib import Path
+from typing import Any
 
 from .._base import validate, with_default_errors, write_whole
 from ..errors import InputError
@@ -21,7 +24,12 @@ SCENES = resources.files(__package__) / "scenes"
 
 
 @with_default_errors
-def load_scene(source, *, surface_file=None, counterface_file=None) -> Scene:
+def load_scene(
+    source: str | Path | Mapping[str, Any],
+    *,
+    surface_file: str | Path | None = None,
+    counterface_file: str | Path | None = None,
+) -> Scene:
     """Read a scene from a TOML file, from a dict of its tables, or one of the two built in.
 
     Parameters
@@ -57,7 +65,7 @@ def given_tables(source: str) -> dict:
     return dict(source) if isinstance(source, dict) else _read(source)[0]
 
 
-def read_toml(path: Path, what: str) -> dict:
+def read_toml(path: Path | Traversable, what: str) -> dict:
     """The tables of a TOML file; raises `InputError`, which says ``what`` it should be, where it cannot be read."""
     try:
         size = path.stat().st_size if isinstance(path, Path) else 0
@@ -165,7 +173,7 @@ def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
     return table, plan
 
 
-def _read(source: str) -> tuple[dict, Path, str]:
+def _read(source: object) -> tuple[dict, Path, str]:
     """Its tables, the folder that its files are relative to, and its name."""
     names = builtin_scenes()
     if not isinstance(source, (str, os.PathLike)):

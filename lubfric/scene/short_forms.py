@@ -43,7 +43,7 @@ def short_keys(section: str) -> tuple[str, ...]:
     return (*keys, *OIL_KEYS) if section == "lubricant" else keys
 
 
-def resolve(section: str, given: dict, old=None) -> dict:
+def resolve(section: str, given: dict, old: Any = None) -> dict:
     """Plain fields of ``section`` from what was ``given``; ``old``: the section to be changed, None for a new one.
 
     Raises `InputError` if two keys say the same thing, one lacks its partner, or a value is out of range.
@@ -73,7 +73,7 @@ def _without_none(given: dict, section: str) -> dict:
     return {key: value for key, value in given.items() if key not in needless}
 
 
-def _of_radii(radii, *_: Bodies | dict[str, float | str] | None) -> dict:
+def _of_radii(radii: Any, *_: Any) -> dict:
     """R [m], 1/R = 1/R1 + 1/R2; a plane is inf, a hollow (the outer ring around a roller) negative."""
     first, second = pair("bodies.radii", radii, "m")
     for radius in (first, second):
@@ -87,7 +87,7 @@ def _of_radii(radii, *_: Bodies | dict[str, float | str] | None) -> dict:
     return {"radius": 1 / curvature}
 
 
-def _of_materials(names: str | list[str], *_: Bodies | dict[str, float | None] | None) -> dict:
+def _of_materials(names: Any, *_: Any) -> dict:
     """Fields of one or two named materials (materials.toml)."""
     known = packaged(__package__, "materials.toml")
     both = (names, names) if isinstance(names, str) else pair("bodies.material", names, "names")
@@ -100,7 +100,7 @@ def _of_materials(names: str | list[str], *_: Bodies | dict[str, float | None] |
     }
 
 
-def _of_moduli(moduli: list[float], ratios: list[float], *_) -> dict:
+def _of_moduli(moduli: Any, ratios: Any, *_: Any) -> dict:
     (e1, e2) = pair("bodies.young_modulus", moduli, "Pa")
     (nu1, nu2) = pair("bodies.poisson_ratio", ratios, "-")
     for e in (e1, e2):
@@ -122,7 +122,7 @@ def _of_hertz_pressure(
     return {"load": 2 * math.pi * radius * pressure**2 / e_prime * width}
 
 
-def _of_surface_speeds(speeds: list[float], *_) -> dict:
+def _of_surface_speeds(speeds: Any, *_: Any) -> dict:
     both = pair("motion.surface_speeds", speeds, "m/s")
     u1, u2 = (validate.number("motion.surface_speeds", u, "m/s") for u in both)
     if u1 + u2 == 0:
@@ -183,7 +183,7 @@ def resolve_oil(given: dict, old: Lubricant | None) -> dict:
     if temperature is None:
         raise InputError("[lubricant] with an oil needs its temperature in K, or temperature_celsius")
     oil_fields = fields_of(oil.with_(**changed), temperature)
-    if before is not None:
+    if old is not None and before is not None:
         oil_fields["density_law"] = old.density_law
         if old.temperature_coefficient != before.temperature_coefficient(old.temperature):
             oil_fields["temperature_coefficient"] = old.temperature_coefficient  # it was given
@@ -214,7 +214,7 @@ def fields_of(oil: Oil, temperature: float) -> dict:
     }
 
 
-def of_celsius(celsius: float, *_) -> dict:
+def of_celsius(celsius: float, *_: Any) -> dict:
     """The temperature [K] of ``lubricant.temperature_celsius``."""
     degrees = validate.number("lubricant.temperature_celsius", celsius, "°C")
     if degrees > 250:

@@ -77,7 +77,7 @@ class Transient:
                 object.__setattr__(self, name, given)
 
 
-def history(name: str, given, unit: str | None = None, folder: Path = Path()) -> History:
+def history(name: str, given: Any, unit: str | None = None, folder: Path = Path()) -> History:
     """A history from a number, a history, or an inline table ``{kind = ..., ...}`` of a scene file.
 
     ``unit``: SI unit of the quantity; ``folder``: which a file of the table is relative to.

@@ -75,7 +75,7 @@ APART = 1.015
 GRID = 400
 
 
-def requested_speeds(scene: Scene, speeds) -> tuple[float, ...]:
+def requested_speeds(scene: Scene, speeds: Any) -> tuple[float, ...]:
     """Return the requested speeds [m/s], one or many, each once; those of the scene for None, and none for "auto"."""
     if isinstance(speeds, str):
         if speeds == AUTO:

@@ -46,7 +46,7 @@ def _name(kind: type) -> str:
     return f"{kind.__module__}.{kind.__name__}"
 
 
-def encode(value, field: Callable[..., Any] = getattr) -> list:
+def encode(value: Any, field: Callable[..., Any] = getattr) -> list:
     """``value`` as bytes, in pieces that follow each other. It may be a tree of dataclasses, numbers, texts and
     arrays. ``field(object, name)`` gives what is encoded of a field of a dataclass."""
     arrays: list[bytes | memoryview] = []
@@ -54,7 +54,7 @@ def encode(value, field: Callable[..., Any] = getattr) -> list:
     return [len(tree).to_bytes(LENGTH, "little") + tree, *arrays]
 
 
-def decode(content: bytes, classes: dict[str, type], kind: Any = Any):
+def decode(content: bytes, classes: dict[str, type], kind: Any = Any) -> Any:
     """What `encode` was given, from its pieces joined. ``classes``: those that it may hold (`classes_of`); ``kind``:
     the type that it must have, as in an annotation. Raises `ValueError` for anything else, such as what another version
     stored."""
@@ -103,7 +103,7 @@ def _hints(kind: Any) -> dict[str, Any]:
     return {name: float if isinstance(hints[name], TypeVar) else hints[name] for name in own}
 
 
-def _plain(value, arrays: list, field: Callable[..., Any]) -> Any:
+def _plain(value: Any, arrays: list, field: Callable[..., Any]) -> Any:
     """JSON types for ``value``. Its arrays are added to ``arrays``."""
     if value is None or isinstance(value, (bool, int, str)):
         return value
@@ -129,7 +129,7 @@ def _plain(value, arrays: list, field: Callable[..., Any]) -> Any:
     raise TypeError(f"a {type(value).__name__} cannot be stored: {value!r}")
 
 
-def _value(plain, classes: dict[str, type], content: memoryview) -> Any:
+def _value(plain: Any, classes: dict[str, type], content: memoryview) -> Any:
     """What `_plain` was given. ``content``: the bytes of the arrays."""
     if isinstance(plain, list):
         return tuple(_value(item, classes, content) for item in plain)

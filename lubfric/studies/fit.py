@@ -1,7 +1,8 @@
 """`fit`: bounded least squares of a scene to a measured curve, and how well the data determine its parameters."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from itertools import product
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -52,12 +53,12 @@ OF_SLIP = {"motion.slide_roll_ratio", "motion.slip_percent"}
 def fit(
     scene: Scene,
     measured: Measured,
-    parameters: dict[str, tuple[float, float]],
+    parameters: Mapping[str, Any],
     *,
     start: dict[str, float] | None = None,
     starts: int | None = None,
-    executor: int | None = None,
-    store=None,
+    executor: Any = None,
+    store: str | Path | None = None,
     on_progress: Callable | None = None,
 ) -> FitResult:
     """Find the values of ``parameters`` with which the friction of a scene is nearest to a measured curve.
@@ -114,9 +115,7 @@ def fit(
 
 
 @with_default_errors
-def explain_fit(
-    scene: Scene, measured: Measured, parameters: dict[str, tuple[float | str, float]], *, starts: int | None = None
-) -> str:
+def explain_fit(scene: Scene, measured: Measured, parameters: Mapping[str, Any], *, starts: int | None = None) -> str:
     """Return what a fit will do and about how long it will take, in words.
 
     The time is that of the work counted where the fit may begin and at the corners of the bounds. Maps are made, and no
@@ -170,7 +169,7 @@ def _estimated(coarse: FitCurves, fine: FitCurves, begin: np.ndarray, starts: in
 
 
 def _curves(
-    scene: Scene, measured: Measured, bounds: dict[str, Between], executor=None, folder: str | None = None
+    scene: Scene, measured: Measured, bounds: dict[str, Between], executor: Any = None, folder: str | Path | None = None
 ) -> tuple[FitCurves, FitCurves]:
     """Return the curves of the search by the coarse model, and those of the fit by the scene's own."""
     fine = scene.with_(numerics={"tolerance": fit_tolerance(scene, measured)})
@@ -180,9 +179,7 @@ def _curves(
     )
 
 
-def _checked(
-    scene: Scene, measured: Measured, parameters: dict[str, float | tuple[float | str, float]]
-) -> dict[str, Between]:
+def _checked(scene: Scene, measured: Measured, parameters: Mapping[str, Any]) -> dict[str, Between]:
     """Return the bounds of ``parameters`` if scene and data can determine them; raises `InputError`."""
     validate.instance("scene", scene, Scene, "a scene to change: what lubfric.load_scene returned, not lubfric.prepare")
     validate.instance("measured", measured, Measured, "lubfric.read_measured(...) or lubfric.Measured(x, coefficient)")

@@ -3,6 +3,8 @@
 import time
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -52,8 +54,8 @@ class FitCurves:
         scene: Scene,
         measured: Measured,
         parameters: dict[str, Between],
-        executor=None,
-        folder: str | None = None,
+        executor: Any = None,
+        folder: str | Path | None = None,
     ):
         self.scene = scene
         self.measured = measured

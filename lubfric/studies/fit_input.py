@@ -1,6 +1,8 @@
 """What a fit is given: a measured curve of friction with its units, and the numbers of a scene that are sought."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -127,7 +129,7 @@ class Measured:
 
 @with_default_errors
 def read_measured(
-    path,
+    path: str | Path,
     *,
     coefficient: str,
     speed: str | None = None,
@@ -215,7 +217,7 @@ def values_at(parameters: dict[str, Between], unit: np.ndarray) -> dict[str, flo
     return {key: float(bounds.at(share)) for (key, bounds), share in zip(parameters.items(), unit)}
 
 
-def parameters_of(scene: Scene, bounds: dict[str, float | tuple[float | str, float]]) -> dict[str, Between]:
+def parameters_of(scene: Scene, bounds: Mapping[str, Any]) -> dict[str, Between]:
     """What is sought, of {"section.key": (low, high)}: in its logarithm where the bounds are a factor of 10 or more
     apart. The scene is checked at both ends of each."""
     if not isinstance(bounds, dict) or not bounds:

@@ -2,11 +2,12 @@
 and C."""
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .._base import FloatArray, Shown, plain, validate
 from ..errors import InputError
@@ -93,8 +94,13 @@ class Law(Shown):
     interval: float
 
     def __call__(
-        self, speed: float | FloatArray, temperature=None, pressure=None, *, extrapolate: bool = False
-    ) -> float | FloatArray:
+        self,
+        speed: ArrayLike,
+        temperature: ArrayLike | None = None,
+        pressure: ArrayLike | None = None,
+        *,
+        extrapolate: bool = False,
+    ) -> FloatArray:
         """f at ``speed`` [m/s] (either sign), ``temperature`` [K] and ``pressure`` [Pa], numbers or arrays; None: in
         the middle of the range. Raises `InputError` outside ``ranges``, unless ``extrapolate``. Slower than the slowest
         point, f goes to 0 at rest."""
@@ -171,16 +177,16 @@ def conditions_of(scene: Scene) -> tuple[float, float, float, float]:
     return temperature, oil.viscosity, slope, scene.bodies.mean_hertz_pressure
 
 
-def value(numbers: dict[str, float], U: FloatArray, T: FloatArray, p: FloatArray) -> FloatArray:
+def value(numbers: Mapping[str, float], U: Any, T: Any, p: Any) -> Any:
     """f by the formula."""
-    names = numbers | {"U": U, "T": T, "p": p}
+    names: dict[str, Any] = {**numbers, "U": U, "T": T, "p": p}
     with np.errstate(over="ignore", under="ignore", divide="ignore"):
         for name, expression in _expressions(numbers).items():
             names[name] = eval(CODE[expression], FUNCTIONS, names)
     return names["f"]
 
 
-def _expressions(numbers: dict[str, float]) -> dict[str, str]:
+def _expressions(numbers: Mapping[str, float]) -> dict[str, str]:
     return {"eta": WALTHER if "A" in numbers else "eta0"} | FORMULA
 
 

@@ -62,7 +62,7 @@ class OperatingPoints:
     coordinates: dict[str, tuple[float, ...]]
 
 
-def operating_points(scene: Scene, table) -> OperatingPoints:
+def operating_points(scene: Scene, table: Any) -> OperatingPoints:
     """Return the operating points of ``table`` for a ``scene``.
 
     Parameters
@@ -107,7 +107,7 @@ def operating_points(scene: Scene, table) -> OperatingPoints:
     return OperatingPoints(axis=axis, speeds=tuple(map(float, speeds)), coordinates=coordinates)
 
 
-def _columns(table) -> dict[str, list]:
+def _columns(table: Any) -> dict[str, list]:
     """Return the columns of ``table`` in SI units, by the keys of a scene or the names of `COORDINATES`, `SPEEDS`."""
     if isinstance(table, (str, Path)):
         path = validate.folder("points", table)
@@ -133,7 +133,7 @@ def _columns(table) -> dict[str, list]:
     return columns
 
 
-def _as_columns(table) -> dict[str, list]:
+def _as_columns(table: Any) -> dict[str, list]:
     """Return the columns of rows, of columns or of a DataFrame by their headings."""
     if hasattr(table, "to_dict") and hasattr(table, "columns"):
         table = table.to_dict("list")

@@ -2,12 +2,14 @@
 strictly."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
 from pathlib import Path
 from typing import Any
+
+from numpy.typing import ArrayLike
 
 from .._base import FieldsOnly, validate, with_default_errors
 from ..errors import InputError
@@ -105,9 +107,9 @@ def scenes_of(scene: Scene, axes: tuple[Axis, ...]) -> Iterator[Scene]:
 @with_default_errors
 def plan_study(
     scene: Scene,
-    vary=None,
-    speeds: str | list[float | str | list[float]] | tuple[float, ...] | None = None,
-    points=None,
+    vary: Mapping[Any, Any] | None = None,
+    speeds: str | ArrayLike | None = None,
+    points: Any = None,
 ) -> StudyPlan:
     """Plan a study without solving anything.
 
@@ -190,7 +192,7 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
         return plan_study(load_scene(path if path.is_file() else str(path)), points=points)
     table = read_toml(path, "study")
     validate.keys(path.name, table, KEYS)
-    name = table.get("scene")
+    name: Any = table.get("scene")
     validate.instance(f"scene of {path.name}", name, str, "a file or a built-in scene")
     beside = path.parent / name
     scene = load_scene(beside if beside.is_file() else name)
@@ -215,14 +217,14 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
     return plan_study(scene, vary, speeds, points)
 
 
-def _flat_rows(rows: list[dict[str, float | str | dict[str, float]]]) -> Any:
+def _flat_rows(rows: Any) -> Any:
     """Return rows of a study file with dotted keys in place of tables within them."""
     if isinstance(rows, list):
         return [_flat(row, lambda value: not isinstance(value, dict)) if isinstance(row, dict) else row for row in rows]
     return _flat(rows, lambda value: not isinstance(value, dict)) if isinstance(rows, dict) else rows
 
 
-def _add(known: dict, key: str | tuple[str, str], values) -> None:
+def _add(known: dict, key: str | tuple[str, ...], values: Any) -> None:
     """Put ``values`` into ``known``. Raises `InputError` for a key that is there already, whose values would be
     lost."""
     if key in known:
@@ -240,9 +242,7 @@ def _flat(table: dict, is_value: Callable[[Any], bool]) -> dict[str, Any]:
     return flat
 
 
-def _lists(
-    table: dict[str, dict[str, list[float | str]] | list[float | dict[str, float | str]]], where: str, folder: Path
-) -> dict[str, list]:
+def _lists(table: Any, where: str, folder: Path) -> dict[str, list]:
     """The lists of values by their keys. Files are relative to ``folder``."""
     validate.instance(f"[{where}]", table, dict, "keys of a scene with lists of values")
     lists = _flat(table, lambda value: not isinstance(value, dict))
@@ -264,10 +264,10 @@ def _lists(
     return lists
 
 
-def _sampled(table: dict[str, int | dict[str, int | dict[str, float | str]]], file: str) -> tuple:
+def _sampled(table: Any, file: str) -> tuple[Any, Any]:
     """The key, or the keys, of [sample], and their values."""
     validate.instance("[sample]", table, dict, "a table")
-    options = {key: table.pop(key) for key in SAMPLE_KEYS if key in table}
+    options: dict[str, Any] = {key: table.pop(key) for key in SAMPLE_KEYS if key in table}
     if "count" not in options:
         raise InputError(f"[sample] of {file} needs count, the number of points")
     ranges = _flat(table, lambda value: not isinstance(value, dict) or "low" in value)

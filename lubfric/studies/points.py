@@ -4,6 +4,7 @@ several, give the same bits."""
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, LubfricError, ValidityError
@@ -34,7 +35,7 @@ def solved(
     key: str,
     speeds: Sequence[float],
     kept: frozenset[float] = frozenset(),
-    folder: str | None = None,
+    folder: str | Path | None = None,
 ) -> Iterator[tuple[str, float, Outcome | None]]:
     """Yield (key, speed, outcome) of each point of a scene, when it is in the store. A point that fails has its error as
     outcome. If the scene cannot be made ready, that is the error of all.
@@ -77,7 +78,9 @@ def solved(
         yield key, math.nan, None
 
 
-def solved_together(tasks: Sequence[tuple[Scene, str, tuple[float, ...]]], folder: str | None = None) -> Iterator:
+def solved_together(
+    tasks: Sequence[tuple[Scene, str, tuple[float, ...]]], folder: str | Path | None = None
+) -> Iterator:
     """Yield what `solved` yields of each of the ``tasks`` (scene, key, speeds)."""
     for scene, key, speeds in tasks:
         yield from solved(scene, key, speeds, folder=folder)

@@ -5,9 +5,10 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, is_dataclass
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from .._base import Shown, validate, with_default_errors
 from .._base.processes import checked_executor, checked_workers, pool, spread
-from ..errors import InputError, ValidityError
+from ..errors import InputError
 from ..quantities import NUMBERS
 from ..scene import Scene
 from ..units import worded
@@ -29,9 +30,7 @@ from .study_table import StudyTable
 from .tables import label, plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
 
 if TYPE_CHECKING:
-    from concurrent.futures import Executor
-
-    from ..estimate import FrictionResult
+    pass
 
 
 PLAN = "plan"  # its key in the store
@@ -204,12 +203,12 @@ class StudyResult(Shown):
 @with_default_errors
 def study(
     scene: Scene | StudyPlan,
-    vary=None,
-    speeds: str | list[float | list[float]] | tuple[float, ...] | None = None,
+    vary: Mapping[Any, Any] | None = None,
+    speeds: str | ArrayLike | None = None,
     *,
-    points: dict[str, list[float] | tuple[float, float, float]] | list[dict[str, float]] | None = None,
-    executor: int | Executor | None = None,
-    store=None,
+    points: Any = None,
+    executor: Any = None,
+    store: str | Path | None = None,
     on_progress: Callable[..., Any] | None = None,
     workers: int = 1,
 ) -> StudyResult:
@@ -260,7 +259,7 @@ def study(
         return _result(_carried_out(plan, executor, kept, on_progress))
 
 
-def _carried_out(plan: StudyPlan, executor: Executor | None, store: Store, on_progress: Callable | None) -> StudyTable:
+def _carried_out(plan: StudyPlan, executor: Any, store: Store, on_progress: Callable | None) -> StudyTable:
     """Return the table of all points of a plan, those in the ``store`` and those that are solved now."""
     table = StudyTable(plan)
     table.read(store)
@@ -308,7 +307,7 @@ def _jobs(plan: StudyPlan, left: list, store: Store, together: int | None) -> It
         yield partial(solved_together, tuple(tasks), store.root)
 
 
-def _keep(store: Store, key: str, record: FrictionResult | InputError | ValidityError) -> None:
+def _keep(store: Store, key: str, record: Any) -> None:
     """Keep a ``record`` that a worker could not, as it does not see the folder of the store."""
     if not store.has(key):
         store.add(key, record)
@@ -324,7 +323,7 @@ def _result(table: StudyTable) -> StudyResult:
 
 
 @with_default_errors
-def open_study(folder) -> StudyResult:
+def open_study(folder: str | Path) -> StudyResult:
     """Read the result of a study from its folder, whether it is finished or not.
 
     Parameters

@@ -59,14 +59,14 @@ class Store:
         self.classes = classes
         self.folder = None if root is None else Path(root) / POINTS
 
-    def add(self, key: str, outcome, sync: bool = False) -> None:
+    def add(self, key: str, outcome: Any, sync: bool = False) -> None:
         """Keep a dataclass of the ``classes``, a `LubfricError`, or a tuple of these and of numbers; ``sync``: it also
         outlives a loss of power. Raises `OutputError` when that fails."""
         if self.folder is not None:
             stored = _failure(outcome) if isinstance(outcome, LubfricError) else outcome
             write_checked(self._path(key), *encode(stored), sync=sync)
 
-    def get(self, key: str, kind: Any = Any) -> FrictionResult | None:
+    def get(self, key: str, kind: Any = Any) -> Any:
         """What was added under ``key``, of the type ``kind``; None for what is absent. A record that cannot be read, is
         damaged, or of another version, counts as absent; a `UserWarning` reports it."""
         if self.folder is None or not os.path.lexists(self._path(key)):
@@ -98,14 +98,14 @@ class Store:
         then."""
         if self.folder is not None:
             clear_checked(self.folder, *(self._path(key).name for key in keys))
-            clear_checked(Path(self.root))
+            clear_checked(self.folder.parent)
 
     def _path(self, key: str) -> Path:
         return (self.folder or Path()) / f"{key[:40]}.bin"
 
 
 @contextmanager
-def opened(folder, classes: dict[str, type] = CLASSES, name: str = "store") -> Iterator[Store]:
+def opened(folder: str | Path | None, classes: dict[str, type] = CLASSES, name: str = "store") -> Iterator[Store]:
     """The `Store` in ``folder`` (None: none), which one caller at a time may fill. Raises `InputError` for a second.
     ``name``: of the argument that gives the folder."""
     if folder is None:
@@ -118,7 +118,7 @@ def opened(folder, classes: dict[str, type] = CLASSES, name: str = "store") -> I
         yield Store(os.path.abspath(folder), classes)
 
 
-def shared(folder: str | None) -> bool:
+def shared(folder: str | Path | None) -> bool:
     """Return whether this process sees the ``folder`` of a store that another one has `opened`. A worker on another
     machine may not; then the process that planned the work keeps what comes back."""
     return folder is not None and os.path.exists(os.path.join(folder, LOCK))
@@ -163,14 +163,14 @@ def digest(value: Any) -> str:
     return _digest(value, _counted)
 
 
-def _digest(value, counted: Callable[..., Any]) -> str:
+def _digest(value: Any, counted: Callable[..., Any]) -> str:
     hashed = hashlib.sha256()
     for piece in encode(value, counted):
         hashed.update(piece)
     return hashed.hexdigest()
 
 
-def _counted(part, name: str):
+def _counted(part: Any, name: str) -> Any:
     """What of the field ``name`` of a dataclass a number depends on."""
     value = getattr(part, name)
     if (type(part).__name__, name) in LABELS:
@@ -181,5 +181,5 @@ def _counted(part, name: str):
     return value
 
 
-def _counted_without_files(part, name: str):
+def _counted_without_files(part: Any, name: str) -> Any:
     return None if (type(part).__name__, name) == FILE else _counted(part, name)

@@ -1,6 +1,6 @@
 """Stribeck curves, friction over the speed; and traction curves, friction over the slide-roll ratio at one speed."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._base import FloatArray, validate, with_default_errors, write_whole
+from .._base import validate, with_default_errors, write_whole
 from .._base.jobs import parts_on
 from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import ITERATION_LIMIT, InputError, Report
@@ -121,13 +121,13 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
 @with_default_errors
 def stribeck(
     scene: Scene | Prepared,
-    speeds=None,
-    executor=None,
+    speeds: str | ArrayLike | None = None,
+    executor: Any = None,
     *,
     tolerance: float | None = None,
     model: str | None = None,
-    fields=False,
-    store=None,
+    fields: bool | str | ArrayLike | Mapping[Any, Any] = False,
+    store: str | Path | None = None,
     on_point: Callable[..., Any] | None = None,
     raise_on_failure: bool = True,
     workers: int = 1,
@@ -159,7 +159,12 @@ def stribeck(
     if not requested:
         span(prepared.scene, prepared.surface.sq)  # raises where there is no range to choose from
     if checked_workers(workers, executor) > 1:
-        options = {"fields": fields, "store": store, "on_point": on_point, "raise_on_failure": raise_on_failure}
+        options: dict[str, Any] = {
+            "fields": fields,
+            "store": store,
+            "on_point": on_point,
+            "raise_on_failure": raise_on_failure,
+        }
         with pool(workers) as processes:
             apart = len(requested) >= workers
             with parts_on(None if apart else processes):
@@ -181,7 +186,7 @@ def stribeck(
     return checked_curve(_collected(requested, outcomes, prepared), raise_on_failure)
 
 
-def _asked(speeds, fields, scene: Scene) -> tuple[list[float], list[float]]:
+def _asked(speeds: str | ArrayLike | None, fields: Any, scene: Scene) -> tuple[list[float], list[float]]:
     """Return the requested speeds [m/s], one or many, or those of the scene (none: chosen ones); and those whose
     film and contact are kept."""
     kept = []
@@ -254,7 +259,7 @@ class TractionResult(CurveResult):
 @with_default_errors
 def traction(
     scene: Scene | Prepared,
-    ratios: FloatArray | list[float | str | list[float]],
+    ratios: str | ArrayLike,
     *,
     speed: float | None = None,
     tolerance: float | None = None,

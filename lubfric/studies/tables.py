@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -41,7 +42,7 @@ KNOWN = 0.05
 SMOOTH = 6
 
 
-def to_xarray(result):
+def to_xarray(result: Any) -> Any:
     """An `xarray.Dataset`: a dimension for each varied key, units and long names as attributes. Needs the ``study``
     extra."""
     xarray = validate.installed("xarray", "study")
@@ -53,12 +54,12 @@ def to_xarray(result):
     return xarray.Dataset(data, coords, attributes)
 
 
-def to_frame(result):
+def to_frame(result: Any) -> Any:
     """A tidy `pandas.DataFrame`: one row a point. Needs the ``study`` extra."""
     return validate.installed("pandas", "study").DataFrame(columns_of_study(result))
 
 
-def to_parquet(result, path: str | Path) -> None:
+def to_parquet(result: Any, path: str | Path) -> None:
     """The table of `to_frame` as a Parquet file. Needs the ``study`` extra."""
     frame = to_frame(result)
     buffer = io.BytesIO()
@@ -67,7 +68,7 @@ def to_parquet(result, path: str | Path) -> None:
     write_whole(path, buffer.getvalue())
 
 
-def to_netcdf(result, path: str | Path) -> None:
+def to_netcdf(result: Any, path: str | Path) -> None:
     """The Dataset of `to_xarray` as a NetCDF file, which appears whole. Needs the ``study`` extra."""
     data = to_xarray(result)
     validate.installed("netCDF4", "study")
@@ -118,17 +119,18 @@ def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
         axes.figure.colorbar(ScalarMappable(scale, colours), ax=axes, label=axis_label(key))
     for index, colour in zip(indices, colours(shades)):
         named = figures.plain_words(label(result, index)) if few else None
-        own = {"color": colour, "lw": 1.0, "label": named} | style
+        own: dict[str, Any] = {"color": colour, "lw": 1.0, "label": named} | style
         speed = np.abs(result.speeds(index))
         f = result.columns["coefficient"][index]
         curve = result.curve(index) if result.chosen else None
         good = np.flatnonzero(np.isfinite(f) & (speed > 0))
         good = good[np.argsort(speed[good])]
+        dots: dict[str, Any] = {"marker": "o", "ms": 3} if few or curve is None else {}
         if curve is not None:
             fine = np.geomspace(speed[good][0], speed[good][-1], FINE)
             axes.plot(fine, curve.at(fine), **own)
             own |= {"ls": "", "label": None}
-        axes.plot(speed[good], f[good], **({"marker": "o", "ms": 3} if few or curve is None else {}) | own)
+        axes.plot(speed[good], f[good], **dots | own)
     axes.set(xscale="log", xlabel=axis_label(SPEED), ylabel=figures.FRICTION)
     figures.plain_ticks(axes.xaxis)
     rows = figures.key_above(axes, 2) if few and len(indices) > 1 else 0
@@ -137,7 +139,7 @@ def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
     return axes
 
 
-def plot_points(result, quantity: str = "coefficient", ax: Axes | None = None, **style: Any):
+def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = None, **style: Any) -> Axes:
     """Draw a number of the operating points of a study with its 95 % interval over their position, angle or time, or
     over their number; one line for each combination of what else is varied. Returns the axes."""
     axes = figures.axes_or_new(ax)
@@ -153,7 +155,8 @@ def plot_points(result, quantity: str = "coefficient", ax: Axes | None = None, *
     for index in indices:
         values = times * result[quantity][index][order]
         named = figures.plain_words(label(result, (*index, slice(None)))) if len(indices) > 1 else None
-        (line,) = axes.plot(over[order], values, **{"marker": "o", "ms": 3, "lw": 1.0, "label": named} | style)
+        dots: dict[str, Any] = {"marker": "o", "ms": 3, "lw": 1.0, "label": named}
+        (line,) = axes.plot(over[order], values, **dots | style)
         if quantity in ends:
             low, high = (times * result[name][index][order] for name in ends[quantity])
             axes.fill_between(over[order], low, high, color=line.get_color(), alpha=0.2, lw=0)
@@ -169,7 +172,7 @@ def _in_people_units(values: np.ndarray, name: str) -> tuple[np.ndarray, str]:
     return values * converted(1.0, COLUMNS[name].unit, unit), axis_label(name, unit)
 
 
-def label(result: Any, index: tuple[int, ...]) -> str:
+def label(result: Any, index: tuple[Any, ...]) -> str:
     """What is varied at the position ``index`` along the axes of a study, in words."""
     places = dict(zip(result.dims, index))
     along = {
@@ -191,7 +194,7 @@ def interval_band(
     ax: Axes,
     over: np.ndarray,
     columns: Columns | dict[str, FloatArray],
-    line: tuple[FloatArray, FloatArray] | None = None,
+    line: Sequence[FloatArray] | None = None,
 ) -> None:
     """The intervals of f as one band ``over`` speeds or ratios, if ``columns`` have them, with thin lines for what the
     model and the finite surface leave by themselves. ``line``: (speeds, f) of a smooth curve to draw them about."""
@@ -215,7 +218,8 @@ def interval_band(
         "" if known.all() else ", model-form error where known" if known.any() else ", without model-form error"
     )
     ends = y * (1 + low), y * (1 + high)
-    ax.fill_between(*figures.widened(x, *ends), color=figures.BLUE, alpha=0.2, lw=0, label=band)
+    wide, *sides = figures.widened(x, *ends)
+    ax.fill_between(wide, sides[0], sides[1], color=figures.BLUE, alpha=0.2, lw=0, label=band)
     for name, times, dashes in OF_INTERVAL:
         error = at(times * columns.get(name, unknown))
         if np.nanmax(error, initial=0.0) > 0:

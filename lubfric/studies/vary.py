@@ -1,7 +1,7 @@
 """What a study varies: lists of values, lists that go together, and ranges from which samples are drawn."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -79,7 +79,7 @@ class Axis:
         return dict(zip(self.keys, self.values[index]))
 
 
-def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
+def axes_of(scene: Scene, vary: Mapping[Any, Any]) -> tuple[Axis, ...]:
     """The dimensions of ``vary`` (see `lubfric.study`), with each value put into the scene once as a check."""
     validate.instance("vary", vary, dict, 'a dict such as {"bodies.load": [5.0, 10.0]}')
     seen: set[str] = set()
@@ -105,9 +105,7 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
 
 
 @with_default_errors
-def sample(
-    ranges: list[int | Between] | None, count: int, sampler: str = "sobol", seed: int = 0
-) -> list[tuple[float, ...]]:
+def sample(ranges: Iterable[Any], count: int, sampler: str = "sobol", seed: int = 0) -> list[tuple[float, ...]]:
     """Points of a box, as values for keys that `lubfric.study` varies together.
 
     ``vary={("bodies.load", "lubricant.viscosity"): sample([Between("1 N", "10 N"), Between(0.01, 1, "log")], 64)}``
@@ -174,7 +172,7 @@ def check_temperature(what: str, scene: Scene, keys: set[str]) -> None:
         raise InputError(f"{what}: {min(given)} moves no viscosity that is given as a number; give the scene {oils}")
 
 
-def _listed(name: str, keys: tuple[str, ...], values) -> Axis:
+def _listed(name: str, keys: tuple[str, ...], values: Any) -> Axis:
     try:
         rows = [value for value in values] if not isinstance(values, (str, dict)) else None
     except TypeError:

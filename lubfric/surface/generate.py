@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -74,7 +75,7 @@ def generate_surface(
         about 10 lengths for "exponential", 5 for "gaussian"), or when the grid has fewer than 2 cells per length at 1/e
     """
     seed = validate.integer("seed", seed, minimum=0, maximum=LARGEST_SEED)
-    of = {
+    of: dict[str, Any] = {
         "sq": sq,
         "correlation_length": correlation_length,
         "acf": acf,
@@ -204,7 +205,7 @@ def _honed_generator(
 
 
 def _spectrum(
-    shape: tuple[int, int], spacing: tuple[float, float], scales: tuple[float, float], acf: str, cutoff
+    shape: tuple[int, int], spacing: tuple[float, float], scales: tuple[float, float], acf: str, cutoff: float | None
 ) -> np.ndarray:
     """Power spectrum (nx, ny//2 + 1) of the periodic, zero-mean ACF on the grid."""
     from scipy import fft
@@ -216,7 +217,8 @@ def _spectrum(
         lag = np.arange(n // 2 + 1) * d
         images = math.ceil(reach * scale / (n * d))
         square.append([((lag + m * n * d) / scale) ** 2 for m in range(-images, images + 1)])
-    quarter = sum(np.exp(-((a[:, None] + b[None, :]) ** (power / 2))) for a in square[0] for b in square[1])
+    images_of_acf = (np.exp(-((a[:, None] + b[None, :]) ** (power / 2))) for a in square[0] for b in square[1])
+    quarter = np.asarray(sum(images_of_acf))
     rows, columns = (np.minimum(np.arange(n), n - np.arange(n)) for n in shape)
     spectrum = fft.rfft2(quarter[rows][:, columns]).real
     if spectrum.min() < -ROUNDING * spectrum.max():

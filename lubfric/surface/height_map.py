@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._base import BoolArray, FloatArray, FrozenArrays, Shown, figures, validate
+from .._base import FloatArray, FrozenArrays, Shown, figures, validate
 from ..errors import InputError
 from . import prepare, regrid, statistics
 from .bearing import Bearing, bearing
@@ -203,7 +204,11 @@ class Surface(FrozenArrays, Shown):
     def transposed(self) -> Surface:
         """x and y exchanged: run across the lay instead of along it."""
         mask = None if self.mask is None else self.mask.T
-        turned = {"spacing": self.spacing[::-1], "mask": mask, "periodic_axes": self.periodic_axes[::-1]}
+        turned: dict[str, Any] = {
+            "spacing": self.spacing[::-1],
+            "mask": mask,
+            "periodic_axes": self.periodic_axes[::-1],
+        }
         return self._with(self.heights.T, "x and y exchanged", **turned)
 
     def periodic(self, *, axes: tuple[bool, bool] = (True, True)) -> Surface:
@@ -215,18 +220,18 @@ class Surface(FrozenArrays, Shown):
                 new = regrid.mirrored(new, axis)
         return new
 
-    def cropped(self, shape: list[int] | tuple[int, int], start: tuple[int, int] | None = None) -> Surface:
+    def cropped(self, shape: Sequence[int], start: Sequence[int] | None = None) -> Surface:
         """``shape`` points from index ``start`` (default: centred); no longer periodic where cut."""
         shape = regrid.pair("shape", shape)
-        start = tuple((n - m) // 2 for n, m in zip(self.shape, shape)) if start is None else tuple(start)
+        first = tuple((n - m) // 2 for n, m in zip(self.shape, shape)) if start is None else tuple(start)
         for axis in range(2):
-            if not 0 <= start[axis] <= self.shape[axis] - shape[axis]:
-                said = f" = {shape[axis]} points from {start[axis]} is outside the map"
+            if not 0 <= first[axis] <= self.shape[axis] - shape[axis]:
+                said = f" = {shape[axis]} points from {first[axis]} is outside the map"
                 raise InputError(said, f"shape[{axis}]", f"within 0..{self.shape[axis]}")
-        cut = tuple(slice(s, s + n) for s, n in zip(start, shape))
+        cut = tuple(slice(s, s + n) for s, n in zip(first, shape))
         mask = None if self.mask is None else self.mask[cut]
         closed = tuple(p and n == m for p, n, m in zip(self.periodic_axes, self.shape, shape))
-        return self._with(self.heights[cut], f"cropped to {shape} from {start}", mask=mask, periodic_axes=closed)
+        return self._with(self.heights[cut], f"cropped to {shape} from {first}", mask=mask, periodic_axes=closed)
 
     def resampled(
         self, *, shape: tuple[int, int] | None = None, spacing: float | tuple[float, float] | None = None
@@ -237,13 +242,13 @@ class Surface(FrozenArrays, Shown):
         if (shape is None) == (spacing is None):
             raise InputError("resampled needs exactly one of shape (points) and spacing (m)")
         new = self._filled("resampled")
-        shape = (None, None) if shape is None else regrid.pair("shape", shape)
-        spacing = (None, None) if spacing is None else validate.spacing("spacing", spacing)
+        points = (None, None) if shape is None else regrid.pair("shape", shape)
+        steps = (None, None) if spacing is None else validate.spacing("spacing", spacing)
         for axis in range(2):
-            new = regrid.resampled(new, axis, shape[axis], spacing[axis])
+            new = regrid.resampled(new, axis, points[axis], steps[axis])
         return new
 
-    def patch(self, shape: tuple[int, int], spacing=None) -> Surface:
+    def patch(self, shape: tuple[int, int], spacing: float | tuple[float, float] | None = None) -> Surface:
         """Exactly ``shape`` points at ``spacing`` [m] (default: its own) for a contact grid. Axes that are periodic are
         repeated as often as needed; others are cut, and must be long enough."""
         shape, new = regrid.pair("shape", shape), self._filled("patch")
@@ -253,9 +258,7 @@ class Surface(FrozenArrays, Shown):
             new = regrid.fitted(new, axis, shape[axis])
         return new
 
-    def _with(
-        self, heights: FloatArray, note: str, **changed: BoolArray | tuple[bool | float, bool | float] | None
-    ) -> Surface:
+    def _with(self, heights: FloatArray, note: str, **changed: Any) -> Surface:
         return replace(self, heights=heights, notes=(*self.notes, note), **changed)
 
     def _filled(self, purpose: str) -> Surface:

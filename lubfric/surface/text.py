@@ -148,7 +148,7 @@ def _coordinates(
     if unit is None:
         said = f"file {path.name}: {border.worded()}, and no line states their unit"
         raise InputError(said, way_out="give spacing in m, or write '# xy unit = um' above the table")
-    if None in pair:
+    if pair[0] is None or pair[1] is None:
         if expected is None:
             said = f"file {path.name}: {border.worded()}, and the other step is not stated"
             raise InputError(said, way_out="give spacing = (dx, dy) in m")

@@ -17,8 +17,9 @@ from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from .._base import FloatArray, validate
+from .._base import validate
 from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, WORK_LIMIT, InputError, Report
 from ..scene import History
 from ..units import worded
@@ -103,7 +104,7 @@ class Plan:
         return float(self.times[-1])
 
 
-def checked_times(times: FloatArray | list[float]) -> np.ndarray:
+def checked_times(times: ArrayLike) -> np.ndarray:
     """Output times [s]: increasing, the first >= 0, the last > 0."""
     times = validate.array("times", times, "s", ndim=1)
     if times[0] < 0.0 or np.any(np.diff(times) <= 0.0) or times[-1] <= 0.0:
@@ -148,7 +149,17 @@ def _level(step: Step) -> Step:
     return replace(step, payload=None, terms=None)
 
 
-def steps(solver, plan: Plan, now: Progress) -> Iterator[Progress]:
+class Solver(Protocol):
+    """Solves the equations of a step, and states its error."""
+
+    def solve(self, time: float, memory: Memory, z: np.ndarray, payload: Any, /) -> Step:
+        """Return the step that ends at ``time`` [s], from the unknowns ``z``."""
+
+    def error_of(self, step: Step, difference: np.ndarray, /) -> float:
+        """Return the error of a step from the ``difference`` of its film by the order of the method."""
+
+
+def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:
     """The progress after every step from ``now`` on, until the end or until the shortest step fails. (Then the last
     time is before ``plan.end``.) A run can continue from any progress, so the caller needs to keep nothing else."""
     for stop in plan.stops:
@@ -224,16 +235,6 @@ def report_of(
         summary=summary,
         advice=advice,
     )
-
-
-class Solver(Protocol):
-    """Solves the equations of a step, and states its error."""
-
-    def solve(self, time: float, memory: Memory, z: np.ndarray, payload: Any, /) -> Step:
-        """Return the step that ends at ``time`` [s], from the unknowns ``z``."""
-
-    def error_of(self, step: Step, difference: np.ndarray, /) -> float:
-        """Return the error of a step from the ``difference`` of its film by the order of the method."""
 
 
 def advance(now: Progress, until: float, solver: Solver, tolerance: float, shortest: float) -> Progress | None:

@@ -4,11 +4,15 @@ They are written from the equations, with nothing from `lubfric` nor from `verif
 speed, the mean of the two surface speeds, so that d/dx(h^3/(12 eta) dp/dx) = U dh/dx.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
+
+from ..arrays import FloatArray
 
 
 @dataclass(frozen=True)
@@ -24,11 +28,11 @@ class Slider:
     inlet: float
     outlet: float
 
-    def film(self, x):
+    def film(self, x: FloatArray) -> FloatArray:
         """Film thickness at x = x[0] in m."""
         return self.inlet + (self.outlet - self.inlet) * x[0] / self.length
 
-    def pressure(self, x):
+    def pressure(self, x: FloatArray) -> FloatArray:
         """``12 eta U L/(a^2 - b^2) (a - h)(h - b)/h^2`` with a the inlet and b the outlet film."""
         a = self.inlet
         b = self.outlet
@@ -78,11 +82,11 @@ class Parabola:
         """Xe, the place where both P and dP/dX vanish."""
         return float(brentq(lambda xe: antiderivative(xe, xe) - antiderivative(self.inlet, xe), 0.1, 2, xtol=1e-15))
 
-    def film(self, x):
+    def film(self, x: FloatArray | list[FloatArray]) -> FloatArray:
         """Film thickness at x[0] in m."""
         return self.film_thickness + x[0] ** 2 / (2 * self.radius)
 
-    def pressure(self, x):
+    def pressure(self, x: FloatArray | list[FloatArray]) -> FloatArray:
         """Pressure at x[0] in m, 0 beyond the exit."""
         xe = self.exit
         big = np.minimum(x[0] / self.scale, xe)
@@ -112,12 +116,12 @@ class Parabola:
         lift = self._integral(lambda t: (np.tan(t) ** 2 - xe**2) * np.cos(t) ** 2)
         return self.pressure_scale * self.film_thickness / 2 * lift
 
-    def _integral(self, f) -> float:
+    def _integral(self, f: Callable[..., Any]) -> float:
         """Integral over t from inlet to exit, with X = tan t."""
         return quad(f, np.arctan(self.inlet), np.arctan(self.exit), epsabs=1e-13, epsrel=1e-13)[0]
 
 
-def antiderivative(big_x, xe: float):
+def antiderivative(big_x: float, xe: float) -> float:
     """``integral (X^2 - Xe^2)/(1 + X^2)^3 dX``, with X = tan t."""
     t = np.arctan(big_x)
     second = t / 2 + np.sin(2 * t) / 4
@@ -147,11 +151,11 @@ class ExponentialPad:
         """g in 1/m."""
         return float(np.log(self.inlet / self.outlet) / self.length)
 
-    def film(self, x):
+    def film(self, x: FloatArray) -> float:
         """Film thickness at x[0] in m."""
         return self.inlet * np.exp(-self.decay * x[0])
 
-    def modes(self):
+    def modes(self) -> tuple[FloatArray, ...]:
         """For each n: k, particular amplitude, coefficients and exponents of the two homogeneous parts.
 
         The rising exponential is written about the outlet, so that neither overflows.
@@ -173,7 +177,7 @@ class ExponentialPad:
         second = -special * last - first * forth
         return k, special, first, second, up, down
 
-    def pressure(self, x):
+    def pressure(self, x: FloatArray) -> FloatArray:
         """Pressure at (x[0], x[1]) in m."""
         p = np.zeros(np.shape(x[0]))
         for k, special, first, second, up, down in zip(*self.modes(), strict=True):

@@ -12,6 +12,7 @@ from lubfric.estimate import FrictionResult
 from lubfric.film import EHLResult, LineContact
 from lubfric.models.shared import Prepared
 from lubfric.oil import Lubricant
+from lubfric.scene import Scene
 
 from . import exact_contact
 
@@ -84,7 +85,7 @@ def pressed_cylinder(
     return x, solve_contact(gap0, dx, line.e_prime, hardness=hardness, **asked)
 
 
-def case_of_scene(scene, load: float, speed: float) -> dict:
+def case_of_scene(scene: Scene, load: float, speed: float) -> dict:
     """The smooth film of a scene under a load [N] at an entrainment speed [m/s]."""
     bodies = scene.bodies
     oil = scene.lubricant

@@ -19,6 +19,8 @@ from pathlib import Path
 import numpy as np
 from scipy.special import erf
 
+from ..arrays import BoolArray, FloatArray
+
 UNSTATED = 0.05
 GOT = {
     "printed": "printed",
@@ -154,11 +156,11 @@ class Pocket:
     viscosity: float = 0.01
     speed: float = 0.5
 
-    def wedge(self, x):
+    def wedge(self, x: float | FloatArray) -> float | FloatArray:
         """Gap of the pad without its pocket."""
         return self.start + (self.end - self.start) * x / self.length
 
-    def inside(self, x):
+    def inside(self, x: FloatArray) -> BoolArray:
         """Where the pocket is along the motion."""
         return (x >= self.begins) & (x < self.ends)
 
@@ -179,7 +181,7 @@ def refilled(pad: Pocket) -> tuple[float, float, float]:
     last = pad.wedge(pad.ends)
     flow = pad.start * first / (pad.start + first)  # half of it, over U
 
-    def rise(gap, since):
+    def rise(gap: float | FloatArray, since: float) -> float | FloatArray:
         return scale * (1 / gap - 1 / since - flow * (1 / gap**2 - 1 / since**2))
 
     deep = last + pad.depth

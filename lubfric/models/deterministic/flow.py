@@ -74,7 +74,7 @@ class CouetteFlow:
     by_fill: np.ndarray
 
 
-def couette_flow(problem: Problem, mass: FloatArray, fill: FloatArray, U: float) -> CouetteFlow:
+def couette_flow(problem: Problem, mass: FloatArray, fill: float | FloatArray, U: float) -> CouetteFlow:
     """Couette flow U rho h through the faces. ``mass`` (nx, ny): rho h [m]; ``fill``: the filled part of the cells. In
     the first cell the parabola gives the upstream difference."""
     step = np.empty_like(mass)
@@ -109,7 +109,11 @@ class MassBalance:
 
 
 def mass_balance(
-    problem: Problem, pressure: FloatArray, gap: FloatArray, fill: FloatArray = 1.0, follows_lubricant: bool = False
+    problem: Problem,
+    pressure: FloatArray,
+    gap: FloatArray,
+    fill: float | FloatArray = 1.0,
+    follows_lubricant: bool = False,
 ) -> MassBalance:
     """Steady mass balance of the cells at pressure [Pa], gap [m] and filled part [-] (nx, ny); ``follows_lubricant``: without the
     Couette flow, of cells that move with it (`state.TimeHistory`)."""

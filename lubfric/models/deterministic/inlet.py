@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -112,7 +112,7 @@ def inlet(problem: Problem, pressure: FloatArray, film: FloatArray) -> Inlet:
     )
 
 
-def _ambient_thinning(problem: Problem, gap: FloatArray) -> float:
+def _ambient_thinning(problem: Problem, gap: FloatArray) -> Any:
     lubricant = problem.lubricant
     critical = [law.critical(0.0)[0] or np.inf for law in lubricant.shear_laws]
     return thinning(lubricant, lubricant.viscosity * problem.sliding / gap, critical, along=True)[0]

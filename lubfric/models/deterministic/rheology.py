@@ -5,7 +5,9 @@ cells, so that the flow follows the reduced pressure ∫ dp/eta. Φ >= 1 is the 
 fluid, by its shear laws (`lubfric.oil.shear_laws`) at s = eta Δu/(h tau_c). What two laws add to 1 is added.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -49,7 +51,9 @@ def mean_fluidity(left: FloatArray, right: FloatArray) -> tuple[np.ndarray, np.n
     return log_mean, np.where(falling, higher, lower), np.where(falling, lower, higher)
 
 
-def thinning(lubricant: Lubricant, newtonian_stress: FloatArray, critical, along: bool):
+def thinning(
+    lubricant: Lubricant, newtonian_stress: FloatArray, critical: Sequence[FloatArray | float], along: bool
+) -> tuple[Any, Any, list[FloatArray]]:
     """Φ [-] at the Newtonian stress eta Δu/h [Pa] on faces, with the ``critical`` stress [Pa] of each law there; its
     derivative d ln Φ/d ln s; and the parts of the derivative that belong to the laws."""
     factor = 1.0

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 from ..._base import Root, increasing_root
 from ...contact import ContactState, RoughContact
@@ -257,7 +258,7 @@ def _root(
     tolerance = point.settings.balance_tolerance
     fed = point.scene.lubricant.inlet_film is not None
     lowest = max(lowest, EMPTY) if fed else lowest
-    known = {"slope": slope, "first": first, "bounds": (lowest, BOUNDS[1])}
+    known: dict[str, Any] = {"slope": slope, "first": first, "bounds": (lowest, BOUNDS[1])}
     root = increasing_root(residual, log_load_ratio, step=step, tolerance=tolerance, **known)
     return replace(root, payload=None) if fed and root.x == EMPTY and root.value > 0 else root
 

@@ -52,9 +52,9 @@ def forces(scene: Scene, film: EHLResult | None, contact: ContactState, contact_
     elastic = _elastic(scene, film, contact, contact_load)
     shear = _shear(scene, film, contact, elastic)
     boundary *= shear.asperity_share
-    heat, *warm = point_heat(scene, film, contact, contact_load, abs(boundary + shear.total), shear)
-    if warm != [None, None]:
-        shear = _shear(scene, film, contact, elastic, *warm)
+    heat, warm, stress = point_heat(scene, film, contact, contact_load, abs(boundary + shear.total), shear)
+    if warm is not None or stress is not None:
+        shear = _shear(scene, film, contact, elastic, warm, stress)
     total = abs(boundary + shear.total)
     quadrature = shear.quadrature / total if 0 < total < np.inf else 0.0
     return Forces((boundary + shear.total) / bodies.load, boundary, shear, quadrature, heat)

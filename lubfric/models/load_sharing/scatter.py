@@ -9,11 +9,12 @@ standard error of the mean gap.
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ..._base import FloatArray
-from ...contact import ContactState, HalfSpaceContact, RoughContact
+from ...contact import ContactState, HalfSpaceContact
 from ...film import EHLResult
 from ...oil import shear_stress
 from ...samples import Sample, mirrored
@@ -28,13 +29,13 @@ FEWEST_WINDOWS = 3
 SPOT = 1.75  # correlation lengths along y in a block that counts as one contact spot
 
 
-def strip_gap(contact: HalfSpaceContact, state: ContactState) -> np.ndarray:
+def strip_gap(contact: Any, state: Any) -> np.ndarray:
     """G(y) [m] (ny,): the gap at every place along the line, averaged over the strip A. ``state``: a `ContactState`
     with fields."""
     return contact.weight @ np.maximum(state.fields.gap, 0.0) / contact.weight.sum()
 
 
-def line_load(contact: HalfSpaceContact, state: ContactState) -> np.ndarray:
+def line_load(contact: Any, state: Any) -> np.ndarray:
     """P(y) [N/m] (ny,): load per length at every place along the line."""
     return state.fields.pressure.sum(axis=0) * contact.spacing[0]
 
@@ -141,7 +142,7 @@ def film_stress(scene: Scene, contact: HalfSpaceContact, film: EHLResult) -> np.
 
 
 def moment_error(
-    contact: RoughContact,
+    contact: Any,
     state: ContactState,
     loads: tuple[float, float],
     softness: float,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,7 +13,6 @@ from .scatter import SPOT
 
 if TYPE_CHECKING:
     from ...contact import HalfSpaceContact
-    from ...film import EHLResult
     from ...scene import Scene
 
 
@@ -25,9 +24,7 @@ OVERLAP = math.gamma(2.5)  # mean of (excess/scale)^1.5 of an exponential excess
 EULER = 0.5772156649
 
 
-def undetected_contact(
-    scene: Scene, contact: HalfSpaceContact, film: EHLResult, forces: Forces, correlation_length: float
-) -> float:
+def undetected_contact(scene: Scene, contact: Any, film: Any, forces: Forces, correlation_length: float) -> float:
     """Relative effect of `undetected_load` on f; NaN if ``contact`` has no cells, or too few along y."""
     if contact.grid is None or not forces.coefficient:
         return math.nan

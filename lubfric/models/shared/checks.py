@@ -43,7 +43,8 @@ def of_motion(scene: Scene, speed: float, film: float) -> Iterator[Validity]:
         yield Validity(what, ratio, OPPOSED, "", why, "in percent? give motion.slip_percent; 2 is simple sliding")
     if math.isfinite(film) and film > 0:
         oil = scene.lubricant.oil
-        density = DENSITY if oil is None else oil.density_at(scene.lubricant.temperature)
+        temperature = scene.lubricant.temperature
+        density = DENSITY if oil is None or temperature is None else oil.density_at(temperature)
         reynolds = density * abs(speed) * film / scene.lubricant.viscosity
         inertia = reynolds * film / max(scene.bodies.half_width, math.sqrt(2 * scene.bodies.radius * film))
         if reynolds > LAMINAR:
@@ -187,7 +188,7 @@ def of_shear(scene: Scene, shear: ShearForce, film_load: float, friction_force: 
 def of_heat(scene: Scene, heat: Heat) -> Iterator[Validity]:
     """``heat``: `lubfric.models.shared.Heat` of a point."""
     tolerance = scene.numerics.tolerance
-    if heat.used:
+    if heat.used and heat.inlet is not None:
         spread = abs(heat.inlet.other / max(heat.inlet.factor, 1e-12) - 1)
         extrapolated = abs(scene.motion.slide_roll_ratio) > SLIDING or heat.inlet.thermal_number > LARGEST
         if extrapolated and spread > tolerance:

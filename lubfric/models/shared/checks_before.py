@@ -89,7 +89,7 @@ def of_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterato
 def expected(scene: Scene, surface: Surface, speeds: list[float]) -> tuple[tuple[float | None, Validity], ...]:
     """Pairs (speed [m/s], entry). The speed is None if the entry is about bodies or map. Films are those expected
     under the whole load."""
-    entries_by_speed = [(None, entry) for entry in beforehand(scene, surface)]
+    entries_by_speed: list[tuple[float | None, Validity]] = [(None, entry) for entry in beforehand(scene, surface)]
     if scene.numerics.model == "deterministic":
         return tuple(entries_by_speed)
     for speed in speeds:
@@ -107,7 +107,7 @@ def _of_film(scene: Scene, speed: float, film: float) -> list[Validity]:
     lubricant = scene.lubricant
     w = scene.bodies.load / scene.bodies.width
     x = np.linspace(-1, 1, NODES) * bodies.half_width
-    pressure = hertz.line_pressure(x, w, bodies.radius, bodies.e_prime)
+    pressure = np.asarray(hertz.line_pressure(x, w, bodies.radius, bodies.e_prime))
     with np.errstate(over="ignore"):
         sliding = abs(scene.motion.slide_roll_ratio * speed)
         stress = np.minimum(shear_stress(lubricant, pressure, sliding / film), 1e30)

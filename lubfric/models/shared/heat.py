@@ -119,12 +119,13 @@ def inlet_at(scene: Scene, speed: float) -> tuple[InletHeat | None, bool]:
     """Inlet heating of ``scene`` at ``speed`` [m/s], and whether the film is to be solved with it."""
     lubricant = scene.lubricant
     numerics = scene.numerics
-    if numerics.heat == "off" or not lubricant.heats or speed == 0:
+    coefficient = lubricant.temperature_coefficient
+    if numerics.heat == "off" or not lubricant.heats or coefficient is None or speed == 0:
         return None, False
     bodies = scene.bodies
     inlet = inlet_heat(
         viscosity=lubricant.viscosity,
-        temperature_coefficient=lubricant.temperature_coefficient,
+        temperature_coefficient=coefficient,
         conductivity=lubricant.conductivity,
         speed=abs(speed),
         slide_roll_ratio=scene.motion.slide_roll_ratio,
@@ -161,7 +162,7 @@ def film_lubricant(scene: Scene, speed: float) -> Lubricant:
 
 
 def point_heat(
-    scene: Scene, film: EHLResult, contact: ContactState, contact_load: float, force: float, shear: ShearForce
+    scene: Scene, film: Any, contact: ContactState, contact_load: float, force: float, shear: ShearForce
 ) -> tuple[Heat, float | None, Callable | None]:
     """Heat of ``film`` beside a ``contact`` that carries ``contact_load`` [N]; the viscosity [Pa s] of the warm inlet
     with which it was solved (None: as given); and the stress [Pa] of the heated film, stress(x, pressure, film) at
@@ -229,7 +230,7 @@ def surroundings(scene: Scene, speed: float, wet: FloatArray, spots: FloatArray)
 
 
 def typical_heat(
-    scene: Scene, film: EHLResult, contact: ContactState, contact_load: float, force: float, shear: ShearForce
+    scene: Scene, film: Any, contact: ContactState, contact_load: float, force: float, shear: ShearForce
 ) -> float:
     """Share of ``force`` = |f F_T| [N] that the heat of film and surfaces would take away, at most, if the viscosity
     fell with the temperature as that of a typical oil (`TYPICAL`), from the stress of the isothermal film. 0 where the

@@ -33,7 +33,7 @@ def whole_process(code):
     return median(lambda: subprocess.run([sys.executable, "-c", code], check=True), 7)
 
 
-def main():
+def main() -> None:
     numpy = whole_process("import numpy")
     every_name = "import lubfric; [getattr(lubfric, n) for n in lubfric.__all__]"
     print(f"import lubfric above numpy        {1e3 * (whole_process('import lubfric, numpy') - numpy):8.1f} ms")

@@ -16,7 +16,9 @@ def add_option(parser: ArgumentParser) -> None:
     parser.add_argument("--docs", type=Path, metavar="DIR", help=words)
 
 
-def write(name: str, columns: Sequence[str], rows: Sequence[Sequence[str]], asked: tuple[ArgumentParser, Namespace]):
+def write(
+    name: str, columns: Sequence[str], rows: Sequence[Sequence[str]], asked: tuple[ArgumentParser, Namespace]
+) -> None:
     """Put the table ``name`` where ``--docs`` says, if it was given; ``asked``: the parser and what it found."""
     parser, options = asked
     if options.docs:

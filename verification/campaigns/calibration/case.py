@@ -172,7 +172,15 @@ def _oil(rng: np.random.Generator, fluid: str, friction: float) -> dict:
     return keys[fluid]
 
 
-def _map(shape, spacing, sq: float, lengths, lay: str, acf: str, seed: int) -> Surface:
+def _map(
+    shape: tuple[int, int],
+    spacing: tuple[float, float],
+    sq: float,
+    lengths: tuple[float, float],
+    lay: str,
+    acf: str,
+    seed: int,
+) -> Surface:
     """A periodic map of that lay with exactly this ``sq`` [m]."""
     keys = {"sq": 1.0, "correlation_length": lengths, "acf": acf}
     made = lubfric.generate_surface(shape, spacing, seed=seed, **keys)

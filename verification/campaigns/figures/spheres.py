@@ -33,7 +33,7 @@ def unit_cell(distance: float, cell: float = CELL) -> tuple[np.ndarray, float]:
     return np.maximum(cap, 0.0), step
 
 
-def approaches(distance: float, loads, cell: float = CELL) -> tuple[np.ndarray, np.ndarray]:
+def approaches(distance: float, loads: list[float], cell: float = CELL) -> tuple[np.ndarray, np.ndarray]:
     """Approach [m] below first touch at each load per asperity [N], without and with the mean deflection of the
     paper's box.
     """

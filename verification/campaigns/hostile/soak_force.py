@@ -5,6 +5,10 @@ import math
 
 import numpy as np
 
+from lubfric.film import EHLResult
+from lubfric.scene import Scene
+
+from ...arrays import FloatArray
 from ...fem.solvers.fluid import Fluid
 from .soak_heat import heated_stress, heats, inlet_viscosity
 
@@ -12,7 +16,7 @@ MOSTLY = 0.5  # of the isothermal force: below it the heated one is summed by it
 HEATED = 1400  # nodes at most on which the heat of the film is found
 
 
-def friction_force(scene, sides, contact_load: float, speed: float) -> tuple[float, float, float]:
+def friction_force(scene: Scene, sides, contact_load: float, speed: float) -> tuple[float, float, float]:
     """The friction force f_b F_C + F_sh [N] along the sliding, and how well it is known.
 
     ``sides`` has the film, x and the share in contact. The far inlet is in closed form. Returned are the force, the
@@ -53,7 +57,7 @@ def _upstream(x0, h0, radius) -> float:
     return float(np.trapezoid(abs(x0) / share**2 / (h0 + x0**2 * (share**-2.0 - 1) / (2 * radius)), share))
 
 
-def _rolling_upstream(film, x0, h0, radius, viscosity_speed) -> float:
+def _rolling_upstream(film: EHLResult, x0: float, h0: float, radius: float, viscosity_speed: float) -> float:
     """½∫h dp before the first node [N/m].
 
     Reynolds' equation has dp = 12 eta U (h - h*)/h³ dx there, and h is a parabola.
@@ -64,7 +68,7 @@ def _rolling_upstream(film, x0, h0, radius, viscosity_speed) -> float:
     return 6 * viscosity_speed * float(np.trapezoid(rate, share))
 
 
-def _touched(x, sides) -> np.ndarray:
+def _touched(x: FloatArray, sides) -> np.ndarray:
     """Share of the width in contact over each cell between neighbouring ``x``; columns are even inside."""
     step = sides.x[1] - sides.x[0]
     edges = np.concatenate([sides.x - step / 2, sides.x[-1:] + step / 2])
@@ -76,7 +80,16 @@ def _inside(x, half) -> np.ndarray:
     return np.diff(np.clip(x, -half, half)) / np.diff(x)
 
 
-def _couette(scene, x, p, h, free, contact_load, speed, hot=True) -> float:
+def _couette(
+    scene: Scene,
+    x: FloatArray,
+    p: FloatArray,
+    h: FloatArray,
+    free: FloatArray,
+    contact_load: float,
+    speed: float,
+    hot: bool = True,
+) -> float:
     """Couette force over the film per width [N/m], and upstream of it, where a film is as much thinned by its own heat
     as at its first node. That of a film that heats itself is taken from fewer nodes."""
     oil = scene.lubricant
@@ -109,7 +122,7 @@ def _where_it_varies(tau) -> np.ndarray:
     return np.unique(np.searchsorted(measure, np.linspace(0, measure[-1], HEATED)).clip(0, tau.size - 1))
 
 
-def _log_mean(eta) -> np.ndarray:
+def _log_mean(eta: FloatArray) -> np.ndarray:
     """Mean of a viscosity that is exponential between the nodes."""
     d = np.diff(np.log(eta))
     return eta[:-1] * np.where(np.abs(d) < 1e-6, 1.0, np.expm1(d) / np.where(d == 0, 1.0, d))

@@ -8,6 +8,8 @@ import math
 
 import numpy as np
 
+from lubfric.scene import Scene
+
 from ...fem.parts import halved
 
 # nodes of half the film; steps of the fixed point, what they keep of the last
@@ -17,7 +19,7 @@ KEPT = 0.9
 SETTLED = 1e-5  # of the largest stress: what a step still moves
 
 
-def heats(scene) -> bool:
+def heats(scene: Scene) -> bool:
     """Whether the lubricant says how its viscosity falls with the temperature, and something is to be heated."""
     return scene.numerics.heat != "off" and bool(scene.lubricant.temperature_coefficient)
 
@@ -37,7 +39,7 @@ def moes(w, radius, e_prime, speed, viscosity, alpha) -> float:
     return radius * math.sqrt(u1) * (iso ** (3 * s / 7) + piezo) ** (1 / s)
 
 
-def inlet_viscosity(scene, speed: float) -> float:
+def inlet_viscosity(scene: Scene, speed: float) -> float:
     """Viscosity [Pa s] at which Moes' film is as thin as the heat of the inlet makes it (Gupta et al. 1992)."""
     oil = scene.lubricant
     bodies = scene.bodies

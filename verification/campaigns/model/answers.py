@@ -17,8 +17,9 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.scene import Roughness
+from lubfric.scene import Roughness, Scene
 
+from ...arrays import FloatArray
 from ...check import ABSOLUTE, REPORTED, Check, Figure, Item, Table
 from ...fem.parts import halved
 from ...kept import Run
@@ -71,7 +72,7 @@ class AnswerCase:
     slip: float = 2.0
     longer: float = 1.0
 
-    def scene(self, seed: int, folder: str, **numerics):
+    def scene(self, seed: int, folder: str, **numerics) -> Scene:
         """The scene with a surface of its own ``seed``; maps are written to ``folder``."""
         changes, times = CONTACTS[self.contact]
         times *= self.longer
@@ -105,7 +106,7 @@ def heights(kind: str, seed: int) -> np.ndarray:
     qx, qy = np.meshgrid(*(2 * np.pi * np.fft.fftfreq(n, CELL) for n in CELLS), indexing="ij")
     rng = np.random.default_rng(seed)
 
-    def drawn(root) -> np.ndarray:
+    def drawn(root: FloatArray) -> np.ndarray:
         z = np.fft.ifft2(np.fft.fft2(rng.standard_normal(CELLS)) * root).real
         return (z - z.mean()) / z.std()
 

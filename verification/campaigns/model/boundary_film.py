@@ -8,6 +8,7 @@ import numpy as np
 
 import lubfric
 from lubfric.models.deterministic import BOUNDARY_FILM, solve_strip
+from lubfric.scene import Scene
 
 from ... import plotting
 from ...check import REPORTED, Check, Figure, Item, Table
@@ -114,7 +115,7 @@ def rough(kind: str) -> lubfric.Surface:
     return made
 
 
-def speed_of(scene, film: float) -> float:
+def speed_of(scene: Scene, film: float) -> float:
     """U [m/s] at which the smooth central film is ``film`` [m] thick, by two films and a power law between them."""
     slow = 0.1
     fast = 1.0

@@ -9,8 +9,20 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.models.deterministic import TOUCHING, Iterate, RoughBody, evaluated, moments, solve_strip, travelling
+from lubfric.film import LineContact
+from lubfric.models import DeterministicResult
+from lubfric.models.deterministic import (
+    TOUCHING,
+    Iterate,
+    Problem,
+    RoughBody,
+    evaluated,
+    moments,
+    solve_strip,
+    travelling,
+)
 
+from ...arrays import FloatArray
 from ...fem.solvers.fluid import Fluid
 
 FILMS = (5e-9, 10e-9, 20e-9, 30e-9, 40e-9)  # m
@@ -80,7 +92,9 @@ def given(at: Iterate) -> float:
     return float(source.sum()) * at.problem.spacing[0] / source.shape[1]
 
 
-def balances(problem, result, passing: Sequence, step: float, out: float = 0.0) -> dict[str, float]:
+def balances(
+    problem: Problem, result: DeterministicResult, passing: Sequence, step: float, out: float = 0.0
+) -> dict[str, float]:
     """How far fields are from what they must obey.
 
     - mass: what enters and what touching cells give off (``out`` [m²/s], mean over all but two), less what leaves
@@ -126,7 +140,7 @@ def balances(problem, result, passing: Sequence, step: float, out: float = 0.0) 
     }
 
 
-def held(line, result, gap) -> np.ndarray:
+def held(line: LineContact, result: DeterministicResult, gap: FloatArray) -> np.ndarray:
     """rho h [m] of the lubricant in this ``gap``, over the density at ambient pressure (nx, ny)."""
     law = Fluid(1.0, density_law=line.lubricant.density_law).rho
     return result.fill * law(result.pressure) * gap

@@ -15,6 +15,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 import lubfric
+from lubfric.scene import Scene
 
 from ...check import ABSOLUTE, Check, Figure, Item, Table
 from ...kept import Run
@@ -51,13 +52,13 @@ class CoverageCase:
     bounds: tuple[float, float] = (0.92, 0.98)
     changes: dict = field(default_factory=dict)
 
-    def scene(self, seed: int):
+    def scene(self, seed: int) -> Scene:
         """The scene with a surface of its own ``seed``."""
         rough = self.changes.get("surface", {}) | {"seed": seed}
         return SHARED.with_(**self.changes | {"surface": rough})
 
 
-def _other(name: str, **changes) -> CoverageCase:
+def _other(name: str, **changes: dict[str, float | str | tuple[float, float]]) -> CoverageCase:
     return CoverageCase(name, bounds=(0.88, 0.99), changes=changes)
 
 
@@ -139,7 +140,7 @@ def trial(case_and_seed: tuple[CoverageCase, int]) -> dict:
     return solve(case.scene(seed), case.speed, case.target)
 
 
-def solve(scene, speed: float, target: float) -> dict:
+def solve(scene: Scene, speed: float, target: float) -> dict:
     """One point with its interval and its processor seconds."""
     begun = time.process_time()
     point = lubfric.friction(scene.with_(numerics={"sampling_tolerance": target}), speed)
@@ -231,7 +232,9 @@ def checks(result: Result) -> Iterator[Check]:
     yield Check(f"{case.name}: bias of f", result.bias, 0.0, slack, ENDLESS, ABSOLUTE)
 
 
-def within(name: str, measured: float, trials: int, bounds: tuple[float, float], source: str, decides=True) -> Check:
+def within(
+    name: str, measured: float, trials: int, bounds: tuple[float, float], source: str, decides: bool = True
+) -> Check:
     """A check of a share of trials between two bounds, with what chance does to it."""
     low, high = bounds
     return Check(

@@ -6,6 +6,9 @@ import numpy as np
 from scipy import fft
 
 import lubfric.contact
+from lubfric.contact import ContactResult
+
+from ...arrays import FloatArray
 
 
 def deflection(
@@ -27,7 +30,7 @@ def deflection(
     return lubfric.contact.half_space(pressure.shape, spacing, e_prime, boundary).apply(pressure)
 
 
-def _love_sum(pressure, spacing, e_prime) -> np.ndarray:
+def _love_sum(pressure: FloatArray, spacing: tuple[float, float], e_prime: float) -> np.ndarray:
     """Love's solution, summed row by row without a transform."""
     nx, ny = pressure.shape
     i = np.arange(1 - nx, nx)
@@ -35,7 +38,7 @@ def _love_sum(pressure, spacing, e_prime) -> np.ndarray:
     left, right = ((i - s / 2)[:, None] * spacing[0] for s in (1, -1))
     low, high = ((j - s / 2)[None, :] * spacing[1] for s in (1, -1))
 
-    def corner(x, y):
+    def corner(x: FloatArray, y: FloatArray) -> FloatArray:
         r = np.hypot(x, y)
         return x * np.log(y + r) + y * np.log(x + r)
 
@@ -50,7 +53,14 @@ def _love_sum(pressure, spacing, e_prime) -> np.ndarray:
 
 
 def contact_deviations(
-    result, gap0, spacing, e_prime, boundary, hardness=None, mean_pressure=None, mean_gap=None
+    result: ContactResult,
+    gap0: FloatArray,
+    spacing: float,
+    e_prime: float,
+    boundary: tuple[str, str],
+    hardness=None,
+    mean_pressure: float | None = None,
+    mean_gap=None,
 ) -> dict[str, float]:
     """Deviations of a `ContactResult`, without dimension.
 

@@ -9,6 +9,9 @@ import math
 
 import numpy as np
 
+from lubfric.film import EHLResult
+
+from ...arrays import FloatArray
 from ...fem.solvers.fluid import Fluid
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(12)
@@ -17,7 +20,7 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(12)
 def deflection(points: np.ndarray, x: np.ndarray, p: np.ndarray, e_prime: float, reference: float) -> np.ndarray:
     """-(4/(pi E')) ∫ p ln(|points - x|/reference) dx of a piecewise linear pressure."""
 
-    def log(t):
+    def log(t: FloatArray) -> FloatArray:
         return np.log(np.where(t == 0, 1.0, np.abs(t)) / reference)
 
     left = x[:-1] - points[:, None]
@@ -29,7 +32,7 @@ def deflection(points: np.ndarray, x: np.ndarray, p: np.ndarray, e_prime: float,
     return -4 / (math.pi * e_prime) * (at_point * flat + slope * ramp).sum(axis=1)
 
 
-def film_deviations(result, case: dict) -> dict[str, float]:
+def film_deviations(result: EHLResult, case: dict) -> dict[str, float]:
     """Deviations, all relative, of an `EHLResult` for the SI arguments ``case`` of its solver.
 
     - elastic: film at the nodes
@@ -63,7 +66,7 @@ def film_deviations(result, case: dict) -> dict[str, float]:
     }
 
 
-def cell_flow(x, p, result, case) -> np.ndarray:
+def cell_flow(x: FloatArray, p: FloatArray, result: EHLResult, case: dict[str, float | str]) -> np.ndarray:
     """Mass flow through the middle of each cell over rho0 |U| [m]."""
     centre = 0.5 * (x[1:] + x[:-1])
     dx = np.diff(x)

@@ -1,7 +1,7 @@
 """Heat of a film beside Nahme, Blok and Jaeger, and two fits for the inlet."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -56,7 +56,7 @@ def nahme(number: float) -> float:
     return float(stress[0]) * 1e-6 / (0.1 * sliding)
 
 
-def flash(shape, step: float) -> float:
+def flash(shape: Callable[..., Any], step: float) -> float:
     """Largest rise of a fast band of heat over q_mean sqrt(2 b)/(e1 sqrt(u1) + e2 sqrt(u2)), by steps of half-widths.
     lubfric uses at most 257 nodes."""
     t = np.arange(-1.0, 1.2, step)

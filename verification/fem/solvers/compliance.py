@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import quad
 
+from ...arrays import FloatArray
 from .report import require
 
 SMALL = 0.5  # of 2 k d, below which sinh(2kd) - 2kd is summed as a series
@@ -24,7 +25,7 @@ class Elastic:
     young: float
     poisson: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         require(0 < self.young < np.inf, f"young = {self.young} Pa", "finite, > 0")
         require(-1 < self.poisson < 0.5, f"poisson = {self.poisson}", "(-1, 0.5), both ends excluded")
 
@@ -44,12 +45,12 @@ class Elastic:
         return self.young * (1 - self.poisson) / ((1 + self.poisson) * (1 - 2 * self.poisson))
 
 
-def half_space_compliance(k, body: Elastic):
+def half_space_compliance(k: float, body: Elastic) -> float:
     """``4/(E' |k|)`` in m/Pa for wavenumbers k > 0 in rad/m (Johnson 1985, Contact Mechanics, ch. 13)."""
     return 4 / (body.e_prime * np.asarray(k, dtype=float))
 
 
-def layer_compliance(k, thickness: float, body: Elastic):
+def layer_compliance(k: float, thickness: float, body: Elastic) -> float | FloatArray:
     """Downward surface displacement of a bonded layer per pressure, m/Pa, at wavenumbers k >= 0 in rad/m.
 
     With s = k d and a Papkovich-Neuber (or Airy) solution whose four constants in each wave follow from no
@@ -74,7 +75,7 @@ def layer_compliance(k, thickness: float, body: Elastic):
     return 4 / body.e_prime * thickness * above / below
 
 
-def sinh_excess(x):
+def sinh_excess(x: float | FloatArray) -> float | FloatArray:
     """``sinh(x) - x`` for x up to 1, without cancellation, by five terms. The relative error is below 1e-11."""
     y = np.asarray(x) ** 2
     return x * y / 6 * (1 + y / 20 * (1 + y / 42 * (1 + y / 72 * (1 + y / 110))))

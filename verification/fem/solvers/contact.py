@@ -6,9 +6,11 @@ three: off (f = 0, g >= 0), touching (g = 0, 0 <= f <= limit) or saturated (f = 
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
+from ...arrays import BoolArray, FloatArray
 from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED, SolveReport, require
 
 SOLVER = "primal-dual active set"
@@ -53,9 +55,9 @@ class ContactProblem:
 
 
 def solve_contact(
-    displacement,
-    weights,
-    gap0,
+    displacement: Callable[..., Any],
+    weights: FloatArray,
+    gap0: FloatArray,
     load: float,
     *,
     limit: float | None = None,
@@ -107,7 +109,9 @@ def solve_contact(
     return solution.report.checked(solution)
 
 
-def checked(displacement, weights, gap0, load, limit, tolerance) -> ContactProblem:
+def checked(
+    displacement: Callable[..., Any], weights: FloatArray, gap0: FloatArray, load: float, limit: float, tolerance: float
+) -> ContactProblem:
     """The problem, or `InputError`."""
     weights, gap0 = np.array(weights, dtype=float), np.array(gap0, dtype=float)
     fits = gap0.ndim == 1 and gap0.size > 0 and bool(np.all(np.isfinite(gap0)))
@@ -121,7 +125,9 @@ def checked(displacement, weights, gap0, load, limit, tolerance) -> ContactProbl
     return ContactProblem(displacement, weights, gap0, float(load), most * weights, tolerance)
 
 
-def active_set(problem: ContactProblem, force, touching, saturated, max_iterations: int):
+def active_set(
+    problem: ContactProblem, force: FloatArray, touching: BoolArray, saturated: BoolArray, max_iterations: int
+) -> tuple[FloatArray, tuple[int, list[float], str]]:
     """(force, (iterations, history, status)). Forces may pull or exceed the limit slightly."""
     history = []
     fewest = force.size + 1
@@ -154,7 +160,7 @@ def active_set(problem: ContactProblem, force, touching, saturated, max_iteratio
     return force, (max_iterations, history, ITERATION_LIMIT)
 
 
-def limited(problem: ContactProblem, force, saturated):
+def limited(problem: ContactProblem, force: FloatArray, saturated: BoolArray) -> BoolArray:
     """``saturated``, and the nodes above the limit, hardest pressed first, while others have load enough left."""
     over = np.flatnonzero((force > problem.limit) & ~saturated)
     over = over[np.argsort(-force[over] / problem.limit[over])]
@@ -168,7 +174,7 @@ def limited(problem: ContactProblem, force, saturated):
     return out
 
 
-def enough(problem: ContactProblem, gap, touching, saturated):
+def enough(problem: ContactProblem, gap: FloatArray, touching: BoolArray, saturated: BoolArray) -> BoolArray:
     """``touching``, and nodes that are off, nearest first, until these can carry what the saturated ones do not."""
     spare = problem.load - problem.limit[saturated].sum() - problem.limit[touching].sum()
     if spare <= 0 and touching.any():
@@ -181,7 +187,9 @@ def enough(problem: ContactProblem, gap, touching, saturated):
     return out
 
 
-def equilibrium(problem: ContactProblem, force, touching, saturated):
+def equilibrium(
+    problem: ContactProblem, force: FloatArray, touching: BoolArray, saturated: BoolArray
+) -> tuple[FloatArray, FloatArray]:
     """Forces with gap zero at the touching nodes, and the gap everywhere.
 
     The unknown is y = f/sqrt(w), so that nodes of unequal weight are alike. Steps stay orthogonal to sqrt(w), which
@@ -214,12 +222,12 @@ def equilibrium(problem: ContactProblem, force, touching, saturated):
     return force, misfit - (root**2 @ misfit) / root2
 
 
-def shift(vector, root, root2):
+def shift(vector: FloatArray, root: FloatArray, root2: float) -> FloatArray:
     """The part of ``vector`` orthogonal to ``root``."""
     return vector - root * ((root @ vector) / root2)
 
 
-def finish(problem: ContactProblem, force, steps) -> Contact:
+def finish(problem: ContactProblem, force: FloatArray, steps: tuple[int, list[float], str]) -> Contact:
     """Fields and residuals from the forces alone."""
     iterations, history, status = steps
     force = np.clip(force, 0, problem.limit)

@@ -44,7 +44,7 @@ class LineContact:
     fluid: Fluid
     sliding_speed: float = 0.0
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name, unit in (("load_per_width", "N/m"), ("radius", "m"), ("e_prime", "Pa"), ("entrainment_speed", "m/s")):
             value = getattr(self, name)
             require(0 < value < math.inf, f"{name} = {value} {unit}", "a finite number > 0")

@@ -6,12 +6,13 @@ derivative.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from ...arrays import ComplexArray, FloatArray
 from .report import require
 
 ROELANDS_PRESSURE = 1.96e8
@@ -46,7 +47,7 @@ class Fluid:
     eyring_stress: float = math.inf
     limiting_stress: tuple[float, float] | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         laws = f"viscosity_law = {self.viscosity_law!r}, density_law = {self.density_law!r}"
         known = self.viscosity_law in VISCOSITY_LAWS and self.density_law in DENSITY_LAWS
         require(known, laws, f"{VISCOSITY_LAWS} and {DENSITY_LAWS}")
@@ -78,7 +79,7 @@ class Fluid:
             return self.roelands_index
         return self.pressure_viscosity_coefficient * ROELANDS_PRESSURE / (math.log(self.viscosity) + 9.67)
 
-    def log_viscosity(self, p):
+    def log_viscosity(self, p: ComplexArray | FloatArray) -> ComplexArray | FloatArray:
         """``ln(eta/eta0)`` at pressure p."""
         if self.viscosity_law == "constant":
             return 0 * p
@@ -87,11 +88,11 @@ class Fluid:
         z = self.index
         return self.pressure_viscosity_coefficient * ROELANDS_PRESSURE / z * ((1 + p / ROELANDS_PRESSURE) ** z - 1)
 
-    def eta(self, p):
+    def eta(self, p: ComplexArray | FloatArray) -> ComplexArray | FloatArray:
         """Viscosity in Pa s."""
         return self.viscosity * np.exp(self.log_viscosity(p))
 
-    def stress(self, p, rate):
+    def stress(self, p: float | FloatArray, rate: float | FloatArray) -> float | FloatArray:
         """Shear stress in Pa at the shear rate, 1/s, of either sign."""
         size = self.eta(p) * np.abs(rate)
         if math.isfinite(self.eyring_stress):
@@ -101,7 +102,7 @@ class Fluid:
             size = np.minimum(size, self.limiting_stress[0] + self.limiting_stress[1] * p)
         return np.sign(rate) * size
 
-    def rho(self, p):
+    def rho(self, p: ComplexArray | FloatArray) -> ComplexArray | FloatArray:
         """Density relative to that at p = 0."""
         if self.density_law == "constant":
             return 1 + 0 * p
@@ -110,6 +111,6 @@ class Fluid:
         return (5.9e8 + 1.34 * p) / (5.9e8 + p)
 
 
-def slope(law, p):
+def slope(law: Callable[..., Any], p: FloatArray) -> FloatArray:
     """The derivative of one of the laws by a complex step. It can itself be differentiated only on the real axis."""
     return np.imag(law(np.real(p) + 1j * STEP)) / STEP

@@ -10,18 +10,27 @@ Pressure is constant on the cells of a patch along x, and the compliance gives m
 symmetric. Along y cells are points of a trigonometric series, as in any contact solver by Fourier transforms.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy.sparse as sp
 from scipy import fft
 from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, MeshTri
 
+from ...arrays import FloatArray
 from .compliance import Elastic
 from .contact import Contact, solve_contact
 from .report import require
 from .triangles import factorised, graded
+
+if TYPE_CHECKING:
+    from skfem.assembly.form.form import FormExtraParams
+    from skfem.element.discrete_field import DiscreteField
+
 
 SIDE = 12  # that of the square body is dx 2^SIDE
 GROWTH = 0.5  # of the cells, per distance from the patch
@@ -39,7 +48,7 @@ class HarmonicStrip:
     body: Elastic
     fineness: int = 1
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         said = f"shape = {self.shape}, spacing = {self.spacing} m, fineness = {self.fineness}"
         fits = not self.shape[0] % 2 and min(self.shape) >= 2 and min(self.spacing) > 0
         require(fits and 8 * self.shape[0] <= 1 << SIDE, said, f"nx even, 2 to {(1 << SIDE) // 8} cells, > 0 m")
@@ -116,7 +125,7 @@ def graded_mesh(strip: HarmonicStrip) -> MeshTri:
     mesh = MeshTri.init_tensor(np.linspace(-side / 2, side / 2, 9), np.linspace(-side, 0, 9))
     fine = 1.001 * np.sqrt(2) * dx / 2**strip.fineness
 
-    def allowed(corners):
+    def allowed(corners: FloatArray) -> FloatArray:
         aside = np.maximum(np.abs(corners[0]) - strip.half, 0)
         return np.hypot(fine, GROWTH * np.hypot(aside, corners[1]).min(axis=0))
 
@@ -129,7 +138,7 @@ def stiffness(basis: Basis, body: Elastic, unit: float) -> tuple:
     shear = body.young / (2 * (1 + body.poisson))
 
     @BilinearForm
-    def energy(u, v, w):
+    def energy(u: DiscreteField, v: DiscreteField, w: FormExtraParams) -> FloatArray:
         (ux, uz, uy, *u_shears) = strains(u, w.k)
         (vx, vz, vy, *v_shears) = strains(v, w.k)
         direct = lame * (ux + uz + uy) * (vx + vz + vy) + 2 * shear * (ux * vx + uz * vz + uy * vy)
@@ -139,7 +148,7 @@ def stiffness(basis: Basis, body: Elastic, unit: float) -> tuple:
     return at[0], (at[1] - at[-1]) / 2, (at[1] + at[-1]) / 2 - at[0]
 
 
-def strains(u, k):
+def strains(u: DiscreteField, k: float) -> tuple[FloatArray, ...]:
     """Amplitudes of e_xx, e_zz, e_yy, and of the shears xz, xy, zy; components of u are x, z, y."""
     g = u.grad
     return g[0, 0], g[1, 1], k * u[2], g[0, 1] + g[1, 0], g[2, 0] - k * u[0], g[2, 1] - k * u[1]

@@ -13,6 +13,7 @@ from scipy.sparse.linalg import SuperLU
 from skfem import Basis, ElementTriP1, ElementTriP2, ElementVector, LinearForm, MeshTri
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
+from ...arrays import FloatArray
 from .compliance import Elastic
 from .report import require
 from .triangles import factorised, graded, section_stress
@@ -53,7 +54,7 @@ class Layer:
         """Factors of the stiffness."""
         return factorised(self.stiffness)
 
-    def response(self, force) -> np.ndarray:
+    def response(self, force: FloatArray) -> np.ndarray:
         """All unknowns under nodal forces (n,) or (n, m), N per metre of depth; checked to 1e-9."""
         force = np.asarray(force, dtype=float)
         load = np.zeros((self.stiffness.shape[0], *force.shape[1:]))
@@ -66,7 +67,7 @@ class Layer:
             )
         return result
 
-    def displacement(self, force) -> np.ndarray:
+    def displacement(self, force: FloatArray) -> np.ndarray:
         """Downward displacement in m of the n surface nodes under forces there, N per metre of depth."""
         return -self.response(force)[self.unknowns]
 
@@ -93,7 +94,7 @@ def graded_mesh(width: float, thickness: float, strip: float, fine: float, growt
     cells = np.maximum(1, np.round(np.array([width / 2, thickness]) / min(width / 2, thickness))).astype(int)
     mesh = MeshTri.init_tensor(np.linspace(0, width / 2, cells[0] + 1), np.linspace(-thickness, 0, cells[1] + 1))
 
-    def allowed(corners):
+    def allowed(corners: FloatArray) -> FloatArray:
         return fine + growth * np.hypot(np.maximum(corners[0] - strip, 0), corners[1]).min(axis=0)
 
     mesh = graded(mesh, allowed)

@@ -15,6 +15,7 @@ import scipy.sparse as sp
 from skfem import Basis, ElementHex1, ElementHex2, ElementVector, MeshHex
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
+from ...arrays import FloatArray
 from .compliance import Elastic
 from .report import CONVERGED, ITERATION_LIMIT, SolveReport, require
 
@@ -39,7 +40,7 @@ class Layer3D:
     shape: tuple[int, int]
     degree: int = 1
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         levels = np.asarray(self.levels, dtype=float)
         object.__setattr__(self, "levels", levels)
         fits = self.degree in ELEMENTS and all(n >= 2 * self.degree and n % self.degree == 0 for n in self.shape)
@@ -189,7 +190,7 @@ def multigrid(layer: Layer3D, modes: np.ndarray | None = None) -> Multigrid:
     return Multigrid(layer, matrix, hierarchy)
 
 
-def solve(grid: Multigrid, force, *, tolerance: float = 1e-8, max_iterations: int = 100) -> LayerSolution:
+def solve(grid: Multigrid, force: FloatArray, *, tolerance: float = 1e-8, max_iterations: int = 100) -> LayerSolution:
     """Displacement of the assembled layer under nodal surface forces (nx, ny) in N, downwards.
 
     The stopping test, made here on the returned displacement and not taken from the iteration: ``|f - K u|/|f|`` in the

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.fft
 
+from ...arrays import FloatArray
 from .layer3d import Layer3D
 
 WAVES = 1024  # Fourier modes eliminated at a time
@@ -24,7 +25,7 @@ class FourierCompliance:
     layer: Layer3D
     symbol: np.ndarray
 
-    def displacement(self, force) -> np.ndarray:
+    def displacement(self, force: FloatArray) -> np.ndarray:
         """Displacement [m] of nodal forces [N], (nx, ny) or flattened, in the shape of the forces."""
         force = np.asarray(force, dtype=float)
         (cx, cy) = self.layer.cells

@@ -24,7 +24,7 @@ def require(fits: bool, said: str, allowed: str) -> None:
 class SolveError(RuntimeError):
     """A solve stopped short of its tolerance; carries its ``report`` and whatever ``result`` it had."""
 
-    def __init__(self, message: str, report=None, result=None):
+    def __init__(self, message: str, report: "SolveReport | None" = None, result: object = None):
         super().__init__(message, report, result)
         self.report = report
         self.result = result

@@ -9,16 +9,26 @@ step's active set from the primal-dual method (Hintermueller, Ito & Kunisch 2002
 weak form is written once, and its tangent is taken by a complex step.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 import skfem
 from skfem import Basis, BilinearForm, Functional, LinearForm
 from skfem.helpers import dot, grad
 
+from ...arrays import BoolArray, ComplexArray, FloatArray
 from .fluid import STEP, Fluid, slope
 from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, SolveReport, require
+
+if TYPE_CHECKING:
+    from scipy.sparse import csc_matrix
+    from skfem.assembly.form.form import FormExtraParams
+    from skfem.element.discrete_field import DiscreteField
+
 
 ELEMENTS = {
     ("MeshLine", 1): skfem.ElementLineP1,
@@ -60,7 +70,7 @@ class ReynoldsProblem:
     cavitation: bool = False
     stabilisation: str = "none"
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         mesh = f"mesh {type(self.mesh).__name__}, degree = {self.degree}"
         require(self.element is not None, mesh, "lines, triangles or quadrilaterals, degree 1 or 2")
         form = f"stabilisation = {self.stabilisation!r}"
@@ -73,7 +83,7 @@ class ReynoldsProblem:
         require(fits, f"film_thickness has a minimum of {np.min(film)} m on the mesh", "> 0")
 
     @property
-    def element(self):
+    def element(self) -> type:
         """The element class, or None."""
         names = [k for k in ELEMENTS if type(self.mesh).__name__.startswith(k[0]) and k[1] == self.degree]
         return ELEMENTS[names[0]] if names else None
@@ -126,7 +136,12 @@ class ReynoldsSolution:
         return float(np.sqrt(off / Functional(lambda w: exact(w.x) ** 2).assemble(self.basis)))
 
 
-def weak_form(problem: ReynoldsProblem, p, gradient, w) -> tuple[np.ndarray, np.ndarray]:
+def weak_form(
+    problem: ReynoldsProblem,
+    p: ComplexArray | FloatArray,
+    gradient: ComplexArray | FloatArray,
+    w: dict[str, FloatArray],
+) -> tuple[np.ndarray, np.ndarray]:
     """``(a, b)`` of the weak form ``integral a v + b . grad v`` at the quadrature points.
 
     ``p`` and its ``gradient`` may be real or complex; ``w`` are the fields of `given_fields`.
@@ -165,23 +180,25 @@ def upwind_flow(problem: ReynoldsProblem, p, gradient, mobility, w) -> np.ndarra
 
 
 @LinearForm
-def residual(v, w):
+def residual(v: DiscreteField, w: FormExtraParams) -> FloatArray:
     """The weak form itself."""
     return w.a * v + dot(w.b, grad(v))
 
 
 @BilinearForm
-def tangent(u, v, w):
+def tangent(u: DiscreteField, v: DiscreteField, w: FormExtraParams) -> FloatArray:
     """The derivative of `residual`, from the derivatives of (a, b) by p and by each component of its gradient."""
     a = w.a_p * u + dot(w.a_g, grad(u))
     b = w.b_p * u + sum(slope * du for slope, du in zip(w.b_g, grad(u), strict=True))
     return a * v + dot(b, grad(v))
 
 
-def linearised(problem: ReynoldsProblem, p, gradient, w) -> dict[str, np.ndarray]:
+def linearised(
+    problem: ReynoldsProblem, p: FloatArray, gradient: FloatArray, w: dict[str, FloatArray]
+) -> dict[str, np.ndarray]:
     """Derivatives of `weak_form` by a complex step, one for p and one for each component of its gradient."""
 
-    def along(dp, dg):
+    def along(dp: float, dg: FloatArray) -> tuple[FloatArray, FloatArray]:
         a, b = weak_form(problem, p + 1j * STEP * dp, gradient + 1j * STEP * dg[:, None, None], w)
         return np.imag(a) / STEP, np.imag(b) / STEP
 
@@ -331,7 +348,9 @@ def flow_scale(problem: ReynoldsProblem, basis: Basis, fields: dict) -> np.ndarr
     return flow if flow.max() > 0 else np.ones(basis.N)
 
 
-def measure(problem: ReynoldsProblem, p, r, held, cavitated, flow) -> dict[str, float]:
+def measure(
+    problem: ReynoldsProblem, p: FloatArray, r: FloatArray, held: BoolArray, cavitated: BoolArray, flow: FloatArray
+) -> dict[str, float]:
     """The residuals the stopping test of `solve_reynolds` names."""
     free = ~(held | cavitated)
     results = {"mass": float(np.abs(r / flow)[free].sum())}
@@ -343,7 +362,9 @@ def measure(problem: ReynoldsProblem, p, r, held, cavitated, flow) -> dict[str, 
     return results
 
 
-def newton_step(problem: ReynoldsProblem, matrix, r, p, held, cavitated) -> np.ndarray:
+def newton_step(
+    problem: ReynoldsProblem, matrix: csc_matrix, r: FloatArray, p: FloatArray, held: BoolArray, cavitated: BoolArray
+) -> np.ndarray:
     """The step to ``r = 0`` on free and ``p = 0`` on cavitated nodes, shortened where viscosity would run away."""
     step = np.where(cavitated & ~held, -p, 0.0)
     free = np.flatnonzero(~(held | cavitated))

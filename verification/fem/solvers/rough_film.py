@@ -11,6 +11,7 @@ import numpy as np
 import skfem
 from scipy.interpolate import LinearNDInterpolator
 
+from ...arrays import FloatArray
 from .fluid import Fluid
 from .report import require
 from .reynolds import ReynoldsProblem, ReynoldsSolution, solve_reynolds
@@ -38,7 +39,7 @@ class GivenGap:
     radius: float
     log: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         off = np.abs(self.gap - self.gap[:, ::-1]).max()
         require(off <= SYMMETRY * self.gap.max(), "gap is not symmetric along y", "one that is its own mirror image")
 
@@ -47,7 +48,7 @@ class GivenGap:
         """Half of the period [m]."""
         return 0.5 * self.gap.shape[1] * self.dy
 
-    def film(self, points) -> np.ndarray:
+    def film(self, points: FloatArray) -> np.ndarray:
         """h [m] at points (2, ...)."""
         x = points[0]
         first = self.x[0]
@@ -55,20 +56,20 @@ class GivenGap:
         away = np.minimum(x, first)
         return inside + (away**2 - first**2) / (2 * self.radius) - self.log * np.log(away / first)
 
-    def guess(self, points) -> np.ndarray:
+    def guess(self, points: FloatArray) -> np.ndarray:
         """The pressure that came with the gap [Pa]; zero upstream."""
         return np.where(
             points[0] >= self.x[0], self._linear(self.pressure, np.maximum(points[0], self.x[0]), points[1]), 0
         )
 
-    def prescribed(self, points) -> np.ndarray:
+    def prescribed(self, points: FloatArray) -> np.ndarray:
         """The pressure that came with the gap [Pa] on the spots of contact, NaN elsewhere."""
         step = self.x[1] - self.x[0]
         i = np.clip(np.rint((points[0] - self.x[0]) / step).astype(int), 0, self.x.size - 1)
         j = np.clip((points[1] / self.dy).astype(int), 0, self.gap.shape[1] - 1)
         return np.where(self.contact[i, j] & (points[0] >= self.x[0]), self.guess(points), np.nan)
 
-    def _linear(self, field, x, y):
+    def _linear(self, field: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
         nx, ny = field.shape
         s = np.clip((x - self.x[0]) / (self.x[1] - self.x[0]), 0, nx - 1 - 1e-9)
         t = y / self.dy - 0.5

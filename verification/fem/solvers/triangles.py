@@ -1,12 +1,18 @@
 """What the bodies of triangles share: graded meshes, factors of a stiffness, and stresses in plane strain."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse.linalg import SuperLU, splu
 from skfem import Basis, ElementTriP1, MeshTri
 from skfem.helpers import sym_grad
 from skfem.models.elasticity import lame_parameters, linear_stress
+
+if TYPE_CHECKING:
+    from scipy.sparse import csc_matrix, csr_matrix
 
 
 def graded(mesh: MeshTri, allowed: Callable[[np.ndarray], np.ndarray]) -> MeshTri:
@@ -20,7 +26,7 @@ def graded(mesh: MeshTri, allowed: Callable[[np.ndarray], np.ndarray]) -> MeshTr
         mesh = mesh.refined(large)
 
 
-def factorised(matrix) -> SuperLU:
+def factorised(matrix: csc_matrix | csr_matrix) -> SuperLU:
     """Sparse LU of a symmetric positive definite matrix."""
     return splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 

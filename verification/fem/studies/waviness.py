@@ -50,7 +50,7 @@ class WavinessCase:
         """For the finite elements, with waves of this ``speed`` over the entrainment speed."""
         return ehl.LineContact.of(self.values, 2 * abs(speed - 1) * self.values["entrainment_speed"])
 
-    def but(self, name: str = "", **values) -> "WavinessCase":
+    def but(self, name: str = "", **values: float) -> "WavinessCase":
         """Return the case with other ``values``."""
         return WavinessCase(name or self.name, self.values | values)
 
