@@ -1,15 +1,19 @@
 """The report as one HTML page. It has no script, fetches nothing, and can be read on a phone and without a network."""
 
+from __future__ import annotations
+
 import base64
 from collections.abc import Iterator
 from html import escape
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .check import Check, Figure, Table
-from .report import Report
 from .run import Outcome
 from .wording import allowed, by_grade, listed, number, seconds
+
+if TYPE_CHECKING:
+    from .report import Report
 
 CSS = Path(__file__).with_name("page.css").read_text(encoding="utf-8")
 
