@@ -19,8 +19,6 @@ from pathlib import Path
 import numpy as np
 from scipy.special import erf
 
-from ..arrays import BoolArray, FloatArray
-
 UNSTATED = 0.05
 GOT = {
     "printed": "printed",
@@ -156,11 +154,11 @@ class Pocket:
     viscosity: float = 0.01
     speed: float = 0.5
 
-    def wedge(self, x: float | FloatArray) -> float | FloatArray:
+    def wedge(self, x: float | np.ndarray) -> float | np.ndarray:
         """Gap of the pad without its pocket."""
         return self.start + (self.end - self.start) * x / self.length
 
-    def inside(self, x: FloatArray) -> BoolArray:
+    def inside(self, x: np.ndarray) -> np.ndarray:
         """Where the pocket is along the motion."""
         return (x >= self.begins) & (x < self.ends)
 
@@ -181,7 +179,7 @@ def refilled(pad: Pocket) -> tuple[float, float, float]:
     last = pad.wedge(pad.ends)
     flow = pad.start * first / (pad.start + first)  # half of it, over U
 
-    def rise(gap: float | FloatArray, since: float) -> float | FloatArray:
+    def rise(gap: float | np.ndarray, since: float) -> float | np.ndarray:
         return scale * (1 / gap - 1 / since - flow * (1 / gap**2 - 1 / since**2))
 
     deep = last + pad.depth
