@@ -140,6 +140,8 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str) -> list
     low, high = point.uncertainty.interval
     unknown = "" if not math.isnan(point.uncertainty.model) else " The model-form error is not known and not included."
     sentences = [f"f = {with_interval(point.coefficient, low, high)} {place}.{unknown}"]
+    if point.decision.basis:
+        sentences.append(sentence(point.decision.basis))
     low, high = point.power_loss_interval
     unit = unit_for([point.power_loss], "W")
     loss = with_interval(*(converted(value, "W", unit) for value in (point.power_loss, low, high)))

@@ -149,7 +149,7 @@ def _write(
     numbers = [_point(curve, i) for i in range(len(curve.points))]
     columns = read_table(folder.path / f"{name}.csv", contents[f"{name}.csv"])
     if _drawable(columns).any():
-        folder.draw(f"{name}.png", _plot, columns, prepared.scene.name, numbers)
+        folder.draw(f"{name}.png", _plot, columns, _title(prepared.scene, curve), numbers)
     points = [p for p in curve.points if p is not None and (p.fields is not None or p.balance is not None)]
     points.sort(key=lambda p: chosen.index(p.speed))
     if points:
@@ -168,6 +168,19 @@ def _write(
         contents |= {"law.json": law.json.encode(), "law.c": law.c.encode()}
     given = given_tables(arguments.scene)
     folder.complete(prepared, estimate, given, curve, units, law, _doubts(prepared.scene, curve), points=numbers)
+
+
+def _title(scene: Scene, curve: studies.CurveResult) -> str:
+    """Return the title of the picture of ``curve``: the name of the scene, and what the model-form error of its points rests
+    on, where a point states it; that of the widest error."""
+    stated = [p for p in curve.points if p is not None and p.decision.basis]
+    if not stated:
+        return scene.name
+    widest = max(stated, key=lambda point: point.uncertainty.model)
+    solved = [p for p in curve.points if p is not None]
+    of = "" if len(stated) == len(solved) else f" ({len(stated)} of {counted(len(solved), curve.SWEPT[3])})"
+    most = " at most" if len(stated) > 1 else ""
+    return f"{scene.name}\n{widest.decision.basis}{most}{of}"
 
 
 def _law(curve: studies.CurveResult) -> studies.Law | str:

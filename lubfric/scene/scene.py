@@ -28,6 +28,9 @@ RESOLVED = (  # key, the values that the deterministic model takes, why no other
     ("numerics.film_deflection", ("scaled", "hydrodynamic"), " (no smooth film is deflected)"),
     ("numerics.cavitated_shear", ("none",), ""),
 )
+# Pa: least limit at ambient pressure in the deterministic model. Oils have some 1 MPa; with .1, .01 and .001 MPa f of the
+# scene "paper" at .03 m/s is .058, .064 and .071, and with 0 the inlet has no viscosity
+LEAST_OFFSET = 1e4
 
 
 @dataclass(frozen=True, repr=False)
@@ -260,6 +263,13 @@ def _not_taken(scene: Scene, given: bool) -> Iterator[tuple[str, Any, str]]:
         yield "numerics.heat", "on", "'auto', 'off' (in time the model is isothermal)"
     if scene.transient is not None and scene.lubricant.inlet_length is not None:
         yield "lubricant.inlet_length", scene.lubricant.inlet_length, "None (in time the model is flooded)"
+    limit = scene.lubricant.limit
+    offset = scene.lubricant.limiting_stress_offset
+    if limit is not None and offset < LEAST_OFFSET:
+        instead = (
+            f"at least {LEAST_OFFSET:g} Pa: a film whose limit is 0 at ambient pressure has no viscosity in its inlet"
+        )
+        yield "lubricant.limiting_stress_offset", offset, instead
     bodies = moving_bodies(scene)
     if len({u for _, u in bodies}) > 1 and given:
         yield "counterface", "a second rough body", "at a slide-roll ratio other than 0 a map of its own"

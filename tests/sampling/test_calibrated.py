@@ -2,15 +2,18 @@
 
 import csv
 import math
+from dataclasses import replace
 from importlib.resources import files
 
 import numpy as np
 import pytest
 
 import lubfric
+from lubfric.models.deterministic import lay_out, solve_point
 from lubfric.models.load_sharing.calibrated import calibration, half_width, numbers_of, widening
 from lubfric.models.load_sharing.model_error import least_error, starved_error
 from lubfric.models.load_sharing.rough_film import RoughMap, flattened
+from lubfric.output.describe import describe_scene
 from verification.campaigns.calibration.fit import fitted
 
 PAPER = lubfric.load_scene("paper")
@@ -65,7 +68,19 @@ def test_calibrated_answer_holds_the_deterministic_one_and_is_narrower_than_load
     parts = results["load-sharing"].boundary_force + results["load-sharing"].shear_force
     assert parts / HEAVIER.bodies.load == pytest.approx(results["load-sharing"].coefficient, rel=1e-12)
     assert results["load-sharing"].decision.model == "load sharing, calibrated"
-    assert f"calibrated on {calibration()['rest']['cases']} solved cases" in results["load-sharing"].decision.text
+    basis = f"load sharing, calibrated on {calibration()['rest']['cases']} solved cases: model-form -"
+    assert results["load-sharing"].decision.text.startswith(basis)
+    assert results["paper"].decision.basis == ""
+
+
+def test_the_ends_of_an_input_are_those_of_the_calibrated_model():
+    """A range of the Eyring stress moves f by as much as a solve at its ends does, not as Eq. (9) would be moved."""
+    scene = HEAVIER.with_(numerics={"model": "load-sharing", "sampling_tolerance": 0.5, "tolerance": 0.1})
+    ends = (3e6, 1e7)
+    ranged = lubfric.friction(scene.with_(lubricant={"eyring_stress": [*ends]}), 0.3)
+    solved = [lubfric.friction(scene.with_(lubricant={"eyring_stress": end}), 0.3).coefficient for end in ends]
+    spread = max(abs(f / ranged.coefficient - 1) for f in solved)
+    assert ranged.uncertainty.inputs == pytest.approx(spread, rel=0.1)
 
 
 def test_a_loose_model_tolerance_lets_auto_answer_by_calibrated_load_sharing():
@@ -131,6 +146,27 @@ def test_a_stated_limit_of_f_b_takes_the_band_away_and_leaves_f(newtonian):
     assert stated.coefficient == newtonian.coefficient
     assert stated.uncertainty.fluid == 0.0
     assert stated.uncertainty.model < newtonian.uncertainty.model
+
+
+def test_a_limit_of_f_b_differs_from_the_cap_by_the_pressure_flow_that_it_thins():
+    """With the flow of the Newtonian film, a limit of f_b p gives the same f; a film at its limit flows more easily."""
+    surface = lubfric.generate_surface(
+        (96, 32), (0.9e-6, 1.2e-6), sq=100e-9, correlation_length=8e-6, acf="gaussian", seed=3
+    )
+    limited = PAPER.with_(lubricant={"limiting_stress_coefficient": 0.09})
+    capped, thinned = (
+        lay_out(surface, scene.line_contact(0.03), sliding=0.06, boundary_friction=0.09) for scene in (PAPER, limited)
+    )
+    f_capped = solve_point(capped).coefficient
+    assert solve_point(replace(capped, sheared=limited.lubricant)).coefficient == pytest.approx(f_capped, rel=0.005)
+    assert solve_point(thinned).coefficient > 1.05 * f_capped
+
+
+def test_a_lubricant_without_a_limit_at_ambient_pressure_is_refused_by_the_deterministic_model():
+    scene = PAPER.with_(lubricant={"limiting_stress_coefficient": 0.06, "limiting_stress_offset": 0.0})
+    with pytest.raises(lubfric.InputError, match="limiting_stress_offset"):
+        lubfric.friction(scene.with_(numerics={"model": "deterministic"}), 0.03)
+    assert "limiting_stress_offset" in lubfric.friction(scene, 0.03).decision.text
 
 
 def test_a_stated_limit_of_f_b_is_for_newtonian_oils_and_survives_a_file(tmp_path):
@@ -199,3 +235,16 @@ def test_friction_tends_to_that_of_the_boundary_as_the_film_vanishes():
     coefficients = [result.coefficient for result in results]
     assert coefficients == sorted(coefficients, reverse=True)
     assert all(result.shear_force >= 0 for result in results)
+
+
+@pytest.mark.parametrize("model", ["load-sharing", "paper", "deterministic"])
+def test_the_pressure_that_info_warns_of_is_warned_of_by_every_model(model):
+    """1.47 GPa of Hertz, most of it on asperities: the film of load sharing has little of that pressure."""
+    scene = PAPER.with_(
+        bodies={"hertz_pressure": 1.47e9},
+        lubricant={"eyring_stress": 5e6, "limiting_stress_coefficient": 0.06},
+        numerics={"model": model, "sampling_tolerance": 0.5, "tolerance": 0.1},
+    )
+    assert "film pressure is 1.47 GPa" in describe_scene(scene, [0.03])
+    pressures = [entry.value for entry in lubfric.friction(scene, 0.03).validity if entry.what == "film pressure"]
+    assert pressures and min(pressures) > 1.4699

@@ -27,6 +27,7 @@ from ..shared import (
     of_pressure,
     of_thickness,
     on_piece,
+    peak_hertz_pressure,
     percent,
     student,
 )
@@ -266,7 +267,7 @@ def _entries(
     flow = mean(result.flow_film for result in results)
     friction = abs(numbers["coefficient"]) * scene.bodies.load
     yield from of_inlet(scene, scene.line_contact(abs(speed)), flow, friction)
-    for entry in of_pressure(scene, max(result.top_pressure for result in results)):
+    for entry in of_pressure(scene, max(peak_hertz_pressure(scene), *(result.top_pressure for result in results))):
         yield replace(entry, severe=False)  # of one cell: no stress there is above the limit, whatever the pressure
     yield from of_thickness(scene, film)
     cut = mean(result.split.capped / result.load for result in results)

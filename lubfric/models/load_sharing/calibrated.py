@@ -76,10 +76,8 @@ def calibrated_friction(prepared: Prepared, sample: Sample, speed: float, line: 
     sharing on all strips; the rough film is that of the first one, and the ratio of their f by Eq. (9) corrects for it.
     Raises `ConvergenceError`."""
     scene = prepared.scene
-    contact = on_strip(prepared, sample, 0)
     start = replace(line, contact=replace(line.contact, fields=None)) if line.response is not None else None
-    balance = solve_balance(scene, speed, contact, prepared.surface.sq, start)
-    film = rough_film(scene, speed, contact, balance, rough_maps(prepared, sample, contact.heights, speed))
+    balance, film = film_on_strip(prepared, sample, scene, speed, start)
     here = balance.forces.coefficient
     there = line.forces.coefficient
     of_line = there / here if here > 0 < there else 1.0
@@ -107,6 +105,18 @@ def calibrated_friction(prepared: Prepared, sample: Sample, speed: float, line: 
         cases=fit["cases"],
         outside=tuple(outside),
     )
+
+
+def film_on_strip(
+    prepared: Prepared, sample: Sample, scene: Scene, speed: float, start: Balance | None
+) -> tuple[Balance, RoughFilm]:
+    """Return the balance and the rough film of ``scene``, which may differ from that of ``prepared`` in inputs, on the
+    first strip of ``sample`` at ``speed`` [m/s]. Raises `ConvergenceError`."""
+    contact = on_strip(prepared, sample, 0)
+    if scene.bodies.hardness != prepared.scene.bodies.hardness:
+        contact = replace(contact, hardness=scene.bodies.hardness)
+    balance = solve_balance(scene, speed, contact, prepared.surface.sq, start)
+    return balance, rough_film(scene, speed, contact, balance, rough_maps(prepared, sample, contact.heights, speed))
 
 
 def rough_maps(prepared: Prepared, sample: Sample, heights: np.ndarray, speed: float) -> list[RoughMap]:

@@ -11,10 +11,10 @@ from functools import cached_property
 from ...samples import Sample
 from ...scene import Scene, gap_not_resolved
 from ...surface import Surface
-from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
+from ..contract import AtInputs, Model, ModelAnswer, SampleSolution, WorkEstimate
 from ..shared import ControlVariate, Prepared, limit_in_words, no_rough_film, percent
 from .answer import answer_of
-from .calibrated import CalibratedFriction, calibrated_friction, least_half_width
+from .calibrated import CalibratedFriction, calibrated_friction, film_on_strip, least_half_width
 from .estimated_work import estimated_work
 from .paper_model import PaperModel, PaperSolution
 
@@ -55,7 +55,18 @@ class LoadSharingSolution(PaperSolution):
             answer = answer_of(self.balanced)
             elastic = self.prepared.scene.lubricant.shear_modulus is not None
             return replace(answer, notes=(*answer.notes, ELASTIC if elastic else NOT_FLOODED))
-        return calibrated_answer(self.prepared, answer_of(self.balanced), self.friction)
+        answer = calibrated_answer(self.prepared, answer_of(self.balanced), self.friction)
+        return replace(answer, at_inputs=self._at_inputs) if self.friction.weight == 1.0 else answer
+
+    def _at_inputs(self) -> AtInputs:
+        """Return f of the rough film at other inputs, on the first strip."""
+
+        def coefficient(scene: Scene) -> float:
+            balance, film = film_on_strip(self.prepared, self.sample, scene, self.speed, None)
+            heat = balance.forces.heat
+            return film.coefficient * (1 - heat.change if heat.heated else 1.0)
+
+        return AtInputs(middle=coefficient(self.prepared.scene), coefficient=coefficient)
 
 
 class LoadSharingModel(Model):
@@ -149,7 +160,12 @@ def calibrated_answer(prepared: Prepared, answer: ModelAnswer, friction: Calibra
         by_limit=max(friction.by_limit),
         largest_in_model=_largest(friction),
         notes=tuple(notes),
-        decision=replace(answer.decision, model=IN_WORDS, notes=(in_words(friction), *answer.decision.notes)),
+        decision=replace(
+            answer.decision,
+            model=IN_WORDS,
+            basis=basis_of(friction),
+            notes=(in_words(friction), *answer.decision.notes),
+        ),
     )
 
 
@@ -169,16 +185,21 @@ def _largest(friction: CalibratedFriction) -> str:
     return max(parts, key=lambda part: parts[part])
 
 
-def in_words(friction: CalibratedFriction) -> str:
+def basis_of(friction: CalibratedFriction) -> str:
     """Return what the answer rests on, in words."""
     low, high = friction.bounds
-    text = f"load sharing, calibrated on {friction.cases} solved cases: model-form -{percent(low)} / +{percent(high)}"
+    return f"load sharing, calibrated on {friction.cases} solved cases: model-form -{percent(low)} / +{percent(high)}"
+
+
+def in_words(friction: CalibratedFriction) -> str:
+    """Return what makes f up, and what narrows it, in words."""
+    parts = []
     if any(friction.by_film):
         half, twice = friction.by_film
-        text += f"; f by half the boundary film {100 * half:+.2g} %, by twice {100 * twice:+.2g} %"
+        parts.append(f"f by half the boundary film {100 * half:+.2g} %, by twice {100 * twice:+.2g} %")
     film = friction.film
-    return (
-        f"{text}; asperity load: boundary film {percent(film.boundary_film)}, saturated film "
-        f"{percent(film.saturated_film)}; numerics.model = 'deterministic' narrows f, at the cost that `lubfric info` "
-        "estimates"
+    parts.append(
+        f"asperity load: boundary film {percent(film.boundary_film)}, saturated film {percent(film.saturated_film)}"
     )
+    parts.append("numerics.model = 'deterministic' narrows f, at the cost that `lubfric info` estimates")
+    return "; ".join(parts)

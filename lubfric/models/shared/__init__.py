@@ -16,6 +16,7 @@ from .checks import (
     of_pressure,
     of_thickness,
     of_typical_heat,
+    peak_hertz_pressure,
 )
 from .checks_before import expected
 from .control_variate import ControlVariate

@@ -63,16 +63,22 @@ def of_film(
     scene: Scene, thickness: float, peak: float, shear: ShearForce, film_load: float, force: float, heat: Heat
 ) -> Iterator[Validity]:
     """Entries for a film of central ``thickness`` [m] and ``peak`` pressure [Pa]; the rest: `of_shear`, `of_heat`."""
-    yield from of_pressure(scene, peak)
+    yield from of_pressure(scene, max(peak, peak_hertz_pressure(scene)))
     yield from of_thickness(scene, thickness)
     yield from of_shear(scene, shear, film_load, force)
     yield from of_heat(scene, heat)
 
 
+def peak_hertz_pressure(scene: Scene) -> float:
+    """Return the peak Hertz pressure [Pa] of the whole load. A film between asperities has at least this pressure, however
+    little of the load it carries by Eq. (8)."""
+    return 4 / math.pi * scene.bodies.mean_hertz_pressure
+
+
 def of_pressure(scene: Scene, peak: float) -> Iterator[Validity]:
     """Entries for the highest film pressure ``peak`` [Pa]."""
     law = scene.lubricant.viscosity_law
-    hertz_peak = 4 / math.pi * scene.bodies.mean_hertz_pressure
+    hertz_peak = peak_hertz_pressure(scene)
     limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(law, math.inf)
     consequence = f"the {law} viscosity law is an extrapolation there"
     remedy = "the film's friction rests on it: a measured limiting stress is safer"

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from ...film import ShearForce, hertz
 from ...oil import carried_stress, shear_stress
 from ...scene import Bodies, Scene, unusual_values
 from ...surface import Surface, correlation_length, rms_slope
-from .checks import of_motion, of_pressure, of_shear
+from .checks import of_motion, of_pressure, of_shear, peak_hertz_pressure
 from .validity import Validity
 
 NODES = 201  # across the Hertz strip
@@ -91,7 +92,8 @@ def expected(scene: Scene, surface: Surface, speeds: list[float]) -> tuple[tuple
     under the whole load."""
     entries_by_speed: list[tuple[float | None, Validity]] = [(None, entry) for entry in beforehand(scene, surface)]
     if scene.numerics.model == "deterministic":
-        return tuple(entries_by_speed)
+        in_all = [replace(entry, severe=False) for entry in of_pressure(scene, peak_hertz_pressure(scene))]
+        return (*entries_by_speed, *((None, entry) for entry in in_all))
     for speed in speeds:
         if speed == 0:
             continue
@@ -115,4 +117,4 @@ def _of_film(scene: Scene, speed: float, film: float) -> list[Validity]:
     force, excess = (float(bodies.width * np.trapezoid(tau, x)) for tau in (stress, above))
     shear = ShearForce(force, 0.0, excess=excess, stress_ratio=float(np.max(stress / carried_stress(pressure))))
     total = max(force, bodies.boundary_friction_coefficient * bodies.load)
-    return [*of_pressure(scene, float(pressure.max())), *of_shear(scene, shear, bodies.load, total)]
+    return [*of_pressure(scene, peak_hertz_pressure(scene)), *of_shear(scene, shear, bodies.load, total)]

@@ -15,6 +15,7 @@ class Decision:
       of the scene's map, along each axis; ``strips``: number of strips of the surface that were solved.
     - ``change_by_cells``: relative change of f by the scene's own cells, for which it is corrected.
     - ``heat``: which heat was modelled, in words ("": none can be).
+    - ``basis``: what the model-form error rests on, in words; first in ``text`` ("": the error formulas of the model).
     """
 
     model: str
@@ -28,12 +29,13 @@ class Decision:
     change_by_cells: float = 0.0
     heat: str = ""
     notes: tuple[str, ...] = ()
+    basis: str = ""
 
     @property
     def text(self) -> str:
         """The decision in words."""
         film = f"film: {self.film}" + (f", tolerance {percent(self.film_tolerance)}" if self.film_tolerance else "")
-        parts = film, f"contact: {self.contact}", self._cells(), self.heat, *self.notes
+        parts = self.basis, film, f"contact: {self.contact}", self._cells(), self.heat, *self.notes
         return "; ".join(part for part in parts if part)
 
     def _cells(self) -> str:
