@@ -17,8 +17,8 @@ class Study:
 
     target : "package.module:function"
     levels : those that it runs at
-    grade : of its checks that have none of their own (`verification.check.GRADES`)
-    options : keywords of the function beside the level
+    grade : grade of its checks that state none (`verification.check.GRADES`) options : keywords of the function in
+        addition to the level
     """
 
     name: str
@@ -52,7 +52,7 @@ def wiring(part: str, title: str) -> Study:
 
 def published(name: str, title: str) -> Study:
     """A part of ``python -m verification published``."""
-    return Study(name, f"verification.fem.published.{name}:{name}", f"{title}, beside publications", grade="A")
+    return Study(name, f"verification.fem.published.{name}:{name}", f"{title}, compared with publications", grade="A")
 
 
 DRY = published("dry", "Dry contact: Hertz, waves, rough surfaces")
@@ -77,7 +77,7 @@ STUDIES: tuple[Study, ...] = (
     study("ehl", "Smooth EHL line contact, full-system finite elements"),
     study("contact_grid", "Dry contact of lubfric on ever finer grids", grade="B"),
     study("ehl_grid", "Smooth film of lubfric on ever finer grids", grade="B"),
-    study("friction", "The whole job of lubfric: grid, patch, area, tolerance"),
+    study("friction", "Friction of lubfric: grid, patch, area, tolerance"),
     study("load_sharing", "Load sharing, both halves by finite elements"),
     study("deterministic", "One gap, one pressure: limits, and the film in the same gap by finite elements"),
     study("starved", "A smooth film whose inlet starves by finite elements"),

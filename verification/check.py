@@ -19,15 +19,15 @@ REPORTED = "reported"
 KINDS = (RELATIVE, ABSOLUTE, AT_MOST, AT_LEAST, REPORTED)
 CAUSES = ("ours", "theirs", "both", "unknown")
 GRADES = {
-    "A": "a number or law from outside",
+    "A": "a published number or law",
     "B": "structure: conservation, symmetry, limits, order of convergence",
-    "C": "code of the same hands",
+    "C": "the second program of the same authors",
 }
 
 
 @dataclass(frozen=True)
 class Check:
-    """One measured number set against the number it should be. All commands use this one record.
+    """One measured number and the number that it is compared with. All commands use this record.
 
     ``kind`` says what passes:
 
@@ -41,12 +41,12 @@ class Check:
 
     source : where ``expected`` comes from (closed form, publication, another solver)
     seconds : filled in by the runner for studies that yield their checks one by one
-    decisive : False for what is only shown beside the others; it may fail without the run failing
-    refused : what the method said in place of a number, which then is NaN
+    decisive : False for a check that is only shown; it may fail without the run failing
+    refused : message of the method where it gave no number; the number is NaN then
     at : where it was measured (axes of a map, setting and cost of a method, seed of a scene), by name
-    grade : what the expected value is worth, one of `GRADES`; "": that of its study
-    errors : beside a publication, what is left open of the measured and of the published value, in ``unit``
-    cause : beside a publication, whose deviation it is where both differ by more than the errors, one of `CAUSES`
+    grade : origin of the expected value, one of `GRADES`; "": that of its study errors : compared with a publication,
+        the 95 % bounds of the measured and of the published value, in ``unit`` cause : compared with a publication,
+        the cause where both differ by more than the errors, one of `CAUSES`
 
     Raises
     ------
@@ -108,7 +108,7 @@ class Check:
 
     @property
     def units(self) -> float:
-        """The deviation in units of the tolerance; of a check beside a publication, in those of both errors."""
+        """Return the deviation in units of the tolerance; compared with a publication, in units of both errors."""
         return self.deviation / self.tolerance if self.tolerance else (math.inf if self.deviation else 0.0)
 
     @property
@@ -208,8 +208,8 @@ def beside(
     note: str = "",
     cause: str = "",
 ) -> Check:
-    """Our value beside a published one. It passes when they differ by no more than both ``errors`` (ours, theirs; 95 %
-    bounds in ``unit``), summed by squares. Its grade is A."""
+    """Compare a value of lubfric with a published one. The check passes when they differ by no more than the root of
+    the sum of the squares of both ``errors`` (lubfric, published; 95 % bounds in ``unit``). Its grade is A."""
     allowed = math.hypot(*errors)
     return Check(name, ours, theirs, allowed, source, ABSOLUTE, unit, note, grade="A", errors=errors, cause=cause)
 

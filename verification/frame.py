@@ -1,4 +1,4 @@
-"""The frame of every command: what may be asked, the studies run, page and files written, the exit code.
+"""The frame of every command: its options, the run of its studies, page and files, the exit code.
 
 A command is a list of studies and little else (`Command`). Its studies hand over checks, tables, figures and fields
 (`check`). The run fails when a check that decides fails. The studies of a `campaign` solve many cases, which are kept
@@ -51,7 +51,7 @@ class Command:
 
     @property
     def program(self) -> str:
-        """The command as it is typed."""
+        """Return the command as the user types it."""
         return f"python -m verification {self.name}".strip()
 
 
@@ -118,7 +118,7 @@ def parser(command: Command) -> argparse.ArgumentParser:
 
 
 def choose(command: Command, p: argparse.ArgumentParser, options: argparse.Namespace) -> tuple[Study, ...]:
-    """The studies asked for, in the order of the list; an unknown name ends the program with code 2."""
+    """Return the selected studies, in the order of the list; an unknown name ends the program with code 2."""
     names = [s.name for s in command.studies]
     for name in options.only or ():
         if name not in names:

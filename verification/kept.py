@@ -1,8 +1,8 @@
 """The cases of a campaign, solved over processes, with a store of what is solved.
 
-A campaign is a command with cases, a judge, a table and a picture. Its cases are named, and each is solved to a row of
-plain values. The rows are lines of JSON in a file, and a case whose row is there is not solved again. The file lies in
-a folder that is named after the code which solved it, so that rows of other code are never mixed with new ones.
+A campaign is a command with cases, checks, a table and a picture. Its cases have names, and the solution of each is a
+row of plain values. The rows are lines of JSON in a file, and a case whose row exists is not solved again. The file is
+in a folder with the name of the code that solved it, so that rows of other code are never mixed with new ones.
 """
 
 import hashlib
@@ -21,7 +21,7 @@ Case = TypeVar("Case")
 
 @dataclass(frozen=True)
 class Run:
-    """How a part of a campaign runs: folder of its rows (None: nowhere), processes, name of its file."""
+    """How a part of a campaign runs: folder of its rows (None: not stored), processes, name of its file."""
 
     folder: Path | None = None
     workers: int = 1
@@ -32,8 +32,8 @@ class Run:
     ) -> Iterator[tuple[Case, Any]]:
         """(case, ``solve(case)``) of every case in order, the row in plain types with NaN as None.
 
-        ``solve`` is a function that another process can import. The rows are kept in a file of that ``name``, each as
-        soon as it is solved.
+        ``solve`` is a function that another process can import. Each row is stored in a file of that ``name`` as soon
+        as it is solved.
         """
         file = None if self.folder is None else self.folder / code() / f"{name or self.name}.jsonl"
         known = {} if file is None else rows_of(file)

@@ -19,7 +19,7 @@ CSS = Path(__file__).with_name("page.css").read_text(encoding="utf-8")
 
 
 def render(report: Report) -> str:
-    """The whole page for a `report.Report`."""
+    """Return the complete page for a `report.Report`."""
     state = "good" if report.passed else "bad"
     failed = [(o, c) for o in report.outcomes for c in o.checks if c.failed]
     parts = [
@@ -82,7 +82,7 @@ def section(outcome: Outcome) -> str:
         files = "".join(
             f"<li>{escape(outcome.study.name)}_{escape(f.name)}.vtu: {escape(f.caption)}</li>" for f in outcome.fields
         )
-        parts.append(f"<h3>Fields, beside this page as VTU</h3><ul>{files}</ul>")
+        parts.append(f"<h3>Fields, as VTU in this folder</h3><ul>{files}</ul>")
     return "\n".join(parts)
 
 
@@ -111,17 +111,26 @@ def checks_table(checks: list[Check] | tuple[Check, ...]) -> str:
 
 
 def beside_table(checks: list[Check]) -> str:
-    """Ours beside published values, each with its error; the deviation in per cent, and in units of both errors."""
+    """Return the table of values of lubfric and published values, each with its error; the deviation in per cent, and
+    in units of both errors."""
     rows = []
     for c in checks:
         unit = "" if c.unit == "1" else f" {c.unit}"
-        ours, theirs = (f"{number(v)} ± {e:.2g}{unit}" for v, e in zip((c.measured, c.expected), c.errors))
+        value, published = (f"{number(v)} ± {e:.2g}{unit}" for v, e in zip((c.measured, c.expected), c.errors))
         percent = f"{round(100 * (c.measured / c.expected - 1), 6) + 0.0:+.2g} %"
         source = c.source + (f". {c.note}" if c.note else "")
         rows.append(
-            (mark(c.passed), escape(c.name), escape(theirs), escape(ours), percent, f"{c.units:.2f}", escape(source))
+            (
+                mark(c.passed),
+                escape(c.name),
+                escape(published),
+                escape(value),
+                percent,
+                f"{c.units:.2f}",
+                escape(source),
+            )
         )
-    return html_table(("Verdict", "Quantity", "Theirs", "Ours", "Deviation", "In errors", "Source"), rows)
+    return html_table(("Verdict", "Quantity", "Published", "lubfric", "Deviation", "Over both errors", "Source"), rows)
 
 
 def data_table(table: Table) -> str:

@@ -1,4 +1,4 @@
-"""A run as a whole: its verdict, its text on the terminal and its files. `page` makes the HTML."""
+"""The report of a run: its verdict, its text on the terminal and its files. `page` makes the HTML."""
 
 import csv
 import importlib.metadata
@@ -21,9 +21,9 @@ PACKAGES = ("lubfric", "numpy", "scipy", "scikit-fem", "meshio", "pyamg", "matpl
 
 @dataclass(frozen=True)
 class Report:
-    """Everything a run found.
+    """All results of a run.
 
-    level, selected : what was asked for: the level, and the names of the studies
+    level, selected : the requested level, and the names of the studies
     outcomes : the studies finished so far
     complete : False while studies are still to come, or never came because the run was stopped
     started : local date and time

@@ -25,14 +25,14 @@ INSTALL = 'pip install "lubfric[verification]"'
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of one study.
+    """The outcome of one study.
 
     study, level : what was run
     description : docstring of the study
     checks, tables, figures, fields : all that was handed over, also before a failure
     seconds : wall time of the study with its imports
     error : one line for a study that raised, else ""
-    trace : the whole traceback, else ""
+    trace : the complete traceback, else ""
     """
 
     study: Study
@@ -143,15 +143,15 @@ def explain(exc: BaseException) -> str:
 
 
 def raised(study: Study, error: str) -> Check:
-    """The failed check that stands for a study that did not reach its end."""
+    """Return the failed check of a study that did not reach its end."""
     return Check(
         f"{study.name} runs to its end", float("nan"), 0.0, 0.0, "the study itself", AT_MOST, note=error, grade="B"
     )
 
 
 def end_with_parent() -> None:
-    """To be called first in a worker (``initializer`` of a pool): it ends with the process that started it, whatever it
-    is in the middle of. A pool tells its workers that it is over, but one that was killed tells nothing."""
+    """To be called first in a worker (``initializer`` of a pool): it ends with the process that started it, at any
+    point of its work. A pool that ends stops its workers, but a pool that is killed does not."""
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=_watch, args=(parent.sentinel,), daemon=True).start()

@@ -1,4 +1,4 @@
-"""Numbers, times and tolerances in words, the same on the terminal and on the page."""
+"""Numbers, times and tolerances as text, the same on the terminal and on the page."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -28,7 +28,7 @@ def listed(checks: tuple[Check, ...]) -> tuple[Check, ...]:
 
 
 def allowed(check: Check) -> str:
-    """What the measured value may be, in words."""
+    """Return the allowed range of the measured value as text."""
     if check.kind == REPORTED:
         return "reported"
     tolerance = f"{check.tolerance:.2g}"

@@ -33,7 +33,7 @@ def test_the_page_states_the_differences_of_the_table(root):
             effort = effort_for(case.scene.line_contact(case.speed), float(row["sq"]), case.facts["dx"])
             groups[effort is ECONOMICAL].append((row["f"], row["share"]))
     page = (root / "docs" / "measurements.md").read_text(encoding="utf-8")
-    for words, is_economical in (("uses the economical", True), ("keeps the tight", False)):
+    for words, is_economical in (("uses economical steps", True), ("uses tight steps", False)):
         values = np.abs(groups[is_economical])
         f, load = np.sqrt(np.mean(values**2, axis=0))
         f_most, load_most = values.max(axis=0)

@@ -45,7 +45,7 @@ def test_oils_and_heat_agree_and_their_page_shows_both_values(tmp_path):
     checks = [c for study in data["studies"] for c in study["checks"]]
     assert len(checks) > 50 and {c["grade"] for c in checks} == {"A"}
     page = (tmp_path / "report.html").read_text()
-    for word in ("Theirs", "Ours", "Deviation", "In errors", "R. Nahme", "naphthenic"):
+    for word in ("Published", "lubfric", "Deviation", "Over both errors", "R. Nahme", "naphthenic"):
         assert word in page
 
 
@@ -53,9 +53,9 @@ def test_one_that_differs_ends_with_1_and_is_listed(tmp_path, monkeypatch, capsy
     monkeypatch.setattr(references, "FLASH_HERTZ", 1.2)
     assert main(["published", "--only", "heat", "--out", str(tmp_path)]) == 1
     out = capsys.readouterr().out
-    assert "1 of 12 differ by more than both errors; whose it is: unknown 1." in out
-    assert "0 of 12 leave open more than 25%" in out
-    assert "flash temperature, Hertz band: ours 1.111, theirs 1.2" in out
+    assert "1 of 12 differ by more than both errors; cause: unknown 1." in out
+    assert "0 of 12 have bounds wider than 25%" in out
+    assert "flash temperature, Hertz band: lubfric 1.111, published 1.2" in out
 
 
 def test_what_the_plain_command_has_of_the_publications_is_a_part_of_them():

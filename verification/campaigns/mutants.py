@@ -1,8 +1,9 @@
-"""``python -m verification mutants``: mistakes in the text of `lubfric`, one at a time, which tests or studies must notice.
+"""``python -m verification mutants``: errors in the text of `lubfric`, one at a time, which tests or studies must
+detect.
 
-The table `mutants.txt` has a mutant a line: ``place | text | what is put there | who notices``. The place is a file or
-folder below `lubfric`, which holds the text once. Who notices are tests, as files below `tests` or ``file::test``, or
-studies by name, at their quick level; blanks stand between them.
+The table `mutants.txt` has one mutant on a line: ``place | text | replacement | detected by``. The place is a file or
+folder below `lubfric` that contains the text once. The last field names tests, as files below `tests` or
+``file::test``, or studies, at their quick level, separated by blanks.
 """
 
 import json
@@ -47,7 +48,7 @@ class Mutant:
     def broken(self, library: Path) -> tuple[Path, str]:
         """Return the file that holds the text, and its content with the mistake.
 
-        Raises ValueError unless the text stands there once."""
+        Raises ValueError unless the text occurs there once."""
         place = library / self.place
         files = [place] if place.is_file() else sorted(place.rglob("*.py"))
         contents = {file: file.read_text(encoding="utf-8") for file in files}
@@ -61,9 +62,9 @@ class Mutant:
 
 
 def pattern_of(text: str) -> re.Pattern[str]:
-    """Return the pattern of a quoted ``text`` however its lines are broken.
+    """Return the pattern of a quoted ``text`` with any line breaks.
 
-    Between two words stands some white space, elsewhere any or none; a comma may stand before a closing bracket."""
+    Between two words there is white space, elsewhere any or none; a comma may precede a closing bracket."""
     tokens = re.findall(r"\w+|[^\w\s]", text)
     pattern = re.escape(tokens[0])
     for before, token in zip(tokens, tokens[1:]):
@@ -98,7 +99,7 @@ def mutants(level: str, run: Run = Run()) -> Iterator[Check]:
 
 
 def tried(case: tuple[Mutant | None, tuple[str, ...]]) -> int:
-    """Return what came of a case: a mutant (None: the library as it is), and the tests or studies."""
+    """Return the outcome of a case: a mutant (None: the unchanged library), and the tests or studies."""
     return trial(*case)
 
 

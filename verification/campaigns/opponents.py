@@ -31,7 +31,7 @@ def version(package: str) -> str:
 def tamaas_solver(
     heights: np.ndarray, spacing: float, e_prime: float, threads=1, max_iterations=20000
 ) -> Solver | None:
-    """Polonsky-Keer-Rey of `tamaas`, pressure as its primal variable; its wheel runs on one thread whatever is asked.
+    """Polonsky-Keer-Rey of `tamaas`, pressure as its primal variable; its wheel always runs on one thread.
 
     The pressure is what it has after ``max_iterations``, converged or not.
     """

@@ -46,7 +46,7 @@ class Series:
     finest: int = 0
 
     def check_order(self) -> Check:
-        """The observed order beside the expected one."""
+        """Compare the observed order with the expected one."""
         if self.order is None:
             raise ValueError(f"series {self.label!r} has no expected order to be checked")
         order = fitted_order(self.sizes[-self.finest :], self.errors[-self.finest :])

@@ -1,5 +1,5 @@
 """What several studies share: smooth line contacts as arguments of the film solvers, in SI units; and the parts of a
-result and of a model that a study counts on. A part that is missing ends the study in words."""
+result and of a model that a study needs. A missing part ends the study with a message."""
 
 import math
 from collections.abc import Callable

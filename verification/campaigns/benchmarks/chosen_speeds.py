@@ -1,11 +1,11 @@
-"""Curves at speeds of their own choice beside curves at 25 even ones: points, processor time, largest error between.
+"""Compare curves at chosen speeds with curves at 25 even speeds: points, processor time, largest error between speeds.
 
     python -m verification.campaigns.benchmarks.chosen_speeds [--strips] [--seed SEED] [--scenes COUNT] [--points POINTS]
         [--docs docs]
 
 Random scenes (loads, viscosities, roughness, moduli of slip and hardness, seeds) on one patch, or, with --strips, on
-strips of the surface at a sampling tolerance of 5 %. The error is that of ``curve.at`` beside a curve of 100 even
-speeds, solved to 0.2 %, and three speeds about lift-off. Prints one table.
+strips of the surface at a sampling tolerance of 5 %. The error is the deviation of ``curve.at`` from a curve of 100
+even speeds, solved to 0.2 %, and three speeds near the lift-off speed. The command prints one table.
 """
 
 import os

@@ -76,7 +76,7 @@ def _solver(n: int, kind: str, load: float, boundary, hardness, begun: float = 0
 
 
 def scaled(value, factor: float):
-    """A number, or each of a tuple, times ``factor``; whole numbers stay whole and at least one."""
+    """Return a number, or each number of a tuple, times ``factor``; integers remain integers of at least one."""
     if isinstance(value, tuple):
         return tuple(scaled(v, factor) for v in value)
     return max(1, round(factor * value)) if isinstance(value, int) else factor * value

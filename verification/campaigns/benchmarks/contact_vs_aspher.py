@@ -130,7 +130,7 @@ def main() -> None:
     parser.add_argument("--opponents", nargs="+", choices=("aspher", "tamaas"), default=["aspher"])
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--target", type=float, default=1e-5)
-    parser.add_argument("--bound", type=float, default=0.0, help="times lubfric's time, for tamaas (0: left out)")
+    parser.add_argument("--bound", type=float, default=0.0, help="times lubfric's time, for tamaas (0: without tamaas)")
     parser.add_argument("--kept", type=Path)
     parser.add_argument("--json", type=Path)
     parser.add_argument("--rows", type=Path, nargs="+", default=[])

@@ -19,7 +19,7 @@ def add_option(parser: ArgumentParser) -> None:
 def write(
     name: str, columns: Sequence[str], rows: Sequence[Sequence[str]], asked: tuple[ArgumentParser, Namespace]
 ) -> None:
-    """Put the table ``name`` where ``--docs`` says, if it was given; ``asked``: the parser and what it found."""
+    """Write the table ``name`` into the folder of ``--docs``, if it was given; ``asked``: the parser and its result."""
     parser, options = asked
     if options.docs:
         put(options.docs, Table(name, name, columns, rows), command(name, parser, options))

@@ -2,9 +2,9 @@
 
     python -m verification.campaigns.benchmarks.study [--points 10000] [--workers 2] [--out FOLDER] [--docs docs]
 
-Loads x viscosities x maps x speeds on maps of 64 x 64 cells. The study is run on WORKERS processes; a tenth of its
-curves is run in this process too, and its processor time is set beside that of the processes. Cut at any moment, the
-same command goes on from there. Prints one table and draws study.png into FOLDER.
+Loads x viscosities x maps x speeds on maps of 64 x 64 cells. The study runs on WORKERS processes. A tenth of its
+curves also runs in this process, and both processor times are compared. After an interruption the same command
+continues. It prints one table and draws study.png into FOLDER.
 """
 
 import os

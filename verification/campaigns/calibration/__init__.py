@@ -1,4 +1,5 @@
-"""``python -m verification calibration``: the error of calibrated load sharing on kinds of contacts that were left out.
+"""``python -m verification calibration``: the error of calibrated load sharing on kinds of contacts that the fit
+excluded.
 
 Random contacts are solved by load sharing and by the deterministic model. ``python -m verification.campaigns.calibration
 MOTION COUNT`` extends the table of solved cases, and ``... fit`` writes the error model of lubfric anew.
@@ -10,7 +11,7 @@ PARTS: tuple[tuple[str, str, str, dict], ...] = (
     (
         "rest",
         "calibration.held_out:coverage",
-        "Roughness at rest: bounds on kinds that were left out",
+        "Roughness at rest: bounds on excluded kinds",
         {"motion": "rest"},
     ),
     ("rolling", "calibration.held_out:coverage", "Roughness that moves", {"motion": "rolling"}),

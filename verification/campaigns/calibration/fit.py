@@ -90,7 +90,7 @@ def fitted(errors: np.ndarray, features: np.ndarray) -> tuple[float, np.ndarray,
 
 @dataclass(frozen=True)
 class HeldOut:
-    """A kind of case that was left out of the fit: its errors over σ, and σ."""
+    """A kind of case that the fit excluded: its errors over σ, and σ."""
 
     kind: str
     standard: np.ndarray
@@ -110,8 +110,8 @@ def held_out(solved: Sequence[Solved], names: Sequence[str]) -> list[HeldOut]:
 
 
 def quantile_of(parts: Sequence[HeldOut]) -> float:
-    """Return the quantile of the error over σ on kinds that were left out, with the finite-sample correction of split
-    conformal prediction."""
+    """Return the quantile of the error over σ on excluded kinds, with the finite-sample correction of split conformal
+    prediction."""
     values = np.sort(np.abs(np.concatenate([part.standard for part in parts])))
     place = math.ceil(CONFIDENCE * (values.size + 1)) - 1
     return float(values[min(place, values.size - 1)])

@@ -1,4 +1,4 @@
-"""Coverage and width of the calibrated bounds on kinds of cases that were left out of the fit, each in turn."""
+"""Coverage and width of the calibrated bounds on kinds of cases that the fit excluded, one kind at a time."""
 
 from collections.abc import Iterator
 
@@ -14,14 +14,14 @@ QUICK = 48  # cases of the quick level
 
 
 def coverage(level: str, motion: str, run: Run = Run()) -> Iterator[Item]:
-    """Bounds of ln(f deterministic/f) fitted without a kind of case, beside the errors of that kind."""
+    """Compare bounds of ln(f deterministic/f), fitted without a kind of case, with the errors of that kind."""
     solved = list(cases(motion))[: QUICK if level == "quick" else None]
     parts = held_out(solved, SPREAD[motion])
     quantile = quantile_of(parts)
     inside = np.concatenate([np.abs(part.standard) <= quantile for part in parts])
     widths = np.concatenate([np.sinh(quantile * part.sigma) for part in parts])
     name = f"{len(solved)} cases, {motion}"
-    yield Check(f"{name}: within the bounds", float(inside.mean()), LEAST, 0.0, "kinds left out", AT_LEAST)
+    yield Check(f"{name}: within the bounds", float(inside.mean()), LEAST, 0.0, "excluded kinds", AT_LEAST)
     yield Check(f"{name}: median half-width", float(np.median(widths)), 0.15, 0.0, "the target", REPORTED)
     errors = np.array([case.error for case in solved])
     plain = np.array([np.log(float(case.row["det_f"]) / case.numbers["ls_f"]) for case in solved])
@@ -36,8 +36,8 @@ def coverage(level: str, motion: str, run: Run = Run()) -> Iterator[Item]:
         )
         for part in parts
     ]
-    columns = ("kind left out", "cases", "within the bounds", "half-width, median")
-    yield Table(f"calibration-{motion}", f"Calibrated load sharing, {motion}: kinds left out in turn", columns, rows)
+    columns = ("excluded kind", "cases", "within the bounds", "half-width, median")
+    yield Table(f"calibration-{motion}", f"Calibrated load sharing, {motion}: kinds excluded in turn", columns, rows)
     yield drawn(motion, solved, plain, errors)
 
 

@@ -23,8 +23,8 @@ def rows(motion: str, folder: Path = TABLES) -> Iterator[dict[str, str]]:
 
 
 def extend(motion: str, count: int, budget: float, folder: Path = TABLES, first: int = 0) -> Iterator[dict[str, Any]]:
-    """Solve the cases from ``first`` to below number ``count`` that the table of ``motion`` has not, as long as the time of
-    this process is below ``budget`` [s], and append each as it is solved."""
+    """Solve the cases from ``first`` to below number ``count`` that are missing in the table of ``motion``, as long as
+    the time of this process is below ``budget`` [s], and append each when it is solved."""
     assert motion in MOTIONS
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / f"{motion}.csv"

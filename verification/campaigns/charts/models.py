@@ -1,8 +1,8 @@
 """The chart of the models: error of f against time on four kinds of surface, for load sharing, for the deterministic
 model on long cells and with its levels of cells, and for the default, which chooses among them.
 
-An error is the root mean square over surfaces of other seeds. Of a map there is one, which the reference has too, with
-errors as small as the last setting asks for: it is left out there.
+An error is the root mean square over surfaces of other seeds. A map has one sample only, which the reference also
+uses, with errors as small as those of the last setting, so the last setting is not drawn for a map.
 """
 
 import numpy as np

@@ -1,8 +1,8 @@
-"""Bad input from a seeded generator: scenes, files and calls that must each be refused in words.
+"""Bad input from a seeded generator: scenes, files and calls that must each be refused with a message.
 
-`scenes`, `files`, `calls` and `layouts` make the cases, those by hand from `bad.toml`. `case.judge` runs one and says how it
-ended. None may end in another exception than lubfric's own, be answered with a number,
-take longer than 8 s, or take more than 2 GB.
+`scenes`, `files`, `calls` and `layouts` make the cases; those written by hand are in `bad.toml`. `case.judge` runs a
+case and returns how it ended. No case may end in an exception that is not lubfric's own, return a number, take longer
+than 8 s, or take more than 2 GB.
 """
 
 import importlib
@@ -44,7 +44,7 @@ def outcomes(group_and_share: tuple[str, float]) -> list[tuple[str, str]]:
 
 
 def bad_inputs(level: str, run: Run = Run()) -> Iterator[Item]:
-    """Bad scenes, files and calls. `lubfric.LubfricError` refuses each in words, within 8 s and 2 GB."""
+    """Bad scenes, files and calls. `lubfric.LubfricError` refuses each with a message, within 8 s and 2 GB."""
     from .case import BAD, GOOD
 
     share = 0.1 if level == "quick" else 1.0

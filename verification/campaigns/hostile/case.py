@@ -43,7 +43,8 @@ def peak_memory() -> int:
 
 
 def resident_memory() -> int:
-    """Resident size of this process [bytes] after a garbage collection; the largest so far where only that is told."""
+    """Resident size of this process [bytes] after a garbage collection; the largest so far where the system reports
+    only this."""
     gc.collect()
     try:
         pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])

@@ -32,7 +32,8 @@ def text_of(tables: Tables) -> str:
 
 
 def changed(tables: Tables, section: str, key: str, value: str | None) -> Tables:
-    """A copy with one key set, or removed where ``value`` is None. What a [transient] needs beside it is added."""
+    """Return a copy with one key set, or removed where ``value`` is None. Other keys that a [transient] needs are
+    added."""
     new = {name: dict(keys) for name, keys in tables.items()}
     if section == "transient":
         new.setdefault("transient", {"duration": "1.0"})

@@ -1,6 +1,6 @@
-"""Thousands of friction calls over random scenes, each answer closed again by an independent judge.
+"""Thousands of friction calls over random scenes; an independent check solves the balance of each answer again.
 
-They come in chunks of scenes that depend on nothing but their number. A chunk that is done is kept.
+Scenes come in chunks that depend only on their number. A finished chunk is stored.
 """
 
 import math
@@ -28,10 +28,10 @@ RAW = "raw error"
 
 
 def soak(level: str, run: Run = Run()) -> Iterator[Item]:
-    """Friction of random scenes one after the other in one process.
+    """Compute the friction of random scenes one after the other in one process.
 
-    Each is answered, or refused in words. Each answer is closed again by a judge that shares neither film solver nor
-    root finder nor sums. The memory does not grow.
+    Each scene is answered, or refused with a message. An independent check with its own film solver, root finder and
+        sums solves the balance of each answer again. The memory does not grow.
     """
     chunks = {f"scenes from {k}": range(k, k + CHUNK) for k in range(0, 100 if level == "quick" else 10_000, CHUNK)}
     yield from summarized([row for _, row in run.solved(chunks, partial(chunk, SEED))])
@@ -66,7 +66,8 @@ def chunk(seed: int, numbers: range) -> dict:
 
 
 def scene_row(seed: int, number: int) -> dict:
-    """How one call ended, in which words, its worst error over what is allowed (None: not judged), its features."""
+    """Return how one call ended, its message, its largest error over the allowed one (None: not checked), its
+    features."""
     row: dict = {"ended": REFUSED, "words": "", "ratio": None, "features": []}
     scene = random_scene(np.random.default_rng((seed, number)), any_material=number % 2 == 1)
     try:

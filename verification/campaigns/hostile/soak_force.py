@@ -1,4 +1,4 @@
-"""The friction force as the judge of the soak sums it: by the trapezoidal rule over the film, with every shear law and
+"""The friction force in the check of random scenes: by the trapezoidal rule over the film, with every shear law and
 heat."""
 
 import math
@@ -21,7 +21,7 @@ def friction_force(scene: Scene, sides, contact_load: float, speed: float) -> tu
 
     ``sides`` has the film, x and the share in contact. The far inlet is in closed form. Returned are the force, the
     size [N] of the parts of the film's share (of which f may be a small difference), and how much less [N] its stress
-    sums to on half of the nodes, which tells a pressure spike that they do not hold.
+    sums to on half of the nodes, which shows a pressure spike that the nodes do not resolve.
     """
     bodies = scene.bodies
     ratio = scene.motion.slide_roll_ratio

@@ -1,4 +1,4 @@
-"""Heat as the judge of the soak has it: the physics of `lubfric.film` by other numerics.
+"""Heat in the check of random scenes: the physics of `lubfric.film` by other numerical methods.
 
 The temperature across the film comes from its double integral on a grid, by a fixed point, and not in closed form. That
 of the surfaces comes from heat that is constant in each cell, and that of the inlet from Moes' film and bisection.
@@ -25,7 +25,7 @@ def heats(scene: Scene) -> bool:
 
 
 def moes(w, radius, e_prime, speed, viscosity, alpha) -> float:
-    """Film [m] by Moes' formula as it is printed."""
+    """Return the film [m] by Moes' formula as printed."""
     u1 = 2 * viscosity * speed / (e_prime * radius)
     m = w / (e_prime * radius * math.sqrt(u1))
     l = alpha * e_prime * u1**0.25
@@ -115,7 +115,7 @@ def _twice_integrated(source, z) -> np.ndarray:
 
 
 def _viscosity(oil, log_ratio, temperature) -> tuple[np.ndarray, np.ndarray]:
-    """ln eta and -d ln(eta)/dT at temperatures [K], by Roelands' law where it is asked for, else exponential."""
+    """ln eta and -d ln(eta)/dT at temperatures [K], by Roelands' law if the scene requests it, otherwise exponential."""
     t0 = oil.temperature
     beta = oil.temperature_coefficient
     cold = math.log(oil.viscosity) + log_ratio

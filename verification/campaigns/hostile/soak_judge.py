@@ -1,9 +1,8 @@
-"""Closes the balance of a result anew: with another film solver, fresh dry contacts, and its own sums of friction
-forces.
+"""Solve the balance of a result again, with another film solver, new dry contacts, and own sums of friction forces.
 
-Nothing of `lubfric` is used but the surface, the dry contact of one pressed map, and the film by differential
-deflection. What joins them is written here. Two divisions of the load, the result's own and one beside it, give the one
-that balances by a secant. Where that is far off, a bracketed root does.
+Only the surface, the dry contact of one map, and the film by differential deflection come from `lubfric`; this module
+connects them. A secant through two divisions of the load, that of the result and a neighbouring one, gives the
+division that balances. Where it is far from the result, a bracketed root is solved.
 """
 
 import math
@@ -58,8 +57,8 @@ class Sides:
 class Judge:
     """A prepared scene at one speed [m/s].
 
-    The film is deflected by its own pressure or, ``scaled``, by the whole load. ``strip`` is the whole sample. There
-    are pairs of fine and coarse pieces besides, whose difference is added.
+    The film is deflected by its own pressure or, ``scaled``, by the total load. ``strip`` is the complete sample. In
+    addition there are pairs of fine and coarse pieces, whose difference is added.
     """
 
     prepared: Prepared

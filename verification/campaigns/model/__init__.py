@@ -1,7 +1,8 @@
-"""``python -m verification model``: how sure f is, model included, and what the deterministic model rests on.
+"""``python -m verification model``: coverage of the intervals of f, model-form error included, and the assumptions of
+the deterministic model.
 
-The default answer, and that of load sharing alone, are held beside the deterministic model on finer strips. The exit
-code is 1 when too few of their intervals hold f.
+The default answer, and that of load sharing alone, are compared with the deterministic model on finer strips. The exit
+    code is 1 when too few of their intervals contain f.
 """
 
 from ... import frame
@@ -13,7 +14,7 @@ PARTS: tuple[tuple[str, str, str, dict], ...] = (
     ("seeds", "model.seeds:seeds", "The default answer on fresh surfaces: coverage, bias, cost", {}),
     ("boundary-film", "model.boundary_film:boundary_film", "How thick the boundary film should be", {}),
     ("rolling", "model.rolling:rolling", "load sharing compared with roughness that moves", {}),
-    ("running-in", "model.running_in:running_in", "Running-in over the distance, beside published ranges", {}),
+    ("running-in", "model.running_in:running_in", "Running-in over the distance, compared with published ranges", {}),
     ("moving-points", "model.random_moving:random_moving", "Random contacts under moving roughness", {}),
     ("grids", "model.film:grids", "One gap, one pressure on ever smaller cells", {}),
 )

@@ -1,7 +1,7 @@
-"""The answer that a user gets without asking for anything, and the fast one by load sharing alone, on surfaces, loads
-and fluids of many kinds: how often f of the endless line lies within the interval.
+"""The default answer, and the fast answer by load sharing alone, on surfaces, loads and fluids of many kinds: how
+often the interval contains f of an infinite line contact.
 
-The reference of a case is solved once, and several answers, each on a surface of its own, are held beside it: the
+The reference of a case is solved once, and several answers, each on another surface, are compared with it: the
 deterministic model on strips of another seed (of a measured map: on all of it), with about half of the target errors.
 """
 
@@ -96,7 +96,7 @@ class AnswerCase:
         return scene.with_(bodies=film, lubricant=oil, surface=rough, contact=patch, motion=motion, numerics=keys)
 
     def speed(self, scene) -> float:
-        """Speed [m/s] at which Moes' film of the whole load is so many Sq."""
+        """Return the speed [m/s] at which Moes' film under the total load is the given number of Sq."""
         sq = CONTACTS[self.contact][0].get("surface", {}).get("sq", 100e-9)
         return halved(1e-7, 1e3, lambda u: scene.line_contact(u).moes_film < self.ratio * sq)
 
@@ -179,7 +179,7 @@ def compared(name: str, result: list[tuple], failed: int, source: str) -> Iterat
         for group in (*names, "all")
         if any(here := [group in (*groups, "all") for groups, _ in result])
     ]
-    yield Table(name, f"The default answer, and load sharing alone, beside {source}", COLUMNS, rows)
+    yield Table(name, f"The default answer, and load sharing alone, compared with {source}", COLUMNS, rows)
     for way, said in (("default", "default answer"), ("load sharing", "load sharing alone")):
         inside = float(np.mean(every[way][:, 1] <= every[way][:, 2])) if result else math.nan
         yield Check(f"{said}: share of {len(result)} intervals with f", inside, 1.0, 0.1, source, ABSOLUTE)

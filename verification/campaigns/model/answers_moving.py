@@ -50,8 +50,8 @@ def change(case_and_seed: tuple[AnswerCase, int]) -> float:
 
 
 def answers_moving(level: str, run: Run = Run()) -> Iterator[Item]:
-    """Every answer by the moving model, and by load sharing alone, beside the mean of the others of its case on
-    endlessly short cells."""
+    """Compare every answer by the moving model, and by load sharing alone, with the mean of the other answers of its
+    case, extrapolated to infinitely short cells."""
     values = []
     left = 0
     for case in cases(level):

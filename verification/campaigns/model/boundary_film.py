@@ -1,4 +1,4 @@
-"""How thick the boundary film should be: the load on thinner gaps beside published laws of the load share."""
+"""Thickness of the boundary film: the load on thinner gaps compared with published laws of the asperity load ratio."""
 
 import math
 from collections.abc import Iterator

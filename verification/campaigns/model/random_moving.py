@@ -1,4 +1,5 @@
-"""Random contacts under moving roughness, each solved or said not to be, judged by the balances of its fields.
+"""Random contacts with moving roughness: each is solved or reports its failure, and the balances of its fields are
+checked.
 
 Lines of 5 N/mm to 1 GPa, Sq of 50 to 300 nm, films of 0.2 to 3 Sq, slide-roll ratios of -2 to 2, three kinds of oil,
 roughness on one body or both. The map has 2.5 cells in a correlation length, and at least 3 in the Hertz half-width.
@@ -91,7 +92,7 @@ def solved(seed: int) -> dict[str, Any]:
 
 
 def random_moving(level: str, run: Run = Run()) -> Iterator[Item]:
-    """Every point solved within the balances, or told; the worst balance of each kind."""
+    """Check that every point fulfils its balances or reports its failure; show the largest imbalance of each kind."""
     rows = [row for _, row in run.solved({f"{k}": k for k in range(POINTS[level])}, solved)]
     fine = [row for row in rows if "failure" not in row]
     off = {name: np.array([row["off"][name] for row in fine]) for name in BALANCES}

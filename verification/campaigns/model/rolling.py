@@ -1,5 +1,5 @@
-"""Load sharing beside roughness that moves: f and the share of the load over the slide-roll ratio and the film, and the
-load share over film/Sq beside published laws.
+"""Load sharing compared with moving roughness: f and the asperity load ratio over the slide-roll ratio and the film,
+and the asperity load ratio over film/Sq compared with published laws.
 
 Both models have the same periodic map, on cells of 0.4 correlation lengths, and half of that along x. Surface 1 is
 rough, so slide-roll ratios s and -s are two cases.
@@ -88,7 +88,7 @@ def rough(kind: str, sq: float, length: float) -> lubfric.Surface:
 
 def rolling(level: str, run: Run = Run()) -> Iterator[Item]:
     """Compare load sharing with moving roughness: f, its stated and its actual error, and the load ratio of thin gaps
-    beside four published laws."""
+    with four published laws."""
     rows = list(run.solved(cases(level), solved))
     values = [(case, row) for case, row in rows if "failure" not in row]
     off = np.array([row["f"] / row["fast"]["f"] - 1 for _, row in values])

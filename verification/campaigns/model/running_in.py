@@ -1,4 +1,4 @@
-"""Running-in of a ground and of a Gaussian surface over the sliding distance, beside published ranges."""
+"""Running-in of a ground and of a Gaussian surface over the sliding distance, compared with published ranges."""
 
 from collections.abc import Iterator
 

@@ -1,10 +1,10 @@
-"""The default answer on the built-in scene at four speeds, each time on a fresh surface: how often its interval holds f
-of an endless line, its bias, and its cost beside plain sampling.
+"""The default answer on the built-in scene at four speeds, each time on a new surface: how often its interval contains
+f of an infinite line contact, its bias, and its cost compared with plain sampling.
 
 Plain sampling is the mean of strips 90 correlation lengths long, each solved by itself by the deterministic model on
-cells of a quarter of the correlation length: so many that their mean scatters no more than the answers do. It gives the
-truth, too. Strips that balance the load each by itself leave
-f too small by about 1.3 (sd/f)², of which a part is granted to the bias (`SECOND_ORDER`).
+cells of a quarter of the correlation length: as many as needed for a mean that scatters no more than the answers do.
+It is also the reference. Strips that balance the load one by one give an f that is too small by about 1.3 (sd/f)²; a
+part of this is allowed as bias (`SECOND_ORDER`).
 """
 
 import time

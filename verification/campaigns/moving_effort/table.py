@@ -93,8 +93,8 @@ def rows(file: Path = TABLE) -> list[dict[str, str]]:
 def extend(
     count: int, budget: float, variants: Sequence[str] = tuple(VARIANTS), file: Path = TABLE
 ) -> Iterator[dict[str, Any]]:
-    """Solve what the table has not of the ``variants`` of the contacts below number ``count``, as long as the processor
-    time of this process is below ``budget`` [s], and append each row as it is solved."""
+    """Solve the missing ``variants`` of the contacts below number ``count``, as long as the processor time of this
+    process is below ``budget`` [s], and append each row when it is solved."""
     known = {(int(row["seed"]), row["variant"]) for row in rows(file)}
     for seed in range(count):
         for variant in variants:

@@ -9,9 +9,9 @@ from argparse import ArgumentParser, Namespace
 from ... import frame
 
 PARTS: tuple[tuple[str, str, str, dict], ...] = (
-    ("coverage", "sampling.coverage:coverage", "Intervals beside the friction of an endless line", {}),
-    ("pieces", "sampling.others:pieces", "Intervals of pieces beside their whole map", {}),
-    ("quantities", "sampling.others:quantities", "Every other number beside its stated error", {}),
+    ("coverage", "sampling.coverage:coverage", "Intervals compared with the friction of an infinite line contact", {}),
+    ("pieces", "sampling.others:pieces", "Intervals of pieces compared with the complete map", {}),
+    ("quantities", "sampling.others:quantities", "Every other quantity compared with its stated error", {}),
 )
 SEED = 240_000
 

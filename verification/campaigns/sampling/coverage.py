@@ -1,9 +1,9 @@
-"""Trials of the built-in scene at four speeds and of other surfaces and loads, each on a surface of its own, beside the
-friction of an endless line.
+"""Trials of the built-in scene at four speeds and of other surfaces and loads, each on another surface, compared with
+the friction of an infinite line contact.
 
-That friction comes from plain balances of patches 1,900 correlation lengths long, with none of the library's own
-corrections. At this length the bias of a patch is below 0.1 %. Their cells are a quarter of the correlation length.
-What these cells change is found on shorter patches, on the scene's own cells and on one in so many of them.
+That friction comes from plain balances of patches 1,900 correlation lengths long, without the corrections of the
+library. At this length the bias of a patch is below 0.1 %. Their cells are a quarter of the correlation length. The
+effect of these cells is computed on shorter patches, on the scene's own cells and on a part of them.
 """
 
 import math
@@ -124,7 +124,9 @@ def coverage(level: str, run: Run = Run(), seed: int = SEED) -> Iterator[Item]:
         cases = {f"{case.name}, {seed + k}": (case, seed + k) for k in range(trials)}
         results.append(Result(case, [row for _, row in run.solved(cases, trial)], f, error))
         yield from checks(results[-1])
-    yield Table("sampling-coverage", "Trials of every case beside its endless line", COLUMNS, map(row, results))
+    yield Table(
+        "sampling-coverage", "Trials of every case compared with its infinite line contact", COLUMNS, map(row, results)
+    )
     yield picture(results)
 
 

@@ -32,7 +32,7 @@ WITHIN = 0.95
 
 
 def pieces(level: str, run: Run = Run(), seed: int = SEED) -> Iterator[Item]:
-    """How often the interval of a quarter of a map holds the friction of the whole."""
+    """Count how often the interval of a quarter of a map contains the friction of the complete map."""
     maps = range(seed + 90_000, seed + 90_000 + MAPS[level])
     places = (None, *np.ndindex(CUTS))
     cases = {f"{one}, piece {place}": (one, place) for one in maps for place in places}
@@ -62,7 +62,8 @@ def piece(case: tuple[int, tuple[int, int] | None]) -> dict:
 
 
 def quantities(level: str, run: Run = Run()) -> Iterator[Item]:
-    """Every reported number of random scenes beside the same at 0.01 %: is it within its stated error?"""
+    """Compare every reported number of random scenes with the same number at 0.01 %: it has to be within its stated
+    error."""
     values = [row for _, row in run.solved({str(k): k for k in range(SCENES[level])}, beside)]
     rows = []
     for name in ESTIMATED:
@@ -76,7 +77,7 @@ def quantities(level: str, run: Run = Run()) -> Iterator[Item]:
             words = f"{name}: within its stated error in {len(stated)} scenes"
             yield Check(words, held, WITHIN, chance(len(stated)), "the same scene at 0.01 %", AT_LEAST)
     columns = ("quantity", "scenes that state an error", "within it", "median of it")
-    yield Table("sampling-numbers", "Every number beside its stated error", columns, rows)
+    yield Table("sampling-numbers", "Every quantity compared with its stated error", columns, rows)
 
 
 def beside(number: int) -> dict:

@@ -1,7 +1,8 @@
-"""``python -m verification stability``: map where methods fail, and prove that the default ones say so.
+"""``python -m verification stability``: maps of the conditions under which methods fail, and a check that the default
+methods report it.
 
-The exit code is 1 when a cell of a default method is silently wrong, when one inside the promised range failed, when a
-bad input was not refused in words, or when one of many random scenes was answered wrongly.
+The exit code is 1 when a cell of a default method is silently wrong, when a cell inside the stated range failed, when
+a bad input was not refused with a message, or when one of many random scenes had a wrong answer.
 """
 
 import importlib
@@ -22,7 +23,7 @@ COMMAND = frame.campaign("stability", __doc__, PARTS, ("full", "quick"))
 
 
 def stability_map(level: str, name: str, run: Run = Run()) -> Iterator[Item]:
-    """Every cell of one map, judged without asking the solver; then their counts and their picture."""
+    """Check every cell of one map independently of the solver; then count and draw them."""
     from .draw import draw, table
 
     cells = _map(name).cells(level == "quick")

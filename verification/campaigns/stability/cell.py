@@ -34,7 +34,7 @@ class Cell:
 
     @property
     def name(self) -> str:
-        """All of it in words."""
+        """Return the complete name."""
         return f"{self.map}; {self.panel}; x = {self.x:g}, y = {self.y:g}; {self.method}"
 
 
@@ -72,7 +72,7 @@ def check_cell(cell: Cell, solve: Callable[[Cell], Any], deviations: Callable[[C
         ratio,
         1.0,
         0.0,
-        "the judge beside this map",
+        "the independent check of this map",
         AT_MOST,
         "of what is allowed",
         note,

@@ -35,7 +35,7 @@ SURFACES = (*POWER, "sine", "sphere")
 
 @dataclass(frozen=True)
 class Pressed:
-    """A rough map against a flat: kind, shape and rms [m] of the map, and what is asked of the solver, in SI units."""
+    """A rough map on a flat: kind, shape and rms [m] of the map, and the arguments of the solver, in SI units."""
 
     kind: str
     shape: tuple[int, int]
@@ -147,7 +147,7 @@ def loads(quick: bool) -> Iterator[Cell]:
 
 
 def hardnesses(quick: bool) -> Iterator[Cell]:
-    """Elastic to fully plastic: hardness over E', by load over hardness up to the whole area yielding."""
+    """Elastic to fully plastic: hardness over E', by load over hardness, until the complete area yields."""
     n = 24 if quick else 48
     many = (1e-8, 1e-4, 1e-2, 0.1, 0.3, 0.6, 0.9, 0.99, 0.9999, 1.0)
     for kind in ("exponential",) if quick else ("exponential", "gaussian", "sine"):

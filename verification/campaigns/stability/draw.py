@@ -14,7 +14,7 @@ MARKS = {RIGHT: "s", FAILED: "X", WRONG: "D"}
 AXES = {  # of a map: labels of x and y, and those of both that are linear
     "film: load and material": ("load number M", "material number L", "y"),
     "film: speed and load": ("entrainment speed, m/s", "load, N/m", ""),
-    "film: tolerance": ("case", "tolerance asked for", "x"),
+    "film: tolerance": ("case", "requested tolerance", "x"),
     "film: poor start": ("start from case", "case", "xy"),
     "film: starved inlet": ("load number M", "oil ahead, inlet lengths", ""),
     "contact: load and surface": ("mean pressure / flattening pressure", "surface", "y"),

@@ -1,4 +1,4 @@
-"""Is this film a solution? The check is written from the equations, without a line of the solvers that it judges.
+"""Check whether a film is a solution. The check follows from the equations and contains no code of the solvers.
 
 The pressure is read as piecewise linear between the nodes of the result. From it alone come the film in the middle of
 every cell (the logarithmic kernel integrated in closed form), the flow through the cell (the fluidity 1/eta averaged

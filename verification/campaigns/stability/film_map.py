@@ -47,7 +47,8 @@ def solve(cell: Cell):
 
 
 def deviations(cell: Cell, result) -> dict[str, float]:
-    """The own residuals of a film, and both films beside another discretisation, over what is allowed."""
+    """Return the residuals of a film, and the deviations of its thicknesses from another discretisation, over the
+    allowed ones."""
     case = cell.problem.case
     tolerance = cell.problem.tolerance
     if cell.default:
@@ -93,8 +94,8 @@ def cells(quick: bool) -> Iterator[Cell]:
 
 
 def load_and_material(quick: bool) -> Iterator[Cell]:
-    """M by L for each law. Where the law is Roelands' at constant density, the paper's discretisation and Moes' formula
-    are tried as well, judged by the tight default."""
+    """M by L for each law. Where the law is Roelands' at constant density, the paper's discretisation and Moes'
+    formula are also tried; their reference is the default method with a tight tolerance."""
     loads = np.geomspace(1e-3, 1e3, 3) if quick else np.append(np.geomspace(1e-3, 1e3, 9), (3e3, 1e4))
     for law, density in LAWS:
         for M in loads.tolist():
@@ -119,7 +120,7 @@ def speeds(quick: bool) -> Iterator[Cell]:
 
 
 def tolerances(quick: bool) -> Iterator[Cell]:
-    """Tolerances from one tenth, where grids are far too coarse, to 1e-4. The error has to be what was asked for."""
+    """Tolerances from one tenth, where grids are far too coarse, to 1e-4. The error has to be within the tolerance."""
     few = ((1e-2, 5), (10, 10), (100, 20), (1000, 5))
     many: tuple[tuple[float, float], ...] = ((1e-3, 5), (1e-2, 5), (0.1, 10), (1, 0), (1, 10), (5, 5), (10, 10))
     many += ((20, 5), (50, 10), (100, 5), (100, 15), (100, 20), (1000, 2.5), (1000, 10), (1000, 20))

@@ -1,8 +1,8 @@
 """Maps of load sharing: film over roughness, roughness from 1 nm to 2 µm, share of the contact, entrainment of any
 sign.
 
-The judge closes load and volume anew (`verification.campaigns.hostile.soak_judge`). Allowed is twice the tolerance on friction
-that the scene asks for (1 %), on the coefficient and on F_C/F_T.
+The check solves the balance of load and volume again (`verification.campaigns.hostile.soak_judge`). The friction
+coefficient and F_C/F_T may differ by twice the tolerance of the scene (1 %).
 """
 
 from collections.abc import Iterator
@@ -64,7 +64,8 @@ def solve(cell: Cell) -> tuple:
 
 
 def deviations(cell: Cell, solved: tuple) -> dict[str, float]:
-    """Sums of the result itself, and friction and contact load against the judge, over what is allowed."""
+    """Return the imbalances of the result, and the deviations of friction and asperity load from the check, over the
+    allowed ones."""
     return verdict(*solved)
 
 

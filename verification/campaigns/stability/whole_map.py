@@ -1,9 +1,9 @@
-"""Maps of one gap with one pressure: load by speed by roughness.
+"""Maps of the deterministic model: load, speed, roughness.
 
-The contact is a bearing of 10 mm radius with a shear-limited compressible oil. The judge looks at the fields alone.
-Load and elastic gap are summed anew. Pressure and gap keep their signs. The flow is the same through every section
-before the first touching cell, ruptured film and all, by second-order upwind differences and by quadratures of the laws
-and of 1/h³ between cells. What those quadratures leave open is estimated, and allowed.
+The contact is a bearing of 10 mm radius with a shear-limited compressible oil. The check uses the fields alone. Load
+and elastic gap are summed again, and pressure and gap have to be positive. The flow, of the ruptured film too, has to
+be the same through every section before the first touching cell. It is computed with second-order upwind differences
+and with quadratures of the laws and of 1/h³ between cells. The error of these quadratures is estimated and allowed.
 """
 
 from collections.abc import Iterator
@@ -83,7 +83,7 @@ def check(problem, result) -> dict[str, float]:
 
 def flow_error(result) -> float:
     """Largest relative difference of the flow through sections before the first touching cell, as a part of what is
-    allowed there: 3 %, and what the judge's own quadrature leaves open (`_pressure_flow`)."""
+    allowed there: 3 %, and the error of the check's own quadrature (`_pressure_flow`)."""
     speed = result.speed
     dx = result.spacing[0]
     broken = np.flatnonzero(result.touching.any(axis=1))
@@ -104,10 +104,10 @@ def flow_error(result) -> float:
 
 
 def _pressure_flow(p, h, speed: float, dx: float) -> tuple[np.ndarray, np.ndarray]:
-    """Pressure flow along x between cells [m²/s], by the mean of the laws between their pressures; and what is left
-    open in it: the difference from the mean by Simpson's rule on three points. Where the pressure leaps within one
-    cell, as on the rim of a spot, the law is not nearly a parabola between two cells: there they do not resolve the
-    film."""
+    """Pressure flow along x between cells [m²/s], by the mean of the laws between their pressures, and its error: the
+    difference from the mean by Simpson's rule on three points. Where the pressure jumps within one cell, as at the
+    edge of an asperity contact, the law is not close to a parabola between two cells, which do not resolve the film
+    there."""
     film = 0.5 * (h[:-1] + h[1:])
     along = h[:-1, :, None] + (h[1:] - h[:-1])[:, :, None] * np.linspace(0.0, 1.0, 801)
     by_step = (p[1:] - p[:-1]) / dx / (12 * np.trapezoid(along**-3, dx=1 / 800, axis=-1))

@@ -1,8 +1,8 @@
 """``python -m verification tables``: the tables of numbers in the documents, measured and written by this command.
 
-A document says where a table stands by two comments (`pages`). What stands between them is replaced by what is measured
-now, with the command, the date, the version and the machine beneath. The tables of longer campaigns (`pages.CAMPAIGNS`)
-are written by those, with ``--docs docs``.
+Two comments in a document mark the place of a table (`pages`). The text between them is replaced by the new
+measurement, with the command, the date, the version and the machine below it. The tables of longer campaigns
+(`pages.CAMPAIGNS`) are written by those, with ``--docs docs``.
 """
 
 import inspect

@@ -1,7 +1,7 @@
-"""The marks in a page between which a table stands, and how a new table is put there.
+"""The marks around a table in a page, and how a new table is written between them.
 
-A page says where a table stands by two comments, ``<!-- table: NAME -->`` and ``<!-- end of table -->``. What stands
-between them is replaced as a whole. Tables come from `verification.campaigns.tables`, from campaigns (`CAMPAIGNS`) and from the
+The marks are two comments, ``<!-- table: NAME -->`` and ``<!-- end of table -->``. All text between them is replaced.
+    Tables come from `verification.campaigns.tables`, from campaigns (`CAMPAIGNS`) and from the
 scripts of `verification.campaigns.benchmarks` (`BENCHMARKS`).
 """
 
@@ -62,7 +62,7 @@ def body(table: Table, command: str) -> str:
 
 
 def source(command: str) -> str:
-    """One line in italics: the command as it is typed, the day, the version and the machine."""
+    """Return one line in italics: the command, the day, the version and the machine."""
     from lubfric import __version__
 
     day = time.strftime("%Y-%m-%d")

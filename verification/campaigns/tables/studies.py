@@ -38,7 +38,7 @@ def published_checks(name: str) -> tuple[Check, ...]:
 
 
 def table_of(study: str, name: str) -> Cells:
-    """A table of a study as it stands."""
+    """Return a table of a study without changes."""
     table = next(t for t in ran(study).tables if t.name == name)
     return table.columns, [[str(cell) for cell in row] for row in table.rows]
 
@@ -77,7 +77,7 @@ def transient() -> Cells:
 
 
 def formulations() -> Cells:
-    """Convolutions and iterations of the paper's formulations beside the default."""
+    """Return convolutions and iterations of the paper's formulations and of the default."""
     table = next(t for t in ran("formulations").tables if t.name == "formulations")
     rows: dict[str, list[str]] = {}
     columns = dict.fromkeys(row[1] for row in table.rows)

@@ -1,5 +1,5 @@
-"""Does every option reach the number? Quick checks whose expected values do not come from the code that is checked.
+"""Quick checks that every option reaches the result. Their expected values do not come from the checked code.
 
-`film`, `contact`, `maps` and `time` are studies of a few seconds each. What they are worth is measured by breaking
-`lubfric` (`verification.mutants`): one of them has to catch each of those mutants.
+`film`, `contact`, `maps` and `time` are studies of a few seconds each. Errors that are put into `lubfric` on purpose
+(`verification.campaigns.mutants`) measure their power: at least one check has to detect each of them.
 """

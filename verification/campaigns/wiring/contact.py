@@ -70,7 +70,8 @@ def asperities() -> Iterator[Check]:
 
 
 def cylinder() -> Iterator[Check]:
-    """No pressure is above the hardness, and the whole load is on it. The area A is as wide as asked."""
+    """Check that no pressure exceeds the hardness, that the pressure carries the total load, and that the area A has
+    the requested width."""
     z = heights(64, 32)
     for region in ("hertz", "box"):
         s = lubfric.load_scene("paper").with_(

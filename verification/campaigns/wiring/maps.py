@@ -90,19 +90,20 @@ def made(rough: Roughness, contact: dict) -> HalfSpaceContact:
 
 
 def generated() -> Iterator[Check]:
-    """Height, length at the level asked for along each axis, and that another seed gives another map."""
+    """Check the height, the correlation length at the given level along each axis, and that another seed gives another
+    map."""
     maps = {}
     for seed in (1, 2):
         rough = Roughness(sq=80e-9, correlation_length=(3e-6, 6e-6), acf="gaussian", decay_level=0.2, seed=seed)
         s = PATCH.with_(surface=rough, contact={"shape": (512, 512), "spacing": 0.5e-6})
         maps[seed] = prepare(s).surface.heights
     z = maps[1] - maps[1].mean()
-    yield Check("generated map: Sq", float(z.std()), 80e-9, 1e-6, "asked for", unit="m")
+    yield Check("generated map: Sq", float(z.std()), 80e-9, 1e-6, "the requested value", unit="m")
     for axis, (name, length) in enumerate((("x", 3e-6), ("y", 6e-6))):
         cells = round(length / 0.5e-6)
         value = float(np.mean(z * np.roll(z, cells, axis)) / np.mean(z * z))
         words = f"generated map: autocorrelation at the length along {name}"
-        yield Check(words, value, 0.2, 0.06, "asked for", ABSOLUTE)
+        yield Check(words, value, 0.2, 0.06, "the requested value", ABSOLUTE)
     far = float(np.mean(z * np.roll(z, 24, 0)) / np.mean(z * z))
     yield Check("generated map: autocorrelation at four lengths", abs(far), 0.0, 0.12, "Gaussian: none left", AT_MOST)
     apart = float(np.sqrt(np.mean((maps[1] - maps[2]) ** 2)) / 80e-9)

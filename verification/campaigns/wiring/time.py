@@ -53,7 +53,7 @@ def unchanged(name: str, oil: dict) -> Iterator[Check]:
 
 
 def ended(label: str, run, steady, tolerances: dict[str, tuple[str, float]]) -> Iterator[Check]:
-    """The last values of a transient beside the steady ones."""
+    """Return the last values of a run in time and the steady ones."""
     rows = [
         (what.replace("_", " "), unit, float(getattr(run, what)[-1]), getattr(steady, what), tolerance)
         for what, (unit, tolerance) in tolerances.items()

@@ -1,4 +1,4 @@
-"""Films that rupture and fill again, beside a closed form and the pressures of Bertocchi and others."""
+"""Films that rupture and fill again, compared with a closed form and the pressures of Bertocchi and others."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -76,10 +76,11 @@ class Pad:
 def cavitation(level: str) -> Iterator[Item]:
     """A rigid pad whose film ruptures in a pocket and fills again, by the deterministic model's solver.
 
-    All values are extrapolated to first order from two grids, one with cells twice as long. Beside the closed form our
-    error is the change from one to the other, or a cell where the film fills again. Behind Bertocchi's pockets it is
-    half that change and half the difference between two laws of density: ours is their mean, and theirs lies between
-    them. The ambient pressure, which ours leaves out, is added.
+    All values are extrapolated to first order from two grids, one with cells twice as long. Compared with the closed
+    form, the error of lubfric is the change from one grid to the other, or one cell for the place where the film fills
+    again. Behind Bertocchi's pockets it is half that change and half the difference between two laws of density: the
+    value of lubfric is their mean, because the published density is between them. The ambient pressure, which lubfric
+    does not contain, is added.
     """
     for pocket in references.BANDS:
         yield from band(pocket)

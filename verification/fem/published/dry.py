@@ -1,4 +1,4 @@
-"""Dry contact beside Hertz, Westergaard, Johnson, Greenwood and Higginson, and two programs for rough surfaces."""
+"""Dry contact compared with Hertz, Westergaard, Johnson, Greenwood and Higginson, and two programs for rough surfaces."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -25,7 +25,7 @@ AMPLITUDE = 100e-9
 WAVELENGTH = 45e-6
 WAVE = 256
 SHARES = (0.1, 0.3, 0.5, 0.7, 0.9)
-COUNTED = "theirs is counted on cells that are not told; ours without the correction of its edges is {:.3g}"
+COUNTED = "the published area is counted on cells of unknown size; lubfric without the correction of edges has {:.3g}"
 SQ = 100e-9
 LENGTH = 20e-6
 CELL = 1e-6
@@ -36,11 +36,11 @@ SEEDS = (1, 2, 3, 4)
 def dry(level: str) -> Iterator[Item]:
     """`solve_contact` on a cylinder, two kinds of waves and rough surfaces; the summits of generated surfaces.
 
-    Our error is the change when the cells are halved; of the wave a cell at either edge of the contact, and of rough
-    surfaces twice the standard error over some of them. Self-affine ones have two and a half cells in the shortest
-    wave, or four. The area on cells is too large by their edges: Yastrebov's correction is applied (0.3 % are left on
-    half and a quarter of the cells), and a tenth of it is part of our error. The challenge's shortest wave is 1/1000 of
-    its patch; ours is 1/250, and the change from 1/125 is part of our error.
+    The error of lubfric is the change when the cells are halved; for the wave, a cell at each edge of the contact; for
+    rough surfaces, twice the standard error over several surfaces. Self-affine surfaces have two and a half cells in
+    the shortest wave, or four. The area on cells is too large by their edges: Yastrebov's correction is applied (0.3 %
+    remain on half and a quarter of the cells), and a tenth of it is part of the error. The shortest wave of the
+    challenge is 1/1000 of its patch; here it is 1/250, and the change from 1/125 is part of the error.
     """
     yield from cylinder()
     areas = [line_wave(share, WAVE) for share in SHARES]
@@ -113,7 +113,7 @@ def summits() -> Check:
 
 
 def self_affine() -> Iterator[Check]:
-    """Self-affine surfaces: gap, area and pressure beside other programs."""
+    """Compare gap, area and pressure of self-affine surfaces with other programs."""
     for load, (gap, area, square) in references.SELF_AFFINE.items():
         result = [pressed(waves(seed, (4, 4, 400), 1024), load) for seed in SEEDS[:3]]
         gaps, areas, edges, squares = np.transpose(result)
@@ -170,5 +170,5 @@ def drawn(rows: list[tuple[float, float]]) -> Figure:
     (ours, errors) = np.array(rows).T
     theirs = (dense, [references.westergaard_area(s) for s in dense], "-", "Westergaard 1939")
     curves = [theirs, (SHARES, ours, "o", "lubfric", ours * errors)]
-    caption = "Contact of a wave with a flat, ours with its error beside the closed form"
+    caption = "Contact of a wave with a flat: lubfric with its error, and the closed form"
     return plotting.chart("wave", caption, curves, xlabel="p/p*", ylabel="share of the length in contact")

@@ -1,4 +1,4 @@
-"""Smooth films beside the closed forms and fits of Martin, Blok, Moes, Grubin, Dowson, Higginson and Toyoda."""
+"""Smooth films compared with the closed forms and fits of Martin, Blok, Moes, Grubin, Dowson, Higginson and Toyoda."""
 
 import math
 from collections.abc import Iterator
@@ -26,12 +26,12 @@ BEYOND = "a fit used at 4.1 GPa, above the 4 GPa at which ISO 76 ends the static
 
 
 def films(level: str) -> Iterator[Item]:
-    """`solve_ehl`, and the film of one gap and one pressure, beside published films.
+    """Compare `solve_ehl`, and the film of the deterministic model, with published films.
 
-    Our error is the sum of what the solver states for its grid and its inlet. Fits hold to some 5 %, asymptotes only
-    far enough in their regime: where M and L are finite they differ. Grubin's oil is that of Barus. Whether those of
-    Dowson and others are, or like Roelands', is not known here: ours is the mean of both, and half their difference is
-    part of our error.
+    The error of lubfric is the sum of the errors that the solver states for its grid and its inlet. Fits are valid to
+        some 5 %; asymptotes are valid only far in their regime and differ where M and L are finite. Grubin's oil
+        follows Barus' law. Whether the oils of Dowson and others follow Barus' or Roelands' law is not known here: the
+        value of lubfric is the mean of both, and half their difference is part of the error.
     """
     yield from rigid()
     yield from limits()

@@ -1,4 +1,4 @@
-"""Rolling and sliding friction of smooth films beside Biboulet and Houpert, Martin, Johnson and Tevaarwerk."""
+"""Rolling and sliding friction of smooth films compared with Biboulet and Houpert, Martin, Johnson and Tevaarwerk."""
 
 import math
 from collections.abc import Iterator
@@ -30,15 +30,17 @@ FVA_3: dict[str, Any] = {  # at 50 °C: 0.0525 Pa s and 20 /GPa of Wingertszahn 
     "pressure_viscosity_coefficient": 20e-9,
     "density_law": "dowson-higginson",
 }
-WIDE = "theirs leaves out a dependence on M and L ('few per cents'); finite elements have ours (study ehl)"
+WIDE = (
+    "the published fit neglects a dependence on M and L ('few per cents'); finite elements confirm lubfric (study ehl)"
+)
 
 
 def friction(level: str) -> Iterator[Item]:
     """Forces on a smooth film: rolling without sliding, the rigid cylinder, and Eyring's traction.
 
-    The rolling force is `1/2 ∫ h dp` per length, that of one surface, as theirs. Theirs is one curve over M, with
-    Barus' law; the inlet is flooded, or begins with p = 0. Our error is what the solver states for the film, and for
-    the rolling force also that of its sum.
+    The rolling force is `1/2 ∫ h dp` per length, the force on one surface, as published. The publication has one curve
+    over M, with Barus' law; the inlet is flooded, or begins with p = 0. The error of lubfric is the one that the
+    solver states for the film, and for the rolling force also the error of its sum.
     """
     rolled: dict[tuple[float, float], tuple[float, float]] = {(m, l): rolling(m, l) for l in OILS for m in LOADS}
     for (m, l), (ours, error) in rolled.items():
@@ -90,7 +92,7 @@ def bearing() -> Iterator[Check]:
 
 
 def force(solution: lubfric.EHLResult, oil: Lubricant, ratio: float) -> ShearForce:
-    """Forces per width without contact spots."""
+    """Return the forces per width without asperity contacts."""
     return shear_force(
         solution, oil, slide_roll_ratio=ratio, width=1.0, contact_fraction=lambda x: np.zeros(x.size - 1)
     )
@@ -132,7 +134,7 @@ def rigid() -> Iterator[Check]:
 
 
 def eyring(m: float, l: float, stress: float, ratio: float) -> Check:
-    """Traction of a heavy contact, Barus and Eyring; theirs with our central film."""
+    """Compare the traction of a heavy contact (Barus, Eyring) with the published law at the central film of lubfric."""
     solution = film(m, l, law="barus")
     ours = force(solution, Lubricant(VISCOSITY, ALPHA, "barus", eyring_stress=stress), ratio).couette
     rate = ratio * solution.entrainment_speed / solution.central_film
@@ -143,7 +145,7 @@ def eyring(m: float, l: float, stress: float, ratio: float) -> Check:
 
 
 def drawn(rolled: dict[tuple[float, float], tuple[float, float]]) -> Figure:
-    """Rolling torque over theirs."""
+    """Draw the rolling torque over the published one."""
     canvas, ax = plotting.axes(width=6.0, height=3.8)
     for k, l in enumerate(OILS):
         ratios = [rolled[m, l][0] / references.rolling_torque(m) for m in LOADS]
@@ -152,6 +154,6 @@ def drawn(rolled: dict[tuple[float, float], tuple[float, float]]) -> Figure:
     error = references.SOURCES["biboulet"].error
     ax.axhspan(1 - error, 1 + error, color="0.88", label="Biboulet and Houpert ± 5 %")
     ax.axhline(1.0, color="k", lw=0.8)
-    ax.set(xscale="log", xlabel="M", ylabel="rolling torque over theirs")
+    ax.set(xscale="log", xlabel="M", ylabel="rolling torque over the published one")
     canvas.legend(loc="outside lower center", ncols=3, frameon=False)
     return plotting.finish("rolling", canvas, "Rolling torque over eq. 42 of Biboulet and Houpert")

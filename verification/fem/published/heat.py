@@ -1,4 +1,4 @@
-"""Heat of a film beside Nahme, Blok and Jaeger, and two fits for the inlet."""
+"""Heat of a film compared with Nahme, Blok and Jaeger, and two fits for the inlet."""
 
 import math
 from collections.abc import Callable, Iterator

@@ -1,4 +1,5 @@
-"""Mixed lubrication beside four laws of the asperity load ratio, Masjedi and Khonsari, and the paper's own numbers."""
+"""Mixed lubrication compared with four laws of the asperity load ratio, Masjedi and Khonsari, and the paper's own
+numbers."""
 
 from collections.abc import Iterator
 
@@ -38,9 +39,9 @@ def mixed(level: str) -> Iterator[Item]:
     for ratio, one, error, a, b in zip(RATIOS, ours, own, low, high):
         name = f"load share of the asperities, film/Sq = {ratio:g}"
         half = (b - a) / (a + b)
-        note = "not independent: the boundary film of 20 nm is the candidate that lies nearest to these laws"
+        note = "not independent: the boundary film of 20 nm was chosen as the nearest to these laws"
         if ratio * min(SURFACES.values()) <= BOUNDARY_FILM:
-            note = "the film itself is 20 to 40 nm, so nearly all of it is below the boundary film; and ours is at rest"
+            note = "the film itself is 20 to 40 nm, so nearly all of it is below the boundary film; lubfric's roughness is at rest"
         yield against("shares", name, one, (a + b) / 2, error / one, note=note, error=half, cause="ours")
     at = RATIOS.index(1.0)
     for key, (law_name, law) in zip(LAWS, references.LOAD_SHARES.items(), strict=True):
@@ -59,10 +60,10 @@ def mixed(level: str) -> Iterator[Item]:
 def masjedi(level: str) -> Iterator[Check]:
     """The asperity load ratio of the deterministic model at the three roughnesses of Masjedi and Khonsari.
 
-    The roughness moves at a slide-roll ratio of 0.1. Ours is the load on gaps thinner than the boundary film, in the
-    middle between two correlation lengths, as theirs is not known; at full level it is the mean of three seeds. The
-    error is half the difference of the lengths, and the change that a boundary film of half or of twice its thickness
-    makes at rest, over the share there."""
+    The roughness moves at a slide-roll ratio of 0.1. The value of lubfric is the load on gaps thinner than the
+    boundary film, the mean of two correlation lengths, because the published length is not known; at full level it is
+    the mean of three seeds. The error is half the difference between the lengths, and the relative change at rest with
+    half or twice the boundary film."""
     case = references.MASJEDI_CASE
     width = 5e-3
     scene = lubfric.load_scene("paper").with_(
@@ -105,7 +106,7 @@ def masjedi(level: str) -> Iterator[Check]:
         by_film = min(usual, (thick - thin) / 2 / rested * usual) if rested > 0 else 0.0
         error = float(np.hypot(np.ptp(by_length) / 2, by_film))
         name = f"asperity load ratio, Sq/R = {ratio:g}"
-        note = "their asperities have a statistical density, ours are those of a surface"
+        note = "the published asperities have a statistical density, those of lubfric come from a surface"
         errors = (error, max(0.15 * theirs, FLOOR))
         source = references.SOURCES["masjedi"].text
         yield beside(name, usual, theirs, errors, source, note=note, cause="unknown")
@@ -116,5 +117,5 @@ def drawn(ours: np.ndarray, own: np.ndarray) -> Figure:
     dense = np.geomspace(min(RATIOS), max(RATIOS), 100)
     curves: list[tuple] = [(dense, law(dense), "-", name) for name, law in references.LOAD_SHARES.items()]
     curves.append((RATIOS, ours, "ko", "lubfric, three kinds of roughness", own))
-    caption = "Load share of the asperities beside four published laws"
+    caption = "Asperity load ratio compared with four published laws"
     return plotting.chart("shares", caption, curves, xscale="log", xlabel="film/Sq", ylabel="share of the load")

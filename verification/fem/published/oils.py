@@ -1,4 +1,4 @@
-"""Oils beside standards and measured oils."""
+"""Oils compared with standards and measured oils."""
 
 from collections.abc import Iterator
 
@@ -80,10 +80,10 @@ def machine_oils() -> Iterator[Pair]:
 
 
 def estimated(key: str, name: str, estimate: Estimate, theirs: float) -> Check:
-    """The estimate beside the measured oil."""
+    """Compare the estimate with the measured oil."""
     ours = estimate.value * 1e9
     end = (estimate.high if theirs > ours else estimate.low) / estimate.value
-    note = f"ours over theirs {ours / theirs:.2f}"
+    note = f"lubfric over published {ours / theirs:.2f}"
     return against(key, f"alpha of {name}", ours, theirs, abs(end - 1), "1/GPa", note)
 
 
@@ -101,4 +101,6 @@ def drawn(pairs: list[Pair]) -> Figure:
     ax.plot([9, 36], [9, 36], "k-", lw=0.8)
     ax.set(xlabel="measured alpha (1/GPa)", ylabel="estimate and its range (1/GPa)")
     ax.legend(loc="upper left")
-    return plotting.finish("alpha", canvas, "Estimates of the pressure-viscosity coefficient beside measured oils")
+    return plotting.finish(
+        "alpha", canvas, "Estimates of the pressure-viscosity coefficient compared with measured oils"
+    )

@@ -1,4 +1,4 @@
-"""Waves of a surface in the film beside Venner et al., Greenwood and Morales-Espejel, and Hooke."""
+"""Waves of a surface in the film compared with Venner et al., Greenwood and Morales-Espejel, and Hooke."""
 
 import math
 from collections.abc import Iterator
@@ -29,9 +29,12 @@ SLIDING = {
 SHORT = 0.2  # half-widths: shorter waves get half as many cells, 20 in a wave
 GREENWOOD = {"P": 20.0, "S": 5.0, "pressure": 1e9, "e_prime": 228e9, "eyring": 4e6}  # Hooke's contact
 NOTES = {
-    (0.125, 0): "the linear response of finite elements is 0.88: theirs has lost height on its cells",
+    (0.125, 0): "the linear response of finite elements is 0.88: the published wave lost height on its cells",
     (0.125, 1): "as of waves half as high",
-    (1, 2): "waves a fifth as high keep as much of their height, as in finite elements; theirs keep 7 % more",
+    (
+        1,
+        2,
+    ): "waves a fifth as high have the same relative height, as in finite elements; the published ones have 7 % more",
 }
 
 

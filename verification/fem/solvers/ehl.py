@@ -102,8 +102,8 @@ class LineContact:
 
 @dataclass(frozen=True)
 class EHLSolution:
-    """A film and how it was found. Arrays on the line stand at its degrees of freedom ``body.x``, not in ascending
-    order.
+    """A film and the report of its solve. Arrays on the line have the order of its degrees of freedom ``body.x``,
+    which is not ascending.
 
     contact, layout, body, film, report : what was solved, on which mesh, with which flow; how it went
     displacement : at the free degrees of freedom of the body, b^2/R

@@ -1,12 +1,12 @@
 """The elastic body of the full-system line contact: its mesh, its stiffness, and the surface that carries the film.
 
-One body stands for both. It is in plane strain, with E = E' (1 - nu^2)/2, so that its half-space compliance is that of
+One body represents both. It is in plane strain, with E = E' (1 - nu^2)/2, so that its half-space compliance is that of
 E' (2/E' = sum (1 - nu^2)/E over the two). Lengths are in Hertz half-widths b, displacements in b^2/R, stresses in p_h.
 In these units E' is 4.
 
-A square below the contact stands for the half-space, its bottom fixed and its sides free (Habchi, Eyheramendy, Vergne &
-Morales-Espejel 2008, doi:10.1115/1.2842246). Against a half-space its surface is bent by a part that falls like (b/D)^2
-with its side D. It is also moved by a constant, which the approach takes up.
+A square below the contact represents the half-space, its bottom fixed and its sides free (Habchi, Eyheramendy, Vergne
+& Morales-Espejel 2008, doi:10.1115/1.2842246). Compared with a half-space, its surface has an additional curvature
+that falls like (b/D)^2 with its side D, and a constant displacement, which the approach compensates.
 """
 
 import math

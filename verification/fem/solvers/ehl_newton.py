@@ -1,4 +1,4 @@
-"""Newton's method on the whole line contact at once, on one mesh.
+"""Newton's method for all unknowns of the line contact at once, on one mesh.
 
     elasticity   K u + B P = 0
     Reynolds     r(P, H) = 0 where P > 0, P = 0 where r > 0 (Swift-Stieber outlet; primal-dual active set)
@@ -113,7 +113,7 @@ def measure(body: Body, it: Iterate, at: Imbalance) -> dict[str, float]:
 
 
 def step(body: Body, film: FilmEquations, it: Iterate, at: Imbalance, weights: np.ndarray) -> Iterate:
-    """One step of the whole system, shortened where viscosity or film would change too much."""
+    """Return one step of the complete system, shortened where viscosity or film would change too much."""
     held = np.where(it.held, at.flow.residual > 0, it.P < 0)
     held[np.argmax(body.x)] = True
     free = np.flatnonzero(~held)
@@ -133,7 +133,7 @@ def step(body: Body, film: FilmEquations, it: Iterate, at: Imbalance, weights: n
 
 
 def tangent(body: Body, by_P, by_H, free: np.ndarray, weights: np.ndarray) -> sp.csc_matrix:
-    """The matrix of the whole system for changes of u, of P at the ``free`` degrees of freedom, and of H0."""
+    """Return the matrix of the complete system for changes of u, of P at the ``free`` degrees of freedom, and of H0."""
     return sp.bmat(
         [
             [body.stiffness, body.traction[:, free], None],

@@ -60,7 +60,7 @@ class Fluid:
 
     @classmethod
     def of(cls, oil: Mapping[str, Any]) -> "Fluid":
-        """The fluid of an oil that is told in the words of a scene, or of the arguments of ``lubfric.solve_ehl``."""
+        """Return the fluid of an oil given by the keys of a scene, or by the arguments of ``lubfric.solve_ehl``."""
         alpha = oil.get("pressure_viscosity_coefficient", 0.0)
         limit = oil.get("limiting_stress_coefficient")
         return cls(

@@ -1,10 +1,10 @@
 """Elastic body under pressures that are periodic along y: finite elements in the section (x, z), waves along y.
 
-For a pressure ``p(x) cos(k y)`` the displacement is ``u_x, u_z ~ cos(k y)``, ``u_y ~ sin(k y)``. So elasticity in three
-dimensions becomes one problem in the section for each wavenumber k. Its unknowns are the three amplitudes, and k stands
-in the strains (the semi-analytical form: O. C. Zienkiewicz, The Finite Element Method, 3rd ed. 1977). P2 triangles on a
-square of side D, its bottom fixed and its sides free, stand for the half-space. k = 0 misses it by a constant and a
-part that falls like 1/D^2, every other k by exp(-k D/2).
+For a pressure ``p(x) cos(k y)`` the displacement is ``u_x, u_z ~ cos(k y)``, ``u_y ~ sin(k y)``. So elasticity in
+three dimensions becomes one problem in the section for each wavenumber k. Its unknowns are the three amplitudes, and k
+appears in the strains (the semi-analytical form: O. C. Zienkiewicz, The Finite Element Method, 3rd ed. 1977). P2
+triangles on a square of side D, its bottom fixed and its sides free, represent the half-space. The error is a constant
+and a part that falls like 1/D^2 for k = 0, and exp(-k D/2) for every other k.
 
 Pressure is constant on the cells of a patch along x, and the compliance gives mean displacements of the cells. So it is
 symmetric. Along y cells are points of a trigonometric series, as in any contact solver by Fourier transforms.

@@ -29,8 +29,7 @@ class Layer:
 
     body : what it is made of
     basis : displacement (two components) on all of the layer
-    spread : (basis.N, unknowns) from unknowns to all degrees of freedom; leaves out the base, joins periodic
-        sides
+    spread : (basis.N, unknowns) from unknowns to all degrees of freedom; excludes the base, joins periodic sides
     x : (n,) surface nodes that may carry force, ascending, m
     weights : (n,) integral of each node's shape function over the surface, m: nodal force over pressure
     unknowns : (n,) the unknown that is the vertical displacement of each of these nodes

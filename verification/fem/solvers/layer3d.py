@@ -1,8 +1,8 @@
 """Three-dimensional elastic layer, periodic in x and y and bonded to a rigid base, of hexahedra in equal columns.
 
 Nodes form a grid: ``shape`` = (nx, ny) of them on the surface, and levels graded in depth. Every column of elements is
-the same, so the element matrices of one column, made by scikit-fem, give the whole stiffness. Here it is assembled and
-solved by conjugate gradients with smoothed aggregation. `layer_waves` solves the same discrete layer wave by wave.
+the same, so the element matrices of one column, made by scikit-fem, give the complete stiffness. Here it is assembled
+and solved by conjugate gradients with smoothed aggregation. `layer_waves` solves the same discrete layer wave by wave.
 Forces and displacements of the surface count positive downwards.
 """
 

@@ -1,4 +1,4 @@
-"""What a finite-element solve says about itself; nothing here or beside it comes from `lubfric`."""
+"""The report of a finite-element solve; nothing in this package comes from `lubfric`."""
 
 import math
 from dataclasses import dataclass

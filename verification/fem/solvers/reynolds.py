@@ -3,10 +3,10 @@
     - div( rho h^3/(12 eta) grad p ) + d(rho U h)/dx = f,   p = 0 on the boundary,
 
 The weak form is ``(rho h^3/(12 eta) grad p, grad v) - (rho U h, dv/dx) = (f, v)``, with U the entrainment speed (mean
-of the two surface speeds). Where cavitation is asked for, Reynolds' (Swift-Stieber) outlet holds: ``p >= 0``, weak
-residual ``>= 0``, product 0, node by node. One loop does both. It is Newton's method on the free nodes, with each
-step's active set from the primal-dual method (Hintermueller, Ito & Kunisch 2002, doi:10.1137/S1052623401383558). The
-weak form is written once, and its tangent is taken by a complex step.
+of the two surface speeds). With cavitation, the outlet is that of Reynolds (Swift-Stieber): ``p >= 0``, weak residual
+``>= 0``, product 0, node by node. One loop does both. It is Newton's method on the free nodes, with each step's active
+set from the primal-dual method (Hintermueller, Ito & Kunisch 2002, doi:10.1137/S1052623401383558). The weak form is
+written once, and its tangent is taken by a complex step.
 """
 
 from __future__ import annotations
@@ -52,9 +52,10 @@ class ReynoldsProblem:
     speed : entrainment speed U >= 0
     degree : 1 (P1, Q1) or 2 (P2, Q2)
     source : f in m/s (as rho is relative to the density at p = 0), for manufactured solutions; may be None
-    open_boundary : of facet midpoints (dim, n): True where p is not set to 0 and no flow passes (a symmetry
-        line, or the side of an infinitely wide pad); None: p = 0 all round
-    given : pressure in Pa prescribed at points (dim, n), NaN where it is not (of contact spots); None: nowhere
+    open_boundary : of facet midpoints (dim, n): True where p is not set to 0 and no flow passes (a symmetry line, or
+        the side of an infinitely wide pad); None: p = 0 all round
+    given : pressure in Pa prescribed at points (dim, n), NaN where it is not (for asperity contacts); None: no
+        prescribed pressure
     cavitation : complementarity p >= 0, else p may be of any sign
     stabilisation : "none" (Galerkin) or "supg", degree 1 only, for a density that depends on pressure
     """

@@ -1,12 +1,12 @@
-"""Waves of infinitesimal height through the film of `ehl`: how far it follows them, linearly and in steps of time.
+"""Waves of infinitesimal height through the film of `ehl`: the response of the film, linear and in steps of time.
 
 The film is H = H0 + X²/2 - u_z - z with waves z = A cos(k (X - v T)), where T = U t/b and v is the speed of the rough
 surface over the entrainment speed U: 0 at rest, 1 in pure rolling, 2 where the smooth body rests. Reynolds' equation
 has the term d(rho H)/dT.
 
 To first order in A the changes of displacement, pressure and approach are complex amplitudes of exp(-i k v T). They
-solve the tangent of the whole system (`ehl_newton`) at the smooth solution, with the term above, and ``-by_H z`` for
-its right side. The rupture point stays, as pressure and its slope vanish there.
+solve the tangent of the complete system (`ehl_newton`) at the smooth solution, with the term above, and ``-by_H z`` as
+its right side. The rupture point does not move, because pressure and its slope vanish there.
 """
 
 import numpy as np

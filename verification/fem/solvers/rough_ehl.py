@@ -3,16 +3,17 @@
     d(rho h)/dt + d(rho U h)/dx - div( rho h³/(12 eta) grad p ) = 0,   p >= 0 (Swift-Stieber outlet)
     h = h0 + x²/(2R) - z(x, y, t) + K p,   mean of p over y, integrated over x, = load
 
-The film stands on bilinear quadrilaterals (scikit-fem), x along the motion. The surface is its own mirror image in y, so
-half of the period is meshed, between two planes through which nothing flows. The inlet begins with p = 0. K is that of
-`harmonic`: finite elements in the section, waves along y. Its cells have the nodes of the film as their centres.
+The film is discretised with bilinear quadrilaterals (scikit-fem), x along the motion. The surface is its own mirror
+image in y, so half of the period is meshed, between two planes through which nothing flows. The inlet begins with p =
+0. K is that of `harmonic`: finite elements in the section, waves along y. Its cells have the nodes of the film as
+their centres.
 
-The weak form is Galerkin's. Under high pressure only (rho h)' is left of it, which Galerkin sees no better than
-convection. So the jumps of that slope between elements are charged, as in `ehl_film` (interior penalty of Burman &
-Hansbo 2004, doi:10.1016/j.cma.2003.12.032): a term of third order in the cell, beside an error of second order.
+The weak form is Galerkin's. Under high pressure only (rho h)' remains, for which Galerkin's form is as unstable as for
+convection. So the jumps of that slope between elements have a penalty, as in `ehl_film` (interior penalty of Burman &
+Hansbo 2004, doi:10.1016/j.cma.2003.12.032): a term of third order in the cell, where the error is of second order.
 
-Newton's method takes all pressures and h0 at once, with the whole dense matrix and an active set of nodes with p = 0.
-Steps in time are implicit, of second order (BDF2; the first is Euler's).
+Newton's method solves for all pressures and h0 at once, with the full dense matrix and an active set of nodes with p =
+0. Steps in time are implicit, of second order (BDF2; the first is Euler's).
 """
 
 from collections.abc import Callable, Iterator
@@ -99,7 +100,7 @@ class RoughStripFilm:
 
     @property
     def weights(self) -> np.ndarray:
-        """Width [m] that each node stands for along x, times the share of the period that it stands for along y."""
+        """Return the width [m] of each node along x, times its part of the period along y."""
         (nx, ny) = self.problem.cells
         along = np.full(nx, self.problem.spacing[0])
         along[[0, -1]] /= 2

@@ -63,7 +63,7 @@ class GivenGap:
         )
 
     def prescribed(self, points: FloatArray) -> np.ndarray:
-        """The pressure that came with the gap [Pa] on the spots of contact, NaN elsewhere."""
+        """Return the given pressure [Pa] on asperity contacts, NaN elsewhere."""
         step = self.x[1] - self.x[0]
         i = np.clip(np.rint((points[0] - self.x[0]) / step).astype(int), 0, self.x.size - 1)
         j = np.clip((points[1] / self.dy).astype(int), 0, self.gap.shape[1] - 1)

@@ -30,9 +30,9 @@ WIDEST = 30.0  # largest |ln(F_H/F_C)| looked at
 class Bodies:
     """A rough strip under a cylinder.
 
-    ``contact`` is the line contact under the whole load F_T, on a line of length width (m). heights (nx, ny) in m stand
+    ``contact`` is the line contact under the total load F_T, on a line of length width (m). heights (nx, ny) in m are
     on the strip of ``compliance``. hardness is in Pa (inf: elastic), boundary_friction is f_b, and sliding is u2 - u1
-    in m/s. The shear is taken on the upper surface 2.
+    in m/s. The shear acts on the upper surface 2.
     """
 
     contact: ehl.LineContact

@@ -1,10 +1,11 @@
-"""Load sharing in time by finite elements: a smooth film that remembers its past, a rough contact that does not.
+"""Load sharing in time by finite elements: a smooth film that depends on its history, and a rough contact that does
+not.
 
     s d(rho H)/dX - d/dX( m dP/dX ) + d(rho H)/dT = 0,   s = U(T)/U0,   T = U0 t/b,   integral of P = F_H(T)
 
-in the Hertz variables of the whole load at a speed U0 (`ehl`). The rough strip is pressed with F_T - F_H under the shape
-of the film of the moment (`sharing.Bodies.under`). F_H is the root at which the mean gap of the contact is the mean film
-over the Hertz strip, closed in every step by `sharing.root`. Steps in time are BDF2, the first one Euler's.
+in the Hertz variables of the total load at a speed U0 (`ehl`). The rough strip is pressed with F_T - F_H under the
+shape of the film of the moment (`sharing.Bodies.under`). F_H is the root at which the mean gap of the contact is the
+mean film over the Hertz strip, closed in every step by `sharing.root`. Steps in time are BDF2, the first one Euler's.
 """
 
 from collections.abc import Callable, Iterator
@@ -88,8 +89,8 @@ def share_in_time(
 
 @dataclass(frozen=True)
 class Moving:
-    """A step in time of the film ``at`` the whole load: what it held ``now`` and ``before``, the rates of BDF2 or Euler (0:
-    a steady film), its length [b/U0], and the speed over U0."""
+    """A step in time of the film ``at`` the total load: its mass ``now`` and ``before``, the rates of BDF2 or Euler
+    (0: a steady film), its length [b/U0], and the speed over U0."""
 
     at: ehl.EHLSolution
     now: np.ndarray | float
@@ -136,7 +137,7 @@ def balanced(
 
 
 def started(at: ehl.EHLSolution, film: ehl.EHLSolution) -> TransientFilmState:
-    """The steady film under its part of the load, in the variables of the whole load: solved again there."""
+    """Solve the steady film under its part of the load again, in the variables of the total load."""
     share = film.contact.load_per_width / at.contact.load_per_width
     b = at.contact.half_width
     x = np.clip(at.body.x * b, film.body.x.min() * film.contact.half_width, film.body.x.max() * film.contact.half_width)
@@ -156,7 +157,7 @@ def film_of(at: ehl.EHLSolution, state: TransientFilmState) -> np.ndarray:
 def stepped(
     moving: Moving, start: TransientFilmState, share: float, tolerance: float = 1e-8, max_iterations: int = 60
 ) -> TransientFilmState:
-    """The film at the end of a step under a ``share`` of the whole load."""
+    """Return the film at the end of a step under a ``share`` of the total load."""
     at = moving.at
     rates = moving.rates
     pace = moving.pace

@@ -1,1 +1,1 @@
-"""The studies that set `lubfric` beside finite elements and closed forms; `verification.catalogue` lists them."""
+"""The studies that compare `lubfric` with finite elements and closed forms; `verification.catalogue` lists them."""

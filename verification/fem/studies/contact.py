@@ -1,4 +1,5 @@
-"""Hertz line contact on the finite-element layer, elastic and capped, beside `lubfric.solve_contact`."""
+"""Hertz line contact on the finite-element layer, elastic and with a plastic limit, compared with
+`lubfric.solve_contact`."""
 
 import numpy as np
 

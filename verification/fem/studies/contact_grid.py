@@ -38,10 +38,10 @@ def contact_grid(level: str):
     """`lubfric.solve_contact` on smooth shapes with closed forms. Errors are shown against the cells in the contact.
 
     The shapes are a cylinder (free along x, periodic along y), a sphere (free both ways), a wave (periodic both ways),
-    and a row of spheres so far apart that each is alone (free along x, periodic along y: only the waves along y tell it
-    from a cylinder). It is chance where in its cell the edge of the contact lies, so errors are root mean squares over
-    six places. Contact is all or nothing in a cell, so area is of first order. Pressure and gap are smoother. The
-    contact size is taken from the second moment of the pressure.
+    and a row of spheres so far apart that they do not interact (free along x, periodic along y: only the waves along y
+    distinguish it from a cylinder). The position of the edge of the contact in its cell is random, so errors are root
+    mean squares over six positions. A cell is in contact or not, so the area is of first order. Pressure and gap are
+    smoother. The contact size follows from the second moment of the pressure.
     """
     yield from family(cylinder, CELLS[level], "cells in a half-width", 32, LINE, HERTZ)
     yield from family(sphere, SPHERE_CELLS[level], "cells in a radius", 16, BALL, HERTZ)

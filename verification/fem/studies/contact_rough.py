@@ -1,4 +1,5 @@
-"""A rough periodic patch on the finite-element layer, elastic and capped, beside `lubfric.solve_contact`."""
+"""A rough periodic patch on the finite-element layer, elastic and with a plastic limit, compared with
+`lubfric.solve_contact`."""
 
 from dataclasses import dataclass
 
@@ -70,7 +71,7 @@ class Patch:
 
     @property
     def area(self) -> float:
-        """Contact area over the box, corrected for whole nodes along its edges."""
+        """Return the contact area over the box, corrected for complete nodes along its edges."""
         return corrected_area(self.touching)
 
     @property
@@ -157,7 +158,7 @@ def patch_difference(p: Patch, best: Patch) -> float:
 
 
 def patch_checks(name: str, patches, best: Patch, off):
-    """Area, mean gap and pressure beside `lubfric`."""
+    """Compare area, mean gap and pressure with `lubfric`."""
     finest = patches[-1]
     nodes = patches[-1].gap.shape[0]
     label = f"rough patch, {name}, {nodes}²"

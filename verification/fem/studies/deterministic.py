@@ -39,13 +39,13 @@ def deterministic(level: str):
     The smooth film is that of `solve_ehl`, the dry contact that of `solve_contact`. Three comparisons are with finite
     elements:
 
-    - The gap of a deterministic solution is given to a Reynolds solver on triangles. The pressure on spots above 100
-      MPa is given too, because the gap of such thin films does not determine it well enough. The solver has to find the
-      flow and the load of the film around them again. The surface is its own mirror image, so that half of it is
-      enough.
-    - The pressure of the fluid is given to a contact solver (`given_fluid`), which has to find cells, pressure and load
-      of the touching summits again.
-    - Small waves at rest in an elastic film are compared with the linear response of a full-system solver (`waviness`).
+    - The gap of a deterministic solution is given to a Reynolds solver on triangles. The pressure above 100 MPa is
+      also given, because the gap of such thin films does not determine it well enough. The solver has to reproduce the
+      flow and the load of the film elsewhere. The surface is symmetric, so half of it is enough.
+    - The pressure of the fluid is given to a contact solver (`given_fluid`), which has to reproduce cells, pressure
+      and load of the asperity contacts.
+    - Small waves at rest in an elastic film are compared with the linear response of a full-system solver
+      (`waviness`).
     """
     yield from smooth()
     yield from dry()
@@ -116,5 +116,5 @@ def same_gap(cells: int, speed: float):
         ("load of the film", "N/m", by_elements, load, 5e-3),
         ("flow", "m^2/s", judge.flow, solution.flow_film * speed, 5e-3),
     ]
-    note = f"{100 * load / LOAD:.0f} % of the load is outside the spots"
+    note = f"{100 * load / LOAD:.0f} % of the load is outside the asperity contacts"
     yield from compared(f"{cells} cells, {speed:g} m/s", rows, "finite elements in the same gap", note)

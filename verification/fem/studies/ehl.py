@@ -44,15 +44,15 @@ SOLVER = "lubfric.solve_ehl, tolerance 3e-5"
 
 
 def ehl(level: str):
-    """Full-system finite elements (elastic body, Reynolds on its surface and load in one Newton iteration) beside
-    `lubfric`.
+    """Compare full-system finite elements (elastic body, Reynolds on its surface and load in one Newton iteration)
+    with `lubfric`.
 
-    The two share the differential equations and nothing else. A square elastic body meshed with P2 triangles stands
-    against the logarithmic kernel of a half-space, a weak form against fluxes through faces, and pressure >= 0 node by
-    node on a fixed mesh against a grid that hangs on the rupture point. Contacts run from rigid (M = 0.05, film thirty
-    times the Hertz width in the inlet) to 1.5 GPa. Differences of the films shrink as the finite-element mesh is
-    refined, down to where the finite body (1e-5) and the tolerance of `lubfric` (3e-5) begin to show. Three films of
-    fluids that shear thins, with the profile across them integrated by each side in its own way, close it.
+    Both solve the same differential equations, and have nothing else in common: a square elastic body meshed with P2
+        triangles or the logarithmic kernel of a half-space, a weak form or fluxes through faces, pressure >= 0 node by
+        node on a fixed mesh or a grid that ends at the rupture point. Contacts run from rigid (M = 0.05, film thirty
+    times the Hertz width in the inlet) to 1.5 GPa. Differences of the films decrease as the finite-element mesh is
+        refined, down to the errors of the finite body (1e-5) and of `lubfric` (3e-5). The last part has three films of
+        shear-thinning fluids, with the profile across them integrated by different methods.
     """
     pairs = []
     for point in QUICK if level == "quick" else POINTS:
@@ -83,7 +83,7 @@ class Pair:
 
     @property
     def label(self) -> str:
-        """M, L, and the density law if it matters, in words."""
+        """Return M, L, and the density law where it has an effect, as text."""
         M, L, density = self.point
         return f"M = {M:g}, L = {L:g}" + ("" if density == CONSTANT else ", compressible")
 
@@ -175,7 +175,7 @@ def body_field(pair: Pair) -> Field:
     stress = s.body.stress(s.displacement) * c.hertz_pressure
     moved = s.body.everywhere(s.displacement)[s.body.basis.nodal_dofs].T * c.film_unit
     data = dict(zip(("stress_xx", "stress_zz", "stress_xz"), stress, strict=True), von_mises=von_mises(stress, POISSON))
-    caption = f"{pair.label}: displacement (m) and stress (Pa) of the body that stands for both"
+    caption = f"{pair.label}: displacement (m) and stress (Pa) of the body that represents both"
     scaled = s.body.basis.mesh.scaled((c.half_width, c.half_width))
     return mesh_field("ehl_body", caption, scaled, {"displacement": np.pad(moved, ((0, 0), (0, 1)))} | data)
 

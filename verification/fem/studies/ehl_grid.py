@@ -102,8 +102,8 @@ def elastic(level: str):
         name = f"M = {M:g}, L = {L:g}"
         why, kind = SECOND[1:]
         series.append(Series(name, 1 / np.array(cells), errors, 2.0, f"{name}: order in the cells", 0.5, why, kind))
-    columns = ("M", "L", "cells", "asked", "stated", "found")
-    yield Table("ehl_grid", "Tolerance asked, error stated and error found.", columns, rows)
+    columns = ("M", "L", "cells", "requested", "stated", "actual")
+    yield Table("ehl_grid", "Requested tolerance, stated error and actual error.", columns, rows)
     caption = "lubfric.solve_ehl: largest error of smallest film and flow film against its finest grid."
     yield from convergence("ehl_grid", caption, series, "1 / cells", "relative film error")
 

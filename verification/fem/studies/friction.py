@@ -1,4 +1,4 @@
-"""The whole job of `lubfric`: what grid, patch, area A, tolerance and direction do to the coefficient of friction."""
+"""Effect of grid, patch, area A, tolerance and direction on the friction coefficient of `lubfric`."""
 
 from dataclasses import replace
 from typing import Any
@@ -36,10 +36,10 @@ TIGHT = {
 def friction(level: str):
     """`lubfric.friction` on the paper's cylinder (Tables 1 and 2; generated Gaussian roughness of 100 nm, 8 µm at 1/e).
 
-    Full film has a closed form for its friction. Running backwards over the mirrored surface must change nothing: a
-    film or a strip off by half a cell would. Then come the numerical choices: the cells per correlation length, the
-    tolerance of the whole job, the area A of the volume balance, Eq. (8), in a box ever wider, and the length of the
-    patch.
+    The friction of a full film has a closed form. The reversed motion over the mirrored surface must give the same
+    result; a shift of film or strip by half a cell would change it. Then follow the numerical choices: the cells per
+    correlation length, the tolerance of f, the area A of the volume balance, Eq. (8), in wider and wider boxes, and
+    the length of the patch.
     """
     yield from full_film()
     yield from mirrored()
@@ -116,19 +116,19 @@ def contact_cells(finest: int):
         yield bound(f"contact grid: {label}, {cells[-1]:.1f} cells per correlation length", error, allowed, source)
     series = [Series(label, 1 / cells, column) for label, column in zip(labels.values(), errors.T)]
     if len(grids) > 2:
-        why = "area of contact spots, first order"
+        why = "area of asperity contacts, first order"
         order = replace(series[0], order=1.0, check="contact grid: order of f", tolerance=0.2, source=why)
         yield replace(order, kind=AT_LEAST).check_order()
     caption = f"Errors against {finest} x {finest} cells, largest over {SPEEDS} m/s."
     rows = [(n, c, *row) for n, c, row in zip(grids, cells.tolist(), errors.tolist())]
     yield Table("contact_cells", caption, ("cells", "per correlation length", *labels.values()), rows)
-    caption = "The whole job on ever finer contact grids, the same Gaussian surface averaged in blocks; largest error "
+    caption = "Friction on finer and finer contact grids, the same Gaussian surface averaged in blocks; largest error "
     caption += "over three speeds."
     yield picture("contact_cells", caption, series, "1 / cells per correlation length", "relative error")
 
 
 def tolerance_of_the_job():
-    """Error of f against the tolerance asked, when `lubfric` chooses grids and inner tolerances by it."""
+    """Show the error of f over the requested tolerance, from which `lubfric` chooses grids and inner tolerances."""
     heights = surface((256, 256), PATCH / 256)
     spacing = PATCH / 256
     reference = [lubfric.friction(model(heights, spacing), speed).coefficient for speed in SPEEDS]
@@ -138,7 +138,7 @@ def tolerance_of_the_job():
         made = model(heights, spacing, **free | {"tolerance": tolerance})
         points = [lubfric.friction(made, speed) for speed in SPEEDS]
         error = max(abs(p.coefficient / r - 1) for p, r in zip(points, reference, strict=True))
-        source = "the whole grid, tight tolerances"
+        source = "the complete grid, tight tolerances"
         yield bound(f"tolerance {tolerance:g}: error of f", error, tolerance, source)
 
 
@@ -160,12 +160,12 @@ def area_of_the_balance():
     yield bound(f"area A = strip: {name}", float(np.ptp(strip) / strip[-1]), 1e-6, source)
     yield Check(f"area A = box: {name}", float(np.ptp(box) / box[-1]), 0.02, 0.0, source, AT_LEAST)
     widths = np.array(WIDTHS) * 1e6
-    columns = ("width (µm)", "strip |x| <= b", "whole box")
+    columns = ("width (µm)", "strip |x| <= b", "complete box")
     rows = zip(widths.tolist(), strip.tolist(), box.tolist())
     yield Table("area", "F_H in N at 0.001 m/s.", columns, tuple(rows))
     caption = "Film load at 0.001 m/s against the width of the patch, for the two readings of the area A in Eq. (8): "
     caption += "over the Hertz strip it does not depend on how wide a box was drawn."
-    curves = [(widths, strip, "o-", "A: Hertz strip of the total load"), (widths, box, "o-", "A: the whole box")]
+    curves = [(widths, strip, "o-", "A: Hertz strip of the total load"), (widths, box, "o-", "A: the complete box")]
     labels: dict[str, Any] = {
         "xlabel": "width of the patch (µm)",
         "ylabel": "$F_H$ (N)",

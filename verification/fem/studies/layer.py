@@ -123,7 +123,7 @@ def brick_orders(level: str):
 
 
 def assembled(level: str):
-    """The assembled layer by multigrid against the same layer wave by wave, and what the rigid-body modes are worth."""
+    """The assembled layer by multigrid against the same layer wave by wave, and the effect of the rigid-body modes."""
     n = MULTIGRID[level]
     rows = []
     for degree in (1, 2):

@@ -1,4 +1,4 @@
-"""The whole model twice: film, rough contact and their load sharing by finite elements, beside `lubfric.friction`."""
+"""Film, rough contact and their load sharing by finite elements, compared with `lubfric.friction`."""
 
 import math
 from dataclasses import dataclass, replace
@@ -102,7 +102,7 @@ def scene() -> lubfric.Scene:
 
 
 def elastic() -> Elastic:
-    """The body that stands for both."""
+    """Return the elastic body that represents both."""
     return Elastic.from_e_prime(scene().bodies.e_prime, 0.3)
 
 
@@ -146,7 +146,7 @@ def cylinder(s: lubfric.Scene, speed: float, body: Compliance, heights: np.ndarr
 
 
 def whole(s: lubfric.Scene, speed: float) -> LineContact:
-    """The smooth contact under the whole load."""
+    """Return the smooth contact under the total load."""
     return LineContact.of(parts.case_of_scene(s, s.bodies.load, speed) | vars(s.lubricant))
 
 
@@ -190,7 +190,7 @@ def twice_integrated(z: np.ndarray) -> np.ndarray:
 
 
 def rows_of(main: lubfric.FrictionResult, fem: SharedLoad, allowed: tuple[float, float, float]) -> list[tuple]:
-    """Both programs side by side. The load of the contact is the rest of the whole."""
+    """Return the results of both programs. The asperity load is the total load less the film load."""
     return [
         ("coefficient", "1", main.coefficient, fem.coefficient, allowed[0]),
         ("F_H", "N", main.film_load, fem.film_load, allowed[1]),
@@ -222,7 +222,7 @@ def approach(points: list[Point], grids: tuple[int, ...]):
     for label, name in (("coefficient", "coefficient"), ("F_H", "film_load"), ("mean gap", "mean_gap")):
         errors = [max(p.difference(name) for p in points if p.cells == n) for n in grids]
         series.append(Series(label, sizes, errors))
-    why = "finite elements as fine as the cells: at least first order at the edges of contact spots"
+    why = "finite elements as fine as the cells: at least first order at the edges of asperity contacts"
     name = "difference in mean gap: order in the cell size"
     yield replace(series[-1], order=1.0, check=name, tolerance=0.3, source=why, kind=AT_LEAST).check_order()
     caption = "Differences between lubfric and the finite-element model (largest over the speeds) against the cell of "

@@ -17,7 +17,7 @@ GAS = exact.Slider(viscosity=1.8e-5, speed=200.0, length=0.01, inlet=4e-6, outle
 
 
 def reynolds(level: str):
-    """The Reynolds solver of the finite-element side, for given films, against results that need no solver.
+    """The Reynolds solver of the finite-element side, for given films, compared with results that need no solver.
 
     A plane slider has a closed form for pressure, load and flow. Under a parabola the film ruptures; where it
     does is part of the solution, found by complementarity (p >= 0, no flow lost where p > 0). Barus and

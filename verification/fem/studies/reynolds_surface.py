@@ -64,7 +64,7 @@ class Manufactured:
         return self.peak * (slopes if len(self.wave) == 1 else slopes * sines[::-1])
 
     def source(self, x):
-        """``-div(D grad p) + d(rho U h)/dx`` worked out by hand, with D = rho h^3/(12 eta)."""
+        """``-div(D grad p) + d(rho U h)/dx`` derived by hand, with D = rho h^3/(12 eta)."""
         p = self.pressure(x)
         dp = self.gradient(x)
         h = self.film(x)

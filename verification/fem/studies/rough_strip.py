@@ -1,9 +1,9 @@
-"""One strip of the deterministic model, rough in both directions, beside finite elements: at rest and moving.
+"""One strip of the deterministic model, rough in both directions, compared with finite elements: at rest and moving.
 
-The strip is a steel roller with Roelands' oil whose inlet begins at a stated place, under a surface of a few waves each
-way, 2 by 1 Hertz half-widths in period. `lubfric.models.deterministic` solves it on cells (finite volumes, half-space
-by Fourier transforms), `solvers.rough_ehl` on bilinear elements over an elastic body of finite elements. Nothing is
-common but the case. Both are solved on two grids; the step between them says what each leaves open.
+The strip is a steel roller with Roelands' oil whose inlet begins at a stated place, under a surface of a few waves
+each way, 2 by 1 Hertz half-widths in period. `lubfric.models.deterministic` solves it on cells (finite volumes,
+half-space by Fourier transforms), `solvers.rough_ehl` on bilinear elements over an elastic body of finite elements.
+They have only the case in common. Both are solved on two grids; the change between the grids is the error of each.
 """
 
 import math
@@ -159,8 +159,8 @@ def element_films(
 
 
 def steps_of(b: float, speed: float, cell: float) -> tuple[int, int]:
-    """Steps in a period of the moving surface, about as many as the film needs cells, and those before it counts: a
-    whole number of periods, so that both programs begin at one phase."""
+    """Steps in a period of the moving surface, about as many as the film needs cells, and the steps before the
+    evaluation: an integer number of periods, so that both programs begin at the same phase."""
     period = PERIODS[0] * b / (PACE * speed)
     count = MOMENTS * max(1, round(period * speed / cell / MOMENTS))
     periods = math.ceil(SWEEP * b / speed / period)
@@ -239,7 +239,7 @@ def averages(load: float, films: list[Fields]) -> dict[str, float]:
 
 
 def judged_films(name: str, load: float, ours: list[Fields], elements: list[Fields]) -> Iterator[Check]:
-    """The checks of one case, with what is beside each other at the same moments."""
+    """Return the checks of one case, with both results at the same moments."""
     contact = contact_of(load)
     mine = averages(load, ours)
     theirs = averages(load, elements)

@@ -1,4 +1,5 @@
-"""Surfaces as a sample: their statistics beside the laws of Gaussian surfaces, the scatter of f beside its error."""
+"""Surfaces as a sample: their statistics compared with the laws of Gaussian surfaces, and the scatter of f compared
+with its stated error."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -22,8 +23,8 @@ GAUSS = "Gaussian surface with the autocorrelation exp(-(r/length)²)"
 
 
 def sampling(level: str) -> Iterator[Check]:
-    """Generated surfaces have the slope and the structure function of the law that they are asked to have. The f of
-    many seeds scatters by the standard error that each of them states, and no error is larger than what was asked for.
+    """Check that generated surfaces have the slope and the structure function of the requested law, that f of many
+    seeds scatters by the stated standard error, and that no error exceeds its target.
 
     The scatter of n seeds is known to one part in the square root of 2 (n - 1); twice that is allowed.
     """
@@ -38,7 +39,7 @@ def sampling(level: str) -> Iterator[Check]:
     source = "chi-square law of a standard error"
     yield Check(name, ratio, 1.0, allowed, source, ABSOLUTE, grade="B")
     worst = float(stated.max() / ASKED)
-    yield Check("largest sampling error of f over the one asked for", worst, 1.0, 0.0, "what was asked", AT_MOST)
+    yield Check("largest sampling error of f over its target", worst, 1.0, 0.0, "the target", AT_MOST)
 
 
 def statistics() -> Iterator[Check]:

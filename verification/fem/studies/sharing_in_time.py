@@ -1,4 +1,5 @@
-"""Load sharing in time by finite elements beside `lubfric.transient`: the paper's cylinder slows down and speeds up."""
+"""Load sharing in time by finite elements, compared with `lubfric.transient`: the paper's cylinder slows down and
+speeds up."""
 
 from collections.abc import Iterator
 from itertools import islice
@@ -57,7 +58,7 @@ def sharing_in_time(level: str) -> Iterator[Item]:
         rows.append(row_of(moment, unit, speed(moment.time), history.contact_load[k], history.mean_gap[k]))
         name = f"t = {moment.time / unit:.1f} b/U0"
         load = Check(
-            f"{name}: contact load over the whole",
+            f"{name}: asperity load over the total load",
             history.contact_load[k] / bodies.load,
             moment.contact_load / bodies.load,
             LOAD,

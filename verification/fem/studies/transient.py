@@ -208,7 +208,7 @@ def jumps(level: str):
         wrong += abs(ratio - 1) > 0.03 and M >= 1  # lighter contacts take longer to fill or drain
         rows.append((M, L, f"{name} x {factor:g}", history.report.iterations, "converged", ratio))
     caption = "Jumps at t = 0; smallest film after 20 to 60 transits over that of the steady solver (lighter "
-    caption += "contacts, M < 1, are still on their way)."
+    caption += "contacts, M < 1, have not converged yet)."
     yield Table("jumps", caption, ("M", "L", "jump", "steps", "outcome", "film/steady"), rows)
     name = "jumps that ended silently away from the steady state (M >= 1)"
     yield bound(name, wrong, 0.0, "lubfric.solve_ehl")

@@ -1,8 +1,10 @@
-"""Waves of small height in the elastic film, at rest and moving: the deterministic film beside finite elements.
+"""Waves of small height in the elastic film, at rest and moving: the deterministic film compared with finite elements.
 
-Reynolds' equation lets two waves live in a film of even thickness (C. J. Hooke, Proc. IMechE J 220 (2006) 259-271,
-doi:10.1243/13506501JET146; `verification.fem.references.hooke`). One goes with the surface and keeps a part of its height.
-The other is made in the inlet and goes with the flow. Its wavenumber is that of the surface times the speed of the
+Reynolds' equation has two waves as solutions in a film of uniform thickness (C. J. Hooke, Proc. IMechE J 220 (2006)
+    259-271,
+doi:10.1243/13506501JET146; `verification.fem.references.hooke`). One moves with the surface and has a part of its
+    height. The other forms in the inlet and moves with the flow. Its wavenumber is that of the surface times the speed
+    of the
 waves over the entrainment speed: for waves at rest it is a uniform change of the film. Both parts are fitted here to
 the film over the middle of the contact. They are compared with the linear response of full-system finite elements
 (`fem.ripple`). A wave of finite height is compared in time (`fem.moving`).
