@@ -155,6 +155,7 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
         several = unit.split(", ")
         if len(several) != len(value) or any(isinstance(part, (list, tuple)) for part in value):
             several = [unit] * len(value)
+        check_all_have_units(name, value, several)
         return type(value)(without_unit(name, part, one, named, depth - 1) for part, one in zip(value, several))
     if not isinstance(value, str) or value in named or ", " in unit:  # one word for a list: not for this to refuse
         return value
@@ -188,18 +189,29 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
         raise InputError(f" = {shown!r} is out of range", name, allowed) from None
 
 
-def numbers_of(name: str, words: list[str], units: list[str]) -> list[float]:
-    """Return the numbers in ``units`` that the ``words`` of a command line give. Raise `InputError` where some have a
-    unit and others, of the same kind, have none: "1,5 mm/s", split at its comma, is 1 and 5 mm/s."""
+def check_all_have_units(name: str, values: Iterable[Any], units: Iterable[str]) -> None:
+    """Raise `InputError` where some of the ``values`` are text with a unit and others, of the same one of ``units``, are
+    plain numbers: ["1 mm/s", 5] may mean 5 mm/s or 5 m/s, and "1,5 mm/s", split at its comma, is 1 and 5 mm/s. A zero
+    needs no unit. What is in no unit of that row is not for this to refuse."""
     bare: dict[str, str] = {}
     with_unit: dict[str, str] = {}
-    for word, unit in zip(words, units):
-        parts = number_and_unit(word)
-        if parts is not None:
-            (with_unit if parts[1] else bare).setdefault(unit, word.strip())
+    for value, unit in zip(values, units):
+        if isinstance(value, str):
+            parts = number_and_unit(value)
+            known = parts is not None and (not parts[1] or spelled(parts[1]) in UNITS.get(spelled(unit), ()))
+            if parts is not None and known and (parts[1] or float(parts[0]) != 0):
+                (with_unit if parts[1] else bare).setdefault(unit, value.strip())
+        elif isinstance(value, (int, float)) and not isinstance(value, bool) and value != 0 and math.isfinite(value):
+            bare.setdefault(unit, str(value))
     for unit in bare.keys() & with_unit.keys():
-        said = f" has {with_unit[unit][:40]!r} with a unit and {bare[unit][:40]!r} without one"
+        said = f" has {with_unit[unit][:40]!r} with a unit and {bare[unit][:40]} without one"
         raise InputError(said, name, way_out="give each its unit, or none; write a point in decimals, 1.5")
+
+
+def numbers_of(name: str, words: list[str], units: list[str]) -> list[float]:
+    """Return the numbers in ``units`` that the ``words`` of a command line give. Raise `InputError` where some have a
+    unit and others, of the same kind, have none."""
+    check_all_have_units(name, words, units)
     return [number_of(name, word, unit) for word, unit in zip(words, units)]
 
 

@@ -304,6 +304,9 @@ def pair(name: str, value: Any, check: Callable[[str, Any], T], what: str) -> tu
     several = isinstance(value, (list, tuple)) or isinstance(value, np.ndarray) and value.ndim == 1
     if several and len(value) != 2:
         raise InputError(f" = {shown(value)} must be {what} or a pair of them, for x and y", name)
+    if several and isinstance(value[0], str) != isinstance(value[1], str):
+        said = f" = {shown(value)} has one part with a unit and one without one"
+        raise InputError(said, name, way_out="give each its unit, or none")
     first, second = (check(f"{name}[{i}]", part) for i, part in enumerate(value if several else (value, value)))
     return first, second
 

@@ -10,6 +10,7 @@ import numpy as np
 from .._base import figures, read_columns, validate, with_default_errors
 from ..errors import InputError
 from ..scene import Scene
+from ..units import check_all_have_units
 from .vary import FITTED, Between, check_key, check_temperature, unit_of
 
 if TYPE_CHECKING:
@@ -228,6 +229,7 @@ def parameters_of(scene: Scene, bounds: Mapping[str, Any]) -> dict[str, Between]
         check_key("parameters", scene, key, parameters, FITTED)
         if not isinstance(pair, (tuple, list)) or len(pair) != 2:
             raise InputError(f"parameters[{key!r}] = {pair!r}; allowed: a pair (lowest, highest)")
+        check_all_have_units(f"parameters[{key!r}]", pair, [unit_of(key)] * 2)
         low = validate.number(f"parameters[{key!r}] lowest", pair[0], unit_of(key))
         high = validate.number(f"parameters[{key!r}] highest", pair[1], unit_of(key), above=low)
         for end in (low, high):

@@ -13,7 +13,7 @@ from .._base import name_and_unit, read_columns, table_headings, validate
 from ..errors import InputError
 from ..quantities import KEYS, OF_CYCLE, Quantity
 from ..scene import Scene
-from ..units import converted, in_si, kind_of, spelled
+from ..units import check_all_have_units, converted, in_si, kind_of, spelled
 from .vary import MOST_POINTS, SECTIONS, Axis, check_key
 
 POINT = "point"  # name of the dimension of a table of operating points
@@ -129,6 +129,9 @@ def _columns(table: Any) -> dict[str, list]:
             celsius = key == CELSIUS and unit  # read in K
             columns[key] = [converted(value, "K", "°C") for value in values] if celsius else list(values)
         else:
+            if not unit:
+                plain = [validate.python_value(value) for value in values]
+                check_all_have_units(f"points: {heading}", plain, [quantity.unit] * len(plain))
             columns[key] = [_value(heading, key, value, unit, quantity) for value in values]
     return columns
 

@@ -12,7 +12,7 @@ from .._base import FloatArray, validate, with_default_errors
 from ..errors import InputError
 from ..quantities import KEYS
 from ..scene import SOURCES, Roughness, Scene, short_keys, typical
-from ..units import in_si, without_unit
+from ..units import check_all_have_units, in_si, without_unit
 
 SAMPLERS = ("sobol", "random")
 SCALES = ("linear", "log")
@@ -185,7 +185,16 @@ def _listed(name: str, keys: tuple[str, ...], values: Any) -> Axis:
     for row in rows:
         if not isinstance(row, (tuple, list)) or len(row) != len(keys):
             raise InputError(f"vary: {', '.join(keys)} go together; give {len(keys)} values each time, not {row!r}")
+    for key, column in zip(keys, zip(*rows)):
+        _check_units(f"vary: {key}", key, column)
     return Axis(name, keys, tuple(tuple(map(_value, keys, row)) for row in rows))
+
+
+def _check_units(name: str, key: str, values: Iterable[Any]) -> None:
+    """Raise `InputError` where some numbers among the ``values`` of a ``key`` have a unit, and others none."""
+    if key in KEYS:
+        plain = [validate.python_value(value) for value in values]
+        check_all_have_units(name, plain, [KEYS[key].unit] * len(plain))
 
 
 def unit_of(key: str) -> str:

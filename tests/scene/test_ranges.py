@@ -24,7 +24,7 @@ def f(scene, speed=0.003):
 
 def test_a_range_is_kept_as_long_as_its_value(tmp_path):
     """Given by its ends, with a value between them, or by the name of a typical value; written and read back."""
-    scene = SMALL.with_(bodies={FRICTION: [0.08, "12 %"], HARDNESS: "100Cr6"}, lubricant={EYRING: ["5 MPa", 2e6, 1e7]})
+    scene = SMALL.with_(bodies={FRICTION: ["8 %", "12 %"], HARDNESS: "100Cr6"}, lubricant={EYRING: ["5 MPa", "2 MPa", "10 MPa"]})
     keys = [name for name, *_ in scene.ranges]
     assert keys == [f"bodies.{FRICTION}", f"bodies.{HARDNESS}", f"lubricant.{EYRING}"]
     assert scene.bodies.boundary_friction_coefficient == pytest.approx(0.1) and scene.ranges[0][1:] == (0.08, 0.12)
@@ -186,7 +186,7 @@ def test_a_table_over_the_sliding_speed_is_read_at_every_speed(tmp_path):
 
 
 def test_a_table_over_the_temperature_is_read_at_that_of_the_oil():
-    table = {"temperature": ["20 °C", "120 °C"], "values": ["13 %", 0.08]}
+    table = {"temperature": ["20 °C", "120 °C"], "values": ["13 %", "8 %"]}
     oil = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": "70 °C"}
     scene = SMALL.with_(bodies={FRICTION: table}, lubricant=oil)
     assert scene.bodies.boundary_friction_coefficient == pytest.approx(0.105)

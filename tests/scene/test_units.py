@@ -24,7 +24,7 @@ WORDS = {  # section: key: (as written, what it is in the unit of the key)
         "boundary_friction_coefficient": ("9 %", 0.09),
         "boundary_film": ("20nm", 20e-9),
         "conductivity": (["46 W/(m·K)", "40 W/m K"], (46.0, 40.0)),
-        "volumetric_heat": (["3.6 MJ/(m³ K)", 3.5e6], (3.6e6, 3.5e6)),
+        "volumetric_heat": (["3.6 MJ/(m³ K)", "3.5 MJ/(m³ K)"], (3.6e6, 3.5e6)),
     },
     "lubricant": {
         "viscosity": ("80 mPa·s", 0.08),
@@ -39,7 +39,7 @@ WORDS = {  # section: key: (as written, what it is in the unit of the key)
     "motion": {
         "entrainment_speed": ("18 km/h", 5.0),
         "slide_roll_ratio": ("3 %", 0.03),
-        "speeds": (["1 mm/s", 0.01, "10 cm/s"], (0.001, 0.01, 0.1)),
+        "speeds": (["1 mm/s", "0.01 m/s", "10 cm/s"], (0.001, 0.01, 0.1)),
     },
     "surface": {"sq": ("0.4 µm", 4e-7), "correlation_length": (["8 μm", "20 um"], (8e-6, 2e-5))},
     "contact": {"spacing": ("800 nm", 8e-7)},
@@ -73,7 +73,7 @@ def test_all_sections_with_units_are_those_with_plain_numbers(tmp_path):
     [
         ("bodies", {"radii": ["6 mm", "-24 mm"]}, "radius", 0.008),
         ("bodies", {"radii": ["6 mm", "inf"]}, "radius", 0.006),
-        ("bodies", {"young_modulus": ["210 GPa", 210e9], "poisson_ratio": [0.3, 0.3]}, "e_prime", 210e9 / 0.91),
+        ("bodies", {"young_modulus": ["210 GPa", "210000 N/mm2"], "poisson_ratio": [0.3, 0.3]}, "e_prime", 210e9 / 0.91),
         ("bodies", {"hardness_hv": "7.4036 GPa"}, "hardness", 7.4036e9),
         ("bodies", {"hardness": "700 HV"}, "hardness", 700 * 9.80665e6 / math.sin(math.radians(68))),
         ("bodies", {"hardness": "100Cr6"}, "hardness", 740 * 9.80665e6 / math.sin(math.radians(68))),
