@@ -1,7 +1,9 @@
 """Nothing depends on the state of the host (decimal context, NumPy's handling of errors, ``python -O``), and nothing
 changes it; numbers of any kind are the number that they are."""
 
+import contextlib
 import decimal
+import inspect
 import subprocess
 import sys
 import threading
@@ -15,6 +17,7 @@ import pytest
 
 import lubfric
 from lubfric import InputError
+from lubfric._base import with_default_errors
 
 PAPER = {"contact": {"shape": (96, 96)}, "numerics": {"model": "paper", "sampling": "patch"}}
 
@@ -71,6 +74,66 @@ def test_a_host_that_raises_at_every_underflow_gets_the_same_numbers(rough, tmp_
     with np.errstate(all="raise"):
         assert answers(rough, tmp_path) == expected
     assert np.geterr() == before
+
+
+def sets_numpys_errors(function):
+    """Whether a function, or what it wraps, is one of `with_default_errors`."""
+    while function is not None:
+        code = getattr(function, "__code__", None)
+        if code is not None and code is WRAPPER:
+            return True
+        function = getattr(function, "__wrapped__", None)
+    return False
+
+
+WRAPPER = with_default_errors(lambda: None).__code__
+
+
+def test_every_public_function_sets_numpys_errors():
+    """All doors of the package; and a door without the decorator is noticed."""
+    functions = {name: getattr(lubfric, name) for name in lubfric.__all__}
+    doors = {name: door for name, door in functions.items() if inspect.isfunction(door)}
+    assert len(doors) > 15 and [name for name, door in doors.items() if not sets_numpys_errors(door)] == []
+    assert not sets_numpys_errors(lubfric.friction.__wrapped__.__wrapped__)
+
+    @with_default_errors
+    def door():
+        return np.geterr()["under"]
+
+    with np.errstate(all="raise"):
+        assert door() == "ignore" and door.__wrapped__() == "raise"
+
+
+def test_all_attributes_of_results_bear_a_host_that_raises(rough):
+    """Attributes and methods without arguments of whatever the doors return: an InputError at most."""
+    scene = lubfric.load_scene("paper").with_(**PAPER)
+    results = [
+        lubfric.prepare(scene),
+        lubfric.friction(scene, 0.03, fields=True),
+        lubfric.stribeck(scene, [0.01, 0.03, 0.1]),
+        lubfric.traction(scene, [0.02, 0.2], speed=0.03),
+        lubfric.study(scene, {"bodies.load": [4.0, 5.0]}, [0.03, 0.1]),
+        lubfric.run_in(scene, passes=1),
+        lubfric.solve_contact(-rough.heights, 0.5e-6, 1e11, mean_pressure=1e8),
+        lubfric.oil.from_grade("ISO VG 68", 95),
+        rough,
+        scene,
+        scene.bodies,
+        scene.lubricant,
+    ]
+    count = 0
+    for result in results:
+        for name in dir(type(result)):
+            member = inspect.getattr_static(type(result), name)
+            takes = list(inspect.signature(member).parameters.values())[1:] if inspect.isfunction(member) else []
+            if name.startswith("__") or name == "plot" or any(p.default is p.empty for p in takes):
+                continue
+            with np.errstate(all="raise"), contextlib.suppress(InputError, AttributeError):
+                value = getattr(result, name)
+                if inspect.isfunction(member):
+                    value()
+            count += 1
+    assert count > 100
 
 
 def test_reading_maps_in_threads_leaves_the_filters_of_warnings(rough, tmp_path):

@@ -24,7 +24,9 @@ def f(scene, speed=0.003):
 
 def test_a_range_is_kept_as_long_as_its_value(tmp_path):
     """Given by its ends, with a value between them, or by the name of a typical value; written and read back."""
-    scene = SMALL.with_(bodies={FRICTION: ["8 %", "12 %"], HARDNESS: "100Cr6"}, lubricant={EYRING: ["5 MPa", "2 MPa", "10 MPa"]})
+    scene = SMALL.with_(
+        bodies={FRICTION: ["8 %", "12 %"], HARDNESS: "100Cr6"}, lubricant={EYRING: ["5 MPa", "2 MPa", "10 MPa"]}
+    )
     keys = [name for name, *_ in scene.ranges]
     assert keys == [f"bodies.{FRICTION}", f"bodies.{HARDNESS}", f"lubricant.{EYRING}"]
     assert scene.bodies.boundary_friction_coefficient == pytest.approx(0.1) and scene.ranges[0][1:] == (0.08, 0.12)

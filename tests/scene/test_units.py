@@ -73,7 +73,12 @@ def test_all_sections_with_units_are_those_with_plain_numbers(tmp_path):
     [
         ("bodies", {"radii": ["6 mm", "-24 mm"]}, "radius", 0.008),
         ("bodies", {"radii": ["6 mm", "inf"]}, "radius", 0.006),
-        ("bodies", {"young_modulus": ["210 GPa", "210000 N/mm2"], "poisson_ratio": [0.3, 0.3]}, "e_prime", 210e9 / 0.91),
+        (
+            "bodies",
+            {"young_modulus": ["210 GPa", "210000 N/mm2"], "poisson_ratio": [0.3, 0.3]},
+            "e_prime",
+            210e9 / 0.91,
+        ),
         ("bodies", {"hardness_hv": "7.4036 GPa"}, "hardness", 7.4036e9),
         ("bodies", {"hardness": "700 HV"}, "hardness", 700 * 9.80665e6 / math.sin(math.radians(68))),
         ("bodies", {"hardness": "100Cr6"}, "hardness", 740 * 9.80665e6 / math.sin(math.radians(68))),

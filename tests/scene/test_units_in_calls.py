@@ -75,7 +75,14 @@ CALLS = {  # name: (call of one value, that value in words, plain, words of anot
     "oil": (lambda t: OIL.viscosity(t), "70 °C", 343.15, "70 m"),
     "oils": (lambda t: OIL.density_at(t), ["70 °C", "300 K"], [343.15, 300.0], ["70 m"]),
     "density": (lambda d: oil.from_grade("ISO VG 68", 95, density=d).density, "870 kg/m3", 870.0, "870 kg"),
-    "table": (lambda t: oil.from_table([t, "100 °C" if isinstance(t, str) else 373.15], ["68 mm2/s", "8.6 mm2/s"]).slope(350.0), "40 °C", 313.15, "40 N"),
+    "table": (
+        lambda t: oil.from_table([t, "100 °C" if isinstance(t, str) else 373.15], ["68 mm2/s", "8.6 mm2/s"]).slope(
+            350.0
+        ),
+        "40 °C",
+        313.15,
+        "40 N",
+    ),
     "thinning": (lambda t: OIL.temperature_coefficient(t), "70 °C", 343.15, "70 s"),
 }
 
