@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Iterator
+from collections.abc import Iterable, Sequence
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -142,7 +142,7 @@ def data_table(table: Table) -> str:
 
 def html_table(
     columns: list[str] | tuple[str, ...],
-    rows: Iterator[Any] | list[tuple[str, ...]],
+    rows: Iterable[Sequence[Any]],
     kind: str = "cards",
     caption: str = "",
 ) -> str:

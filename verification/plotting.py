@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -73,7 +73,9 @@ def chart(
     return finish(name, canvas, caption)
 
 
-def image(canvas: Canvas, ax: Axes, field: FloatArray, extent: Sequence[float], label: str, **options: Any) -> None:
+def image(
+    canvas: Canvas, ax: Axes, field: FloatArray, extent: tuple[float, float, float, float], label: str, **options: Any
+) -> None:
     """A map (nx, ny) with x to the right and a labelled colour bar."""
     shown = ax.imshow(field.T, origin="lower", extent=extent, interpolation="nearest", **options)
     ax.grid(False)
@@ -99,7 +101,7 @@ def finish(name: str, canvas: Canvas, caption: str, format: str = "svg", dpi: in
     stream = io.BytesIO()
     for axis in (axis for a in canvas.axes for axis in (a.xaxis, a.yaxis)):
         plain_ticks(axis)
-    for legend in [a.get_legend() for a in canvas.axes if a.get_legend()]:
+    for legend in filter(None, [a.get_legend() for a in canvas.axes]):
         legend.set_frame_on(False)
     with matplotlib.rc_context(STYLE):
         canvas.savefig(stream, format=format, dpi=dpi, metadata={"Date": None} if format == "svg" else None)

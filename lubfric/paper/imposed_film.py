@@ -135,7 +135,7 @@ def impose(
 
 def alternating(
     heights: FloatArray,
-    film: FloatArray,
+    film: float | FloatArray,
     spacing: float,
     e_prime: float,
     *,

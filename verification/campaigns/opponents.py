@@ -7,6 +7,7 @@ different things to each: compare them by one measured error, never by tolerance
 import importlib.metadata
 import os
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -89,7 +90,12 @@ def lubfric_solver(heights: np.ndarray, spacing: float, e_prime: float, threads:
     operator = half_space(heights.shape, spacing, e_prime, workers=threads)
 
     def solve(load: float, tolerance: float) -> np.ndarray:
-        asked = {"mean_pressure": load, "tolerance": tolerance, "operator": operator, "raise_on_failure": False}
+        asked: dict[str, Any] = {
+            "mean_pressure": load,
+            "tolerance": tolerance,
+            "operator": operator,
+            "raise_on_failure": False,
+        }
         return solve_contact(heights.max() - heights, spacing, e_prime, **asked).pressure
 
     return solve

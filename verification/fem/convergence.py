@@ -2,15 +2,15 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from ..arrays import FloatArray
 from ..check import ABSOLUTE, Check, Figure, Item
 from ..plotting import axes, finish
 
 
-def fitted_order(sizes: FloatArray, errors: FloatArray | list[float]) -> float:
+def fitted_order(sizes: Any, errors: Any) -> float:
     """Slope of the least-squares line through ``(log h, log e)``.
 
     Raises ValueError unless there are at least two finite values > 0: an order fitted to others means nothing.

@@ -28,11 +28,11 @@ class Slider:
     inlet: float
     outlet: float
 
-    def film(self, x: FloatArray) -> FloatArray:
+    def film(self, x: Any) -> Any:
         """Film thickness at x = x[0] in m."""
         return self.inlet + (self.outlet - self.inlet) * x[0] / self.length
 
-    def pressure(self, x: FloatArray) -> FloatArray:
+    def pressure(self, x: Any) -> Any:
         """``12 eta U L/(a^2 - b^2) (a - h)(h - b)/h^2`` with a the inlet and b the outlet film."""
         a = self.inlet
         b = self.outlet
@@ -82,11 +82,11 @@ class Parabola:
         """Xe, the place where both P and dP/dX vanish."""
         return float(brentq(lambda xe: antiderivative(xe, xe) - antiderivative(self.inlet, xe), 0.1, 2, xtol=1e-15))
 
-    def film(self, x: FloatArray | list[FloatArray]) -> FloatArray:
+    def film(self, x: Any) -> Any:
         """Film thickness at x[0] in m."""
         return self.film_thickness + x[0] ** 2 / (2 * self.radius)
 
-    def pressure(self, x: FloatArray | list[FloatArray]) -> FloatArray:
+    def pressure(self, x: Any) -> Any:
         """Pressure at x[0] in m, 0 beyond the exit."""
         xe = self.exit
         big = np.minimum(x[0] / self.scale, xe)
@@ -121,7 +121,7 @@ class Parabola:
         return quad(f, np.arctan(self.inlet), np.arctan(self.exit), epsabs=1e-13, epsrel=1e-13)[0]
 
 
-def antiderivative(big_x: float, xe: float) -> float:
+def antiderivative(big_x: FloatArray | float, xe: float) -> Any:
     """``integral (X^2 - Xe^2)/(1 + X^2)^3 dX``, with X = tan t."""
     t = np.arctan(big_x)
     second = t / 2 + np.sin(2 * t) / 4
@@ -151,7 +151,7 @@ class ExponentialPad:
         """g in 1/m."""
         return float(np.log(self.inlet / self.outlet) / self.length)
 
-    def film(self, x: FloatArray) -> float:
+    def film(self, x: Any) -> Any:
         """Film thickness at x[0] in m."""
         return self.inlet * np.exp(-self.decay * x[0])
 
@@ -177,7 +177,7 @@ class ExponentialPad:
         second = -special * last - first * forth
         return k, special, first, second, up, down
 
-    def pressure(self, x: FloatArray) -> FloatArray:
+    def pressure(self, x: Any) -> Any:
         """Pressure at (x[0], x[1]) in m."""
         p = np.zeros(np.shape(x[0]))
         for k, special, first, second, up, down in zip(*self.modes(), strict=True):

@@ -3,7 +3,7 @@ result and of a model that a study needs. A missing part ends the study with a m
 
 import math
 from collections.abc import Callable
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -80,7 +80,7 @@ def pressed_cylinder(
     dx = line.half_width / across
     n = 2 * int(2 * across)
     x = (np.arange(n) - (n - 1) / 2) * dx
-    asked = {"mean_pressure": line.load / (n * dx), "boundary": ("free", "periodic"), "tolerance": 1e-8}
+    asked: dict[str, Any] = {"mean_pressure": line.load / (n * dx), "boundary": ("free", "periodic"), "tolerance": 1e-8}
     gap0 = np.tile(x[:, None] ** 2 / (2 * line.radius), (1, 4))
     return x, solve_contact(gap0, dx, line.e_prime, hardness=hardness, **asked)
 

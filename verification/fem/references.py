@@ -15,6 +15,7 @@ import math
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.special import erf
@@ -154,7 +155,7 @@ class Pocket:
     viscosity: float = 0.01
     speed: float = 0.5
 
-    def wedge(self, x: float | np.ndarray) -> float | np.ndarray:
+    def wedge(self, x: Any) -> Any:
         """Gap of the pad without its pocket."""
         return self.start + (self.end - self.start) * x / self.length
 
@@ -179,7 +180,7 @@ def refilled(pad: Pocket) -> tuple[float, float, float]:
     last = pad.wedge(pad.ends)
     flow = pad.start * first / (pad.start + first)  # half of it, over U
 
-    def rise(gap: float | np.ndarray, since: float) -> float | np.ndarray:
+    def rise(gap: Any, since: Any) -> Any:
         return scale * (1 / gap - 1 / since - flow * (1 / gap**2 - 1 / since**2))
 
     deep = last + pad.depth

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -182,7 +183,7 @@ def _map(
     seed: int,
 ) -> Surface:
     """A periodic map of that lay with exactly this ``sq`` [m]."""
-    keys = {"sq": 1.0, "correlation_length": lengths, "acf": acf}
+    keys: dict[str, Any] = {"sq": 1.0, "correlation_length": lengths, "acf": acf}
     made = lubfric.generate_surface(shape, spacing, seed=seed, **keys)
     if lay == "plateau":
         fine = lubfric.generate_surface(shape, spacing, seed=seed + 1_000_003, **keys)

@@ -2,6 +2,7 @@
 boundary."""
 
 from functools import lru_cache, partial
+from typing import Any
 
 import numpy as np
 
@@ -65,8 +66,8 @@ def methods(z, pressure: float, boundary: str, mean_gap: float) -> dict:
     operator = half_space(z.shape, spacing, E_PRIME, kind)
     weight = np.ones(z.shape)
     gap0 = z.max() - z
-    options = dict(operator=operator, boundary=kind, raise_on_failure=False)
-    by_gap = options | {"weight": weight}
+    options: dict[str, Any] = dict(operator=operator, boundary=kind, raise_on_failure=False)
+    by_gap: dict[str, Any] = options | {"weight": weight}
 
     def default(tolerance):
         result = solve_contact(gap0, spacing, E_PRIME, mean_pressure=pressure, tolerance=tolerance, **options)
@@ -92,7 +93,7 @@ def panel(label: str, acf: str, n: int, load: float, boundary: str, tolerances, 
     """Every method at every tolerance against one tight solution."""
     z = heights(n, acf)
     values = []
-    asked = {"mean_pressure": load, "boundary": BOUNDARIES[boundary]}
+    asked: dict[str, Any] = {"mean_pressure": load, "boundary": BOUNDARIES[boundary]}
     tight = solve_contact(z.max() - z, 512 * SPACING / n, E_PRIME, tolerance=1e-11, raise_on_failure=False, **asked)
     solvers = methods(z, load, boundary, tight.mean_gap)
     for tolerance in tolerances:

@@ -2,12 +2,14 @@
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
 from lubfric.contact import find_asperities
 from lubfric.contact.solve import solve_contact
 
+from ...arrays import FloatArray
 from ...check import AT_LEAST, AT_MOST, Check, Item, Table
 from ...kept import Run
 from ...plotting import axes, image
@@ -33,7 +35,7 @@ def unit_cell(distance: float, cell: float = CELL) -> tuple[np.ndarray, float]:
     return np.maximum(cap, 0.0), step
 
 
-def approaches(distance: float, loads: list[float], cell: float = CELL) -> tuple[np.ndarray, np.ndarray]:
+def approaches(distance: float, loads: FloatArray, cell: float = CELL) -> tuple[np.ndarray, np.ndarray]:
     """Approach [m] below first touch at each load per asperity [N], without and with the mean deflection of the
     paper's box.
     """
@@ -41,7 +43,7 @@ def approaches(distance: float, loads: list[float], cell: float = CELL) -> tuple
     free = []
     start = None
     for load in loads:
-        pressed = {"mean_pressure": load / distance**2, "tolerance": 1e-6, "start": start}
+        pressed: dict[str, Any] = {"mean_pressure": load / distance**2, "tolerance": 1e-6, "start": start}
         start = solve_contact(HEIGHT - heights, step, E_PRIME, **pressed)
         free.append(start.approach)
     return np.array(free), np.array(free) + MEAN_OF_BOX * np.asarray(loads) / distance**2 * BOX / E_PRIME

@@ -2,6 +2,7 @@
 heat."""
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -122,7 +123,7 @@ def _where_it_varies(tau) -> np.ndarray:
     return np.unique(np.searchsorted(measure, np.linspace(0, measure[-1], HEATED)).clip(0, tau.size - 1))
 
 
-def _log_mean(eta: FloatArray) -> np.ndarray:
+def _log_mean(eta: Any) -> np.ndarray:
     """Mean of a viscosity that is exponential between the nodes."""
     d = np.diff(np.log(eta))
     return eta[:-1] * np.where(np.abs(d) < 1e-6, 1.0, np.expm1(d) / np.where(d == 0, 1.0, d))

@@ -44,9 +44,10 @@ def inlet_viscosity(scene: Scene, speed: float) -> float:
     oil = scene.lubricant
     bodies = scene.bodies
     u = abs(speed)
-    if not heats(scene) or u == 0:
+    coefficient = oil.temperature_coefficient
+    if coefficient is None or not heats(scene) or u == 0:
         return oil.viscosity
-    number = oil.viscosity * oil.temperature_coefficient * u * u / oil.conductivity
+    number = oil.viscosity * coefficient * u * u / oil.conductivity
     peak = math.sqrt(bodies.load / bodies.width * bodies.e_prime / (2 * math.pi * bodies.radius))
     thinner = max(1 - 13.2 * peak / bodies.e_prime * number**0.42, 0.0)
     thinner /= 1 + 0.213 * (1 + 2.23 * abs(scene.motion.slide_roll_ratio) ** 0.83) * number**0.64

@@ -7,6 +7,7 @@ division that balances. Where it is far from the result, a bracketed root is sol
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -120,7 +121,7 @@ class Judge:
             mean_film = float(smooth @ weight / weight.sum())
         if load <= 1e-9 * bodies.load:
             return float((weight @ (gap0 - gap0.min()).mean(axis=1)) / weight.sum()), mean_film, np.zeros(x.size)
-        asked = {"mean_pressure": pressure, "hardness": bodies.hardness, "tolerance": 1e-6}
+        asked: dict[str, Any] = {"mean_pressure": pressure, "hardness": bodies.hardness, "tolerance": 1e-6}
         boundary = ("periodic" if flat else "free", "periodic")
         dry = solve_contact(gap0, strip.spacing, bodies.e_prime, boundary=boundary, **asked)
         gap = np.maximum(dry.gap, 0)

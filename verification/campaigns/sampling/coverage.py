@@ -166,6 +166,7 @@ def endless(case_and_seed: tuple[CoverageCase, int]) -> tuple[float, float]:
     scene = case.scene(seed)
     spacing, factors, along = cells_of(scene)
     coarse = (spacing[0] * factors[0], spacing[1] * factors[1])
+    assert scene.contact.shape is not None  # of a case
     across = 4 * math.ceil(scene.contact.shape[0] / (4 * factors[0]))
     change, own = _change(scene, case.speed, seed + 500, across)
     columns = 64 * round(LENGTHS * along / coarse[1] / 64)

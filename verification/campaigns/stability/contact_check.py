@@ -55,12 +55,12 @@ def _love_sum(pressure: FloatArray, spacing: tuple[float, float], e_prime: float
 def contact_deviations(
     result: ContactResult,
     gap0: FloatArray,
-    spacing: float,
+    spacing: float | tuple[float, float],
     e_prime: float,
     boundary: tuple[str, str],
-    hardness=None,
+    hardness: float | None = None,
     mean_pressure: float | None = None,
-    mean_gap=None,
+    mean_gap: float | None = None,
 ) -> dict[str, float]:
     """Deviations of a `ContactResult`, without dimension.
 
@@ -75,8 +75,8 @@ def contact_deviations(
     """
     p = result.pressure
     limit = math.inf if hardness is None else hardness
-    spacing = (spacing, spacing) if np.ndim(spacing) == 0 else spacing
-    u = deflection(p, spacing, e_prime, boundary)
+    dx, dy = (spacing, spacing) if isinstance(spacing, (int, float)) else spacing
+    u = deflection(p, (dx, dy), e_prime, boundary)
     gap = gap0 + u
     gap = gap - result.approach
     total = p.sum()
@@ -86,7 +86,7 @@ def contact_deviations(
         carried = 0.0 if mean_pressure in (None, 0) else 1.0
         return {"load": carried, "penetration": max(0.0, -gap.min()) / max(float(gap0.std()), 1e-300)}
     length = (p * (u - u[touching].min())).sum() / total + np.maximum(gap, 0).mean()
-    length = max(length, 4 * p.mean() * min(spacing) / e_prime)
+    length = max(length, 4 * p.mean() * min(dx, dy) / e_prime)
     misfit = np.where(yielded, np.maximum(gap, 0), np.abs(gap))
     results = {
         "complementarity": float((p * misfit).sum() / total / length),

@@ -6,6 +6,7 @@ over the cell by Gauss points, with the exact pressure gradient), the load, and 
 """
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -32,7 +33,7 @@ def deflection(points: np.ndarray, x: np.ndarray, p: np.ndarray, e_prime: float,
     return -4 / (math.pi * e_prime) * (at_point * flat + slope * ramp).sum(axis=1)
 
 
-def film_deviations(result: EHLResult, case: dict) -> dict[str, float]:
+def film_deviations(result: EHLResult, case: dict[str, Any]) -> dict[str, float]:
     """Deviations, all relative, of an `EHLResult` for the SI arguments ``case`` of its solver.
 
     - elastic: film at the nodes
@@ -66,7 +67,7 @@ def film_deviations(result: EHLResult, case: dict) -> dict[str, float]:
     }
 
 
-def cell_flow(x: FloatArray, p: FloatArray, result: EHLResult, case: dict[str, float | str]) -> np.ndarray:
+def cell_flow(x: FloatArray, p: FloatArray, result: EHLResult, case: dict[str, Any]) -> np.ndarray:
     """Mass flow through the middle of each cell over rho0 |U| [m]."""
     centre = 0.5 * (x[1:] + x[:-1])
     dx = np.diff(x)

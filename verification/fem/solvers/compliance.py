@@ -7,6 +7,7 @@ Two waves in x and y are one wave along (kx, ky). So the same C(|k|) serves plan
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.integrate import quad
@@ -45,12 +46,12 @@ class Elastic:
         return self.young * (1 - self.poisson) / ((1 + self.poisson) * (1 - 2 * self.poisson))
 
 
-def half_space_compliance(k: float, body: Elastic) -> float:
+def half_space_compliance(k: float, body: Elastic) -> Any:
     """``4/(E' |k|)`` in m/Pa for wavenumbers k > 0 in rad/m (Johnson 1985, Contact Mechanics, ch. 13)."""
     return 4 / (body.e_prime * np.asarray(k, dtype=float))
 
 
-def layer_compliance(k: float, thickness: float, body: Elastic) -> float | FloatArray:
+def layer_compliance(k: float, thickness: float, body: Elastic) -> Any:
     """Downward surface displacement of a bonded layer per pressure, m/Pa, at wavenumbers k >= 0 in rad/m.
 
     With s = k d and a Papkovich-Neuber (or Airy) solution whose four constants in each wave follow from no
@@ -75,7 +76,7 @@ def layer_compliance(k: float, thickness: float, body: Elastic) -> float | Float
     return 4 / body.e_prime * thickness * above / below
 
 
-def sinh_excess(x: float | FloatArray) -> float | FloatArray:
+def sinh_excess(x: float | FloatArray) -> Any:
     """``sinh(x) - x`` for x up to 1, without cancellation, by five terms. The relative error is below 1e-11."""
     y = np.asarray(x) ** 2
     return x * y / 6 * (1 + y / 20 * (1 + y / 42 * (1 + y / 72 * (1 + y / 110))))

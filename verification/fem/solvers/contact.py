@@ -110,7 +110,12 @@ def solve_contact(
 
 
 def checked(
-    displacement: Callable[..., Any], weights: FloatArray, gap0: FloatArray, load: float, limit: float, tolerance: float
+    displacement: Callable[..., Any],
+    weights: FloatArray,
+    gap0: FloatArray,
+    load: float,
+    limit: float | None,
+    tolerance: float,
 ) -> ContactProblem:
     """The problem, or `InputError`."""
     weights, gap0 = np.array(weights, dtype=float), np.array(gap0, dtype=float)
@@ -149,7 +154,7 @@ def active_set(
         more = limited(problem, force, saturated & (gap <= small))
         wanted = (touching & (force > 0) | off & (gap < -small) | saturated & (gap > small)) & ~more
         moved = (wanted != touching) | (more != saturated)
-        count = np.count_nonzero(moved)
+        count = int(np.count_nonzero(moved))
         if not count:
             return force, (iteration, history, STAGNATED)
         fewest, patience = (count, PATIENCE) if count < fewest else (fewest, patience - 1)

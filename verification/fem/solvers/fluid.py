@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from ...arrays import ComplexArray, FloatArray
 from .report import require
 
 ROELANDS_PRESSURE = 1.96e8
@@ -79,7 +78,7 @@ class Fluid:
             return self.roelands_index
         return self.pressure_viscosity_coefficient * ROELANDS_PRESSURE / (math.log(self.viscosity) + 9.67)
 
-    def log_viscosity(self, p: ComplexArray | FloatArray) -> ComplexArray | FloatArray:
+    def log_viscosity(self, p: Any) -> Any:
         """``ln(eta/eta0)`` at pressure p."""
         if self.viscosity_law == "constant":
             return 0 * p
@@ -88,11 +87,11 @@ class Fluid:
         z = self.index
         return self.pressure_viscosity_coefficient * ROELANDS_PRESSURE / z * ((1 + p / ROELANDS_PRESSURE) ** z - 1)
 
-    def eta(self, p: ComplexArray | FloatArray) -> ComplexArray | FloatArray:
+    def eta(self, p: Any) -> Any:
         """Viscosity in Pa s."""
         return self.viscosity * np.exp(self.log_viscosity(p))
 
-    def stress(self, p: float | FloatArray, rate: float | FloatArray) -> float | FloatArray:
+    def stress(self, p: Any, rate: Any) -> Any:
         """Shear stress in Pa at the shear rate, 1/s, of either sign."""
         size = self.eta(p) * np.abs(rate)
         if math.isfinite(self.eyring_stress):
@@ -102,7 +101,7 @@ class Fluid:
             size = np.minimum(size, self.limiting_stress[0] + self.limiting_stress[1] * p)
         return np.sign(rate) * size
 
-    def rho(self, p: ComplexArray | FloatArray) -> ComplexArray | FloatArray:
+    def rho(self, p: Any) -> Any:
         """Density relative to that at p = 0."""
         if self.density_law == "constant":
             return 1 + 0 * p
@@ -111,6 +110,6 @@ class Fluid:
         return (5.9e8 + 1.34 * p) / (5.9e8 + p)
 
 
-def slope(law: Callable[..., Any], p: FloatArray) -> FloatArray:
+def slope(law: Callable[..., Any], p: Any) -> Any:
     """The derivative of one of the laws by a complex step. It can itself be differentiated only on the real axis."""
     return np.imag(law(np.real(p) + 1j * STEP)) / STEP

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import skfem
@@ -84,7 +84,7 @@ class ReynoldsProblem:
         require(fits, f"film_thickness has a minimum of {np.min(film)} m on the mesh", "> 0")
 
     @property
-    def element(self) -> type:
+    def element(self) -> Any:
         """The element class, or None."""
         names = [k for k in ELEMENTS if type(self.mesh).__name__.startswith(k[0]) and k[1] == self.degree]
         return ELEMENTS[names[0]] if names else None

@@ -1,5 +1,7 @@
 """Dry contact of `lubfric` against closed forms on ever finer grids, for each of the three boundary conditions."""
 
+from typing import Any
+
 import numpy as np
 
 import lubfric
@@ -100,7 +102,7 @@ def sphere(cells: int, place: float) -> tuple[float, ...]:
     n = 2 * int(2 * across)
     x = centred(n, dx)
     square = x[:, None] ** 2 + x**2
-    options = {"boundary": ("free", "free"), "tolerance": TOLERANCE}
+    options: dict[str, Any] = {"boundary": ("free", "free"), "tolerance": TOLERANCE}
     mean = exact.load / (n * dx) ** 2
     c = lubfric.solve_contact(square / (2 * RADIUS), dx, E_PRIME, mean_pressure=mean, **options)
     p = c.pressure
@@ -122,7 +124,7 @@ def wave(cells: int, place: float) -> tuple[float, ...]:
     exact = Wave(E_PRIME, 100e-9, 45e-6, 0.2 + 0.3 * place)
     x = (np.arange(n) + 0.5 + place) * exact.length / n
     gap0 = np.tile(-exact.amplitude * np.cos(2 * np.pi * x / exact.length)[:, None], (1, 4))
-    options = {"mean_pressure": exact.mean_pressure, "tolerance": TOLERANCE}
+    options: dict[str, Any] = {"mean_pressure": exact.mean_pressure, "tolerance": TOLERANCE}
     c = lubfric.solve_contact(gap0, exact.length / n, E_PRIME, **options)
     p = c.pressure[:, 0]
     true = exact.pressure(x)
@@ -145,7 +147,7 @@ def row_of_spheres(cells: int):
     nx = 4 * cells
     ny = 24 * cells
     square = centred(nx, dx)[:, None] ** 2 + centred(ny, dx) ** 2
-    options = {"boundary": ("free", "periodic"), "tolerance": 1e-6}
+    options: dict[str, Any] = {"boundary": ("free", "periodic"), "tolerance": 1e-6}
     mean = exact.load / (nx * ny * dx**2)
     p = lubfric.solve_contact(square / (2 * RADIUS), dx, E_PRIME, mean_pressure=mean, **options).pressure
     rows = [

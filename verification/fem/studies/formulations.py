@@ -46,17 +46,17 @@ class FormulationCase:
         x = (np.arange(count) - (count - 1) / 2) * SPACING
         film, area, pressure = body(shape, x, count * SPACING / 6)
         operator = half_space(z.shape, SPACING, E_PRIME, BOUNDARIES[shape])
-        self.load = {"hardness": hardness, "boundary": BOUNDARIES[shape], "operator": operator}
+        self.load: dict[str, Any] = {"hardness": hardness, "boundary": BOUNDARIES[shape], "operator": operator}
         self.shape = film - z
         self.pressure = pressure
         self.direct = self.by_load()
         volume = np.sum(area * np.maximum(self.direct.gap, 0)) / area.sum()
         self.given = (z, film + volume - np.sum(area * film) / area.sum(), SPACING, E_PRIME)
-        self.options = self.load | {"weight": area, "tolerance": TOLERANCE, "raise_on_failure": False}
+        self.options: dict[str, Any] = self.load | {"weight": area, "tolerance": TOLERANCE, "raise_on_failure": False}
 
     def by_load(self):
         """The load-controlled default."""
-        options = {"mean_pressure": self.pressure, "tolerance": TOLERANCE}
+        options: dict[str, Any] = {"mean_pressure": self.pressure, "tolerance": TOLERANCE}
         return solve_contact(self.shape, SPACING, E_PRIME, **options, **self.load)
 
 

@@ -73,7 +73,7 @@ def transient(level: str):
     yield from jumps(level)
 
 
-def contact(M: float, L: float, density: str = "constant") -> tuple[dict[str, float | str], FilmProblem, float]:
+def contact(M: float, L: float, density: str = "constant") -> tuple[dict[str, Any], FilmProblem, float]:
     """Keywords, `FilmProblem` and time b/U (at least 3 film lengths) of a contact with these Moes numbers."""
     keywords = case_of(M, L, density=density)
     problem = FilmProblem(line_contact(keywords))
