@@ -25,7 +25,12 @@ from typing import Any
 from .errors import InputError
 
 CELSIUS = Decimal("273.15")  # K
-MOST_DECIMALS = 7  # of a number that is printed with its interval
+# Decimals of a number that is printed with its interval, at most.
+MOST_DECIMALS = 7
+
+# Numbers without a unit below the one, or from the other on, are printed with a power of ten.
+SMALLEST = 1e-4
+LARGEST_PLAIN = 1e6
 _TABLE = tomllib.loads((files(__package__) / "units.toml").read_text(encoding="utf-8"))
 UNITS: dict[str, dict[str, float]] = _TABLE["units"]
 PEOPLE: dict[str, list[str]] = _TABLE["people"]
@@ -39,6 +44,7 @@ _EXACT = Context(
 )
 MICRO = "\N{MICRO SIGN}\N{GREEK SMALL LETTER MU}"
 RAISED = str.maketrans("23", "²³")
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 SPELLINGS = str.maketrans(f"{MICRO}\N{MINUS SIGN}\N{SUPERSCRIPT MINUS}¹²³·⋅*", "uu--123   ", "^")
 OTHER_WORDS = {"degC": "°C", "C": "°C", "micron": "um", "W/mK": "W/(m K)", "deg": "°"}
 
@@ -91,10 +97,12 @@ def number_and_unit(text: str) -> tuple[str, str] | None:
 
 
 def unit_for(values: Any, unit: str) -> str:
-    """The unit of people for numbers in the SI ``unit``: the largest in which a number of middle size is 1 or more."""
-    # not NaN
+    """Return the unit of people for numbers in the SI ``unit``: the largest in which a number of middle size is 1 or
+    more. Zeros, NaN and infinities do not count; numbers of which none counts are in the SI unit."""
     units = PEOPLE.get(unit, (unit,))
     sizes = [abs(v) for v in values if v and abs(v) < math.inf]
+    if not sizes and unit in units:
+        return unit
     middle = median(sizes) if sizes else 0.0
     large = (name for name in reversed(units[1:]) if middle >= UNITS[unit][name] * (1 - 1e-9))
     return next(large, units[0])
@@ -120,28 +128,66 @@ def worded(value: Any, unit: str) -> str:
     return f"{text} {printed(name)}".rstrip()
 
 
-def with_interval(value: float, low: float, high: float, level: str = " at 95 %") -> str:
-    """Return ``value`` with its interval, "0.0443 (0.0413 to 0.0473 at 95 %)": all with as many decimals as show two
-    digits of half its width; without a finite interval to three digits, alone."""
-    digits = _decimals(low, high)
-    if digits is None:
-        return f"{value:.3g}"
-    return f"{round(value, digits):.{max(digits, 0)}f} ({interval_in_words(low, high)}{level})"
+def with_interval(value: float, low: float, high: float, level: str = " at 95 %", unit: str = "-") -> str:
+    """Return a ``value`` in the SI ``unit`` with its interval: "0.0443 (0.0413 to 0.0473 at 95 %)", "3.39 W (3.36 to 3.43 W
+    at 95 %)".
+
+    All three have as many decimals as show two digits of half the width of the interval, and one unit of people; numbers
+    without a unit that are all smaller than `SMALLEST` have a common power of ten. Without a finite interval the value
+    stands alone, with three digits.
+    """
+    if not _is_interval(low, high):
+        return plain_number(value, unit)
+    head = _shown(value, low, high, unit)[0]
+    return f"{head} ({interval_in_words(low, high, unit, value)}{level})"
 
 
-def interval_in_words(low: float, high: float) -> str:
-    """Return "0.0413 to 0.0473", with as many decimals as `with_interval` has."""
-    digits = _decimals(low, high)
-    if digits is None:
-        return f"{low:.4g} to {high:.4g}"
-    return " to ".join(f"{round(end, digits):.{max(digits, 0)}f}" for end in (low, high))
+def interval_in_words(low: float, high: float, unit: str = "-", value: float = math.nan) -> str:
+    """Return "0.0413 to 0.0473", as `with_interval` writes it around a ``value``."""
+    if not (math.isfinite(low) and math.isfinite(high)):
+        return "not known"
+    if not _is_interval(low, high):
+        return f"{plain_number(low, unit, 4)} to {plain_number(high, unit, 4)}"
+    (_, first, last) = _shown(value, low, high, unit)
+    same_unit = first.partition(" ")[2]
+    return f"{first.removesuffix(f' {same_unit}')} to {last}"
 
 
-def _decimals(low: float, high: float) -> int | None:
-    """Return the decimals that show two digits of half the width of an interval; negative ones stand before the point.
-    None for an interval that is not finite, or a single number."""
-    half = 0.5 * (high - low)
-    return min(1 - math.floor(math.log10(half)), MOST_DECIMALS) if 0 < half < math.inf else None
+def plain_number(value: float, unit: str = "-", digits: int = 3) -> str:
+    """Return a ``value`` in the SI ``unit`` to so many ``digits``, in a unit of people, or with a power of ten where it
+    has none and is very small or large: "8.3 nm", "2.8·10⁻⁶"."""
+    if not math.isfinite(value):
+        return "not known" if math.isnan(value) else f"{value}"
+    name = unit_for([value], unit)
+    number = converted(value, unit, name) if name != unit else value
+    if number and not SMALLEST <= abs(number) < LARGEST_PLAIN:
+        power = math.floor(math.log10(abs(number)))
+        text = f"{number / 10.0**power:.{digits}g}·10{str(power).translate(SUPERSCRIPTS)}"
+    else:
+        text = f"{number:.{max(digits, 1 + math.floor(math.log10(abs(number))))}g}" if number else "0"
+    return f"{text} {printed(name)}".rstrip()
+
+
+def _is_interval(low: float, high: float) -> bool:
+    return 0 < high - low < math.inf
+
+
+def _shown(value: float, low: float, high: float, unit: str) -> list[str]:
+    """Return the three numbers with as many decimals as show two digits of half the width of the interval, in one unit
+    of people or with one power of ten."""
+    numbers = [value, low, high]
+    largest = max(abs(number) for number in numbers if math.isfinite(number))
+    name = unit_for([value if math.isfinite(value) and value else largest], unit)
+    if name != unit:
+        numbers = [converted(number, unit, name) for number in numbers]
+    after = f" {printed(name)}".rstrip()
+    if unit == "-" and largest < SMALLEST:
+        power = math.floor(math.log10(largest))
+        numbers = [number / 10.0**power for number in numbers]
+        after = f"·10{str(power).translate(SUPERSCRIPTS)}"
+    half = 0.5 * (numbers[2] - numbers[1])
+    digits = min(1 - math.floor(math.log10(half)), MOST_DECIMALS)
+    return [f"{round(number, digits):z.{max(digits, 0)}f}{after}" for number in numbers]
 
 
 def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), depth: int = 3) -> Any:

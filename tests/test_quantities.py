@@ -44,8 +44,8 @@ def test_words_for_columns_axes_tables_and_lines():
     "value, unit, text",
     [(3e-7, "m", "300 nm"), (0.0124, "m", "12.4 mm"), (1.25e9, "Pa", "1.25 GPa")]
     + [((2e-8, 2.1e-8), "1/Pa", "20 and 21 1/GPa"), (0.0168, "Pa s", "16.8 mPa s"), (143e3, "N/m", "143 N/mm")]
-    + [(2000.0, "N", "2 kN"), (0.3, "N", "0.3 N"), (0.0, "m", "0 nm"), ((0.0, 0.0, 2e-3), "m", "0 and 0 and 2 mm")]
-    + [(float("nan"), "m", "nan nm"), (3.6e6, "J/(m3 K)", "3.6 MJ/(m³ K)"), (0.05, "-", "0.05")]
+    + [(2000.0, "N", "2 kN"), (0.3, "N", "0.3 N"), (0.0, "m", "0 m"), ((0.0, 0.0, 2e-3), "m", "0 and 0 and 2 mm")]
+    + [(float("nan"), "m", "nan m"), (3.6e6, "J/(m3 K)", "3.6 MJ/(m³ K)"), (0.05, "-", "0.05")]
     + [([1e-3, 2e-3, 3e-3, 4e-3], "m", "4 values, 1 to 4 mm"), ("roelands", "-", "roelands"), (True, "-", "True")],
 )
 def test_numbers_are_told_in_units_of_people(value, unit, text):

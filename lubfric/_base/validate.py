@@ -114,18 +114,21 @@ def _within(name: str, value: float, unit: str, above: float, minimum: float, ma
     largest = SANE.get(unit, (LEAST, LARGEST))[1]
     minimum, maximum = max(minimum, -largest), min(maximum, largest)
     low = f"({above:g}" if above >= minimum else f"[{minimum:g}"
-    allowed = f"a finite number in {low}, {maximum:g}] {unit}"
+    shown_unit = "" if unit == "-" else f" {unit}"
+    allowed = f"a finite number in {low}, {maximum:g}]{shown_unit}"
     value = in_plain(name, value, unit) if isinstance(value, str) else value
     try:
         x = _real(value)
     except OverflowError:
-        raise InputError(f" = {shown(value)} {unit} is out of range", name, allowed) from None
+        raise InputError(f" = {shown(value)}{shown_unit} is out of range", name, allowed) from None
     except (TypeError, ValueError, RecursionError):
         raise InputError(f" = {shown(value)} is not a number", name, allowed) from None
     if not (math.isfinite(x) and x > above and minimum <= x <= maximum):
-        raise InputError(f" = {x:g} {unit} is out of range", name, allowed)
+        raise InputError(f" = {x:g}{shown_unit} is out of range", name, allowed)
     if 0 < abs(x) < least:
-        raise InputError(f" = {x:g} {unit} is too small", name, f"{allowed}, of at least {least:g} where it is not 0")
+        raise InputError(
+            f" = {x:g}{shown_unit} is too small", name, f"{allowed}, of at least {least:g} where it is not 0"
+        )
     return x
 
 

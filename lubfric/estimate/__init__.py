@@ -7,8 +7,9 @@ inputs. Nothing here knows how a model solves: the contract is `lubfric.models.c
 
 from .friction import LEAST_WORK, TIMES_ESTIMATE, friction
 from .full_load import full_load_numbers
+from .methods import MethodUse, methods_of
 from .outlook import Forecast, forecast
 from .power import power_of_forces
-from .result import FrictionResult, together
+from .result import FrictionResult, cited, together
 from .sampled import sampled
 from .uncertainty import Uncertainty, UncertaintyCurve, curve_of

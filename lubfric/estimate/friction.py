@@ -95,9 +95,9 @@ def friction(
             "stresses of a lubricated contact"
         )
     known = result.boundary_force / prepared.scene.bodies.load, result.coefficient
-    result = with_power_loss(prepared.scene, result)
     film = full_load_numbers(prepared.scene, speed, prepared.surface.sq, result.inlet_film_factor)
     result = replace(result, full_load_film=film["full_load_film"], lambda_ratio=film["lambda_ratio"])
+    result = with_power_loss(prepared.scene, result)
     result = replace(result, unmodelled_effects=unmodelled_effects(prepared.scene, prepared.surface.sq, speed, known))
     if raise_on_failure:
         result.report.raise_if_failed(result)

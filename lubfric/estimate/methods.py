@@ -1,6 +1,7 @@
 """The methods behind a result that have a paper behind them (papers.toml)."""
 
-from dataclasses import replace
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 
 from ..models.shared import Prepared
 from .result import FrictionResult
@@ -13,25 +14,66 @@ OWN = {  # names of lubfric's own rough contacts; another may have been given
 }
 
 
+@dataclass(frozen=True, kw_only=True)
+class MethodUse:
+    """What a result shows of the methods that it uses.
+
+    Attributes
+    ----------
+    is_deterministic : whether the deterministic model gives it
+    contact, film : whether asperities, or a film, carry load
+    sliding : whether the surfaces slide
+    sampled : whether its sampling error is known and not 0
+    inlet_heat, film_heat, flash : whether the heat of inlet, film or surfaces changes it
+    """
+
+    is_deterministic: bool
+    contact: bool
+    film: bool
+    sliding: bool
+    sampled: bool
+    inlet_heat: bool
+    film_heat: bool
+    flash: bool
+
+
 def with_methods(prepared: Prepared, result: FrictionResult) -> FrictionResult:
     """``result`` with the names of the methods that it uses (`lubfric.FrictionResult.methods`)."""
-    used = _model(prepared, result) | _surface(prepared)
-    if result.film_load > 0:
-        used |= _film(prepared, result) | _lubricant(prepared, result) | _heat(prepared, result)
-    return replace(result, methods=tuple(name for name, is_used in used.items() if is_used))
+    use = MethodUse(
+        is_deterministic=result.deterministic is not None,
+        contact=result.contact_load > 0,
+        film=result.film_load > 0,
+        sliding=prepared.scene.motion.slide_roll_ratio != 0,
+        sampled=result.uncertainty.sampling > 0,
+        inlet_heat=result.inlet_film_factor < 1.0,
+        film_heat=result.film_temperature_rise > 0,
+        flash=result.flash_temperature_rise > 0,
+    )
+    return replace(result, methods=methods_of(prepared, use))
 
 
-def _model(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
-    whole = result.deterministic is not None
+def methods_of(prepared: Prepared, use: MethodUse) -> tuple[str, ...]:
+    """Return the names of the methods that a result with this ``use`` rests on."""
+    used = _model(prepared, use) | _surface(prepared)
+    if use.film:
+        used |= _film(prepared, use) | _lubricant(prepared, use) | _heat(prepared, use)
+    return tuple(_names(used.items()))
+
+
+def _names(used: Iterable[tuple[str, bool]]) -> list[str]:
+    return [name for name, is_used in used if is_used]
+
+
+def _model(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
     model = prepared.scene.contact.model
-    own = result.contact_load > 0 and not whole and prepared.contact.name in OWN[model]
+    own = use.contact and not use.is_deterministic and prepared.contact.name in OWN[model]
     return {
-        "load sharing": not whole,
-        "deterministic model": whole,
+        "load sharing": not use.is_deterministic,
+        "deterministic model": use.is_deterministic,
         "half-space contact": own and model == "half-space",
         "summits": own and model == "summits",
         "patches": own and model == "patches",
-        "interval": result.uncertainty.sampling > 0,
+        "interval": use.sampled,
     }
 
 
@@ -45,28 +87,27 @@ def _surface(prepared: Prepared) -> dict[str, bool]:
     }
 
 
-def _film(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
+def _film(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
     scene = prepared.scene
-    whole = result.deterministic is not None
+    scaled = scene.numerics.film_deflection == "scaled" and scene.transient is None
     return {
-        "scaled modulus": scene.numerics.film_deflection == "scaled" and result.contact_load > 0 and not whole,
-        "kept mass": whole,
+        "scaled modulus": scaled and use.contact and not use.is_deterministic,
+        "kept mass": use.is_deterministic,
         "sheared flow": scene.lubricant.flow_law is not None,
     }
 
 
-def _lubricant(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
+def _lubricant(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
     lubricant = prepared.scene.lubricant
-    slides = prepared.scene.motion.slide_roll_ratio != 0
     oil = lubricant.oil
     estimate = ""
     if oil is not None and lubricant.temperature is not None:
         estimate = oil.pressure_viscosity_coefficient(lubricant.temperature).method
     return {name: lubricant.viscosity_law == law for law, name in LAWS.items()} | {
         "Dowson-Higginson": lubricant.density_law == "dowson-higginson",
-        "Eyring stress": lubricant.eyring_stress is not None and slides,
+        "Eyring stress": lubricant.eyring_stress is not None and use.sliding,
         "Carreau": lubricant.carreau is not None,
-        "limiting stress": lubricant.limit is not None and slides,
+        "limiting stress": lubricant.limit is not None and use.sliding,
         "viscosity over temperature": oil is not None,
         "viscosity index": oil is not None and "viscosity_index" in oil.said,
         "So and Klaus": estimate == "so-klaus",
@@ -74,13 +115,12 @@ def _lubricant(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
     }
 
 
-def _heat(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
+def _heat(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
     lubricant = prepared.scene.lubricant
-    warm = result.film_temperature_rise > 0
     return {
-        "inlet heat": result.inlet_film_factor < 1.0,
-        "film heat": warm,
-        "flash": result.flash_temperature_rise > 0,
-        "hot Eyring stress": warm and lubricant.flow_law is not None,
-        "hot limiting stress": warm and lubricant.limit is not None,
+        "inlet heat": use.inlet_heat,
+        "film heat": use.film_heat,
+        "flash": use.flash,
+        "hot Eyring stress": use.film_heat and lubricant.flow_law is not None,
+        "hot limiting stress": use.film_heat and lubricant.limit is not None,
     }

@@ -37,40 +37,53 @@ class Uncertainty(UncertaintyQuantities[float]):
     largest_input: str = ""
 
     @property
-    def largest_part(self) -> str:
-        """What the largest part of the interval is, and what narrows it; "" where that is not known."""
-        of_sample = student(self.freedom) * self.sampling if self.sampling else 0.0
-        parts = {
-            "numerical": (self.numerical, "a smaller numerics.tolerance narrows it"),
-            "sampling": (of_sample, "a smaller numerics.sampling_tolerance or a larger map narrows it"),
-            "model-form": (self.model, self.largest_in_model or "numerics.model = 'deterministic' narrows it"),
-            "input": (self.inputs, f"a measured {self.largest_input or 'value'} narrows it"),
+    def budget(self) -> dict[str, float]:
+        """The uncertainty budget: the half of the 95 % interval that each part by itself would leave, relative to f, by
+        the names "numerical", "sampling", "model-form" and "input". NaN where a part is not known.
+
+        That of sampling is its standard error (``sampling``) times Student's t.
+        """
+        return {
+            "numerical": self.numerical,
+            "sampling": student(self.freedom) * self.sampling if self.sampling else self.sampling,
+            "model-form": self.model,
+            "input": self.inputs,
         }
-        known = {name: part for name, part in parts.items() if math.isfinite(part[0]) and part[0] > 0}
+
+    @property
+    def largest_part(self) -> str:
+        """What the largest part of the budget is, and what narrows it; "" where that is not known."""
+        recommendations = {
+            "numerical": "a smaller numerics.tolerance narrows it",
+            "sampling": "a smaller numerics.sampling_tolerance or a larger map narrows it",
+            "model-form": self.largest_in_model or "numerics.model = 'deterministic' narrows it",
+            "input": f"a measured {self.largest_input or 'value'} narrows it",
+        }
+        known = {name: part for name, part in self.budget.items() if math.isfinite(part) and part > 0}
         if not known or not math.isfinite(self.sampling):
             return ""
-        name = max(known, key=lambda name: known[name][0])
-        size, remedy = known[name]
-        return f"largest part: {name} {percent(size)}, {remedy}"
+        name = max(known, key=lambda name: known[name])
+        return f"largest part: {name} {percent(known[name])}, {recommendations[name]}"
 
     @property
     def few_spots(self) -> bool:
-        """Whether `too_few` spots carry the load."""
+        """Whether `too_few` asperity contacts carry the load."""
         return too_few(self.spots, self.sampling, self.tolerance)
 
     @property
     def text(self) -> str:
         """The 95 % interval of f and the uncertainty budget, in words."""
         if not math.isfinite(self.sampling):
-            return "; ".join((f"f: {self._budget('not known')}", *self.notes))
-        budget = self._budget(f"{percent(self.sampling)} of a line of {1e3 * self.length:.3g} mm")
-        return "; ".join((f"95 % interval of f {interval_in_words(*self.interval)}: {budget}", *self.notes))
+            return "; ".join((f"f: {self._in_words('not known')}", *self.notes))
+        sampling = f"{percent(self.budget['sampling'])} of a line of {1e3 * self.length:.3g} mm"
+        interval_text = interval_in_words(*self.interval)
+        return "; ".join((f"95 % interval of f {interval_text}: {self._in_words(sampling)}", *self.notes))
 
     def short(self, coefficient: float) -> str:
         """Return f with its 95 % interval, and the uncertainty budget, in words."""
-        return f"f = {with_interval(coefficient, *self.interval)}; {self._budget(percent(self.sampling))}"
+        return f"f = {with_interval(coefficient, *self.interval)}; {self._in_words(percent(self.budget['sampling']))}"
 
-    def _budget(self, sampling: str) -> str:
+    def _in_words(self, sampling: str) -> str:
         unknown = " (not included)" * math.isnan(self.model)
         inputs = f", input {percent(self.inputs)}" if self.inputs != 0 else ""
         return f"numerical {percent(self.numerical)}, sampling {sampling}, model-form {percent(self.model)}{unknown}{inputs}"

@@ -11,12 +11,12 @@ from ..errors import InputError
 from ..estimate import forecast
 from ..models.deterministic import MOST_WORK
 from ..models.shared import (
-    UnmodelledEffect,
+    ExpectedEffect,
     Validity,
     effect_in_words,
     expected,
+    expected_effects,
     gathered,
-    unmodelled_effects,
 )
 from ..quantities import counted
 from ..samples import (
@@ -28,7 +28,7 @@ from ..samples import (
 from ..scene import CHANGING, Scene, gap_not_resolved, moves, warn_unusual_values
 from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
-from ..time import estimated_run, periods, speeds_of_run
+from ..time import check_run, estimated_run, periods, sampled_times, scene_at, speeds_of_run
 from ..units import worded
 from .inputs import FACTS, input_rows
 
@@ -56,7 +56,7 @@ class SceneEstimate:
     command_seconds : processor time of ``lubfric run``, with its start, pictures and files
     table : of some speeds, their headings first: expected film, whether it clears the summits, what the sample costs
     refusals : assumptions that fail by what is known so far, so that f means nothing
-    effects : effects that are not modelled (`lubfric.models.shared.unmodelled_effects`)
+    effects : effects that are not modelled (`lubfric.models.shared.expected_effects`)
     """
 
     sections: dict[str, list[str]]
@@ -65,13 +65,15 @@ class SceneEstimate:
     command_seconds: float
     table: list[tuple[str, ...]]
     refusals: list[str]
-    effects: tuple[UnmodelledEffect, ...]
+    effects: tuple[ExpectedEffect, ...]
 
 
 def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
     """Inputs, regime numbers (Hertz, Moes M and L, lambda at its speeds) and the plan, as text. Nothing is solved.
     ``speeds`` [m/s]: instead of those of the scene; "auto": about those that a curve would choose."""
     with warn_unusual_values(scene):
+        if scene.transient is not None:
+            check_run(scene)
         sample = sample_of(scene)
         surface = sample.first_map()
         check_grid(scene, surface)
@@ -108,8 +110,12 @@ def estimate_scene(
     refusals = _doubts([(speed, entry) for speed, entry in at if entry.severe])
     whole = sample.map
     notes = [note for note in whole.notes if "nm as it is" in note]
-    effects = unmodelled_effects(scene, whole.sq, own)
-    changes = [f"likely changes of f at {own:g} m/s, estimated by closed forms:", *map(effect_in_words, effects)]
+    effects = expected_effects(_fastest_moment(scene), whole.sq, own)
+    changes = [
+        f"likely changes of f at {own:g} m/s, estimated by closed forms before the solve; the report has those of the "
+        "result:",
+        *map(effect_in_words, effects),
+    ]
     sections = {
         "transient": changing,
         "surface": [*map_in_words(surface, sample), *notes, slopes_in_words(whole)],
@@ -127,6 +133,14 @@ def estimate_scene(
         refusals=refusals,
         effects=effects,
     )
+
+
+def _fastest_moment(scene: Scene) -> Scene:
+    """Return the scene of a run in time at the moment of its largest entrainment speed; any other scene as it is."""
+    if scene.transient is None:
+        return scene
+    moments = [scene_at(scene, time) for time in sampled_times(scene)]
+    return max(moments, key=lambda moment: abs(moment.motion.entrainment_speed))
 
 
 def _doubts(at: list[tuple[float | None, Validity]] | tuple[tuple[float | None, Validity], ...]) -> list[str]:

@@ -9,6 +9,9 @@ from ..scene import FRICTION, FRICTION_OVER, HISTORIES, Scene, source_of, typica
 from ..time import sampled_times, scene_at
 from ..units import worded
 
+# Keys that mean nothing where a history of this name is given.
+REPLACED = {"motion.slide_roll_ratio": "sliding"}
+
 SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "transient", "numerics")
 
 
@@ -22,6 +25,8 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
         alike = {word: ends for word, (middle, *ends) in typical(key).items() if middle == value}
         ends = " to ".join(worded(end, quantity.unit) for end in next(iter(alike.values()), ()))
         note = f", typical of {' or '.join(alike)}: {ends}" if alike else ""
+        if key in REPLACED and getattr(scene.transient, REPLACED[key], None) is not None:
+            continue
         changing = [name for name, of in HISTORIES.items() if of == key and getattr(scene.transient, name, None)]
         if changing:
             note = f", which changes in time: transient.{changing[0]}"

@@ -12,7 +12,7 @@ import numpy as np
 
 from .._base import FloatArray, figures
 from ..studies import friction_over_speed, interval_band
-from ..time import friction_over_time, time_scale
+from ..time import band_label, friction_over_time, time_scale
 from ..units import converted, printed, unit_for, worded
 
 if TYPE_CHECKING:
@@ -35,6 +35,11 @@ NARROW = 4.5  # inch: narrower pictures have smaller fonts
 LOWEST = 0.2  # of the smallest f, where a logarithmic axis of f begins
 SLENDER = 1.5  # times as long along y as along x: a narrow picture
 PANEL_GAP = 0.15  # inch between panels, so that a colour bar does not touch the next panel
+MAP_HEIGHT = 4.6  # inch: of a map of fields, where its width allows it
+MAP_WIDTHS = (1.6, 3.0)  # inch: of a map of fields
+MAP_BESIDE = 1.3  # inch beside a map: its bar of colours and the labels
+MAP_ABOVE = 1.0  # inch above and below a map: title and labels
+BEARING_WIDTH = 4.0  # inch: of a bearing curve
 QUANTILES = 401  # of the heights, of a bearing curve
 NEAR = 4.0  # half-widths of the Hertz strip around which a gap is drawn
 
@@ -224,7 +229,7 @@ def _one_gap(fields: Any, speed: float, half_width: float) -> Figure:
     y = fields.y
     part = _part(x, y, int(fields.pressure[near].max(axis=0).argmax()))
     engine = ConstrainedLayoutEngine(compress=True, w_pad=PANEL_GAP)
-    figure = figures.new_figure(figsize=(10.5, 5.5), layout=engine)
+    figure = figures.new_figure(figsize=_size_of_maps(x, y[part], 3), layout=engine)
     for axes, (label, unit, field, colours, norm) in zip(
         figure.subplots(1, 3, sharey=True),
         (
@@ -239,6 +244,16 @@ def _one_gap(fields: Any, speed: float, half_width: float) -> Figure:
         axes.label_outer()
     figure.suptitle(f"U = {speed:g} m/s; {fields.solve}{_partly(y, part)}; dashed: Hertz strip", fontsize=10)
     return figure
+
+
+def _size_of_maps(x: np.ndarray, y: np.ndarray, count: int) -> tuple[float, float]:
+    """Return width and height [inch] of a figure with so many maps of x and y beside each other, each with its bar of
+    colours, without room that nothing fills."""
+    ratio = np.ptp(y) / np.ptp(x)
+    if not 1 / figures.SLENDER <= ratio <= figures.SLENDER:  # drawn not to scale
+        ratio = MAP_HEIGHT / MAP_WIDTHS[1]
+    width = float(np.clip(MAP_HEIGHT / ratio, *MAP_WIDTHS))
+    return count * (width + MAP_BESIDE), width * ratio + MAP_ABOVE
 
 
 def _part(x: np.ndarray, y: np.ndarray, row: int) -> slice:
@@ -277,22 +292,22 @@ def _two_pressures(prepared: Prepared, point: FrictionResult, fields: Any) -> Fi
     slender = touching and np.ptp(fields.y[part]) > SLENDER * np.ptp(fields.x)
     ratios = [0.55 if slender else 1.0, 1.0][: sum(panels)]
     figure = figures.new_figure(figsize=(5.5 * sum(ratios), 5.0))
+    figure.get_layout_engine().set(w_pad=PANEL_GAP)
     axes = list(figure.subplots(1, sum(panels), squeeze=False, width_ratios=ratios).flat)
-    both = worded(balance.contact_load, "N"), worded(balance.film_load, "N")
-    loads = "load-sharing model, Eq. (8): U = {:g} m/s, $F_C$ = {}, $F_H$ = {}".format(point.speed, *both)
+    title = f"load-sharing model: U = {point.speed:g} m/s"
     if touching:
         pressure, unit = figures.in_unit_for(fields.pressure[:, part], "Pa")
         label = f"contact pressure ({unit})"
         figures.field_image(axes[0], fields.x, fields.y[part], pressure, "magma_r", label, vmin=0)
         _hertz_strip(axes[0], half_width)
         axes[0].axhline(fields.y[row] * 1e6, color=figures.GREEN, lw=0.8, ls=":")
-        loads += _partly(fields.y, part)
+        title += _partly(fields.y, part)
     elif panels[0]:
         said = {"ha": "center", "va": "center", "transform": axes[0].transAxes}
         axes[0].text(0.5, 0.5, "no field of the dry contact\n(separated, or read from a contact curve)", **said)
         axes[0].set_axis_off()
-    loads += "; dashed: Hertz strip" if panels[0] else ": no contact"
-    figure.suptitle(loads, fontsize=10)
+    title += "; dashed: Hertz strip" if panels[0] else ": no contact"
+    figure.suptitle(title, fontsize=10)
     if in_section:
         _section(axes[-1], fields, row, touching=touching)
         _hertz_strip(axes[-1], half_width)
@@ -335,14 +350,16 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
     x, y = (np.arange(count) * step for count, step in zip(surface.shape, surface.spacing))
     part = _part(x, y, 0)
     higher = np.linspace(0.0, 1.0, QUANTILES)
-    figure = figures.new_figure(figsize=(9, 4.5), layout="compressed")
-    above, bearing = figure.subplots(1, 2)
+    width = _size_of_maps(x, y[part], 1)[0]
+    figure = figures.new_figure(figsize=(width + BEARING_WIDTH, 4.5))
+    figure.get_layout_engine().set(w_pad=PANEL_GAP)
+    above, bearing = figure.subplots(1, 2, width_ratios=(width, BEARING_WIDTH))
     surface.cropped((x.size, y[part].size), (0, 0)).plot(above)
     above.set_title(above.get_title() + _partly(y, part), fontsize=10)
     heights = 1e9 * (np.quantile(surface.measured, 1 - higher) - surface.measured.mean())
     bearing.plot(100 * higher, heights, color=figures.BLUE)
     bearing.set(xlim=(0, 100), xlabel="bearing area (%)", ylabel="height (nm)")
-    bearing.set_title(f"all of it: Sq = {1e9 * surface.sq:.4g} nm, Ssk = {surface.ssk:.3g}", fontsize=10)
+    bearing.set_title(f"whole map: Sq = {1e9 * surface.sq:.4g} nm, Ssk = {surface.ssk:.3g}", fontsize=10)
     figure.savefig(path)
 
 
@@ -379,10 +396,9 @@ def plot_history(
     figures.load_shares(third, t, c["contact_load"] / c["load"])
     for axes in (second, third):
         figures.key_above(axes)
-    error = c.get("sampling_error", np.zeros(0))
-    if np.any(error > 0):
-        low, high = (c["coefficient"] * (1 + sign * 2 * error) for sign in (-1, 1))
-        fourth.fill_between(t, low, high, color=figures.BLUE, alpha=0.2, lw=0, label="95 % interval, sampling alone")
+    low, high = (c.get(f"interval_{end}", np.zeros(0)) for end in ("low", "high"))
+    if np.isfinite(low).any():
+        fourth.fill_between(t, low, high, color=figures.BLUE, alpha=0.2, lw=0, label=band_label(c))
     friction_over_time(fourth, c)
     fourth.set_xlim(t[0], t[-1])
     options.scale(fourth, friction=fourth, f=c["coefficient"])

@@ -12,17 +12,31 @@ import numpy as np
 
 from ..errors import InputError
 from ..estimate import FrictionResult
-from ..models.shared import Prepared, UnmodelledEffect, percent, sentence
+from ..models.shared import ExpectedEffect, Prepared, UnmodelledEffect, change_in_words, percent, sentence, student
 from ..quantities import COLUMNS, counted
 from ..scene import Scene, short_keys
 from ..studies import KNOWN, CurveResult, Law, StribeckResult
-from ..time import TransientResult
-from ..units import converted, printed, unit_for, with_interval, worded
+from ..time import MANY, TransientResult
+from ..units import converted, interval_in_words, plain_number, printed, unit_for, with_interval, worded
 from .describe import TABLE_CAPTION, SceneEstimate
 from .inputs import FACTS, SECTIONS, inputs
 
 # columns of the operating table, after the swept quantity, f and its interval
 OF_POINT = ("power_loss", "full_load_film", "lambda_ratio")
+# Columns of the table of a run in time: before f, or after it.
+OF_OUTPUT = {
+    "time": "before",
+    "entrainment_speed": "before",
+    "sliding_speed": "before",
+    "load": "before",
+    "power_loss": "after",
+    "full_load_film": "after",
+    "lambda_ratio": "after",
+    "min_film": "after",
+}
+
+# Rows of the table of a run in time, about.
+HISTORY_ROWS = 13
 CURVES = {
     "stribeck.png": "Friction, load ratios and film over the entrainment speed",
     "traction.png": "Friction over the slide-roll ratio",
@@ -36,9 +50,11 @@ PICTURES = {
 BUDGET = {
     "numerical": "numerical (grids and solvers)",
     "sampling": "sampling (finite surface)",
-    "model": "model-form (equations)",
-    "inputs": "input (stated ranges)",
+    "model-form": "model-form (equations)",
+    "input": "input (stated ranges)",
 }
+# Columns of a table that a narrow screen shows as they are.
+NARROW_COLUMNS = 3
 MOST_GIVEN = 60  # characters of a value in the column of how an input was given
 
 
@@ -114,7 +130,7 @@ def _curve_parts(scene: Scene, curve: CurveResult, law: Law | str) -> dict[str, 
         "kind": "failed" if failed else "",
         "status": escape(curve_status(curve)),
         "answer": _paragraphs(answer),
-        "budget": "" if nearest is None else _budget(*nearest),
+        "budget": "" if nearest is None else _point_budget(*nearest),
         "table": _operating_table(curve),
         "effects": _effects(effects, "" if nearest is None else nearest[1]),
         "details": _details(curve) + _law(law, curve),
@@ -143,9 +159,7 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str) -> list
     if point.decision.basis:
         sentences.append(sentence(point.decision.basis))
     low, high = point.power_loss_interval
-    unit = unit_for([point.power_loss], "W")
-    loss = with_interval(*(converted(value, "W", unit) for value in (point.power_loss, low, high)))
-    sentences.append(f"Power loss {loss.replace(' (', f' {unit} (', 1) if '(' in loss else f'{loss} {unit}'}.")
+    sentences.append(f"The power loss is {with_interval(point.power_loss, low, high, unit='W')}.")
     if math.isfinite(point.lambda_ratio):
         sentences[-1] += (
             f" The full-load film is {worded(point.full_load_film, 'm')} thick, a lambda ratio of "
@@ -167,7 +181,7 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str) -> list
     if solved.size > 1:
         least = _place(curve, solved[f[solved].argmin()])
         largest = _place(curve, solved[f[solved].argmax()])
-        ends = f"from {f[solved].min():.3g} {least} to {f[solved].max():.3g} {largest}"
+        ends = f"from {plain_number(f[solved].min())} {least} to {plain_number(f[solved].max())} {largest}"
         sentences.append(f"Over the {counted(solved.size, curve.SWEPT[3])} solved, f goes {ends}.")
     return [*sentences, *_lift_off(curve)]
 
@@ -188,15 +202,13 @@ def _lift_off(curve: CurveResult) -> list[str]:
         return [f"The lift-off speed is {where} the speeds solved."]
     known = f", and its minimum is {least[1]:.3g} at U = {least[0]:.3g} m/s" if curve.between <= KNOWN else ""
     return [
-        f"The lift-off speed, above which the film separates the surfaces, is {with_interval(speed, low, high, '')} "
-        f"m/s. Between the solved speeds f is interpolated within {100 * curve.between:.2g} %{known}."
+        f"The lift-off speed, above which the film separates the surfaces, is "
+        f"{with_interval(speed, low, high, '', unit='m/s')}. Between the solved speeds f is interpolated within {100 * curve.between:.2g} %{known}."
     ]
 
 
-def _budget(point: FrictionResult, place: str) -> str:
-    """Return the uncertainty budget of ``point`` as bars of its parts, relative to f."""
-    known = point.uncertainty
-    values = {name: getattr(known, name) for name in BUDGET}
+def _budget(values: dict[str, float], place: str, notes: Iterable[str]) -> str:
+    """Return an uncertainty budget (`lubfric.estimate.Uncertainty.budget`) as bars of its parts, relative to f."""
     longest = max([value for value in values.values() if math.isfinite(value)], default=0.0) or 1.0
     rows = "".join(
         f'<span>{label}</span><span><i style="width:{100 * min(values[name] / longest, 1.0):.1f}%"></i></span>'
@@ -205,11 +217,16 @@ def _budget(point: FrictionResult, place: str) -> str:
         else f"<span>{label}</span><span></span><span>not known</span>"
         for name, label in BUDGET.items()
     )
-    notes = _list([sentence(note) for note in (known.largest_part, *known.notes) if note])
+    lines = _list([sentence(note) for note in notes if note])
     return (
-        f"<h2>Uncertainty budget</h2><p>Relative errors of f {escape(place)}; sampling is one standard error, the others "
-        f'are at 95 %.</p><div class="budget">{rows}</div>{notes}'
+        f"<h2>Uncertainty budget</h2><p>Relative errors of f {escape(place)}, each at 95 %; the interval of f combines "
+        f'them.</p><div class="budget">{rows}</div>{lines}'
     )
+
+
+def _point_budget(point: FrictionResult, place: str) -> str:
+    known = point.uncertainty
+    return _budget(known.budget, place, (known.largest_part, *known.notes))
 
 
 def _operating_table(curve: CurveResult) -> str:
@@ -229,10 +246,11 @@ def _operating_table(curve: CurveResult) -> str:
             rows.append(f'{_cells([at])}<td colspan="{len(heads) - 1}" class="warning">{why}</td>')
             continue
         low, high = point.uncertainty.interval
-        f, _, interval = with_interval(point.coefficient, low, high).partition(" (")
+        f = with_interval(point.coefficient, low, high).partition(" (")[0]
+        interval = interval_in_words(low, high, value=point.coefficient)
         ratio = point.contact_load / (point.contact_load + point.film_load)
         numbers = [_number(shown[name][index]) for name in OF_POINT]
-        rows.append(_cells([at, f, interval.removesuffix(" at 95 %)") or "not known", *numbers, f"{ratio:.3g}"]))
+        rows.append(_cells([at, f, interval, *numbers, f"{ratio:.3g}"]))
     return f"<h2>Operating points</h2>{table(heads, rows)}"
 
 
@@ -242,7 +260,7 @@ def _heading(name: str, unit: str) -> str:
 
 
 def _number(value: float) -> str:
-    return (f"{value:.4g}" if abs(value) >= 1000 else f"{value:.3g}") if math.isfinite(value) else "-"
+    return plain_number(value) if math.isfinite(value) else "-"
 
 
 def _details(curve: CurveResult) -> str:
@@ -252,7 +270,7 @@ def _details(curve: CurveResult) -> str:
     rows = []
     for value, point in zip(converted(getattr(curve, swept), COLUMNS[swept].unit, unit), curve.points):
         if point is not None:
-            parts = [percent(getattr(point.uncertainty, name)) for name in BUDGET]
+            parts = [percent(part) for part in point.uncertainty.budget.values()]
             forces = [point.contact_load, point.film_load, point.boundary_force, point.shear_force]
             lengths = [converted(getattr(point, name), "m", "nm") for name in ("mean_gap", "central_film", "min_film")]
             numbers = [_number(number) for number in (*forces, *lengths)]
@@ -314,11 +332,11 @@ def _history_parts(result: TransientResult, estimate: SceneEstimate) -> dict[str
         "kind": "" if complete else "failed",
         "status": escape(result.status),
         "answer": _paragraphs(_history_answer(result, complete)),
-        "budget": "",
-        "table": "",
+        "budget": _history_budget(result),
+        "table": _history_table(result),
         "effects": _effects(estimate.effects, "at the largest speed"),
         "details": "",
-        "sources": "",
+        "sources": _list(result.cite().splitlines()),
     }
 
 
@@ -328,44 +346,106 @@ def _history_answer(result: TransientResult, complete: bool) -> list[str]:
         return ["The run has no answer."]
     mean = result.average()
     f = result.coefficient
-    peak = int(np.abs(f).argmax())
+    peak = _largest_friction(result)
     low, high = result.uncertainty.interval[peak]
     span = worded(float(result.time[-1]), "s")
     when = f"over {span}" if mean.in_motion == 1 else f"over the {100 * mean.in_motion:.3g} % in motion of {span}"
     head = "" if complete else "The run has no valid answer. Its outputs so far show: "
     film = worded(float(np.nanmin(result.min_film)), "m")
-    sentences = [f"{head}the mean friction coefficient {when} is {mean.coefficient:.3g}."]
-    sentences[0] = sentence(sentences[0])
+    mean_text = with_interval(mean.coefficient, *mean.interval)
+    sentences = [sentence(f"{head}the mean friction coefficient {when} is {mean_text}.")]
     range_ = with_interval(float(f[peak]), low, high)
     sentences.append(f"The largest f is {range_}, at t = {worded(float(result.time[peak]), 's')}.")
     power = result.power_loss
     if np.isfinite(power).any():
-        sentences.append(f"The largest power loss is {worded(float(np.nanmax(power)), 'W')}.")
+        loss = with_interval(mean.power_loss, *mean.power_loss_interval, unit="W")
+        sentences.append(f"The mean power loss is {loss}, the largest {worded(float(np.nanmax(power)), 'W')}.")
     sentences.append(f"The smallest film is {film}.")
     ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio)]
     if ratio.size:
         sentences.append(
             f"The lambda ratio of the full-load film lies between {ratio.min():.3g} and {ratio.max():.3g}."
         )
-    sentences.append(
-        f"Sampling error of the mean (one standard error): {percent(mean.sampling)}. The model-form error of a run in "
-        "time is not known and not included."
-    )
     return sentences
+
+
+def _largest_friction(result: TransientResult) -> int:
+    """Return the index of the output with the largest friction coefficient, without its sign."""
+    return int(np.nanargmax(np.abs(result.coefficient)))
+
+
+def _history_budget(result: TransientResult) -> str:
+    """Return the uncertainty budget of a run in time at its largest friction coefficient."""
+    if result.time.size < 2:
+        return ""
+    at = _largest_friction(result)
+    known = result.uncertainty
+    value = abs(float(result.coefficient[at])) or 1.0
+    low, high = np.broadcast_to(result.inputs, (2, result.time.size))[:, at]
+    values = {
+        "numerical": float(known.numerical[at]),
+        "sampling": float(known.sampling[at]) * student(MANY),
+        "model-form": float(known.model[at]),
+        "input": max(low, high) / value,
+    }
+    notes = [
+        "Numerical: the sum of the film's shear stress; the local error of the steps is within transient.tolerance, and "
+        "not included",
+        "The errors have the same sign at all times: the interval of a mean is the mean of the intervals",
+        *(f"Not included: {text}" for text in result.not_in),
+    ]
+    if math.isfinite(values["model-form"]):
+        notes.insert(1, "Model-form: as in steady motion at the same film and the same asperity load ratio")
+    return _budget(values, f"at t = {worded(float(result.time[at]), 's')}, where f is largest", notes)
+
+
+def _history_table(result: TransientResult) -> str:
+    """Return the table of some outputs of a run in time, spread evenly, and of those with the largest f and power."""
+    count = result.time.size
+    if count < 2:
+        return ""
+    c = result.columns
+    chosen = {*np.linspace(0, count - 1, min(HISTORY_ROWS, count)).round().astype(int).tolist()}
+    chosen |= {_largest_friction(result)}
+    if np.isfinite(c["power_loss"]).any():
+        chosen |= {int(np.nanargmax(c["power_loss"]))}
+    rows_at = sorted(chosen)
+    units = {name: unit_for(c[name].tolist(), COLUMNS[name].unit) for name in OF_OUTPUT}
+    shown = {name: converted(c[name], COLUMNS[name].unit, unit) for name, unit in units.items()}
+    before = [name for name in OF_OUTPUT if OF_OUTPUT[name] == "before"]
+    after = [name for name in OF_OUTPUT if OF_OUTPUT[name] == "after"]
+    heads = [_heading(name, units[name]) for name in before]
+    heads += [
+        "f",
+        "95 % interval of f",
+        *(_heading(name, units[name]) for name in after),
+        "asperity load ratio F_C/F_T",
+    ]
+    rows = []
+    for index in rows_at:
+        low = c["interval_low"][index]
+        high = c["interval_high"][index]
+        f = with_interval(float(c["coefficient"][index]), low, high).partition(" (")[0]
+        interval = interval_in_words(low, high, value=float(c["coefficient"][index]))
+        ratio = _number(float(c["contact_load"][index] / c["load"][index]))
+        numbers = [_number(float(shown[name][index])) for name in after]
+        rows.append(_cells([*(_number(float(shown[name][index])) for name in before), f, interval, *numbers, ratio]))
+    about = f"{len(rows)} of {counted(count, 'outputs')}, spread evenly, with the largest f and the largest power loss;"
+    return f"<h2>Operating points</h2><p>{about} history.csv has all of them.</p>{table(heads, rows)}"
 
 
 # parts that all pages share
 
 
-def _effects(effects: Sequence[UnmodelledEffect], place: str) -> str:
+def _effects(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: str) -> str:
     """Return the table of the effects that are not modelled."""
     if not effects:
         return "<p>No known effect that is not modelled would change f by more than its tolerance.</p>"
     rows = [
         f"<td>{escape(sentence(what))}</td>"
-        f'<td class="number">{"not estimated" if math.isnan(change) else f"{100 * change:+.2g} %"}</td>'
+        f'<td class="number">{change_in_words(*changes)}</td>'  # type: ignore[arg-type]
         f"<td>{escape(sentence(advice))}</td>"
-        for what, change, advice in effects
+        for what, *changes, advice in effects
     ]
     head = f"<p>Likely changes of f {escape(place)}, estimated by closed forms.</p>"
     return head + table(["effect", "change of f", "recommendation"], rows)
@@ -439,12 +519,22 @@ def picture(content: bytes, caption: str) -> str:
     return f'<figure><img alt="{text}" src="data:image/png;base64,{data}"><figcaption>{text}</figcaption></figure>'
 
 
-def table(heads: Iterable[str], rows: Sequence[str]) -> str:
-    """Return a table that scrolls by itself where it is wider than the page."""
+def table(heads: Sequence[str], rows: Sequence[str]) -> str:
+    """Return a table that scrolls by itself where it is wider than the page. On a narrow screen each row becomes a list
+    in which every cell has its heading before it, so that nothing is cut."""
+    rows = [_labelled(heads, row) for row in rows]
+    kind = ' class="wide"' if len(heads) > NARROW_COLUMNS else ""
     head = "".join(f"<th>{escape(text)}</th>" for text in heads)
     head = f"<thead><tr>{head}</tr></thead>" if any(heads) else ""
     body = "".join(f"<tr>{row}</tr>" for row in rows)
-    return f'<div class="scroll"><table>{head}<tbody>{body}</tbody></table></div>'
+    return f'<div class="scroll"><table{kind}>{head}<tbody>{body}</tbody></table></div>'
+
+
+def _labelled(heads: Sequence[str], row: str) -> str:
+    """Return a ``row`` of cells, each with its heading as an attribute."""
+    first, *cells = row.split("<td")
+    labels = [escape(head) for head in heads] + [""] * len(cells)
+    return first + "".join(f'<td data-label="{label}"{cell}' for label, cell in zip(labels, cells))
 
 
 def _cells(texts: Iterable[str]) -> str:

@@ -353,43 +353,66 @@ def _requested(scene: Scene, speeds: str | None, fields: str | None) -> tuple:
 
 
 def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float = FASTEST) -> list[float]:
-    """'a,b,c' or 'low:high:count' (geometric), in ``unit`` or each with its own, of a command's ``option``; none above
-    ``most``."""
+    """Return the values of a command's ``option``: 'a,b,c' or the geometric 'low:high:count', in ``unit`` or each with
+    its own; none above ``most``."""
     if text is None:
         return []
-    ranged = ":" in text
-    words = text.split(":" if ranged else ",")
+    if ":" in text:
+        return _range(option, text.split(":"), unit, most, linear=False)
+    words = text.split(",")
     like_decimals = len(words) == 2 and re.fullmatch(r"\s*[+-]?0\s*,\s*\d+\s*", text) is not None  # '0,1'
-    if not ranged and (like_decimals or any(re.match(r"[+-]?0\d", word.strip()) for word in words)):
+    if like_decimals or any(re.match(r"[+-]?0\d", word.strip()) for word in words):
         raise InputError(f"{option} {validate.shown(text)}: a comma separates values; write a point in decimals, 0.01")
-    units = ["-" if i == 2 and ranged else unit for i in range(len(words))]
-    numbers = numbers_of(option, words, units)
-    for speed in numbers[:2] if ranged else numbers:
-        validate.number(option, speed, unit, minimum=-most, maximum=most)
-    if not ranged:
-        return numbers
-    if len(numbers) != 3 or not 0 < numbers[0] < numbers[1] or numbers[2] not in range(1, MOST_SPEEDS + 1):
-        ways = f"'0.001,0.01', or 'low:high:count' with 0 < low < high and 1 <= count <= {MOST_SPEEDS}"
-        raise InputError(f" {validate.shown(text)}", option, ways + f", in {unit}" * (unit != "-"))
-    return np.geomspace(numbers[0], numbers[1], int(numbers[2])).tolist()
+    numbers = numbers_of(option, words, [unit] * len(words))
+    for number in numbers:
+        validate.number(option, number, unit, minimum=-most, maximum=most)
+    return numbers
 
 
 def parse_ratios(text: str | None) -> list[float]:
-    """Return the slide-roll ratios of --ratios: 'a,b,c', or 'low:high:count', geometric, or even where low is not above
-    0 or ':linear' follows."""
+    """Return the slide-roll ratios of --ratios: 'a,b,c', or 'low:high:count', geometric, or in equal steps where low is
+    0 or negative or ':linear' follows."""
     parts = [] if text is None else text.split(":")
     spacing = parts.pop().strip().lower() if len(parts) == 4 else ""
     if spacing not in ("", "linear", "log"):
         raise InputError(f" {validate.shown(text)} ends with {validate.shown(spacing)}", "--ratios", "linear or log")
-    if len(parts) == 3:
-        units = ["-", "-", "-"]
-        low, high, count = numbers_of("--ratios", parts, units)
-        if spacing == "linear" or (low <= 0 and spacing == ""):
-            if not -LARGEST_RATIO <= low < high <= LARGEST_RATIO or count not in range(2, MOST_SPEEDS + 1):
-                ways = f"'0:0.5:11' with low < high and 2 <= count <= {MOST_SPEEDS}"
-                raise InputError(f" {validate.shown(text)}", "--ratios", ways)
-            return np.linspace(low, high, int(count)).tolist()
-    return parse_speeds("--ratios", ":".join(parts) if parts else text, "-", LARGEST_RATIO)
+    if len(parts) != 3:
+        return parse_speeds("--ratios", ":".join(parts) if parts else text, "-", LARGEST_RATIO)
+    at_zero = number_of("--ratios", parts[0], "-") <= 0
+    linear = spacing == "linear" or (at_zero and spacing == "")
+    return _range("--ratios", parts, "-", LARGEST_RATIO, linear=linear)
+
+
+def _range(option: str, words: list[str], unit: str, most: float, *, linear: bool) -> list[float]:
+    """Return the values of a range of ``words`` low, high and count, in equal steps or geometric. Raise `InputError` that
+    says what is wrong with it, and what to write."""
+    text = validate.shown(":".join(words))
+    example = "0:0.5:11" if linear else "0.001:1:13"
+    if len(words) != 3:
+        parts = counted(len(words), "parts")
+        raise InputError(f" {text} has {parts}", option, way_out=f"write low:high:count, such as {example}")
+    low, high, count = numbers_of(option, words, [unit, unit, "-"])
+    for end in (low, high):
+        validate.number(option, end, unit, minimum=-most, maximum=most)
+    shown = "" if unit == "-" else f" {unit}"
+    if low == high:
+        way_out = f"write {low:g} for this value alone"
+        raise InputError(f" {text} begins and ends at {low:g}{shown}", option, way_out=way_out)
+    if low > high:
+        way_out = f"write the smaller one first, {words[1].strip()}:{words[0].strip()}:{words[2].strip()}"
+        raise InputError(f" {text} begins at {low:g}{shown}, above its end {high:g}{shown}", option, way_out=way_out)
+    if not linear and low <= 0:
+        way_out = "begin above 0, or list the values, separated by commas"
+        way_out += ", or end it with :linear" if option == "--ratios" else ""
+        raise InputError(
+            f" {text} begins at {low:g}{shown}: a geometric range has no value at or below 0", option, way_out=way_out
+        )
+    if count not in range(2, MOST_SPEEDS + 1):
+        way_out = f"write a whole number from 2 to {MOST_SPEEDS}" + (
+            f", or {low:g} for one value" if count == 1 else ""
+        )
+        raise InputError(f" {text} asks for {count:g} values", option, way_out=way_out)
+    return (np.linspace if linear else np.geomspace)(low, high, int(count)).tolist()
 
 
 def _moments_told(interval: float = PATIENCE) -> Callable[[str, int, int], None]:

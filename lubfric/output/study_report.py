@@ -1,8 +1,8 @@
 """report.html of a study: status, answer, pictures, a table of its points, what was varied, inputs."""
 
-import base64
 import time
 from collections import Counter
+from collections.abc import Iterable
 from html import escape
 from importlib.resources import files
 from string import Template
@@ -11,35 +11,35 @@ import numpy as np
 
 from .._base import __version__
 from ..quantities import COLUMNS, counted, worded_value
-from ..studies import StudyResult, columns_of_study
-from ..units import converted, printed, unit_for
-from .report import style_sheet
+from ..studies import ENDS, StudyResult, columns_of_study, label
+from ..units import CELSIUS, converted, plain_number, printed, unit_for, with_interval
+from .inputs import SECTIONS, inputs
+from .report import picture, style_sheet, table
 
 # Rows of the table of a report; study.csv has all.
 MOST_ROWS = 60
 
 # Numbers of the table of a report, each in a unit of people, with the ends of their interval where they have one.
-SHOWN = {
-    "coefficient": ("uncertainty_low", "uncertainty_high"),
-    "power_loss": ("power_loss_low", "power_loss_high"),
+SHOWN: dict[str, tuple[str, str] | None] = {
+    **ENDS,
     "full_load_film": None,
     "lambda_ratio": None,
     "contact_load": None,
 }
+
+# Combinations of what is varied beside operating points whose means are reported, at most.
+MOST_MEANS = 6
+CAPTION = "The results of the study"
 
 
 def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str]) -> bytes:
     """Return the page of a study. ``contents``: pictures by the name of their file; ``answer``: lines of text."""
     import scipy
 
-    failed = Counter(result.failures)
-    status = f"{counted(result.solved, 'points')}, {result.solved - result.failed} of them solved"
-    if result.failed:
-        reasons = "; ".join(f"{count} x {reason}" for reason, count in failed.most_common(3))
-        status = f"{result.failed} of {counted(result.solved, 'points')} failed: {reasons}"
-    entries = Counter(entry for cell in result.validity.flat if cell for entry in cell.split(" | "))
-    warnings = [f"{entry} ({counted(count, 'points')})" for entry, count in entries.most_common()]
+    cells = [cell.split(" | ") for cell in result.validity.flat if cell]
     rows = min(MOST_ROWS, result.status.size)
+    size = result.status.size
+    about = "study.csv has all numbers." if rows == size else f"{rows} of {size} points; study.csv has all of them."
     page = Template((files(__package__) / "study_report.html").read_text(encoding="utf-8")).substitute(
         name=escape(result.plan.scene.name),
         style=style_sheet(),
@@ -49,17 +49,56 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         scipy=scipy.__version__,
         key=result.plan.keys[0][:16],
         kind="failed" if result.failed else "",
-        status=escape(status),
-        answer="".join(f"<p>{escape(line)}</p>" for line in answer),
-        pictures="".join(_picture(content) for name, content in contents.items() if name.endswith(".png")),
-        warnings=_list(warnings) if warnings else "<p>Every assumption that is checked holds at all points.</p>",
-        about=f"{rows} of {counted(result.status.size, 'points')}, spread evenly; study.csv has all of them.",
+        status=escape(study_status(result)),
+        answer="".join(f'<p class="{"answer" if i == 0 else ""}">{escape(line)}</p>' for i, line in enumerate(answer)),
+        pictures="".join(picture(content, CAPTION) for name, content in contents.items() if name.endswith(".png")),
+        warnings=_list(gathered_warnings(cells)) if cells else "<p>Every assumption that is checked holds.</p>",
+        about=about,
         table=_table(result, rows),
         varied=_list([_range(key, values) for key, (_, values) in result.coords.items()]),
-        scene=escape(result.plan.scene.to_toml()),
-        sources="",
+        inputs=_common_inputs(result),
+        sources=_list(result.cite().splitlines()),
     )
     return page.encode()
+
+
+def _common_inputs(result: StudyResult) -> str:
+    """Return the tables of the inputs that are the same at all points: all but those that are varied."""
+    varied = {*result.coords, "motion.entrainment_speed", "motion.speeds"}
+    whole_sections = {key for key in varied if "." not in key}
+    parts = []
+    for section in SECTIONS:
+        rows = [
+            f'<td>{escape(label_)}</td><td>{escape(text)}{escape(note)}</td><td class="key">{escape(key)}</td>'
+            for label_, text, key, note in inputs(result.plan.scene, section)
+            if key not in varied and section not in whole_sections
+        ]
+        parts.append(f"<h3>{section}</h3>{table(['quantity', 'value', 'key'], rows)}" if rows else "")
+    return "".join(parts)
+
+
+def study_status(result: StudyResult) -> str:
+    """Return in a sentence how many points of a study are solved, and the most frequent failures."""
+    total = counted(result.solved, "points")
+    if not result.failed:
+        return f"Converged: {'the point is' if result.solved == 1 else f'all {total} are'} solved."
+    failed = Counter(result.failures)
+    reasons = "; ".join(f"{count} x {reason}" for reason, count in failed.most_common(3))
+    return f"Not complete: {result.solved - result.failed} of {total} solved. Failures: {reasons}"
+
+
+def gathered_warnings(cells: Iterable[list[str]]) -> list[str]:
+    """Return one sentence for each kind of warning in the ``cells`` of a table: at how many points, and the first text."""
+    kinds: dict[str, list[str]] = {}
+    for cell in cells:
+        for entry in cell:
+            kinds.setdefault(entry.partition(" is ")[0], []).append(entry)
+    lines = []
+    for texts in sorted(kinds.values(), key=len, reverse=True):
+        text = texts[0].removeprefix("warning: ")
+        several = "" if len(texts) == 1 else ", for example"
+        lines.append(f"At {counted(len(texts), 'points')}{several}: {text}")
+    return lines
 
 
 def _range(key: str, values: np.ndarray) -> str:
@@ -73,7 +112,7 @@ def _range(key: str, values: np.ndarray) -> str:
 
 
 def _table(result: StudyResult, rows: int) -> str:
-    """The points of a study with what is varied, and the numbers `SHOWN`, each column in one unit."""
+    """Return the points of a study with what is varied, and the numbers `SHOWN`, each column in one unit."""
     columns = columns_of_study(result)
     count = len(next(iter(columns.values())))
     picked = np.unique(np.linspace(0, count - 1, rows).round().astype(int))
@@ -86,61 +125,69 @@ def _table(result: StudyResult, rows: int) -> str:
         if values.dtype.kind != "f":
             cells.append([str(value) for value in values])
             continue
-        unit = unit_for(values.tolist(), quantity.unit) if quantity else "-"
-        heads[-1] += f" [{unit}]" if unit not in ("-", "") else ""
+        si = quantity.unit if quantity else "-"
+        if name == "lubricant.temperature":
+            values = values - float(CELSIUS)
+            si = "°C"
+        unit = si if si == "°C" else unit_for(values.tolist(), si)
+        heads[-1] += f" [{printed(unit)}]" if printed(unit) else ""
         pair = SHOWN.get(name)
         low, high = (columns[end][picked] if pair else np.full(values.size, np.nan) for end in pair or ("", ""))
-        si = quantity.unit if quantity else "-"
+        if si == "°C":
+            cells.append([f"{value:.4g}" for value in values])
+            continue
         cells.append([_cell(*numbers, si, unit) for numbers in zip(values, low, high)])
-    status = columns["status"][picked]
-    body = "".join(
-        f"<tr>{''.join(f'<td class=number>{escape(text)}</td>' for text in row)}<td>{escape(str(state))[:60]}</td></tr>"
-        for row, state in zip(zip(*cells), status)
-    )
-    head = "".join(f"<th>{escape(text)}</th>" for text in (*heads, "status"))
-    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+    body = ["".join(f'<td class="number">{escape(text)}</td>' for text in row) for row in zip(*cells)]
+    if result.failed:
+        heads.append("status")
+        status = columns["status"][picked]
+        body = [f"{row}<td>{escape(str(state))[:60]}</td>" for row, state in zip(body, status)]
+    return table(heads, body)
 
 
 def _cell(value: float, low: float, high: float, si: str, unit: str) -> str:
-    """A number in ``unit``, with its interval if that is known."""
+    """Return a number in ``unit``, with its interval if that is known."""
     if not np.isfinite(value):
         return "-"
-    shown, *ends = (f"{converted(float(number), si, unit):.4g}" for number in (value, low, high))
-    return f"{shown} ({ends[0]} to {ends[1]})" if np.isfinite(low) and np.isfinite(high) else shown
-
-
-def _picture(content: bytes) -> str:
-    return f'<figure><img alt="" src="data:image/png;base64,{base64.b64encode(content).decode()}"></figure>'
+    shown, *ends = (converted(float(number), si, unit) for number in (value, low, high))
+    if np.isfinite(low) and np.isfinite(high):
+        return with_interval(shown, ends[0], ends[1], "")
+    return plain_number(shown, digits=4)
 
 
 def _list(lines: list[str]) -> str:
     return f"<ul>{''.join(f'<li>{escape(line)}</li>' for line in lines)}</ul>"
 
 
-def _three_digits(value: float, unit: str) -> str:
-    """A number in a unit of people, to three digits."""
-    name = unit_for([value], unit)
-    return f"{converted(value, unit, name):.3g} {printed(name)}".rstrip()
-
-
 def answer_lines(result: StudyResult) -> list[str]:
-    """Return the least and the largest f and power loss of a study, with intervals and places; of operating points also
-    the means over the cycle."""
+    """Return the smallest and the largest f and power loss of a study in sentences, with intervals and places; of
+    operating points also the means over the cycle."""
     rows = []
-    for name, pair in (("coefficient", SHOWN["coefficient"]), ("power_loss", SHOWN["power_loss"])):
+    if result.paired:
+        rows += _mean_lines(result)
+    for name, (low_name, high_name) in ENDS.items():
         values = result.columns.get(name)
         if values is None or not np.isfinite(values).any():
             continue
-        symbol = {"coefficient": "f"}.get(name, COLUMNS[name].label)
-        for word, find in {"least": np.nanargmin, "largest": np.nanargmax}.items():
+        what = {"coefficient": "friction coefficient"}.get(name, COLUMNS[name].label)
+        for word, find in {"smallest": np.nanargmin, "largest": np.nanargmax}.items():
             index = tuple(map(int, np.unravel_index(int(find(values)), values.shape)))
-            low, high = (float(result[end][index]) for end in pair or ())
-            shown, *ends = (_three_digits(float(v), COLUMNS[name].unit) for v in (values[index], low, high))
-            within = f", {ends[0]} to {ends[1]} at 95 %" if np.isfinite(low) else ", error not known"
-            rows.append(f"{word} {symbol} = {shown}{within}, at {result.place(index)}")
-    if result.paired:
-        means = np.atleast_1d(result.mean("power_loss"))
-        weighed = "weighed by the duration" if "duration" in result.coords else "of all points alike"
-        shown = ", ".join(_three_digits(float(mean), "W") if np.isfinite(mean) else "not known" for mean in means[:6])
-        rows.append(f"mean power loss {weighed}: {shown}")
+            low, high = (float(result[end][index]) for end in (low_name, high_name))
+            shown = with_interval(float(values[index]), low, high, unit=COLUMNS[name].unit)
+            unknown = "" if np.isfinite(low) else " (interval not known)"
+            rows.append(f"The {word} {what} is {shown}{unknown}, at {result.place(index)}.")
+    return rows
+
+
+def _mean_lines(result: StudyResult) -> list[str]:
+    """Return the mean power loss and f over the operating points in a sentence, for each combination of what else is
+    varied (at most `MOST_MEANS`)."""
+    weighed = "weighed by the duration" if "duration" in result.coords else "all with the same weight"
+    rows = []
+    for index in list(np.ndindex(*result.status.shape[:-1]))[:MOST_MEANS]:
+        where = f" for {place}" if (place := label(result, (*index, slice(None)))) else ""
+        low, high = (float(np.asarray(end)[index]) for end in result.mean_interval("power_loss"))
+        mean = float(np.asarray(result.mean("power_loss"))[index])
+        text = with_interval(mean, low, high, unit="W") if np.isfinite(mean) else "not known, as points failed"
+        rows.append(f"The mean power loss of the operating points, {weighed}, is {text}{where}.")
     return rows

@@ -9,7 +9,7 @@ from .fit import estimated_fit, explain_fit, fit
 from .fit_input import Measured, read_measured
 from .fit_result import FitResult
 from .law import Law
-from .operating_points import OperatingPoints, operating_points
+from .operating_points import ENDS, OperatingPoints, operating_points
 from .plan import StudyPlan, load_study, plan_study
 from .result import StudyResult, open_study, study
 from .store import Store, digest, fingerprint, fingerprint_without_files, opened

@@ -224,6 +224,13 @@ def _with_speeds(columns: dict[str, list]) -> dict[str, list]:
     return columns
 
 
+# Columns of a study with an interval, and the columns of its ends.
+ENDS = {
+    "coefficient": ("uncertainty_low", "uncertainty_high"),
+    "power_loss": ("power_loss_low", "power_loss_high"),
+}
+
+
 def mean_over_cycle(values: np.ndarray, durations: np.ndarray) -> float:
     """Return the mean of ``values`` (n,) weighed by the ``durations`` (n,); NaN where one that counts is not known."""
     counted = durations > 0

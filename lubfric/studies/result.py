@@ -17,12 +17,14 @@ from numpy.typing import ArrayLike
 from .._base import Shown, validate, with_default_errors
 from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import InputError
+from ..estimate import MethodUse, cited, methods_of
+from ..models.shared import prepare
 from ..quantities import NUMBERS
 from ..scene import Scene
 from ..units import worded
 from .interpolate import Interpolant, through
 from .law import law_of_study
-from .operating_points import DURATION, POINT, mean_over_cycle
+from .operating_points import DURATION, ENDS, POINT, mean_over_cycle
 from .plan import StudyPlan, plan_study, scenes_of
 from .points import CONVERGED, MISSING, SPEED, UNUSED, MapError, solved_together
 from .store import PLANNED, Store, digest, opened, point_key
@@ -181,6 +183,42 @@ class StudyResult(Shown):
         weights = np.ones(values.shape[-1]) if durations is None else np.array(durations)
         means = np.apply_along_axis(mean_over_cycle, -1, values, weights)
         return float(means) if means.ndim == 0 else means
+
+    def mean_interval(self, name: str) -> tuple[np.ndarray | float, np.ndarray | float]:
+        """Return the ends of the 95 % interval of the `mean` of "coefficient" or "power_loss" over the operating points.
+
+        The errors of the points are taken as fully correlated, as one model, one surface and one oil cause them: the ends
+        are the means of the ends of the points. NaN where the interval of a point that counts is not known.
+        """
+        low, high = ENDS[validate.choice("name", name, ENDS)]
+        return self.mean(low), self.mean(high)
+
+    def cite(self, format: str = "text") -> str:
+        """Return the papers behind what was used for this study, the model's first: one a line, or with ``format``
+        "bibtex" as BibTeX entries."""
+        prepared = prepare(next(iter(scenes_of(self.plan.scene, self.plan.axes))))
+        model = prepared.scene.numerics.model
+        answers = {"deterministic": (True,), "auto": (False, True)}.get(model, (False,))
+        names = dict.fromkeys(name for answer in answers for name in methods_of(prepared, self._use(answer)))
+        return cited(names, format)
+
+    def _use(self, is_deterministic: bool) -> MethodUse:
+        """Return what the columns show of the methods that the study uses."""
+
+        def above(name: str, limit: float = 0.0) -> bool:
+            return bool((self.columns.get(name, np.zeros(1)) > limit).any())
+
+        factor = self.columns.get("inlet_film_factor", np.ones(1))
+        return MethodUse(
+            is_deterministic=is_deterministic,
+            contact=above("contact_load"),
+            film=above("film_load"),
+            sliding=bool((self.columns.get("couette_force", np.zeros(1)) != 0).any()),
+            sampled=above("uncertainty_sampling"),
+            inlet_heat=bool((factor < 1).any()),
+            film_heat=above("film_temperature_rise"),
+            flash=above("flash_temperature_rise"),
+        )
 
     def _check_curves(self) -> None:
         if self.paired:

@@ -17,6 +17,7 @@ from ..units import converted, unit_for
 from .choose import between
 from .curve import numbers_of
 from .interpolate import through
+from .operating_points import ENDS
 from .points import SPEED, STATUS, UNUSED, VALIDITY
 
 if TYPE_CHECKING:
@@ -150,19 +151,19 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
     order = np.argsort(over, kind="stable")
     unit = unit_for(result[quantity][np.isfinite(result[quantity])].tolist(), COLUMNS[quantity].unit)
     times = converted(1.0, COLUMNS[quantity].unit, unit)
-    ends = {"coefficient": ("uncertainty_low", "uncertainty_high"), "power_loss": ("power_loss_low", "power_loss_high")}
     indices = list(np.ndindex(*result.status.shape[:-1]))[:NAMED]
     for index in indices:
         values = times * result[quantity][index][order]
         named = figures.plain_words(label(result, (*index, slice(None)))) if len(indices) > 1 else None
-        dots: dict[str, Any] = {"marker": "o", "ms": 3, "lw": 1.0, "label": named}
-        (line,) = axes.plot(over[order], values, **dots | style)
-        if quantity in ends:
-            low, high = (times * result[name][index][order] for name in ends[quantity])
-            axes.fill_between(over[order], low, high, color=line.get_color(), alpha=0.2, lw=0)
+        own: dict[str, Any] = {"marker": "o", "ms": 3, "lw": 1.2, "label": named or COLUMNS[quantity].label}
+        own |= {"color": figures.BLUE} if len(indices) == 1 else {}
+        (line,) = axes.plot(over[order], values, **own | style)
+        if quantity in ENDS:
+            low, high = (times * result[name][index][order] for name in ENDS[quantity])
+            known = {"label": BAND} if index == indices[-1] and np.isfinite(low).any() else {}
+            axes.fill_between(over[order], low, high, color=line.get_color(), alpha=0.2, lw=0, **known)
     axes.set(xlabel=label_over, ylabel=axis_label(quantity, unit))
-    if len(indices) > 1:
-        figures.key_above(axes, 2)
+    figures.key_above(axes, 2)
     return axes
 
 
@@ -320,6 +321,7 @@ def plot_map(path: Path, study: Any, across: str, up: str, title: str = "", quan
 def _table_of(ax: Axes, x: FloatArray, y: FloatArray, values: FloatArray, bar: str) -> None:
     """Few values (ny, nx) as a table of colours with their numbers: contours would say more than is known."""
     image = ax.imshow(values, origin="lower", aspect="auto", cmap="viridis")
+    ax.grid(False)
     middle = 0.5 * (np.nanmin(values) + np.nanmax(values))
     for (row, column), value in np.ndenumerate(values):
         known = np.isfinite(value)

@@ -3,8 +3,9 @@
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -137,7 +138,9 @@ def sample(ranges: Iterable[Any], count: int, sampler: str = "sobol", seed: int 
     if sampler == "sobol":
         if count & (count - 1):
             above = 2 ** count.bit_length()
-            raise InputError(f"count = {count} of a Sobol sequence; allowed: powers of two, {above // 2} or {above}")
+            said = f" = {count} of a Sobol sequence"
+            way_out = f"write {above // 2} or {above}, or sampler = 'random' for {count} points"
+            raise InputError(said, "count", "powers of two", way_out)
         shares = qmc.Sobol(len(parts), seed=seed).random(count)
     else:
         shares = np.random.default_rng(seed).random((count, len(parts)))
@@ -152,15 +155,45 @@ def check_key(
     """Raise `InputError` for a ``key`` of the argument ``what`` that is none in the ``sections`` of a scene, that is
     what a curve is over, or that was ``seen``."""
     section, _, field = str(key).partition(".")
-    validate.keys(what, [section], sections)
+    if isinstance(key, str) and section in Scene.__dataclass_fields__:
+        validate.keys(what, [section], sections)
+    if not isinstance(key, str) or section not in sections:
+        _refuse_key(what, scene, key, sections)
     part = getattr(scene, section) or Roughness  # a body without roughness has its keys all the same
-    validate.keys(f"{what}: [{section}]", [field] * bool(field), (*part.__dataclass_fields__, *short_keys(section)))
+    allowed = (*part.__dataclass_fields__, *short_keys(section))
+    if field not in allowed and any(
+        field in (getattr(scene, other) or Roughness).__dataclass_fields__ for other in FITTED
+    ):
+        _refuse_key(what, scene, key, sections)
+    validate.keys(f"{what}: [{section}]", [field] * bool(field), allowed)
     if key == "motion" or key in SPEEDS:
         ways = "give speeds = [...] in m/s beside it (a fit takes those of the measurement)"
         said = f"{what}: {key!r} is what a curve is over"
         raise InputError(said, way_out=f"{ways}; motion.slide_roll_ratio is a key")
     if key in seen:
         raise InputError(f"{what}: {key!r} is given twice; give it once")
+
+
+def _refuse_key(what: str, scene: Scene, key: Any, sections: Iterable[str]) -> NoReturn:
+    """Raise `InputError` for a ``key`` whose section is none of ``sections``: with the keys of that name, or the nearest
+    one, and the form that a key has."""
+    names = [
+        f"{section}.{name}"
+        for section in sections
+        for name in ((getattr(scene, section) or Roughness).__dataclass_fields__ | dict.fromkeys(short_keys(section)))
+    ]
+    word = str(key)
+    last = word.rpartition(".")[2]
+    alike = [name for name in names if name.rpartition(".")[2] == last and not name.startswith("counterface.")]
+    nearest = get_close_matches(word, names, 1) or get_close_matches(f"{word.partition('.')[0]}.{last}", names, 1)
+    near = [name for name in names if get_close_matches(last, [name.rpartition(".")[2]], 1)]
+    candidates = alike or nearest or near[:1]
+    meant = f" (did you mean {' or '.join(map(repr, candidates))}?)" if candidates else ""
+    raise InputError(
+        f"{what}: {validate.shown(key)} is no key of a scene{meant}",
+        way_out="write a key as 'section.key', such as 'bodies.load'; keys that change together are a tuple of such "
+        "names, ('bodies.load', 'bodies.radius'), with a tuple of values for each point",
+    )
 
 
 def check_temperature(what: str, scene: Scene, keys: set[str]) -> None:

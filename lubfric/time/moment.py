@@ -13,7 +13,7 @@ from ..estimate import (
     power_of_forces,
 )
 from ..film import ShearForce, above_carried, rolling_error, smallest, spike_error
-from ..models.load_sharing import moment_error
+from ..models.load_sharing import moment_error, moment_model_error
 from ..models.shared import (
     Heat,
     Validity,
@@ -69,6 +69,10 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
     finite = moment_error(model.patch, state, loads, contact.softness, scene.bodies.width, length, parts, thinning)
     touches = contact.load > 0.0
     wet = setting.grid.x[t.P > 0.0] * p.length_unit
+    central_film = t.H[setting.grid.n // 2] * p.film_unit
+    shares = (boundary / total, shear.total / total, shear.rolling / total)
+    sq = float(model.prepared.surface.sq)
+    model_error = moment_model_error(scene, central_film / sq if sq else math.inf, contact.load / total, *shares)
     row = {
         "time": time,
         "entrainment_speed": speed,
@@ -85,13 +89,15 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         "coefficient": force * sense / total,
         "sampling_error": finite,
         "shear_error": shear.quadrature / abs(force) if force else 0.0,
+        "model_error_low": model_error[0],
+        "model_error_high": model_error[1],
         "time_error": now.error,
         "inlet_film_factor": film_factor,
         "flash_temperature_rise": heat.flash,
         "film_temperature_rise": heat.film,
         "heat_change": heat.change if heat.evaluated else math.nan,
         "min_film": smallest(setting.grid.x, t.H) * p.film_unit,
-        "central_film": t.H[setting.grid.n // 2] * p.film_unit,
+        "central_film": central_film,
         "mean_film": state.mean_film,
         "mean_gap": state.mean_gap if touches else state.mean_film,
         "max_pressure": t.P.max() * p.pressure_unit,

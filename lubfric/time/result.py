@@ -8,8 +8,9 @@ import numpy as np
 
 from .._base import FloatArray, Shown, figures, validate
 from ..errors import Report
-from ..estimate import UncertaintyCurve
+from ..estimate import MethodUse, UncertaintyCurve, cited, methods_of
 from ..models.shared import (
+    Prepared,
     Validity,
     gathered,
     percent,
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 MANY = 30  # blocks less one: of a strip
 NOT_IN = "not in the interval, as a run in time is solved with its value alone; solve it with both ends to see"
 TINY = 1e-30  # no f is divided by less
+POWER = ("power_loss", "power_loss_low", "power_loss_high")  # columns whose means are those of the whole run
 MASS = 1e-3  # largest residual of a step's mass
 
 
@@ -41,7 +43,10 @@ class TimeAverage:
     - ``fixed_scatter``: of the averages of real lines of the contact's width from place to place, if the same spots
       stay in contact.
     - ``moving_scatter``: the same if the rough surface moves through the contact with the entrainment speed. Then other
-      spots carry the load every `TransientResult.renewal`.
+      asperities carry the load every `TransientResult.renewal`.
+
+    ``interval`` is the 95 % interval of ``coefficient``, ``power_loss`` [W] the mean power loss of the whole run, with
+    ``power_loss_interval``. The errors of all times are taken as fully correlated: a mean of their ends.
     """
 
     coefficient: float
@@ -49,6 +54,9 @@ class TimeAverage:
     fixed_scatter: float
     moving_scatter: float
     in_motion: float = 1.0
+    interval: tuple[float, float] = (math.nan, math.nan)
+    power_loss: float = math.nan
+    power_loss_interval: tuple[float, float] = (math.nan, math.nan)
 
 
 @dataclass(frozen=True, repr=False)
@@ -75,6 +83,7 @@ class TransientResult(Shown):
     inputs : how far the range of f_b moves f down and up at every time [-], (2, nt)
     not_in : inputs, in words, whose ranges are not in ``uncertainty``: a run is solved with their values alone
     requested : the output times [s] of the run, whether or not they were reached
+    methods : names of the methods that it rests on, where a paper stands behind them. ``cite()`` gives the papers
     line_length, width, renewal : length of the line of rough surface, width of the contact, and the distance that a
         surface moves until other spots carry the load (the Hertz strip and a correlation length) [m]; NaN if not known
     """
@@ -91,6 +100,12 @@ class TransientResult(Shown):
     width: float = math.nan
     renewal: float = math.nan
     requested: np.ndarray | tuple[float, ...] = ()
+    methods: tuple[str, ...] = ()
+
+    def cite(self, format: str = "text") -> str:
+        """Return the papers behind what was used for this run, the model's first: one a line, or with ``format``
+        "bibtex" as BibTeX entries."""
+        return cited(self.methods, format)
 
     @property
     def status(self) -> str:
@@ -115,16 +130,30 @@ class TransientResult(Shown):
         moving = in_motion(self.columns)
         weight = np.append(half, 0.0) + np.append(0.0, half) if half.size else np.ones(1)
         share = float(weight[moving].sum() / weight.sum())
+        of_run = {name: float(np.average(self.columns[name], weights=weight)) for name in POWER if name in self.columns}
+        loss, *ends = (of_run.get(name, math.nan) for name in POWER)
         if not share:
-            return TimeAverage(math.nan, math.nan, math.nan, math.nan, share)
+            return TimeAverage(
+                math.nan, math.nan, math.nan, math.nan, share, power_loss=loss, power_loss_interval=(ends[0], ends[1])
+            )
         names = "coefficient", "sampling_error", "entrainment_speed"
         f, error, speed = (self.columns[name][moving] for name in names)
         weight = weight[moving]
+        low, high = (float(np.average(end[moving], weights=weight)) for end in self.uncertainty.interval.T)
         mean = float(np.average(f, weights=weight))
         sampling = float(np.average(error * np.abs(f), weights=weight)) / abs(mean)
         fixed = sampling * math.sqrt(self.line_length / self.width)
         moved = float(np.sum(weight * np.abs(speed)))
-        return TimeAverage(mean, sampling, fixed, fixed / math.sqrt(max(1.0, moved / self.renewal)), share)
+        return TimeAverage(
+            coefficient=mean,
+            sampling=sampling,
+            fixed_scatter=fixed,
+            moving_scatter=fixed / math.sqrt(max(1.0, moved / self.renewal)),
+            in_motion=share,
+            interval=(low, high),
+            power_loss=loss,
+            power_loss_interval=(ends[0], ends[1]),
+        )
 
     @property
     def validity(self) -> tuple[str, ...]:
@@ -133,23 +162,26 @@ class TransientResult(Shown):
 
     @property
     def uncertainty(self) -> UncertaintyCurve:
-        """Standard error and 95 % interval of f at every time, from the finite surface and the range of f_b alone."""
+        """Uncertainty budget and 95 % interval of f at every time.
+
+        It has the finite surface, the range of f_b, the sum of the film's shear stress, and the model-form error of
+        steady motion at the same film and asperity load ratio, where that is known.
+        """
         f = self.coefficient
         error = self.sampling_error
-        half = student(MANY) * error * np.abs(f)
         unknown = np.full(f.size, math.nan)
         down, up = np.broadcast_to(self.inputs, (2, f.size))
         return UncertaintyCurve(
-            numerical=unknown,
+            numerical=self.columns.get("shear_error", unknown),
             sampling=error,
-            interval=np.stack([f - np.hypot(half, down), f + np.hypot(half, up)], axis=1),
+            interval=interval_in_time(self.columns, down, up),
             line_scatter=error * math.sqrt(self.line_length / self.width),
             spots=unknown,
             length=np.full(f.size, self.line_length),
             area_needed=unknown,
-            model=unknown,
+            model=np.fmax(*(self.columns.get(f"model_error_{end}", unknown) for end in ("low", "high"))),
             inputs=unknown if self.not_in else np.maximum(down, up) / np.maximum(np.abs(f), TINY),
-            text=tuple("; ".join((f"surface {percent(each)}", *self.not_in)) for each in error),
+            text=tuple("; ".join((f"sampling {percent(each)}", *self.not_in)) for each in error),
         )
 
     def plot(self, ax: "Axes | None" = None):
@@ -158,8 +190,7 @@ class TransientResult(Shown):
         (low, high) = self.uncertainty.interval.T
         if (high > low).any():
             time = self.time * time_scale(self.time[-1])[0]
-            label = f"95 % interval: sampling{', range of f_b' * bool(np.any(self.inputs))}"
-            axes.fill_between(time, low, high, color=figures.BLUE, alpha=0.2, lw=0, label=label)
+            axes.fill_between(time, low, high, color=figures.BLUE, alpha=0.2, lw=0, label=band_label(self.columns))
         friction_over_time(axes, self.columns)
         return axes
 
@@ -192,6 +223,51 @@ class TransientResult(Shown):
         raise AttributeError(f"TransientResult has no attribute {name!r}{validate.nearest(name, columns)}")
 
 
+def interval_in_time(columns: dict[str, np.ndarray], inputs_down: np.ndarray, inputs_up: np.ndarray) -> np.ndarray:
+    """Return the 95 % interval of f at every time, (nt, 2); ``inputs_down``, ``inputs_up`` (nt,) [-]: how far the range
+    of f_b moves f. A part that is not known (NaN) is not in it."""
+    f = columns["coefficient"]
+    of_sample = student(MANY) * np.nan_to_num(columns["sampling_error"]) * np.abs(f)
+    numerical = np.nan_to_num(columns.get("shear_error", np.zeros(f.size))) * np.abs(f)
+    to_zero, away = (np.nan_to_num(columns.get(f"model_error_{end}", np.zeros(f.size))) for end in ("low", "high"))
+    model_down = np.where(f >= 0, to_zero, away) * np.abs(f)
+    model_up = np.where(f >= 0, away, to_zero) * np.abs(f)
+    down, up = (
+        np.sqrt(of_sample**2 + numerical**2 + model**2 + inputs**2)
+        for model, inputs in ((model_down, inputs_down), (model_up, inputs_up))
+    )
+    unknown = np.isnan(columns["sampling_error"])
+    return np.where(unknown[:, None], math.nan, np.stack([f - down, f + up], axis=1))
+
+
+def _with_intervals(columns: dict[str, np.ndarray], inputs: np.ndarray) -> dict[str, np.ndarray]:
+    """Return ``columns`` with the intervals of f and of the power loss [W].
+
+    The sliding part of the power has the interval of f, the rolling part the relative width of that interval, at most
+    100 %.
+    """
+    interval = interval_in_time(columns, *inputs)
+    f = columns["coefficient"]
+    by_sliding = columns["load"] * np.abs(columns["sliding_speed"])
+    rolling = columns["power_loss"] - columns["friction_force"] * columns["sliding_speed"]
+    ends = []
+    for end in interval.T:
+        relative = np.minimum(np.abs(end - f) / np.maximum(np.abs(f), TINY), 1.0)
+        ends.append(np.hypot((end - f) * by_sliding, relative * rolling))
+    return columns | {
+        "interval_low": interval[:, 0],
+        "interval_high": interval[:, 1],
+        "power_loss_low": columns["power_loss"] - ends[0],
+        "power_loss_high": columns["power_loss"] + ends[1],
+    }
+
+
+def band_label(columns: dict[str, np.ndarray]) -> str:
+    """Return the label of the band of the intervals of f over time."""
+    known = np.isfinite(columns.get("model_error_high", np.full(1, math.nan)))
+    return "95 % interval" + ("" if known.all() else ", without model-form error")
+
+
 def collect(
     model: TimeModel,
     grid_error: float,
@@ -217,23 +293,39 @@ def collect(
     ends = {name: [end - value_of(prepared.scene, name) for end in both] for name, *both in prepared.scene.ranges}
     by_load = columns["contact_load"] / columns["load"] * (columns["sliding_speed"] != 0)
     low, high = ends.pop(FRICTION_KEY, (0.0, 0.0))
+    inputs = np.outer((-low, high), by_load)
     not_in = tuple(f"{name.partition('.')[2]} in its range: {NOT_IN}" for name in ends)
     report = report_of("run in time", plan, progress, f"{model.cells}; surface: {surface}", residuals, most_work)
     if not prepared.sample.is_single_patch:
         renewal = 2 * prepared.scene.bodies.half_width + math.sqrt(math.pi) * prepared.sample.lengths[0]
     return TransientResult(
-        columns=columns,
+        columns=_with_intervals(columns, inputs),
         x=model.x,
         pressure=np.array([output.pressure for output in outputs]).reshape(shape),
         film_thickness=np.array([output.film_thickness for output in outputs]).reshape(shape),
         report=replace(report, notes=(*report.notes, *model.notes, *not_in)),
         entries=tuple(output.entries for output in outputs),
-        inputs=np.outer((-low, high), by_load),
+        inputs=inputs,
         not_in=not_in,
         line_length=prepared.surface.size[1],
         width=prepared.scene.bodies.width,
         renewal=renewal,
         requested=plan.times,
+        methods=methods_of(prepared, _use(prepared, columns)),
+    )
+
+
+def _use(prepared: Prepared, columns: dict[str, np.ndarray]) -> MethodUse:
+    """Return what the ``columns`` of a run show of the methods that it uses."""
+    return MethodUse(
+        is_deterministic=prepared.scene.numerics.model == "deterministic",
+        contact=bool((columns["contact_load"] > 0).any()),
+        film=bool((columns["film_load"] > 0).any()),
+        sliding=bool((columns["sliding_speed"] != 0).any()),
+        sampled=bool((columns["sampling_error"] > 0).any()),
+        inlet_heat=bool((columns["inlet_film_factor"] < 1.0).any()),
+        film_heat=bool((columns["film_temperature_rise"] > 0).any()),
+        flash=bool((columns["flash_temperature_rise"] > 0).any()),
     )
 
 

@@ -28,8 +28,8 @@ from .march import Plan, Progress, Step, checked_times, initial_progress, plan_o
 from .model import Output, Start, TimeModel
 from .result import TransientResult, collect
 from .scene_in_time import transient_of
-from .start import start_load_sharing
-from .transient_deterministic import start_deterministic
+from .start import check_load_sharing, start_load_sharing
+from .transient_deterministic import check_deterministic, start_deterministic
 
 # each makes a scene ready, by the value of numerics.model
 MODELS: dict[str, Callable[[Scene | Prepared], Start]] = {
@@ -37,6 +37,13 @@ MODELS: dict[str, Callable[[Scene | Prepared], Start]] = {
     "load-sharing": start_load_sharing,
     "paper": start_load_sharing,
     "deterministic": start_deterministic,
+}
+# each raises InputError for a scene that its model does not take, and solves nothing
+CHECKS: dict[str, Callable[[Scene], None]] = {
+    "auto": check_load_sharing,
+    "load-sharing": check_load_sharing,
+    "paper": check_load_sharing,
+    "deterministic": check_deterministic,
 }
 CLASSES = classes_of(Progress, Output, Contact, Validity, State)  # that a state or an output may hold
 STATE = tuple[int, Progress]  # what is kept of a run: how many outputs there are, and its progress
@@ -120,6 +127,11 @@ def transient(
     if result.report.converged:
         store.clear([key, *_output_keys(key, len(outputs))])
     return result
+
+
+def check_run(scene: Scene) -> None:
+    """Raise `InputError` for a ``scene`` with a ``transient`` that its model refuses. Nothing is solved."""
+    CHECKS[scene.numerics.model](scene)
 
 
 def _output_keys(key: str, count: int) -> list[str]:

@@ -42,19 +42,7 @@ def start_load_sharing(scene: Scene | Prepared) -> Start:
     `ConvergenceError`."""
     base = scene_of(scene)
     plan = transient_of(base)
-    load = plan.load or Constant(base.bodies.load)
-    for name, allowed in SUPPORTED.items():
-        value = getattr(base.numerics, name)
-        if value not in allowed:
-            raise InputError(
-                f" = {value!r} is not for a run in time", f"numerics.{name}", ", ".join(map(repr, allowed))
-            )
-    if load.range(plan.duration)[1] > base.bodies.load * (1 + 1e-9):
-        said = f" rises to {load.range(plan.duration)[1]:g} N"
-        most = f"up to bodies.load = {base.bodies.load:g} N"
-        raise InputError(said, "transient.load", f"{most}, whose Hertz strip is the area A")
-    for time in sampled_times(base) if base.bodies.boundary_friction_table is not None else ():
-        scene_at(base, time)  # raises where the table of f_b has no value
+    check_load_sharing(base)
     run_strip = strip_of_run(scene if isinstance(scene, Prepared) else prepare(scene))
     prepared = run_strip.prepared
     sq = prepared.surface.sq
@@ -77,6 +65,33 @@ def start_load_sharing(scene: Scene | Prepared) -> Start:
         if not grid_error > tolerance:  # NaN: no steady start to judge by
             break
     return Start(model=model, state=state, grid_error=grid_error)
+
+
+def check_load_sharing(base: Scene) -> None:
+    """Raise `InputError` for a scene that the load-sharing model of a run in time does not take. Nothing is solved."""
+    plan = transient_of(base)
+    load = plan.load or Constant(base.bodies.load)
+    for name, allowed in SUPPORTED.items():
+        value = getattr(base.numerics, name)
+        if value not in allowed:
+            raise InputError(
+                f" = {value!r} is not for a run in time", f"numerics.{name}", ", ".join(map(repr, allowed))
+            )
+    if load.range(plan.duration)[1] > base.bodies.load * (1 + 1e-9):
+        said = f" rises to {load.range(plan.duration)[1]:g} N"
+        most = f"up to bodies.load = {base.bodies.load:g} N"
+        raise InputError(said, "transient.load", f"{most}, whose Hertz strip is the area A")
+    for time in sampled_times(base) if base.bodies.boundary_friction_table is not None else ():
+        scene_at(base, time)  # raises where the table of f_b has no value
+    check_start(base)
+
+
+def check_start(base: Scene) -> None:
+    """Raise `InputError` for a steady start without entrainment."""
+    plan = transient_of(base)
+    speed = (plan.speed or Constant(base.motion.entrainment_speed)).before(0.0)
+    if plan.initial == "steady" and plan.initial_film is None and speed == 0.0:
+        raise InputError("transient.initial = 'steady' needs entrainment before t = 0; give 'rest', or a speed")
 
 
 def _contact_history(scene: Scene) -> ContactHistory:
@@ -105,8 +120,6 @@ def _first_state(model: TransientLoadSharing) -> tuple[Step, float]:
     still = model.setting.contact.speed.before(0.0) == 0.0
     if plan.initial == "rest" or (plan.initial == "auto" and still):
         return _resting(model), math.nan
-    if still:
-        raise InputError("transient.initial = 'steady' needs entrainment before t = 0; give 'rest', or a speed")
     return _steady(model)
 
 

@@ -57,6 +57,7 @@ from .film_setting import WET
 from .march import Memory, Progress, Step
 from .model import Output, Start
 from .scene_in_time import SLIDING_PART, sampled_times, scene_at, sliding_at, surface_speed, transient_of
+from .start import check_start
 
 TIME_ERROR = 2e-3  # of the film: local error of a step, unless it is said
 EXACT = 1e-3  # residuals of a step
@@ -179,8 +180,6 @@ class TransientDeterministic:
         back = self.back(0.0)
         still = (plan.speed or Constant(self.scene.motion.entrainment_speed)).before(0.0) == 0.0
         if plan.initial_film is None and not (plan.initial == "rest" or plan.initial == "auto" and still):
-            if still:
-                raise InputError("transient.initial = 'steady' needs entrainment before t = 0; give 'rest', or a speed")
             return self._step(evaluated(problem, solve_point(problem, tolerance=EXACT).state), back)
         nothing = np.zeros_like(problem.heights)
         kind = np.full(problem.heights.shape, RUPTURED, np.int8)
@@ -248,6 +247,15 @@ def work_of_run(scene: Scene) -> tuple[int, float]:
     return steps, steps * work_of_steps(solver.base.heights.size, STEPS, KRYLOV)
 
 
+def check_deterministic(scene: Scene) -> None:
+    """Raise `InputError` for a scene that the deterministic model of a run in time does not take. Nothing is solved."""
+    if scene.numerics.heat == "on":
+        raise InputError(
+            " = 'on': the deterministic model in time is isothermal", "numerics.heat", "'auto', which warns, or 'off'"
+        )
+    check_start(scene)
+
+
 def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
     """The solver, on the first strip that a steady point takes, and on the same cells. Raises `InputError`."""
     prepared = scene if isinstance(scene, Prepared) else prepare(scene)
@@ -256,10 +264,7 @@ def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
     sample = prepared.sample
     if not sample.is_resolved:
         raise InputError(" needs a contact of cells under a cylinder", "numerics.model")
-    if scene.numerics.heat == "on":
-        raise InputError(
-            " = 'on': the deterministic model in time is isothermal", "numerics.heat", "'auto', which warns, or 'off'"
-        )
+    check_deterministic(scene)
     surface, factors = strip_of(prepared, 0)
     maps = maps_of(prepared, 0)
     if len(maps) == 1 and plan.sliding is not None and len(moving_bodies(scene)) > 1:

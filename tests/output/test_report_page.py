@@ -10,6 +10,7 @@ from html import escape, unescape
 import numpy as np
 import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
+from scipy.special import stdtrit
 
 from lubfric.output import main
 
@@ -67,7 +68,9 @@ def test_it_opens_whole_and_runs_nothing(run, width):
         assert number == pytest.approx(exact, abs=0.06 * (high - low))
     assert seen["answer"].endswith(" at 95 %) at U = 0.3 m/s.") and record["hash"] in page
     bars = [float(bar.removesuffix("%")) for bar in seen["bars"]]
-    errors = [point["uncertainty"][name] for name in ("numerical", "sampling", "model", "inputs")]
+    known = point["uncertainty"]
+    of_sample = stdtrit(known["freedom"], 0.975) * known["sampling"]
+    errors = [known["numerical"], of_sample, known["model"], known["inputs"]]
     np.testing.assert_allclose(bars, [100 * error / max(errors) for error in errors], atol=0.06)
 
 

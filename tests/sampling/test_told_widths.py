@@ -119,23 +119,23 @@ def test_the_parts_of_the_error_of_f_belong_together(point):
 
 # how they are printed: one way for all, and never as if they included a model-form error that is not known
 
-KNOWN = {"numerical": 0.001, "sampling": 0.01, "model": 0.05}
+KNOWN = {"numerical": 0.001, "sampling": 0.01, "freedom": 30.0, "model": 0.05}
 CASES = [
     (
         KNOWN,
         (0.045, 0.055),
-        "f = 0.0500 (0.0450 to 0.0550 at 95 %); numerical 0.1 %, sampling 1 %, model-form 5 %",
+        "f = 0.0500 (0.0450 to 0.0550 at 95 %); numerical 0.1 %, sampling 2 %, model-form 5 %",
     ),
     (
         KNOWN | {"inputs": 0.3},
         (0.035, 0.054),
-        "f = 0.0500 (0.0350 to 0.0540 at 95 %); numerical 0.1 %, sampling 1 %, model-form 5 %, input 30 %",
+        "f = 0.0500 (0.0350 to 0.0540 at 95 %); numerical 0.1 %, sampling 2 %, model-form 5 %, input 30 %",
     ),
     (KNOWN | {"inputs": math.nan}, (0.045, 0.055), "model-form 5 %, input not known"),
     (
         KNOWN | {"model": math.nan},
         (0.049, 0.051),
-        "(0.04900 to 0.05100 at 95 %); numerical 0.1 %, sampling 1 %, model-form not known (not included)",
+        "(0.04900 to 0.05100 at 95 %); numerical 0.1 %, sampling 2 %, model-form not known (not included)",
     ),
     (
         KNOWN | {"sampling": math.nan},

@@ -8,7 +8,9 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.models.shared import (
+    change_in_words,
     effect_in_words,
+    expected_effects,
     unmodelled_effects,
 )
 from lubfric.output.describe import describe_scene
@@ -74,13 +76,24 @@ def test_what_is_given_and_what_is_below_the_tolerance_is_not_told():
     assert "f_b" in unmodelled_effects(paper_scene(), 1e-7, 0.0)[0][0]
 
 
-def test_info_tells_it_and_the_words_hold_the_numbers():
-    lacks = unmodelled_effects(ROLLER, SQ, 1.0)
+def test_info_shows_the_range_of_each_effect():
+    effects = expected_effects(ROLLER, SQ, 1.0)
     text = describe_scene(ROLLER)
-    for what, change, remedy in lacks:
-        size = "not estimated" if math.isnan(change) else f"{100 * change:+.2g} %"
-        assert f"{what}: f {size}; {remedy}" in text
-    assert "effects not modelled" in text and len(lacks) >= 5
+    for what, low, high, advice in effects:
+        assert f"{what}: f {change_in_words(low, high)}; {advice}" in text and not low > high
+    assert "effects not modelled" in text and len(effects) >= 5
+
+
+@pytest.mark.parametrize("model", ["paper", "load-sharing", "deterministic"])
+@pytest.mark.parametrize("speed", [0.003, 0.03, 0.3])
+def test_no_report_contradicts_info(model, speed):
+    """The changes of f that a result states are in the ranges that were stated before it, whatever the model."""
+    scene = paper_scene(numerics={"model": model, "sampling": "patch", "max_work": 200.0})
+    result = lubfric.friction(scene, speed)
+    ranges = {what: (low, high) for what, low, high, _ in expected_effects(scene, scene.surface.sq, speed)}
+    for what, change, _ in result.unmodelled_effects:
+        low, high = ranges[what]
+        assert math.isnan(change) or low - 0.02 <= change <= high + 0.02, what
 
 
 def test_a_soft_body_is_told_how_thick_its_cover_has_to_be():

@@ -53,12 +53,13 @@ def test_a_study_file_is_carried_out(tmp_path, capsys):
     )
     f = result["coefficient"]
     np.testing.assert_array_equal(f, again["coefficient"])
-    for word, value in (("least", f.min()), ("largest", f.max())):  # at the end, with its place
-        (row,) = (row for row in said.splitlines() if row.startswith(f"{word} f = {value:.3g}"))
+    for word, value in (("smallest", f.min()), ("largest", f.max())):  # at the end, with its place
+        (row,) = (row for row in said.splitlines() if row.startswith(f"The {word} friction coefficient is"))
+        assert float(row.split(" is ")[1].split()[0].rstrip(",")) == pytest.approx(value, rel=0.05)
         load, seed, speed = (
             axis[i] for axis, i in zip(((3, 5.5), (1, 2), (3e-3, 0.03, 0.3)), np.argwhere(f == value)[0])
         )
-        assert f"at total load {load:g} N, seed {seed}, " in row and row.endswith(f"speed {speed:g} m/s")
+        assert f"at total load {load:g} N, seed {seed}, " in row and row.endswith(f"speed {speed:g} m/s.")
     assert (tmp_path / "out" / "study.png").read_bytes().startswith(b"\x89PNG")
     rows = (tmp_path / "out" / "study.csv").read_text().splitlines()
     assert len(rows) == 13 and rows[0].startswith("bodies.load [N],surface.seed,surface.sq [m],speed [m/s],")

@@ -10,6 +10,7 @@ from .balanced_sample import BalancedSample
 from .calibrated import CalibratedFriction, calibrated_friction, least_half_width
 from .control_variate import control_for
 from .decision import decided
+from .errors_of import moment_model_error
 from .forces import Forces, forces
 from .limits import limits_exceeded
 from .load_sharing_model import LoadSharingModel, LoadSharingSolution

@@ -208,6 +208,22 @@ def model_error(balanced: BalancedSample) -> tuple[tuple[float, float], tuple[st
     return (min(down, 1.0), up), ()
 
 
+def moment_model_error(
+    scene: Scene, film_to_roughness_ratio: float, share: float, boundary: float, shear: float, rolling: float
+) -> tuple[float, float]:
+    """Return the relative model-form error of f at a moment of a run in time, at 95 %, below and above f.
+
+    It is that of steady motion with the same film, asperity load ratio ``share``, and parts of f. NaN where it is not
+    known.
+    """
+    if gap_not_resolved(scene):
+        return UNKNOWN
+    moving = rolling if moves(scene) else 0.0
+    down, up = load_sharing_error(film_to_roughness_ratio, share, boundary, shear, moving)
+    least = least_error(film_to_roughness_ratio) if 0 < share < 1 and math.isfinite(film_to_roughness_ratio) else 0.0
+    return min(max(down, least), 1.0), max(up, least)
+
+
 def _area_needed(balanced: BalancedSample, scene: Scene) -> float:
     """How many times more of a map that ends would be needed (1: enough, or there is more of it; NaN: not known)."""
     sample = balanced.sample

@@ -53,5 +53,12 @@ from .statistics import (
     too_few,
 )
 from .unknown_limit import LIMIT_RANGE, SATURATED, limit_bounds, limit_in_words
-from .unmodelled import UnmodelledEffect, effect_in_words, unmodelled_effects
+from .unmodelled import (
+    ExpectedEffect,
+    UnmodelledEffect,
+    change_in_words,
+    effect_in_words,
+    expected_effects,
+    unmodelled_effects,
+)
 from .validity import Validity, entries_of, gathered, in_a_cell, refused, sentence

@@ -40,7 +40,12 @@ def of_motion(scene: Scene, speed: float, film: float) -> Iterator[Validity]:
     if ratio > OPPOSED * (1 + 1e-12):
         why = "the surfaces move against one another: heat and dimples of such films are not modelled"
         what = "slide-roll ratio"
-        yield Validity(what, ratio, OPPOSED, "", why, "in percent? give motion.slip_percent; 2 is simple sliding")
+        advice = "in percent? give motion.slip_percent; 2 is simple sliding"
+        if scene.transient is not None:  # the ratio follows from the speeds of the moment
+            advice = (
+                "give numerics.heat = 'off' if the sliding is meant; else check transient.speed and transient.sliding"
+            )
+        yield Validity(what, ratio, OPPOSED, "", why, advice)
     if math.isfinite(film) and film > 0:
         oil = scene.lubricant.oil
         temperature = scene.lubricant.temperature

@@ -1,10 +1,12 @@
-"""What a scene leaves out, and by how much f would likely change: `unmodelled_effects`, from closed forms alone.
+"""Effects that are not modelled, and by how much f would likely change: `unmodelled_effects` of a result, and
+`expected_effects` before there is one, from closed forms alone.
 
 f is guessed as ``f_b s + mu (1 - s)``. The share s = exp(-1.8 λ^1.2) of the load on the asperities (Aihara's law, one
 of the measured ones, which lie within a factor of two of each other) is that at λ, the expected film of the whole load
 over Sq. mu is the shear of that film in the gap of a dry contact, or of one as thick as the gap of rough surfaces,
 under the Hertz pressure, with the resistance of its inlet to rolling. Only ratios of guesses count. Where a result is
-known, s and mu are scaled to what it has.
+known, s and mu are scaled to what it has. Before there is one, both have a range (`POWERS`, `SHEARS`), and so has the
+change of f: it holds that of the result by any model.
 """
 
 import math
@@ -34,17 +36,57 @@ ALONE = 0.1  # of f by asperities, below which the film makes it
 NARROW = 0.184  # by which the least film of a rigid contact is thinner than that which flows
 NODES = 201
 
-UnmodelledEffect = tuple[str, float, str]  # what is left out; likely change of f, relative (NaN: not known); what to do
+# Powers of the guess of s between which that of a result lies, and 0: the built-in contact, by three models, has those
+# of 0.17 to 1.7 at Λ from 0.3 to 1.7, and moving roughness by the deterministic model next to no load on asperities.
+POWERS = (0.12, 0.4, 1.0, 2.5, math.inf)
+
+# Times the guess of mu between which that of a result may lie.
+SHEARS = (0.5, 1.0, 2.0)
+
+UnmodelledEffect = tuple[str, float, str]  # the effect; likely change of f, relative (NaN: not known); what to do
+ExpectedEffect = tuple[str, float, float, str]  # the effect; lowest and highest change of f; what to do
 
 
 def unmodelled_effects(
     scene: Scene, sq: float, speed: float, known: tuple[float, float] | None = None
 ) -> tuple[UnmodelledEffect, ...]:
-    """What ``scene``, whose surface has the standard deviation ``sq`` [m], leaves out at ``speed`` [m/s], the largest
-    change of f first, what is not known last. What would change f by less than ``numerics.tolerance`` is not reported.
+    """Return the effects that are not modelled for ``scene``, whose surface has the standard deviation ``sq`` [m], at
+    ``speed`` [m/s]: the largest change of f first, what is not known last. What would change f by less than
+    ``numerics.tolerance`` is not reported.
 
     ``known``: the friction [-] of asperities alone and of all, of a result there, if there is one.
     """
+    tolerance = scene.numerics.tolerance
+    kept = [effect for effect in _all_effects(scene, sq, speed, known) if not abs(effect[1]) <= tolerance]
+    return tuple(sorted(kept, key=lambda effect: -abs(effect[1]) if math.isfinite(effect[1]) else 0.0))
+
+
+def expected_effects(scene: Scene, sq: float, speed: float) -> tuple[ExpectedEffect, ...]:
+    """Return the effects that are not modelled at ``speed`` [m/s], before f is known there, each with the range of its
+    change of f: that of any result with the asperity load ratio and the shear of `POWERS` and `SHEARS`. The largest is
+    first."""
+    rubs, friction = _parts(scene, sq, speed)
+    f_b = scene.bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0)
+    share = rubs / f_b if f_b else 0.0
+    shear = (friction - rubs) / max(1.0 - share, SURE)
+    ranges: dict[str, tuple[float, float, str]] = {}
+    for power in POWERS if f_b and speed else (1.0,):
+        of_load = share**power
+        for more in SHEARS if f_b and speed else (1.0,):
+            known = f_b * of_load, f_b * of_load + more * shear * (1.0 - of_load)
+            for what, change, advice in _all_effects(scene, sq, speed, known if known[1] > 0 else None):
+                low, high, _ = ranges.get(what, (change, change, advice))
+                ranges[what] = float(np.fmin(low, change)), float(np.fmax(high, change)), advice
+    tolerance = scene.numerics.tolerance
+    rows = [(what, low, high, advice) for what, (low, high, advice) in ranges.items()]
+    kept = [row for row in rows if not max(abs(row[1]), abs(row[2])) <= tolerance]
+    return tuple(sorted(kept, key=lambda row: -max(abs(row[1]), abs(row[2])) if math.isfinite(row[1]) else 0.0))
+
+
+def _all_effects(
+    scene: Scene, sq: float, speed: float, known: tuple[float, float] | None = None
+) -> list[UnmodelledEffect]:
+    """Return all effects, however small."""
     bodies = scene.bodies
     rubbing, friction = known or _parts(scene, sq, speed)
     effects = [] if speed == 0 or not friction > 0 else _of_film(scene, sq, speed, known)
@@ -64,9 +106,7 @@ def unmodelled_effects(
             "this part of the line is next to an end; use a three-dimensional contact model for it",
         )
     )
-    tolerance = scene.numerics.tolerance
-    kept = [lack for lack in effects if not abs(lack[1]) <= tolerance]
-    return tuple(sorted(kept, key=lambda lack: -abs(lack[1]) if math.isfinite(lack[1]) else 0.0))
+    return effects
 
 
 def _of_film(scene: Scene, sq: float, speed: float, known: tuple[float, float] | None) -> list[UnmodelledEffect]:
@@ -152,8 +192,22 @@ def _parts(scene: Scene, sq: float, speed: float, film: float = 1.0) -> tuple[fl
     return rubs * share, rubs * share + mu * (1 - share)
 
 
-def effect_in_words(effect: UnmodelledEffect) -> str:
+def effect_in_words(effect: UnmodelledEffect | ExpectedEffect) -> str:
     """Return the effect in one line: what it is, the change of f to two digits, what to do."""
-    what, change, remedy = effect
-    digits = ".0f" if abs(change) >= 0.095 else ".2g"
-    return f"{what}: f {'not estimated' if math.isnan(change) else f'{100 * change:+{digits}} %'}; {remedy}"
+    what, *changes, advice = effect
+    return f"{what}: f {change_in_words(*changes)}; {advice}"  # type: ignore[arg-type]
+
+
+def change_in_words(low: float, high: float | None = None) -> str:
+    """Return a change of f in percent to two digits, or the range of one: "+4.2 %", "+4 to +27 %"."""
+    if math.isnan(low):
+        return "not estimated"
+    ends = dict.fromkeys(f"{_signed(change)}" for change in (low, low if high is None else high))
+    return f"{' to '.join(ends)} %"
+
+
+def _signed(change: float) -> str:
+    """Return a change in percent with its sign, to two digits; "0" for what rounds to nothing."""
+    percentage = 100 * change
+    text = f"{percentage:+.0f}" if abs(percentage) >= 9.5 else f"{percentage:+.2g}"
+    return "0" if abs(percentage) < 0.005 else text

@@ -1,0 +1,39 @@
+"""Ranges of the command line: each mistake is named, with what to write instead; what is written then is taken."""
+
+import numpy as np
+import pytest
+
+from lubfric import InputError
+from lubfric.output.run_curve import parse_ratios, parse_speeds
+
+
+@pytest.mark.parametrize(
+    "text, wrong, instead",
+    [
+        ("5:0:3", "begins at 5 m/s, above its end 0 m/s", "0:5:3"),
+        ("-1:10:5", "begins at -1 m/s", "begin above 0"),
+        ("1:10:1", "asks for 1 values", "or 1 for one value"),
+        ("1:1:3", "begins and ends at 1 m/s", "write 1 for this value"),
+        ("1:3", "has 2 parts", "low:high:count"),
+        ("1:3:2.5", "asks for 2.5 values", "a whole number"),
+        ("2 m/s:10 mm/s:3", "above its end 0.01 m/s", "10 mm/s:2 m/s:3"),
+    ],
+)
+def test_a_wrong_range_of_speeds(text, wrong, instead):
+    with pytest.raises(InputError) as error:
+        parse_speeds("--speeds", text)
+    message = str(error.value)
+    assert message.startswith("--speeds") and wrong in message and instead in message and " -;" not in message
+
+
+@pytest.mark.parametrize("text, wrong", [("5:0:3", "above its end 0"), ("-1:1:5:log", "no value at or below 0")])
+def test_a_wrong_range_of_ratios(text, wrong):
+    with pytest.raises(InputError, match=wrong):
+        parse_ratios(text)
+
+
+def test_ranges_in_equal_and_in_geometric_steps():
+    np.testing.assert_allclose(parse_ratios("0:0.5:11"), 0.05 * np.arange(11))
+    np.testing.assert_allclose(parse_ratios("0.01:0.04:4:linear"), [0.01, 0.02, 0.03, 0.04])
+    np.testing.assert_allclose(parse_ratios("0.01:1:3"), [0.01, 0.1, 1.0])
+    np.testing.assert_allclose(parse_speeds("--speeds", "1 mm/s:0.1 m/s:3"), [0.001, 0.01, 0.1])

@@ -1,0 +1,49 @@
+"""Numbers with their intervals: one way for all, in a unit of people, without negative zeros or programmers' exponents."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lubfric.units import interval_in_words, plain_number, unit_for, with_interval, worded
+
+SIZES = st.floats(1e-9, 1e6) | st.floats(-1e6, -1e-9)
+
+
+@pytest.mark.parametrize(
+    "numbers, unit, text",
+    [
+        ((0.0443, 0.0413, 0.0473), "-", "0.0443 (0.0413 to 0.0473 at 95 %)"),
+        ((0.0004, -1e-8, 0.0032), "-", "0.0004 (0.0000 to 0.0032 at 95 %)"),
+        ((-5.6e-8, -6e-8, -5.2e-8), "-", "-5.60·10⁻⁸ (-6.00·10⁻⁸ to -5.20·10⁻⁸ at 95 %)"),
+        ((3.39, 3.36, 3.43), "W", "3.390 W (3.360 to 3.430 W at 95 %)"),
+        ((0.0004, 0.0003, 0.0005), "W", "0.40 mW (0.30 to 0.50 mW at 95 %)"),
+        ((1390.0, 970.0, 1930.0), "W", "1.39 kW (0.97 to 1.93 kW at 95 %)"),
+        ((139.0, math.nan, math.nan), "W", "139 W"),
+    ],
+)
+def test_a_value_with_its_interval(numbers, unit, text):
+    assert with_interval(*numbers, unit=unit) == text
+
+
+@given(SIZES, st.floats(1e-9, 10.0), st.sampled_from(["-", "W", "m", "Pa", "m/s"]))
+def test_no_text_has_an_exponent_of_a_programmer_or_a_negative_zero(value, width, unit):
+    text = with_interval(value, value - width * abs(value), value + width * abs(value), unit=unit)
+    words = text.replace("(", "").split()
+    assert "e-" not in text and "e+" not in text
+    assert not any(word.startswith("-") and not word.strip("-0.") for word in words)
+
+
+@given(SIZES)
+def test_a_plain_number_is_the_number(value):
+    text = plain_number(value, "-", 6)
+    mantissa, _, power = text.partition("·10")
+    digits = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+    shown = float(mantissa) * 10.0 ** (int(power.translate(digits)) if power else 0)
+    assert shown == pytest.approx(value, rel=1e-5)
+
+
+def test_zero_is_in_the_si_unit():
+    assert worded(0.0, "m") == "0 m" and unit_for([], "m") == "m" and plain_number(0.0, "W") == "0 W"
+    assert interval_in_words(math.nan, math.nan) == "not known"
