@@ -12,7 +12,7 @@ import numpy as np
 
 from .._base import FloatArray, figures
 from ..studies import friction_over_speed, interval_band
-from ..time import band_label, friction_over_time, time_scale
+from ..time import band_label, friction_over_time, in_motion, time_scale
 from ..units import converted, printed, unit_for, worded
 
 if TYPE_CHECKING:
@@ -291,8 +291,10 @@ def _two_pressures(prepared: Prepared, point: FrictionResult, fields: Any) -> Fi
     part = slice(None) if not touching else _part(fields.x, fields.y, row)
     slender = touching and np.ptp(fields.y[part]) > SLENDER * np.ptp(fields.x)
     ratios = [0.55 if slender else 1.0, 1.0][: sum(panels)]
-    figure = figures.new_figure(figsize=(5.5 * sum(ratios), 5.0))
-    figure.get_layout_engine().set(w_pad=PANEL_GAP)
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    engine = ConstrainedLayoutEngine(w_pad=PANEL_GAP)
+    figure = figures.new_figure(figsize=(5.5 * sum(ratios), 5.0), layout=engine)
     axes = list(figure.subplots(1, sum(panels), squeeze=False, width_ratios=ratios).flat)
     title = f"load-sharing model: U = {point.speed:g} m/s"
     if touching:
@@ -351,8 +353,10 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
     part = _part(x, y, 0)
     higher = np.linspace(0.0, 1.0, QUANTILES)
     width = _size_of_maps(x, y[part], 1)[0]
-    figure = figures.new_figure(figsize=(width + BEARING_WIDTH, 4.5))
-    figure.get_layout_engine().set(w_pad=PANEL_GAP)
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    engine = ConstrainedLayoutEngine(w_pad=PANEL_GAP)
+    figure = figures.new_figure(figsize=(width + BEARING_WIDTH, 4.5), layout=engine)
     above, bearing = figure.subplots(1, 2, width_ratios=(width, BEARING_WIDTH))
     surface.cropped((x.size, y[part].size), (0, 0)).plot(above)
     above.set_title(above.get_title() + _partly(y, part), fontsize=10)
@@ -414,24 +418,30 @@ def animate(path: Path, result: TransientResult, half_width: float) -> None:
     radius = (x[0] ** 2 - x[1] ** 2) / (2.0 * (h[0, 0] - h[0, 1]))  # of the undeformed gap, far out
     reach = 3.0 * max(half_width, float(np.sqrt(h.min(axis=1).max() * 2.0 * radius)))
     seen = np.abs(x) <= reach
-    x, thick = x[seen] * 1e6, h[:, seen] * 1e9
+    micro = x[seen] * 1e6
+    pressures, pressure_unit = figures.in_unit_for(result.pressure[:, seen], "Pa")
+    highest = 1.5 * max(float(np.nanmax(result.central_film)), 2.0 * float(np.median(h[:, seen].min(axis=1))))
+    film_unit = unit_for([highest], "m")
+    films = converted(h[:, seen], "m", film_unit)
     figure = figures.new_figure(figsize=(7, 4.5))
     top = figure.subplots()
     bottom = top.twinx()
+    bottom.grid(False)
+    bottom.spines["right"].set_visible(True)
     (pressure,) = top.plot([], [], color=figures.RED)
     (film,) = bottom.plot([], [], color=figures.BLUE)
-    top.set(xlim=(x[0], x[-1]), ylim=(0.0, 1.1 * result.pressure.max() / 1e6), xlabel="x (µm)")
-    top.set_ylabel("film pressure (MPa)", color=figures.RED)
-    bottom.set_ylim(0.0, 1.5 * max(result.central_film.max() * 1e9, np.median(thick.min(axis=1)) * 2.0))
-    bottom.set_ylabel("film thickness (nm)", color=figures.BLUE)
+    top.set(xlim=(micro[0], micro[-1]), ylim=(0.0, 1.1 * pressures.max() or 1.0), xlabel="x (µm), along the motion")
+    top.set_ylabel(f"film pressure ({pressure_unit})", color=figures.RED)
+    bottom.set_ylim(0.0, converted(highest, "m", film_unit))
+    bottom.set_ylabel(f"film thickness ({printed(film_unit)})", color=figures.BLUE)
     scale, unit = time_scale(result.time[-1])
+    moving = in_motion(result.columns)
 
-    def draw(i):
-        pressure.set_data(x, result.pressure[i, seen] / 1e6)
-        film.set_data(x, thick[i])
-        speed = result.entrainment_speed[i]
-        friction = result.coefficient[i]
-        moment = f"t = {result.time[i] * scale:.4g} {unit},  U = {speed:.3g} m/s,  f = {friction:.4f}"
+    def draw(i: int) -> tuple[Any, Any]:
+        pressure.set_data(micro, pressures[i])
+        film.set_data(micro, films[i])
+        friction = f"f = {result.coefficient[i]:z.4f}" if moving[i] else "at rest: no f"
+        moment = f"t = {result.time[i] * scale:.4g} {unit},  U = {result.entrainment_speed[i]:.3g} m/s,  {friction}"
         top.set_title(moment, fontsize=10)
         return pressure, film
 

@@ -6,7 +6,7 @@ from .film_grid import make_fixed_grid, symmetric_nodes
 from .film_setting import FIRST_STEP, TIME_SHARE, WET, ContactHistory, make_setting
 from .march import Memory, Plan, Progress, Step, advance, checked_times, plan_of, report_of, steps
 from .model import Output, Start, TimeModel
-from .result import MANY, TransientResult, band_label, friction_over_time, time_scale
+from .result import MANY, TransientResult, band_label, friction_over_time, in_motion, time_scale
 from .run import check_run, transient
 from .scene_in_time import sampled_times, scene_at
 from .start import speeds_of_run

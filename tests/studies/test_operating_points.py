@@ -9,6 +9,7 @@ from small_study import SCENE, same
 import lubfric
 from lubfric.output import main
 from lubfric.studies import load_study
+from lubfric.units import with_interval
 
 ROWS = [  # radius m, load N, u1, u2 m/s, duration s
     (4e-3, 3.0, 0.02, 0.01, 1.0),
@@ -167,8 +168,14 @@ def test_the_command_takes_a_scene_with_a_table_and_writes_a_report(tmp_path, ca
     np.testing.assert_allclose([float(row["position [m]"]) for row in rows], [-1e-3, 0, 1e-3], atol=1e-12)
     said = capsys.readouterr().err
     mean = sum(p.power_loss * row[-1] for p, row in zip(points, ROWS)) / 4
-    assert f"mean power loss weighed by the duration: {1e3 * mean:.3g} mW" in said
-    assert f"largest power loss = {1e3 * max(found):.3g} mW" in said
+    ends = [float(sum(p.power_loss_interval[i] * row[-1] for p, row in zip(points, ROWS)) / 4) for i in (0, 1)]
+    mean_text = with_interval(mean, *ends, unit="W")
+    assert f"The mean power loss of the operating points, weighed by the duration, is {mean_text}." in said
+    largest = max(points, key=lambda point: point.power_loss)
+    largest_text = with_interval(largest.power_loss, *largest.power_loss_interval, unit="W")
+    assert f"The largest power loss is {largest_text}" in said
     page = (out / "report.html").read_text()
-    assert "power loss [mW]" in page and f"{1e3 * found[0]:.4g}" in page and "3 points, 3 of them solved" in page
+    assert "power loss [mW]" in page and mean_text in page and "Converged: all 3 points are solved." in page
+    common = page.partition("Inputs common to all points")[2].partition("Method and sources")[0]
+    assert "total load" not in common and "length of the line contact" in common  # the load is varied
     assert "data:image/png;base64" in page and (out / "study.png").stat().st_size > 10_000
