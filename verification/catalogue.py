@@ -82,6 +82,7 @@ STUDIES: tuple[Study, ...] = (
     study("deterministic", "One gap, one pressure: limits, and the film in the same gap by finite elements"),
     study("starved", "A smooth film whose inlet starves by finite elements"),
     study("rough_strip", "A rough strip with one gap and one pressure by finite elements, at rest and moving"),
+    study("touching_strip", "Touching bodies with one gap and one pressure by finite elements, at rest and moving"),
     study("sharing_cases", "Load sharing by finite elements: other oils, sliding, yielding, flat, a measured map"),
     DRY,
     OILS,

@@ -16,8 +16,8 @@ STEEL = LineContact(1e5, 1e-2, 2.3e11, 0.5, Fluid(0.04, "roelands", 18e-9, densi
 B = STEEL.half_width
 
 
-def line(heights, cells=(64, 4)) -> RoughLine:
-    return RoughLine(contact=STEEL, inlet=-3.5 * B, outlet=1.5 * B, period=B, cells=cells, heights=heights)
+def line(heights, cells=(64, 4), floor=None) -> RoughLine:
+    return RoughLine(contact=STEEL, inlet=-3.5 * B, outlet=1.5 * B, period=B, cells=cells, heights=heights, floor=floor)
 
 
 @pytest.fixture(scope="module")
@@ -56,3 +56,31 @@ def test_a_surface_at_rest_stays_as_it_is_in_time(flat):
 def test_an_odd_number_of_cells_is_refused():
     with pytest.raises(InputError, match="even"):
         line(lambda x, y, t: 0 * x, (63, 4))
+
+
+def test_a_floor_below_the_film_changes_nothing(flat):
+    film = solve_rough(Discretisation(line(flat.problem.heights, floor=1e-9)), flat)
+    assert not film.touching.any()
+    assert np.abs(film.gap / flat.gap - 1).max() < 0.01  # its rigid gap is interpolated between the nodes
+
+
+def test_bodies_that_touch_all_over_have_the_dry_contact_of_hertz(flat):
+    """The floor is twenty times the film: hardly any lubricant separates the bodies, and their pressure is Hertz'."""
+    floor = 20 * float(flat.gap.min())
+    film = solve_rough(Discretisation(line(flat.problem.heights, floor=floor)), flat)
+    x = flat.problem.x / B
+    hertz = STEEL.hertz_pressure * np.sqrt(np.maximum(1 - x**2, 0))
+    middle = np.abs(x) < 0.5
+    assert film.touching[middle].all()
+    assert np.abs(film.pressure[middle, 0] - hertz[middle]).max() < 0.05 * STEEL.hertz_pressure
+    assert float((film.weights * film.pressure).sum()) == pytest.approx(STEEL.load_per_width, rel=1e-6)
+
+
+def test_touching_nodes_are_complementary(flat):
+    """Nowhere is the gap below the floor, and where the bodies touch it is the floor."""
+    waves = line(lambda x, y, t: 100e-9 * np.cos(2 * np.pi * x / B) * np.cos(2 * np.pi * y / B), (64, 8), floor=140e-9)
+    film = solve_rough(Discretisation(waves))
+    assert 5 < film.touching.sum() < film.touching.size / 2
+    assert film.gap.min() > 140e-9 * (1 - 1e-6)
+    assert np.abs(film.gap[film.touching] / 140e-9 - 1).max() < 1e-6
+    assert film.pressure.min() >= 0

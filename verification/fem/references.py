@@ -340,6 +340,70 @@ BEARING = {  # tapered roller bearing 32216: lengths [m], angle [rad], load alon
     "axial load": 6e3,
 }
 BEARING_TORQUE = {500: 1.30, 2000: 2.95, 4000: 3.75}  # N m by rpm
+BEARING_SQ = 0.16e-6  # m, of both surfaces together: their Table 4
+BEARING_NU = 60e-6  # m²/s, of FVA 3 at 50 °C, by ASTM D341 from 96 and 10.6 mm²/s
+
+
+def skf_boundary_weight(rpm: float, nu: float, mean_diameter: float) -> float:
+    """SKF's weight of boundary friction in a bearing, 1/exp(2.6e-8 (n ν)^1.4 d_m) with n in rpm, ν in mm²/s, d_m in mm.
+    ``nu`` [m²/s], ``mean_diameter`` [m]."""
+    return math.exp(-2.6e-8 * (rpm * nu * 1e6) ** 1.4 * mean_diameter * 1e3)
+
+
+@dataclass(frozen=True)
+class GearC14:
+    """The spur gear FZG C14: radii [m] of base and tip circles, width [m], distance of the centres [m], teeth, mean Ra
+    [m] and Sq [m] of both flanks together."""
+
+    base: tuple[float, float] = (33.829e-3, 50.743e-3)
+    tips: tuple[float, float] = (41.318e-3, 59.272e-3)
+    teeth: tuple[int, int] = (16, 24)
+    width: float = 14e-3
+    centres: float = 91.5e-3
+    ra: float = 0.355e-6
+    sq: float = 0.648e-6
+
+    @property
+    def angle(self) -> float:
+        """The working pressure angle [rad]."""
+        return math.acos(sum(self.base) / self.centres)
+
+    @property
+    def pitch(self) -> tuple[float, float]:
+        """The pitch radii [m]."""
+        first, second = (radius / math.cos(self.angle) for radius in self.base)
+        return first, second
+
+    @property
+    def radius(self) -> float:
+        """The reduced radius [m] at the pitch point."""
+        return math.sin(self.angle) / sum(1 / radius for radius in self.pitch)
+
+    def sum_speed(self, rpm: float) -> float:
+        """Sum of the surface speeds [m/s] at the pitch point, the pinion at ``rpm``."""
+        return 2 * rpm * 2 * math.pi / 60 * self.pitch[0] * math.sin(self.angle)
+
+
+C14 = GearC14()
+# of mineral oils: 1 in Schlenk's fit (Niemann, Winter), 0.846 in Fernandes' gear oils; the middle, and half the difference
+LUBRICANT_FACTOR = (0.923, 0.077)
+
+
+def schlenk(torque: float, rpm: float, viscosity: float) -> float:
+    """Schlenk's mean friction of the gear `C14`: 0.048 (w/(v_Σ ρ))^0.2 η^-0.05 Ra^0.25 X_L, in N/mm, m/s, mm, mPa s, µm.
+    ``torque`` on the pinion [N m], ``viscosity`` [Pa s]."""
+    load = torque / C14.base[0] / C14.width
+    film = (load * 1e-3 / (C14.sum_speed(rpm) * C14.radius * 1e3)) ** 0.2 * (viscosity * 1e3) ** -0.05
+    return 0.048 * film * (C14.ra * 1e6) ** 0.25 * LUBRICANT_FACTOR[0]
+
+
+def fernandes(torque: float, rpm: float, viscosity: float, alpha: float) -> float:
+    """Fernandes' mean friction of the gear `C14` by a modified Hersey number: 0.014 S_p^-0.25 S_g^0.25 X_L."""
+    hersey = C14.sum_speed(rpm) * viscosity * math.sqrt(alpha * C14.base[0] / torque)
+    roughness = C14.ra / math.sqrt(C14.width * C14.radius)
+    return 0.014 * (roughness / hersey) ** 0.25 * LUBRICANT_FACTOR[0]
+
+
 PAPER = {"mean Hertz pressure": 102e6, "half-width": 4.5e-6}  # Pa, m
 
 

@@ -1,18 +1,21 @@
-"""Mixed lubrication compared with four laws of the asperity load ratio, Masjedi and Khonsari, and the paper's own
-numbers."""
+"""Mixed lubrication compared with laws of the asperity load ratio, Masjedi and Khonsari, the friction of gears, the weight
+of boundary friction in a bearing, and the paper's own numbers."""
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
 
 import lubfric
-from lubfric.models.deterministic import BOUNDARY_FILM, RoughBody, solve_moving_strip
+from lubfric.models.deterministic import BOUNDARY_FILM, RoughBody, solve_moving_strip, solve_strip
+from lubfric.oil import oil
 
 from ... import plotting
 from ...campaigns.model.boundary_film import FILMS, RATIOS, SURFACES, shares
 from ...check import Check, Figure, Item, beside
 from .. import references
 from . import against
+from .friction import FVA_3, STEEL
 
 FLOOR = 0.02  # of the load: what a plateau read off a figure leaves open
 LAWS = ("law-arana", "law-zhou", "law-patir", "law-doleschel")  # keys of references.LOAD_SHARES
@@ -24,6 +27,15 @@ MAP = (128, 32)  # cells, four in a correlation length
 LENGTHS = (10e-6, 20e-6)  # m: correlation lengths, a 16th and an 8th of a half-width; theirs is not known
 SLIP = 0.1  # slide-roll ratio: the rough surface 1 moves at 0.95 U
 PRESSURE = 0.5e9  # Pa, of Hertz
+# Gears: a torque on the pinion [N m] (load stage 7) at three speeds [rpm], FVA 3 at a temperature [°C] of the oil.
+GEAR_TORQUE = 183.4
+GEAR_SPEEDS = (300, 900, 1800)
+GEAR_TEMPERATURE = 80.0
+GEAR_FRICTIONS = (0.065, 0.105)  # f_b: the range that is quoted for gears and rollers without additives
+GEAR_LENGTHS = (20e-6, 40e-6)  # m: correlation lengths of ground flanks; those of C14 are not published
+GEAR_PLACES = 5  # along the path of contact
+BEARING_SPEEDS = (30, 60, 120)  # rpm
+MOTION = 0.4  # of the share at rest: what moving roughness changes of it (Masjedi and Khonsari's middle roughness)
 
 
 def mixed(level: str) -> Iterator[Item]:
@@ -49,6 +61,8 @@ def mixed(level: str) -> Iterator[Item]:
         note = "the laws differ among themselves by a factor of 2.5 there"
         yield against(key, name, ours[at], float(law(1.0)), own[at] / ours[at], note=note, cause="unknown")
     yield from masjedi(level)
+    yield from bearing()
+    yield from gears()
     scene = lubfric.load_scene("paper")
     line = scene.line_contact(0.001)
     mean = scene.bodies.load / scene.bodies.width / (2 * line.half_width)
@@ -110,6 +124,117 @@ def masjedi(level: str) -> Iterator[Check]:
         errors = (error, max(0.15 * theirs, FLOOR))
         source = references.SOURCES["masjedi"].text
         yield beside(name, usual, theirs, errors, source, note=note, cause="unknown")
+
+
+def bearing() -> Iterator[Check]:
+    """The asperity load ratio on the inner race of bearing 32216 at low speeds, compared with SKF's weight of boundary
+    friction.
+
+    Geometry, oil, load and Sq are published; the correlation length is not, and the roughness is at rest here. The error
+    is half the difference of two lengths, what a boundary film of half or of twice its thickness changes, and `MOTION`."""
+    data = references.BEARING
+    inner = data["pitch"] - data["diameter"] * math.cos(data["angle"])
+    radius = 1 / (2 / data["diameter"] + 2 * math.cos(data["angle"]) / inner)
+    scene = lubfric.load_scene("paper").with_(
+        bodies={
+            "radius": radius,
+            "width": data["length"],
+            "load": data["axial load"] / (data["rollers"] * math.sin(data["angle"])),
+            "e_prime": STEEL,
+            "hardness": None,
+        },
+        lubricant={**FVA_3, "eyring_stress": 5e6, "limiting_stress_coefficient": 0.047},
+        motion={"slide_roll_ratio": 0.0},
+    )
+    films = (BOUNDARY_FILM, BOUNDARY_FILM / 2, 2 * BOUNDARY_FILM)
+    for rpm in BEARING_SPEEDS:
+        outer = data["pitch"] + data["diameter"] * math.cos(data["angle"])
+        speed = 2 * math.pi / 60 * rpm * inner * outer / (inner + outer) / 2
+        rows = []
+        for length in LENGTHS:
+            surface = lubfric.generate_surface(
+                MAP, length / 4, sq=references.BEARING_SQ, correlation_length=length, acf="gaussian", seed=1
+            )
+            result = solve_strip(scene, surface, speed).result
+            rows.append([result.pressure[result.gap < film].sum() / result.pressure.sum() for film in films])
+        usual, thin, thick = np.mean(rows, axis=0)
+        error = float(np.hypot(np.hypot(np.ptp([row[0] for row in rows]) / 2, (thick - thin) / 2), MOTION * usual))
+        theirs = references.skf_boundary_weight(rpm, references.BEARING_NU, data["pitch"])
+        name = f"asperity load ratio, bearing 32216 at {rpm} rpm"
+        note = "theirs weighs friction coefficients, and holds for bearings of any load and finish"
+        errors = (error, references.SOURCES["skf"].error * theirs)
+        yield beside(name, float(usual), theirs, errors, references.SOURCES["skf"].text, note=note, cause="unknown")
+
+
+def gears() -> Iterator[Check]:
+    """The mean friction of the gear FZG C14 along its path of contact, by the load-sharing model, compared with two fits.
+
+    It is weighted with the load and the sliding speed, as the fits define it; where two pairs of teeth are in contact
+    each has half the load. The error is the model-form error that the model states, and half the differences that the
+    range of f_b and two correlation lengths make. The film is isothermal."""
+    fva_3 = oil("FVA 3", GEAR_TEMPERATURE)
+    for rpm in GEAR_SPEEDS:
+        middle = sum(GEAR_FRICTIONS) / 2
+        short, long = (mean_friction(rpm, fva_3, middle, length) for length in GEAR_LENGTHS)
+        low, high = (mean_friction(rpm, fva_3, f_b, GEAR_LENGTHS[0])[0] for f_b in GEAR_FRICTIONS)
+        ours = (short[0] + long[0]) / 2
+        parts = (abs(long[0] - short[0]) / 2, (high - low) / 2, max(short[1], long[1]) * ours)
+        error = math.hypot(*parts)
+        viscosity = fva_3.viscosity
+        alpha = fva_3.pressure_viscosity_coefficient
+        fits = {
+            "schlenk": references.schlenk(GEAR_TORQUE, rpm, viscosity),
+            "fernandes": references.fernandes(GEAR_TORQUE, rpm, viscosity, alpha),
+        }
+        for key, theirs in fits.items():
+            name = f"mean friction of gear C14, 183.4 N m, {rpm} rpm, by {key.capitalize()}"
+            note = "f_b from 0.065 to 0.105; the film is isothermal"
+            yield against(key, name, ours, theirs, error / ours, note=note, cause="unknown")
+
+
+def mean_friction(rpm: float, fva_3: lubfric.Lubricant, f_b: float, length: float) -> tuple[float, float]:
+    """Mean friction of the gear `references.C14`, and the mean of the relative model-form errors along the path."""
+    gear = references.C14
+    turn = rpm * 2 * math.pi / 60
+    force = GEAR_TORQUE / gear.base[0]
+    sine = math.sin(gear.angle)
+    reach = [math.sqrt(t**2 - b**2) - p * sine for t, b, p in zip(gear.tips, gear.base, gear.pitch)]
+    base_pitch = 2 * math.pi * gear.base[0] / gear.teeth[0]
+    places = np.linspace(-reach[1], reach[0], 2 * GEAR_PLACES + 1)[1::2]
+    weights = []
+    frictions = []
+    errors = []
+    for place in places:
+        radii = gear.pitch[0] * sine + place, gear.pitch[1] * sine - place
+        speeds = turn * radii[0], turn * gear.teeth[0] / gear.teeth[1] * radii[1]
+        single = reach[0] - base_pitch < place < base_pitch - reach[1]
+        load = force if single else force / 2
+        scene = lubfric.load_scene("paper").with_(
+            bodies={
+                "radii": list(radii),
+                "width": gear.width,
+                "load": load,
+                "material": "steel",
+                "hardness": None,
+                "boundary_friction_coefficient": f_b,
+            },
+            lubricant={
+                "viscosity": fva_3.viscosity,
+                "pressure_viscosity_coefficient": fva_3.pressure_viscosity_coefficient,
+                "density_law": "dowson-higginson",
+                "eyring_stress": 5e6,
+                "limiting_stress_coefficient": 0.047,
+            },
+            surface={"sq": gear.sq, "correlation_length": length, "acf": "gaussian"},
+            contact={"shape": (96, 32), "spacing": length / 4},
+            motion={"slide_roll_ratio": 2 * (speeds[1] - speeds[0]) / sum(speeds)},
+            numerics={"model": "load-sharing", "sampling": "patch", "tolerance": 0.03},
+        )
+        result = lubfric.friction(scene, sum(speeds) / 2)
+        weights.append(load * abs(speeds[0] - speeds[1]))
+        frictions.append(abs(result.coefficient))
+        errors.append(float(result.uncertainty.model))
+    return float(np.average(frictions, weights=weights)), float(np.average(errors, weights=weights))
 
 
 def drawn(ours: np.ndarray, own: np.ndarray) -> Figure:

@@ -12,8 +12,15 @@ The weak form is Galerkin's. Under high pressure only (rho h)' remains, for whic
 convection. So the jumps of that slope between elements have a penalty, as in `ehl_film` (interior penalty of Burman &
 Hansbo 2004, doi:10.1016/j.cma.2003.12.032): a term of third order in the cell, where the error is of second order.
 
-Newton's method solves for all pressures and h0 at once, with the full dense matrix and an active set of nodes with p =
-0. Steps in time are implicit, of second order (BDF2; the first is Euler's).
+Where a ``floor`` is stated, the bodies touch: complementarity decides at every node,
+
+    h >= floor,   contact >= 0,   (h - floor) contact = 0,
+
+where p is then the whole pressure and its equation h = floor. The node opens again when more lubricant flows into it
+than out of it. With a floor the rigid gap is interpolated between the nodes, so no gap is below the floor anywhere.
+
+Newton's method solves for all pressures and h0 at once, with the full dense matrix and active sets: nodes with p = 0, and
+nodes with h = floor. Steps in time are implicit, of second order (BDF2; the first is Euler's).
 """
 
 from collections.abc import Callable, Iterator
@@ -23,6 +30,7 @@ from functools import cached_property
 import numpy as np
 import scipy.linalg
 import scipy.sparse as sp
+from scipy.interpolate import RegularGridInterpolator
 from skfem import Basis, BilinearForm, ElementQuad1, LinearForm, MeshQuad
 from skfem.helpers import grad
 
@@ -36,7 +44,9 @@ PENALTY = 0.03  # on the jumps of slope: the value of `ehl_film`
 LARGEST_GROWTH = 3.0  # of ln(eta) at any node in one step of Newton's method
 SMALLEST_SHARE = 0.3  # of the film at any node that one step leaves
 SMOOTH_CELL = 0.05  # half-widths: longest cell of the smooth film that a rough one starts from
+TOUCHING_SHARES = 9  # of the heights, in even steps from smooth, through which touching bodies are reached
 POISSON = 0.3  # of the body; only E' acts on the line of contact
+PULL = 0.01  # of U times the floor: surplus of inflow, up to which a touching node stays closed
 BDF2 = (1.5, -2.0, 0.5)
 EULER = (1.0, -1.0, 0.0)
 REST = (0.0, 0.0, 0.0)
@@ -54,6 +64,7 @@ class RoughLine:
     cells : (nx, ny), nx even, ny even; nx nodes between the ends, ny over the period
     heights : z [m] of coordinates x, y [m] and the time [s], even in y about 0 and about half of the period
     fineness : each cell along x is 2^fineness facets of the elastic body
+    floor : gap [m] of bodies that touch (None: they never touch)
     """
 
     contact: LineContact
@@ -63,6 +74,7 @@ class RoughLine:
     cells: tuple[int, int]
     heights: Heights
     fineness: int = 1
+    floor: float | None = None
 
     def __post_init__(self) -> None:
         said = f"cells = {self.cells}, inlet = {self.inlet} m, outlet = {self.outlet} m"
@@ -88,7 +100,7 @@ class RoughLine:
 @dataclass(frozen=True)
 class RoughStripFilm:
     """A film at a moment: pressure [Pa] and gap [m] at the nodes (nx, ny/2 + 1), approach h0 [m], flow [m²/s] per width
-    that enters, time [s], and the report of the solve."""
+    that enters, time [s], the report of the solve, and whether the bodies touch at each node."""
 
     problem: RoughLine
     pressure: np.ndarray
@@ -97,6 +109,7 @@ class RoughStripFilm:
     flow: float
     time: float
     report: SolveReport
+    touching: np.ndarray
 
     @property
     def weights(self) -> np.ndarray:
@@ -170,7 +183,14 @@ class Discretisation:
         values = []
         for x, y in (self.quadrature, self.basis.doflocs):
             values.append(x**2 / (2 * self.problem.contact.radius) - self.problem.heights(x, y, time))
+        if self.problem.floor is not None:
+            values[0] = np.asarray(self.basis.interpolate(values[1]))
         return values[0], values[1]
+
+    @cached_property
+    def area(self) -> np.ndarray:
+        """Area [m²] that each degree of freedom stands for."""
+        return self.load_weights * (self.problem.period / 2)
 
     def field(self, values: np.ndarray) -> np.ndarray:
         """Values at the degrees of freedom as an array (nx, ny/2 + 1)."""
@@ -216,7 +236,7 @@ def balance(
     value = np.maximum(np.asarray(field), 0.0)
     gradient = np.asarray(grad(field))
     h = shape + np.asarray(basis.interpolate(moved))
-    h = np.maximum(h, 1e-3 * np.abs(h).min() + 1e-12)
+    h = np.maximum(h, 1e-3 * np.abs(h).min() + 1e-12 if grid.problem.floor is None else grid.problem.floor)
     rho = fluid.rho(value)
     denser = slope(fluid.rho, value)
     mobility = rho * h**3 / (12 * fluid.eta(value))
@@ -281,37 +301,52 @@ def newton(
     *,
     tolerance: float = 1e-7,
     max_iterations: int = 60,
-) -> tuple[np.ndarray, float, Balance, SolveReport]:
-    """Pressure [Pa] and approach [m] of a moment, with the balance and the report.
+    touching: np.ndarray | None = None,
+) -> tuple[np.ndarray, float, Balance, SolveReport, np.ndarray]:
+    """Pressure [Pa] and approach [m] of a moment, with the balance, the report and the nodes that touch. ``touching``:
+    those that touch at first.
 
-    The residuals are the mass lost on the way to the rupture over the inflow, the load, and the largest tension over
-    the Hertz pressure."""
+    The residuals are the mass lost on the way to the rupture over the inflow, the load, the largest tension over the
+    Hertz pressure, and the largest |h - floor| of touching nodes over the film of Moes."""
     contact = grid.problem.contact
+    floor = grid.problem.floor
     shape, nodal = grid.shape(time)
     load = contact.load_per_width
     unit = contact.hertz_pressure
     inflow = contact.entrainment_speed * contact.moes_film * grid.problem.period / 2
     held = grid.edge | (p <= 0)
+    touching = np.zeros(p.size, bool) if touching is None else touching & ~held
+    pull = PULL * contact.entrainment_speed * (floor or 0.0) * grid.area / grid.problem.spacing[0]
     history = []
     status = ITERATION_LIMIT
     while True:
         moved = approach + grid.stiff @ p
+        gap = nodal + moved
         at = balance(grid, p, moved, shape, nodal, step)
         excess = float(grid.load_weights @ p) / load - 1
-        residuals = {"mass": float(np.abs(at.lost[~held]).sum() / inflow), "load": abs(excess)}
+        fluid = ~held & ~touching
+        residuals = {"mass": float(np.abs(at.lost[fluid]).sum() / inflow), "load": abs(excess)}
         residuals["tension"] = float(max(-p.min(), 0.0) / unit)
+        if floor is not None:
+            residuals["touching"] = float(np.abs(gap[touching] - floor).max(initial=0.0) / contact.moes_film)
         history.append(max(residuals.values()))
         new = grid.edge | np.where(held, at.lost > 0, p < 0)
+        closed = np.zeros(p.size, bool)
+        if floor is not None:
+            closed = np.where(touching, (at.lost >= -pull) & (p > 0), gap < floor) & ~grid.edge
+            new &= ~closed
         if not np.isfinite(history[-1]):
             status = DIVERGED
             break
-        if history[-1] <= tolerance and not (new != held).any():
+        if history[-1] <= tolerance and not ((new != held) | (closed != touching)).any():
             status = CONVERGED
             break
         if len(history) > max_iterations:
             break
         held = new
+        touching = closed
         free = np.flatnonzero(~held)
+        contacts = touching[free]
         change = np.where(held, -p, 0.0)
         matrix = np.zeros((free.size + 1, free.size + 1), order="F")
         matrix[:-1, :-1] = at.by_pressure[free][:, free].toarray() + at.by_gap[free] @ grid.stiff[:, free]
@@ -320,27 +355,53 @@ def newton(
         matrix[-1, :-1] = grid.load_weights[free] * unit / load
         lost = at.lost + at.by_pressure @ change + at.by_gap @ (grid.stiff @ change)
         right = -np.append(lost[free] / inflow, excess + grid.load_weights @ change / load)
+        if contacts.any():
+            rows = np.flatnonzero(contacts)
+            nodes = free[rows]
+            matrix[rows, :-1] = grid.stiff[np.ix_(nodes, free)] * unit / contact.film_unit
+            matrix[rows, -1] = 1.0
+            right[rows] = (floor - gap[nodes] - grid.stiff[nodes] @ change) / contact.film_unit
         solution = scipy.linalg.solve(matrix, right, overwrite_a=True, check_finite=False)
         change[free] = solution[:-1] * unit
         rise = float(solution[-1]) * contact.film_unit
-        thinner = -(rise + grid.stiff @ change) / np.maximum(nodal + moved, 1e-12)
-        fluid = contact.fluid
-        growth = np.abs(fluid.log_viscosity(np.maximum(p + change, 0)) - fluid.log_viscosity(np.maximum(p, 0))).max()
-        share = min(1.0, LARGEST_GROWTH / max(growth, 1e-9), (1 - SMALLEST_SHARE) / max(float(thinner.max()), 1e-9))
+        share = step_share(grid, p, change, gap, rise, touching)
         p = p + share * change
         approach = approach + share * rise
     steps = len(history) - 1
     report = SolveReport("rough EHL by finite elements", status, steps, tolerance, residuals, tuple(history))
-    return p, approach, at, report
+    return p, approach, at, report, touching
 
 
-def film_of(grid: Discretisation, p, approach: float, at: Balance, time: float, report: SolveReport) -> RoughStripFilm:
+def step_share(
+    grid: Discretisation, p: np.ndarray, change: np.ndarray, gap: np.ndarray, rise: float, touching: np.ndarray
+) -> float:
+    """Return the part of a step of Newton's method that is taken: no viscosity grows by more than exp(`LARGEST_GROWTH`),
+    and no film of bodies that never touch falls below `SMALLEST_SHARE` of it."""
+    fluid = grid.problem.contact.fluid
+    wet = ~touching
+    growth = np.abs(fluid.log_viscosity(np.maximum(p + change, 0)) - fluid.log_viscosity(np.maximum(p, 0)))
+    share = min(1.0, LARGEST_GROWTH / max(float(growth[wet].max()), 1e-9))
+    if grid.problem.floor is not None:
+        return share
+    thinner = -(rise + grid.stiff @ change) / np.maximum(gap, 1e-12)
+    return min(share, (1 - SMALLEST_SHARE) / max(float(thinner.max()), 1e-9))
+
+
+def film_of(
+    grid: Discretisation,
+    p: np.ndarray,
+    approach: float,
+    at: Balance,
+    time: float,
+    report: SolveReport,
+    touching: np.ndarray,
+) -> RoughStripFilm:
     """The result of a converged solve; `SolveError` for another."""
     nodal = grid.shape(time)[1]
     gap = nodal + approach + grid.stiff @ p
     flow = float(at.lost[grid.first].sum()) / (grid.problem.period / 2)
     fields = grid.field(p), grid.field(gap)
-    return report.checked(RoughStripFilm(grid.problem, *fields, approach, flow, time, report))
+    return report.checked(RoughStripFilm(grid.problem, *fields, approach, flow, time, report, grid.field(touching)))
 
 
 def solve_rough(
@@ -352,7 +413,9 @@ def solve_rough(
     contact = problem.contact
     if start is not None:
         p = interpolated(start, grid)
-        return film_of(grid, *solved(grid, p, start.approach, time, tolerance))
+        known = RegularGridInterpolator((start.problem.x, start.problem.y), start.touching.astype(float), "nearest")
+        closed = at_nodes(known, start.problem, grid) > 0.5
+        return film_of(grid, *solved(grid, p, start.approach, time, tolerance, touching=closed))
     smooth = solve_ehl(contact, refinements=0, fineness=1.0, between=SMOOTH_CELL)[-1]
     x = grid.basis.doflocs[0]
     ends = smooth.body.x.min(), smooth.body.x.max()
@@ -360,14 +423,14 @@ def solve_rough(
     p = np.where(grid.edge, 0.0, np.maximum(p, 0.0))
     middle = np.argmin(np.abs(x))
     approach = float(smooth.at(x[middle : middle + 1])[1][0] - (x**2 / (2 * contact.radius) + grid.stiff @ p)[middle])
-    for share in (0.0, 0.5, 1.0):
-        part = replace(problem, heights=scaled(problem.heights, share))
-        grid.problem = part
+    touching = np.zeros(p.size, bool)
+    for share in (0.0, 0.5, 1.0) if problem.floor is None else np.linspace(0.0, 1.0, TOUCHING_SHARES):
+        grid.problem = replace(problem, heights=scaled(problem.heights, share))
         try:
-            p, approach, at, time, report = solved(grid, p, approach, time, tolerance)
+            p, approach, at, time, report, touching = solved(grid, p, approach, time, tolerance, touching=touching)
         finally:
             grid.problem = problem
-    return film_of(grid, p, approach, at, time, report)
+    return film_of(grid, p, approach, at, time, report, touching)
 
 
 def scaled(heights: Heights, share: float) -> Heights:
@@ -375,20 +438,30 @@ def scaled(heights: Heights, share: float) -> Heights:
     return lambda x, y, time: share * heights(x, y, time)
 
 
-def solved(grid: Discretisation, p, approach: float, time: float, tolerance: float, step: Step = Step()):
+def solved(
+    grid: Discretisation,
+    p: np.ndarray,
+    approach: float,
+    time: float,
+    tolerance: float,
+    step: Step = Step(),
+    touching: np.ndarray | None = None,
+):
     """`newton`, in the order of the arguments of `film_of`."""
-    p, approach, at, report = newton(grid, p, approach, time, step, tolerance=tolerance)
-    return p, approach, at, time, report
+    p, approach, at, report, touching = newton(grid, p, approach, time, step, tolerance=tolerance, touching=touching)
+    return p, approach, at, time, report, touching
 
 
 def interpolated(coarse: RoughStripFilm, grid: Discretisation) -> np.ndarray:
     """The pressure of another grid at the degrees of freedom of this one."""
-    from scipy.interpolate import RegularGridInterpolator
-
     known = RegularGridInterpolator((coarse.problem.x, coarse.problem.y), coarse.pressure)
+    return np.maximum(at_nodes(known, coarse.problem, grid), 0.0)
+
+
+def at_nodes(known: RegularGridInterpolator, coarse: RoughLine, grid: Discretisation) -> np.ndarray:
+    """A field that is ``known`` on the nodes of a ``coarse`` problem at the degrees of freedom of ``grid``."""
     x, y = grid.basis.doflocs
-    x = np.clip(x, coarse.problem.x[0], coarse.problem.x[-1])
-    return np.maximum(known(np.column_stack([x, np.clip(y, 0, coarse.problem.y[-1])])), 0.0)
+    return known(np.column_stack([np.clip(x, coarse.x[0], coarse.x[-1]), np.clip(y, 0, coarse.y[-1])]))
 
 
 def march(
@@ -398,6 +471,7 @@ def march(
     p = np.empty(grid.basis.N)
     p[:] = start.pressure.ravel()[grid.place]
     approach = start.approach
+    touching = start.touching.ravel()[grid.place]
     shape, nodal = grid.shape(start.time)
     now = balance(grid, p, approach + grid.stiff @ p, shape, nodal, Step()).content
     before = now
@@ -406,8 +480,8 @@ def march(
     while True:
         time += length
         step = Step(length, rates, now, before)
-        p, approach, at, _, report = solved(grid, p, approach, time, tolerance, step)
-        film = film_of(grid, p, approach, at, time, report)
+        p, approach, at, _, report, touching = solved(grid, p, approach, time, tolerance, step, touching)
+        film = film_of(grid, p, approach, at, time, report, touching)
         before = now
         now = at.content
         rates = BDF2

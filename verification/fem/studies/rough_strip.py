@@ -23,13 +23,14 @@ from ..parts import line_contact
 from ..solvers.ehl import LineContact
 from ..solvers.rough_ehl import Discretisation, RoughLine, RoughStripFilm, march, solve_rough
 
-STEEL: dict[str, Any] = {"radius": 1e-2, "e_prime": 2.3e11, "viscosity": 0.04, "entrainment_speed": 0.5}
+STEEL: dict[str, Any] = {"radius": 1e-2, "e_prime": 2.3e11, "viscosity": 0.04}
 OIL: dict[str, Any] = {
     "pressure_viscosity_coefficient": 18e-9,
     "viscosity_law": "roelands",
     "density_law": "dowson-higginson",
 }
 LOADS = (1e5, 4e5)  # N/m: 0.61 and 1.21 GPa of Hertz
+SPEED = 0.5  # m/s
 SQ = 50e-9  # m, a quarter to a third of the film
 INLET = 3.5  # half-widths: where the film begins
 OUTLET = 1.5
@@ -50,10 +51,32 @@ SOURCE = "finite elements of one gap and one pressure"
 # Allowed: of the mean gap, the flow, the smallest gap and the viscous force; rms of the gap over Sq, of the pressure
 # over that of Hertz. The differences fall with the cell, as the table shows; these are for the finer grids.
 ALLOWED = {"mean gap": 0.01, "flow": 0.015, "smallest gap": 0.02, "viscous force": 0.05}
+THIN = 1.1  # of the floor: gaps up to which bodies count as touching; just above the floor there is no other difference
 ALLOWED_GAP = 0.05
 ALLOWED_PRESSURE = 0.03
 
 Heights = Callable[[np.ndarray, np.ndarray, float], np.ndarray]
+
+
+@dataclass(frozen=True, kw_only=True)
+class StripCase:
+    """A strip: load [N/m], speed of the film [m/s], roughness Sq [m], and the gap [m] of bodies that touch (``floor``;
+    None: they never touch)."""
+
+    load: float
+    speed: float = SPEED
+    sq: float = SQ
+    floor: float | None = None
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """The smooth contact, in the words of both programs."""
+        return STEEL | OIL | {"load_per_width": self.load, "entrainment_speed": self.speed}
+
+    @property
+    def contact(self) -> LineContact:
+        """The contact for the finite elements."""
+        return LineContact.of(self.given)
 
 
 @dataclass(frozen=True)
@@ -78,25 +101,19 @@ def rough_strip(level: str) -> Iterator[Item]:
     rows: list[tuple] = []
     bodies: dict[tuple[int, int], Discretisation] = {}
     for load in LOADS:
+        case = StripCase(load=load)
         for moving in (False, True):
             if level == "quick" and (moving or load != LOADS[0]):
                 continue
             name = f"{load:g} N/m, {'moving' if moving else 'at rest'}"
-            sizes = MOVING_CELLS[level] if moving else CELLS[level]
-            ours = [own_films(load, cells, moving) for cells in sizes]
+            cells = MOVING_CELLS[level] if moving else CELLS[level]
             grids = tuple(dict.fromkeys(GRIDS[level]))[: 1 if moving and level == "default" and load != LOADS[0] else 2]
-            elements = []
-            for grid in grids:
-                films, bodies[grid] = element_films(load, grid, moving, bodies.get(grid))
-                elements.append(films)
-            yield from judged_films(name, load, ours[-1], elements[-1])
-            finenesses = [round((grid[0] - 1) / (INLET + OUTLET)) for grid in grids]
-            for by, counts, solutions in (("lubfric", sizes, ours), ("elements", finenesses, elements)):
-                for cells, films in zip(counts, solutions):
-                    values = averages(load, films).values()
-                    rows.append((name, by, cells, *(f"{value:.5g}" for value in values)))
+            ours, elements = both_programs(case, cells, grids, moving, bodies)
+            yield from judged_films(name, case, ours[-1], elements[-1], ALLOWED)
+            rows += rows_of(name, case, cells, ours, grids, elements)
             if not moving:
-                yield picture_field(f"rough_strip_{load:.0f}".replace("+", ""), load, ours[-1][0], elements[-1][0])
+                picture = f"rough_strip_{load:.0f}"
+                yield picture_field(picture, f"the rough strip at {load:g} N/m", case, ours[-1][0], elements[-1][0])
     caption = "One strip by both programs and on two grids each: means over |x| < 0.8 b, and over the moments compared"
     yield Table("rough-strip", caption, ("case", "by", "cells in b", *QUANTITIES), rows)
 
@@ -104,12 +121,41 @@ def rough_strip(level: str) -> Iterator[Item]:
 QUANTITIES = ("mean gap (m)", "smallest gap (m)", "flow (m²/s)", "viscous force (N/m per m/s)")
 
 
-def contact_of(load: float) -> LineContact:
-    """The contact for the finite elements."""
-    return LineContact.of(STEEL | OIL | {"load_per_width": load})
+def both_programs(
+    case: StripCase,
+    cells: tuple[int, ...],
+    grids: tuple[tuple[int, int], ...],
+    moving: bool,
+    bodies: dict[tuple[int, int], Discretisation],
+) -> tuple[list[list[Fields]], list[list[Fields]]]:
+    """The films of lubfric with each number of ``cells`` in a half-width, and those of finite elements on each of the
+    ``grids``. ``bodies`` keeps the elastic body of each grid."""
+    ours = [own_films(case, count, moving) for count in cells]
+    elements = []
+    for grid in grids:
+        films, bodies[grid] = element_films(case, grid, moving, bodies.get(grid))
+        elements.append(films)
+    return ours, elements
 
 
-def surface_of(b: float, pace: float = 0.0) -> Heights:
+def rows_of(
+    name: str,
+    case: StripCase,
+    cells: tuple[int, ...],
+    ours: list[list[Fields]],
+    grids: tuple[tuple[int, int], ...],
+    elements: list[list[Fields]],
+) -> list[tuple]:
+    """The rows of the table: what each program has on each of its grids."""
+    finenesses = [round((grid[0] - 1) / (INLET + OUTLET)) for grid in grids]
+    rows: list[tuple] = []
+    for by, counts, solutions in (("lubfric", cells, ours), ("elements", finenesses, elements)):
+        for count, films in zip(counts, solutions):
+            rows.append((name, by, count, *(f"{value:.5g}" for value in averages(case, films).values())))
+    return rows
+
+
+def surface_of(b: float, pace: float = 0.0, sq: float = SQ) -> Heights:
     """z [m] of x, y [m] and a time [s]: waves with random heights and phases, even in y, that move at ``pace`` [m/s]."""
     rng = np.random.default_rng(SEED)
     along = PERIODS[0] * b
@@ -118,7 +164,7 @@ def surface_of(b: float, pace: float = 0.0) -> Heights:
     sizes = rng.standard_normal(len(waves)) / np.array([math.sqrt(1 + m * m + n * n) for m, n in waves])
     phases = rng.uniform(0, 2 * math.pi, len(waves))
     squares = [size**2 * (0.25 if n else 0.5) for size, (_, n) in zip(sizes, waves)]
-    scale = SQ / math.sqrt(sum(squares))
+    scale = sq / math.sqrt(sum(squares))
 
     def heights(x: np.ndarray, y: np.ndarray, time: float) -> np.ndarray:
         z = 0.0 * x * y
@@ -132,10 +178,10 @@ def surface_of(b: float, pace: float = 0.0) -> Heights:
 
 
 def element_films(
-    load: float, cells: tuple[int, int], moving: bool, like: Discretisation | None
+    case: StripCase, cells: tuple[int, int], moving: bool, like: Discretisation | None
 ) -> tuple[list[Fields], Discretisation]:
     """The films by finite elements: one at rest, or the `MOMENTS` of a period."""
-    contact = contact_of(load)
+    contact = case.contact
     b = contact.half_width
     speed = contact.entrainment_speed
     pace = PACE * speed if moving else 0.0
@@ -145,7 +191,8 @@ def element_films(
         outlet=OUTLET * b,
         period=PERIODS[1] * b,
         cells=cells,
-        heights=surface_of(b, pace),
+        heights=surface_of(b, pace, case.sq),
+        floor=case.floor,
     )
     grid = Discretisation(problem, like)
     start = solve_rough(grid, tolerance=PRECISION)
@@ -172,9 +219,9 @@ def fields_of(film: RoughStripFilm) -> Fields:
     return Fields(film.problem.x, film.problem.y, film.pressure, film.gap, film.flow)
 
 
-def own_films(load: float, cells: int, moving: bool) -> list[Fields]:
+def own_films(case: StripCase, cells: int, moving: bool) -> list[Fields]:
     """The films of the deterministic model with so many ``cells`` in a half-width."""
-    line = line_contact(STEEL | OIL | {"load_per_width": load})
+    line = line_contact(case.given)
     b = line.half_width
     line = replace(line, lubricant=replace(line.lubricant, inlet_length=INLET * b))
     step = b / cells
@@ -182,10 +229,12 @@ def own_films(load: float, cells: int, moving: bool) -> list[Fields]:
     flat = Surface(np.zeros(shape), (step, PERIODS[1] * b / shape[1]), periodic_axes=(True, True))
     ends = ((INLET + 1) * b, OUTLET * b)
     bare = lay_out(flat, line, sliding=0.0, boundary_friction=0.1, ends=ends)
+    if case.floor is not None:
+        bare = replace(bare, floor=case.floor)
     y = np.arange(shape[1]) * bare.spacing[1]
     speed = line.entrainment_speed
     pace = PACE * speed if moving else 0.0
-    heights = surface_of(b, pace)
+    heights = surface_of(b, pace, case.sq)
 
     def problem(time: float) -> Problem:
         return replace(bare, heights=heights(bare.x[:, None], y, time))
@@ -207,62 +256,70 @@ def half_of(problem: Problem, pressure: np.ndarray, gap: np.ndarray, flow: float
     return Fields(problem.x, y, pressure[:, :half], gap[:, :half], flow)
 
 
-def middle_of(load: float, film: Fields) -> tuple[np.ndarray, np.ndarray]:
+def middle_of(case: StripCase, film: Fields) -> tuple[np.ndarray, np.ndarray]:
     """Pressure [Pa] and gap [m] on a common grid of the middle of the contact."""
-    b = contact_of(load).half_width
+    b = case.contact.half_width
     x = np.linspace(-NEAR * b, NEAR * b, 161)
     y = np.linspace(0.0, PERIODS[1] * b / 2, 41)
     points = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
     values = []
     for field in (film.pressure, film.gap):
-        values.append(RegularGridInterpolator((film.x, film.y), field, method="cubic")(points))
+        method = "cubic" if case.floor is None else "linear"  # touching bodies have kinks in their gap
+        values.append(RegularGridInterpolator((film.x, film.y), field, method)(points))
     return values[0], values[1]
 
 
-def averages(load: float, films: list[Fields]) -> dict[str, float]:
+def averages(case: StripCase, films: list[Fields]) -> dict[str, float]:
     """Mean and smallest gap, flow, and the viscous force at a sliding speed of 1 m/s, over |x| < 0.8 b and over the
-    moments."""
-    contact = contact_of(load)
+    moments. Of bodies that touch, the share of the load on gaps up to `THIN` floors stands for the smallest gap, which
+    is the floor."""
+    contact = case.contact
     width = 2 * NEAR * contact.half_width
     gaps = []
     forces = []
+    shares = []
     for film in films:
-        pressure, gap = middle_of(load, film)
+        pressure, gap = middle_of(case, film)
         gaps.append(gap)
         forces.append(float((contact.fluid.eta(np.maximum(pressure, 0.0)) / gap).mean()) * width)
+        if case.floor is not None:
+            shares.append(float(pressure[gap <= THIN * case.floor].sum() / pressure.sum()))
+    thinnest = {"touching load": float(np.mean(shares))} if shares else {"smallest gap": float(np.min(gaps))}
     return {
         "mean gap": float(np.mean(gaps)),
-        "smallest gap": float(np.min(gaps)),
+        **thinnest,
         "flow": float(np.mean([film.flow for film in films])),
         "viscous force": float(np.mean(forces)),
     }
 
 
-def judged_films(name: str, load: float, ours: list[Fields], elements: list[Fields]) -> Iterator[Check]:
-    """Return the checks of one case, with both results at the same moments."""
-    contact = contact_of(load)
-    mine = averages(load, ours)
-    theirs = averages(load, elements)
-    for quantity, allowed in ALLOWED.items():
+def judged_films(
+    name: str, case: StripCase, ours: list[Fields], elements: list[Fields], allowed: dict[str, float]
+) -> Iterator[Check]:
+    """Return the checks of one case, of both programs at the same moments. ``allowed``: of each average, relative."""
+    hertz = case.contact.hertz_pressure
+    mine = averages(case, ours)
+    theirs = averages(case, elements)
+    for quantity, most in allowed.items():
         if math.isfinite(mine[quantity]) and math.isfinite(theirs[quantity]):
-            yield Check(f"{name}: {quantity}", mine[quantity], theirs[quantity], allowed, SOURCE)
-    pairs = [(middle_of(load, a), middle_of(load, b)) for a, b in zip(ours, elements, strict=True)]
-    pressure = math.sqrt(np.mean([(a[0] - b[0]) ** 2 for a, b in pairs])) / contact.hertz_pressure
-    gap = math.sqrt(np.mean([(a[1] - b[1]) ** 2 for a, b in pairs])) / SQ
-    note = f"largest pressure {max(b[0].max() for _, b in pairs) / contact.hertz_pressure:.2f} of Hertz"
+            yield Check(f"{name}: {quantity}", mine[quantity], theirs[quantity], most, SOURCE)
+    pairs = [(middle_of(case, a), middle_of(case, b)) for a, b in zip(ours, elements, strict=True)]
+    pressure = math.sqrt(np.mean([(a[0] - b[0]) ** 2 for a, b in pairs])) / hertz
+    gap = math.sqrt(np.mean([(a[1] - b[1]) ** 2 for a, b in pairs])) / case.sq
+    note = f"largest pressure {max(b[0].max() for _, b in pairs) / hertz:.2f} of Hertz"
     yield Check(f"{name}: rms of the pressure over Hertz", pressure, 0.0, ALLOWED_PRESSURE, SOURCE, ABSOLUTE, note=note)
     yield Check(f"{name}: rms of the gap over Sq", gap, 0.0, ALLOWED_GAP, SOURCE, ABSOLUTE)
 
 
-def picture_field(name: str, load: float, ours: Fields, elements: Fields) -> Field:
+def picture_field(name: str, what: str, case: StripCase, ours: Fields, elements: Fields) -> Field:
     """Pressure and gap of both on the common grid."""
-    b = contact_of(load).half_width
+    b = case.contact.half_width
     x, y = np.meshgrid(np.linspace(-NEAR * b, NEAR * b, 161), np.linspace(0, PERIODS[1] * b / 2, 41), indexing="ij")
     corner = np.arange(x.size).reshape(x.shape)
     quads = np.stack([corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]], axis=-1).reshape(-1, 4)
     data: dict[str, np.ndarray] = {}
     for by, film in (("lubfric", ours), ("elements", elements)):
-        pressure, gap = middle_of(load, film)
+        pressure, gap = middle_of(case, film)
         data |= {f"pressure_{by}": pressure.ravel(), f"gap_{by}": gap.ravel()}
-    caption = f"Pressure (Pa) and gap (m) of the rough strip at {load:g} N/m by both programs"
+    caption = f"Pressure (Pa) and gap (m) of {what} by both programs"
     return Field(name, caption, np.column_stack([x.ravel(), y.ravel()]), {"quad": quads}, point_data=data)
