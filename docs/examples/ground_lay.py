@@ -1,4 +1,4 @@
-"""The same measured ground surface, sliding along and across its lay, at several places of the map, by load sharing.
+"""Friction of a measured ground surface that slides along and across its lay, at several places of the map.
 
 python docs/examples/ground_lay.py path/to/ground-77nm.x3p [figure.png]
 """
@@ -15,7 +15,7 @@ SPEEDS = np.geomspace(1e-4, 1.0, 17)
 
 
 def solve(surface_file, places=5):
-    """Coefficient (places, speeds) by direction; the place is where the line of contact lies on the map."""
+    """Return the coefficient (places, speeds) by direction; a place is a position of the line of contact on the map."""
     curves = {}
     for direction in ("along", "across"):
         scene = lubfric.load_scene(HERE / f"ground_{direction}.toml", surface_file=surface_file)

@@ -1,4 +1,4 @@
-"""Friction from a measured height map: read, look at it, set it under a cylinder, draw the curve."""
+"""Friction from a measured height map: read and check the map, then compute a Stribeck curve on it."""
 
 import numpy as np
 

@@ -2,8 +2,9 @@
 A first Stribeck curve
 ======================
 
-The built-in scene ``paper`` is a steel cylinder on a moving disk. The curve shows the three regimes: the
-asperities carry the load at low speed, the film carries it at high speed, and in between they share it.
+The built-in scene ``paper`` is a steel cylinder on a moving disk. The curve shows three regimes. The asperities carry
+the load in boundary lubrication, at low speed. The film carries it in full-film lubrication, at high speed. In mixed
+lubrication they share it.
 """
 
 import matplotlib.pyplot as plt

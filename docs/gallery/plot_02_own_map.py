@@ -2,8 +2,8 @@
 Your own height map
 ===================
 
-Read a map, look at it, set it under a cylinder. The map of this example is made here, so that the script runs
-anywhere: ridges with some noise, as a grinding wheel leaves them.
+Read a map, check it, and compute the friction of a cylinder on it. This script makes its own map, so that it needs no
+other file: ridges with noise, similar to a ground surface.
 """
 
 import tempfile
@@ -17,14 +17,14 @@ import lubfric
 rng = np.random.default_rng(5)
 ridges = np.sin(0.9 * np.arange(240))[:, None] + 0.3 * rng.standard_normal((240, 640))
 path = Path(tempfile.mkdtemp()) / "map.npy"
-np.save(path, 60e-9 * ridges)  # m; a text file, or a file of the instrument, does as well
+np.save(path, 60e-9 * ridges)  # m; a text file or a file of an instrument works as well
 
 surface = lubfric.read_surface(path, spacing=0.5e-6)
 print(surface.describe())
 
 # %%
-# The scene takes the file in place of its generated surface, and keeps the grid of the map. Where few asperities touch,
-# the map is too small for a sampling error of 2 %. The result says so, and how much more area is needed.
+# The scene uses the file instead of a generated surface, with the grid of the map. Where few asperities are in contact,
+# the map is too small for a sampling error of 2 %. The result says so, and states how much more area is needed.
 
 scene = lubfric.load_scene("paper").with_(
     surface={"file": str(path), "spacing": 0.5e-6, "sq": None, "correlation_length": None},
@@ -32,8 +32,8 @@ scene = lubfric.load_scene("paper").with_(
 )
 curve = lubfric.stribeck(scene, np.geomspace(1e-3, 1.0, 7))
 low, high = curve.uncertainty.interval.T
-for speed, words in zip(curve.speed, curve.uncertainty.text):
-    print(f"{speed:6.3f} m/s: {words}")
+for speed, text in zip(curve.speed, curve.uncertainty.text):
+    print(f"{speed:6.3f} m/s: {text}")
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.8), layout="constrained")
 image = left.imshow(1e9 * surface.heights[:120, :120].T, origin="lower", extent=(0, 60, 0, 60), cmap="viridis")

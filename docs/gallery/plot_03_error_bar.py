@@ -2,9 +2,9 @@
 Sampling error of a friction coefficient
 ========================================
 
-A finite piece of a rough surface is a sample. Where film and asperities share the load, few asperities carry their
-part, and one small patch can be far off. The library solves as many strips of the surface as the target error needs,
-and states the error that remains.
+A finite piece of a rough surface is a sample. In mixed lubrication few asperities carry the asperity load, so the error
+from one small patch can be large. ``lubfric`` solves as many strips of the surface as the target error requires, and
+states the remaining error.
 """
 
 import matplotlib.pyplot as plt
@@ -17,7 +17,7 @@ point = lubfric.friction(scene, 0.03)
 print(point.uncertainty.text)
 
 # %%
-# Ten patches of the paper's size, 90 µm wide, scatter widely about this value. No single patch shows it.
+# Ten patches of the paper's size, 90 µm wide, scatter widely about this value. A single patch does not show this scatter.
 
 patches = []
 for seed in range(10):
@@ -26,8 +26,8 @@ for seed in range(10):
 
 low, high = point.uncertainty.interval
 figure, axes = plt.subplots(figsize=(6.4, 3.6), layout="constrained")
-axes.plot(range(10), patches, "o", color="#555555", label="one patch each")
+axes.plot(range(10), patches, "o", color="#555555", label="single patches")
 axes.axhspan(low, high, color="#1f5a94", alpha=0.2, label="95 % interval of the strips")
-axes.axhline(point.coefficient, color="#1f5a94", label="the strips")
+axes.axhline(point.coefficient, color="#1f5a94", label="mean of the strips")
 axes.set(xlabel="seed of the patch", ylabel="friction coefficient (-)", ylim=(0, None), xticks=np.arange(10))
 axes.legend(frameon=False, loc="lower right")

@@ -2,8 +2,7 @@
 Oil and temperature
 ===================
 
-From the oil can to the friction coefficient: an ISO VG 68 oil, its viscosity index, and the temperature of
-the bath.
+From the label of an oil to the friction coefficient: ISO VG 68, its viscosity index, and its temperature.
 """
 
 import matplotlib.pyplot as plt
@@ -12,15 +11,15 @@ import numpy as np
 import lubfric
 from lubfric import oil
 
-used = oil.from_grade("ISO VG 68", 95, density=870)
+vg68 = oil.from_grade("ISO VG 68", 95, density=870)
 temperature = np.linspace(293.15, 393.15, 41)  # K
-viscosity = [used.viscosity(t) for t in temperature]
+viscosity = [vg68.viscosity(t) for t in temperature]
 
 # %%
-# The pressure-viscosity coefficient is not on the can. It is estimated, and the estimate states how far
-# measured oils lie from it.
+# The pressure-viscosity coefficient is not on the label. It is estimated, and the estimate states the range of measured
+# oils.
 
-print(used.pressure_viscosity_coefficient(343.15).text)
+print(vg68.pressure_viscosity_coefficient(343.15).text)
 
 # %%
 # A scene takes grade, index and temperature as keys.

@@ -4,13 +4,13 @@ Traction with and without heat
 
 A roller of 10 mm runs on a plane at 2 m/s, with ISO VG 68 at 70 °C.
 
-Left: friction over the slide-roll ratio at three Hertz pressures. The full lines have the heat of inlet, film and
-surfaces, the dashed lines leave it out.
+Left: friction over the slide-roll ratio at three Hertz pressures. The full lines include the heat of inlet, film and
+surfaces, the dashed lines do not.
 
-Right: without heat the curves fall on one, as Jacod, Venner and Lugt found (J. Tribol. 123 (2001) 248-253,
+Right: without heat the curves coincide, as Jacod, Venner and Lugt found (J. Tribol. 123 (2001) 248-253,
 doi:10.1115/1.1308021). The characteristic stress is eta(mean pressure) du/h. Above about the Eyring stress, friction in
 units of the Eyring stress over the mean pressure depends on it alone. Below, the film is nearly Newtonian, and the
-points at 0.5 GPa lie above the grey line of one even pressure.
+points at 0.5 GPa are above the grey line, which is for a uniform pressure.
 """
 
 import matplotlib.pyplot as plt
@@ -41,7 +41,7 @@ for peak, colour in ((0.5e9, "#1f5a94"), (1.0e9, "#2f7d4f"), (1.5e9, "#b3392f"))
     right.loglog(stress / 5e6, cold["couette_force"] / loaded.bodies.load * mean / 5e6, "o", ms=4, color=colour)
 right.loglog(*2 * [np.geomspace(1e-2, 1, 2)], ":", color="grey")
 s = np.geomspace(1e-2, 1e7, 200)
-right.loglog(s, np.arcsinh(s), "-", lw=1, color="grey", label="asinh, one pressure everywhere")
+right.loglog(s, np.arcsinh(s), "-", lw=1, color="grey", label="asinh, uniform pressure")
 left.set(xlabel="slide-roll ratio (-)", ylabel="friction coefficient (-)")
 right.set(xlabel="characteristic stress over Eyring stress (-)", ylabel="reduced friction (-)")
 left.plot([], [], "--", color="grey", label="without heat")

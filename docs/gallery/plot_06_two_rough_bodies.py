@@ -2,8 +2,8 @@
 Two rough bodies
 ================
 
-Both surfaces of a contact are rough. Their maps are brought to one grid and added: what counts is the gap
-between them. Here a coarse ground surface meets a finer one.
+Both surfaces of a contact are rough. Only the gap between them has an effect, so their maps are interpolated to one
+grid and added. In this example a roller runs on a race with finer roughness.
 """
 
 import matplotlib.pyplot as plt
@@ -17,7 +17,7 @@ race = lubfric.generate_surface(SHAPE, STEP, sq=60e-9, correlation_length=4e-6, 
 both = roller.combined(race)
 
 # %%
-# Independent roughness adds up by the squares of Sq.
+# For independent surfaces the squares of Sq add up.
 
 print(f"Sq {1e9 * roller.sq:.0f} nm and {1e9 * race.sq:.0f} nm give {1e9 * both.sq:.1f} nm")
 
@@ -30,7 +30,7 @@ curves = {
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.8), layout="constrained")
 left.plot(1e6 * STEP * np.arange(200), 1e9 * roller.heights[:, 100], color="#1f5a94", label="roller")
-left.plot(1e6 * STEP * np.arange(200), 1e9 * both.heights[:, 100], color="#b3392f", lw=1, label="both")
+left.plot(1e6 * STEP * np.arange(200), 1e9 * both.heights[:, 100], color="#b3392f", lw=1, label="roller and race")
 left.set(xlabel="x (µm)", ylabel="height (nm)")
 left.legend(frameon=False)
 for (name, curve), colour in zip(curves.items(), ("#1f5a94", "#b3392f")):

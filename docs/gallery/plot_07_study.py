@@ -2,8 +2,8 @@
 A study over loads and viscosities
 ==================================
 
-A study varies any key of a scene. It needs no loops, keeps every finished point in a folder if one is given, and
-returns a table. Here an executor solves twelve combinations of load and viscosity at four speeds each.
+A study varies any keys of a scene. It stores every finished point if a folder is given, and returns a table. Here an
+executor solves twelve combinations of load and viscosity at four speeds each.
 """
 
 from concurrent.futures import ThreadPoolExecutor

@@ -3,8 +3,8 @@ A contact that stops and starts
 ===============================
 
 The speed falls to zero and rises again within 20 ms. While the bodies are at rest nothing slides, and the coefficient
-is zero. Friction on the way down and on the way up is not the same: the film that is left between the surfaces is
-squeezed out during the stop. Drawn over the speed, the two ways make a loop.
+is zero. Friction during slowing down and during starting differs, because the stop squeezes the film out of the
+contact. Over the speed, the two branches form a loop.
 """
 
 import matplotlib.pyplot as plt
@@ -44,11 +44,11 @@ upper.set(ylabel="entrainment speed (m/s)")
 lower.plot(1e3 * history.time, history.coefficient, color="#1f5a94")
 lower.set(xlabel="time (ms)", ylabel="friction coefficient (-)", ylim=(0, None))
 moving = history.entrainment_speed > 1e-4
-for way, words, colour in (
+for branch, label, colour in (
     (history.time < 0.0075, "slowing down", "#1f5a94"),
     (history.time > 0.0075, "starting", "#b3392f"),
 ):
-    part = moving & way
-    loop.plot(history.entrainment_speed[part], history.coefficient[part], ".-", color=colour, label=words)
+    part = moving & branch
+    loop.plot(history.entrainment_speed[part], history.coefficient[part], ".-", color=colour, label=label)
 loop.set(xlabel="entrainment speed (m/s)", ylabel="friction coefficient (-)", ylim=(0, None))
 loop.legend(frameon=False)

@@ -2,9 +2,8 @@
 A fit to a measured curve
 =========================
 
-Which boundary friction coefficient explains a measured Stribeck curve, and how well do the data determine it? The
-measurement of this example is synthetic: a computed curve with a coefficient of 0.12 and 5 % noise. So the true value
-is known.
+A fit determines the boundary friction coefficient from a measured Stribeck curve, with an interval. The measurement of
+this example is synthetic: a computed curve with a coefficient of 0.12 and 5 % noise. So the true value is known.
 """
 
 import numpy as np
@@ -20,7 +19,7 @@ truth = lubfric.stribeck(scene.with_(bodies={"boundary_friction_coefficient": 0.
 noisy = truth.coefficient * (1 + 0.05 * rng.standard_normal(speeds.size))
 
 # %%
-# The search is bounded. The time is estimated beforehand. The result has an interval for each parameter.
+# The search has bounds. The time is estimated before the fit. The result has an interval for each parameter.
 
 measured, bounds = lubfric.Measured(speeds, noisy), {"bodies.boundary_friction_coefficient": (0.05, 0.2)}
 print(lubfric.explain_fit(scene, measured, bounds))

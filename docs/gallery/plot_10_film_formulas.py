@@ -2,8 +2,8 @@
 Film formulas compared with the numerical film
 ==============================================
 
-Formulas for the film thickness are quick, and a few per cent off. Here Moes' formula for the film where the
-pressure has its maximum is compared with the numerical film, from light to heavy loads.
+Formulas for the film thickness have an error of a few per cent. Here Moes' formula for the film at the maximum of the
+pressure is compared with the numerical film, from light to heavy loads.
 """
 
 from dataclasses import replace

@@ -2,8 +2,8 @@
 The dry rough contact alone
 ===========================
 
-The contact solver can be used alone: two rough half-spaces are pressed together, with the hardness as the limit of the
-pressure. The real contact area grows almost in proportion to the pressure.
+The contact solver can be used without a film: two rough half-spaces are pressed together, with the hardness as the
+limit of the pressure. The real contact area is almost proportional to the pressure.
 """
 
 import matplotlib.pyplot as plt

@@ -2,9 +2,9 @@
 Check a change against a closed form
 ====================================
 
-A change to the contact solver is verified when its error falls at the expected rate. Here the pressure under a smooth
-cylinder is compared with Hertz's formula on finer and finer grids. The peak is of second order. The mean square is of first
-order, because Hertz's pressure falls like a square root at its edge.
+A change of the contact solver is verified if the error decreases at the expected rate. Here the pressure under a smooth
+cylinder is compared with Hertz's formula on finer and finer grids. The peak converges with second order. The root mean
+square converges with first order, because Hertz's pressure falls like a square root at its edge.
 """
 
 import matplotlib.pyplot as plt

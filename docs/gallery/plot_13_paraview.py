@@ -2,8 +2,8 @@
 Fields for ParaView
 ===================
 
-Surface, contact pressure, gap and film of one operating point in one file. ParaView opens it; "warp by scalar" on the
-height shows the surface. ``lubfric run --vtk`` writes the same.
+One file contains surface, contact pressure, gap and film of an operating point. In ParaView, "warp by scalar" with the
+height shows the surface. ``lubfric run --vtk`` writes the same file.
 """
 
 import tempfile

@@ -2,16 +2,15 @@
 Torque of a tapered roller bearing
 ==================================
 
-Bearing 32216 under 6 kN along its axis, in a bath of FVA 3 at 50 °C. The points were read off a figure (P. Wingertszahn
-et al., Lubricants 11 (2023) 369, doi:10.3390/lubricants11090369, Fig. 5; about 5 %). Geometry, oil and roughness are
-theirs; the angle is that of the catalogue.
+Bearing 32216 under an axial load of 6 kN, in a bath of FVA 3 at 50 °C. The measured points were read off a figure
+(P. Wingertszahn et al., Lubricants 11 (2023) 369, doi:10.3390/lubricants11090369, Fig. 5) with an error of about 5 %.
+Geometry, oil and roughness are from the same publication; the angle is from the catalogue.
 
-In pure rolling each contact takes the power 2 u F of its rolling force F, one F on either surface. With flooded inlets
+In pure rolling each contact takes the power 2 u F, with its rolling force F on each surface. With flooded inlets
 the sum over 16 rollers and two races is two to three times the measured torque, and so is that of the published law
-(Biboulet and Houpert 2010). So the inlets are not flooded, or hotter than the outer ring. Inlets that begin 0.2 to 0.3
-mm before the contact, where the gap is some micrometres, bracket the measurement; how long they are is not known. Not
-modelled: the flange, the cage and churning, which only add. (Bearing 32008, measured by Manjunath et al., Machines 11
-(2023) 801, is not compared: neither its rollers nor its roughness are published.)
+(Biboulet and Houpert 2010). So the inlets are not flooded, or they are hotter than the outer ring. The length of the
+inlets is not known. With inlets that begin 0.2 to 0.3 mm before the contact, where the gap is some micrometres, the
+range of results contains the measurement. The flange, the cage and churning are not modelled; they increase the torque.
 """
 
 import matplotlib.pyplot as plt

@@ -2,10 +2,10 @@
 Six contacts: which effects change f most
 =========================================
 
-A cam, a gear flank, a roller, a piston ring, a seal and a covered roller, each as a small scene. A scene leaves effects
-out: less oil may arrive, the oil may be warmer than stated or be thinned by shear, the surface runs in, an additive
-changes f_b. Here each effect is added, one at a time, with the load-sharing model on one patch, which is quick. The
-longest bar shows what to measure first.
+A cam, a gear flank, a roller, a piston ring, a seal and a covered roller, each as a small scene. A scene does not contain
+all effects: less oil may arrive, the oil may be warmer than stated, shear may thin the oil, the surface may run in, and
+an additive may change f_b. Here each effect is added, one at a time, with the load-sharing model on one patch. The
+longest bar shows which input to measure first.
 """
 
 import math
@@ -82,8 +82,8 @@ contacts = [
 ]
 
 # %%
-# The effects, and how each is added. The film of the point itself gives 70 % of the oil that would flow. The Carreau law,
-# here with 30 kPa and 0.8, is that of an oil with polymers, such as a multigrade oil.
+# How each effect is added. The starved inlet receives 70 % of the oil that flows through the flooded contact. The Carreau
+# law, here with 30 kPa and 0.8, is for an oil with polymers, such as a multigrade oil.
 
 
 def variations(scene, film):
@@ -98,31 +98,31 @@ def variations(scene, film):
         "hot: viscosity x 0.7": {"lubricant": {"oil": None, "viscosity": 0.7 * oil.viscosity}},
         "thinned by shear: Carreau": {"lubricant": {"eyring_stress": None, "carreau": [3e4, 0.8]}},
     }
-    return {words: scene.with_(**changed) for words, changed in other.items()}
+    return {effect: scene.with_(**changed) for effect, changed in other.items()}
 
 
 figure, axes = plt.subplots(2, 3, figsize=(12, 6.2), layout="constrained")
-for one, ax in zip(contacts, axes.flat, strict=True):
-    point = lubfric.friction(one)
+for scene, ax in zip(contacts, axes.flat, strict=True):
+    point = lubfric.friction(scene)
     changes = {
-        words: 100 * (lubfric.friction(other).coefficient / point.coefficient - 1)
-        for words, other in variations(one, point.balance.film.flow_film).items()
+        effect: 100 * (lubfric.friction(other).coefficient / point.coefficient - 1)
+        for effect, other in variations(scene, point.balance.film.flow_film).items()
     }
     ordered = sorted(changes.items(), key=lambda change: abs(change[1]))
     ax.barh(
         [w for w, _ in ordered], [c for _, c in ordered], color=["#b3392f" if c > 0 else "#1f5a94" for _, c in ordered]
     )
     ax.axvline(0, color="black", lw=0.8)
-    share = 100 * point.contact_load / one.bodies.load
-    ax.set_title(f"{one.name}: f = {point.coefficient:.3f},\nasperities carry {share:.0f} % of the load", fontsize=10)
+    ratio = 100 * point.contact_load / scene.bodies.load
+    ax.set_title(f"{scene.name}: f = {point.coefficient:.3f},\nasperities carry {ratio:.0f} % of the load", fontsize=10)
     ax.set_xlabel("change of f (%)")
     ax.tick_params(axis="y", labelsize=8)
     print(
-        f"{one.name}: {point.coefficient:.4f}",
+        f"{scene.name}: {point.coefficient:.4f}",
         *(f"{w}: f {100 * c:+.0f} %" for w, c, _ in point.unmodelled_effects if c == c),
         sep="\n    ",
     )
 
 # %%
-# Where asperities carry most of the load, f_b and the surface matter most; where the film does, the oil. A result lists
-# the likely size of each effect from closed forms, as printed above; so does ``lubfric info``.
+# Where asperities carry most of the load, f_b and the surface have the largest effect; where the film carries it, the
+# oil. Results and ``lubfric info`` estimate each effect with closed forms, as printed above.

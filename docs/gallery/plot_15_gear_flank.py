@@ -4,10 +4,10 @@ A gear flank along its path of contact
 
 A pair of the FZG rig, type C: 16 and 24 teeth, module 4.5 mm, pressure angle 22.4 degrees in operation, 14 mm wide, at
 2.1 m/s in the pitch circle, with a mineral oil of ISO VG 100 at 60 °C. Along the path of contact the radius and both
-speeds change. Near the pitch point sliding is slow: the shear of the film vanishes, and asperity friction remains.
+speeds change. Near the pitch point sliding is slow, so the shear of the film vanishes, and asperity friction remains.
 
-The flanks are ground, Ra 0.2 µm each. As published for them, f_b is 0.065 to 0.07 (Arana et al. 2019); roller contacts
-are quoted at 0.12. Where two pairs of teeth are in contact each has half the load, as if the teeth were stiff.
+The flanks are ground, Ra 0.2 µm each. The published f_b for these flanks is 0.065 to 0.07 (Arana et al. 2019), and 0.12
+for roller contacts. Where two pairs of teeth are in contact, each carries half the load, which assumes rigid teeth.
 """
 
 import matplotlib.pyplot as plt
