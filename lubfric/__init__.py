@@ -1,6 +1,6 @@
 """Friction of mixed-lubricated rough line contacts.
 
-The public names load on first use (SPEC 1 of Scientific Python), so that ``import lubfric`` stays light. They stand in
+The public names load on first use (SPEC 1 of Scientific Python), so that ``import lubfric`` stays light. They are in
 `__init__.pyi` alone, one import a line, from which type checkers and this module read them. (The package lazy_loader
 does the same; it would be one more requirement, and load `ast`, which takes longer than all of this.)
 """

@@ -73,7 +73,7 @@ class ConvergenceError(LubfricError, RuntimeError):
 class WorkLimitError(ConvergenceError):
     """A point, or a run, needs more counted work than ``numerics.max_work`` [s] allows.
 
-    ``limit`` is that number; ``reached``: what was done until then, in words, and ``result``: the same. The work is
+    ``limit`` is that number; ``reached``: what was done until then, as text, and ``result``: the same. The work is
     counted from cells and steps, never by a clock.
     """
 
@@ -92,8 +92,8 @@ class WorkLimitError(ConvergenceError):
 class ValidityError(LubfricError, ValueError):
     """A converged solution is outside the range of the model, so that its coefficient is no answer.
 
-    ``entries`` are the `lubfric.Validity` entries that refuse it. ``result`` is the whole result (or ``None``), so that
-    nothing computed is lost. With ``numerics.accept = true`` it is returned instead. The error survives pickling.
+    ``entries`` are the `lubfric.Validity` entries that refuse it. ``result`` is the complete result (or ``None``), so
+    that nothing computed is lost. With ``numerics.accept = true`` it is returned instead. The error survives pickling.
     """
 
     def __init__(self, message: str, entries: Any = (), result: Any = None):
@@ -141,8 +141,8 @@ class Report:
     residuals : final value of each measured residual by name
     history : largest residual after each iteration
     evaluations : number of expensive kernels (convolutions, linear solves, inner solves)
-    advice : what to do about it where the status alone does not tell; in ``message``
-    summary : what happened, in words, where iterations and the largest residual do not tell; in ``message``
+    advice : what to do about it where the status alone does not say it; in ``message``
+    summary : what happened, as text, where iterations and the largest residual do not say it; in ``message``
     notes : choices the solver made that a reader of the result should know
     """
 

@@ -268,7 +268,7 @@ COLUMNS["ratio"] = KEYS["motion.slide_roll_ratio"]
 
 
 def worded_value(name: str, value: Any) -> str:
-    """A ``value`` of the column or key ``name``, in a unit of people; that of the oil's temperature in °C."""
+    """A ``value`` of the column or key ``name``, in a common unit; that of the oil's temperature in °C."""
     if name == "lubricant.temperature":
         return f"{converted(value, 'K', '°C'):.4g} °C"
     return worded(value, COLUMNS[name].unit if name in COLUMNS else "-")
@@ -305,5 +305,5 @@ def in_words(values: Any, names: Iterable[str]) -> dict[str, str]:
 
 
 def counted(count: int, plural: str) -> str:
-    """How many there are, in words: "1 speed", "2 speeds"."""
+    """How many there are, as text: "1 speed", "2 speeds"."""
     return f"{count} {plural if count != 1 else plural.removesuffix('s')}"

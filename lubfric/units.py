@@ -109,14 +109,14 @@ def unit_for(values: Any, unit: str) -> str:
 
 
 def printed(unit: str) -> str:
-    """``unit`` as it is printed: "µm", "m²"; "" for "-"."""
+    """``unit`` as printed: "µm", "m²"; "" for "-"."""
     raised = re.sub(r"(?<=[A-Za-z])[23]", lambda digit: digit[0].translate(RAISED), unit)
     return "" if unit == "-" else re.sub(r"^u(?=m|s)", "µ", raised)
 
 
 def worded(value: Any, unit: str) -> str:
-    """A number, or several of one kind, in the SI ``unit``, to four digits in a unit of people: "12 mm". What
-    is no number is left as it is."""
+    """A number, or several of one kind, in the SI ``unit``, to four digits in a common unit: "12 mm". What is no
+    number is left unchanged."""
     values = value if isinstance(value, (tuple, list)) else (value,)
     if not values or not all(isinstance(v, (int, float)) for v in values) or isinstance(values[0], bool):
         return str(value)
@@ -132,9 +132,9 @@ def with_interval(value: float, low: float, high: float, level: str = " at 95 %"
     """Return a ``value`` in the SI ``unit`` with its interval: "0.0443 (0.0413 to 0.0473 at 95 %)", "3.39 W (3.36 to 3.43 W
     at 95 %)".
 
-    All three have as many decimals as show two digits of half the width of the interval, and one unit of people; numbers
-    without a unit that are all smaller than `SMALLEST` have a common power of ten. Without a finite interval the value
-    stands alone, with three digits.
+    All three have as many decimals as show two digits of half the width of the interval, and one unit of people;
+    numbers without a unit that are all smaller than `SMALLEST` have a common power of ten. Without a finite interval
+    the value is alone, with three digits.
     """
     if not _is_interval(low, high):
         return plain_number(value, unit)
@@ -154,7 +154,7 @@ def interval_in_words(low: float, high: float, unit: str = "-", value: float = m
 
 
 def plain_number(value: float, unit: str = "-", digits: int = 3) -> str:
-    """Return a ``value`` in the SI ``unit`` to so many ``digits``, in a unit of people, or with a power of ten where it
+    """Return a ``value`` in the SI ``unit`` to so many ``digits``, in a common unit, or with a power of ten where it
     has none and is very small or large: "8.3 nm", "2.8·10⁻⁶"."""
     if not math.isfinite(value):
         return "not known" if math.isnan(value) else f"{value}"
@@ -191,7 +191,7 @@ def _shown(value: float, low: float, high: float, unit: str) -> list[str]:
 
 
 def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), depth: int = 3) -> Any:
-    """``value`` in ``unit`` where it is text with a unit, such as "12 mm"; anything else as it is.
+    """``value`` in ``unit`` where it is text with a unit, such as "12 mm"; anything else unchanged.
 
     Lists are gone through, nested up to ``depth`` times. ``unit`` may name several, "m/s, m/s, -", one for each part of
     a list. ``name``: of the key; ``named``: words that it takes too, and that are left as they are.

@@ -1,4 +1,4 @@
-"""What an array holds, for types: numbers, whole numbers, complex numbers, or yes and no."""
+"""What an array holds, for types: numbers, integers, complex numbers, or yes and no."""
 
 import numpy as np
 import numpy.typing as npt

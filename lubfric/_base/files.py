@@ -146,8 +146,8 @@ def sync_folder(folder: Path) -> None:
 
 
 class FolderLock:
-    """``with FolderLock(folder):`` makes the folder and locks it. Refuses with `InputError` while another process holds
-    the lock, and where a file of the user stands in its place.
+    """``with FolderLock(folder):`` makes the folder and locks it. Refuses with `InputError` while another process
+    holds the lock, and where a file of the user has its name.
 
     The lock is held by the open file. So a killed process leaves no lock behind; only its file stays.
     """
@@ -229,13 +229,15 @@ if hasattr(os, "register_at_fork"):
 class OwnFiles:
     """The files of ``folder`` that lubfric wrote, and the rule by which a command spares all others:
 
-    1. The marker ``.lubfric`` of a folder names each file that a command wrote there, with the checksum of its content.
+    1. The marker ``.lubfric`` of a folder names each file that a command wrote there, with the checksum of its
+        content.
     2. A command replaces and removes only files that the marker names and that still have this content: no other file,
-       none that was changed since, no link.
-    3. Where one of its results would take the name of another file, or of one of its inputs, a command is refused before
-       any work.
+        none that was changed since, no link.
+    3. Where one of its results would take the name of another file, or of one of its inputs, a command is refused
+        before any work.
     4. The new results are complete on the disk, and the marker names old and new ones, before the first old one goes:
-       what a kill or a full disk leaves is still ours, and ``result.json`` stands only beside all files that it names.
+        what a kill or a full disk leaves is still ours, and ``result.json`` exists only together with all files that
+        it names.
     5. One command at a time writes to a folder (`FolderLock`).
     """
 

@@ -123,7 +123,7 @@ def spread(executor: Any, jobs: Iterable[Callable[[], Iterator]]) -> Iterator:
 
 
 def _attempt(job: Callable[[], Iterable[Any]]) -> tuple[bool, Any]:
-    """(True, the values) or (False, the exception): tells errors of a job from those of the executor."""
+    """(True, the values) or (False, the exception): distinguishes errors of a job from those of the executor."""
     try:
         return True, list(job())
     except Exception as error:
@@ -136,7 +136,7 @@ def processors() -> int:
 
 
 def checked_workers(workers: int, executor: Any) -> int:
-    """Return the number of processes; raises `InputError` for a wrong one, and for one beside an ``executor``."""
+    """Return the number of processes; raises `InputError` for a wrong one, and for one together with an ``executor``."""
     workers = validate.integer("workers", workers, minimum=1, maximum=MOST_WORKERS)
     if workers > 1 and executor is not None:
         raise InputError(" and an executor are given", "workers", "one of both")

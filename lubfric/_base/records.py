@@ -47,7 +47,7 @@ class Renamed:
 
 class Shown:
     """Prints as one line of its ``_facts``, a dict of words by name; without any, as the call that makes it, its
-    defaults left out."""
+    defaults omitted."""
 
     def _facts(self) -> dict[str, str]:
         return {}

@@ -101,13 +101,13 @@ def read_columns(
     path: Path, names: Sequence[str], units: Sequence[str | None], must_say: Sequence[str] = ()
 ) -> list[list[float]]:
     """Return columns in SI units, found by the ``names``, which are headings with or without their units, in the first
-    row that has most of them: a preamble of up to `TITLES` lines may stand above.
+    row that has most of them: a preamble of up to `TITLES` lines may precede the table.
 
     A heading may carry its unit in brackets: ``time [ms]``, ``load (kN)``, and so may the name of one that does not. A
-    line of units may stand below the headings (``s;mm/s;-``). Without a unit a column is in SI, unless its unit is among
-    those that ``must_say`` it; a heading that ends with another unit without brackets is refused. ``units``: the SI unit
-    to which each column must be convertible (None: any of `UNITS`). Comma, semicolon, tab or two blanks separate; with
-    one of the others, a comma is the decimal mark. UTF-8 (with or without a byte-order mark), UTF-16 with one, or
+    line of units may follow the headings (``s;mm/s;-``). Without a unit a column is in SI, unless its unit is among
+    those that ``must_say`` it; a heading that ends with another unit without brackets is refused. ``units``: the SI
+    unit to which each column must be convertible (None: any of `UNITS`). Comma, semicolon, tab or two blanks separate;
+    with one of the others, a comma is the decimal mark. UTF-8 (with or without a byte-order mark), UTF-16 with one, or
     Windows-1252.
 
     Raises `InputError` naming file and line for anything else.
@@ -200,8 +200,8 @@ def table_headings(path: Path, names: Sequence[str]) -> list[str]:
 
 
 def _places(headings: Sequence[str], name: str) -> list[int]:
-    """Return where the column ``name`` stands: that has this heading, this heading less its unit, or this one less that
-    of ``name``."""
+    """Return where the column ``name`` is: that has this heading, this heading less its unit, or this one less that of
+    ``name``."""
     ways = (lambda text: text == name, lambda text: name_and_unit(text)[0] == name, name_and_unit(name)[0].__eq__)
     ways_found = ([i for i, text in enumerate(headings) if way(text)] for way in ways)
     return next(filter(None, ways_found), [])

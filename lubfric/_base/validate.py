@@ -39,8 +39,8 @@ def shown(value: Any) -> str:
 
 
 def python_value(value: Any, depth: int = DEEPEST) -> Any:
-    """Return a number of NumPy, a `Decimal` or a `Fraction` as one of Python, an array as a tuple, also inside lists and
-    tuples, nested up to ``depth`` times; anything else as it is."""
+    """Return a number of NumPy, a `Decimal` or a `Fraction` as one of Python, an array as a tuple, also inside lists
+    and tuples, nested up to ``depth`` times; anything else unchanged."""
     if isinstance(value, np.ma.MaskedArray) or type(value) in (float, int, str, bool):
         return value
     if isinstance(value, np.floating):
@@ -160,7 +160,7 @@ def of_key(name: str, value: Any, called: str | None = None) -> float:
 
 
 def integer(name: str, value: Any, *, minimum: int, maximum: int | None = None) -> int:
-    """A whole number >= ``minimum`` and <= ``maximum``."""
+    """An integer >= ``minimum`` and <= ``maximum``."""
     whole = isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
     if not whole or value < minimum or maximum is not None and value > maximum:
         most = "" if maximum is None else f" and <= {maximum}"
@@ -176,7 +176,7 @@ def boolean(name: str, value: Any) -> bool:
 
 
 def instance(name: str, value: Any, kind: type | tuple[type, ...], allowed: str) -> None:
-    """Check that ``value`` is of ``kind``. ``allowed`` says in words how to get such a value."""
+    """Check that ``value`` is of ``kind``. ``allowed`` says how to get such a value."""
     if not isinstance(value, kind):
         raise InputError(f" = {shown(value)} is a {type(value).__name__}", name, allowed)
 
@@ -216,7 +216,7 @@ def numbers(name: str, values: Any, unit: str, most: float) -> np.ndarray:
 
 
 def listed(values: Any) -> Any:
-    """One value as a list of one; anything else as it is, for `array` to check."""
+    """One value as a list of one; anything else unchanged, for `array` to check."""
     try:
         return [values] if np.ndim(values) == 0 else values
     except ValueError:  # a list of lists of several lengths
@@ -234,7 +234,7 @@ def folder(name: str, value: Any) -> Path:
 
 
 def real_array(name: str, value: Any, unit: str) -> np.ndarray:
-    """``value`` as an array of floats of any shape, in which NaN and infinity may stand. A mask is dropped."""
+    """``value`` as an array of floats of any shape, which may contain NaN and infinity. A mask is dropped."""
     odd = _odd_entry(value, DEEPEST)
     try:
         numbers_given = np.empty(0) if odd else np.asarray(value)
@@ -291,7 +291,7 @@ def installed(name: str, extra: str) -> Any:
 
 def keys(where: str, given: Iterable, allowed: Iterable[str], other: Callable[[], dict[str, str]] = dict) -> None:
     """Raise `InputError` for a key of ``given`` that is none of ``allowed``. ``other`` gives other words for keys, and
-    what to write instead; the likeness of the letters tells where a word is not among them."""
+    what to write instead; the similarity of the letters decides where a word is not among them."""
     options = list(allowed)
     for key in given:
         if key not in options:
@@ -302,8 +302,8 @@ def keys(where: str, given: Iterable, allowed: Iterable[str], other: Callable[[]
 
 
 def pair(name: str, value: Any, check: Callable[[str, Any], T], what: str) -> tuple[T, T]:
-    """Both parts of a pair for x and y, as ``check(name, part)`` returns them; one value stands for both. ``what``: one
-    of them in words."""
+    """Both parts of a pair for x and y, as ``check(name, part)`` returns them; one value represents both. ``what``:
+    one of them as text."""
     several = isinstance(value, (list, tuple)) or isinstance(value, np.ndarray) and value.ndim == 1
     if several and len(value) != 2:
         raise InputError(f" = {shown(value)} must be {what} or a pair of them, for x and y", name)

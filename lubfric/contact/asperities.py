@@ -54,7 +54,7 @@ class AsperityContact(FieldsOnly, RoughContact):
     def close(
         self, film: np.ndarray, load: float, start: ContactState | None = None, shape: np.ndarray | None = None
     ) -> ContactState:
-        """Offset at which the asperities carry ``load`` [N] on the whole width; ``start`` is not needed.
+        """Offset at which the asperities carry ``load`` [N] on the full width; ``start`` is not needed.
 
         The load of patches jumps where two of them join. Then the offset of the jump is taken, at which the gap is
         continuous. Raises `ConvergenceError` if the load cannot be reached.
@@ -150,7 +150,8 @@ def asperities_under_cylinder(
 ) -> AsperityContact:
     """Return the contact by independent asperities on ``heights`` [m] (nx, ny) about their mean.
 
-    region : area A of Eq. (8): "hertz", the Hertz strip of the ``cylinder``, or "box", the whole patch; the others as
+    region : area A of Eq. (8): "hertz", the Hertz strip of the ``cylinder``, or "box", the complete patch; the others
+        as
     in `AsperityContact`.
     """
     x = centred_axis(heights.shape[0], spacing[0])

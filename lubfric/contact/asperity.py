@@ -24,7 +24,7 @@ class AsperityResult:
     Attributes
     ----------
     separation : height of the flat [m], one number or (nx, ny)
-    load : on the whole map [N]
+    load : on the complete map [N]
     mean_pressure : load over the area of the map [Pa]
     contact_area : sum of pi a² [m²], and contact_area_fraction of the map [-]
     plastic_area_fraction : where the pressure is at the hardness [-]

@@ -4,9 +4,9 @@ The stencil has nine points for |k|, the inverse of the half-space up to E'/4: e
 
 It is the Fourier series of |k| over the waves that the grid resolves, cut after the nearest neighbours.
 
-The series is too stiff for waves much longer than a cell: unlike |k| it does not fall to zero with k. So spots of many
-cells, as smooth surfaces have them, would converge more slowly than with |k| itself. The difference is smooth: a
-transform of cells four times as long, a sixteenth of the cells, contains it, and takes it off.
+The series is too stiff for waves much longer than a cell: unlike |k| it does not fall to zero with k. So asperity
+contacts of many cells, as smooth surfaces have them, would converge more slowly than with |k| itself. The difference
+is smooth: a transform of cells four times as long, a sixteenth of the cells, contains it, and takes it off.
 """
 
 from __future__ import annotations
@@ -54,8 +54,8 @@ class CandidateCells:
 
     @staticmethod
     def flagged(operator: HalfSpace, flags: BoolArray) -> CandidateCells:
-        """Return the cells whose ``flags`` are set, or all if that is most of them. With a free axis x beside a
-        periodic y, only the rows that contain some."""
+        """Return the cells whose ``flags`` are set, or all if that is most of them. With a free axis x and a periodic
+        y, only the rows that contain some."""
         whole = flags.shape
         rows = slice(None)
         deflection = operator.apply
@@ -82,11 +82,11 @@ class CandidateCells:
         return self._field
 
     def take(self, field: FloatArray, dtype: type = float, factor: float = 1.0) -> np.ndarray:
-        """Return a copy of the values from a field of the whole patch, times ``factor``, in ``dtype``."""
+        """Return a copy of the values from a field of the complete patch, times ``factor``, in ``dtype``."""
         return (factor * self.gather(field[self.rows])).astype(dtype, copy=False)
 
     def spread(self, values: FloatArray) -> np.ndarray:
-        """Return the field of the whole patch with these values, zero elsewhere."""
+        """Return the field of the complete patch with these values, zero elsewhere."""
         field = np.zeros(self.whole)
         field[self.rows].ravel()[slice(None) if self.index is None else self.index] = values
         return field

@@ -45,7 +45,7 @@ def dent_by_pass(
     ----------
     heights : (nx, ny) [m], x along the motion, periodic along y
     cylinder : the `LoadedCylinder`, with a hardness
-    centres : columns of the map above which the cylinder stands, one after the other
+    centres : columns of the map above which the cylinder is, one after the other
     operator : from `operator_under`, for these cells
     periodic : True: the map continues along x onto itself; False: by its mirror image
     tolerance : of `lubfric.solve_contact`

@@ -127,9 +127,9 @@ def contact_curve(
     Each node starts from its heavier neighbour. Nodes are added between the first ones until three errors are within
     about ``accuracy``: the relative error of the interpolated mean gap; that of the load at a given gap, by its effect
     on the friction of a film that carries the rest of ``heaviest``; and that of the area that this film has. They are
-    estimated from the errors at nodes that are left out of the interpolation (`ContactCurve.gap_error`). Most nodes are
-    needed near full contact, where the gap falls by orders of magnitude, and on small maps, whose summits touch one by
-    one. Raises what `lubfric.solve_contact` raises.
+    estimated from the errors at nodes that are omitted from the interpolation (`ContactCurve.gap_error`). Most nodes
+    are needed near full contact, where the gap falls by orders of magnitude, and on small maps, whose summits touch
+    one by one. Raises what `lubfric.solve_contact` raises.
     """
     validate.positive("heaviest", heaviest, "Pa")
     validate.positive("accuracy", accuracy, "(-)")
@@ -172,8 +172,8 @@ def _table(solved: dict[float, ContactResult]) -> np.ndarray:
 
 
 def _inaccurate(pressure: FloatArray, gap: FloatArray, area: FloatArray, accuracy: float, halved: float) -> np.ndarray:
-    """Intervals in which the interpolated gap, the load at that gap, or the area that is left to the film may be off by
-    more than ``accuracy``. ``halved``: the error between two nodes, over that when one of them is left out."""
+    """Intervals in which the interpolated gap, the load at that gap, or the area that is left to the film may be off
+    by more than ``accuracy``. ``halved``: the error between two nodes, over that when one of them is omitted."""
     log_pressure = np.log(pressure)
     left_out_errors = [np.pad(left_out(log_pressure, values), 1) for values in (gap, area)]
     error, of_area = (halved * np.maximum(off[1:], off[:-1]) for off in left_out_errors)
@@ -189,8 +189,8 @@ def _inaccurate(pressure: FloatArray, gap: FloatArray, area: FloatArray, accurac
 
 def errors_between(pressure: FloatArray, values: FloatArray) -> np.ndarray:
     """Return the estimated error of ``values`` between neighbouring nodes: the largest error at the four nodes around
-    when each is left out. A curve of few summits has kinks, next to which the interpolation may meet a single node by
-    chance."""
+    when each is omitted. A curve of few summits has kinks, next to which the interpolation may meet a single node
+    by chance."""
     left_out_errors = np.zeros(pressure.size + 2)
     left_out_errors[2:-2] = left_out(np.log(pressure), values)
     return np.max([left_out_errors[i : left_out_errors.size - 3 + i] for i in range(4)], axis=0)
@@ -224,11 +224,11 @@ def asperity_curve(
 ) -> ContactCurve:
     """Return the mean gap against mean pressure of independent asperities on a periodic map, from first touch on.
 
-    ``reading``: "volume" or "mean-plane" (see the module) of heights [m] about their mean. The flat comes
-    down until it carries ``heaviest`` [Pa]. If the model cannot carry that, the flat comes down to the deepest valley
-    (to the mean plane for "mean-plane"), and the curve ends at the largest pressure. Patches that grow together carry
-    less than before; such nodes are left out, so that the pressure rises along the curve. The search ends below half of
-    the largest pressure.
+    ``reading``: "volume" or "mean-plane" (see the module) of heights [m] about their mean. The flat comes down until
+    it carries ``heaviest`` [Pa]. If the model cannot carry that, the flat comes down to the deepest valley (to the
+    mean plane for "mean-plane"), and the curve ends at the largest pressure. Patches that grow together carry less
+    than before; such nodes are omitted, so that the pressure rises along the curve. The search ends below half of the
+    largest pressure.
     """
     asperities = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness)
     top = float(heights.max())
@@ -263,7 +263,7 @@ def _curve_gap(heights: FloatArray, separation: float, reading: str) -> float:
 class FlatContact(RoughContact):
     """Roughness spread evenly over the Hertz strip of the total load.
 
-    x [m] (nx,), weight (nx,): points across the strip, and the part of it that each stands for; area [m^2] of the
+    x [m] (nx,), weight (nx,): points across the strip, and the part of it that each represents; area [m^2] of the
     strip: a load divided by it is a mean pressure of the curve; columns [m]: where it is said to touch.
     """
 

@@ -148,7 +148,7 @@ def half_space_contact(
     heights : (nx, ny) [m] about their mean, x along axis 0
     spacing : (dx, dy) [m] of the cells
     cylinder : the `LoadedCylinder`
-    region : area A of Eq. (8): "hertz", the Hertz strip, or "box", the whole patch
+    region : area A of Eq. (8): "hertz", the Hertz strip, or "box", the complete patch
     tolerance : of `lubfric.solve_contact`
     workers : threads of the Fourier transforms, for an operator that is made here
     operator : a `HalfSpace` made before for this grid, or None

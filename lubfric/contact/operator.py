@@ -1,6 +1,6 @@
 """Pressure to deflection by FFT, each axis periodic or free.
 
-Along a free axis x beside a periodic y a wave k along y decays like exp(-k x). So for all but the longest waves, a
+Along a free axis x with a periodic y a wave k along y decays like exp(-k x). So for all but the longest waves, a
 padded length far below twice the rows is enough for no image to reach them. Blocks of waves, of similar reach, are
 transformed one after the other.
 """
@@ -82,7 +82,7 @@ class HalfSpace(FrozenArrays, FieldsOnly):
 
     @_once
     def window(self, count: int) -> Callable[[np.ndarray], np.ndarray]:
-        """Return the operator on fields (count, ny) of neighbouring rows of a free axis x beside a periodic y: an exact
+        """Return the operator on fields (count, ny) of neighbouring rows of a free axis x with a periodic y: an exact
         part of this one, with the same zero level. Made once for every count."""
         kernel = self._kernel[:count]
         dtype = self.symbol.dtype

@@ -1,9 +1,9 @@
 """What a dry contact solve returns, and the rounds that find it: a search in single precision on the cells that may
 touch, then a check in double precision everywhere.
 
-Only the check ends the loop: `evaluate` looks at the whole patch in double precision, whatever the search found. There is no
-proof that conjugate directions converge when they are kept while the set changes. So rounds that gain nothing end the
-solve as stagnated.
+Only the check ends the loop: `evaluate` looks at the complete patch in double precision, whatever the search found.
+There is no proof that conjugate directions converge when they are kept while the set changes. So rounds that gain
+nothing end the solve as stagnated.
 """
 
 import math
@@ -41,7 +41,7 @@ EVALUATION = 2.3e-8
 
 @dataclass(frozen=True, repr=False)
 class ContactResult(Shown):
-    """Fields and means of one dry contact. Arrays are (nx, ny); means are over the whole array.
+    """Fields and means of one dry contact. Arrays are (nx, ny); means are over the complete array.
 
     Attributes
     ----------
@@ -112,14 +112,14 @@ def length_scale(
 ) -> float:
     """Return the length L [m] in which gap residuals are measured.
 
-    ``max(min(Σ p u / Σ p, max(d, r)), min(d, r))`` with the ``roughness`` r (None: rms of gap0) and the deflection
-    ``d = (4/pi) p_mean a/E'`` of the shortest ripple that the grid resolves (a: the finer spacing) under the mean
+    ``max(min(Σ p u / Σ p, max(d, r)), min(d, r))`` with the ``roughness`` r (None: rms of gap0) and the deflection ``d
+    = (4/pi) p_mean a/E'`` of the shortest ripple that the grid resolves (a: the finer spacing) under the mean
     pressure. The load-weighted elastic deflection Σ p u / Σ p is twice the elastic energy per load. It is the
-    indentation of one touching cell, about the approach of a Hertz contact, and about the roughness height when most of
-    it is flattened. Two bounds are needed. At most max(d, r): without periodicity the deflection includes the bulk,
-    which deforms under the whole load however smooth the surface. At least min(d, r): in full contact hardly any
-    deflection is left to compare with. L is proportional to the lengths, and does not change with E' and p together. It
-    is never below 1e-9 d, where rounding begins (flat on flat). Infinite without load.
+    indentation of one touching cell, about the approach of a Hertz contact, and about the roughness height when most
+    of it is flattened. Two bounds are needed. At most max(d, r): without periodicity the deflection includes the bulk,
+    which deforms under the total load however smooth the surface. At least min(d, r): in full contact little
+    deflection remains to compare with. L is proportional to the lengths, and does not change with E' and p together.
+    It is never below 1e-9 d, where rounding begins (flat on flat). Infinite without load.
     """
     total = float(pressure.sum())
     if total <= 0:

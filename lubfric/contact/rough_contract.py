@@ -56,7 +56,7 @@ class ContactState:
 
 
 class RoughContact:
-    """A rough contact under a film, immutable. Loads are in N on the whole width of the line.
+    """A rough contact under a film, immutable. Loads are in N on the full width of the line.
 
     ``name``: a property, for `Decision.text`; ``x`` [m] (nx,): where the contact needs the film, around the line of
     contact; ``weight`` (nx,): the part of each cell that is inside the area A of Eq. (8).
@@ -67,7 +67,7 @@ class RoughContact:
 
     @property
     def name(self) -> str:
-        """Return the contact in words."""
+        """Return the contact as text."""
         raise NotImplementedError
 
     def close(
@@ -82,7 +82,7 @@ class RoughContact:
 
     @property
     def capacity(self) -> float:
-        """Return the largest load [N] that it can carry under any film; infinite if `close` has to tell."""
+        """Return the largest load [N] that it can carry under any film; infinite if `close` determines it."""
         return math.inf
 
     @property
@@ -113,8 +113,8 @@ def centred_axis(count: int, step: float) -> np.ndarray:
 def area_weight(region: str, half_width: float, x: np.ndarray, step: float) -> np.ndarray:
     """Return the part of each cell, ``step`` [m] long around ``x`` [m] (nx,), that lies in the area A of Eq. (8).
 
-    ``region``: "box", the whole patch, or "hertz", the strip of ``half_width`` [m]. Cells that the edge of the strip
-    cuts count by the part inside. Raises `InputError` if the strip contains no part of any cell.
+    ``region``: "box", the complete patch, or "hertz", the strip of ``half_width`` [m]. Cells that the edge of the
+    strip cuts count by the part inside. Raises `InputError` if the strip contains no part of any cell.
     """
     if region == "box":
         return np.ones(x.size)

@@ -51,7 +51,8 @@ CAPACITY = 0.999
 
 
 class CandidateSearch:
-    """The search on ``cells`` (`lubfric.contact.candidate_cells.CandidateCells`), from the state ``state`` of a whole patch.
+    """The search on ``cells`` (`lubfric.contact.candidate_cells.CandidateCells`), from the state ``state`` of a
+    complete patch.
 
     ``load`` [Pa cells]: what the pressure has to carry, or None if the approach is prescribed; ``pace``: that of an
     earlier search, or `FIRST_PACE`; ``exact``: whether steps are exact.

@@ -46,8 +46,8 @@ def solve_contact(
     gap0 : (nx, ny) undeformed gap of the pair [m], up to a constant; x is axis 0
     spacing : cell size [m], one number or (dx, dy)
     e_prime : E' [Pa], 2/E' = sum (1 - nu²)/E
-    mean_pressure : load per area of the whole array [Pa], or
-    mean_gap : volume between the bodies per area of the whole array [m]; overlapping cells count as zero
+    mean_pressure : load per area of the complete array [Pa], or
+    mean_gap : volume between the bodies per area of the complete array [m]; overlapping cells count as zero
     hardness : limit of the pressure [Pa]; None: elastic
     boundary : "periodic" or "free" for each axis, see `lubfric.contact.half_space`
     tolerance : largest residual accepted

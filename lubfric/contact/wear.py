@@ -44,7 +44,7 @@ class Passage:
     ----------
     columns : (windows, count), the columns of the map under each window
     rows : number of cells of the map along y
-    dose : sliding that the pressure of a window stands for, over that of the passage [-]: the length of map for each
+    dose : sliding that the pressure of a window represents, over that of the passage [-]: the length of map for each
         window over the Hertz strip
     """
 

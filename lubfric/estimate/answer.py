@@ -71,7 +71,7 @@ def result_of(prepared: Prepared, choice: Choice, begun: float, *, fine: bool = 
 
 
 def not_negative(scene: Scene, result: FrictionResult) -> FrictionResult:
-    """Return ``result`` with an interval of f that is not below 0 where one surface stands still.
+    """Return ``result`` with an interval of f that is not below 0 where one surface is at rest.
 
     There the power of the contact is f F_T times the sliding speed, and no contact delivers power.
     """

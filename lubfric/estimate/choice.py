@@ -22,9 +22,9 @@ class Choice:
     Attributes
     ----------
     model, solution : the model that answers, and its solution
-    why : the reason for this model, in words; "" where it was requested, or is the dearest
+    why : the reason for this model, as text; "" where it was requested, or is the most expensive
     compared : the cheaper model whose strips were its control, and its solution, if there is one
-    gave_up : whether a dearer model was tried in vain, so that the work of the point may be spent
+    gave_up : whether a more expensive model was tried in vain, so that the work of the point may be spent
     """
 
     model: Model
@@ -37,8 +37,8 @@ class Choice:
 def choose(prepared: Prepared, speed: float, requested: str | Model, *, native: bool = False) -> Choice:
     """Solve ``prepared`` at ``speed`` [m/s] by the ``requested`` model, or by the cheapest that is good enough.
 
-    Where the requested model has no answer at all (`Model.unable`), the dearest of the cheaper ones that has one answers
-    in its place. ``native``: a single patch is solved on its own cells. Raises `ConvergenceError`.
+    Where the requested model has no answer (`Model.unable`), the most expensive of the cheaper ones that has one
+    answers in its place. ``native``: a single patch is solved on its own cells. Raises `ConvergenceError`.
     """
     if isinstance(requested, Model):
         return Choice(model=requested, solution=sampled(prepared, speed, requested, native=native))

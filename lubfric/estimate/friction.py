@@ -44,24 +44,27 @@ def friction(
     """Friction coefficient of a scene at one entrainment speed.
 
     Film and rough contact share the load. Two balances hold together: F_T = F_C + F_H, and the lubricant volume of Eq.
-    (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). Without entrainment the contact carries the whole load.
-    When the film clears the summits, no contact is solved. The solve stops when ``|gap - film|/(gap + film)``, of means
-    over A, is <= its tolerance (`Numerics.tolerance_of`) divided by the share of the film in f. Where the error of that
-    model may be more than ``numerics.model_tolerance``, strips of the surface by the deterministic model correct it
-    or answer in its place (docs/uncertainty.md).
+    (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). Without entrainment the contact carries the total load.
+    When the film separates the surfaces, no contact is solved. The solve stops when ``|gap - film|/(gap + film)``, of
+    means over A, is <= its tolerance (`Numerics.tolerance_of`) divided by the share of the film in f. Where the error
+    of that model may be more than ``numerics.model_tolerance``, strips of the surface by the deterministic model
+    correct it or answer in its place (docs/uncertainty.md).
 
     Parameters
     ----------
     scene : from `lubfric.load_scene`, or from `lubfric.prepare` for many speeds
     speed : entrainment speed U [m/s]; None: the scene's own
-    tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need (docs/levels.md)
-    model : "load-sharing", with a calibrated error; "paper", Eqs. (8) and (9); "deterministic"; or "auto": the cheapest
-        that is good enough; None: the scene's. Or a `lubfric.models.Model` of your own
-    fields : True: a single patch is solved on its own cells, so that ``result.fields`` are on them (on strips: on theirs);
-        "fine": a part of the surface is solved once more, on some 40 cells across the Hertz strip, for ``result.fields``
+    tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need
+        (docs/levels.md)
+    model : "load-sharing", with a calibrated error; "paper", Eqs. (8) and (9); "deterministic"; or "auto": the
+        cheapest that is good enough; None: the scene's. Or a `lubfric.models.Model` of your own
+    fields : True: a single patch is solved on its own cells, so that ``result.fields`` are on them (on strips: on
+        theirs); "fine": a part of the surface is solved once more, on some 40 cells across the Hertz strip, for
+        ``result.fields``
     raise_on_failure : False: return a result even if unbalanced or refused. A failed film or contact still raises
-    workers : processes that solve strips of the surface and ends of input ranges side by side, where there are several.
-        The numbers do not depend on it. A script that asks for more than one needs ``if __name__ == "__main__":``
+    workers : processes that solve strips of the surface and ends of input ranges side by side, where there are
+        several. The numbers do not depend on it. A script that requests more than one needs ``if __name__ ==
+        "__main__":``
 
     Returns a `FrictionResult`.
 

@@ -1,4 +1,4 @@
-"""The film that would carry the whole load, by closed forms, and the lambda ratio of it."""
+"""The film that would carry the total load, with closed forms, and the lambda ratio of it."""
 
 import math
 
@@ -9,9 +9,9 @@ def full_load_numbers(scene: Scene, speed: float, sq: float, inlet_film_factor: 
     """Return the full-load film thickness [m] and the lambda ratio at ``speed`` [m/s] on roughness of ``sq`` [m], by
     the names of their columns.
 
-    The film is that of Moes' formula, as much thinner as starvation and shear thinning make it by closed forms, and as
-    ``inlet_film_factor`` (NaN: not known) makes it. Both are NaN without entrainment; the ratio of smooth surfaces is
-    infinite.
+    The film is that of Moes' formula, as much thinner as starvation and shear thinning make it with closed forms, and
+    as ``inlet_film_factor`` (NaN: not known) makes it. Both are NaN without entrainment; the ratio of smooth surfaces
+    is infinite.
     """
     if speed == 0:
         return {"full_load_film": math.nan, "lambda_ratio": math.nan}

@@ -16,14 +16,14 @@ class Forecast:
     Attributes
     ----------
     speed : of entrainment [m/s]
-    touching : whether asperities touch under the expected film of the whole load, in words
+    touching : whether asperities touch under the expected film of the total load, as text
     error : relative standard error of f after the first strips of the cheapest model
     strips : number of its strips that ``numerics.sampling_tolerance`` needs
     length : of these strips [m]
-    resolved : number of strips by the dearest model; 0: it is not asked
+    resolved : number of strips by the most expensive model; 0: it is not asked
     seconds : processor time [s]
-    moving : processor time [s] of one strip by the dearest model if its roughness moves; 0 where it does not, or hardly
-        matters
+    moving : processor time [s] of one strip by the most expensive model if its roughness moves; 0 where it does not,
+        or has little effect
     """
 
     speed: float

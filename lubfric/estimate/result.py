@@ -35,15 +35,16 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     Attributes
     ----------
     report : of the solve
-    uncertainty : of the coefficient: from solvers and grids, because a finite surface stands for all of it, and from
+    uncertainty : of the coefficient: from solvers and grids, because a finite surface represents all of it, and from
         the model (`Uncertainty`, docs/uncertainty.md)
     errors : relative errors of every other number (`FieldErrors`), for example ``errors.contact_load``
-    decision : how much was modelled, and the numbers it was judged by; ``decision.text`` in words
+    decision : how much was modelled, and the numbers it was judged by; ``decision.text`` describes it
     power_loss_interval : 95 % interval of the power loss [W], (low, high)
     validity : the assumptions that do not hold (`lubfric.Validity`). A severe one is there only where it was accepted
-    unmodelled_effects : what the scene leaves out, the likely change of f by it (relative; NaN: not known), and what to do, the
-        largest first; nothing that would change f by less than the tolerance (`lubfric.models.shared.unmodelled_effects`)
-    methods : names of the methods that it rests on, where a paper stands behind them. ``cite()`` gives the papers
+    unmodelled_effects : effects that are not modelled, the likely change of f by it (relative; NaN: not known), and
+        what to do, the largest first; nothing that would change f by less than the tolerance
+        (`lubfric.models.shared.unmodelled_effects`)
+    methods : names of the methods that it rests on, where a paper is behind them. ``cite()`` gives the papers
     fields : the fields of one solve (`lubfric.models.ContactFields`); None where there are none
     compared_fields : those of the cheaper model on whose strips the answer is based, if there is one
     details : what each model keeps of its solve, by its name

@@ -14,7 +14,8 @@ from ..units import interval_in_words, with_interval
 @described_in_doc
 @dataclass(frozen=True, kw_only=True)
 class Uncertainty(UncertaintyQuantities[float]):
-    """How sure the friction coefficient of one operating point is. docs/uncertainty.md says what is not included.
+    """The uncertainty of the friction coefficient of one operating point. docs/uncertainty.md says what is not
+    included.
 
     A number that is not known is NaN, and ``text`` says why. ``line_scatter`` is between lines at different places on
     the surface.
@@ -72,7 +73,7 @@ class Uncertainty(UncertaintyQuantities[float]):
 
     @property
     def text(self) -> str:
-        """The 95 % interval of f and the uncertainty budget, in words."""
+        """The 95 % interval of f and the uncertainty budget, as text."""
         if not math.isfinite(self.sampling):
             return "; ".join((f"f: {self._in_words('not known')}", *self.notes))
         sampling = f"{percent(self.budget['sampling'])} of a line of {1e3 * self.length:.3g} mm"
@@ -80,7 +81,7 @@ class Uncertainty(UncertaintyQuantities[float]):
         return "; ".join((f"95 % interval of f {interval_text}: {self._in_words(sampling)}", *self.notes))
 
     def short(self, coefficient: float) -> str:
-        """Return f with its 95 % interval, and the uncertainty budget, in words."""
+        """Return f with its 95 % interval, and the uncertainty budget, as text."""
         return f"f = {with_interval(coefficient, *self.interval)}; {self._in_words(percent(self.budget['sampling']))}"
 
     def _in_words(self, sampling: str) -> str:

@@ -18,9 +18,9 @@ from .start import solution_state
 def grid_error(levels: list[FilmSolution]) -> float:
     """Return the relative discretisation error of the last solution; the formula is in `solve_ehl`.
 
-    Second order would allow c1/3. At random M, L and laws the formula bounds the error in nine cases of ten, and in the
-    rest mostly within a factor of two. It also covers central_film, unless the pressure spike sits at x = 0 (M near 2,
-    L above 12): then no grid converges central_film, and a note tells its change.
+    Second order would allow c1/3. At random M, L and laws the formula bounds the error in nine cases of ten, and in
+    the rest mostly within a factor of two. It also covers central_film, unless the pressure spike sits at x = 0 (M
+    near 2, L above 12): then no grid converges central_film, and a note shows its change.
     """
     films = np.array([[smallest(s.terms.X, s.terms.H), s.terms.q] for s in levels[-3:]])
     if len(films) < 2:

@@ -45,7 +45,7 @@ class EHLResult(Shown, HasLineContact):
       flow_film against the grid of half the cells, c0 the change before that (`lubfric.film.assemble.grid_error`).
       Second order would allow c1/3. At random M, L and laws it bounds the error in nine cases of ten, and the rest
       mostly within a factor of two. Where the pressure spike sits at x = 0 (M near 2, L above 12), no grid converges
-      central_film, and a note tells its change
+      central_film, and a note shows its change
     - domain: estimated effect of the finite inlet on flow_film
     - mass: largest |flux through a face/q - 1|, <= 1e-3 tolerance
     - load: |∫ p dx/load - 1|, <= 1e-3 tolerance

@@ -43,7 +43,7 @@ def disc_compliance(half_width: float, e_prime: float) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class ElasticContact:
-    """What the elastic shear of a contact needs beside its film.
+    """What the elastic shear of a contact needs in addition to its film.
 
     Attributes
     ----------
@@ -170,7 +170,7 @@ class _Node:
 def _step(node: _Node, sliding: float, disc_rate: float, wet: float, total: float, limit: float) -> float:
     """Set the stress of the film at ``node``, and return that of the asperities there [Pa], below their ``limit``.
 
-    Where the asperities can bear what the discs ask for without slip, they stick.
+    Where the asperities can bear the stress of the discs without slip, they stick.
     """
     sticking = _root(node, lambda tau: node.slip(tau))
     needed = total + sliding / disc_rate - wet * sticking if disc_rate > 0 else np.inf

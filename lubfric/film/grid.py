@@ -1,7 +1,7 @@
 """Graded grids that move with the rupture point, and the elastic deflection of a half-space under a pressure that is
 piecewise linear on them.
 
-Node positions xi are relative to the rupture point (xi = 0, the last node), so the whole grid moves with this free
+Node positions xi are relative to the rupture point (xi = 0, the last node), so the complete grid moves with this free
 boundary. The elastic kernel stays the same, because it depends on differences of positions only. The map t -> xi is
 smooth and t is uniform. So doubling the cells nests the grids, and errors have a clean expansion in 1/n.
 """

@@ -76,8 +76,8 @@ HALVINGS = 64
 class Surroundings:
     """The bodies that carry the heat away, and other sources of heat.
 
-    carried: e1 √u1 + e2 √u2 of the bodies; sliding: u2 - u1 [m/s]; contact_heat (n,) [W/m²] of the contact spots and
-    wet (n,), the share of the width that the film covers, at the nodes of the film.
+    carried: e1 √u1 + e2 √u2 of the bodies; sliding: u2 - u1 [m/s]; contact_heat (n,) [W/m²] of the asperity contacts
+    and wet (n,), the share of the width that the film covers, at the nodes of the film.
     """
 
     carried: float
@@ -158,10 +158,10 @@ def heated_film(
     """Return the stress and temperatures of a film. ``x`` (n,) [m] rises downstream; ``pressure`` [Pa] and ``film`` [m]
     are at its nodes.
 
-    The heat of film and contact spots makes the surfaces hot (`flash_matrix`, on at most 257 of the nodes). The stress
-    is that of the film between such walls (`heated_stress`). Newton's method finds the wall temperatures. It stops when
-    no equation is off by more than 1e-6 of the largest rise. After 40 steps it raises `ConvergenceError` with the
-    report.
+    The heat of film and asperity contacts makes the surfaces hot (`flash_matrix`, on at most 257 of the nodes). The
+    stress is that of the film between such walls (`heated_stress`). Newton's method finds the wall temperatures. It
+    stops when no equation is off by more than 1e-6 of the largest rise. After 40 steps it raises `ConvergenceError`
+    with the report.
     """
     nodes = _nodes(x.size)
     at, p, h, wet, extra = (a[nodes] for a in (x, pressure, film, around.wet, around.contact_heat))

@@ -1,9 +1,9 @@
 """The lubricated line contact as one value, and the frictionless elastic contact of smooth cylinders
 (Hertz 1882).
 
-Everywhere ``2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2`` and ``1/R = 1/R1 + 1/R2``. Valid while the
-contact is small beside R, so that each body is a half-space, and stresses are elastic.
-Source: K. L. Johnson, Contact Mechanics, 1985, Sec. 4.2, doi:10.1017/CBO9781139171731.
+Everywhere ``2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2`` and ``1/R = 1/R1 + 1/R2``. Valid while the contact is small
+compared with R, so that each body is a half-space, and stresses are elastic. Source: K. L. Johnson, Contact Mechanics,
+1985, Sec. 4.2, doi:10.1017/CBO9781139171731.
 """
 
 import math
@@ -141,8 +141,8 @@ class LineContact:
 
     @cached_property
     def expected_film(self) -> float:
-        """Return `moes_film` [m], as much thinner as a starved inlet and Carreau's law make it by closed forms; a rough
-        guess."""
+        """Return `moes_film` [m], as much thinner as a starved inlet and Carreau's law make it with closed forms; a
+        rough guess."""
         film = self.moes_film
         oil = self.lubricant
         if oil.carreau is not None and self.sliding is not None:

@@ -1,9 +1,10 @@
 """Discrete equations of the line contact, residual and Jacobian, and Newton's method on one grid.
 
-The unknowns ``z`` are the pressures at the n nodes before the rupture point, H00, the mass flux q and the rupture point
-e (X = e + xi). The film H is carried beside them with its own equation, H = H00 + X²/2 + K P. One undamped Newton step
-removes the ``defect`` of that equation. This helps because a film that is interpolated from a coarser grid is a far
-better start than the film of an interpolated pressure. The equations, each divided by its own scale, are:
+The unknowns ``z`` are the pressures at the n nodes before the rupture point, H00, the mass flux q and the rupture
+point e (X = e + xi). The film H is carried in addition to them with its own equation, H = H00 + X²/2 + K P. One
+undamped Newton step removes the ``defect`` of that equation. This helps because a film that is interpolated from a
+coarser grid is a far better start than the film of an interpolated pressure. The equations, each divided by its own
+scale, are:
 
 - n faces: mass flux through the face = q (for a transient, q plus what was stored upstream). Poiseuille flow has the
   logarithmic mean of the fluidity 1/eta (exact for Barus). Couette flow has film and density interpolated third-order
@@ -16,7 +17,6 @@ better start than the film of an interpolated pressure. The equations, each divi
 
 Where the lubricant begins at a given place, the grid is stretched as e moves, so that its first node stays there. Where
 a given film arrives, q is known, and that place a = -X[0] is the unknown instead; again the grid is stretched.
-
 """
 
 from dataclasses import dataclass
@@ -214,7 +214,7 @@ class FilmSolution:
 
 
 def step_length(log_viscosity_change: np.ndarray, film_loss: float) -> float:
-    """Return the part of a step to take, 0 to 1. It follows from two effects of the whole step: the change of ln(eta)
+    """Return the part of a step to take, 0 to 1. It follows from two effects of the full step: the change of ln(eta)
     at the nodes, and ``film_loss``, the largest fraction of the film (or flux) that it removes."""
     change = float(np.max(np.abs(log_viscosity_change)))
     length = 1.0 if change <= VISCOSITY_STEP else VISCOSITY_STEP / change

@@ -23,7 +23,8 @@ class ShearForce:
     - ``quadrature``: estimated error of these sums, from two rules. It is large if the nodes do not resolve a pressure
       spike, whatever the error of the film.
     - ``rolling_parts``: the sum of the two parts, without sign, of which the rolling force is the difference: that of
-      the whole film, and what the spots take from it. An error of the film is that much larger in the force.
+      the complete film, and the part that the asperity contacts take from it. An error of the film is that much larger
+      in the force.
     - ``excess`` [N]: the part of couette, without sign, from stresses above what oils carry
       (`lubfric.oil.lubricant.carried_stress`); ``stress_ratio`` [-]: the largest stress over that.
     - ``asperity_share``: of the friction of the asperities, the part that elastic shear of the discs leaves.
@@ -73,12 +74,13 @@ def shear_force(
     ``width`` B [m]; ``contact_fraction(x)``: for nodes x (n,) [m], the share of the width in contact, which carries no
     fluid shear, averaged over each of the n - 1 cells between them. The Couette term reaches from where the lubricant
     begins, or from far upstream (the parabola is followed to -infinity in closed form, as much thinned by its own heat
-    as the first node: at any h that is the same factor), to the rupture. cavitated="striated" adds the streamers behind
-    it, which fill the fraction h_rupture/h of the width. The lubricant's shear law (Newtonian by default) acts on the
-    Couette term. ``warm``: the viscosity [Pa s] that the film was solved with, and ``heated``: the stress of the
-    heated film, both of `lubfric.models.shared.heat.point_heat`; None: isothermal. ∫ (h/2) dp is ``film.rolling`` less what
-    the spots take; it is summed over the nodes if the film does not know it (None). ``elastic``: the contact whose film
-    and discs shear elastically (`elastic_shear`), for a lubricant with a shear modulus; None: neither does.
+    as the first node: at any h that is the same factor), to the rupture. cavitated="striated" adds the streamers
+    behind it, which fill the fraction h_rupture/h of the width. The lubricant's shear law (Newtonian by default) acts
+    on the Couette term. ``warm``: the viscosity [Pa s] that the film was solved with, and ``heated``: the stress of
+    the heated film, both of `lubfric.models.shared.heat.point_heat`; None: isothermal. ∫ (h/2) dp is ``film.rolling``
+    less the part that the asperity contacts take; it is summed over the nodes if the film does not know it (None).
+    ``elastic``: the contact whose film and discs shear elastically (`elastic_shear`), for a lubricant with a shear
+    modulus; None: neither does.
     """
     entrainment_speed = film.entrainment_speed
     radius = film.radius
@@ -133,7 +135,7 @@ def above_carried(pressure: np.ndarray, tau: np.ndarray, lengths: np.ndarray) ->
 
 
 def spike_error(x: np.ndarray, tau: np.ndarray) -> float:
-    """Possible error of a sum over nodes if a spike stands between them.
+    """Possible error of a sum over nodes if a spike is between them.
 
     It is an eighth of the second-order error estimate from the sum over every second node. A spike makes that estimate
     at least eight times as large as the error.
@@ -155,7 +157,7 @@ def _rolling(
 
 
 def rolling_error(p: np.ndarray, h: np.ndarray, share: ArrayLike) -> float:
-    """Return a third of the change of ∫ (h/2) share dp when every second node is left out: an error of second order.
+    """Return a third of the change of ∫ (h/2) share dp when every second node is omitted: an error of second order.
     ``share``: of the width of each of the n - 1 cells."""
     last = 2 * ((p.size + 1) // 2) - 1  # an odd number of nodes, so that both sums end at the same one
     share = np.broadcast_to(share, p.size - 1)[: last - 1]

@@ -2,8 +2,8 @@
 
 A `Model` solves the first strips of a sample at one speed. Its `SampleSolution` says how many strips the tolerances
 need and whether their cells are too coarse; `lubfric.estimate` asks it until both are enough, corrects it, and builds
-the `FrictionResult` from its `ModelAnswer`. What else a model knows of its strips, it may hand to a dearer one as
-`ControlVariate`. The two models of lubfric, and one of 30 lines in tests/test_contracts.py, do no more than this.
+the `FrictionResult` from its `ModelAnswer`. What else a model knows of its strips, it may hand to a more expensive one
+as `ControlVariate`. The two models of lubfric, and one of 30 lines in tests/test_contracts.py, do no more than this.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class ContactFields:
 
     Attributes
     ----------
-    solve : which solve they are of, in words
+    solve : which solve they are of, as text
     x, y : cells [m], (nx,) around the line of contact, and (ny,)
     heights : of the roughness of both bodies about their mean [m], out of them
     pressure : of the asperity contacts [Pa]; of film and contact together by the deterministic model
@@ -82,12 +82,12 @@ class ModelAnswer:
 
     Attributes
     ----------
-    numbers : quantities of a point by name (`lubfric.quantities`), among them ``coefficient``; those left out are NaN
+    numbers : quantities of a point by name (`lubfric.quantities`), among them ``coefficient``; those omitted are NaN
     numerical : relative error of f by solver and grids
     sampling : relative standard error of f because the sample is finite; an error that is NaN is not known
     model_error : relative error of f by the model itself, at 95 %, below and above f; NaN: not known
     by_limit : part of ``model_error`` because the limiting stress of a Newtonian lubricant is not known
-    largest_in_model : the largest part of the model error, in words; "": one part only
+    largest_in_model : the largest part of the model error, as text; "": one part only
     errors : relative errors of the other numbers, by name
     why_no_error, reasons : why an error is not known: of those not in ``errors``, and of some by name
     length, spots, area_needed : of the sample (`lubfric.estimate.Uncertainty`)
@@ -134,7 +134,8 @@ class WorkEstimate:
     ----------
     strips : number of strips that the tolerances need; 0: the model is not asked
     seconds : processor time [s] of all of it, beyond that of the cheaper models
-    strip_seconds : processor time [s] of one strip, where its roughness moves; 0 where it does not, or hardly matters
+    strip_seconds : processor time [s] of one strip, where its roughness moves; 0 where it does not, or has little
+        effect
     length : of the strips [m]; NaN: there is one patch
     sampling : relative standard error of f after the first strips; NaN: there is one patch
     model_error : relative model-form error of f
@@ -191,11 +192,11 @@ class SampleSolution(ABC):
         return self
 
     def control(self) -> ControlVariate | None:
-        """Return what is known of the strips for a dearer model; None if nothing is."""
+        """Return what is known of the strips for a more expensive model; None if nothing is."""
         return None
 
     def sufficient(self) -> str:
-        """Return why numerics.model = "auto" needs no dearer model, in words; "" if it does."""
+        """Return why numerics.model = "auto" needs no more expensive model, as text; "" if it does."""
         return ""
 
     def heat(self) -> Heat | None:
@@ -247,7 +248,7 @@ class Model(ABC):
         return WorkEstimate(strips=self.first_strips(sample), seconds=0.0)
 
     def unable(self, prepared: Prepared, speed: float) -> str:
-        """Return why the model has no answer at all at ``speed`` [m/s], in words; "" if it has one."""
+        """Return why the model has no answer at ``speed`` [m/s], as text; "" if it has one."""
         return ""
 
     def takes_control(self, sample: Sample) -> bool:
@@ -259,5 +260,5 @@ class Model(ABC):
         return None
 
     def declines(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
-        """Return why numerics.model = "auto" keeps the ``cheaper`` solution, in words; "" if it takes this model."""
+        """Return why numerics.model = "auto" keeps the ``cheaper`` solution, as text; "" if it takes this model."""
         return ""

@@ -1,4 +1,4 @@
-"""Ways to an `Oil`: two viscosities, an ISO VG grade and a viscosity index, a table, a name; and an oil in words."""
+"""Ways to an `Oil`: two viscosities, an ISO VG grade and a viscosity index, a table, a name; and an oil as text."""
 
 import re
 from collections.abc import Sequence

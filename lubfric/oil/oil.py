@@ -33,8 +33,9 @@ class Oil(Shown):
     alpha : pressure-viscosity coefficient [1/Pa] where it is known (None: estimated)
     estimate : "so-klaus" (mineral oils) or "gold" (None: So and Klaus for mineral oils, Gold for the others)
     conductivity : thermal, of the film [W/(m K)] (None: typical of the base)
-    name : in words
-    measured : pressure-viscosity coefficients of this oil over the temperature (None: estimated); ``alpha`` comes first
+    name : as text
+    measured : pressure-viscosity coefficients of this oil over the temperature (None: estimated); ``alpha`` comes
+        first
 
     Raises `InputError` for a value out of range, and for So and Klaus's regression with a base that is not mineral.
     """

@@ -1,6 +1,6 @@
 """Pressure-viscosity coefficient: estimates from the viscosity, each with the range in which measured oils lie.
 
-An estimate cannot tell oils of the same viscosity apart, so it comes with a range: measured coefficients over the
+An estimate cannot distinguish oils of the same viscosity, so it comes with a range: measured coefficients over the
 estimate, widened to round numbers. The measured oils are 13 mineral oils at 30, 60 and 100 °C (Stachowiak and
 Batchelor, Engineering Tribology, Table 2.3; `tests/oil` has them), glycols and esters of the same table, and
 polyalphaolefins.
@@ -36,7 +36,7 @@ class MeasuredCoefficients:
     ----------
     temperatures : rising [K]
     coefficients : alpha at each [1/Pa]
-    source : in words
+    source : as text
     """
 
     temperatures: tuple[float, ...]
@@ -73,8 +73,8 @@ class MeasuredCoefficients:
 
 @dataclass(frozen=True)
 class Estimate:
-    """A pressure-viscosity coefficient [1/Pa]: value, the bounds [1/Pa] within which measured oils lie, its source in
-    words, and the name of the method, "gold", "so-klaus" or "measured" ("": given, not estimated)."""
+    """A pressure-viscosity coefficient [1/Pa]: value, the bounds [1/Pa] within which measured oils lie, its source as
+    text, and the name of the method, "gold", "so-klaus" or "measured" ("": given, not estimated)."""
 
     value: float
     low: float
@@ -84,7 +84,7 @@ class Estimate:
 
     @property
     def text(self) -> str:
-        """Return the coefficient in words, in 1/GPa."""
+        """Return the coefficient as text, in 1/GPa."""
         value, low, high = (1e9 * each for each in (self.value, self.low, self.high))
         oils = "this oil" if self.method == "measured" else "measured oils"
         return f"{value:.3g} /GPa by {self.source}, {oils} {low:.3g} to {high:.3g}"

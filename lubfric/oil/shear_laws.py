@@ -6,7 +6,7 @@ A lubricant has at most one law of each kind, by the keys that it is given. Both
   function f of s, the Newtonian stress eta gamma over tau_c;
 - a limit (`LimitingStress`) cuts the stress that is left at tau_c.
 
-What a law leaves out and a model asks for is refused with an `InputError`. CONTRIBUTING.md shows how to add one.
+What a law leaves out and a model requests is refused with an `InputError`. CONTRIBUTING.md shows how to add one.
 """
 
 from typing import Any, NoReturn
@@ -25,8 +25,8 @@ SMALL = 1e-6
 
 class ShearLaw:
     """How shear thins the lubricant ``oil`` (`lubfric.Lubricant`), which has the ``key`` of the law; ``others``: keys
-    beside it. ``thins``: whether the flow of the smooth film thins by it as well; for that tau_c has to be the same at
-    any pressure."""
+    in addition to it. ``thins``: whether the flow of the smooth film thins by it as well; for that tau_c has to be
+    the same at any pressure."""
 
     key = ""
     others: tuple = ()
@@ -82,9 +82,9 @@ class ShearLaw:
         return critical * self.inverse(stress / critical)
 
     def thinning(self, s: float | np.ndarray, along: bool) -> tuple[Any, Any]:
-        """Φ and s dΦ/ds of a small pressure flow beside the sliding: by the tangent 1/f' along it, by the secant s/f
-        across (perturbation of a Couette flow: T. F. Conry, S. Wang, C. Cusano, J. Tribol. 109 (1987) 648-654,
-        doi:10.1115/1.3261526)."""
+        """Φ and s dΦ/ds of a small pressure flow in addition to the sliding: by the tangent 1/f' along it, by the
+        secant s/f across (perturbation of a Couette flow: T. F. Conry, S. Wang, C. Cusano, J. Tribol. 109 (1987)
+        648-654, doi:10.1115/1.3261526)."""
         if along:
             return self.tangent(s)
         s = np.maximum(s, SMALL)

@@ -122,9 +122,9 @@ class ViscosityTable:
 def viscosity_index(nu40: float, nu100: float) -> float:
     """Return viscosity index [-], not rounded, from the kinematic viscosities [m²/s] at 40 °C and at 100 °C.
 
-    ASTM D2270: with L and H of the standard's table (above 70 mm²/s at 100 °C of its formulas), procedure A,
-    ``100 (L - nu40)/(L - H)``, where nu40 >= H; procedure B, ``100 + (10^N - 1)/0.00715`` with
-    ``N = log(H/nu40)/log(nu100)`` in mm²/s, below (index 100 and more). The standard rounds to whole numbers.
+    ASTM D2270: with L and H of the standard's table (above 70 mm²/s at 100 °C of its formulas), procedure A, ``100 (L
+    - nu40)/(L - H)``, where nu40 >= H; procedure B, ``100 + (10^N - 1)/0.00715`` with ``N = log(H/nu40)/log(nu100)``
+    in mm²/s, below (index 100 and more). The standard rounds to integers.
 
     Raises `InputError` for viscosities that are not positive, a nu100 below 2 mm²/s (not defined there) or not below
     nu40.

@@ -123,7 +123,7 @@ def interruptible() -> Iterator[None]:
 
 @contextmanager
 def keeping(what: Callable[[], str]) -> Iterator[None]:
-    """On an interrupt, say ``what()`` is kept, and that the same command goes on from there."""
+    """On an interrupt, say ``what()`` is kept, and that the same command continues from there."""
     try:
         yield
     except KeyboardInterrupt as error:
@@ -196,7 +196,7 @@ def read_record(folder: Path) -> dict:
 
 
 def files_read(paths: Iterable) -> list[Path]:
-    """The files among ``paths`` (None and what is no file: left out), and those that the TOML files among them name."""
+    """The files among ``paths`` (None and what is no file: omitted), and those that the TOML files among them name."""
     read: dict[Path, None] = {}
     waiting = [Path(path) for path in paths if path is not None]
     while waiting:
@@ -299,9 +299,9 @@ class RunFolder:
         unusual_values: Iterable[str] = (),
         **numbers: object,
     ) -> None:
-        """Add the scene with its defaults, the picture of the roughness and the page, and put all of a run in the place
-        of an earlier one; its record, which names the files, last as result.json. Then violated assumptions, ``unusual_values``
-        and files are said, and what was saved for a resume is removed."""
+        """Add the scene with its defaults, the picture of the roughness and the page, and put all of a run instead of
+        an earlier one; its record, which names the files, last as result.json. Then violated assumptions,
+        ``unusual_values`` and files are said, and what was saved for a resume is removed."""
         with suppress(InputError):  # a path that is not Unicode has no place in a scene file
             self.contents[RESOLVED] = prepared.scene.to_toml().encode()
         if prepared.surface.sq > 0:

@@ -1,4 +1,4 @@
-"""A scene in words: its inputs with their units, regime numbers, and what will be solved."""
+"""A scene as text: its inputs with their units, regime numbers, and what will be solved."""
 
 import math
 from collections.abc import Sequence
@@ -50,11 +50,13 @@ class SceneEstimate:
 
     Attributes
     ----------
-    sections : lines on "transient" (what changes in time), "surface", "contact", "model", "effects not modelled", "validity"
-    cost : the time that it will take, in words; "" where it is not known
+    sections : lines on "transient" (what changes in time), "surface", "contact", "model", "effects not modelled",
+        "validity"
+    cost : the time that it will take, as text; "" where it is not known
     seconds : processor time of the solves
     command_seconds : processor time of ``lubfric run``, with its start, pictures and files
-    table : of some speeds, their headings first: expected film, whether it clears the summits, what the sample costs
+    table : of some speeds, their headings first: expected film, whether it separates the surfaces, what the sample
+        costs
     refusals : assumptions that fail by what is known so far, so that f means nothing
     effects : effects that are not modelled (`lubfric.models.shared.expected_effects`)
     """
@@ -144,7 +146,7 @@ def _fastest_moment(scene: Scene) -> Scene:
 
 
 def _doubts(at: list[tuple[float | None, Validity]] | tuple[tuple[float | None, Validity], ...]) -> list[str]:
-    """Entries in words; ``at``: pairs of a speed [m/s], None for what is of bodies and map, and an entry."""
+    """Entries as text; ``at``: pairs of a speed [m/s], None for what is of bodies and map, and an entry."""
     fixed = [entry.text for speed, entry in at if speed is None]
     return [*fixed, *gathered([(speed, (entry,)) for speed, entry in at if speed is not None])]
 
@@ -232,8 +234,8 @@ def _histories(scene: Scene) -> list[str]:
 
 
 def _course(scene: Scene, sample: Sample, surface: Surface, speeds: list[float]) -> tuple[str, float, list[str]]:
-    """Return the steps and the time of a run in words, its processor seconds, and its sample in words; ``speeds``
-    [m/s]: some of it."""
+    """Return the steps and the time of a run as text, its processor seconds, and its sample as text; ``speeds`` [m/s]:
+    some of it."""
     plan = scene.transient
     assert plan is not None
     estimate = estimated_run(scene, sample, surface)
@@ -249,7 +251,7 @@ def _course(scene: Scene, sample: Sample, surface: Surface, speeds: list[float])
 
 
 def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[float]) -> list[tuple[str, ...]]:
-    """At some of the ``speeds`` [m/s]: Moes numbers and the expected film under the whole load, whether the summits
+    """At some of the ``speeds`` [m/s]: Moes numbers and the expected film under the total load, whether the summits
     touch, and, unless a run in time has one sample for all, what the sample costs."""
     steady = scene.transient is None
     sampled = steady and sample.is_resolved

@@ -1,4 +1,4 @@
-"""The inputs of a scene in words, and what follows from them: for ``lubfric info`` and for the report."""
+"""The inputs of a scene as text, and what follows from them: for ``lubfric info`` and for the report."""
 
 from collections.abc import Iterator
 

@@ -94,9 +94,9 @@ def plot_stribeck(
 ) -> None:
     """Draw f, the load ratios and the film over the entrainment speed.
 
-    ``columns``: arrays by name as `lubfric._base.read_table` gives them; speeds that failed are left out. ``entries``:
-    for each row, the assumptions that are violated (`lubfric.Validity`). ``measured``: a `lubfric.Measured` over speed,
-    drawn beside the curve.
+    ``columns``: arrays by name as `lubfric._base.read_table` gives them; speeds that failed are omitted. ``entries``:
+    for each row, the assumptions that are violated (`lubfric.Validity`). ``measured``: a `lubfric.Measured` over
+    speed, drawn with the curve.
     """
     panels = [name for name in PANELS if name in options.panels]
     heights = [PANEL_HEIGHTS[name] for name in panels]
@@ -266,7 +266,7 @@ def _part(x: np.ndarray, y: np.ndarray, row: int) -> slice:
 
 
 def _partly(y: np.ndarray, part: slice) -> str:
-    """Which part of the line is drawn, in words; "" for all of it."""
+    """Which part of the line is drawn, as text; "" for all of it."""
     some = 1e6 * np.ptp(y[part])
     return "" if part == slice(None) else f"; {some:.0f} of {1e6 * y[-1]:.0f} µm of the line"
 

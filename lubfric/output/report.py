@@ -308,7 +308,7 @@ def _law(law: Law | str, curve: CurveResult) -> str:
 
 
 def _nearest(scene: Scene, curve: CurveResult) -> tuple[FrictionResult, str] | None:
-    """Return the solved point nearest to the scene's own, and its place in words; None if no point has an answer."""
+    """Return the solved point nearest to the scene's own, and its place as text; None if no point has an answer."""
     name = curve.SWEPT[0]
     own = scene.motion.entrainment_speed if name == "speed" else scene.motion.slide_roll_ratio
     away = np.where(np.isfinite(curve["coefficient"]), np.abs(getattr(curve, name) - own), np.inf)

@@ -201,7 +201,7 @@ def _drawable(columns: Columns) -> np.ndarray:
 
 
 def _point(curve: studies.CurveResult, index: int) -> dict:
-    """The record of a point: its numbers, the error of f in words too, and the errors of the other numbers; or why
+    """The record of a point: its numbers, the error of f as text too, and the errors of the other numbers; or why
     there are none."""
     name = curve.SWEPT[0]
     point = curve.points[index]
@@ -298,8 +298,8 @@ def _plot(
 
 
 def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
-    """The errors of f in words: at how many points, and in full for the least sure of them; at how many points too few
-    spots carry the load; and that results were accepted."""
+    """The errors of f as text: at how many points, and in full for the least sure of them; at how many points too few
+    asperity contacts carry the load; and that results were accepted."""
     name, _, unit, plural = curve.SWEPT
     points = [(value, p.uncertainty) for value, p in zip(getattr(curve, name), curve.points) if p is not None]
     noted = [point for point in points if point[1].notes]

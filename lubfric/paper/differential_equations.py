@@ -47,7 +47,7 @@ class Mesh:
     log_kernel, weights : (N,) of the film and of its second difference, by distance in nodes
     bandwidth : largest distance in nodes that counts as near
     log_transform, far_transform : Fourier transforms of log_kernel, and of the weights beyond the bandwidth
-    flooded : whether the pressure goes on upstream of the first node
+    flooded : whether the pressure continues upstream of the first node
     """
 
     X: np.ndarray

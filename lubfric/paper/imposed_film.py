@@ -63,7 +63,7 @@ class ImposedFilm:
         return float((volume - self.mean_film) / wet) if wet > 0 else math.nan
 
     def offset(self, displacement: FloatArray, overlap: float | FloatArray = 0.0) -> float:
-        """epsilon [m] of Eq. (8) over all of A, where the gap of contact spots counts as zero: the same solution.
+        """epsilon [m] of Eq. (8) over all of A, where the gap of asperity contacts counts as zero: the same solution.
 
         ``overlap`` [m] is a field: the overlap of yielded cells, which contains no lubricant.
         """
@@ -152,9 +152,9 @@ def alternating(
 
     update : "repeat" takes epsilon from Eq. (8) over the lubricated area, as described in the paper. An error in
         epsilon is passed on by the share with which the deflection of the lubricated area follows epsilon. That share
-        is zero in an elastic periodic cell, and nearly one under a cylinder, where the iteration hardly proceeds.
-        "root" (default) brackets the zero of the volume balance as a function of epsilon. The volume falls with
-        epsilon, so there is exactly one.
+        is zero in an elastic periodic cell, and nearly one under a cylinder, where the iteration is very slow. "root"
+        (default) brackets the zero of the volume balance as a function of epsilon. The volume falls with epsilon, so
+        there is exactly one.
     max_iterations : of the outer loop
 
     The other arguments, the result, its residuals and the errors raised are those of

@@ -9,9 +9,9 @@ The form "consistent" (default) keeps the single loop, and changes what prevents
 
 - Overlapping cells, and yielded cells that have opened, join the search direction. They get no step of their own.
 - The length of the step is exact for the separation of this iteration. (Eq. 18 is right for a given *load*.)
-- Eq. (8) counts the contact spots with their gap of zero. Its right side then falls by less than epsilon rises,
+- Eq. (8) counts the asperity contacts with their gap of zero. Its right side then falls by less than epsilon rises,
   whatever the share of contact, so the iteration cannot overshoot.
-- The bulk deflection that is common to the whole contact becomes part of epsilon at once (`bulk`).
+- The bulk deflection that is common to the complete contact becomes part of epsilon at once (`bulk`).
 """
 
 from collections.abc import Callable, Iterator
@@ -48,10 +48,11 @@ def single_loop(
     ----------
     heights : (nx, ny) surface z [m], upwards
     film : h [m], a number, (nx,) or (nx, ny)
-    weight : area A of Eq. (8), as the part of each cell that lies inside it, (nx,) or (nx, ny); None: the whole array
+    weight : area A of Eq. (8), as the part of each cell that lies inside it, (nx,) or (nx, ny); None: the complete
+        array
     form : "consistent" or "printed" (see the module)
-    stop : "residual", the honest test below; or "separation", Eq. (23):
-        ``|h_s - h_s_old| <= separation_tolerance |h_s_old|`` with h_s its mean over A
+    stop : "residual", the honest test below; or "separation", Eq. (23): ``|h_s - h_s_old| <= separation_tolerance
+        |h_s_old|`` with h_s its mean over A
     spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations, raise_on_failure : as in
         `lubfric.solve_contact`
 
@@ -202,8 +203,8 @@ def bulk(contact: ImposedFilm, pressure: FloatArray) -> float:
 
     It is the smallest deflection under a uniform pressure on the box around A and the contact. This is less than the
     energy of any pressure in that box (equilibrium measure), so the operator minus this constant stays positive there.
-    It is zero where the contact is periodic. Without it epsilon would hardly proceed, because the mean gap of a smooth
-    cylinder hardly depends on the load.
+    It is zero where the contact is periodic. Without it epsilon would converge very slowly, because the mean gap of a
+    smooth cylinder depends little on the load.
     """
     box = np.zeros(pressure.shape)
     rows = np.flatnonzero(((pressure > 0) | (contact.weight > 0)).any(axis=1))

@@ -115,12 +115,12 @@ def run_in(
     first if the entrainment speed is positive. Cells at ``bodies.hardness`` are lowered by their overlap. The map
     continues beyond its ends: onto itself if it is periodic along x, else by its mirror image.
 
-    Then, with a ``distance`` and a ``wear_coefficient``, the asperities wear while the surface slides in its lubricated
-    contact at the speed of the scene. Each place where the bodies rub loses K p s/H (J. F. Archard, J. Appl. Phys. 24
-    (1953) 981-988, doi:10.1063/1.1721448, V = K F s/H), p the asperity pressure of the load-sharing model. Film and
-    contact are solved again at every step. Wear ends where the asperities carry less than 0.1 % of the load. The whole
-    map wears evenly, as a body whose every point passes through the contact does. Films from additives, third bodies,
-    residual stress and hardening are not modelled.
+    Then, with a ``distance`` and a ``wear_coefficient``, the asperities wear while the surface slides in its
+    lubricated contact at the speed of the scene. Each place where the bodies rub loses K p s/H (J. F. Archard, J.
+    Appl. Phys. 24 (1953) 981-988, doi:10.1063/1.1721448, V = K F s/H), p the asperity pressure of the load-sharing
+    model. Film and contact are solved again at every step. Wear ends where the asperities carry less than 0.1 % of the
+    load. The complete map wears evenly, as a body whose every point passes through the contact does. Films from
+    additives, third bodies, residual stress and hardening are not modelled.
 
     Parameters
     ----------
@@ -289,7 +289,7 @@ def _whole(scene: Scene, surface: Surface | None) -> Surface:
 
 
 def _way(scene: Scene, surface: Surface, step: float | None) -> np.ndarray:
-    """The columns of the map above which the cylinder stands, one after the other, about ``step`` [m] apart."""
+    """The columns of the map above which the cylinder is, one after the other, about ``step`` [m] apart."""
     half_width = scene.bodies.half_width
     dx = surface.spacing[0]
     last = surface.shape[0] - 1

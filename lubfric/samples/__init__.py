@@ -1,4 +1,5 @@
-"""The sample of rough surface that stands for the endless line: strips of it, one patch, or a contact without cells."""
+"""The sample of rough surface that represents the infinite line contact: strips of it, one patch, or a contact without
+cells."""
 
 from .cells import length_or_half, mirrored
 from .choose import sample_of, takes_strips

@@ -10,8 +10,7 @@ from .strips import strips_of
 
 
 def takes_strips(scene: Scene) -> bool:
-    """Return whether ``scene`` is solved on strips: it has a rough half-space under a cylinder, and asks for no
-    patch."""
+    """Return whether ``scene`` is solved on strips: it has a rough half-space under a cylinder, and requests no patch."""
     rough = any(rough.sq != 0.0 for rough, _ in rough_bodies(scene))
     return scene.numerics.sampling != "patch" and _resolved(scene) and rough
 

@@ -1,7 +1,8 @@
 """The contract of a sample: all that you need to know to write one.
 
-A sample stands for the endless rough line. Strip number k of a sample on given cells is always the same surface, so
-that a longer sample contains a shorter one. Those who solve it ask for strips, never of which kind the sample is.
+A sample represents the infinite rough line contact. Strip number k of a sample on given cells is always the same
+surface, so that a longer sample contains a shorter one. A model requests strips and does not depend on the kind of
+sample.
 """
 
 from __future__ import annotations

@@ -22,13 +22,13 @@ TOO_SHORT = (
 def contact_maps(
     scene: Scene, given: tuple[Surface, ...] = (), *, read: tuple[Surface, ...] = ()
 ) -> tuple[Surface, ...]:
-    """Generate the heights of ``scene``, or read, turn, scale and cut them and make them periodic; those of both bodies
-    become one map, which each body follows alone (`together`). Maps that are ``given`` are taken as they are.
+    """Generate the heights of ``scene``, or read, turn, scale and cut them and make them periodic; those of both
+    bodies become one map, which each body follows alone (`together`). Maps that are ``given`` are used unchanged.
 
     Under a cylinder a measured map is cut, about its middle, to the length of ``contact.shape`` (default: 6 Hertz
-    half-widths on each side), and goes on along y as it is, as a given one does. A flat contact is periodic along both
-    axes, and mirrors it. The notes of the surface tell everything that was done. ``read``: what `whole_maps` returned,
-    if that was called before.
+    half-widths on each side), and is used unchanged along y, like a given one. A flat contact is periodic along both
+    axes, and mirrors it. The notes of the surface state everything that was done. ``read``: what `whole_maps`
+    returned, if that was called before.
     """
     maps = given or read or whole_maps(scene)
     if not given and measured(scene):
@@ -58,8 +58,8 @@ def extended(scene: Scene) -> bool:
 
 def whole_maps(scene: Scene) -> tuple[Surface, ...]:
     """The heights of both bodies `together`, or of the only one: measured ones whole and on their own grid, generated
-    ones on the contact grid. A generated one that faces a measured one is made as large as that. If it were repeated
-    instead, a few of its summits would stand for all."""
+    ones on the contact grid. A generated one that faces a measured one is made as large as that. If it were
+    repeated instead, a few of its summits would represent all."""
     bodies = rough_bodies(scene)
     domain = scene.contact
     maps_by_body = {}
@@ -179,8 +179,8 @@ def measured_map(rough: Roughness, name: str = "surface") -> Surface:
 
 
 def refuse_outliers(surface: Surface, name: str) -> None:
-    """Raise `InputError` for points that stand alone above their neighbours: they are no roughness, and would carry the
-    load."""
+    """Raise `InputError` for points that are isolated above their neighbours: they are no roughness, and would carry
+    the load."""
     off = outliers(surface.fill().heights, surface.mask, surface.periodic_axes)
     worst = tuple(int(i) for i in np.unravel_index(off.argmax(), off.shape))
     if off[worst] > 0:

@@ -1,4 +1,4 @@
-"""Samples of which there is no more: one patch that a scene asks for, a map that was given, and contacts that have no
+"""Samples of which there is no more: one patch that a scene requests, a map that was given, and contacts that have no
 cells to solve strip by strip."""
 
 from __future__ import annotations

@@ -231,8 +231,8 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
     """Windows of a measured map under the cylinder of ``scene``. The map is levelled and filled, with x along the
     motion. ``bodies``: the part of each of two.
 
-    A map with fewer than eight whole windows gets further ones, which reach over its ends, where it is continued by its
-    mirror image. The Hertz strip of every window lies on the map itself: beyond it only single high summits touch.
+    A map with fewer than eight complete windows gets further ones, which reach over its ends, where it is continued by
+    its mirror image. The Hertz strip of every window lies on the map itself: beyond it only single high summits touch.
     """
     maps = surface, *bodies
     if scene.contact.spacing is not None:

@@ -82,7 +82,7 @@ class Bodies(Shown):
     load : total load F_T [N]
     e_prime : E' [Pa], 2/E' = (1-nu1²)/E1 + (1-nu2²)/E2
     hardness : plastic limit P_u of the contact pressure [Pa]; None: elastic
-    boundary_friction_coefficient : f_b of the contact spots [-]; with a table, that at the scene's own speed
+    boundary_friction_coefficient : f_b of the asperity contacts [-]; with a table, that at the scene's own speed
     boundary_friction_table : f_b over the sliding speed or the temperature, a `FrictionTable`, or None
     boundary_film : gap [m] below which the bodies rub with f_b, of the deterministic model; None: lubfric's own value,
         of which half and twice are part of the error
@@ -154,8 +154,8 @@ class Motion(Shown):
     Attributes
     ----------
     entrainment_speed : U = (u1 + u2)/2 [m/s]
-    slide_roll_ratio : (u2 - u1)/U [-], kept while the entrainment speed varies along a Stribeck curve. 2: surface 1
-        stands still, 0: pure rolling
+    slide_roll_ratio : (u2 - u1)/U [-], kept while the entrainment speed varies along a Stribeck curve. 2: surface 1 is
+        at rest, 0: pure rolling
     speeds : the entrainment speeds of the Stribeck curve [m/s]
     """
 
@@ -183,8 +183,8 @@ class ContactDomain(Shown):
     geometry : "cylinder": free in x, periodic in y, under the film's own shape (paper, Sec. 3.2); "flat": nominally
         flat and periodic, the contact load spread over the Hertz strip (Sec. 3.1)
     region : area A of the volume balance, Eq. (8), under a cylinder: "hertz", the strip |x| <= b of the total load, or
-        "box", the whole patch
-    shape, spacing : (nx, ny) and (dx, dy) [m] of the contact grid. If they are left out, a measured map keeps its own
+        "box", the complete patch
+    shape, spacing : (nx, ny) and (dx, dy) [m] of the contact grid. If they are omitted, a measured map keeps its own
         grid
     model : "half-space": every point of the surface may carry load, and deforms all others; "summits" or "patches":
         independent Hertz contacts (`lubfric.contact`)

@@ -36,7 +36,7 @@ def load_scene(
     ----------
     source : path of a file; a dict; "paper" (Tables 1 and 2 of the paper) or "flat" (its Sec. 3.1). A ``surface.file``
         is relative to the folder of the scene; that of a dict is relative to the working folder
-    surface_file, counterface_file : height maps to use instead of the scene's own. A map in the place of a generated
+    surface_file, counterface_file : height maps to use instead of the scene's own. A map instead of a generated
         surface keeps its own grid
 
     Returns
@@ -84,7 +84,7 @@ def read_toml(path: Path | Traversable, what: str) -> dict:
 
 
 def _put_map(table: dict, section: str, path: str | Path) -> None:
-    """Put the map at ``path`` in the place of the roughness in ``section`` of a scene's ``table``."""
+    """Put the map at ``path`` instead of the roughness in ``section`` of a scene's ``table``."""
     path = _map_path(f"{section}_file", path, Path())
     if not all(isinstance(table.get(name, {}), dict) for name in (section, "contact")):
         return  # refused by what reads the tables
@@ -146,7 +146,7 @@ def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
 def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
     """The `Transient` of a scene, and the table without its histories.
 
-    Histories stand in [transient] or, as inline tables, in the sections they belong to. In their place the table gets a
+    Histories are in [transient] or, as inline tables, in the sections they belong to. In their place the table gets a
     plain value: the largest load, else the value at the start.
     """
     table = {k: dict(v) if isinstance(v, dict) else v for k, v in table.items()}
@@ -189,8 +189,8 @@ def _read(source: object) -> tuple[dict, Path, str]:
 
 
 def _nearest_scene(path: Path, names: tuple[str, ...]) -> str:
-    """Return, as `validate.nearest` does, the file beside ``path`` that it may mean, or the built-in scene of ``names``
-    where it is a bare word."""
+    """Return, as `validate.nearest` does, the file next to ``path`` that it may mean, or the built-in scene of
+    ``names`` where it is a bare word."""
     if path.suffix or len(path.parts) > 1:
         try:
             names = tuple(file.name for file in path.parent.iterdir() if file.suffix == ".toml")

@@ -20,18 +20,18 @@ class Numerics(Shown):
 
     Attributes
     ----------
-    tolerance : on the friction coefficient. The tolerances of film, contact and balance follow from it if they are left
-        out (`tolerance_of`)
+    tolerance : on the friction coefficient. The tolerances of film, contact and balance follow from it if they are
+        omitted (`tolerance_of`)
     film_tolerance, contact_tolerance, balance_tolerance : of the parts; None: from ``tolerance``
-    sampling : the surface that is solved: "strips", as many of the scene's roughness as ``sampling_tolerance``
-        needs (docs/uncertainty.md); "patch", the one patch of ``contact.shape``
+    sampling : the surface that is solved: "strips", as many of the scene's roughness as ``sampling_tolerance`` needs
+        (docs/uncertainty.md); "patch", the one patch of ``contact.shape``
     sampling_tolerance : standard error of f that a finite surface may leave
     model_tolerance : relative error of f that the model may leave, at 95 %
-    film_deflection : which pressure deforms the film: the whole load, by Johnson's scaled modulus E' F_H/F_T
+    film_deflection : which pressure deforms the film: the total load, by Johnson's scaled modulus E' F_H/F_T
         ("scaled"); its own ("hydrodynamic", the paper)
-    model : "load-sharing": film and contact share the load, Eq. (8), with a calibrated error; "paper": the same with the
-        friction of Eq. (9) on a smooth film; "deterministic": the deterministic model
-        (docs/deterministic.md); "auto": the cheapest that is within ``model_tolerance`` (docs/uncertainty.md)
+    model : "load-sharing": film and contact share the load, Eq. (8), with a calibrated error; "paper": the same with
+        the friction of Eq. (9) on a smooth film; "deterministic": the deterministic model (docs/deterministic.md);
+        "auto": the cheapest that is within ``model_tolerance`` (docs/uncertainty.md)
     grid : "auto": cells of the contact as long as the tolerance allows; "given": the scene's own
     heat : whether the heat of inlet, film and surfaces is modelled: "auto" (if it matters, and the lubricant says how
         its viscosity falls with the temperature), "on", "off"

@@ -17,7 +17,7 @@ from ..units import converted, without_unit
 
 @cache
 def typical(name: str) -> dict[str, list[float]]:
-    """Words that stand for a value of the key ``name`` (section.key): that value, and the lowest and highest that are
+    """Words that represent a value of the key ``name`` (section.key): that value, and the lowest and highest that are
     usual, in the unit of the key."""
     return {word: without_unit(name, values, KEYS[name].unit) for word, (*values, _) in _rows(name).items()}
 

@@ -25,7 +25,7 @@ SAME_SQ = 1e-9  # relative difference of two Sq that are one
 class Roughness(Shown):
     """Where the height map of a body comes from: a file, or a generated surface.
 
-    The keys of a file act in the order in which they stand below.
+    The keys of a file act in the order in which they follow.
 
     Attributes
     ----------
@@ -38,12 +38,12 @@ class Roughness(Shown):
     oversize : a generated map is made this many times as long in x and y. Then its middle is cut out and scaled to sq.
         This is for correlation lengths that do not fit the patch
     spacing : of a file that does not carry its own [m]
-    unit : "m", "mm", "um" or "µm", "nm", of a file that does not carry its own; of a list of points also several,
-        (x and y, heights) or (x, y, heights)
+    unit : "m", "mm", "um" or "µm", "nm", of a file that does not carry its own; of a list of points also several, (x
+        and y, heights) or (x, y, heights)
     decimal : "." or ",", of a text file in which commas can be either
-    missing_value : number in a text or .npy file that stands for "not measured"
+    missing_value : number in a text or .npy file that represents "not measured"
     form : F-operation, least squares: "plane" or "quadratic" (second order: cylinder or paraboloid too)
-    outliers : what to do with points that stand alone (`lubfric.surface.outliers`), which would carry the load:
+    outliers : what to do with points that are isolated (`lubfric.surface.outliers`), which would carry the load:
         "refuse" the map, "keep" them, or "mask" and fill them
     s_filter, l_filter : nesting indices [m] of the Gaussian filters of ISO 16610-61. The first takes out what is
         shorter, the second what is longer
@@ -138,7 +138,7 @@ def check_fields(given: dict[str, Any]) -> None:
 
 @contextmanager
 def named(section: str) -> Iterator[None]:
-    """Make an `InputError` about a `Roughness` name the ``section`` in which it stands."""
+    """Make an `InputError` about a `Roughness` name the ``section`` in which it is."""
     try:
         yield
     except InputError as error:

@@ -128,7 +128,7 @@ class Scene(Shown):
 
     def with_keys(self, values: dict[str, Any]) -> Scene:
         """A copy with the ``values`` by "section.key", or by "section" for a whole one. All keys of a section act at
-        once, in any order: a Hertz pressure is that with the radius given beside it."""
+        once, in any order: a Hertz pressure is that with the radius given with it."""
         whole = {key: value for key, value in values.items() if "." not in key and not isinstance(value, dict)}
         parts: dict[str, dict] = {}
         for key, value in values.items():
@@ -138,18 +138,18 @@ class Scene(Shown):
         return self.with_(**whole).with_(**parts)
 
     def line_contact(self, speed: float) -> LineContact:
-        """The smooth line contact of the whole load at ``speed`` [m/s], not 0. Shear thins its flow, by the law of the
+        """The smooth line contact of the total load at ``speed`` [m/s], not 0. Shear thins its flow, by the law of the
         lubricant."""
         bodies = self.bodies
         sliding = self.motion.slide_roll_ratio * abs(speed)
         return LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, self.lubricant, sliding)
 
     def to_toml(self) -> str:
-        """The whole scene as the text of a scene file, which `lubfric.load_scene` reads back to the same numbers.
+        """The complete scene as the text of a scene file, which `lubfric.load_scene` reads back to the same numbers.
 
-        Defaults are written except those of a roughness, and what is None is left out. A ``surface.file`` is written
-        with its whole path, and an oil as it was given, instead of its numbers at the temperature. Raises `InputError`
-        for a history that scene files do not have.
+        Defaults are written except those of a roughness, and what is None is omitted. A ``surface.file`` is written
+        with its complete path, and an oil as it was given, instead of its numbers at the temperature. Raises
+        `InputError` for a history that scene files do not have.
         """
         lines = [f"name = {_toml(self.name)}"]
         for section in SECTIONS:
@@ -225,7 +225,7 @@ def as_ranges(ends: dict[str, Any]) -> tuple[tuple[str, float, float], ...]:
 
 
 def gap_not_resolved(scene: Scene, given: bool = False) -> str:
-    """The first key of ``scene`` that the deterministic model does not take, and what it takes, in words; "" if it
+    """The first key of ``scene`` that the deterministic model does not take, and what it takes, as text; "" if it
     takes all. ``given``: one map was given to `lubfric.prepare`, for all its bodies."""
     refusals = _not_taken(scene, given)
     return next(

@@ -29,7 +29,7 @@ def meant(section: str) -> dict[str, str]:
 
 
 def check_keys(section: str, given: dict, others: tuple[str, ...] = ()) -> None:
-    """Raise `InputError` for a key of [``section``] that is not known; ``others`` are known beside its own."""
+    """Raise `InputError` for a key of [``section``] that is not known; ``others`` are known in addition to its own."""
     if section == "numerics":
         refuse_dropped(given)
     allowed = (*SECTIONS[section].__dataclass_fields__, *short_keys(section), *others)
@@ -50,8 +50,8 @@ def made_section(section: str, given: dict, old: Any = None) -> Any:
 def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[float, float] | None]:
     """``value`` as a number in the unit of the ``key``, and the range in which it is known to lie (None: it is given).
 
-    It may be text with a unit; a name that stands for a typical value and its range (typical.toml); and for such keys
-    [low, high], whose middle is the value, or [value, low, high]. A key without a unit is taken as it is.
+    It may be text with a unit; a name that represents a typical value and its range (typical.toml); and for such keys
+    [low, high], whose middle is the value, or [value, low, high]. A key without a unit is used unchanged.
     """
     name = f"{section}.{key}"
     if name not in KEYS:
@@ -71,7 +71,7 @@ def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[float, fl
 
 def ranges_of(section: str, values: Any) -> dict[str, tuple[float, float] | None]:
     """The ranges of ``values``, which are given for a ``section``, by "section.key" of each that may have one; of a
-    whole section, None for all."""
+    complete section, None for all."""
     keys = SECTIONS[section].__dataclass_fields__ if not isinstance(values, dict) else values
     ranged = [key for key in keys if typical(f"{section}.{key}")]
     whole = not isinstance(values, dict)
@@ -79,7 +79,7 @@ def ranges_of(section: str, values: Any) -> dict[str, tuple[float, float] | None
 
 
 def changed_section(section: str, old: Any, values: Any) -> Any:
-    """``old`` with the fields in the dict ``values``. ``values`` may also be a whole section, which then replaces
+    """``old`` with the fields in the dict ``values``. ``values`` may also be a complete section, which then replaces
     ``old``."""
     kind = SECTIONS.get(section, str)
     if isinstance(values, kind) or (section in ("transient", "counterface") and values is None):
@@ -117,7 +117,7 @@ def _missing(section: str, table: dict) -> str:
 
 
 def _missing_fields(section: str, plain: dict) -> str:
-    """Return the fields without a default that the ``plain`` values of a ``section`` leave out, in words; "" for none."""
+    """Return the fields without a default that the ``plain`` values of a ``section`` leave out, as text; "" for none."""
     needed = [
         f.name
         for f in fields(SECTIONS[section])

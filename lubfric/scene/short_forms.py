@@ -1,6 +1,6 @@
-"""Short forms of a scene: the numbers on a drawing or an oil can, in the place of fields of its sections.
+"""Short forms of a scene: the numbers on a drawing or an oil can, instead of fields of its sections.
 
-Scene files and `Scene.with_` share them. A field may be given, or one of the short forms that stand for it, not two.
+Scene files and `Scene.with_` share them. A field may be given, or one of the short forms that represent it, not two.
 """
 
 import math
@@ -191,7 +191,7 @@ def resolve_oil(given: dict, old: Lubricant | None) -> dict:
 
 
 def _check_temperature(given: dict, old: Lubricant | None) -> None:
-    """Raise `InputError` for a new temperature that would leave the viscosity, a number, as it is."""
+    """Raise `InputError` for a new temperature that would leave the viscosity, a number, unchanged."""
     if old is None or "viscosity" in given or given.get("temperature") in (None, old.temperature):
         return
     if old.temperature is None and given.get("temperature_coefficient", old.temperature_coefficient):

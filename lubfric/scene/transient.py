@@ -35,7 +35,7 @@ class Transient:
     Attributes
     ----------
     duration : [s]
-    outputs : number of output times, spread evenly, beside 0
+    outputs : number of output times, spread evenly, in addition to 0
     speed : entrainment speed [m/s]
     sliding : u2 - u1 [m/s]; None: slide-roll ratio x speed
     load : [N]

@@ -1,5 +1,5 @@
-"""What the last digits of every number depend on beside its inputs: versions of the libraries, and how this process
-computes with them."""
+"""What the last digits of every number depend on in addition to its inputs: versions of the libraries, and how this
+process computes with them."""
 
 import hashlib
 import platform

@@ -175,8 +175,9 @@ def _free(at: np.ndarray, speeds: np.ndarray) -> np.ndarray:
 
 
 def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
-    """Return the first speeds [m/s], fastest first, at least 5: both ends of `span`, and where Moes' film under the whole load
-    is 0.5, 1.5 and 4.5 times Sq, because there rough line contacts pass from boundary lubrication to full film."""
+    """Return the first speeds [m/s], fastest first, at least 5: both ends of `span`, and where Moes' film under the
+    total load is 0.5, 1.5 and 4.5 times Sq, because there rough line contacts pass from boundary lubrication to
+    full film."""
     low, high = span(scene, sq)
     speeds = [low, high]
     if sq > 0:
@@ -191,8 +192,8 @@ def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
 
 
 def span(scene: Scene, sq: float) -> tuple[float, float]:
-    """Return the (lowest, highest) entrainment speed [m/s] of a curve: those of ``motion.speeds``. Without these, the speeds at
-    which Moes' film of the whole load is 0.02 and 10 times Sq.
+    """Return the (lowest, highest) entrainment speed [m/s] of a curve: those of ``motion.speeds``. Without these, the
+    speeds at which Moes' film of the total load is 0.02 and 10 times Sq.
 
     Raises `InputError` for negative speeds, and for a smooth surface without speeds, which has no such range.
     """
@@ -211,7 +212,7 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
 
 
 def film_ratio(scene: Scene, sq: float, speed: float) -> float:
-    """Return Moes' film of the whole load over Sq."""
+    """Return Moes' film of the total load over Sq."""
     return scene.line_contact(speed).moes_film / sq
 
 

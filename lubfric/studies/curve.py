@@ -130,7 +130,7 @@ def checked_curve(result: R, raise_on_failure: bool) -> R:
 
 
 def numbers_of(curve: CurveResult) -> dict[str, np.ndarray]:
-    """The columns of numbers of a curve by name: its quantities, then how sure f is."""
+    """The columns of numbers of a curve by name: its quantities, then the uncertainty of f."""
     uncertainty = curve.uncertainty
     swept = {curve.SWEPT[0]: getattr(curve, curve.SWEPT[0])}
     low, high = uncertainty.interval.T
@@ -140,7 +140,7 @@ def numbers_of(curve: CurveResult) -> dict[str, np.ndarray]:
 
 
 def csv_bytes(curve: CurveResult) -> bytes:
-    """The table of a curve: one row a point, one column a quantity, the unit in the heading; then in words which
-    assumptions are violated there, and how sure f is."""
+    """The table of a curve: one row a point, one column a quantity, the unit in the heading; then as text which
+    assumptions are violated there, and the uncertainty of f."""
     named = {heading(name): values for name, values in numbers_of(curve).items()}
     return table_bytes(named | {"validity": curve.validity_cells, "uncertainty": list(curve.uncertainty.text)})

@@ -72,7 +72,7 @@ def in_words(seconds: float) -> str:
 
 def explain(plan: Any, store: Path | None = None) -> str:
     """Return the points of a `StudyPlan`, how many of them the folder ``store`` has already, and about how long the
-    others will take, in words. Some of the maps are made. No point is solved."""
+    others will take, as text. Some of the maps are made. No point is solved."""
     about = "about " if plan.chooses_speeds else ""
     lines = [f"study of {plan.scene.name}: {about}{counted(plan.points, 'points')}"]
     for axis in plan.axes:

@@ -63,15 +63,15 @@ def fit(
 ) -> FitResult:
     """Find the values of ``parameters`` with which the friction of a scene is nearest to a measured curve.
 
-    The fit minimises ``sum ((f - measured)/deviation)²``, with relative deviations if none are given. It first searches
-    the whole bounds with the load-sharing model, loose tolerances and at most 8 of the points
-    (`lubfric.studies.fit_search`): from the start and from the points of a Sobol sequence. From the lowest minimum,
-    a trust region within the bounds (`scipy.optimize.least_squares`, "trf") goes on with all points and the scene's own
-    model; from the next ones too, while the fit does not describe the data. Derivatives are differences over 4 % of the
-    bounds, which stay above the tolerance on f. The search stops when a step moves the parameters by <= 0.2 % of their
-    bounds, or changes the sum by <= 1e-4 of it.
+    The fit minimises ``sum ((f - measured)/deviation)²``, with relative deviations if none are given. It first
+    searches the complete bounds with the load-sharing model, loose tolerances and at most 8 of the points
+    (`lubfric.studies.fit_search`): from the start and from the points of a Sobol sequence. From the lowest minimum, a
+    trust region within the bounds (`scipy.optimize.least_squares`, "trf") continues with all points and the scene's
+    own model; from the next ones too, while the fit does not describe the data. Derivatives are differences over 4 %
+    of the bounds, which stay above the tolerance on f. The search stops when a step moves the parameters by <= 0.2 %
+    of their bounds, or changes the sum by <= 1e-4 of it.
 
-    `FitResult` says how sure the values are, and whether the fit describes the data at all.
+    `FitResult` has the uncertainty of the values, and says whether the fit describes the data at all.
     `lubfric.explain_fit` says beforehand how long a fit will take.
 
     Parameters
@@ -84,10 +84,10 @@ def fit(
     starts : number of further starts, spread over the bounds: 0, or a power of two; None: 8 for one parameter, 16 for
         two, 32 for three to five
     executor : any `concurrent.futures.Executor`, for the points of a curve; the same bits on each
-    store : folder that receives every point at once; the same fit goes on from there
-    on_progress : called as on_progress(done, total, left, misfit, values) after each curve: ``done`` of about ``total``
-        curves, about ``left`` seconds to go on one core, and the least root mean square misfit so far (relative, or in
-        deviations if these are given) with the ``values`` {"section.key": value} that have it
+    store : folder that receives every point at once; the same fit continues from there
+    on_progress : called as on_progress(done, total, left, misfit, values) after each curve: ``done`` of about
+        ``total`` curves, about ``left`` seconds left on one core, and the least root mean square misfit so far
+        (relative, or in deviations if these are given) with the ``values`` {"section.key": value} that have it
 
     Returns a `FitResult`.
 
@@ -116,7 +116,7 @@ def fit(
 
 @with_default_errors
 def explain_fit(scene: Scene, measured: Measured, parameters: Mapping[str, Any], *, starts: int | None = None) -> str:
-    """Return what a fit will do and about how long it will take, in words.
+    """Return what a fit will do and about how long it will take, as text.
 
     The time is that of the work counted where the fit may begin and at the corners of the bounds. Maps are made, and no
     point is solved.

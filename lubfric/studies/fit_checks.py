@@ -50,7 +50,7 @@ class ResidualTests:
 
     @property
     def text(self) -> str:
-        """What the tests found, in a sentence; "" if the fit describes the data as far as they tell."""
+        """What the tests found, in a sentence; "" if the fit describes the data as far as they show."""
         how = []
         if self.systematic:
             least, which = min((_known(self.runs), "signs"), (_known(self.order), "order"))

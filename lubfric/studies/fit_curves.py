@@ -119,7 +119,7 @@ class FitCurves:
         return float(np.sqrt(np.mean(self.residuals(unit) ** 2)))
 
     def slopes(self, unit: np.ndarray) -> np.ndarray:
-        """Return df/d(unit), (n, p), by differences over `STEP`. Slopes at most that far away are taken as they are."""
+        """Return df/d(unit), (n, p), by differences over `STEP`. Slopes at most that far away are used unchanged."""
         if np.abs(unit - self._slopes_at).max() <= STEP:
             return self._slopes
         columns = []
@@ -152,7 +152,7 @@ class FitCurves:
 
 
 def fit_tolerance(scene: Scene, measured: Measured) -> float:
-    """Return the relative tolerance on f that a fit solves to: small beside the scatter of the data."""
+    """Return the relative tolerance on f that a fit solves to: small compared with the scatter of the data."""
     stated = measured.deviation is not None
     scatter = float(np.median(measured.scale / np.abs(measured.coefficient))) if stated else USUAL_SCATTER
     return min(scene.numerics.tolerance, max(SHARE_OF_SCATTER * scatter, TIGHTEST))

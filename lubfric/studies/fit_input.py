@@ -145,7 +145,7 @@ def read_measured(
     Parameters
     ----------
     path : file
-    coefficient : heading of the friction coefficients, as it stands in the file
+    coefficient : heading of the friction coefficients, as in the file
     speed, slide_roll_ratio : heading of the speeds, or of the slide-roll ratios (one of the two)
     deviation : heading of the standard deviations; None: not known
     rolling : False where the rolling part is taken out of the coefficients (`Measured`)
@@ -161,9 +161,9 @@ def read_measured(
     Notes
     -----
     A unit in the heading, in square or round brackets, or in a line below the headings, is converted
-    (`lubfric._base.tables`). A preamble may stand above. Speeds that rise and then fall (or the other way round, and so
-    on) are ramps: ``measured.branch`` has the number of each point's ramp, `Measured.of_branch` the points of one, and
-    ``measured.hysteresis`` what is between them.
+    (`lubfric._base.tables`). A preamble may precede the table. Speeds that rise and then fall (or the other way round,
+    and so on) are ramps: ``measured.branch`` has the number of each point's ramp, `Measured.of_branch` the points of
+    one, and ``measured.hysteresis`` what is between them.
     """
     if (speed is None) == (slide_roll_ratio is None):
         raise InputError("a measured curve has one axis; give the heading of speed, or that of slide_roll_ratio")

@@ -38,8 +38,8 @@ class FitResult(Shown):
     """Parameters found by `lubfric.fit`, how well the data determine them, and whether the fit describes the data.
 
     The covariance is ``s² (JᵀJ)⁻¹``, with s² the sum over n - p if no deviations are given, else 1, and in both cases
-    the mean square of the numerical error of f beside it. The data cannot determine a parameter whose 95 % interval is
-    as wide as its bounds. No interval holds where ``describes_data`` is False.
+    the mean square of the numerical error of f added. The data cannot determine a parameter whose 95 % interval is as
+    wide as its bounds. No interval holds where ``describes_data`` is False.
 
     Attributes
     ----------
@@ -54,10 +54,10 @@ class FitResult(Shown):
         where it was accepted; ``validity`` gathers them
     tests : what the residuals say of the fit (`lubfric.studies.fit_checks.ResidualTests`)
     starts : number of starts that were spread over the bounds
-    minima : minima of the search by the load-sharing model, the least first, as far as their residuals compare with it
-        (`lubfric.studies.fit_search.Candidate`)
-    sampling : relative standard error of f at the points because a finite surface stands for all of it, (n,); NaN where
-        it is not known. It is not in the covariance; ``moved_by_surface`` is its effect
+    minima : minima of the search by the load-sharing model, the lowest first, as far as their residuals compare with
+        it (`lubfric.studies.fit_search.Candidate`)
+    sampling : relative standard error of f at the points because a finite surface represents all of it, (n,); NaN
+        where it is not known. It is not in the covariance; ``moved_by_surface`` is its effect
     """
 
     base: Scene
@@ -160,7 +160,7 @@ class FitResult(Shown):
         return dict(zip(self.parameters, relative.tolist()))
 
     def _identifiability(self) -> list[str]:
-        """What the data do not tell of the parameters, one sentence each."""
+        """What the data do not show of the parameters, one sentence each."""
         lines = []
         for key in self.undetermined:
             change = 100 * self.effects[key]
@@ -178,7 +178,7 @@ class FitResult(Shown):
         return lines
 
     def _surface_note(self) -> str:
-        """What the intervals leave out, in words; "" for a surface that leaves nothing open."""
+        """What the intervals leave out, as text; "" for a surface that leaves nothing open."""
         if not np.isfinite(self.sampling).any():
             if self.base.surface.sq == 0 or not self.sampling.size:
                 return ""

@@ -1,4 +1,4 @@
-"""Where the minima of a fit lie: a search over the whole bounds by curves of the coarse model.
+"""Where the minima of a fit lie: a search over the complete bounds by curves of the coarse model.
 
 The first curves are those at the start and at the points of a Sobol sequence. Their residuals are interpolated by
 radial basis functions over the parameters. The minima of the interpolated sum of squares are solved for, each new curve
@@ -57,10 +57,10 @@ def estimated_curves(parameters: int, starts: int) -> int:
 
 
 def search_minima(curves: FitCurves, start: np.ndarray, starts: int) -> list[Candidate]:
-    """Return the minima of the residuals of the coarse ``curves``, the least first, each more than `SAME_MINIMUM` from
-    the others. ``starts``: number of points of the Sobol sequence (0: only ``start`` is returned).
+    """Return the minima of the residuals of the coarse ``curves``, the lowest first, each more than `SAME_MINIMUM`
+    from the others. ``starts``: number of points of the Sobol sequence (0: only ``start`` is returned).
 
-    A curve with a point that cannot be solved is left out. Raises `ConvergenceError` if there is no other.
+    A curve with a point that cannot be solved is omitted. Raises `ConvergenceError` if there is no other.
     """
     from scipy.stats import qmc
 
@@ -98,7 +98,7 @@ def search_minima(curves: FitCurves, start: np.ndarray, starts: int) -> list[Can
 
 
 def distinct(candidates: list[Candidate]) -> list[Candidate]:
-    """Return the ``candidates`` that lie lower than all others within `SAME_MINIMUM`, the least first, as far as they
+    """Return the ``candidates`` that lie lower than all others within `SAME_MINIMUM`, the lowest first, as far as they
     compare with the least."""
     kept: list[Candidate] = []
     for candidate in sorted(candidates, key=lambda one: one.misfit):

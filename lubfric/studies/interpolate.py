@@ -1,13 +1,13 @@
 """Friction between the solved speeds: the contact's share of the load and the film's traction coefficient are
 interpolated, in coordinates in which each is smooth.
 
-With s = F_C/F_T, f = (b/s) s + t (1 - s): b = f_b F_C/F_T is the part of f from the asperity contacts, and t = F_sh/F_H the
-traction coefficient of the film. In contact ln t hardly changes with the speed. Beyond lift-off t/sqrt(U) is
-interpolated over 1/sqrt(U). For the share, two known trends are taken out: in boundary lubrication the odds of the film
-(1 - s)/s grow about in proportion to the speed, and at lift-off U_0 the share ends as that of one Hertz asperity, as (1
-- U/U_0)^(3/2). What is left, ln((1 - s)/s) - ln(U/U_0) + 3/2 ln(1 - U/U_0), is interpolated over U^0.6, which grows
-about as the film does, with the slopes that are known at the points. All interpolations are cubic splines. Other cubics
-are compared with them to estimate the error.
+With s = F_C/F_T, f = (b/s) s + t (1 - s): b = f_b F_C/F_T is the part of f from the asperity contacts, and
+t = F_sh/F_H the traction coefficient of the film. In contact ln t changes little with the speed. Above lift-off
+t/sqrt(U) is interpolated over 1/sqrt(U). Two known trends of the share are removed: in boundary lubrication the ratio
+(1 - s)/s of film to asperity load grows about in proportion to the speed, and at lift-off U_0 the share ends like that
+of one Hertz asperity, as (1 - U/U_0)^(3/2). The remainder, ln((1 - s)/s) - ln(U/U_0) + 3/2 ln(1 - U/U_0), is
+interpolated over U^0.6, which grows about as the film does, with the slopes that are known at the points. All
+interpolations are cubic splines. Other cubics are compared with them to estimate the error.
 """
 
 from __future__ import annotations

@@ -72,7 +72,7 @@ VARIED = ("lubricant.temperature", "lubricant.temperature_celsius", "bodies.load
 class Law(Shown):
     """Friction coefficient over entrainment speed U [m/s], oil temperature T [K] and mean Hertz pressure p [Pa].
 
-    f = U/V (b s + (1 - s)/(1/t1 + 1/t2)), with s the share of the load on the contact spots, over U eta(T) as in a
+    f = U/V (b s + (1 - s)/(1/t1 + 1/t2)), with s the share of the load on the asperity contacts, over U eta(T) as in a
     Stribeck curve, and t1, t2 the traction of the film at low and at high stress. ``V = sqrt(U² + u0²)`` makes f zero
     at rest, smooth, and odd: a force against the motion in both directions. ``text``, ``json`` and ``c`` say it for
     people, programs and compilers.

@@ -71,7 +71,7 @@ def operating_points(scene: Scene, table: Any) -> OperatingPoints:
     table : a path of a text file with headings, a list of rows (dicts), a dict of columns, or a pandas DataFrame. A
         column is a key of a scene ("bodies.load"), or one of radius, width, load, hertz_pressure, speed, u1, u2,
         sliding_speed, slide_roll_ratio, temperature, viscosity; or position, angle, time, duration, which change no
-        number. A unit may stand in the heading, "load [kN]", or with a value, "2 kN"; that of a temperature has to
+        number. A unit may be in the heading, "load [kN]", or with a value, "2 kN"; that of a temperature has to
 
     Raises
     ------

@@ -38,7 +38,7 @@ class StudyPlan(FieldsOnly):
     speeds : of all curves [m/s]; none if every curve chooses its own, or of operating points
     point_speeds : of the operating points [m/s], one for each value of the last axis; none of curves
     coordinates : of the operating points, by name: numbers that say where they lie, such as the position or the time
-    keys : of the curves, the last axis fastest: hashes of all that their points depend on beside the speed
+    keys : of the curves, the last axis fastest: hashes of all that their points depend on in addition to the speed
     """
 
     scene: Scene

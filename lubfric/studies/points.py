@@ -119,8 +119,8 @@ def _prepared_as_planned(scene: Scene, key: str) -> Prepared:
 
 
 def scene_key(scene: Scene, maps: str | None) -> str:
-    """Return the key of a ``scene``: a hash of all that its points depend on beside the speed. ``maps``: the digest of
-    the maps that were read for it; None where they are generated."""
+    """Return the key of a ``scene``: a hash of all that its points depend on in addition to the speed. ``maps``: the
+    digest of the maps that were read for it; None where they are generated."""
     return fingerprint_without_files(scene, maps)
 
 
@@ -138,8 +138,8 @@ def at_ratios(base: Prepared, ratios: Iterable[float]) -> list[Prepared]:
 
 
 def row_of(speed: float, outcome: Outcome) -> dict[str, Any]:
-    """Return the numbers of a point by name, those of its uncertainty as ``uncertainty_<name>``, and in words its status and
-    the assumptions that do not hold."""
+    """Return the numbers of a point by name, those of its uncertainty as ``uncertainty_<name>``, and as text its
+    status and the assumptions that do not hold."""
     if not isinstance(outcome, FrictionResult):
         return {STATUS: f"{type(outcome).__name__}: {outcome}", SPEED: speed}
     numbers = {name: getattr(outcome, name) for name in NUMBERS}

@@ -56,7 +56,7 @@ class StudyResult(Shown):
     columns : every number of a `FrictionResult` by name; NaN where a point failed
     status : "converged", "not needed" (a place of a curve that chose fewer speeds than another), or why a point has no
         numbers
-    validity : the assumptions that do not hold at a point, in words; "" where all hold. With ``numerics.accept`` this
+    validity : the assumptions that do not hold at a point, as text; "" where all hold. With ``numerics.accept`` this
         marks the points that are no answers
     """
 
@@ -168,7 +168,7 @@ class StudyResult(Shown):
         return np.array(speeds).reshape(shape)
 
     def place(self, index: tuple[int, ...]) -> str:
-        """Return where a point lies, in words: the values of what is varied, and the speed."""
+        """Return where a point lies, as text: the values of what is varied, and the speed."""
         speed = float(np.ravel(self.speeds(index if self.paired else index[:-1]))[0 if self.paired else index[-1]])
         return ", ".join(filter(None, (label(self, index), f"speed {worded(speed, 'm/s')}")))
 
@@ -258,22 +258,22 @@ def study(
     Parameters
     ----------
     scene : from `lubfric.load_scene`; or a plan from `lubfric.plan_study`, whose ``explain()`` says points and cost
-    vary : {"section.key": [values]}, any key of a scene; {("section.key", "other.key"): [(value, value), ...]} for keys
-        that change together (`lubfric.sample` makes random and Sobol samples of them); {"surface": [{...}, {...}]} for
-        whole sections, such as several height maps
+    vary : {"section.key": [values]}, any key of a scene; {("section.key", "other.key"): [(value, value), ...]} for
+        keys that change together (`lubfric.sample` makes random and Sobol samples of them); {"surface": [{...},
+        {...}]} for complete sections, such as several height maps
     speeds : entrainment speeds [m/s]; None: those of the scene; "auto": each curve chooses its own, as in
         `lubfric.stribeck`, and the result has a dimension "point" instead of "speed"
-    points : a table of operating points in place of speeds: a file, a list of rows, a dict of columns or a DataFrame with
-        load, radius, speed (or u1 and u2), slide_roll_ratio (or sliding_speed), temperature, or any key of a scene; also
-        position, angle, time and duration, which change no number (`lubfric.studies.operating_points`). The result has
-        a dimension "point", and no "speed"; ``vary`` adds dimensions
+    points : a table of operating points in place of speeds: a file, a list of rows, a dict of columns or a DataFrame
+        with load, radius, speed (or u1 and u2), slide_roll_ratio (or sliding_speed), temperature, or any key of a
+        scene; also position, angle, time and duration, which change no number (`lubfric.studies.operating_points`).
+        The result has a dimension "point", and no "speed"; ``vary`` adds dimensions
     executor : None, a ``dask.distributed.Client``, or any `concurrent.futures.Executor` (a process pool,
         ``mpi4py.futures.MPIPoolExecutor``)
-    store : folder that receives every finished point at once. The same study, or a longer one, goes on from there and
-        computes nothing twice. Workers that do not see it send their points to this process, which keeps them
+    store : folder that receives every finished point at once. The same study, or a longer one, continues from there
+        and computes nothing twice. Workers that do not see it send their points to this process, which keeps them
     on_progress : called as on_progress(done, total) when points (with "auto": curves) have ended
-    workers : processes of this machine that share the points, in the place of an executor. A script that asks for more
-        than one needs ``if __name__ == "__main__":``
+    workers : processes of this machine that share the points, instead of an executor. A script that requests more than
+        one needs ``if __name__ == "__main__":``
 
     Returns
     -------
@@ -283,7 +283,7 @@ def study(
     ------
     InputError : before any work
 
-    Faults of the program are raised as they are.
+    Faults of the program are raised unchanged.
     """
     plan = scene if isinstance(scene, StudyPlan) else plan_study(scene, vary, speeds, points)
     if plan is scene and any(given is not None for given in (vary, speeds, points)):

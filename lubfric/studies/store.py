@@ -50,8 +50,9 @@ class Store:
     """Records by key in the folder ``root``; without one (None) nothing is kept and nothing found. ``classes``: those
     that a record may hold.
 
-    A record is a whole file with a checksum, which appears at once when it is complete. So any number of processes may
-    add, and what was added outlives every failure of them. A record that was cut off or overwritten counts as absent.
+    A record is a complete file with a checksum, which appears at once when it is complete. So any number of processes
+    may add, and what was added outlives every failure of them. A record that was cut off or overwritten counts as
+    absent.
     """
 
     def __init__(self, root: str | Path | None, classes: dict[str, type] = CLASSES):

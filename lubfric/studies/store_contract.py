@@ -8,7 +8,7 @@ class RecordStore(Protocol):
 
     - A key is a text that is the hash of all that the record depends on. So two records of one key are alike, and
       either may be kept.
-    - Any number of processes may add at the same time. A record appears whole, or not at all.
+    - Any number of processes may add at the same time. A record appears complete, or not at all.
     - What was added outlives every failure of the process that added it.
     - A record that is damaged, or was written by another version, counts as absent.
     """

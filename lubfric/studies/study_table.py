@@ -16,7 +16,7 @@ class StudyTable:
     Attributes
     ----------
     columns : numbers by name; NaN where a point failed, or is not computed
-    status, validity : in words
+    status, validity : as text
     solved : number of points that have an outcome, equal ones of several curves counted once
     ended : keys of the curves that chose all their speeds
     """
@@ -108,7 +108,7 @@ class StudyTable:
         return self.status[curve, place] == MISSING
 
     def _places_of(self, key: str, speed: float) -> list[tuple[int, int]]:
-        """Where a point stands: (curve, place on it), of each curve that has it."""
+        """Where a point is: (curve, place on it), of each curve that has it."""
         curves = self._curves[key]
         if self.plan.paired:
             return [(curve, 0) for curve in curves if self.plan.speeds_at(curve)[0] == speed]

@@ -136,7 +136,7 @@ def stribeck(
 
     Every point is solved from the scene alone, as `lubfric.friction` does it, so a curve has the same bits whatever
     other speeds it has. A point that fails leaves NaN, and its exception in ``errors``. A fault of the program is
-    raised as it is, with the points so far as its ``result``.
+    raised unchanged, with the points so far as its ``result``.
 
     Parameters
     ----------
@@ -146,11 +146,12 @@ def stribeck(
         is the root sum of squares of the tolerance and the sampling tolerance
     executor : any `concurrent.futures.Executor`
     tolerance, model, fields : as in `lubfric.friction`; or fields: the speeds [m/s] whose film and contact are kept
-    store : a folder that receives every point as it ends. The same call, or one with other speeds, goes on from there
+    store : a folder that receives every point as it ends. The same call, or one with other speeds, continues from
+        there
     on_point : called as on_point(done, total, speed, outcome), with a result or an exception, as points end
     raise_on_failure : False returns a curve with failed points
     workers : processes of this machine that share the speeds, or the parts of each point where there are fewer speeds;
-        in the place of an executor. A script that asks for more than one needs ``if __name__ == "__main__":``
+        instead of an executor. A script that requests more than one needs ``if __name__ == "__main__":``
 
     Returns a `StribeckResult`. Raises `InputError`, and, with the curve, `ConvergenceError` or `ValidityError`.
     """
@@ -289,7 +290,7 @@ def traction(
     Raises
     ------
     InputError : before any work
-    ConvergenceError : at the end, if a point failed; the whole curve is its ``result``
+    ConvergenceError : at the end, if a point failed; the complete curve is its ``result``
     ValidityError : the same, if all points that failed were refused as invalid
     """
     ratios = np.array(each_once(validate.numbers("ratios", ratios, "(-)", LARGEST_RATIO).tolist()))

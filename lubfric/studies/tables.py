@@ -70,7 +70,7 @@ def to_parquet(result: Any, path: str | Path) -> None:
 
 
 def to_netcdf(result: Any, path: str | Path) -> None:
-    """The Dataset of `to_xarray` as a NetCDF file, which appears whole. Needs the ``study`` extra."""
+    """The Dataset of `to_xarray` as a NetCDF file, which appears complete. Needs the ``study`` extra."""
     data = to_xarray(result)
     validate.installed("netCDF4", "study")
     with files.whole_file(path) as part:
@@ -168,13 +168,13 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
 
 
 def _in_people_units(values: np.ndarray, name: str) -> tuple[np.ndarray, str]:
-    """Return the values of the column ``name`` in a unit of people, and the label of their axis."""
+    """Return the values of the column ``name`` in a common unit, and the label of their axis."""
     unit = unit_for(values.tolist(), COLUMNS[name].unit)
     return values * converted(1.0, COLUMNS[name].unit, unit), axis_label(name, unit)
 
 
 def label(result: Any, index: tuple[Any, ...]) -> str:
-    """What is varied at the position ``index`` along the axes of a study, in words."""
+    """What is varied at the position ``index`` along the axes of a study, as text."""
     places = dict(zip(result.dims, index))
     along = {
         key: values[places[dim]]
@@ -235,8 +235,8 @@ def interval_band(
 
 def friction_over_speed(axes: Axes, columns: dict[str, np.ndarray], **style: Any) -> np.ndarray:
     """Friction over the magnitude of the speed with its parts and the band of its intervals, by the ``columns`` of a
-    `lubfric.StribeckResult`; between its points where f is `KNOWN` there. Returns the indices of the points drawn, in
-    order: those that failed, and rest, are left out."""
+    `lubfric.StribeckResult`; between its points where f is `KNOWN` there. Returns the indices of the points drawn,
+    in order: those that failed, and rest, are omitted."""
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = type(columns)((name, column[order]) for name, column in columns.items())

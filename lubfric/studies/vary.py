@@ -197,7 +197,7 @@ def _refuse_key(what: str, scene: Scene, key: Any, sections: Iterable[str]) -> N
 
 
 def check_temperature(what: str, scene: Scene, keys: set[str]) -> None:
-    """Raise `InputError` for temperatures that leave the viscosity as it is; ``what``: the argument that holds
+    """Raise `InputError` for temperatures that leave the viscosity unchanged; ``what``: the argument that holds
     ``keys``."""
     given = keys & TEMPERATURES
     if given and scene.lubricant.oil is None and not keys.intersection(VISCOSITIES):

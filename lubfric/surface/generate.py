@@ -56,9 +56,9 @@ def generate_surface(
     acf : with r² = (x/bx)² + (y/by)²: "exponential", exp(-r), which has no second derivative, so that slopes,
         curvatures and summits depend on the grid; or "gaussian", exp(-r²)
     decay_level : 1/e by default; 0.1 and 0.2 (ISO 25178-2 Sal) are other conventions
-    seed : whole number; the same input gives the same surface
+    seed : integer; the same input gives the same surface
     cutoff : shortest wavelength kept [m], or None for all that the grid holds
-    sk, spk, svk : core height, reduced peak height, reduced dale height [m], all three in the place of ``sq``: a
+    sk, spk, svk : core height, reduced peak height, reduced dale height [m], all three instead of ``sq``: a
         plateau-honed surface (`lubfric.surface.honed`), whose plateaus have the ``correlation_length``. They are met
         within 0.2 % in every realisation
     honing_angle : between the two directions of the grooves [°] (None: 50), halved by the y axis, across the motion

@@ -254,7 +254,7 @@ def _counts(words: set[str]) -> bool:
 
 def column_units(titles: Iterable[tuple[int, str]]) -> tuple[tuple[str, str, str], str] | None:
     """Return the units of three columns x, y, z that a title names, 'X [mm]; Y [mm]; Z [um]' or 'mm; mm; um', and the
-    title; None where none does. One unit stands for all three only in a title that says 'units'."""
+    title; None where none does. One unit represents all three only in a title that says 'units'."""
     for _, text in titles:
         if len(text) > LONGEST:
             continue

@@ -104,7 +104,7 @@ class Surface(FrozenArrays, Shown):
 
     def plot(self, ax: "Axes | None" = None) -> Axes:
         """The heights in the plane, on ``ax`` or new axes, which are returned. The colours leave out single spikes,
-        which the title then tells."""
+        which the title then states."""
         axes = figures.axes_or_new(ax, "compressed")
         x, y = (np.arange(count) * step for count, step in zip(self.shape, self.spacing))
         z = (self.heights - np.nanmean(self.heights)) * 1e9
@@ -134,8 +134,8 @@ class Surface(FrozenArrays, Shown):
         return self._with(self.heights - fitted, f"{note} removed")
 
     def left_by(self) -> dict[str, float]:
-        """Sq [m] that each form of `level` would leave, and as it stands (""). A form that the points do not fix is
-        left out."""
+        """Sq [m] that each form of `level` would leave, and that of the unchanged map (""). A form that the points do
+        not fix is omitted."""
         left = {"": self.sq}
         for form in prepare.FORMS:
             with suppress(InputError):
@@ -145,8 +145,8 @@ class Surface(FrozenArrays, Shown):
     def fill(self) -> Surface:
         """Fill unmeasured points with the harmonic surface through their neighbours (level first).
 
-        No filled height lies outside the range of the points around it. Raises `InputError` when
-        more than half is missing. The mask still tells measured from filled.
+        No filled height lies outside the range of the points around it. Raises `InputError` when more than half is
+        missing. The mask still distinguishes measured from filled points.
         """
         if self.mask is None:
             return self

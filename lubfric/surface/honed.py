@@ -30,7 +30,7 @@ SAMPLES = 200_000  # heights from which the Sq of such a surface is found: withi
 
 @dataclass(frozen=True, kw_only=True)
 class Honing:
-    """What a plateau-honed surface has beside the correlation length of its plateaus.
+    """What a plateau-honed surface has in addition to the correlation length of its plateaus.
 
     Attributes
     ----------

@@ -27,7 +27,7 @@ class Border:
     steps: tuple[float | None, float | None]
 
     def worded(self) -> str:
-        """Return where the coordinates stand."""
+        """Return where the coordinates are."""
         along, down = self.steps
         if along is not None and down is not None:
             return "first row and first column are coordinates"

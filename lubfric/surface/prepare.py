@@ -116,19 +116,20 @@ def harmonic_fill(heights: np.ndarray, mask: np.ndarray, spacing: tuple[float, f
 
 
 def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool, bool]) -> np.ndarray:
-    """Deviations (nx, ny) by which each outlier of a filled, levelled map stands off its neighbours, negative below
-    them; 0 elsewhere. Outliers of a measured map are points that stand alone, far from all their neighbours.
+    """Deviations (nx, ny) by which each outlier of a filled, levelled map differs from its neighbours, negative below
+    them; 0 elsewhere. Outliers of a measured map are points that are isolated, far from all their neighbours.
 
     The rule: a measured point is an outlier when it lies more than ``LIMIT`` robust standard deviations both from the
-    median of the whole map and from the median of the ``WINDOW`` x ``WINDOW`` points around it, on the same side. The
-    robust deviation is 1.4826 times the median of |z - median(z)|. For a Gaussian map that is the standard deviation,
-    and the outliers themselves hardly change it. Where it is zero (most of the map has one height) Sq is taken.
+    median of the complete map and from the median of the ``WINDOW`` x ``WINDOW`` points around it, on the same side.
+    The robust deviation is 1.4826 times the median of |z - median(z)|. For a Gaussian map that is the standard
+    deviation, and the outliers themselves change it little. Where it is zero (most of the map has one height) Sq is
+    taken.
 
     `Surface.without_outliers` fills the outliers and searches the map again, until there are none. Ridges and grooves
-    at least three points wide stay, however high. So do summits that are wide against the window. Dust, noise beside
+    at least three points wide stay, however high. So do summits that are wide against the window. Dust, noise next to
     unmeasured points and the flares of optical instruments at steep edges go.
 
-    heights : (nx, ny) [m], finite; unmeasured points (False in ``mask``) stand in the windows as they are: fill them
+    heights : (nx, ny) [m], finite; unmeasured points (False in ``mask``) are in the windows as they are: fill them
         first.
     """
     measured = heights if mask is None else heights[mask]
@@ -162,9 +163,9 @@ def gaussian_mean(
     """The waviness (nx, ny) [m]: the weighted mean around each point, of the measured points (True in ``mask``) only.
 
     The areal Gaussian filter of ISO 16610-61: the weights are exp(-pi (r/(a L))^2) with a = sqrt(ln 2/pi), so that a
-    wave as long as the nesting index L keeps half of its height. The filter is isotropic, so it works on one axis after
-    the other. At open ends and beside unmeasured points the remaining weights are scaled to sum to one (regression of
-    order zero). A periodic axis wraps around.
+    wave as long as the nesting index L keeps half of its height. The filter is isotropic, so it works on one axis
+    after the other. At open ends and next to unmeasured points the remaining weights are scaled to sum to one
+    (regression of order zero). A periodic axis wraps around.
 
     ``index`` [m]: nesting index (cutoff). A point that has no measured one in reach keeps its height.
     """

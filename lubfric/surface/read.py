@@ -52,7 +52,7 @@ def read_surface(
     .npy                 heights[ix, iy]; needs ``spacing``
     .txt .csv .asc .dat  a matrix: one line of the file is one x, unless its header says that x runs along the lines;
                          or points "x y z". Headers of Gwyddion, SPIP, Wyko and others give spacing and units
-    .xyz                 lines "x y z" on a uniform grid, any order; points left out are unmeasured
+    .xyz                 lines "x y z" on a uniform grid, any order; omitted points are unmeasured
     .x3p                 ISO 25178-72; x is the fast axis of the file and axis 0 here; metres
     .sur .al3d .opd ...  every format of SurfaceTopography (``lubfric[formats]``): its first channel
     ==================== ==================================================================
@@ -73,7 +73,7 @@ def read_surface(
     unit : "m" (default), "mm", "um" or "µm", "nm" of the heights (and of x, y in a list of points), where the file
         names none. Several: (x and y, z) or (x, y, z)
     decimal : "." or ",", the decimal mark of a text file in which commas can be either
-    missing_value : number for "not measured" in a .npy or text file, in the unit of the file, beside NaN
+    missing_value : number for "not measured" in a .npy or text file, in the unit of the file, in addition to NaN
 
     Returns a `Surface`.
 
@@ -102,7 +102,7 @@ def read_surface(
 
 
 def _read(path: Path, head: bytes, spacing: Any, unit: Any, decimal: str | None, missing_value: Any) -> Surface:
-    """Return the map in a file as it stands, by the reader of its format."""
+    """Return the map in a file unchanged, by the reader of its format."""
     suffix = path.suffix.lower()
     binary = b"\0" in head and not head.startswith((b"\xff\xfe", b"\xfe\xff"))  # no text: .dat of an interferometer
     by_instrument = suffix in TEXT and binary or suffix not in SUFFIXES and suffix in INSTRUMENTS
@@ -218,7 +218,7 @@ def _prepared(surface: Surface, level: bool, fill: bool, form: str) -> Surface:
 
 
 def _read_npy(path: Path) -> np.ndarray:
-    """Read a .npy file. It is memory-mapped first, so that its header cannot ask for more than the file holds."""
+    """Read a .npy file. It is memory-mapped first, so that its header cannot request more than the file holds."""
     name = f"path = {str(path)!r}"
     try:
         data = np.load(path, mmap_mode="r", allow_pickle=False)
@@ -232,9 +232,9 @@ def _read_npy(path: Path) -> np.ndarray:
 
 
 def _instrument(path: Path) -> Surface:
-    """Return the first height map of a file of an instrument as it stands, through the optional package SurfaceTopography:
-    unmeasured points NaN, neither levelled nor filled. Its units are not always right (lateral units of .nms were found
-    wrong by 1e6): compare ``surface.describe()`` with the instrument's report.
+    """Return the first height map of a file of an instrument unchanged, through the optional package
+    SurfaceTopography: unmeasured points NaN, neither levelled nor filled. Its units are not always right (lateral
+    units of .nms were found wrong by 1e6): compare ``surface.describe()`` with the instrument's report.
 
     Raises `InputError` without the package, for a file that it cannot read, for one that names no unit of length.
     """

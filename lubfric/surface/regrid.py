@@ -23,7 +23,7 @@ SAME = 1e-9  # relative difference of lengths that are equal
 
 
 def pair(name: str, value: Any) -> tuple[int, int]:
-    """Two whole numbers >= 1; one stands for both."""
+    """Two integers >= 1; one represents both."""
     return validate.pair(name, value, partial(validate.integer, minimum=1), "a whole number >= 1")
 
 

@@ -46,7 +46,7 @@ Lines = list[tuple[int, str]]  # (line number in the file, text without blanks a
 
 @dataclass(frozen=True, kw_only=True)
 class NumberTable:
-    """The numbers of a file of text as they stand, and what its titles and comments say of them."""
+    """The numbers of a file of text as they are, and what its titles and comments say of them."""
 
     numbers: np.ndarray
     header: Header
@@ -336,7 +336,7 @@ def _block_lines(rows: list[str], before: int) -> Lines:
 
 
 def _table(path: Path, text: str, decimal: str | None) -> NumberTable:
-    """Return the numbers of a file, NaN where a cell is empty or marked as missing, and what stands around them.
+    """Return the numbers of a file, NaN where a cell is empty or marked as missing, and what is around them.
 
     A point is always a decimal mark. A comma separates values, or it is the decimal mark. It is read where the lines
     admit only one of the two, and is an error where they admit both. ``decimal``: ".", "," or None to find out. Raises
@@ -485,7 +485,7 @@ def _marks(path: Path, lines: Lines, decimal: str | None) -> tuple[str | None, b
 
 
 def _fault(lines: Lines, separator: str | None) -> str:
-    """Return the first line that is not numbers or not as long as the first, in words."""
+    """Return the first line that is not numbers or not as long as the first, as text."""
     width = len(lines[0][1].split(separator))
     for number, text in lines:
         fields = [f.strip() for f in text.split(separator)]

@@ -38,7 +38,7 @@ CORRUPT = (
 
 
 def read_x3p(path: Path) -> Surface:
-    """Return the height map of an X3P file as it stands: unmeasured points NaN, neither levelled nor filled.
+    """Return the height map of an X3P file unchanged: unmeasured points NaN, neither levelled nor filled.
 
     The file counts x fastest; here x is axis 0. Integer heights are signed (openGPS reference) and times
     their axis increment; floating-point heights are metres. Raises `InputError` for anything else than

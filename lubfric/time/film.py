@@ -1,4 +1,4 @@
-"""`solve_transient_ehl`: the smooth line contact in time, where the film carries the whole load."""
+"""`solve_transient_ehl`: the smooth line contact in time, where the film carries the total load."""
 
 from dataclasses import dataclass
 

@@ -41,7 +41,8 @@ NO_PRESSURE = (0.0, 0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Spring:
-    """A spring that carries load beside the film; its load falls exponentially with the mean film ``weights`` @ H.
+    """A spring that carries load in addition to the film; its load falls exponentially with the mean film ``weights``
+    @ H.
 
     Its load is ``load`` exp((``mean`` - mean film)/``length``), and a straight line beyond one length of compression.
     """
@@ -127,8 +128,8 @@ class StepTerms:
 @dataclass(frozen=True)
 class StepEquations:
     """The equations of one implicit step, with a ``memory`` of the past: at a speed u, a load M, a curvature c =
-    R_ref/R and an ambient viscosity nu, relative to the reference. ``spring``: carries load beside the film; ``inlet``:
-    distance [X] upstream at which the lubricant begins (None: it floods the inlet)."""
+    R_ref/R and an ambient viscosity nu, relative to the reference. ``spring``: carries load in addition to the
+    film; ``inlet``: distance [X] upstream at which the lubricant begins (None: it floods the inlet)."""
 
     grid: FixedGrid
     problem: FilmProblem

@@ -1,8 +1,8 @@
 """A graded grid that does not move, and is the same on both sides of the line of centres.
 
 Flow may reverse, and the film may rupture on either side, on both or on none. So the grid cannot follow a rupture
-point. Cells are smallest at the edges of the Hertz contact on both sides, over the whole range of edges that changing
-loads give. They grow in proportion to the distance from there.
+point. Cells are smallest at the edges of the Hertz contact on both sides, over the complete range of edges that
+changing loads give. They grow in proportion to the distance from there.
 """
 
 from __future__ import annotations

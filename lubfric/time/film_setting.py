@@ -116,7 +116,7 @@ class Setting:
 def make_setting(
     contact: ContactHistory, tolerance: float, *, sq: float = 0.0, reach: float = 0.0, finer: float = 1.0
 ) -> Setting:
-    """Units and grid that suit the whole range of the histories.
+    """Units and grid that suit the complete range of the histories.
 
     ``sq`` [m]: roughness of surfaces that carry part of the load (0: smooth); films of that size are resolved too. The
     grid extends to ``reach`` [m] at least. ``finer``: factor on the number of nodes.

@@ -70,7 +70,7 @@ class LoadSharingSolver:
     def solve(self, time: float, memory: Memory | None, z: np.ndarray, past: Contact) -> Step:
         """Return the solution at ``time`` [s]; its payload is the `Contact`.
 
-        A `Spring` stands for the contact in the film's load balance. Then the contact is solved at the load of the
+        A `Spring` represents the contact in the film's load balance. Then the contact is solved at the load of the
         spring, and its gap gives the next spring (a secant in ln load), until |gap - film|/(gap + film) <= tolerance.
         """
         touch = past.load

@@ -3,7 +3,7 @@
 BDF2 differentiates the parabola through the new value and the two before it. For one step this is backward Euler with
 another memory: y' = rate (y - memory) (`Memory`). Its local error is d³y/dt³ τ²(τ+τ')²/(6(2τ+τ')), with the third
 derivative from the divided difference of four values (τ' is the step before τ). A start, and every jump of a history,
-takes one step as two halves and as a whole; the difference is the error.
+takes one step as two halves and as one; the difference is the error.
 
 A solver has the equations of one implicit step. ``solve(time, memory, z, payload)`` gives the `Step` that ends at
 ``time`` [s] with a `Memory`, from the unknowns ``z``. ``error_of(step, difference)`` gives the relative size of a
@@ -49,8 +49,8 @@ class Memory:
 @dataclass(frozen=True, kw_only=True)
 class Step:
     """One solved step: ``film`` is the y that the next step remembers, ``z`` the unknowns, ``payload`` whatever else
-    the next solve starts from, ``terms`` what the solver can tell of it. The run continues only from a ``status`` of
-    "converged". The march sets the ``time`` at its end [s]."""
+    the next solve starts from, ``terms`` what the solver can show of it. The run continues only from a ``status``
+    of "converged". The march sets the ``time`` at its end [s]."""
 
     film: np.ndarray
     z: np.ndarray
@@ -64,10 +64,10 @@ class Step:
 class Progress:
     """How far a run has come. It can continue from any progress.
 
-    ``levels``: up to three steps, oldest first, since the last jump, of which film and unknowns are kept; ``step``: the
-    next [s]; ``payload``: what the solver returned beside its unknowns. ``steps`` taken and ``rejected``; ``worst``:
-    largest local error so far, over the tolerance. Of the last step its ``solution``, its ``error``, and whether it
-    ended at an output time.
+    ``levels``: up to three steps, oldest first, since the last jump, of which film and unknowns are kept; ``step``:
+    the next [s]; ``payload``: what the solver returned in addition to its unknowns. ``steps`` taken and ``rejected``;
+    ``worst``: largest local error so far, over the tolerance. Of the last step its ``solution``, its ``error``, and
+    whether it ended at an output time.
     """
 
     levels: tuple[Step, ...]
@@ -175,7 +175,7 @@ def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:
 
 @dataclass(frozen=True, kw_only=True)
 class Residual:
-    """A residual of a run, over its tolerance: its ``value``, and in words ``what`` is not balanced, ``where`` the
+    """A residual of a run, over its tolerance: its ``value``, and as text ``what`` is not balanced, ``where`` the
     value was found, and the ``advice`` that makes it smaller."""
 
     value: float
@@ -269,7 +269,7 @@ def _solved(solver: Solver, time: float, memory: Memory, z: np.ndarray, payload:
 
 
 def _pair(now: Progress, end: float, solver: Solver) -> Attempt | None:
-    """Backward Euler over the whole step and over its halves."""
+    """Backward Euler over the full step and over its halves."""
     start = now.levels[-1]
     step = end - start.time
     middle = start.time + 0.5 * step

@@ -32,7 +32,7 @@ class TimeModel(Protocol):
     """A model of a run in time.
 
     ``prepared`` has the strip of rough surface of the run, ``scene`` what changes in time, ``x`` the nodes of the film
-    [m], ``cells`` its grid in words. ``tolerance`` is the largest residual of a solved step, ``time_error`` the largest
+    [m], ``cells`` its grid as text. ``tolerance`` is the largest residual of a solved step, ``time_error`` the largest
     local error of a step unless the scene states one, ``first_step`` [s] the step after a start or a jump, and
     ``stops`` [s] the times at which a step has to end. ``notes`` say what a reader of the result should know.
     """

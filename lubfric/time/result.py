@@ -38,12 +38,12 @@ class TimeAverage:
     """The mean of f over the time in which the surfaces of a run move (at a standstill there is no f), the share
     ``in_motion`` of that time, and relative standard deviations.
 
-    - ``sampling``: of ``coefficient``, because one finite line of rough surface stands for all of it. The line is the
+    - ``sampling``: of ``coefficient``, because one finite line of rough surface represents all of it. The line is the
       same at all times, so a longer run does not make this smaller.
-    - ``fixed_scatter``: of the averages of real lines of the contact's width from place to place, if the same spots
-      stay in contact.
-    - ``moving_scatter``: the same if the rough surface moves through the contact with the entrainment speed. Then other
-      asperities carry the load every `TransientResult.renewal`.
+    - ``fixed_scatter``: of the averages of real lines of the contact's width from place to place, if the same asperity
+      contacts stay in contact.
+    - ``moving_scatter``: the same if the rough surface moves through the contact with the entrainment speed. Then
+      other asperities carry the load every `TransientResult.renewal`.
 
     ``interval`` is the 95 % interval of ``coefficient``, ``power_loss`` [W] the mean power loss of the whole run, with
     ``power_loss_interval``. The errors of all times are taken as fully correlated: a mean of their ends.
@@ -66,26 +66,28 @@ class TransientResult(Shown):
     Attributes
     ----------
     columns : all of them by name, such as: time [s]; coefficient [-], the tangential force on the upper surface in the
-        direction in which it slides over the lower one (in pure rolling: moves), over F_T; friction_force and its parts
-        [N], along +x; mean_film and mean_gap [m], both sides of Eq. (8); wet_from and wet_to [m], the ends of the
-        pressurised film; net_inflow, stored and cavity_growth [m²/s], the balance of the lubricant over the last step,
-        per unit width; time_error [-], the local error of the last step over the tolerance; sampling_error [-], the
-        relative standard error of f because the line of rough surface is finite (`lubfric.estimate.moment_error`; the
-        line is the same at all times, so this error of f has the same sign throughout); inlet_film_factor [-],
+        direction in which it slides over the lower one (in pure rolling: moves), over F_T; friction_force and its
+        parts [N], along +x; mean_film and mean_gap [m], both sides of Eq. (8); wet_from and wet_to [m], the ends of
+        the pressurised film; net_inflow, stored and cavity_growth [m²/s], the balance of the lubricant over the last
+        step, per unit width; time_error [-], the local error of the last step over the tolerance; sampling_error [-],
+        the relative standard error of f because the line of rough surface is finite (`lubfric.estimate.moment_error`;
+        the line is the same at all times, so this error of f has the same sign throughout); inlet_film_factor [-],
         flash_temperature_rise and film_temperature_rise [K], as in `lubfric.FrictionResult`, of the steady motion at
         the speeds of the moment; heat_change [-], the relative change of f by the two rises; shear_error [-], the
         estimated relative error of f by the sum of the film's shear stress; edge_load [-], the share of the contact's
         load on the edge columns of its patch
     x : (nx,) [m]
-    pressure, film_thickness : of the smooth film at the output times, (nt, nx) [Pa, m]; in the deterministic model, means over y
+    pressure, film_thickness : of the smooth film at the output times, (nt, nx) [Pa, m]; in the deterministic model,
+        means over y
     report : how the run ended
     entries : the assumptions that do not hold at each output (`lubfric.Validity`); ``validity`` gathers them
     inputs : how far the range of f_b moves f down and up at every time [-], (2, nt)
-    not_in : inputs, in words, whose ranges are not in ``uncertainty``: a run is solved with their values alone
+    not_in : inputs, as text, whose ranges are not in ``uncertainty``: a run is solved with their values alone
     requested : the output times [s] of the run, whether or not they were reached
-    methods : names of the methods that it rests on, where a paper stands behind them. ``cite()`` gives the papers
+    methods : names of the methods that it rests on, where a paper is behind them. ``cite()`` gives the papers
     line_length, width, renewal : length of the line of rough surface, width of the contact, and the distance that a
-        surface moves until other spots carry the load (the Hertz strip and a correlation length) [m]; NaN if not known
+        surface moves until other asperity contacts carry the load (the Hertz strip and a correlation length) [m]; NaN
+        if not known
     """
 
     columns: dict[str, np.ndarray]

@@ -84,7 +84,7 @@ def transient(
     InputError : before any work
     ConvergenceError : the shortest step failed; carries the rows so far as its result
     ValidityError : at some time an assumption is violated so badly that f means nothing, and ``numerics.accept`` is
-        false; carries the whole result
+        false; carries the complete result
 
     Notes
     -----
@@ -99,7 +99,8 @@ def transient(
     - grid: the discretisation error of the steady start over the film tolerance (if it starts steady)
 
     A run ends at ``numerics.max_work`` [s] of counted work (None: ten times the estimate, at least 120 s), with the
-    outputs so far and the status "work_limit". The same run with a ``checkpoint`` and a larger limit goes on from there.
+    outputs so far and the status "work_limit". The same run with a ``checkpoint`` and a larger limit continues from
+    there.
     """
     scene, times = _with_plan(scene, times)
     limit = scene_of(scene).numerics.max_work or math.inf

@@ -23,7 +23,7 @@ def transient_of(scene: Scene) -> Transient:
 
 def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:
     """``scene``, whose ``transient`` says what changes, just "before" ``time`` [s], or "at" it: just after. It has the
-    load, radius, speed, slide-roll ratio, f_b and viscosity of the moment. Its hardness is left out, because the
+    load, radius, speed, slide-roll ratio, f_b and viscosity of the moment. Its hardness is omitted, because the
     contact has it, and so are its ranges."""
 
     def now(name: str, constant: float) -> float:

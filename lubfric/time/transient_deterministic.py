@@ -97,7 +97,7 @@ class TransientDeterministic:
 
     @property
     def cells(self) -> str:
-        """Return the numbers of cells of the grid, in words."""
+        """Return the numbers of cells of the grid, as text."""
         return "{} x {} cells".format(*self.base.heights.shape)
 
     @cached_property

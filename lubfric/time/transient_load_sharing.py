@@ -42,7 +42,7 @@ class TransientLoadSharing(LoadSharingSolver):
 
     @property
     def cells(self) -> str:
-        """The grid in words."""
+        """The grid as text."""
         return f"{self.setting.grid.n} cells"
 
     @property

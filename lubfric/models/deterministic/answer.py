@@ -245,7 +245,7 @@ def _words_of_levels(levels: Levels) -> str:
 
 
 def _division(results: Sequence[DeterministicResult]) -> str:
-    """The load that rubs with f_b, by its parts, in words."""
+    """The load that rubs with f_b, by its parts, as text."""
     touching, thin, saturated = (
         100 * mean(getattr(result.split, name) / result.load for result in results)
         for name in ("touching", "thin", "saturated")

@@ -40,7 +40,8 @@ NOTHING = WorkEstimate(strips=0, seconds=0.0)
 def estimated_work(
     scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
 ) -> WorkEstimate:
-    """Return what a point at ``speed`` [m/s] will take beside the strips of the ``cheaper`` model, if there is one."""
+    """Return what a point at ``speed`` [m/s] will take in addition to the strips of the ``cheaper`` model, if there is
+    one."""
     numerics = scene.numerics
     sq = surface.sq
     if speed == 0 or sq == 0 or not sample.is_resolved:

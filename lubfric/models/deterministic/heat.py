@@ -59,7 +59,7 @@ def warmed(scene: Scene, numbers: dict[str, float], heat: Heat) -> dict[str, flo
 
 
 def too_hot(heat: Heat) -> str:
-    """Return why ``heat`` is more than was checked for the deterministic model, in words; "" if it is not."""
+    """Return why ``heat`` is more than was checked for the deterministic model, as text; "" if it is not."""
     factor = heat.film_factor
     change = heat.change
     if factor >= LEAST_FILM and change <= MOST_CHANGE:

@@ -1,4 +1,4 @@
-"""The film upstream of the grid, in closed form: there the gap is the parabola, and the viscosity hardly rises.
+"""The film upstream of the grid, in closed form: there the gap is the parabola, and the viscosity rises little.
 
 With h(x) known, Reynolds' equation is one integral: Q(x) = 12 eta0 ∫ (U h - q)/(h³ Φ) dx', with Q the reduced pressure
 ∫ eta0/eta dp, q the flow and Φ the thinning at ambient pressure, from -infinity on, or from where the lubricant begins.

@@ -1,13 +1,13 @@
-"""Friction of an endless line by the deterministic model, as a sum over levels of cost.
+"""Friction of an infinite line contact by the deterministic model, as a sum over levels of cost.
 
     f = mean over strips (f deterministic - difference of that strip from a line of Eq. (8))      a few strips
       + mean over pieces (f on cells half as long - f)                                            fewer, half as long
       + the same once more, from these cells on                                           one, a sixth as long
 
-The line is the first level: its many strips tell what is chance of the few (`lubfric.models.load_sharing.control_variate`). These are few
-where both models scatter alike, as they do about lift-off on most surfaces. Where they do not, the line is left out.
-Which of the two needs fewer strips is read off those that are solved (M. B. Giles, Oper. Res. 56 (2008) 607-617,
-doi:10.1287/opre.1070.0496).
+The line is the first level: its many strips show what is chance of the few
+(`lubfric.models.load_sharing.control_variate`). These are few where both models scatter alike, as they do about
+lift-off on most surfaces. Where they do not, the line is omitted. Which of the two needs fewer strips is read off
+those that are solved (M. B. Giles, Oper. Res. 56 (2008) 607-617, doi:10.1287/opre.1070.0496).
 """
 
 import math
@@ -64,15 +64,15 @@ OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
 class Levels:
     """The sum over levels.
 
-    - ``numbers``: of the deterministic model on an endless line, by name; ``errors``: their relative standard errors.
-      ``by_film``: relative change of f by half and by twice the boundary film; ``by_flow``: by another law of the flow;
-      ``by_inlet``: without the heat of the inlet.
-    - ``line``: number of strips of the first level (0: it was left out); ``pairs``: the strips of the second;
+    - ``numbers``: of the deterministic model on an infinite line contact, by name; ``errors``: their relative standard
+      errors. ``by_film``: relative change of f by half and by twice the boundary film; ``by_flow``: by another law of
+      the flow; ``by_inlet``: without the heat of the inlet.
+    - ``line``: number of strips of the first level (0: it was omitted); ``pairs``: the strips of the second;
       ``pieces``: of the third, each on shorter and shorter cells; ``shortest``: that of the fourth (empty: none).
     - relative errors of f: ``sampling``, standard, by the number of strips; ``difference``, standard, by that between
-      the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips;
-      ``has_unsolved_cells``: whether shorter cells were needed and did not converge; ``note``: what the control of moving
-      roughness changed (empty: nothing).
+      the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips; ``has_unsolved_cells``:
+      whether shorter cells were needed and did not converge; ``note``: what the control of moving roughness changed
+      (empty: nothing).
     """
 
     numbers: dict[str, float]
@@ -251,7 +251,7 @@ def _scatter(
     these strips from the ``line``. (On a line of N strips, of which n are pairs, all of the sum scatters as with 1 -
     n/N: Eq. (8) on the pairs is part of the line.)
 
-    Strips tell their scatter themselves, but few of them badly. Blocks within them tell it at once, but off by up to a
+    Strips show their scatter themselves, but few of them badly. Blocks within them show it at once, but off by up to a
     factor of two. So the variances of both are pooled, that of blocks with the weight of `PRIOR` strips. If windows of
     a measured map scatter more, their own scatter counts.
     """

@@ -208,7 +208,7 @@ def gmres(
 
 @dataclass(frozen=True)
 class Patterns:
-    """Where the coefficients of a `Stencil` stand in sparse matrices, and the ``order`` of elimination. A pattern has
+    """Where the coefficients of a `Stencil` are in sparse matrices, and the ``order`` of elimination. A pattern has
     the places of its entries in the data, their indices, and the first of each row (or column)."""
 
     order: np.ndarray

@@ -3,10 +3,10 @@
     div( U rho θ h - rho h³ Φ/(12 eta) grad p ) + d(rho θ h)/dt = 0
 
 Steps are BDF2, of second order: (3 m - 4 m' + m'')/(2 dt), with m' and m'' the mass rho θ h of the last two moments,
-limited where a summit closes a cell (`state.stored`). In a step the lubricant passes one cell, and m' and m'' are those
-of the one and two cells before: along the way of the lubricant both first terms are one, d(rho θ h)/dt. Waves that go
-with it lose nothing, and of a film at rest that is second-order upwind, as of the steady one. (In steps and cells that
-stand still, waves of 12 cells lost half of their height in a half-width.)
+limited where a summit closes a cell (`state.stored`). In a step the lubricant passes one cell, and m' and m'' are
+those of the one and two cells before: along the way of the lubricant both first terms are one, d(rho θ h)/dt. Waves
+that go with it lose nothing, and of a film at rest that is second-order upwind, as of the steady one. (In steps and
+cells that are at rest, waves of 12 cells lost half of their height in a half-width.)
 
 Where all roughness is slower than U/2, or some is faster than 2 U, the fastest rough body moves by one cell in a step,
 m' and m'' are of the cell itself, and the first step is implicit Euler.
@@ -157,9 +157,9 @@ def _in_parts(problem_at, at: Iterate, time: float, step: float, work: Work, how
 
 
 def _moved(state: State, before: State, cells: int, smooth: int) -> State:
-    """Return ``state`` with all that goes with the roughness moved by so many ``cells`` along x: dents, kinds of cells, and
-    what the pressure has beside its mean over y and ``smooth`` cells along x. Half of its change since the moment
-    ``before`` is added."""
+    """Return ``state`` with all that goes with the roughness moved by so many ``cells`` along x: dents, kinds of
+    cells, and what the pressure has in addition to its mean over y and ``smooth`` cells along x. Half of its change
+    since the moment ``before`` is added."""
 
     def moved(values, times=1):
         return np.concatenate([np.repeat(values[:1], times * cells, axis=0), values[: -times * cells]])

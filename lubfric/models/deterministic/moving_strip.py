@@ -145,9 +145,9 @@ def solve_moving_strip(
     ----------
     factors, start, slope : as in `solve_strip`, for the roughness at rest, from which the motion starts
     effort : None: `effort_for` the contact
-    most_steps : moments that count, at most (None: a whole pass of the map)
+    most_steps : moments that count, at most (None: a complete pass of the map)
     for_continuation : whether `MovingStrip.early` is needed; a short map is followed beyond a pass for it
-    target : None: the whole map passes
+    target : None: the complete map passes
     """
     effort = effort_of(scene, bodies, speed, factors) if effort is None else effort
     near = start.rest if isinstance(start, MovingStrip) else start
@@ -209,9 +209,9 @@ def continued_strip(
     ``longer``: on cells twice as long along y, which must divide the map. And the counted work
     [s].
 
-    It goes on from `MovingStrip.state_after_discard`, and counts once more when the film has passed the contact: the
-    same moments as `MovingStrip.early`, at which the roughness is in the same places. So their ratio does not depend on
-    the few places that pass in that time. Raises `ConvergenceError`.
+    It continues from `MovingStrip.state_after_discard`, and counts once more when the film has passed the contact: the
+    same moments as `MovingStrip.early`, at which the roughness is in the same places. So their ratio does not depend
+    on the few places that pass in that time. Raises `ConvergenceError`.
     """
     rest = strip.rest
     cell = rest.problem.spacing[0]
@@ -315,7 +315,7 @@ def strip_at_rest(
     slope: bool = False,
     effort: MovingEffort | None = None,
 ) -> Strip:
-    """Solve the strip of `solve_moving_strip` with its roughness at rest, as it stands at time 0."""
+    """Solve the strip of `solve_moving_strip` with its roughness at rest, unchanged at time 0."""
     surface, upper = _together(bodies)
     effort = effort_of(scene, bodies, speed, factors) if effort is None else effort
     ends = _ends(scene, bodies, speed, effort)
@@ -344,7 +344,7 @@ def _passing(
     state: State,
     begun: float,
 ) -> Iterator[Moment]:
-    """Yield the moments of ``problem`` from a ``state`` on, with the roughness where it stands at the time ``begun`` [s];
+    """Yield the moments of ``problem`` from a ``state`` on, with the roughness where it is at the time ``begun`` [s];
     for a negative ``speed`` in the mirror."""
     bodies = _as_seen(bodies, speed)
     cell = problem.spacing[0]
@@ -381,7 +381,7 @@ def _row(moment: Moment) -> dict[str, Any]:
 
 
 def _mean(rows: Sequence[dict[str, Any]], last: DeterministicResult) -> DeterministicResult:
-    """Return the result of the ``last`` moment with the means over ``rows`` in the place of its numbers."""
+    """Return the result of the ``last`` moment with the means over ``rows`` instead of its numbers."""
     mean = {name: np.mean([row[name] for row in rows], axis=0) for name in rows[0]}
     split = LoadSplit(*(float(mean[f.name]) for f in fields(LoadSplit)))
     parts: dict[str, Any] = {name: mean[name] if mean[name].ndim else float(mean[name]) for name in AVERAGED}

@@ -75,12 +75,12 @@ def newton(
 ) -> NewtonResult:
     """At most ``most`` steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
 
-    Before every step each cell gets the equation that its state asks for (`update_active_sets`). A step leaves every cell at least
-    a fifth of its gap, and is halved while the mass residual of the fluid cells grows. The method gives up after a step
-    shorter than ``least`` of the whole; when a number is not finite; or when for `PATIENCE` steps neither the residual
-    has fallen nor the residual that the whole step would have led to. (The latter falls first, while a heavily loaded
-    film finds its shape in short steps.) ``history``: of an implicit step in time (None: the film is steady);
-    ``linear_accuracy``: of the linear system of a step (`System.solve`).
+    Before every step each cell gets the equation that its state requires (`update_active_sets`). A step leaves every
+    cell at least a fifth of its gap, and is halved while the mass residual of the fluid cells grows. The method gives
+    up after a step shorter than ``least`` of the whole; when a number is not finite; or when for `PATIENCE` steps
+    neither the residual has fallen nor the residual that the full step would have led to. (The latter falls first,
+    while a heavily loaded film finds its shape in short steps.) ``history``: of an implicit step in time (None: the
+    film is steady); ``linear_accuracy``: of the linear system of a step (`System.solve`).
     """
     residual_history: list[float] = []
     promised: list[float] = []

@@ -1,4 +1,4 @@
-"""Pictures of roughness that moves: moments side by side, an animation, and film and spots over time."""
+"""Pictures of roughness that moves: moments side by side, an animation, and film and asperity contacts over time."""
 
 from collections.abc import Sequence
 from pathlib import Path

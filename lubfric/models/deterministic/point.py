@@ -71,12 +71,12 @@ def solve_strip(
     """Solve ``surface``, a strip that is periodic along y, under the bodies of ``scene`` at ``speed`` [m/s], not 0.
 
     The cells are those of the map, or ``factors`` (fx, fy) times as long: they take every fx-th and fy-th height where
-    it stands, so that strips of different factors are the same strip. ``start``: the same strip at another speed, on
-    these cells or on longer ones. Without it, strip and speed alone decide the result; many cells then start from
-    cells twice as long. ``slope``: solve it a second
-    time, for `Strip.slope`. ``tolerance``: of the residuals (`lubfric.models.deterministic.state.residuals`). ``upper``: the
-    part of ``surface`` that is surface 2, where both bodies are rough. ``ends`` [m]: of the grid, up and down stream
-    (None: `reach`). ``most``: LU factorisations, at most.
+    it is, so that strips of different factors are the same strip. ``start``: the same strip at another speed, on these
+    cells or on longer ones. Without it, strip and speed alone decide the result; many cells then start from cells
+    twice as long. ``slope``: solve it a second time, for `Strip.slope`. ``tolerance``: of the residuals
+    (`lubfric.models.deterministic.state.residuals`). ``upper``: the part of ``surface`` that is surface 2, where both
+    bodies are rough. ``ends`` [m]: of the grid, up and down stream (None: `reach`). ``most``: LU factorisations, at
+    most.
 
     Raises `InputError` and `ConvergenceError`.
     """
@@ -168,8 +168,8 @@ def estimate(changes: Sequence[float], left: float = math.inf) -> float:
 
     It is the geometric series of the last change, with the ratio q of the last two kept within 1/4 and 3/4 (0.6 from
     one change). ``left``: how often the cells can be halved until they are those that the answer is for. The series
-    ends there, with twice that ratio, since two changes tell it badly, and up to 2: on exponential surfaces under heavy
-    loads the changes grow down to those cells.
+    ends there, with twice that ratio, since two changes determine it poorly, and up to 2: on exponential surfaces
+    under heavy loads the changes grow down to those cells.
     """
     ratio = UNKNOWN_RATIO
     endless = math.isinf(left)
@@ -188,7 +188,7 @@ def change_of(coarse: DeterministicResult, fine: DeterministicResult) -> float:
     """Relative change of f from a ``coarse`` to a ``fine`` grid, with the standard error of its mean over places.
 
     Places change by themselves, some up and some down. On a short map the mean may be small by chance; the scatter of
-    the places tells by how much. Friction that goes with a place's load is left out, since their mean load is kept.
+    the places shows by how much. Friction that goes with a place's load is omitted, since their mean load is kept.
     """
     count = max(coarse.load_at.size // BLOCK, 2)
     load = _blocks(fine.load_at, count) - _blocks(coarse.load_at, count)

@@ -5,7 +5,7 @@ On a grid of cells (nx, ny), x along the motion, periodic along y:
     h = h0 + x²/(2R) - z + K p + w        gap; z heights of the rough body, w >= 0 its plastic dent
     div( U rho θ h - rho h³/(12 eta) grad p ) = 0    mass; θ = 1 where fluid fills the gap
     p >= 0, θ <= 1, p (1 - θ) = 0          rupture and refilling that keep the mass (Jakobsson-Floberg-Olsson)
-    h = floor                              where the bodies touch; p there is the whole pressure
+    h = floor                              where the bodies touch; p there is the total pressure
     p <= P_u, w >= 0, (P_u - p) w = 0      plastic limit, of film and contact alike
     ∫ p dx dy = load
 
@@ -143,8 +143,8 @@ def lay_out(
     ends: tuple[float, float] | None = None,
     factors: tuple[int, int] = (1, 1),
 ) -> Problem:
-    """The `Problem` of ``surface``, its middle under the line of contact, on its own cells or on cells ``factors`` (fx,
-    fy) times as long, which take every fx-th and fy-th of its heights where they stand.
+    """The `Problem` of ``surface``, its middle under the line of contact, on its own cells or on cells ``factors``
+    (fx, fy) times as long, which take every fx-th and fy-th of its heights where they are.
 
     If the grid is longer than the map, the map is repeated, or mirrored if it is not periodic along x. ``ends`` [m]:
     lengths up and down stream (default: `reach`). Raises `InputError` for more cells than `LARGEST`, and for factors
@@ -185,7 +185,8 @@ def shifted(problem: Problem, surface: Surface) -> Callable[[float], np.ndarray]
     """Return the function of a distance [m] along x by which ``surface`` has moved that gives its heights [m] on the
     cells of ``problem``, which are its own or several times as long.
 
-    It is shifted by its Fourier transform along x: by whole cells exactly. One that is not periodic goes on mirrored.
+    It is shifted by its Fourier transform along x: by complete cells exactly. One that is not periodic is continued by
+    its mirror image.
     """
     (nx, ny) = surface.shape
     dx = surface.spacing[0]

@@ -1,6 +1,6 @@
 """What a deterministic solve returns: its fields, its friction, and the part of the load that rubs with f_b.
 
-With one pressure, no equation tells film and contact apart. What friction needs is where boundary friction begins, and
+With one pressure, no equation separates film and contact. What friction needs is where boundary friction begins, and
 that is one length, the thickness of the boundary film:
 
     shear = f_b p where h < boundary film, the bodies' touching cells among them; the lubricant's own law elsewhere.
@@ -46,20 +46,21 @@ class DeterministicResult:
 
     - pressure [Pa]: of film and contact together. gap [m]: between the rough surfaces, at least the floor. fill [-]:
       the filled part of the gap, below 1 only where the film has ruptured. touching (bool): h = floor. spots (bool):
-      where the stress is f_b p. wet (bool): fluid under pressure outside the spots. shear [Pa]: on surface 2, by the
-      sliding. dent [m]: plastic depth.
-    - boundary: f_b p over the spots. couette: shear of the film by the sliding. rolling: by the gradient of pressure,
-      and pressure on the flanks of a rough surface 2. Both with what is upstream of the grid. coefficient: (boundary +
-      couette + rolling)/load, of surface 2 against its sliding (`Problem`); at_half_film, at_twice_film: with half and
-      twice the boundary film; at_least_limit, at_most_limit: with the limiting stress of a Newtonian lubricant at the
-      ends of `LIMIT_RANGE` times p instead of f_b p, on the same fields. split: the load on spots, and its parts.
+      where the stress is f_b p. wet (bool): fluid under pressure outside the asperity contacts. shear [Pa]: on surface
+      2, by the sliding. dent [m]: plastic depth.
+    - boundary: f_b p over the asperity contacts. couette: shear of the film by the sliding. rolling: by the gradient
+      of pressure, and pressure on the flanks of a rough surface 2. Both with what is upstream of the grid.
+      coefficient: (boundary + couette + rolling)/load, of surface 2 against its sliding (`Problem`); at_half_film,
+      at_twice_film: with half and twice the boundary film; at_least_limit, at_most_limit: with the limiting stress of
+      a Newtonian lubricant at the ends of `LIMIT_RANGE` times p instead of f_b p, on the same fields. split: the load
+      on asperity contacts, and its parts.
     - rolling_resistance: of both surfaces together, against U: pressure gradient, and pressure on the flanks of all
       roughness.
     - flow_film [m]: flow/U. min_gap, central_gap (mean at x = 0) and mean_gap (over the strip, the columns with |x| <=
       b of the load) [m]. spot_fraction, plastic_fraction: of the area of the strip.
     - load_at, friction_at [N/m] (ny,): load and friction of every column of cells along x, with those upstream. Their
       means are ``load`` and ``coefficient`` times that.
-    - spot_length [m]: area of all spots per length. top_pressure [Pa]: the largest in the film.
+    - spot_length [m]: area of all asperity contacts per length. top_pressure [Pa]: the largest in the film.
     - given [m]: film at U that touching cells of the strip give off, because their floor is kept full; drawn: their
       share of the lubricant in the film. The rest enters from upstream.
     - approach [m]: h0. inlet_load [N/m]: carried upstream of the grid. ``state`` starts a neighbouring solve.

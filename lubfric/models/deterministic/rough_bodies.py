@@ -79,7 +79,7 @@ def moving_point_work(scene: Scene, sample: Sample, sq: float, speed: float, fac
     """Estimate the counted work [s] of a point on one strip of moving roughness, ends of input ranges included.
 
     The cells are ``factors`` times as long as those of ``sample``; ``sq`` [m]: of the surface. The ends of a range of
-    the hardness are left out, because in most contacts no pressure reaches them.
+    the hardness are omitted, because in most contacts no pressure reaches them.
     """
     (fx, fy) = factors
     (dx, dy) = sample.cells.coarse

@@ -1,6 +1,6 @@
 """The third and fourth level: what cells half as long, and half of that, change, seen on pieces of the surface.
 
-Relative to f that change hardly depends on speed, far less than it scatters. So pieces are solved at the nearest of
+Relative to f that change depends little on speed, far less than it scatters. So pieces are solved at the nearest of
 fixed speeds, on which neighbouring points of a curve share them; these follow from the scene alone.
 """
 
@@ -70,13 +70,14 @@ Piece = tuple[Strip, ...]  # on shorter and shorter cells
 def on_shorter_cells(
     prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]
 ) -> tuple[tuple[Piece, ...], Piece, BlockError, float, bool]:
-    """Solve the third and fourth level beside ``pairs``, as far as needed, if the roughness rests: the pieces of both,
+    """Solve the third and fourth level for ``pairs``, as far as needed, if the roughness rests: the pieces of both,
     the standard error of the mean relative change of f on those of the third, and the relative error that the last
-    cells leave. Where pieces do not converge, or take too much work, there are none, that error is `UNSOLVED` times what
-    the change from longer cells lets expect, and the last value is True. Raises `ConvergenceError` for a single patch only.
+    cells leave. Where pieces do not converge, or take too much work, there are none, that error is `UNSOLVED` times
+    what the change from longer cells lets expect, and the last value is True. Raises `ConvergenceError` for a
+    single patch only.
 
     There is a fourth level where the third leaves more than ``numerics.tolerance``, and `MOST_WORK` allows it. What it
-    tells from one short piece may be off by half.
+    estimates from one short piece may be off by half.
     """
     scene = prepared.scene
     sample = prepared.sample

@@ -110,7 +110,7 @@ def _attempts(
 
 
 def dry_contact(problem: Problem, tolerance: float = DRY_TOLERANCE) -> ContactResult:
-    """Press the rough bodies together without fluid under the whole load."""
+    """Press the rough bodies together without fluid under the total load."""
     return solve_contact(
         problem.rigid_gap,
         problem.spacing,
@@ -161,14 +161,14 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
     """Return the state of ``result``, a solution of ``coarse``, on the smaller cells of ``problem``, linear between cells;
     and the least Newton step to take from there.
 
-    Where asperities carry much of the load, their spots are too sharp to be interpolated to smaller cells. Then the dry
-    contact of the finer grid is taken, with half of the pressure of the film between the spots. (With none of it
-    Newton's method takes a third more steps.)
+    Where asperities carry much of the load, their asperity contacts are too sharp to be interpolated to smaller cells.
+    Then the dry contact of the finer grid is taken, with half of the pressure of the film between the asperity
+    contacts. (With none of it Newton's method takes a third more steps.)
 
-    If the residuals are `WORSE` times those of `dry_start` on that grid, as under heavy loads, it is the dry contact of
-    the finer grid plus what the film changes of the coarser one (as in a full approximation scheme: A. Brandt, Math.
-    Comput. 31 (1977) 333-390, doi:10.1090/S0025-5718-1977-0431719-X). That is far away and yet a few whole steps from
-    the solution, or it leads nowhere: none where spots carry more than `WET` of the load.
+    If the residuals are `WORSE` times those of `dry_start` on that grid, as under heavy loads, it is the dry contact
+    of the finer grid plus what the film changes of the coarser one (as in a full approximation scheme: A. Brandt,
+    Math. Comput. 31 (1977) 333-390, doi:10.1090/S0025-5718-1977-0431719-X). That is far away and yet a few full steps
+    from the solution, or it leads nowhere: none where asperity contacts carry more than `WET` of the load.
 
     Beyond the old grid p = 0, with fluid upstream and rupture downstream.
     h0 is corrected, because the half-space has its zero, u = 0, at the length of the grid from a line load. The cells

@@ -107,7 +107,7 @@ def evaluated(problem: Problem, state: State, history: TimeHistory | None = None
 
 
 def update_active_sets(at: Iterate) -> Iterate:
-    """Return ``at`` with the equation in every cell that its state asks for."""
+    """Return ``at`` with the equation in every cell that its state requires."""
     new = evaluated(at.problem, _resorted(at), at.history)
     fluid = (new.state.kind == FLUID) & (at.state.kind == FLUID)  # cells that just opened begin at the floor
     closed = fluid & (new.gap < at.problem.floor)  # by a pressure that was cut to P_u
@@ -116,7 +116,7 @@ def update_active_sets(at: Iterate) -> Iterate:
 
 
 def _resorted(at: Iterate) -> State:
-    """Give every cell the equation that its pressure, gap and residual ask for.
+    """Give every cell the equation that its pressure, gap and residual require.
 
     - A fluid cell under suction ruptures. A ruptured cell that is full carries pressure again.
     - A fluid cell closer than the floor touches. A touching cell under suction opens (`_opened`).

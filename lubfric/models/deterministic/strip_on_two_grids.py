@@ -79,8 +79,8 @@ def longer_than(surface: Surface, factors: tuple[int, int], moving: bool = False
 def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int) -> StripOnTwoGrids:
     """Solve strip ``index`` by the deterministic model at ``speed`` [m/s], not 0, first on longer cells.
 
-    ``slope``: of friction over load [-] (None: found by a second solve; where the roughness moves, blocks of time and place
-    tell it). Raises `ConvergenceError`.
+    ``slope``: of friction over load [-] (None: found by a second solve; where the roughness moves, blocks of time and
+    place show it). Raises `ConvergenceError`.
     """
     scene = prepared.scene
     surface, factors = strip_of(prepared, index)

@@ -1,10 +1,10 @@
 """The attenuated summits of moving roughness: the control variate of the deterministic model where roughness moves.
 
-How much a place of the contact rubs at a moment hangs on the summits that pass it then. The contact flattens long waves
-(C. J. Hooke, Proc. IMechE J 220 (2006) 901-913, doi:10.1243/13506501JET146), so only what is left of them counts here:
-a wave of wavenumber k keeps k²/(k² + κ²) of its height, with κ = 2π/b. The control is the mean excess of these heights
-over one Sq of theirs, over the Hertz strip with the weight of its pressure. It takes no solve. Its mean on the endless
-surface is that over many strips.
+The boundary friction of a place of the contact at a moment depends on the summits that pass it then. The contact
+flattens long waves (C. J. Hooke, Proc. IMechE J 220 (2006) 901-913, doi:10.1243/13506501JET146), so only what is left
+of them counts here: a wave of wavenumber k keeps k²/(k² + κ²) of its height, with κ = 2π/b. The control is the mean
+excess of these heights over one Sq of theirs, over the Hertz strip with the weight of its pressure. It takes no solve.
+Its mean on the infinite surface is that over many strips.
 
 Between four strips of a needle roller (lambda ratio 0.5) f scatters by 3.9 %, and by 0.4 % with this control
 (docs/design-notes.md has others).
@@ -32,7 +32,7 @@ FEWEST_STRIPS = 8
 
 @dataclass(frozen=True, kw_only=True)
 class SummitControl:
-    """The mean excess of attenuated heights over a ``threshold`` [m], on the endless surface.
+    """The mean excess of attenuated heights over a ``threshold`` [m], on the infinite surface.
 
     ``wave`` [m]: wavelength that keeps half of its height. ``mean`` [m]: of the excess; ``scatter`` [m]: standard
     deviation of its mean over a strip; ``count``: number of strips that it was averaged over.
@@ -73,7 +73,7 @@ def control_of(maps: Sequence[Surface], half_width: float) -> SummitControl:
 def attenuated(surface: Surface, wave: float) -> Surface:
     """Return ``surface`` about its mean with its waves attenuated: one of the wavelength ``wave`` [m] keeps half of its height.
 
-    Along an axis on which it is not periodic, it goes on mirrored.
+    Along an axis on which it is not periodic, it is continued by its mirror image.
     """
     heights = surface.heights - surface.heights.mean()
     (nx, ny) = heights.shape

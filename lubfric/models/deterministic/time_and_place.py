@@ -1,8 +1,8 @@
 """What places of a strip rub at moments: the mean friction, and its standard error from blocks of time and place.
 
 In a block both are long enough to be nearly independent of the next. Over the blocks friction is a linear function of
-the control (`summits`) and of the load of the block, whose means on the endless line are known; what is left scatters by
-chance. So a part of a pass of the map tells its own error.
+the control (`summits`) and of the load of the block, whose means on the infinite line contact are known; what is left
+scatters by chance. So a part of a pass of the map shows its own error.
 """
 
 import math
@@ -78,8 +78,8 @@ class TimeAndPlace:
 
 @dataclass(frozen=True)
 class MeanOverBlocks:
-    """A mean over blocks, relative to the load: its ``value`` at the control and load of the endless line; ``plain``: without
-    them; standard errors of both; ``correction``: what the control changed."""
+    """A mean over blocks, relative to the load: its ``value`` at the control and load of the infinite line contact;
+    ``plain``: without them; standard errors of both; ``correction``: what the control changed."""
 
     value: float
     error: BlockError
@@ -92,7 +92,7 @@ def mean_over_blocks(
 ) -> MeanOverBlocks:
     """Return the mean of the field ``name`` of `TimeAndPlace` over ``samples``, and its standard error.
 
-    ``correlation_length`` [m]: along y; ``control``: None, or one that is not known, is left out.
+    ``correlation_length`` [m]: along y; ``control``: None, or one that is not known, is omitted.
     """
     rows = []
     places = 0
@@ -120,7 +120,7 @@ def mean_over_blocks(
 
 
 def _block_means(field: np.ndarray, counts: tuple[int, int]) -> np.ndarray:
-    """Return the means of ``field`` (n, ny) over blocks of equal size; a remainder at the ends is left out."""
+    """Return the means of ``field`` (n, ny) over blocks of equal size; a remainder at the ends is omitted."""
     in_time, along_y = counts
     moments = field.shape[0] // in_time
     places = field.shape[1] // along_y

@@ -1,7 +1,7 @@
 """Load sharing, Eq. (8) of the paper: film and contact carry one load.
 
 `point` solves film and contact, each at its share of the load; `balance` finds the division at which they agree;
-`forces` gives the friction; `response` tells how strongly all that depends on an error of the gap; `limits` are the
+`forces` gives the friction; `response` shows how strongly all that depends on an error of the gap; `limits` are the
 assumptions of the model that a balance violates.
 """
 

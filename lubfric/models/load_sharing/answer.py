@@ -77,7 +77,7 @@ def fields_of(balanced: BalancedSample) -> ContactFields | None:
 
 def fine_fields_of(balanced: BalancedSample) -> ContactFields:
     """Return the fields of a piece of the surface on cells fine enough to look at, under the film and the load of the
-    whole sample."""
+    complete sample."""
     prepared = balanced.prepared
     scene = prepared.scene
     sample = balanced.sample
@@ -190,7 +190,7 @@ def _numbers(balanced: BalancedSample) -> dict[str, float]:
 
 
 def _steepness(balanced: BalancedSample) -> float:
-    """d ln(F_H/F_C)/d ln U: at a given division of the load the film grows as U^e, by closed forms at F_H. NaN where
+    """d ln(F_H/F_C)/d ln U: at a given division of the load the film grows as U^e, with closed forms at F_H. NaN where
     film and contact do not share the load."""
     response = balanced.response
     balance = balanced.balance

@@ -72,9 +72,9 @@ def solve_balance(
 ) -> Balance:
     """The balance of ``scene`` at ``speed`` [m/s] on ``contact``, whose heights have the standard deviation ``sq`` [m].
 
-    Without entrainment the contact carries the whole load. The film of the whole load is solved first; if it clears the
-    summits, no contact is solved. Otherwise the residual (gap - film)/(gap + film) of the volume increases with the
-    film's share, so there is one root in ln(F_H/F_C), and the load balance holds by construction. Film, volume and
+    Without entrainment the contact carries the total load. The film of the total load is solved first; if it separates
+    the surfaces, no contact is solved. Otherwise the residual (gap - film)/(gap + film) of the volume increases with
+    the film's share, so there is one root in ln(F_H/F_C), and the load balance holds by construction. Film, volume and
     contact are solved as closely as ``numerics.tolerance`` needs, by the response of the friction that a first, loose
     balance shows (`lubfric.scene.budget`). ``start``: a balance on the same contact at another speed, or on another
     contact at this one; ``correctable``: what the root leaves open of the volume will be corrected to first order.
@@ -109,7 +109,7 @@ def _dry(scene: Scene, contact: RoughContact, why: str = "no entrainment: all co
 
 
 def _film_alone(point: Point) -> Balance:
-    """The film under the whole load, on the cells that the sum of its shear stress needs, over the unloaded contact."""
+    """The film under the total load, on the cells that the sum of its shear stress needs, over the unloaded contact."""
     load = point.scene.bodies.load
     trial = point.trial(load, 0.0)
     while True:

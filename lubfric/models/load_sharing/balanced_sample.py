@@ -176,9 +176,9 @@ class BalancedSample:
 
     @cached_property
     def is_too_coarse(self) -> bool:
-        """Whether the cells change the division of the load or the gap by more than can be corrected, or f by more than
-        is allowed beyond first order; where the film clears the summits, whether they cut off a summit that would
-        touch."""
+        """Whether the cells change the division of the load or the gap by more than can be corrected, or f by more
+        than is allowed beyond first order; where the film separates the surfaces, whether they cut off a summit
+        that would touch."""
         response = self.response
         sample = self.sample
         scene = self.prepared.scene
@@ -295,7 +295,7 @@ def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | No
 
 def _effect(prepared: Prepared, point: Point, balance: Balance, sample: Sample) -> CellEffect:
     """The effect of the cells at ``balance``: that at the reference point, if the load on the contact is so near that
-    the difference hardly moves f, else its own."""
+    the difference changes f little, else its own."""
     reference = _reference(prepared, point.speed, sample)
     response = balance.response
     if reference is not None and abs(math.log(balance.contact_load / reference.contact_load)) < NEAR_LOAD:

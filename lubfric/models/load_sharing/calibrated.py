@@ -1,11 +1,12 @@
 """Calibrated load sharing: the friction of a rough film (`rough_film`), and the error that a campaign of solved cases
 leaves of it.
 
-The campaign (``python -m verification calibration``) solves random contacts by this model and by the deterministic one.
-ln(f deterministic/f) has a mean, the bias, and a standard deviation σ = exp(Σ c_i x_i) in a few features x_i of the
-solution (`features`). The 95 % bounds are bias ± k sqrt(σ² + variance of the bias); k is the 95 % quantile of what was
-seen on kinds of cases (fluids, lays, loads, slide-roll ratios) that were left out of the fit in turn (split conformal
-prediction). calibration.toml has the numbers. Outside the range of the campaign the bounds widen (`widening`).
+The campaign (``python -m verification calibration``) solves random contacts by this model and by the deterministic
+one. ln(f deterministic/f) has a mean, the bias, and a standard deviation σ = exp(Σ c_i x_i) in a few features x_i of
+the solution (`features`). The 95 % bounds are bias ± k sqrt(σ² + variance of the bias); k is the 95 % quantile of what
+was seen on kinds of cases (fluids, lays, loads, slide-roll ratios) that were excluded from the fit, one kind at a time
+(split conformal prediction). calibration.toml has the numbers. Outside the range of the campaign the bounds widen
+(`widening`).
 """
 
 import math
@@ -35,14 +36,14 @@ class CalibratedFriction:
     """f by calibrated load sharing, and its error.
 
     coefficient : f, with the bias taken away; film : the rough film behind it
-    bounds : 95 % bounds of f by the model, relative, below and above; least_bounds : those that a contact in the range of the campaign
-        would have; bias : that was taken away, of ln f
+    bounds : 95 % bounds of f by the model, relative, below and above; least_bounds : those that a contact in the range
+        of the campaign would have; bias : that was taken away, of ln f
     by_film : relative change of f by half and by twice the boundary film
     by_heat : relative error of f by what heat does to it (`lubfric.models.shared.error_by_heat`)
-    by_limit : how much lower and higher f is with the limiting stress of a Newtonian oil at the ends of what oils have;
-        zeros where that does not matter
+    by_limit : how much lower and higher f is with the limiting stress of a Newtonian oil at the ends of what oils
+        have; zeros where that does not matter
     weight : of this f in the answer; below 1 where the lambda ratio is below that of the campaign (`weight_of`)
-    cases : number of solved cases behind the bounds; outside : what is outside of their range, in words
+    cases : number of solved cases behind the bounds; outside : what is outside of their range, as text
     """
 
     coefficient: float
@@ -160,7 +161,7 @@ def half_width(x: Mapping[str, float], fit: Mapping[str, Any]) -> float:
 
 
 def out_of_range(scene: Scene, sq: float, speed: float, known: Mapping[str, Any]) -> dict[str, float]:
-    """Return how far ``scene`` is outside the range of the campaign, in ln, by a description in words."""
+    """Return how far ``scene`` is outside the range of the campaign, in ln, by a description as text."""
     line = scene.line_contact(abs(speed))
     ratio = abs(scene.motion.slide_roll_ratio)
     values = {
@@ -181,7 +182,8 @@ def out_of_range(scene: Scene, sq: float, speed: float, known: Mapping[str, Any]
 
 
 def weight_of(scene: Scene, sq: float, speed: float, least: float) -> float:
-    """Return the weight of calibrated friction beside Eq. (9), which is right where asperities carry the whole load.
+    """Return the weight of calibrated friction compared with Eq. (9), which is right where asperities carry the total
+    load.
 
     It is 1 from the ``least`` lambda ratio of the campaign on, falls linearly in its logarithm, and is 0 below half of
     it.
@@ -205,7 +207,7 @@ def _by_heat(line: Balance) -> float:
 
 
 def _by_flanks(scene: Scene, film: RoughFilm, sq: float, speed: float) -> float:
-    """Return the relative error of f by the pressure on the flanks of moving roughness, in rolling with hardly any
+    """Return the relative error of f by the pressure on the flanks of moving roughness, in rolling with almost no
     sliding; with more of it the campaign has it."""
     known = calibration()["rolling"]["range"]["slip"][0]
     if not moves(scene) or abs(scene.motion.slide_roll_ratio) >= known or film.coefficient == 0:

@@ -59,7 +59,7 @@ class CellStep:
     - ``beyond`` [m]: estimated change on cells half as long as the scene's own (NaN: own cells not reached).
     - ``film`` [m]: change of the mean film.
     - ``area``: factor on the contact area; ``area_error``: its relative standard error and the rest.
-    - ``touched``: factor on the contact area of the whole line, which may touch beyond A.
+    - ``touched``: factor on the contact area of the complete line, which may touch beyond A.
     - ``plastic``: to be added to the plastic area fraction; ``ends``: share of the load on the edge columns.
     """
 

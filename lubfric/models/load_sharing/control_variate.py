@@ -1,10 +1,10 @@
-"""How the strips of a line of Eq. (8) differ from the whole line, to first order: the control of the second level.
+"""How the strips of a line of Eq. (8) differ from the complete line, to first order: the control of the second level.
 
 At the film and the approach that all strips share, every place has its influence on the mean gap and on f
-(`lubfric.models.load_sharing.scatter`). The mean over a strip tells by how much f would differ if the line were like that strip.
-Over the line these differences are zero in the mean. So they are known without another solve, and taking them from
-strips of the deterministic model leaves less scatter and the same mean (a control variate: J. M. Hammersley and D. C.
-Handscomb, Monte Carlo Methods, Methuen 1964, Sec. 5.5).
+(`lubfric.models.load_sharing.scatter`). The mean over a strip shows by how much f would differ if the line were like
+that strip. Over the line these differences are zero in the mean. So they are known without another solve, and taking
+them from strips of the deterministic model leaves less scatter and the same mean (a control variate: J. M. Hammersley
+and D. C. Handscomb, Monte Carlo Methods, Methuen 1964, Sec. 5.5).
 """
 
 import math

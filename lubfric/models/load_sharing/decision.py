@@ -1,4 +1,4 @@
-"""What was modelled by load sharing, in words."""
+"""What was modelled by load sharing, as text."""
 
 import math
 from typing import Any

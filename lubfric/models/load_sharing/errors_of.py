@@ -91,8 +91,8 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
 
 def _numerical(balanced: BalancedSample) -> tuple[float, float, float, float]:
     """The errors of solvers and grids: of the film, relative; of the mean gap at given load [m], by the closing of the
-    volume and by the cells of the contact; of the film's shear stress, by its sum over nodes and by the heat left out
-    of it, relative to f; of the contact area, relative."""
+    volume and by the cells of the contact; of the film's shear stress, by its sum over nodes and by the heat that
+    it omits, relative to f; of the contact area, relative."""
     balance = balanced.balance
     effect = balanced.effect
     solved = balanced.solved
@@ -155,7 +155,7 @@ def _area_errors(scene: Scene, balance: Balance, scatter: Scatter) -> dict[str, 
 
 def _given_load(friction: Forces, film: float) -> dict[str, float]:
     """Errors of what depends on a film at a given load, whose relative error is ``film``. Where the heat of the inlet
-    is left out, its factor is off by what is known of it; a temperature rise that was left out has no error (NaN)."""
+    is omitted, its factor is off by what is known of it; a temperature rise that was omitted has no error (NaN)."""
     heat = friction.heat
     of_heat = dict.fromkeys(depending_on("heat"), film if heat.heated else math.nan)
     of_heat["inlet_film_factor"] = math.nan if heat.inlet is None else film + heat.film_factor - heat.inlet.factor

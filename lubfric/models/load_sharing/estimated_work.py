@@ -50,7 +50,7 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     """Return what a point at ``speed`` [m/s] will take; ``surface``: the map that is solved first.
 
     The mean gap over a line of length L and half-width b scatters as a mean of L (2b + sqrt(pi) lx)/(pi lx ly)
-    independent heights. The effect on f follows from the share of the load that the rigid film of the whole load would
+    independent heights. The effect on f follows from the share of the load that the rigid film of the total load would
     carry if it were as thick as the gap.
     """
     film = scene.line_contact(speed).expected_film if speed else 0.0

@@ -186,13 +186,13 @@ def _largest(friction: CalibratedFriction) -> str:
 
 
 def basis_of(friction: CalibratedFriction) -> str:
-    """Return what the answer rests on, in words."""
+    """Return what the answer rests on, as text."""
     low, high = friction.bounds
     return f"load sharing, calibrated on {friction.cases} solved cases: model-form -{percent(low)} / +{percent(high)}"
 
 
 def in_words(friction: CalibratedFriction) -> str:
-    """Return what makes f up, and what narrows it, in words."""
+    """Return what makes f up, and what narrows it, as text."""
     parts = []
     if any(friction.by_film):
         half, twice = friction.by_film

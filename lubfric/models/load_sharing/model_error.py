@@ -22,7 +22,7 @@ def load_sharing_error(
     sqrt(s (1 - s)) of the whole, but never below 0 or above the whole, which exchanges the friction of one part for
     that of the other; the shear of the film, which is that of smooth surfaces, by 3.2/λ² of it, at most 30 %; in
     contact all of f by 0.25 sqrt(1 - s): below, of what the others leave; and the pressure on the flanks of moving
-    roughness, which is left out, by up to 8 times the rolling force, and 18/λ² times for thick films. 0 without
+    roughness, which is omitted, by up to 8 times the rolling force, and 18/λ² times for thick films. 0 without
     roughness.
     """
     f = abs(boundary + shear)

@@ -49,8 +49,8 @@ class Point:
 
     def line(self, film_load: float) -> LineContact:
         """The smooth line contact of a film that carries ``film_load`` [N]. Unless the film is deflected by its own
-        pressure alone, it has Johnson's modulus E' F_H/F_T, with which the Hertz strip is that of the whole load (K. L.
-        Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91-108, doi:10.1016/0043-1648(72)90445-0)."""
+        pressure alone, it has Johnson's modulus E' F_H/F_T, with which the Hertz strip is that of the total load
+        (K. L. Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91-108, doi:10.1016/0043-1648(72)90445-0)."""
         bodies = self.scene.bodies
         share = film_load / bodies.load if self.scene.numerics.film_deflection == "scaled" else 1.0
         load = film_load / bodies.width
@@ -65,8 +65,8 @@ class Point:
     def on(self, contact: RoughContact, film: EHLResult) -> tuple[np.ndarray, np.ndarray]:
         """Film [m] at the x of ``contact``, and the shape under which the surface is pressed there, up to a constant.
 
-        The shape is the film, unless the film contains the deflection by the whole load (Johnson's modulus). Then it is
-        the film less the contact's share, because the contact adds its own deflection.
+        The shape is the film, unless the film contains the deflection by the total load (Johnson's modulus). Then it
+        is the film less the contact's share, because the contact adds its own deflection.
         """
         thickness = film.film_at(contact.x)
         if self.scene.numerics.film_deflection != "scaled":

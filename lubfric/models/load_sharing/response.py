@@ -163,7 +163,7 @@ def quantities(
 
 
 def with_contact_area_scaled(state: ContactState, factor: float) -> ContactState:
-    """``state`` with ``factor`` times its contact area, at every x up to the whole width."""
+    """``state`` with ``factor`` times its contact area, at every x up to the full width."""
     return replace(
         state,
         contact_fraction=np.minimum(state.contact_fraction * factor, 1.0),

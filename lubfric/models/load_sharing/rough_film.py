@@ -66,7 +66,7 @@ class RoughFilm:
         at_most_limit: with the limiting stress of a Newtonian lubricant at the ends of `LIMIT_RANGE` instead of f_b p
     asperity : share of the load on cells closer than the boundary film, dry contact among them
     boundary_film, saturated_film : share of the load on the boundary film, and on thicker films whose stress is at a
-        limit. Dry contact does not tell them apart; the part of ``asperity`` that is film is an estimate
+        limit. Dry contact does not distinguish them; the part of ``asperity`` that is film is an estimate
         (`HALF_SATURATED`)
     kept : Sq of the flattened roughness over that of the roughness
     gap : mean gap [m]; contact : share of the load that the flattened roughness carries in the balance
@@ -230,7 +230,7 @@ def lifted(contact: HalfSpaceContact, kept: float, gap: float) -> float:
 
 
 def with_film_scaled(scene: Scene, speed: float, factor: float) -> Scene:
-    """Return ``scene`` with a viscosity at which its film is ``factor`` times as thick, by closed forms."""
+    """Return ``scene`` with a viscosity at which its film is ``factor`` times as thick, with closed forms."""
     exponent = exponents(scene.line_contact(abs(speed)))[2]
     oil = replace(scene.lubricant, viscosity=scene.lubricant.viscosity * factor ** (1 / exponent))
     return replace(scene, lubricant=oil)
@@ -247,8 +247,8 @@ def summed(
     rise: float = 1.0,
 ) -> RoughFilm:
     """Return the friction of ``balance`` summed over the cells of ``contact``; ``ripple`` [Pa] (nx, ny): what the
-    pressure of its film has beside the mean. The pressure of film and contact is shifted by a constant so that it
-    carries the load, and is nowhere negative."""
+    pressure of its film has in addition to the mean. The pressure of film and contact is shifted by a constant so
+    that it carries the load, and is nowhere negative."""
     bodies = scene.bodies
     oil = scene.lubricant
     film = balance.film

@@ -46,8 +46,8 @@ def gap_influence(strip_gap: FloatArray, line_load: FloatArray, slope: float) ->
 
 
 def effective_spots(line_load: FloatArray, step: float, correlation_length: float) -> float:
-    """(sum P)²/sum P² over short blocks, about one contact spot each: the number of equally loaded spots that would
-    carry the load as unevenly as these."""
+    """(sum P)²/sum P² over short blocks, about one asperity contact each: the number of equally loaded asperity
+    contacts that would carry the load as unevenly as these."""
     size = max(1, round(SPOT * correlation_length / step))
     loads = line_load[: line_load.size // size * size].reshape(-1, size).sum(axis=1)
     square = float(np.sum(np.square(loads)))
@@ -56,7 +56,7 @@ def effective_spots(line_load: FloatArray, step: float, correlation_length: floa
 
 @dataclass(frozen=True)
 class Scatter:
-    """Standard errors of what a sample of ``length`` [m] stands for: at given load of its mean gap [m], its contact
+    """Standard errors of what a sample of ``length`` [m] represents: at given load of its mean gap [m], its contact
     area fraction of A [-] and its contact area per length [m]; in balance, of f, relative. ``spots``:
     `effective_spots`.
     """

@@ -42,13 +42,13 @@ def undetected_load(
     width: float,
     correlation_length: float,
 ) -> float:
-    """Expected contact load [N] of the whole width on summits higher than the highest one of the line, to an order of
+    """Expected contact load [N] of the full width on summits higher than the highest one of the line, to an order of
     magnitude.
 
     The least clearances of short blocks along y follow an extreme-value (Gumbel) distribution, which is fitted by its
-    first two moments. It tells how many blocks lie below zero, exp(-...), and the scale a of their heights. Each
-    carries as much as a sphere of the highest summit's radius r that is pressed in by an exponential excess of scale a:
-    (4/3) (E'/2) sqrt(r) a^1.5 1.33. Fewer than 14 blocks may show too small a scale, so twice their scale is taken.
+    first two moments. It shows how many blocks lie below zero, exp(-...), and the scale a of their heights. Each
+    carries as much as a sphere of the highest summit's radius r that is pressed in by an exponential excess of scale
+    a: (4/3) (E'/2) sqrt(r) a^1.5 1.33. Fewer than 14 blocks may show too small a scale, so twice their scale is taken.
     """
     height = heights - film[:, None]
     step = spacing[1]

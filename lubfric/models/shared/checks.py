@@ -75,8 +75,8 @@ def of_film(
 
 
 def peak_hertz_pressure(scene: Scene) -> float:
-    """Return the peak Hertz pressure [Pa] of the whole load. A film between asperities has at least this pressure, however
-    little of the load it carries by Eq. (8)."""
+    """Return the peak Hertz pressure [Pa] of the total load. A film between asperities has at least this pressure,
+    however little of the load it carries by Eq. (8)."""
     return 4 / math.pi * scene.bodies.mean_hertz_pressure
 
 
@@ -225,7 +225,7 @@ def of_heat(scene: Scene, heat: Heat) -> Iterator[Validity]:
 
 
 def of_typical_heat(scene: Scene, change: float) -> Iterator[Validity]:
-    """Entries for heat that is left out because the lubricant does not say how its viscosity falls with the
+    """Entries for heat that is omitted because the lubricant does not say how its viscosity falls with the
     temperature. ``change``: the share of f that a typical oil would lose by it (`typical_heat`)."""
     if change > scene.numerics.tolerance:
         temperature, coefficient = TYPICAL

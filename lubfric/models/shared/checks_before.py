@@ -89,7 +89,7 @@ def of_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterato
 
 def expected(scene: Scene, surface: Surface, speeds: list[float]) -> tuple[tuple[float | None, Validity], ...]:
     """Pairs (speed [m/s], entry). The speed is None if the entry is about bodies or map. Films are those expected
-    under the whole load."""
+    under the total load."""
     entries_by_speed: list[tuple[float | None, Validity]] = [(None, entry) for entry in beforehand(scene, surface)]
     if scene.numerics.model == "deterministic":
         in_all = [replace(entry, severe=False) for entry in of_pressure(scene, peak_hertz_pressure(scene))]

@@ -1,4 +1,4 @@
-"""What a cheaper model knows of the strips of a line: the control of a dearer one."""
+"""What a cheaper model knows of the strips of a line: the control of a more expensive one."""
 
 from dataclasses import dataclass
 
@@ -9,8 +9,8 @@ from .statistics import BlockError
 
 @dataclass(frozen=True)
 class ControlVariate:
-    """The differences of its strips: ``by_place`` (count, rows), of f at every place; ``numbers`` (count,) of the whole
-    strip, by name. ``sampling``: relative standard error of f on the line."""
+    """The differences of its strips: ``by_place`` (count, rows), of f at every place; ``numbers`` (count,) of the
+    complete strip, by name. ``sampling``: relative standard error of f on the line."""
 
     by_place: np.ndarray
     numbers: dict[str, np.ndarray]

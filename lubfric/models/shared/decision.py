@@ -1,4 +1,4 @@
-"""What was modelled for a result, and what was left out because the tolerance on f does not need it."""
+"""What was modelled for a result, and what was omitted because the tolerance on f does not need it."""
 
 from dataclasses import dataclass
 
@@ -9,13 +9,13 @@ from .statistics import percent
 class Decision:
     """The models of film and contact, and the sample, of one operating point.
 
-    - ``model``: "load sharing" or "deterministic"; ``film``, ``contact``: in words.
+    - ``model``: "load sharing" or "deterministic"; ``film``, ``contact``: as text.
     - ``tolerance``: the requested one, on f; ``film_tolerance``: of the film (0: no film).
     - ``cells``: (nx, ny) of the contact (None: none was solved on cells); ``coarsening``: length of its cells in cells
       of the scene's map, along each axis; ``strips``: number of strips of the surface that were solved.
     - ``change_by_cells``: relative change of f by the scene's own cells, for which it is corrected.
-    - ``heat``: which heat was modelled, in words ("": none can be).
-    - ``basis``: what the model-form error rests on, in words; first in ``text`` ("": the error formulas of the model).
+    - ``heat``: which heat was modelled, as text ("": none can be).
+    - ``basis``: what the model-form error rests on, as text; first in ``text`` ("": the error formulas of the model).
     """
 
     model: str
@@ -33,7 +33,7 @@ class Decision:
 
     @property
     def text(self) -> str:
-        """The decision in words."""
+        """The decision as text."""
         film = f"film: {self.film}" + (f", tolerance {percent(self.film_tolerance)}" if self.film_tolerance else "")
         parts = self.basis, film, f"contact: {self.contact}", self._cells(), self.heat, *self.notes
         return "; ".join(part for part in parts if part)

@@ -1,4 +1,4 @@
-"""How the expected film depends on load and speed, by closed forms."""
+"""How the expected film depends on load and speed, with closed forms."""
 
 import math
 from dataclasses import replace
@@ -22,7 +22,7 @@ def exponents(line: LineContact) -> tuple[float, float, float]:
 
 
 def speed_of(scene: Scene, film: float) -> float:
-    """Speed [m/s] at which the expected film of the whole load is ``film`` [m], to a per cent."""
+    """Speed [m/s] at which the expected film of the total load is ``film`` [m], to a per cent."""
     speed = 1.0
     for _ in range(30):
         line = scene.line_contact(speed)

@@ -42,7 +42,7 @@ class Heat:
     """Heat of an operating point.
 
     inlet: factors of inlet heating (None: not known), used: whether the film is solved with them; change: of f by the
-    temperatures of film and surfaces, relative (an upper estimate if they are left out, ``heated`` None); peclet: u b
+    temperatures of film and surfaces, relative (an upper estimate if they are omitted, ``heated`` None); peclet: u b
     rho c/(2 k) of the faster surface; typical: `typical_heat` of a moment in time.
     """
 
@@ -55,7 +55,7 @@ class Heat:
 
     @property
     def film_factor(self) -> float:
-        """Factor on the film by the heat of the inlet; 1 if that is left out."""
+        """Factor on the film by the heat of the inlet; 1 if that is omitted."""
         return self.inlet.factor if self.used and self.inlet is not None else 1.0
 
     @property
@@ -79,7 +79,7 @@ class Heat:
         return math.isfinite(self.peclet)
 
     def reason(self, scene: Scene) -> str:
-        """Why the temperatures were not computed, in words; "" if they were."""
+        """Why the temperatures were not computed, as text; "" if they were."""
         if self.heated is not None:
             return ""
         if scene.numerics.heat == "off":
@@ -94,7 +94,7 @@ class Heat:
 
     @property
     def left_out(self) -> float:
-        """Relative change of f by the temperatures of film and surfaces, at most, where these are left out."""
+        """Relative change of f by the temperatures of film and surfaces, at most, where these are omitted."""
         return self.change if self.heated is None else 0.0
 
     @property
@@ -103,7 +103,7 @@ class Heat:
         return self.peclet < FAST
 
     def text(self, tolerance: float) -> str:
-        """The heat in words, each number beside its budget."""
+        """The heat as text, each number with its budget."""
         if self.inlet is None:
             return ""
         limit = f"{100 * budget.HEAT * tolerance:.2g} %"
@@ -164,10 +164,10 @@ def film_lubricant(scene: Scene, speed: float) -> Lubricant:
 def point_heat(
     scene: Scene, film: Any, contact: ContactState, contact_load: float, force: float, shear: ShearForce
 ) -> tuple[Heat, float | None, Callable | None]:
-    """Heat of ``film`` beside a ``contact`` that carries ``contact_load`` [N]; the viscosity [Pa s] of the warm inlet
+    """Heat of ``film`` with a ``contact`` that carries ``contact_load`` [N]; the viscosity [Pa s] of the warm inlet
     with which it was solved (None: as given); and the stress [Pa] of the heated film, stress(x, pressure, film) at
-    positions x [m] running downstream (None: isothermal). ``force``: |f F_T| [N] and ``shear`` (`ShearForce`) without
-    the heat of the film."""
+    positions x [m] running downstream (None: isothermal). ``force``: |f F_T| [N] and ``shear`` (`ShearForce`)
+    without the heat of the film."""
     inlet, used = inlet_at(scene, film.entrainment_speed)
     if inlet is None:
         return Heat(), None, None
@@ -195,7 +195,7 @@ def point_heat(
 def _nodes(
     scene: Scene, film: EHLResult, contact: ContactState, contact_load: float, force: float
 ) -> tuple[tuple[FloatArray, FloatArray, FloatArray, Surroundings], Callable[..., Any]]:
-    """Nodes running downstream, pressure and film there, and the `Surroundings`; and the function that tells by what
+    """Nodes running downstream, pressure and film there, and the `Surroundings`; and the function that shows by what
     share of ``force`` [N] a stress [Pa] (n,) makes the friction less than the isothermal stress does."""
     bodies = scene.bodies
     motion = scene.motion

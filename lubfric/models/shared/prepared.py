@@ -29,8 +29,8 @@ OWN = HalfSpaceContact, FlatContact, AsperityContact
 
 @dataclass(frozen=True, repr=False)
 class Prepared(FieldsOnly, Shown):
-    """A scene made ready by `prepare`. It is accepted wherever a scene is, and safe to share: only what it
-    remembers (`Memo`) changes, and that changes no result.
+    """A scene prepared by `prepare`. It is accepted wherever a scene is, and safe to share: only what it remembers
+    (`Memo`) changes, and that changes no result.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class Prepared(FieldsOnly, Shown):
     surface : the height map that is solved first
     contact : the rough contact on it
     known : assumptions of the model that bodies and map violate
-    sample : what stands for the endless rough line
+    sample : what represents the infinite rough line contact
     given : True: the map was given to `prepare`, and there is no more of it
     """
 
@@ -77,12 +77,12 @@ def prepare(
     like: Prepared | None = None,
     contact: RoughContact | None = None,
 ) -> Prepared:
-    """Make a scene ready: its height map and its rough contact, which all speeds share.
+    """Prepare a scene: its height map and its rough contact, which all speeds share.
 
     Parameters
     ----------
     scene : from `lubfric.load_scene`
-    surface : a height map to use as it is, with its grid, instead of the scene's own. Under a cylinder it is taken as
+    surface : a height map to use unchanged, with its grid, instead of the scene's own. Under a cylinder it is taken as
         periodic along y, for a flat contact along x and y (`Surface.periodic` makes it so). Without one, a scene with
         ``numerics.sampling = "strips"`` gets strips of its roughness (docs/uncertainty.md)
     counterface : the map of the other body, measured out of it, for a scene whose [counterface] is rough
@@ -150,7 +150,7 @@ def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -
 
 
 def no_rough_film(prepared: Prepared, speed: float) -> str:
-    """Return why no film flows between rough surfaces on cells at ``speed`` [m/s], in words; "" if one does."""
+    """Return why no film flows between rough surfaces on cells at ``speed`` [m/s], as text; "" if one does."""
     if speed == 0:
         return "nothing is entrained"
     if not prepared.sample.is_resolved:

@@ -40,12 +40,12 @@ def block_error(
     """Standard error of the mean of ``values`` (ny,), on cells of ``step`` [m], from block means.
 
     It is s/sqrt(n (1 - 0.56/b)) with n = 8 to 32 blocks, each at least b = 9 correlation lengths [m] long. If the line
-    is too short for eight of these, 5 to 8 blocks of five lengths are taken. A remainder shorter than a block is left
-    out. If the line is shorter still, the error is infinite, with no degree of freedom.
+    is too short for eight of these, 5 to 8 blocks of five lengths are taken. A remainder shorter than a block is
+    omitted. If the line is shorter still, the error is infinite, with no degree of freedom.
 
     Neighbouring blocks are alike near their common end, and so scatter less than independent ones. For values with the
-    correlation exp(-(y/l)²), the variance of a mean over b l is smaller than that of an endless line by the fraction
-    int |y| exp(-y²) dy / int exp(-y²) dy / b = 1/(sqrt(pi) b).
+    correlation exp(-(y/l)²), the variance of a mean over b l is smaller than that of an infinite line contact by the
+    fraction int |y| exp(-y²) dy / int exp(-y²) dy / b = 1/(sqrt(pi) b).
 
     ``exact`` (ny,): a quantity of every place whose mean over the line is known exactly. Scatter that the blocks share
     with it is no error: s is then that of the residuals of a straight line through the blocks.
@@ -68,7 +68,7 @@ def block_error(
 
 
 def means_of_blocks(values: np.ndarray, count: int) -> np.ndarray:
-    """Return the means of ``values`` over ``count`` blocks of equal length; a remainder at the end is left out."""
+    """Return the means of ``values`` over ``count`` blocks of equal length; a remainder at the end is omitted."""
     size = values.size // count
     return values[: size * count].reshape(count, size).mean(axis=1)
 
@@ -112,8 +112,8 @@ def required_strips(
 
 
 def too_few(spots: float, reached: float, target: float) -> bool:
-    """Whether so few spots carry the load that an interval is too narrow more often than it says, and the standard
-    error ``reached`` is not small compared with ``target``. 0 spots: nothing touches."""
+    """Whether so few asperity contacts carry the load that an interval is too narrow more often than it says, and the
+    standard error ``reached`` is not small compared with ``target``. 0 contacts: nothing touches."""
     return 0 < spots < FEW and reached > MATTERS * target
 
 

@@ -26,7 +26,7 @@ def limit_bounds(scene: Scene, saturated: float, coefficient: float, ends: tuple
 
 
 def limit_in_words(bounds: tuple[float, float]) -> str:
-    """Return what the unknown limit does to f, in words; "" where that is nothing."""
+    """Return what the unknown limit does to f, as text; "" where that is nothing."""
     if not any(bounds):
         return ""
     low, high = LIMIT_RANGE

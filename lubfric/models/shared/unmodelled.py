@@ -2,7 +2,7 @@
 `expected_effects` before there is one, from closed forms alone.
 
 f is guessed as ``f_b s + mu (1 - s)``. The share s = exp(-1.8 λ^1.2) of the load on the asperities (Aihara's law, one
-of the measured ones, which lie within a factor of two of each other) is that at λ, the expected film of the whole load
+of the measured ones, which lie within a factor of two of each other) is that at λ, the expected film of the total load
 over Sq. mu is the shear of that film in the gap of a dry contact, or of one as thick as the gap of rough surfaces,
 under the Hertz pressure, with the resistance of its inlet to rolling. Only ratios of guesses count. Where a result is
 known, s and mu are scaled to what it has. Before there is one, both have a range (`POWERS`, `SHEARS`), and so has the

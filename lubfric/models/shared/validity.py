@@ -16,7 +16,7 @@ class Validity:
 
     Attributes
     ----------
-    what : the quantity, in words
+    what : the quantity, as text
     value, limit : its value, and the limit of the model, both in ``unit``
     consequence : what that does to the result
     remedy : what to change
