@@ -3,6 +3,8 @@ how long that takes. Nothing is solved."""
 
 import math
 
+import numpy as np
+
 from ...film import LineContact, flooded_inlet
 from ...oil import shear_stress
 from ...samples import Sample
@@ -12,11 +14,12 @@ from ..contract import WorkEstimate
 from ..shared import SAFETY
 from .model_error import load_sharing_error
 
-# Processor time [s] of a cell of the strips in balance, about.
-CELL_SECONDS = 1.3e-6
+# Processor time [s] of a cell of the strips in balance: a fit to 33 points of `python -m
+# verification.campaigns.estimates`, as the two constants below.
+CELL_SECONDS = 1.0e-6
 
 # Processor time [s] of a cell of a piece on finer and finer cells, counted on the finest.
-PIECE_SECONDS = 0.7e-6
+PIECE_SECONDS = 1.0e-7
 
 # Processor time [s] of the contact on a map that is solved whole, however small.
 PATCH_SECONDS = 0.03
@@ -24,11 +27,35 @@ PATCH_SECONDS = 0.03
 # Processor time [s] of each cell of such a map.
 MAP_SECONDS = 4e-8
 
+# Processor time [s] of a point on strips, however small these are.
+POINT_SECONDS = 0.09
+
 # Processor time [s] of the films of a point without heat.
 FILM_SECONDS = 0.015
 
 # Factor on that with heat.
 HOT = 5.0
+
+# Factor on the time where the heights are not smooth over a cell and the film carries a part of the load (`SHARED`),
+# because shorter cells change f there, and are solved: seen 1 to 2, and 3 to 6 on cells longer than `LONG`.
+ROUGH = 1.5
+ROUGH_ON_LONG_CELLS = 6.0
+
+# Cells in a correlation length along x below which cells are long.
+LONG = 12.0
+
+# Part of the gap that the film of the whole load fills, between which that happens.
+SHARED = (0.08, 0.6)
+
+# Squared change of the heights over two cells, over that over one, of smooth heights, at least (4 of a parabola, 2 of an
+# exponential autocorrelation).
+SMOOTH = 3.0
+
+# Scatter of f over that by the closed form, where asperities carry a part of the load.
+SCATTER = 1.8
+
+# Film [Sq] at which that has fallen to 1/e, because the film carries the load everywhere.
+SEPARATED = 2.6
 
 # Mean gap of a contact that carries most of the load, in Sq, about.
 GAP = 1.6
@@ -71,7 +98,7 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
         gap = GAP * sq + RISE * film
         share = min(film / gap, 1.0)
         scatter = sq * math.sqrt(math.pi * lx * ly / (first * (2 * scene.bodies.half_width + math.sqrt(math.pi) * lx)))
-        error = scatter / gap * share / (1 - share + FLOOR)
+        error = SCATTER * math.exp(-((film / (SEPARATED * sq)) ** 4)) * scatter / gap * share / (1 - share + FLOOR)
     count = math.ceil(sample.first * max(1.0, SAFETY * (error / target) ** 2 if error > target else 1.0))
     count = min(count, sample.available)
     cells = sample.cells
@@ -79,7 +106,11 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     (_, dy) = cells.coarse
     piece = 0.0 if cells.is_native else cells.count * fx * fy * sample.length / dy / 2
     if touching != "none":
-        seconds += CELL_SECONDS * cells.count * count * sample.length / dy + PIECE_SECONDS * piece
+        share = film / (GAP * sq + RISE * film)
+        work = CELL_SECONDS * cells.count * count * sample.length / dy + PIECE_SECONDS * piece
+        if SHARED[0] < share < SHARED[1] and not _smooth(surface):
+            work *= ROUGH_ON_LONG_CELLS if lx < LONG * cells.coarse[0] else ROUGH
+        seconds += POINT_SECONDS + work
     return WorkEstimate(
         strips=count,
         seconds=seconds,
@@ -88,6 +119,13 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
         model_error=error_of_model,
         touching=touching,
     )
+
+
+def _smooth(surface: Surface) -> bool:
+    """Return whether the heights are smooth over a cell."""
+    z = surface.heights
+    (one, two) = (float(np.mean(np.square(z[:, k:] - z[:, :-k]))) for k in (1, 2))
+    return two >= SMOOTH * one
 
 
 def expected_model_error(scene: Scene, film: float, sq: float, speed: float) -> float:
