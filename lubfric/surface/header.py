@@ -41,18 +41,33 @@ STEP_WORDS = {
     "dx",
     "dy",
 }
-COUNT_WORDS = {"points", "pixels", "size", "samples", "number", "no", "num", "n", "resolution", "count", "res"}
+COUNT_WORDS = {
+    "horizontal",
+    "vertical",
+    "points",
+    "pixels",
+    "size",
+    "samples",
+    "number",
+    "no",
+    "num",
+    "n",
+    "resolution",
+    "count",
+    "res",
+}
 COLUMN_WORDS = {"columns", "cols", "ncols", "ncolumns", "column", "numcols"}
 LINE_WORDS = {"rows", "nrows", "lines", "profiles", "numrows", "nlines"}
 EXTENT_WORDS = {"length", "range", "extent", "size", "scan", "width", "field"}
 MISSING_WORDS = {"nodata", "missing", "invalid", "void", "undefined", "bad"}
 AXES = {"x": "x", "y": "y", "z": "z", "dx": "x", "dy": "y", "nx": "x", "ny": "y", "xres": "x", "yres": "y"}
-AXES |= {"xscale": "x", "yscale": "y", "zscale": "z"}
+AXES |= {"horizontal": "x", "vertical": "y", "xscale": "x", "yscale": "y", "zscale": "z"}
 
 _DIGITS = r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?"
 _NUMBER = re.compile(_DIGITS)
 _GLUED = re.compile(rf"({_DIGITS})([a-zµμ]+)")  # '10µm'
 _MARKED = re.compile(r"[\[(]\s*([^\[\]()\s]{1,12})\s*[\])]|/(mm|um|µm|μm|nm|m)(?![\w/])")  # '[um]', '/mm'
+_PER_POINT = re.compile(r"(?<![a-zµμ])(mm|um|µm|μm|nm|m)\s?/\s?(?:pixel|px|point|pt|sample)s?(?!\w)", re.I)  # of a step
 _UNIT = "\x01"  # before a word that a bracket or a slash marks as a unit
 _BETWEEN = re.compile(r"[\s:=;：\"'|<>#{}]+|,(?!\d)|(?<!\d),")
 _WORDS = re.compile(r"[A-Z]{2,}(?![a-z])|[A-Z]?[^\W\d_A-Z]+|[A-Z]")  # of 'numCols', 'x-length', 'Pixel_size'
@@ -113,6 +128,8 @@ def statements(number: int, text: str) -> list[Statement]:
     """Return the statements of one line: words, the numbers behind them, and their unit."""
     if len(text) > LONGEST:
         return []
+    if step := _PER_POINT.search(text):  # 'XY calibration 270 nm/pixel', 'Resolution X[um/pixel] 1.0'
+        text = f"pixel {_PER_POINT.sub(step[1], text)}"
     marked = _MARKED.sub(lambda match: f" {_UNIT}{match[1] or match[2]} ", text)
     made: list[Statement] = []
     words: list[str] = []

@@ -20,7 +20,7 @@ from .text import DECIMALS, read_text
 from .x3p import read_x3p
 
 MOST_BYTES = 2**31  # of any file
-TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz")
+TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz", ".prf", ".smd")
 OWN_GRID = {".x3p": read_x3p}  # formats that carry their grid and their units, and their readers
 SUFFIXES = (".npy", *TEXT, *OWN_GRID)
 BETTER = 0.9  # of Sq: a form that leaves less than that is worth a word
@@ -164,7 +164,10 @@ def _plain(path: Path, suffix: str, spacing: Any, unit: Any, decimal: str | None
         return _masked(path, heights.astype(float), scale, (missing_value,), spacing, ())
     table = read_text(path, points=suffix == ".xyz", decimal=decimal, units=units, spacing=spacing)
     missing = (missing_value, table.missing_value)
-    return _masked(path, table.heights, table.height_scale, missing, table.spacing, table.notes)
+    surface = _masked(path, table.heights, table.height_scale, missing, table.spacing, table.notes)
+    if spacing is None and units is None:  # nobody but the file says what its numbers are
+        check_scale(surface)
+    return surface
 
 
 def _refuse(suffix: str, **given: Any) -> None:

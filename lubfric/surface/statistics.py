@@ -98,19 +98,23 @@ def check_slopes(surface: Surface) -> None:
 
 
 def check_scale(surface: Surface) -> None:
-    """Raise `InputError` for a map of an instrument whose lengths cannot be right: another program read them, and may
+    """Raise `InputError` for a map of a file whose lengths cannot be right: another program wrote or read them, and may
     have taken a unit for another."""
     dx, dy = surface.spacing
     if not all(FINEST <= step <= COARSEST for step in (dx, dy)):
         said = f": spacing = {dx:.3g} x {dy:.3g} m"
-        raise InputError(said, "surface", f"{FINEST:g} to {COARSEST:g} m in a file of an instrument (a wrong unit?)")
+        raise InputError(
+            said, "surface", f"{FINEST:g} to {COARSEST:g} m in a file of an instrument (a wrong unit, or none?)"
+        )
     if min(surface.shape) < 3 or np.count_nonzero(np.isfinite(surface.heights)) < 9:
         return
     rough = surface.level()
     slope = rms_slope(rough)[2]
     if rough.sq > 0 and not SMOOTHEST <= slope <= STEEPEST:
         said = f": rms slope = {slope:.3g} of heights with Sq {rough.sq:.3g} m on a spacing of {dx:.3g} m"
-        raise InputError(said, "surface", f"{SMOOTHEST:g} to {STEEPEST:g} in a file of an instrument (a wrong unit?)")
+        raise InputError(
+            said, "surface", f"{SMOOTHEST:g} to {STEEPEST:g} in a file of an instrument (a wrong unit, or none?)"
+        )
 
 
 def autocorrelation(surface: Surface, axis: int = 0) -> tuple[np.ndarray, np.ndarray]:

@@ -18,12 +18,16 @@ MOST_BYTES = 2**30  # of a file of text
 DECIMALS = (".", ",")
 UNCLEAR = "is neither numbers nor a title; use 'nan' where unmeasured, '#' before a line to be skipped"
 WYKO = "Wyko ASCII Data File Format"
+_SMD = re.compile(r"[^\n]*\n[^\n]* PRF [^\n]*\n *CX ")  # a profile of ISO 5436-2, as Taylor Hobson writes .prf and .smd
 HEIGHT_BLOCKS = ("RAW_DATA", "RAW DATA", "OPD", "SAMPLE_DATA")  # of a Wyko file; others are intensities
 LATERAL = (1.0, 1e-3, 1e-6, 1e-9)  # m: units that coordinates without a stated one may be in
 NEAR = 0.02  # relative difference up to which the step of coordinates is the given spacing
 
 _NUMBER = re.compile(r"[+-]?(?:(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?|nan|inf|infinity)", re.I)
 _VALUE = r"(?:[+-]?(?:\d+(?:,\d+)?(?:[eE][+-]?\d+)?|[nN][aA][nN]))"
+_QUOTED = re.compile(
+    r'"([+-]?(?:\d{1,40}[.,]?\d{0,40}|[.,]\d{1,40})(?:[eE][+-]?\d{1,4})?)"'
+)  # a comma is the decimal mark
 _EMPTY = re.compile(r"^\t|\t *(?:\t|$)")  # a value left out between tabs
 _BLANKS_BETWEEN = re.compile(rf"{_VALUE}(?:\s+{_VALUE})*")  # '1,5 2,5'
 _PAIR = r"[+-]?\d+,\d+(?:[eE][+-]?\d+)?"
@@ -85,6 +89,8 @@ def read_text(
     text = text_of(path, MOST_BYTES)
     if text.startswith(WYKO):
         return _wyko(path, text, units, spacing)
+    if _SMD.match(text[:1000]):
+        _refuse_smd(path, text)
     table = _table(path, text, decimal)
     kind = "points" if points else kind_of_table(path.name, table.numbers)
     if kind == "profile":
@@ -92,6 +98,24 @@ def read_text(
     if kind == "points":
         return _points(path, table, units, spacing)
     return _matrix(path, table, units, spacing)
+
+
+def _refuse_smd(path: Path, text: str) -> None:
+    """Raise `InputError` with the statistics of a profile in the SMD format of ISO 5436-2 (.prf, .smd): records that end
+    with EOR; in the first one axes "CX M points MM increment D" and "CZ ..."; the heights in whole increments come last."""
+    lines = [line.split() for line in text.splitlines()]
+    axes = {words[0]: words for words in lines if len(words) >= 5 and words[0] in ("CX", "CZ")}
+    ends = [place for place, words in enumerate(lines) if words == ["EOR"]]
+    spacing = next((words for words in lines if words[:2] == ["SPACING", "CX"] and len(words) > 2), None)
+    try:
+        (begin, end) = ends[1:3]
+        scale = LENGTHS[axes["CZ"][3].lower()] * float(axes["CZ"][4])
+        step = LENGTHS[axes["CX"][3].lower()] * float(axes["CX"][4] if spacing is None else spacing[2])
+        z = np.array([float(words[0]) for words in lines[begin + 1 : end] if words])
+    except (KeyError, ValueError, IndexError, OverflowError):
+        said = f"path = {str(path)!r} is a profile (PRF) whose records are not those of ISO 5436-2"
+        raise InputError(said, way_out="measure a map") from None
+    refuse_profile(path.name, np.stack([step * np.arange(z.size), scale * z], axis=1), None, ("m", "m", "m"))
 
 
 # --- a matrix ----------------------------------------------------------------------------------
@@ -313,7 +337,10 @@ def _field(
 def _lines(text: str) -> tuple[Lines, Lines]:
     """Return (comment lines, data lines) with their numbers in the file. Data end where the header of a second block
     begins."""
-    numbered = [(number, line.strip(" \r\f\v")) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
+    if '"' in text:
+        text = _QUOTED.sub(lambda cell: cell[1].replace(",", "."), text)
+    numbered = [(number, line.strip(" \r\f\v")) for number, line in enumerate(text.splitlines(), 1)]
+    numbered = [(number, line) for number, line in numbered if line.strip(' \t"')]
     comments: Lines = []
     data: Lines = []
     for number, line in numbered:
