@@ -1,20 +1,20 @@
 """Calibrated load sharing, and the limit of an oil that nobody gave."""
 
-import csv
 import math
 from dataclasses import replace
-from importlib.resources import files
 
 import numpy as np
 import pytest
 
 import lubfric
 from lubfric.models.deterministic import lay_out, solve_point
-from lubfric.models.load_sharing.calibrated import calibration, half_width, numbers_of, widening
+from lubfric.models.load_sharing import error_models, features, widening
 from lubfric.models.load_sharing.model_error import least_error, starved_error
 from lubfric.models.load_sharing.rough_film import RoughMap, flattened
 from lubfric.output.describe import describe_scene
-from verification.campaigns.calibration.fit import fitted
+from verification.campaigns.calibration import fit
+from verification.campaigns.calibration.case import drawn
+from verification.campaigns.calibration.features import quick
 
 PAPER = lubfric.load_scene("paper")
 HEAVIER = PAPER.with_(
@@ -68,7 +68,7 @@ def test_calibrated_answer_holds_the_deterministic_one_and_is_narrower_than_load
     parts = results["load-sharing"].boundary_force + results["load-sharing"].shear_force
     assert parts / HEAVIER.bodies.load == pytest.approx(results["load-sharing"].coefficient, rel=1e-12)
     assert results["load-sharing"].decision.model == "load sharing, calibrated"
-    basis = f"load sharing, calibrated on {calibration()['rest']['cases']} solved cases: model-form -"
+    basis = f"load sharing, calibrated on {error_models()['rest'].cases} solved cases: model-form -"
     assert results["load-sharing"].decision.text.startswith(basis)
     assert results["paper"].decision.basis == ""
 
@@ -96,32 +96,70 @@ def test_bounds_widen_outside_the_campaign_and_the_result_says_so():
     assert widening([]) == 1.0 < widening([0.5]) < widening([1.0]) <= widening([9.0])
 
 
-def test_the_spread_grows_with_the_contrast_of_film_and_boundary_friction():
-    fit = calibration()["rest"]
-    widths = [half_width(numbers_of(0.05, share, 0.12, 0.5, 0.0, 2.0), fit) for share in (0.0, 0.1, 0.4)]
-    assert widths[0] < widths[1] < widths[2]
-    alike = half_width(numbers_of(0.12, 0.4, 0.12, 0.5, 0.0, 2.0), fit)
-    assert alike == pytest.approx(half_width(numbers_of(0.12, 0.0, 0.12, 0.5, 0.0, 2.0), fit))
+FILM = {"coefficient": 0.05, "asperity": 0.1, "contact": 0.1, "rolling": 0.001}
+
+
+def half_width(**film):
+    x = features(HEAVIER, 0.1, 1e-7, (0.02, 0.02), FILM | film)
+    return error_models()["rest"].half_width(x)
+
+
+def test_the_bounds_grow_with_what_an_error_of_the_asperity_load_exchanges():
+    """f_b is .09: the more f differs from it, and the more of the load asperities carry, the less is f known."""
+    assert half_width(asperity=1e-3) < half_width(asperity=0.1) < half_width(asperity=0.3)
+    assert half_width(coefficient=0.085, asperity=0.3) < half_width(coefficient=0.04, asperity=0.3)
+    assert half_width(rolling=0.001) < half_width(rolling=0.02)
+
+
+def test_the_bounds_grow_where_no_case_is_alike():
+    """x C x of the coefficients: at a hundred times the film of any case it is no longer small."""
+    model = error_models()["rest"]
+    x = features(HEAVIER, 0.1, 1e-7, (0.02, 0.02), FILM)
+    far = x | {"asperity thickness": x["asperity thickness"] + 10.0}
+    assert model.half_width(far) > 1.5 * model.half_width(x)
 
 
 def test_the_fit_finds_a_known_bias_and_spread():
     rng = np.random.default_rng(1)
-    contrast = rng.uniform(0, 1.5, 3000)
-    features = np.stack([np.ones(3000), contrast], axis=1)
-    errors = 0.1 + np.exp(-2.0 + 0.8 * contrast) * rng.standard_t(6, 3000)
-    bias, factors, error = fitted(errors, features)
-    assert bias == pytest.approx(0.1, abs=0.01)
-    assert factors == pytest.approx([-2.0, 0.8], abs=0.08)
-    assert 0 < error < 0.01
+    features = np.stack([np.ones(3000), rng.uniform(0, 1.5, 3000)], axis=1)
+    errors = features @ [0.1, -0.05] + np.exp(features @ [-2.0, 0.8]) * rng.standard_t(6, 3000)
+    known = fit.fitted(errors, features, features)
+    assert known.bias == pytest.approx([0.1, -0.05], abs=0.02)
+    assert known.spread == pytest.approx([-2.0, 0.8], abs=0.08)
+    assert 0 < known.covariance[0, 0] < 1e-4
 
 
-def test_tables_have_every_kind_and_calibration_was_fitted_to_them():
-    for motion in ("rest", "rolling"):
-        text = (files("verification") / f"campaigns/calibration/tables/{motion}.csv").read_text()
-        rows = [row for row in csv.DictReader(text.splitlines()) if not row["failure"]]
+def test_the_covariance_of_the_fit_is_the_scatter_of_its_coefficients():
+    rng = np.random.default_rng(2)
+    features = np.stack([np.ones(200), rng.uniform(-1, 1, 200)], axis=1)
+    fits = [fit.fitted(0.1 * rng.standard_t(6, 200), features, features[:, :1]) for _ in range(200)]
+    scatter = np.cov([known.bias for known in fits], rowvar=False)
+    assert np.diag(scatter) == pytest.approx(np.diag(fits[0].covariance), rel=0.3)
+
+
+def test_calibration_is_the_fit_to_its_tables():
+    """The file of lubfric is what the command writes from the tables, which have every kind of case."""
+    assert fit.HOME.read_text(encoding="utf-8") == fit.text_of()
+    for motion in fit.MOTIONS:
+        rows = list(fit.usable(motion))
         assert {row["fluid"] for row in rows} == {"newtonian", "eyring", "limit", "low-limit"}
         assert {row["lay"] for row in rows} == {"isotropic", "across", "along", "plateau"}
-        assert 0.8 * len(rows) <= calibration()[motion]["cases"] <= len(rows)
+        assert 0.9 * len(rows) <= error_models()[motion].cases <= len(rows)
+
+
+@pytest.mark.parametrize("motion, seed", [("rest", 5), ("rest", 118), ("rolling", 12)])
+def test_numbers_of_the_cases_are_those_of_todays_load_sharing(motion, seed):
+    known = next(case for case in fit.cases(motion) if case.row["seed"] == str(seed)).numbers
+    assert quick(drawn(motion, seed)) == pytest.approx(known, rel=1e-5, abs=1e-9)
+
+
+def test_bounds_of_kinds_that_were_left_out_hold_nine_cases_in_ten():
+    for motion in fit.MOTIONS:
+        solved = fit.cases(motion)
+        parts = fit.held_out(solved, fit.design(solved))
+        inside = [np.abs(part.standard) <= error_models()[motion].quantile for part in parts]
+        assert 0.92 <= np.concatenate(inside).mean() <= 0.98
+        assert min(part.mean() for part in inside) >= 0.85
 
 
 # the limit of an oil that nobody gave

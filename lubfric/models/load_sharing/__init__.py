@@ -7,9 +7,10 @@ assumptions of the model that a balance violates.
 
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
-from .calibrated import CalibratedFriction, calibrated_friction, least_half_width
+from .calibrated import CalibratedFriction, calibrated_friction
 from .control_variate import control_for
 from .decision import decided
+from .error_model import ErrorModel, error_models, features, least_half_width, rms_slopes, widening
 from .errors_of import moment_model_error
 from .forces import Forces, forces
 from .limits import limits_exceeded

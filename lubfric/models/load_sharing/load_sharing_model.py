@@ -5,6 +5,7 @@ It answers for ``numerics.model = "load-sharing"``; "paper" keeps the friction o
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -14,7 +15,8 @@ from ...surface import Surface
 from ..contract import AtInputs, Model, ModelAnswer, SampleSolution, WorkEstimate
 from ..shared import ControlVariate, Prepared, limit_in_words, no_rough_film, percent
 from .answer import answer_of
-from .calibrated import CalibratedFriction, calibrated_friction, film_on_strip, least_half_width
+from .calibrated import CalibratedFriction, calibrated_friction, film_on_strip
+from .error_model import error_model_of, least_half_width
 from .estimated_work import estimated_work
 from .paper_model import PaperModel, PaperSolution
 
@@ -62,9 +64,10 @@ class LoadSharingSolution(PaperSolution):
         """Return f of the rough film at other inputs, on the first strip."""
 
         def coefficient(scene: Scene) -> float:
-            balance, film = film_on_strip(self.prepared, self.sample, scene, self.speed, None)
-            heat = balance.forces.heat
-            return film.coefficient * (1 - heat.change if heat.heated else 1.0)
+            strip = film_on_strip(self.prepared, self.sample, scene, self.speed, None)
+            heat = strip.balance.forces.heat
+            bias = error_model_of(scene).bias_at(strip.features)
+            return strip.film.coefficient * math.exp(bias) * (1 - heat.change if heat.heated else 1.0)
 
         return AtInputs(middle=coefficient(self.prepared.scene), coefficient=coefficient)
 

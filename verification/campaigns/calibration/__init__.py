@@ -2,7 +2,8 @@
 excluded.
 
 Random contacts are solved by load sharing and by the deterministic model. ``python -m verification.campaigns.calibration
-MOTION COUNT`` extends the table of solved cases, and ``... fit`` writes the error model of lubfric anew.
+MOTION COUNT`` extends the table of solved cases; ``... fit --solve`` solves them again by load sharing, and writes the error
+model of lubfric anew.
 """
 
 from ... import frame

@@ -1,5 +1,5 @@
 """``python -m verification.campaigns.calibration rest|rolling COUNT [--budget S]``: extend a table of solved cases.
-``... fit``: write calibration.toml of lubfric anew."""
+``... fit [--solve]``: write calibration.toml of lubfric anew; with ``--solve`` the numbers of load sharing too."""
 
 import argparse
 import os
@@ -20,8 +20,11 @@ def main() -> int:
     p.add_argument("count", type=int, nargs="?", default=0, help="number of cases that the table shall have")
     p.add_argument("--budget", type=float, default=7200.0, help="processor time [s] (default: %(default)s)")
     p.add_argument("--first", type=int, default=0, help="number of the first case (default: %(default)s)")
+    p.add_argument("--solve", action="store_true", help="solve all cases by today's load sharing before the fit")
     options = p.parse_args()
     if options.motion == "fit":
+        for motion in fit.MOTIONS if options.solve else ():
+            fit.solve_numbers(motion)
         fit.write()
         return 0
     for row in extend(options.motion, options.count, options.budget, first=options.first):
