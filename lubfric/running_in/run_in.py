@@ -5,18 +5,30 @@ First the dry cylinder moves along the map, step by step, and pass by pass, unti
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._base import FrozenArrays, Shown, figures, limited_work, validate, with_default_errors
+from .._base import (
+    FrozenArrays,
+    Shown,
+    figures,
+    limited_work,
+    table_bytes,
+    validate,
+    with_default_errors,
+    write_whole,
+)
+from .._base.progress import progress_to, report_progress
 from ..contact import dent_by_pass, operator_under
 from ..errors import InputError, WorkLimitError
 from ..samples import contact_maps, cylinder_of, measured, whole_maps
 from ..scene import Scene
 from ..surface import Surface
+from ..units import converted, printed, unit_for
 from .wear import Wear, worn_in
 
 if TYPE_CHECKING:
@@ -28,6 +40,20 @@ STEPS = 2.0
 SHARP = 1e-5
 # Nanometres in a metre.
 NM = 1e9
+# Parameters of a map in the table of a running-in, and their units.
+OF_MAP = {"sq": "m", "sk": "m", "spk": "m", "svk": "m"}
+# Numbers of wear in that table, and their units.
+OF_WEAR = {
+    "distance": "m",
+    "depth": "m",
+    "volume": "m3",
+    "counterface_volume": "m3",
+    "asperity_load_ratio": "-",
+    "coefficient": "-",
+    "interval": "-",
+    "lift_off_speed": "m/s",
+    "lift_off_interval": "m/s",
+}
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -68,14 +94,35 @@ class RunIn(FrozenArrays, Shown):
         level = before.mean()
         return (np.arange(before.size) + 0.5) / before.size, before - level, after - level
 
+    def columns(self) -> dict[str, np.ndarray | list[str]]:
+        """Return the table of the running-in by headings with units: the map before, after the dents, and at each
+        recorded distance of wear. A number that a row does not have is NaN."""
+        maps = {"before": self.before, "after the dents": self.dented}
+        states = [*maps, *([] if self.wear is None else ["wear"] * self.wear.distance.size)]
+        table: dict[str, np.ndarray | list[str]] = {"state": states}
+        for name, unit in OF_MAP.items():
+            of_maps = [float(_parameter(surface, name)) for surface in maps.values()]
+            of_wear = [] if self.wear is None else getattr(self.wear, name).tolist()
+            table[f"{name} [{unit}]"] = np.array([*of_maps, *of_wear])
+        for name, unit in (OF_WEAR if self.wear is not None else {}).items():
+            column = getattr(self.wear, name)
+            for end, values in zip(("",) if column.ndim == 1 else ("_low", "_high"), np.atleast_2d(column.T)):
+                table[f"{name}{end} [{unit}]"] = np.concatenate([[math.nan, math.nan], values])
+        return table
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write the table of `columns`."""
+        write_whole(path, table_bytes(self.columns()))
+
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """The bearing curves before and after, on ``ax`` or new axes, which are returned."""
         axes = figures.axes_or_new(ax)
         (share, *heights) = self.bearing()
-        for z, colour, label in zip(heights, (figures.GREY, figures.BLUE), ("before", "run in")):
-            axes.plot(100 * share, z * NM, color=colour, label=label)
-        axes.set(xlim=(0, 100), xlabel="bearing area (%)", ylabel="height (nm)")
-        axes.legend()
+        unit = unit_for([self.before.sq], "m")
+        for z, colour, label in zip(heights, (figures.GREY, figures.BLUE), ("before running-in", "after running-in")):
+            axes.plot(100 * share, converted(z, "m", unit), color=colour, label=label)
+        axes.set(xlim=(0, 100), xlabel="bearing area (%)", ylabel=f"height ({printed(unit)})")
+        figures.key_above(axes)
         return axes
 
     def _facts(self) -> dict[str, str]:
@@ -108,6 +155,7 @@ def run_in(
     distance: float = 0.0,
     wear_coefficient: float = 0.0,
     hardness: tuple[float, float] | None = None,
+    on_progress: Callable[[str, int, int], None] | None = None,
 ) -> RunIn:
     """Let the loaded cylinder of ``scene`` pass over its rough surface until that has run in.
 
@@ -133,6 +181,7 @@ def run_in(
     distance : sliding s [m] that each surface point does inside the contact, after the dents; 0: no wear
     wear_coefficient : K [-] of Archard's law, 0 to 1 (mixed lubrication with additives: about 1e-8 to 1e-6)
     hardness : H [Pa] of the rough body and of the other one, for wear; None: ``bodies.hardness`` for both
+    on_progress : called as on_progress(what, done, total) after each pass, and after each step of wear
 
     Returns
     -------
@@ -147,6 +196,18 @@ def run_in(
     ConvergenceError : a contact or a balance that could not be solved; or (`lubfric.errors.WorkLimitError`) the run needs
         more counted work than ``numerics.max_work``: its ``result`` is the `RunIn` so far
     """
+    if on_progress is not None:
+        with progress_to(on_progress):
+            return run_in(
+                scene,
+                surface,
+                passes=passes,
+                tolerance=tolerance,
+                step=step,
+                distance=distance,
+                wear_coefficient=wear_coefficient,
+                hardness=hardness,
+            )
     validate.instance("scene", scene, Scene, "what lubfric.load_scene returned")
     wear_of = _checked_wear(scene, distance, wear_coefficient, hardness)
     passes = validate.integer("passes", passes, minimum=1, maximum=10_000)
@@ -223,7 +284,13 @@ def _passes(scene: Scene, before: Surface, centres: np.ndarray, passes: int, tol
             sinking=(*done.sinking, sinking),
             shaken_down=shaken,
         )
+        report_progress("pass", len(done.deepest), passes)
         yield done
+
+
+def _parameter(surface: Surface, name: str) -> float:
+    """Return Sq, Sk, Spk or Svk [m] of a map."""
+    return surface.sq if name == "sq" else getattr(surface.bearing(), name)
 
 
 def _run_in_map(scene: Scene, before: Surface, done: _Passes) -> Surface:

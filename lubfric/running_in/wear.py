@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._base import FrozenArrays, Shown, figures
+from .._base.progress import report_progress
 from ..contact import (
     BOUNDARY,
     HalfSpace,
@@ -35,6 +36,7 @@ from ..models.shared import prepare
 from ..samples import cylinder_of, flat_contact_of, half_space_contact_of
 from ..scene import Scene
 from ..surface import Surface
+from ..units import converted, printed, unit_for
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -99,12 +101,19 @@ class Wear(FrozenArrays, Shown):
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw Sq and lift-off speed over the distance, each over its first value, on ``ax`` or new axes."""
         axes = figures.axes_or_new(ax)
-        axes.plot(self.distance, self.sq / self.sq[0], "o-", color=figures.GREY, label="Sq")
-        axes.plot(self.distance, self.lift_off_speed / self.lift_off_speed[0], "s-", color=figures.BLUE)
-        axes.lines[-1].set_label("lift-off speed")
-        axes.set(xlabel="sliding distance in the contact (m)", ylabel="value over first value (-)")
+        first = self.lift_off_speed[0]
+        unit = unit_for(self.distance[1:].tolist(), "m")
+        over = converted(self.distance, "m", unit)
+        low, high = self.lift_off_interval.T / first
+        axes.plot(over, self.sq / self.sq[0], "o-", ms=4, color=figures.GREY, label="Sq")
+        axes.plot(over, self.lift_off_speed / first, "s-", ms=4, color=figures.BLUE, label="lift-off speed")
+        if np.isfinite(low).any():
+            axes.fill_between(over, low, high, color=figures.BLUE, alpha=0.2, lw=0, label="its 95 % interval")
+        axes.plot(over, self.asperity_load_ratio / self.asperity_load_ratio[0], "^-", ms=4, color=figures.RED)
+        axes.lines[-1].set_label("asperity load ratio")
+        axes.set(xlabel=f"sliding distance in the contact ({printed(unit)})", ylabel="value over its first (-)")
         axes.set_ylim(bottom=0)
-        axes.legend()
+        figures.key_above(axes, 2)
         return axes
 
     def _facts(self) -> dict[str, str]:
@@ -177,6 +186,7 @@ def worn_in(
         try:
             while progress.distance < aim and not progress.vanished:
                 heights, progress = _advance(rig, heights, progress, aim, coefficient / hardness[0])
+                report_progress("wear, percent", round(100 * progress.distance / distance), 100)
             rows.append(_record(rig, heights, progress.distance))
         except WorkLimitError as error:
             ended = f"{progress.distance:.4g} of {distance:g} m of wear are done"

@@ -160,7 +160,7 @@ class TransientResult(Shown):
     @property
     def validity(self) -> tuple[str, ...]:
         """One sentence for each assumption that does not hold at some time."""
-        return gathered(list(zip(self.time.tolist(), self.entries)), "s", "times")
+        return gathered(list(zip(self.time.tolist(), self.entries)), "s", "outputs")
 
     @property
     def uncertainty(self) -> UncertaintyCurve:

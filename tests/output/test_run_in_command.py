@@ -1,0 +1,63 @@
+"""``lubfric run-in``: the map it writes is that of `lubfric.run_in`, and the scene it writes takes this map."""
+
+import json
+
+import numpy as np
+import pytest
+from scene_text import BODIES_AND_OIL, SMALL_PATCH
+
+import lubfric
+from lubfric.output import main
+
+SCENE = BODIES_AND_OIL.replace("e_prime", "hardness = 2e9\ne_prime") + "[motion]\nentrainment_speed = 0.01\n"
+SCENE += "slide_roll_ratio = 2.0\n" + SMALL_PATCH + "sampling = 'patch'\n"
+WEAR = ["--distance", "1 mm", "--wear-coefficient", "1e-6"]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("run_in")
+    (folder / "s.toml").write_text(SCENE)
+    assert main(["run-in", str(folder / "s.toml"), *WEAR, "--out", str(folder / "out")]) == 0
+    return folder
+
+
+def test_the_files_hold_what_the_function_returns(folder):
+    steps = []
+    scene = lubfric.load_scene(folder / "s.toml")
+    result = lubfric.run_in(scene, distance=1e-3, wear_coefficient=1e-6, on_progress=lambda *step: steps.append(step))
+    np.testing.assert_array_equal(np.load(folder / "out" / "surface.npy"), result.surface.heights)
+    table = (folder / "out" / "run_in.csv").read_text().splitlines()
+    assert len(table) == 1 + 2 + result.wear.distance.size
+    last = dict(zip(table[0].split(","), table[-1].split(",")))
+    assert float(last["sq [m]"]) == result.wear.sq[-1] and float(last["distance [m]"]) == 1e-3
+    assert float(last["lift_off_speed [m/s]"]) == pytest.approx(result.wear.lift_off_speed[-1], nan_ok=True)
+    assert {what for what, _, _ in steps} == {"pass", "wear, percent"} and steps[-1][1:] == (100, 100)
+    assert json.loads((folder / "out" / "run_in.json").read_text())["passes"]["shaken_down"] is True
+
+
+def test_the_scene_it_writes_takes_the_map(folder):
+    scene = lubfric.load_scene(folder / "out" / "scene.toml")
+    heights = np.load(folder / "out" / "surface.npy")
+    surface = lubfric.prepare(scene).surface
+    plane = np.linalg.lstsq(_plane(heights.shape), heights.ravel(), rcond=None)[0]
+    left = heights - (_plane(heights.shape) @ plane).reshape(heights.shape)
+    assert surface.sq == pytest.approx(left.std(), rel=1e-6)
+    assert lubfric.friction(scene).coefficient > 0
+
+
+def _plane(shape):
+    x, y = np.meshgrid(np.arange(shape[0]), np.arange(shape[1]), indexing="ij")
+    return np.stack([np.ones(x.size), x.ravel(), y.ravel()], axis=1)
+
+
+def test_the_report_states_what_has_changed(folder):
+    page = (folder / "out" / "report.html").read_text(encoding="utf-8")
+    assert "Sq changes from 100 nm to" in page and "The lift-off speed changes from" in page
+    assert "Archard" in page and "Effects not modelled" in page and page.count("<img") == 1
+
+
+def test_half_of_wear_is_refused(folder, capsys):
+    assert main(["run-in", str(folder / "s.toml"), "--distance", "1 m", "--out", str(folder / "x")]) == 2
+    assert "--distance is for wear, which needs --wear-coefficient as well" in capsys.readouterr().err
+    assert not (folder / "x").exists()
