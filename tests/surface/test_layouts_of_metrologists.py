@@ -12,9 +12,7 @@ STEPS = (1e-6, 2e-6)
 @pytest.fixture(scope="module")
 def heights():
     """A rough map [m], (NX, NY), without a plane."""
-    made = lubfric.generate_surface(
-        (NX, NY), STEPS, sq=1e-7, correlation_length=5e-6, acf="gaussian", seed=3, level="map"
-    )
+    made = lubfric.generate_surface((NX, NY), STEPS, sq=1e-7, correlation_length=5e-6, acf="gaussian", seed=3)
     return made.level().heights
 
 
@@ -146,7 +144,7 @@ def test_points_in_a_unit_that_nobody_states_are_refused(heights, tmp_path):
     """In µm they would be a map of 48 x 72 m; with the unit they are read."""
     path = tmp_path / "sensofar.dat"
     path.write_text("\n".join(triplets(heights, (1e-6, 1e-6, 1e-6), " ")))
-    with pytest.raises(lubfric.InputError, match="spacing = 1 x 2 m; allowed: .* a wrong unit, or none"):
+    with pytest.raises(lubfric.InputError, match="spacing = 1 x 2 m; allowed: .*a wrong unit, or none"):
         lubfric.read_surface(path)
     surface = lubfric.read_surface(path, unit="um")
     assert surface.spacing == pytest.approx(STEPS) and np.allclose(surface.heights, heights, atol=1e-11)
