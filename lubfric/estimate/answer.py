@@ -2,9 +2,12 @@
 
 import math
 import time
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+from ..errors import ConvergenceError
+from ..models import ContactFields
 from ..models.shared import Prepared, of_error
 from ..quantities import NUMBERS
 from ..scene import Scene
@@ -63,11 +66,23 @@ def result_of(prepared: Prepared, choice: Choice, begun: float, *, fine: bool = 
         errors=field_errors_of(answer.errors, answer.why_no_error, answer.reasons),
         decision=decision,
         validity=validity,
-        fields=answer.fine_fields() if fine and answer.fine_fields is not None else answer.fields,
+        fields=answer.fields,
         compared_fields=compared_fields,
         details=details | {choice.model.name: answer.details},
     )
-    return not_negative(scene, with_ranges(prepared, result, answer))
+    result = not_negative(scene, with_ranges(prepared, result, answer))
+    if fine and answer.fine_fields is not None:  # last: work that is spent here is none that the interval needs
+        return with_fine_fields(result, answer.fine_fields)
+    return result
+
+
+def with_fine_fields(result: FrictionResult, solve: Callable[[], ContactFields]) -> FrictionResult:
+    """Return ``result`` with the fields that ``solve`` gives; where it does not converge, with a note that says so."""
+    try:
+        return replace(result, fields=solve())
+    except ConvergenceError as error:
+        note = f"the fields are on the cells that f was solved on, as finer ones were not solved: {error}"
+        return replace(result, report=replace(result.report, notes=(*result.report.notes, note)))
 
 
 def not_negative(scene: Scene, result: FrictionResult) -> FrictionResult:

@@ -7,7 +7,7 @@ import re
 import time
 from argparse import Namespace
 from collections.abc import Callable
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,8 +18,7 @@ from .. import studies
 from .._base import FolderLock, OwnFiles, figures, read_table, validate
 from .._base.jobs import parts_on
 from .._base.progress import progress_to
-from ..errors import ConvergenceError, InputError, LubfricError, ValidityError
-from ..estimate import FrictionResult, friction
+from ..errors import ConvergenceError, InputError, ValidityError
 from ..models.shared import (
     Prepared,
     Validity,
@@ -86,8 +85,16 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
     ):
         begun = run_begun(scene, arguments, names, kept, speeds, chosen, speeds=speeds)
         with begun as (folder, prepared, estimate), progress_to(_moments_told()):
-            options = {"fields": chosen, "store": folder.unfinished, "on_point": on_point, "raise_on_failure": False}
-            curve = studies.stribeck(prepared, speeds, executor if speeds_apart else None, **options)
+            curve = studies.stribeck(
+                prepared,
+                speeds,
+                executor if speeds_apart else None,
+                fields=chosen,
+                fine_fields=True,
+                store=folder.unfinished,
+                on_point=on_point,
+                raise_on_failure=False,
+            )
             _write(folder, prepared, curve, arguments, estimate, chosen)
     _raise_if_failed(curve)
 
@@ -120,18 +127,6 @@ def run_traction(scene: Scene, arguments: Namespace) -> None:
     _raise_if_failed(curve)
 
 
-def _on_fine_cells(prepared: Prepared, point: FrictionResult) -> FrictionResult:
-    """Return ``point`` with fields on cells fine enough to look at, for which a part of the surface is solved again."""
-    if moves(prepared.scene) and point.deterministic is not None:
-        return point  # moving roughness is not solved on finer cells: the fields are those of its own cells
-    try:
-        again = friction(prepared, point.speed, fields="fine", raise_on_failure=False)
-    except LubfricError as error:
-        say(f"the fields are on the cells of the strips, as finer ones were not solved: {error}")
-        return point
-    return replace(point, fields=again.fields)
-
-
 def _write(
     folder: RunFolder,
     prepared: Prepared,
@@ -153,7 +148,6 @@ def _write(
     points = [p for p in curve.points if p is not None and (p.fields is not None or p.balance is not None)]
     points.sort(key=lambda p: chosen.index(p.speed))
     if points:
-        points[0] = _on_fine_cells(prepared, points[0])
         contents["fields.npz"] = fields_bytes(points)
         folder.draw("contact.png", plot_contact, prepared, points[0])
         if points[0].compared_fields is not None:

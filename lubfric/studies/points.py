@@ -36,6 +36,8 @@ def solved(
     speeds: Sequence[float],
     kept: frozenset[float] = frozenset(),
     folder: str | Path | None = None,
+    *,
+    fine_fields: bool = False,
 ) -> Iterator[tuple[str, float, Outcome | None]]:
     """Yield (key, speed, outcome) of each point of a scene, when it is in the store. A point that fails has its error as
     outcome. If the scene cannot be made ready, that is the error of all.
@@ -46,6 +48,7 @@ def solved(
     speeds : [m/s]; none: the curve chooses them, and ends with the outcome None
     kept : speeds at which film and contact are kept, which chosen ones include
     folder : of the store, or None
+    fine_fields : whether these are on cells fine enough to look at
     """
     store = Store(folder if shared(folder) else None)
     done: tuple[float, ...] = ()
@@ -58,10 +61,11 @@ def solved(
         first = speeds or (math.nan,)
 
     def solve(speed: float) -> Outcome:
-        own = point_key(key, speed, speed in kept)
+        fields: bool | str = ("fine" if fine_fields else True) if speed in kept else False
+        own = point_key(key, speed, fields)
         outcome = store.get(own, OUTCOME)
         if outcome is None:
-            outcome = model if isinstance(model, LubfricError) else outcome_of(model, speed, speed in kept)
+            outcome = model if isinstance(model, LubfricError) else outcome_of(model, speed, fields)
             if not isinstance(outcome, MapError):  # its file may be there again, next time
                 store.add(own, outcome)
         return outcome
@@ -86,8 +90,9 @@ def solved_together(
         yield from solved(scene, key, speeds, folder=folder)
 
 
-def outcome_of(prepared: Prepared, speed: float, fields: bool = False) -> Outcome:
-    """Return the result of `lubfric.friction`, or the `LubfricError` that it raised; without fields unless they are wanted."""
+def outcome_of(prepared: Prepared, speed: float, fields: bool | str = False) -> Outcome:
+    """Return the result of `lubfric.friction`, or the `LubfricError` that it raised; without ``fields`` unless they are
+    requested."""
     try:
         point = friction(prepared, speed, fields=fields)
         return point if fields else point.without_fields()

@@ -125,9 +125,10 @@ def shared(folder: str | Path | None) -> bool:
     return folder is not None and os.path.exists(os.path.join(folder, LOCK))
 
 
-def point_key(scene_key: str, speed: float, fields: bool = False) -> str:
-    """The key of a point: of its scene (`fingerprint`), its speed [m/s], and whether film and contact are kept."""
-    return digest([scene_key, float(speed), bool(fields)])
+def point_key(scene_key: str, speed: float, fields: bool | str = False) -> str:
+    """Return the key of a point: of its scene (`fingerprint`), its speed [m/s], and the fields that are kept, as
+    `lubfric.friction` takes them."""
+    return digest([scene_key, float(speed), fields])
 
 
 def _failure(error: LubfricError) -> Failure:

@@ -127,6 +127,7 @@ def stribeck(
     tolerance: float | None = None,
     model: str | None = None,
     fields: bool | str | ArrayLike | Mapping[Any, Any] = False,
+    fine_fields: bool = False,
     store: str | Path | None = None,
     on_point: Callable[..., Any] | None = None,
     raise_on_failure: bool = True,
@@ -146,6 +147,8 @@ def stribeck(
         is the root sum of squares of the tolerance and the sampling tolerance
     executor : any `concurrent.futures.Executor`
     tolerance, model, fields : as in `lubfric.friction`; or fields: the speeds [m/s] whose film and contact are kept
+    fine_fields : whether the kept fields are solved once more on cells fine enough to look at, as ``fields="fine"`` of
+        `lubfric.friction`
     store : a folder that receives every point as it ends. The same call, or one with other speeds, continues from
         there
     on_point : called as on_point(done, total, speed, outcome), with a result or an exception, as points end
@@ -162,6 +165,7 @@ def stribeck(
     if checked_workers(workers, executor) > 1:
         options: dict[str, Any] = {
             "fields": fields,
+            "fine_fields": fine_fields,
             "store": store,
             "on_point": on_point,
             "raise_on_failure": raise_on_failure,
@@ -174,8 +178,15 @@ def stribeck(
     try:
         with opened(store) as folder:
             batches: list[tuple[float, ...]] = [(u,) for u in dict.fromkeys(requested)] or [()]
-            whole = partial(solved, prepared, key_of(prepared), kept=frozenset(kept), folder=folder.root)
-            for _, speed, outcome in spread(executor, [partial(whole, speeds=batch) for batch in batches]):
+            solve = partial(
+                solved,
+                prepared,
+                key_of(prepared),
+                kept=frozenset(kept),
+                folder=folder.root,
+                fine_fields=fine_fields,
+            )
+            for _, speed, outcome in spread(executor, [partial(solve, speeds=batch) for batch in batches]):
                 if outcome is None:  # the end of a curve that chose its speeds
                     break
                 outcomes[speed] = outcome
