@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from .._base import Renamed, Shown, figures, packaged, validate
 from ..errors import InputError, Report
-from ..models import ContactFields
+from ..models import ContactFields, ModelDetails
 from ..models.shared import Decision, UnmodelledEffect, Validity
 from ..quantities import PointQuantities, described_in_doc, in_words
 from .bibtex import bibtex
@@ -60,7 +60,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     methods: tuple[str, ...] = ()
     fields: ContactFields | None = None
     compared_fields: ContactFields | None = None
-    details: dict[str, Any] = field(default_factory=dict)
+    details: dict[str, ModelDetails | None] = field(default_factory=dict)
     _RENAMED = {"lacks": "unmodelled_effects"}
 
     def without_fields(self) -> FrictionResult:
@@ -83,12 +83,12 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     @property
     def balance(self) -> Balance | None:
         """The balance of film and contact by load sharing, if there is one."""
-        return self.details.get("paper", self.details.get("load-sharing"))
+        return cast("Balance | None", self.details.get("paper", self.details.get("load-sharing")))
 
     @property
     def deterministic(self) -> DeterministicResult | None:
         """What the deterministic model solved, if it gives the answer."""
-        return self.details.get("deterministic")
+        return cast("DeterministicResult | None", self.details.get("deterministic"))
 
     @property
     def shows_contact(self) -> bool:

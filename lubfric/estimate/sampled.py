@@ -21,9 +21,7 @@ def sampled(
     time half as long, until their effect can be corrected for. ``native``: a single patch is solved on its own cells;
     ``control``: what a cheaper model knows of these strips. Raises `ConvergenceError`.
     """
-    sample = prepared.sample
-    if native and sample.is_single_patch:
-        sample = sample.native()
+    sample = prepared.sample.for_fields() if native else prepared.sample
     while True:
         solution = _on_enough_strips(prepared, sample, speed, model, control)
         if sample.cells.is_native or not solution.is_too_coarse():

@@ -12,7 +12,6 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
@@ -61,6 +60,10 @@ class ContactFields:
         steps = [float(axis[1] - axis[0]) if axis.size > 1 else math.nan for axis in (self.x, self.y)]
         known = [step for step in steps if math.isfinite(step)] or [math.nan]
         return (steps[0] if math.isfinite(steps[0]) else known[0], steps[1] if math.isfinite(steps[1]) else known[0])
+
+
+class ModelDetails:
+    """What a model keeps of its solve, for those who know it: a frozen dataclass, which a store of results can hold."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,7 +124,7 @@ class ModelAnswer:
     recommendation: str = "a larger numerics.tolerance"
     fields: ContactFields | None = None
     fine_fields: Callable[[], ContactFields] | None = None
-    details: Any = None
+    details: ModelDetails | None = None
     at_inputs: Callable[[], AtInputs] | None = None
     ends_without_change: Callable[[str, tuple[Scene, ...]], bool] = lambda name, ends: False
 

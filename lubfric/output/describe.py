@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -120,7 +120,7 @@ def estimate_scene(
     ]
     sections = {
         "transient": changing,
-        "surface": [*map_in_words(surface, sample), *notes, slopes_in_words(whole)],
+        "surface": [*sample.described(surface), *notes, slopes_in_words(whole)],
         "contact": [f"{_plan(scene, surface)}; {over}"],
         "model": model,
         "effects not modelled": changes if effects else ["none that would change f by more than its tolerance"],
@@ -269,16 +269,6 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
         counts = f"{one.strips}", f"{one.resolved}", f"{1e3 * one.length:.2g}".replace("nan", "-"), f"{one.seconds:.1g}"
         table.append((f"{speed:.4g}", *film, *counts * sampled))
     return table
-
-
-def map_in_words(surface: Surface, sample: Sample) -> list[str]:
-    """The map that the scene has; and where strips of it are solved, ``surface``, the first of them."""
-    if sample.is_single_patch:
-        return [surface.describe()]
-    made = "" if sample.windows else f"{surface.source}, on as many strips as the tolerance needs"
-    first = replace(surface, source="").describe()
-    joined = f"{sample.first} strips, joined along the line" if sample.first > 1 else "one strip"
-    return [made or sample.map.describe(), f"solved first: {joined}; {first}"]
 
 
 def slopes_in_words(surface: Surface) -> str:

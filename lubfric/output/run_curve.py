@@ -19,6 +19,7 @@ from .._base import FolderLock, OwnFiles, figures, read_table, validate
 from .._base.jobs import parts_on
 from .._base.progress import progress_to
 from ..errors import ConvergenceError, InputError, ValidityError
+from ..estimate import FrictionResult
 from ..models.shared import (
     Prepared,
     Validity,

@@ -1,5 +1,6 @@
 """Which sample of its rough surface a scene is solved on."""
 
+from ..contact import RoughContact
 from ..scene import Scene
 from ..surface import Surface
 from .cells import correlation_lengths, length_or_half
@@ -16,18 +17,22 @@ def takes_strips(scene: Scene) -> bool:
 
 
 def sample_of(
-    scene: Scene, maps: tuple[Surface, ...] = (), *, is_given: bool = False, read: tuple[Surface, ...] = ()
+    scene: Scene,
+    maps: tuple[Surface, ...] = (),
+    *,
+    contact: RoughContact | None = None,
+    read: tuple[Surface, ...] = (),
 ) -> Sample:
     """Return the sample of ``scene``.
 
-    ``maps``: heights given to `lubfric.prepare`, of all and of each body; ``is_given``: whether the contact was given;
+    ``maps``: heights given to `lubfric.prepare`, of all and of each body; ``contact``: given to it; None: lubfric's own;
     ``read``: the maps of the scene, if `whole_maps` read them before.
     """
-    if not maps and not is_given and takes_strips(scene):
+    if not maps and contact is None and takes_strips(scene):
         return strips_of(scene, read)
     surface, *bodies = contact_maps(scene, maps, read=read)
-    if is_given or not _resolved(scene):
-        return UnresolvedSample(surface)
+    if contact is not None or not _resolved(scene):
+        return UnresolvedSample(surface=surface, given=contact)
     return single_patch(scene, _lengths(scene, surface, is_given=bool(maps)), surface, tuple(bodies))
 
 

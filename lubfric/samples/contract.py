@@ -7,13 +7,19 @@ sample.
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Self
 
+import numpy as np
+
+from ..contact import HalfSpace, RoughContact
+from ..scene import Numerics, Scene
 from ..surface import Surface
 from .cells import Cells
+from .contacts import half_space_contact_of
 
 PIECE = 42.0  # correlation lengths along y: a piece on native cells, which shows what the cells of the sample change
 
@@ -30,7 +36,8 @@ class Sample(ABC):
     pieces : number of pieces that there are
     windows : whether each strip is a window of a measured map, which may differ from place to place
     exact_sq : whether every strip has the Sq of the surface
-    is_single_patch : whether one patch is all that there is: its only strip, its only piece
+    refines_in_place : whether its only strip is all that there is, and is itself solved on shorter and shorter cells;
+        else pieces of the surface show what these change
     is_resolved : whether the rough half-space is solved on the cells of its strips; False: the contact is a curve, made
         of independent asperities, or from outside, and there is nothing to solve strip by strip
     bodies : of two rough bodies the part of each, where the sample is cut from maps of both; () else
@@ -44,7 +51,7 @@ class Sample(ABC):
     pieces: int
     windows: bool = False
     exact_sq: bool = False
-    is_single_patch: bool = False
+    refines_in_place: bool = False
     is_resolved: bool = True
     bodies: tuple[Surface, ...] = ()
 
@@ -66,6 +73,53 @@ class Sample(ABC):
     @abstractmethod
     def rows_of(self, count: int) -> int:
         """Return the number of cells along y of the first ``count`` strips joined."""
+
+    def contact(
+        self, scene: Scene, count: int, operator: Callable[[tuple[int, int], tuple[float, float]], HalfSpace]
+    ) -> RoughContact:
+        """Return the rough contact of ``scene`` on the first ``count`` strips, joined.
+
+        ``operator``: makes the half-space operator of a grid, or finds it, from its shape and its spacing [m].
+        """
+        surface = self.stack(count)
+        heights = surface.heights - surface.heights.mean()
+        made = operator(heights.shape, surface.spacing)
+        return half_space_contact_of(scene, heights, surface.spacing, operator=made, x=self.cells.axis())
+
+    def for_fields(self) -> Self:
+        """Return this sample on the cells on which its fields are shown; native ones if it refines in place."""
+        return self
+
+    def cells_to_look_at(self, half_width: float) -> tuple[int, int]:
+        """Return the length, in native cells, of cells that show a contact of this ``half_width`` [m]."""
+        return self.cells.to_look_at(half_width)
+
+    def distinct_rows(self, heights: np.ndarray) -> int:
+        """Return how many of the rows of ``heights`` (nx, ny), a strip or some joined, are not the image of others."""
+        return heights.shape[1]
+
+    def tolerance_between(self, numerics: Numerics) -> float:
+        """Return the tolerance on f between two points: neighbours may be solved on different numbers of strips."""
+        return math.hypot(numerics.tolerance, numerics.sampling_tolerance)
+
+    def renewal_length(self, half_width: float) -> float:
+        """Return the distance [m] that a surface moves until another part of it is in a Hertz strip of this
+        ``half_width`` [m]; NaN where there is no other part."""
+        return 2 * half_width + math.sqrt(math.pi) * self.lengths[0]
+
+    def in_words(self, count: int) -> str:
+        """Return what the first ``count`` strips are, in words."""
+        return "strip 1" if count == 1 else f"the first {count} strips, joined"
+
+    def piece_in_words(self) -> str:
+        """Return what a piece is, in words."""
+        return "a piece of the surface"
+
+    def described(self, surface: Surface) -> list[str]:
+        """Return the map that the scene has, and ``surface``, the part of it that is solved first, in words."""
+        made = "" if self.windows else f"{surface.source}, on as many strips as the tolerance needs"
+        joined = f"{self.first} strips, joined along the line" if self.first > 1 else "one strip"
+        return [made or self.map.describe(), f"solved first: {joined}; {replace(surface, source='').describe()}"]
 
     @property
     def rows(self) -> int:

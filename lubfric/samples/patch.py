@@ -3,20 +3,53 @@ cells to solve strip by strip."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Self
+
+import numpy as np
 
 from .._base import FieldsOnly
-from ..contact import centred_axis
-from ..scene import Scene
+from ..contact import HalfSpace, RoughContact, centred_axis
+from ..scene import Numerics, Scene
 from ..surface import Surface
-from .cells import Cells, cells_of_a_box, length_or_half
+from .cells import Cells, cells_of_a_box, length_or_half, mirrored
+from .contacts import flat_contact_of, independent_asperities_of
 from .contract import PIECE, Sample
 
 
+class OnlyMap(Sample):
+    """A sample whose map is all that there is: what its kinds share."""
+
+    def for_fields(self) -> Self:
+        return self.native()
+
+    def cells_to_look_at(self, half_width: float) -> tuple[int, int]:
+        return (1, 1)
+
+    def distinct_rows(self, heights: np.ndarray) -> int:
+        return heights.shape[1] // (2 if mirrored(heights) else 1)
+
+    def tolerance_between(self, numerics: Numerics) -> float:
+        return numerics.tolerance
+
+    def renewal_length(self, half_width: float) -> float:
+        return math.nan
+
+    def in_words(self, count: int) -> str:
+        return "the patch"
+
+    def piece_in_words(self) -> str:
+        return "the patch"
+
+    def described(self, surface: Surface) -> list[str]:
+        return [surface.describe()]
+
+
 @dataclass(frozen=True, kw_only=True)
-class SinglePatch(Sample):
+class SinglePatch(OnlyMap):
     """One patch, ``surface``, of which there is no more."""
 
     cells: Cells
@@ -26,7 +59,7 @@ class SinglePatch(Sample):
     first: int = 1
     available: int = 1
     pieces: int = 1
-    is_single_patch: bool = True
+    refines_in_place: bool = True
 
     @property
     def length(self) -> float:  # type: ignore[override]
@@ -50,16 +83,17 @@ class SinglePatch(Sample):
         return self.surface.shape[1] // self.cells.coarsening[1]
 
 
-@dataclass(frozen=True)
-class UnresolvedSample(FieldsOnly, Sample):
-    """The map ``surface`` of a contact that is not solved on its cells: a contact curve, independent asperities, or a
-    contact from outside."""
+@dataclass(frozen=True, kw_only=True)
+class UnresolvedSample(FieldsOnly, OnlyMap):
+    """The map ``surface`` of a contact that is not solved on its cells: a contact curve, independent asperities, or the
+    ``given`` one from outside."""
 
     surface: Surface
+    given: RoughContact | None = None
     first: int = 1
     available: int = 1
     pieces: int = 1
-    is_single_patch: bool = True
+    refines_in_place: bool = True
     is_resolved: bool = False
 
     @property
@@ -82,6 +116,15 @@ class UnresolvedSample(FieldsOnly, Sample):
 
     def piece(self, index: int, length: float = PIECE) -> Surface:
         return self.surface
+
+    def contact(
+        self, scene: Scene, count: int, operator: Callable[[tuple[int, int], tuple[float, float]], HalfSpace]
+    ) -> RoughContact:
+        if self.given is not None:
+            return self.given
+        heights = self.surface.heights - self.surface.heights.mean()
+        make = flat_contact_of if scene.contact.geometry == "flat" else independent_asperities_of
+        return make(scene, heights, self.surface.spacing)
 
     def of_body(self, body: int) -> UnresolvedSample:
         raise NotImplementedError("a contact without cells moves no body through the film")

@@ -125,10 +125,7 @@ def tolerance_between(prepared: Prepared) -> float:
     """Return the tolerance on f between the points of a curve: that on f itself. On strips of a rough surface, neighbouring
     points may be solved on different numbers of them; there it is the root sum of squares of the tolerance on f and the
     sampling tolerance."""
-    numerics = prepared.scene.numerics
-    if not prepared.sample.is_resolved or prepared.given or numerics.sampling == "patch":
-        return numerics.tolerance
-    return math.hypot(numerics.tolerance, numerics.sampling_tolerance)
+    return prepared.sample.tolerance_between(prepared.scene.numerics)
 
 
 def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()) -> tuple[float | None, float]:

@@ -50,7 +50,7 @@ def estimated_run(scene: Scene, sample: Sample, surface: Surface) -> RunEstimate
     forecasts = [forecast(scene, sample, surface, speed) for speed in speeds_of_run(scene) or [0.0]]
     widest = None
     cells = surface.heights.size
-    if not sample.is_single_patch:
+    if not sample.refines_in_place:
         widest = max(forecasts, key=lambda forecast: forecast.strips)
         cells = round(sample.cells.count * widest.length / sample.cells.coarse[1])
     tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")

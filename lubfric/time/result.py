@@ -291,15 +291,13 @@ def collect(
     sampling = float(np.max(columns["sampling_error"], initial=0.0))
     surface = "not known" if math.isnan(sampling) else f"standard error of f at most {percent(sampling)}"
     prepared = model.prepared
-    renewal = math.nan
+    renewal = prepared.sample.renewal_length(prepared.scene.bodies.half_width)
     ends = {name: [end - value_of(prepared.scene, name) for end in both] for name, *both in prepared.scene.ranges}
     by_load = columns["contact_load"] / columns["load"] * (columns["sliding_speed"] != 0)
     low, high = ends.pop(FRICTION_KEY, (0.0, 0.0))
     inputs = np.outer((-low, high), by_load)
     not_in = tuple(f"{name.partition('.')[2]} in its range: {NOT_IN}" for name in ends)
     report = report_of("run in time", plan, progress, f"{model.cells}; surface: {surface}", residuals, most_work)
-    if not prepared.sample.is_single_patch:
-        renewal = 2 * prepared.scene.bodies.half_width + math.sqrt(math.pi) * prepared.sample.lengths[0]
     return TransientResult(
         columns=_with_intervals(columns, inputs),
         x=model.x,

@@ -83,7 +83,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     by_limit = _by_limit(scene, results)
     parts_of_model[OF_LIMIT] = max(by_limit)
     reasons = dict.fromkeys(depending_on("heat"), heat.reason(scene) or ONE_HEAT)
-    finest = levels.pieces[0][-1] if sample.is_single_patch and levels.pieces else levels.pairs[0].resolved
+    finest = levels.pieces[0][-1] if sample.refines_in_place and levels.pieces else levels.pairs[0].resolved
     start = levels.pairs[0].resolved if moves(scene) else finest
     return ModelAnswer(
         numbers=numbers,
@@ -108,7 +108,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
             *_of_model(model, scene.numerics.model_tolerance),
         ),
         recommendation=_recommendation(prepared),
-        fields=fields_of(finest, "the patch" if sample.is_single_patch else "strip 1"),
+        fields=fields_of(finest, sample.in_words(1)),
         fine_fields=None if moves(scene) else partial(fine_fields_of, prepared, speed),
         details=finest.result,
         at_inputs=lambda: _at_inputs(prepared, start, speed),
@@ -145,10 +145,10 @@ def fine_fields_of(prepared: Prepared, speed: float) -> ContactFields:
     """Return the fields of a piece of the surface on cells fine enough to look at, solved by itself."""
     sample = prepared.sample
     half_width = prepared.scene.bodies.half_width
-    cells = sample.cells.to_look_at(half_width)
+    cells = sample.cells_to_look_at(half_width)
     contact = on_piece(prepared, sample, 0, cells, max(LEAST_DRAWN, DRAWN_LENGTH * half_width / sample.lengths[1]))
     strip = solve_strip(prepared.scene, map_of(prepared, contact), speed)
-    where = "the patch" if sample.is_single_patch else "a piece of the surface"
+    where = sample.piece_in_words()
     return fields_of(strip, f"{where}, on cells of {contact.spacing[0] * 1e6:.3g} x {contact.spacing[1] * 1e6:.3g} µm")
 
 
@@ -212,7 +212,7 @@ def _recommendation(prepared: Prepared) -> str:
     """What makes the error by the cells smaller: shorter ones, if the map has them."""
     scene = prepared.scene
     sample = prepared.sample
-    if not sample.cells.is_native and (moves(scene) or not sample.is_single_patch):
+    if not sample.cells.is_native and (moves(scene) or not sample.refines_in_place):
         return f"numerics.grid = 'given' for shorter cells, or {LOOSER}"
     if prepared.given or measured(scene):
         return f"{LOOSER}, or a map with shorter cells"

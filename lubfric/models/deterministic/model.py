@@ -71,7 +71,7 @@ class DeterministicModel(Model):
         return estimated_work(scene, sample, surface, speed, cheaper)
 
     def takes_control(self, sample: Sample) -> bool:
-        return not sample.is_single_patch
+        return not sample.refines_in_place
 
     def solve(
         self,

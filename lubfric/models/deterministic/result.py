@@ -16,6 +16,7 @@ import numpy as np
 from ..._base import FloatArray
 from ...errors import Report
 from ...oil import Lubricant, shear_stress
+from ..contract import ModelDetails
 from ..shared import LIMIT_RANGE
 from .problem import Problem
 from .state import FLUID, TOUCHING, Iterate, State
@@ -41,7 +42,7 @@ class LoadSplit:
 
 
 @dataclass(frozen=True)
-class DeterministicResult:
+class DeterministicResult(ModelDetails):
     """One operating point: fields on cells (nx, ny), x along the motion; forces per width [N/m].
 
     - pressure [Pa]: of film and contact together. gap [m]: between the rough surfaces, at least the floor. fill [-]:

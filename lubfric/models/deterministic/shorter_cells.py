@@ -85,12 +85,12 @@ def on_shorter_cells(
     factors = zip(cells_of(scene, sample), sample.cells.coarsening)
     halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
     left = max(estimate([by_longer]), SOLVED, MOVING * _coarse(prepared) ** 2 if moves(scene) else 0.0)
-    enough = left <= scene.numerics.tolerance and not (sample.is_single_patch and scene.numerics.grid == "given")
-    enough = enough and (sample.is_single_patch or _smooth(sample))
+    enough = left <= scene.numerics.tolerance and not (sample.refines_in_place and scene.numerics.grid == "given")
+    enough = enough and (sample.refines_in_place or _smooth(sample))
     own = sample.cells.is_native and cells_of(scene, sample) == (1, 1)
     if enough or own or moves(scene):
         return (), (), BlockError(0.0, 1), left, False
-    if sample.is_single_patch:
+    if sample.refines_in_place:
         patch = _refined(prepared, speed, 0, pairs[0])
         return (patch,), (), BlockError(0.0, 1), max(estimate(changes_of(patch)), SOLVED), False
     try:
@@ -217,7 +217,7 @@ def _refined(
     scene = prepared.scene
     sample = prepared.sample
     surface, factors = strip_of(prepared, index)
-    enough = scene.numerics.tolerance if sample.is_single_patch and scene.numerics.grid != "given" else 0.0
+    enough = scene.numerics.tolerance if sample.refines_in_place and scene.numerics.grid != "given" else 0.0
     if first is not None:
         ladder = [first.longer, first.resolved]
     else:

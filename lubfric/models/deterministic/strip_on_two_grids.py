@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from ...errors import ConvergenceError
 from ...quantities import NUMBERS
-from ...samples import Sample, mirrored
+from ...samples import Sample
 from ...scene import Scene, moves
 from ...surface import Surface
 from ..shared import Prepared
@@ -65,7 +65,7 @@ def strip_of(prepared: Prepared, index: int) -> tuple[Surface, tuple[int, int]]:
     on the map's own cells."""
     sample = prepared.sample
     fx, fy = cells_of(prepared.scene, sample)
-    ux, uy = sample.cells.coarsening if sample.is_single_patch and not moves(prepared.scene) else (1, 1)
+    ux, uy = sample.cells.coarsening if sample.refines_in_place and not moves(prepared.scene) else (1, 1)
     return strip_surface(prepared, index), (fx * ux, fy * uy)
 
 
@@ -99,7 +99,7 @@ def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int
             factors=factors,
             start=longer,
             for_continuation=True,
-            target=None if prepared.sample.is_single_patch else sample_target(prepared),
+            target=None if prepared.sample.refines_in_place else sample_target(prepared),
         )
         if isinstance(strip, MovingStrip) and longer_cells[1] > factors[1]:
             with suppress(ConvergenceError):  # then the change at rest is all that is known
@@ -109,7 +109,7 @@ def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int
         longer = solve_strip(scene, surface, speed, factors=longer_cells)
         strip = solve_strip(scene, surface, speed, factors=factors, start=longer, slope=find_slope)
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + longer.work)
-    is_mirrored = prepared.sample.is_single_patch and mirrored(surface.heights)
+    is_mirrored = prepared.sample.distinct_rows(surface.heights) < surface.shape[1]
     return StripOnTwoGrids(strip, longer, is_mirrored, early_on_longer)
 
 

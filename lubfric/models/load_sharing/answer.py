@@ -6,11 +6,11 @@ from functools import partial
 
 import numpy as np
 
-from ...contact import ContactResult, HalfSpaceContact, RoughContact
+from ...contact import ContactResult, HalfSpaceContact
 from ...oil import estimate_in_words
 from ...scene import Scene
 from ..contract import AtInputs, ContactFields, ModelAnswer
-from ..shared import Validity, contact_on, exponents, on_piece, on_stack, prepare
+from ..shared import Validity, contact_of, contact_on, exponents, on_piece
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
 from .decision import decided
@@ -50,7 +50,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         warnings=(*limits_of(balanced), *_finer(balanced.change("finer_grid_change"), scene.numerics.tolerance)),
         recommendation=CLOSER,
         fields=fields_of(balanced),
-        fine_fields=partial(fine_fields_of, balanced) if balanced.sample.is_resolved else None,
+        fine_fields=None if balanced.on_cells is None else partial(fine_fields_of, balanced),
         details=replace(
             balanced.balance, contact=replace(balanced.balance.contact, fields=balanced.solved.contact.fields)
         ),
@@ -68,11 +68,12 @@ def fields_of(balanced: BalancedSample) -> ContactFields | None:
 
     Where nothing touches, the gap is that of the undeformed surface below the film.
     """
-    if not balanced.sample.is_resolved:
+    contact = balanced.on_cells
+    if contact is None:
         return None
     solved = balanced.solved
-    contact = on_stack(balanced.prepared, balanced.sample, balanced.count)
-    return fields_on(contact, solved, solved.contact.fields, balanced.prepared.scene, _where(balanced))
+    where = balanced.sample.in_words(balanced.count)
+    return fields_on(contact, solved, solved.contact.fields, balanced.prepared.scene, where)
 
 
 def fine_fields_of(balanced: BalancedSample) -> ContactFields:
@@ -81,20 +82,15 @@ def fine_fields_of(balanced: BalancedSample) -> ContactFields:
     prepared = balanced.prepared
     scene = prepared.scene
     sample = balanced.sample
-    cells = (1, 1) if sample.is_single_patch else sample.cells.to_look_at(scene.bodies.half_width)
+    cells = sample.cells_to_look_at(scene.bodies.half_width)
     contact = on_piece(prepared, sample, 0, cells)
     balance = balanced.balance
     if balance.film is None:
         state = contact.close(contact.x**2 / (2 * scene.bodies.radius), balance.contact_load)
     else:
         state = balanced.point.pressed(contact, balance.film, balance.contact_load, None)
-    where = "the patch" if sample.is_single_patch else "a piece of the surface"
-    words = f"{where}, on cells of {contact.spacing[0] * 1e6:.3g} x {contact.spacing[1] * 1e6:.3g} µm"
+    words = f"{sample.piece_in_words()}, on cells of {contact.spacing[0] * 1e6:.3g} x {contact.spacing[1] * 1e6:.3g} µm"
     return fields_on(contact, balance, state.fields, scene, words)
-
-
-def _where(balanced: BalancedSample) -> str:
-    return "the patch" if balanced.sample.is_single_patch else f"the first {balanced.count} strips, joined"
 
 
 def fields_on(
@@ -134,12 +130,8 @@ def _at_inputs(balanced: BalancedSample) -> AtInputs:
     start = solve_balance(prepared.scene, balanced.speed, contact, surface.sq)
 
     def coefficient(scene: Scene) -> float:
-        there: RoughContact = contact
-        if scene.bodies.hardness != prepared.scene.bodies.hardness:
-            if sample.is_resolved:
-                there = replace(on_stack(prepared, sample, sample.first), hardness=scene.bodies.hardness)
-            else:
-                there = prepare(scene, surface).contact
+        is_as_hard = scene.bodies.hardness == prepared.scene.bodies.hardness
+        there = contact if is_as_hard else contact_of(prepared, sample, sample.first, scene)
         return solve_balance(scene, balanced.speed, there, surface.sq, start).forces.coefficient
 
     return AtInputs(middle=coefficient(prepared.scene), coefficient=coefficient)
@@ -149,7 +141,7 @@ def _cells(balanced: BalancedSample) -> tuple[tuple[int, int], float]:
     """Length of the cells that were solved, in cells of the map, along each axis; and the share of the load on the edge
     columns, on the map's own cells."""
     factors = balanced.sample.cells.coarsening
-    if balanced.sample.is_single_patch and factors != (1, 1):
+    if balanced.sample.refines_in_place and factors != (1, 1):
         return factors, balanced.effect.edge_load_ratio
     return factors, balanced.contact.on_the_ends(balanced.solved.contact) / factors[0]
 

@@ -9,6 +9,7 @@ from ...contact import ContactState, RoughContact
 from ...errors import CONVERGED, ConvergenceError, Report
 from ...film import EHLResult
 from ...scene import Scene, budget
+from ..contract import ModelDetails
 from ..shared import exponents, meaningless
 from .forces import Forces, forces
 from .point import (
@@ -33,7 +34,7 @@ SETTLED = 0.3  # of ln(F_H/F_C): a response found as near as that to the balance
 
 
 @dataclass(frozen=True)
-class Balance:
+class Balance(ModelDetails):
     """One operating point, loads in N. ``film`` is None without entrainment; ``response`` is None if the film carries
     everything. ``notes``: choices that a reader should know."""
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import cast
 
 from scipy import fft
 
 from ...contact import (
+    HalfSpaceContact,
     RoughContact,
     weighted_mean,
 )
@@ -153,6 +155,11 @@ class BalancedSample:
         return Point(self.prepared.scene, self.speed, self.contact, self.solved.settings)
 
     @property
+    def on_cells(self) -> HalfSpaceContact | None:
+        """The contact, whose cells and places along y can be compared; None where it has none of them."""
+        return cast(HalfSpaceContact, self.contact) if self.sample.is_resolved else None
+
+    @property
     def start(self) -> Balance | None:
         """The balance from which that of more strips starts; None where nothing touches."""
         if self.response is None:
@@ -160,8 +167,6 @@ class BalancedSample:
         return replace(self.solved, contact=replace(self.solved.contact, fields=None))
 
     def required_strips(self) -> int:
-        if not self.sample.is_resolved:
-            return self.count
         tolerance = self.prepared.scene.numerics.sampling_tolerance
         spots = self.scatter.spots
         few = self.response is not None and too_few(spots, self.sampling, tolerance)
@@ -255,7 +260,8 @@ def solve_sample(
         first_effect=None if start is None else start.first_effect,
         count=count,
     )
-    if not sample.is_resolved:  # it has no places along y to compare, and no cells to correct for
+    on_cells = solution.on_cells
+    if on_cells is None:
         return replace(solution, undetected=math.nan)
     if solved.response is None:
         undetected = undetected_contact(scene, contact, solved.film, solved.forces, sample.lengths[1])
@@ -265,7 +271,7 @@ def solve_sample(
         effect = _effect(prepared, solution.point, solved, sample)
     return replace(
         solution,
-        scatter=scatter_of(scene, on_stack(prepared, sample, count), solved, sample, count),
+        scatter=scatter_of(scene, on_cells, solved, sample, count),
         effect=(effect or CellEffect()).at_load(solved.contact_load),
         first_effect=effect,
     )
@@ -277,7 +283,7 @@ def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | No
     before."""
     scene = prepared.scene
     sq = prepared.surface.sq
-    if speed == 0 or sample.is_single_patch or sq == 0 or scene.lubricant.inlet_film is not None:
+    if speed == 0 or sample.refines_in_place or sq == 0 or scene.lubricant.inlet_film is not None:
         return None
     film = scene.line_contact(speed).expected_film / sq
     nearest = min(REFERENCES, key=lambda reference: abs(math.log(film / reference)))

@@ -112,7 +112,7 @@ def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, sample: 
     steps: list[CellStep] = []
     while not _settled(steps, min(MOST_PIECES, sample.pieces), scatter):
         steps.append(_step(prepared, point, balance, sample, len(steps), enough))
-    error = BlockError(0.0, 1) if sample.is_single_patch else mean_error(steps)
+    error = BlockError(0.0, 1) if sample.refines_in_place else mean_error(steps)
 
     def mean(name: str) -> float:
         return sum(getattr(step, name) for step in steps) / len(steps)
@@ -166,7 +166,7 @@ def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, in
     length = sample.lengths[1]
     difference = places[-1][0] - places[0][0]
     area, area_error = _ratio(places[-1][1], places[0][1], step, length)
-    if sample.is_single_patch:
+    if sample.refines_in_place:
         area_error = 0.0
     if not own:
         area_error = math.hypot(area_error, _ratio(places[-1][1], places[-2][1], step, length)[0] - 1)

@@ -184,12 +184,12 @@ def model_error(balanced: BalancedSample) -> tuple[tuple[float, float], tuple[st
     if balance.film is None:
         fed = scene.lubricant.inlet_film
         return (NONE, ()) if fed is None else (starved_error(fed, balance.contact.mean_gap), (EMPTY,))
-    if not balanced.sample.is_resolved:
+    if balanced.on_cells is None:
         return UNKNOWN, (NOT_STUDIED,)
     if why := gap_not_resolved(scene):
         return UNKNOWN, (MODEL_UNKNOWN.format(why),)
 
-    sq = float(balanced.contact.heights.std())  # type: ignore[attr-defined]
+    sq = float(balanced.on_cells.heights.std())
     film = balance.film.central_film
     share = balance.contact_load / scene.bodies.load
     forces = balance.forces
@@ -238,7 +238,7 @@ def _notes(balanced: BalancedSample, scene: Scene, sampling: float) -> tuple[str
     notes = []
     needed = _area_needed(balanced, scene)
     if not math.isfinite(sampling):
-        if not sample.is_resolved:
+        if balanced.on_cells is None:
             return (NO_CELLS,)
         if balanced.response is None:
             return (MISSED,)

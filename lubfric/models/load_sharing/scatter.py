@@ -17,7 +17,7 @@ from ..._base import FloatArray
 from ...contact import ContactState, HalfSpaceContact
 from ...film import EHLResult
 from ...oil import shear_stress
-from ...samples import Sample, mirrored
+from ...samples import Sample
 from ...scene import Scene
 from ..shared import BlockError, block_error, means_of_blocks
 from .balance import (
@@ -76,7 +76,7 @@ def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, sample
     response = balance.response
     assert state.fields is not None and response is not None
     slopes = response.slopes
-    rows = slice(0, contact.heights.shape[1] // (2 if sample.is_single_patch and mirrored(contact.heights) else 1))
+    rows = slice(0, sample.distinct_rows(contact.heights))
     by_place = line_load(contact, state)[rows]
     step = contact.spacing[1]
     touching = state.fields.pressure[:, rows] > 0

@@ -28,6 +28,7 @@ from .prepared import (
     Prepared,
     at_speed,
     at_tolerance,
+    contact_of,
     contact_on,
     no_rough_film,
     on_piece,

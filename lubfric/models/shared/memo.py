@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, TypeVar
 
-from ...contact import HalfSpace, HalfSpaceContact
+from ...contact import HalfSpace, HalfSpaceContact, RoughContact
 from ...surface import Surface
 
 T = TypeVar("T")
@@ -26,7 +26,7 @@ class Key(Generic[T]):
 
 
 @dataclass(frozen=True)
-class StackKey(Key[HalfSpaceContact]):
+class StackKey(Key[RoughContact]):
     """The contact on the first ``count`` strips, on cells of this ``coarsening``."""
 
     coarsening: tuple[int, int]

@@ -1,19 +1,19 @@
 """A scene made ready: all that its speeds share."""
 
+import math
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
+from typing import cast
 
 import numpy as np
 
 from ..._base import FieldsOnly, Shown, validate, with_default_errors
-from ...contact import BOUNDARY, AsperityContact, FlatContact, HalfSpaceContact, RoughContact, half_space
+from ...contact import BOUNDARY, AsperityContact, FlatContact, HalfSpace, HalfSpaceContact, RoughContact, half_space
 from ...errors import InputError
 from ...samples import (
     PIECE,
     Sample,
-    flat_contact_of,
     half_space_contact_of,
-    independent_asperities_of,
     sample_of,
     together,
 )
@@ -112,8 +112,8 @@ def prepare(
         maps = (like.surface, *like.sample.bodies) if like.given else ()
         contact = None if like.own else like.contact
     with warn_unusual_values(scene):
-        sample = sample_of(scene, maps, is_given=contact is not None)
-        return _on_sample(scene, sample, contact, is_given=bool(maps) or contact is not None)
+        sample = sample_of(scene, maps, contact=contact)
+        return _on_sample(scene, sample, is_given=bool(maps) or contact is not None)
 
 
 def prepare_on_maps(scene: Scene, read: tuple[Surface, ...]) -> Prepared:
@@ -122,19 +122,19 @@ def prepare_on_maps(scene: Scene, read: tuple[Surface, ...]) -> Prepared:
     if scene.numerics.model == "deterministic":
         check_resolved_gap(scene)
     with warn_unusual_values(scene):
-        return _on_sample(scene, sample_of(scene, read=read), None, is_given=False)
+        return _on_sample(scene, sample_of(scene, read=read), is_given=False)
 
 
-def _on_sample(scene: Scene, sample: Sample, contact: RoughContact | None, *, is_given: bool) -> Prepared:
-    """Return ``scene`` made ready on ``sample``; ``contact``: None for lubfric's own."""
-    if sample.is_resolved:
-        return _on_cells(scene, sample, is_given=is_given)
+def _on_sample(scene: Scene, sample: Sample, *, is_given: bool) -> Prepared:
+    """Return ``scene`` made ready on ``sample``, with the contact on its first strips."""
     surface = sample.first_map()
-    if contact is None:
-        heights = surface.heights - surface.heights.mean()
-        flat = scene.contact.geometry == "flat"
-        contact = (flat_contact_of if flat else independent_asperities_of)(scene, heights, surface.spacing)
-    return Prepared(scene, surface, contact, sample, beforehand(scene, surface), given=is_given)
+    check_map(scene, surface)
+    memo = Memo()
+    contact = sample.contact(scene, sample.first, partial(_operator, memo, scene))
+    memo.put(StackKey(sample.cells.coarsening, sample.first), contact, _cells(contact))
+    prepared = Prepared(scene, surface, contact, sample, beforehand(scene, surface), given=is_given)
+    prepared.memo.keep_surface_of(memo)
+    return prepared
 
 
 def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -> tuple[Surface, ...]:
@@ -160,17 +160,22 @@ def no_rough_film(prepared: Prepared, speed: float) -> str:
 
 def contact_on(prepared: Prepared, sample: Sample, count: int) -> RoughContact:
     """Return the contact on the first ``count`` strips of ``sample``; of an unresolved one the only contact."""
-    return on_stack(prepared, sample, count) if sample.is_resolved else prepared.contact
+
+    def make() -> RoughContact:
+        return contact_of(prepared, sample, count, prepared.scene)
+
+    return prepared.memo.get(StackKey(sample.cells.coarsening, count), make, _cells)
+
+
+def contact_of(prepared: Prepared, sample: Sample, count: int, scene: Scene) -> RoughContact:
+    """Return the contact of ``scene``, which differs from the prepared one in inputs only, on the first ``count`` strips
+    of ``sample``."""
+    return sample.contact(scene, count, partial(_operator, prepared.memo, prepared.scene))
 
 
 def on_stack(prepared: Prepared, sample: Sample, count: int) -> HalfSpaceContact:
-    """Return the contact on the first ``count`` strips of ``sample``, joined."""
-
-    def make() -> HalfSpaceContact:
-        surface = sample.stack(count)
-        return _contact(prepared, surface.heights, surface.spacing, sample.cells.axis())
-
-    return prepared.memo.get(StackKey(sample.cells.coarsening, count), make, lambda contact: contact.heights.size)
+    """Return the contact on the first ``count`` strips of ``sample``, which is resolved."""
+    return cast(HalfSpaceContact, contact_on(prepared, sample, count))
 
 
 def on_strip(prepared: Prepared, sample: Sample, index: int) -> HalfSpaceContact:
@@ -200,25 +205,22 @@ def on_piece(
 
 def _contact(prepared: Prepared, heights: np.ndarray, spacing: tuple[float, float], x: np.ndarray) -> HalfSpaceContact:
     scene = prepared.scene
-    operator = prepared.memo.get(
-        OperatorKey(heights.shape, (spacing[0], spacing[1])),
-        lambda: half_space(heights.shape, spacing, scene.bodies.e_prime, BOUNDARY, workers=scene.numerics.workers),
-    )
+    operator = _operator(prepared.memo, scene, heights.shape, spacing)
     return half_space_contact_of(scene, heights - heights.mean(), spacing, operator=operator, x=x)
 
 
-def _on_cells(scene: Scene, sample: Sample, *, is_given: bool) -> Prepared:
-    """Return ``scene`` made ready on the first strips of ``sample``; of a patch its map is the native one."""
-    surface = sample.first_map()
-    check_map(scene, surface)
-    first = surface if sample.cells.is_native else sample.stack(sample.first)
-    heights = first.heights - first.heights.mean()
-    contact = half_space_contact_of(scene, heights, first.spacing, x=sample.cells.axis())
-    prepared = Prepared(scene, surface, contact, sample, beforehand(scene, surface), given=is_given)
-    prepared.memo.put(StackKey(sample.cells.coarsening, sample.first), contact, contact.heights.size)
-    operator = contact.operator
-    prepared.memo.put(OperatorKey(heights.shape, (first.spacing[0], first.spacing[1])), operator, operator.symbol.size)
-    return prepared
+def _operator(memo: Memo, scene: Scene, shape: tuple[int, ...], spacing: tuple[float, float]) -> HalfSpace:
+    """Return the half-space operator of ``scene`` on a grid, made once for ``memo``."""
+    return memo.get(
+        OperatorKey((shape[0], shape[1]), (spacing[0], spacing[1])),
+        lambda: half_space(shape, spacing, scene.bodies.e_prime, BOUNDARY, workers=scene.numerics.workers),
+        lambda operator: operator.symbol.size,
+    )
+
+
+def _cells(contact: RoughContact) -> int:
+    """Return the number of cells that a contact holds."""
+    return math.prod(contact.grid or (0,))
 
 
 def scene_of(scene: Scene | Prepared) -> Scene:
