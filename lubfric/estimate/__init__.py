@@ -1,8 +1,16 @@
-"""The answer at one speed: how many strips, on which cells, by which model, and the uncertainty of f.
+"""The answer at one speed: by which model, on how many strips and which cells, and the uncertainty of f.
 
-`sampled` asks a model for more strips and shorter cells until the tolerances are met; `friction` chooses the model;
-`answer` builds the one `FrictionResult` from what the model answers; `uncertainty` makes the interval, `ranges` adds the
-inputs. Nothing here knows how a model solves: the contract is `lubfric.models.contract`.
+The way of a point, in the order of the modules:
+
+1. `friction` checks the call, limits the work and hands the point on.
+2. `choice` finds the model that answers, and why: it asks the models of `lubfric.models.MODELS`, the cheapest first.
+3. `sampled` asks one model for more strips and shorter cells until the tolerances are met.
+4. `answer` builds the one `FrictionResult` (`result`) from what the model answers; `uncertainty` makes the interval, and
+   `ranges` adds what the ranges of the inputs change.
+5. `power`, `full_load` and `methods` add what follows from the result: power, lambda ratio, papers.
+
+`outlook` estimates beforehand what a point will take. Nothing here knows how a model solves: the contract is
+`lubfric.models.contract`, and a test holds that no module imports a model.
 """
 
 from .friction import LEAST_WORK, TIMES_ESTIMATE, friction

@@ -1,4 +1,4 @@
-"""The friction coefficient of one operating point: scene -> film -> contact -> balance -> friction."""
+"""The friction coefficient of one operating point: scene -> sample -> model -> estimate -> result."""
 
 import math
 import time
@@ -41,23 +41,22 @@ def friction(
     raise_on_failure: bool = True,
     workers: int = 1,
 ) -> FrictionResult:
-    """Friction coefficient of a scene at one entrainment speed.
+    """Return the friction coefficient of a scene at one entrainment speed, with its uncertainty.
 
-    Film and rough contact share the load. Two balances hold together: F_T = F_C + F_H, and the lubricant volume of Eq.
-    (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). Without entrainment the contact carries the total load.
-    When the film separates the surfaces, no contact is solved. The solve stops when ``|gap - film|/(gap + film)``, of
-    means over A, is <= its tolerance (`Numerics.tolerance_of`) divided by the share of the film in f. Where the error
-    of that model may be more than ``numerics.model_tolerance``, strips of the surface by the deterministic model
-    correct it or answer in its place (docs/uncertainty.md).
+    A sample of the rough surface represents the infinite line contact: strips of it, solved by a model until the sampling error
+    is within its tolerance. The models are the load-sharing model, in which film and rough contact share one load by
+    Eq. (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z), with the friction of the paper or a calibrated one,
+    and the deterministic model, which solves the film between the rough surfaces. By default the cheapest one answers
+    whose model-form error is within ``numerics.model_tolerance`` (docs/models.md). Without entrainment the contact
+    carries the total load. Where the film is thicker than the highest asperities, no contact is solved.
 
     Parameters
     ----------
     scene : from `lubfric.load_scene`, or from `lubfric.prepare` for many speeds
     speed : entrainment speed U [m/s]; None: the scene's own
-    tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need
-        (docs/levels.md)
-    model : "load-sharing", with a calibrated error; "paper", Eqs. (8) and (9); "deterministic"; or "auto": the
-        cheapest that is good enough; None: the scene's. Or a `lubfric.models.Model` of your own
+    tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need (docs/levels.md)
+    model : "paper", Eqs. (8) and (9); "load-sharing", Eq. (8) with a calibrated friction and error; "deterministic"; or
+        "auto": the cheapest that is good enough; None: the scene's. Or a `lubfric.models.Model` of your own
     fields : True: a single patch is solved on its own cells, so that ``result.fields`` are on them (on strips: on
         theirs); "fine": a part of the surface is solved once more, on some 40 cells across the Hertz strip, for
         ``result.fields``

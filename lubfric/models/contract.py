@@ -2,8 +2,10 @@
 
 A `Model` solves the first strips of a sample at one speed. Its `SampleSolution` says how many strips the tolerances
 need and whether their cells are too coarse; `lubfric.estimate` asks it until both are enough, corrects it, and builds
-the `FrictionResult` from its `ModelAnswer`. What else a model knows of its strips, it may hand to a more expensive one
-as `ControlVariate`. The two models of lubfric, and one of 30 lines in tests/test_contracts.py, do no more than this.
+the `FrictionResult` from its `ModelAnswer`. What else a model knows of its strips, it may hand to a more expensive one as
+`ControlVariate`. `name` and `solve` of a model and two members of its solution are all that has to be written; the
+other members say what a model costs, where it applies and whether it is good enough, and have defaults. The three
+models of lubfric, and one of 30 lines in tests/test_contracts.py, do no more than this.
 """
 
 from __future__ import annotations

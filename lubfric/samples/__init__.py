@@ -1,5 +1,10 @@
-"""The sample of rough surface that represents the infinite line contact: strips of it, one patch, or a contact without
-cells."""
+"""The sample of rough surface that represents the infinite line contact: strips of it, one patch, or a contact without cells.
+
+`contract` says what a `Sample` is: strips by number, pieces on native cells, and the rough contact on them. `choose` says
+which one a scene gets: `strips` (generated, or windows of a measured map), or `patch` (one map, and contacts that are
+not solved on cells). `maps` makes, reads and prepares the height maps, `cells` finds the length of the cells, and
+`contacts` turns the keys of a scene into a contact of `lubfric.contact`.
+"""
 
 from .cells import length_or_half
 from .choose import sample_of, takes_strips

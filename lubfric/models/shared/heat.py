@@ -36,6 +36,9 @@ NOTHING = 1e-9  # of the film: less heat than that is none
 TYPICAL = 343.15, 0.035  # K, 1/K: a mineral oil of ISO VG 68 at 70 °C
 DOUBT = 0.5  # of what heat does to f: how far that may be off
 
+# Exponent of the viscosity in Moes' film, about: it changes slowly, between 0.5 and 1.
+EXPONENT = 0.7
+
 
 @dataclass(frozen=True)
 class Heat:
@@ -147,6 +150,8 @@ def film_lubricant(scene: Scene, speed: float) -> Lubricant:
             f"factor of Gupta et al. (1992); allowed: up to about {LARGEST:g}, or numerics.heat = 'off' (speed, "
             "viscosity, temperature_coefficient and their units?)"
         )
+    from scipy.optimize import newton
+
     lubricant = scene.lubricant
     whole = scene.line_contact(speed)
 
@@ -155,9 +160,7 @@ def film_lubricant(scene: Scene, speed: float) -> Lubricant:
         return math.log(replace(whole, lubricant=made).moes_film / whole.moes_film)
 
     wanted = math.log(inlet.factor)
-    share = math.log(inlet.factor) / 0.7
-    for _ in range(6):  # the exponent of the viscosity changes slowly, between 0.5 and 1
-        share *= wanted / thinner(share)
+    share = newton(lambda share: thinner(share) - wanted, wanted / EXPONENT)
     return replace(lubricant, viscosity=lubricant.viscosity * math.exp(share))
 
 
