@@ -83,7 +83,7 @@ class Sample(ABC):
         """
         surface = self.stack(count)
         heights = surface.heights - surface.heights.mean()
-        made = operator(heights.shape, surface.spacing)
+        made = operator(surface.shape, surface.spacing)
         return half_space_contact_of(scene, heights, surface.spacing, operator=made, x=self.cells.axis())
 
     def for_fields(self) -> Self:

@@ -205,14 +205,15 @@ def on_piece(
 
 def _contact(prepared: Prepared, heights: np.ndarray, spacing: tuple[float, float], x: np.ndarray) -> HalfSpaceContact:
     scene = prepared.scene
-    operator = _operator(prepared.memo, scene, heights.shape, spacing)
+    (nx, ny) = heights.shape
+    operator = _operator(prepared.memo, scene, (nx, ny), spacing)
     return half_space_contact_of(scene, heights - heights.mean(), spacing, operator=operator, x=x)
 
 
-def _operator(memo: Memo, scene: Scene, shape: tuple[int, ...], spacing: tuple[float, float]) -> HalfSpace:
+def _operator(memo: Memo, scene: Scene, shape: tuple[int, int], spacing: tuple[float, float]) -> HalfSpace:
     """Return the half-space operator of ``scene`` on a grid, made once for ``memo``."""
     return memo.get(
-        OperatorKey((shape[0], shape[1]), (spacing[0], spacing[1])),
+        OperatorKey(shape, (spacing[0], spacing[1])),
         lambda: half_space(shape, spacing, scene.bodies.e_prime, BOUNDARY, workers=scene.numerics.workers),
         lambda operator: operator.symbol.size,
     )
