@@ -12,6 +12,7 @@ from lubfric.film import moes_film
 from ...fem.parts import case_of, moes_unit
 from ...fem.solvers import ehl as fem
 from ...fem.solvers.report import SolveError
+from ..dense_newton import dense_newton
 from .measure import interleaved, point
 
 POINTS = ((1, 5), (10, 10), (20, 5), (100, 20), (1000, 20))
@@ -63,6 +64,10 @@ def runs(case: dict, M: float, L: float, quick: bool) -> Iterator[tuple]:
         film, seconds = interleaved({"": call}, 1 if quick else 3)[""]
         if film.report.status == "converged":
             yield "differential deflection", f"{nodes} nodes", quantities(film), seconds, nodes
+    for nodes in (129, 257) if quick else (129, 257, 513, 1025):
+        plain, seconds = interleaved({"": partial(dense_newton, case, nodes)}, 1 if quick else 3)[""]
+        if plain.converged:
+            yield "dense Newton", f"{nodes} nodes", (plain.min_film, plain.flow_film), seconds, nodes
     if M <= 100:  # beyond, its meshes cost minutes
         yield from finite_elements(case, quick)
     value, seconds = interleaved({"": partial(moes_film, M, L)}, 21)[""]

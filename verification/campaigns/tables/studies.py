@@ -150,6 +150,7 @@ TABLES: dict[str, Callable[[], Cells]] = {
     **{f"published-{part.name}": partial(publications_of, part.name) for part in PUBLISHED},
     "published-differing": differing,
     "rough-strip": rough_strip,
+    "touching-strip": partial(table_of, "touching_strip", "touching-strip"),
     "starved": partial(table_of, "starved", "starved"),
     "sharing-in-time": partial(table_of, "sharing_in_time", "sharing-in-time"),
     "waviness": waviness,
