@@ -100,18 +100,17 @@ def roller() -> lubfric.Scene:
 def drawn(histories: list[tuple[str, np.ndarray]]) -> Figure:
     """Return Sq and lift-off speed over the distance, each over its value as made, with the published ranges."""
     canvas, (left, right) = plotting.axes(1, 2, 9.0, 3.6)
-    for (kind, table), marker in zip(histories, "os"):
+    for (kind, table), marker, dents in zip(histories, "os", ("after the dents", "")):
         worn = table[:, 2:]
         left.plot(worn[0], worn[1], f"{marker}-", label=kind)
         right.plot(worn[0], worn[2] / table[2, 0], f"{marker}-", label=kind)
-        left.axhline(table[1, 1], linestyle=":", color="0.5")
-        right.axhline(table[2, 1] / table[2, 0], linestyle=":", color="0.5")
-    left.axhspan(PUBLISHED_SQ, 1.0, color="0.9", label="published: down by up to 17 %")
-    right.axhspan(PUBLISHED_SPEED, 1.0, color="0.9", label="published: down by up to 90 %")
-    left.set(xscale="log", xlabel="sliding in the contact (m)", ylabel="Sq over that as made", ylim=(0.5, 1.05))
-    right.set(
-        xscale="log", xlabel="sliding in the contact (m)", ylabel="lift-off speed over that as made", ylim=(0, 1.05)
-    )
+        left.axhline(table[1, 1], linestyle=":", color="0.4", label=dents)
+        right.axhline(table[2, 1] / table[2, 0], linestyle=":", color="0.4", label=dents)
+    left.axhspan(PUBLISHED_SQ, 1.0, color="0.9", label="published: decrease by up to 17 %")
+    right.axhspan(PUBLISHED_SPEED, 1.0, color="0.9", label="published: decrease by up to 90 %")
+    distance = "sliding distance in the contact (m)"
+    left.set(xscale="log", xlabel=distance, ylabel="Sq / Sq as made (-)", ylim=(0.5, 1.05))
+    right.set(xscale="log", xlabel=distance, ylabel="lift-off speed / lift-off speed as made (-)", ylim=(0, 1.05))
     for ax in (left, right):
         ax.legend(fontsize=8)
     caption = "Running-in of a roller of 1 GPa by dents (dotted) and wear, with the ranges of Hansen et al. (2020)"
