@@ -112,6 +112,6 @@ def drawn(histories: list[tuple[str, np.ndarray]]) -> Figure:
     left.set(xscale="log", xlabel=distance, ylabel="Sq / Sq as made (-)", ylim=(0.5, 1.05))
     right.set(xscale="log", xlabel=distance, ylabel="lift-off speed / lift-off speed as made (-)", ylim=(0, 1.05))
     for ax in (left, right):
-        ax.legend(fontsize=8)
+        ax.legend(fontsize=8, loc="lower left")
     caption = "Running-in of a roller of 1 GPa by dents (dotted) and wear, with the ranges of Hansen et al. (2020)"
     return plotting.finish("running-in", canvas, caption)
