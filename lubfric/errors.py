@@ -183,7 +183,7 @@ class Report:
         if not self.converged:
             raise ConvergenceError(self.message, self, result)
 
-    def as_dict(self) -> dict:
+    def as_dict(self) -> dict[str, Any]:
         """Plain types only, ready for JSON."""
         return asdict(self) | {"converged": self.converged}
 

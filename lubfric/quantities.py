@@ -35,7 +35,7 @@ class Quantity(NamedTuple):
     most: float = math.inf
     usual: Sequence[float] = ()
     zero: bool = False
-    meant: Sequence = ()
+    meant: Sequence[Any] = ()
 
     @property
     def limited(self) -> bool:

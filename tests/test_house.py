@@ -23,7 +23,7 @@ ODD_WORDS = frozenset(
 )
 FRAGMENT = re.compile(r"^(Of|Those|That of|The same|As)\b")
 # What stands in lubfric from before these rules: a number here may only fall.
-REMAINING = {"classes": 0, "odd words": 0, "fragments": 0, "untyped": 30}
+REMAINING = {"classes": 0, "odd words": 0, "fragments": 0, "untyped": 0}
 # Names that tests import from inside a room, of all names that they import from lubfric.
 PRIVATE_SHARE = 0.25
 
@@ -138,7 +138,9 @@ def public_functions() -> Iterator[tuple[str, object]]:
         if inspect.isfunction(thing):
             yield name, thing
         elif inspect.isclass(thing):
-            methods = {key: value for key, value in vars(thing).items() if inspect.isfunction(value)}
+            methods = {
+                key: value for key, value in vars(thing).items() if inspect.isfunction(value) and value.__name__ == key
+            }
             yield from ((f"{name}.{key}", value) for key, value in methods.items() if not key.startswith("_"))
 
 

@@ -67,7 +67,7 @@ def cluster(address: str) -> Iterator[Any]:
         client.close(timeout=CONNECT)
 
 
-def spread(executor: Any, jobs: Iterable[Callable[[], Iterator]]) -> Iterator:
+def spread(executor: Any, jobs: Iterable[Callable[[], Iterator[Any]]]) -> Iterator[Any]:
     """Yield what the ``jobs`` yield. Done here, the values come at once; from an executor, those of a job come when it
     has ended.
 
@@ -82,11 +82,11 @@ def spread(executor: Any, jobs: Iterable[Callable[[], Iterator]]) -> Iterator:
             yield from job()
         return
     left = iter(jobs)
-    ended: SimpleQueue = SimpleQueue()  # `concurrent.futures.wait` would leave locks behind when it is interrupted
-    waiting: dict[Any, tuple[Callable, int]] = {}
-    here: list[Callable[[], Iterator]] = []
+    ended: SimpleQueue[Any] = SimpleQueue()  # `concurrent.futures.wait` would leave locks behind when it is interrupted
+    waiting: dict[Any, tuple[Callable[..., Any], int]] = {}
+    here: list[Callable[[], Iterator[Any]]] = []
 
-    def submit(job: Callable[[], Iterator], attempt: int) -> None:
+    def submit(job: Callable[[], Iterator[Any]], attempt: int) -> None:
         try:
             future = executor.submit(_attempt, job)
         except (BrokenExecutor, RuntimeError, OSError):  # by a worker that was lost before, or an executor that is shut

@@ -77,7 +77,7 @@ def _no_formula(cell: Any) -> Any:
     return cell
 
 
-class Columns(dict):
+class Columns(dict[str, Any]):
     """Columns of a table by name; a missing one is an `InputError`."""
 
     def __missing__(self, name: str) -> None:

@@ -189,7 +189,7 @@ def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
     """
     a = real_array(name, value, unit)
     if np.ma.is_masked(value):
-        said = f" has {np.ma.count_masked(value)} of {a.size} values masked"
+        said = f" has {np.count_nonzero(np.ma.getmaskarray(value))} of {a.size} values masked"
         raise InputError(said, name, f"none (finite values in {unit})")
     if a.ndim != ndim:
         raise InputError(f" has {a.ndim} axes (shape {a.shape})", name, f"exactly {ndim} [{unit}]")
@@ -265,7 +265,7 @@ def _odd_entry(value: Any, depth: int) -> str:
     return "masked values" if value is np.ma.masked else ""
 
 
-def choice(name: str, value: Any, options: Iterable) -> Any:
+def choice(name: str, value: Any, options: Iterable[Any]) -> Any:
     """One of ``options``; the error names the nearest valid one."""
     options = tuple(options)
     if isinstance(value, (str, int, np.integer)) and not isinstance(value, bool) and value in options:
@@ -273,7 +273,7 @@ def choice(name: str, value: Any, options: Iterable) -> Any:
     raise InputError(f" = {shown(value)} is not known{nearest(value, options)}", name, ", ".join(map(repr, options)))
 
 
-def nearest(word: Any, options: Iterable, cutoff: float = 0.4) -> str:
+def nearest(word: Any, options: Iterable[Any], cutoff: float = 0.4) -> str:
     """' (did you mean ...?)' or an empty string; ``cutoff``: the least likeness, 0 to 1."""
     text = word[:LONGEST_SHOWN] if isinstance(word, str) else shown(word)
     matches = difflib.get_close_matches(text, [str(o) for o in options], n=1, cutoff=cutoff)
@@ -289,7 +289,7 @@ def installed(name: str, extra: str) -> Any:
         raise InputError(said) from None
 
 
-def keys(where: str, given: Iterable, allowed: Iterable[str], other: Callable[[], dict[str, str]] = dict) -> None:
+def keys(where: str, given: Iterable[Any], allowed: Iterable[str], other: Callable[[], dict[str, str]] = dict) -> None:
     """Raise `InputError` for a key of ``given`` that is none of ``allowed``. ``other`` gives other words for keys, and
     what to write instead; the similarity of the letters decides where a word is not among them."""
     options = list(allowed)

@@ -31,7 +31,7 @@ def _once(method: Callable[..., Any]) -> Callable[..., Any]:
     """Keep what a method of an operator makes, by its arguments: it depends on nothing else."""
 
     @wraps(method)
-    def kept(self, *arguments: int | tuple[int, int]) -> Callable[..., Any] | HalfSpace:
+    def kept(self: Any, *arguments: int | tuple[int, int]) -> Any:
         made = self.__dict__.setdefault("_made", {})
         key = (method.__name__, *arguments)
         if key not in made:

@@ -17,6 +17,7 @@ changes the pressure a lot: for nearly rigid bodies, and after rounds that gaine
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -107,7 +108,9 @@ class CandidateSearch:
         if exact:
             stiffness = (factor * wavenumber(cells.shape, operator.spacing)).astype(np.float32)
             of = stiffness, cells.shape, operator.workers
-            self.turned = lambda values: cells.gather(filtered(cells.field(values), *of))
+            self.turned: Callable[[np.ndarray], np.ndarray] = lambda values: cells.gather(
+                filtered(cells.field(values), *of)
+            )
         else:
             self.turned = stencil(cells, operator.spacing, operator.boundary, factor)
 

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -105,7 +106,7 @@ class UncertaintyCurve(UncertaintyQuantities[np.ndarray]):
     text: tuple[str, ...]
 
 
-def curve_of(points: Sequence) -> UncertaintyCurve:
+def curve_of(points: Sequence[Any]) -> UncertaintyCurve:
     """The `UncertaintyCurve` of ``points``, each an `Uncertainty` or None."""
     columns = {name: np.array([math.nan if p is None else getattr(p, name) for p in points]) for name in OF_UNCERTAINTY}
     both = np.array([(math.nan, math.nan) if p is None else p.interval for p in points]).reshape(len(points), 2)

@@ -6,6 +6,7 @@
 
 import math
 from dataclasses import replace
+from typing import Any
 
 from .._base import increasing_root, validate, with_default_errors
 from ..errors import returned
@@ -140,7 +141,7 @@ def _fed(full: FilmProblem, flow: float, effort: Effort, state: FilmState | None
 
 
 def _searched_inlet(
-    problem: FilmProblem, effort: Effort, state: FilmState, furthest: float, spent, notes
+    problem: FilmProblem, effort: Effort, state: FilmState, furthest: float, spent: Any, notes: Any
 ) -> NestedSolutions:
     """Return the same by a search for the inlet. Where nearly as much arrives as the full inlet takes, the flow
     depends little on where the lubricant begins, and Newton's method for that place fails."""
@@ -149,7 +150,7 @@ def _searched_inlet(
     b = problem.half_width
     assert flow is not None and guess is not None
 
-    def surplus(log_distance: float, last) -> tuple[float, NestedSolutions]:
+    def surplus(log_distance: float, last: Any) -> tuple[float, NestedSolutions]:
         closer = replace(effort, least_cells=max(effort.least_cells, last[1][-1].grid.n)) if last else effort
         there = replace(problem, fed=None, inlet=b + math.exp(log_distance))
         near = solution_state(there, last[1][-1], 0.0) if last else state

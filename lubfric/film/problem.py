@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from operator import attrgetter
+from typing import Any
 
 import numpy as np
 
@@ -107,7 +108,7 @@ class FilmProblem:
         sheared = self.contact.sliding is not None and self.times < math.inf
         return law if law is not None and law.thins and sheared else None
 
-    def thinned(self, fluidity: FloatArray, H: FloatArray, gradient: FloatArray) -> tuple:
+    def thinned(self, fluidity: FloatArray, H: FloatArray, gradient: FloatArray) -> tuple[Any, ...]:
         """Factor Φ of the pressure flow where 1/eta, film and dP/dX are given (n,), s dΦ/ds and b dΦ/db (`thinned`)."""
         contact = self.contact
         law = self.thins_by

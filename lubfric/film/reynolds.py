@@ -20,6 +20,7 @@ a given film arrives, q is known, and that place a = -X[0] is the unknown instea
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -55,12 +56,12 @@ class ReynoldsTerms:
     by_stretch: np.ndarray  # d(H00 + X²/2 + K P)/ds of the grid stretched by s
     q: float
     slope: np.ndarray  # d ln(eta)/dP at the nodes
-    density: tuple  # rho and d rho/dP at the nodes
+    density: tuple[Any, ...]  # rho and d rho/dP at the nodes
     face_density: np.ndarray
     face_H: np.ndarray
-    fluidity: tuple  # logarithmic mean and its derivatives by ln(eta) left, right
+    fluidity: tuple[Any, ...]  # logarithmic mean and its derivatives by ln(eta) left, right
     gradient: np.ndarray  # (dP/dX)/6
-    thin: tuple  # Φ, s dΦ/ds, b dΦ/db
+    thin: tuple[Any, ...]  # Φ, s dΦ/ds, b dΦ/db
     flux: np.ndarray  # mass flux towards +X, Couette minus Poiseuille
 
 

@@ -49,7 +49,7 @@ def from_grade(grade: str, viscosity_index: float, **properties: Any) -> Oil:
     return _through(nu40, nu100, given, {"name": f"ISO VG {nu40 * 1e6:g}, VI {viscosity_index:g}"} | properties)
 
 
-def _through(nu40: float, nu100: float, said: dict, properties: dict) -> Oil:
+def _through(nu40: float, nu100: float, said: dict[str, Any], properties: dict[str, Any]) -> Oil:
     """Return an `Oil` by D341 through two viscosities [m²/s], which follow from what was ``said``."""
     return Oil(walther((AT_40, nu40), (AT_100, nu100), **said), **properties)
 

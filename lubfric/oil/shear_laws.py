@@ -29,7 +29,7 @@ class ShearLaw:
     the same at any pressure."""
 
     key = ""
-    others: tuple = ()
+    others: tuple[Any, ...] = ()
     thins = False
 
     def __init__(self, oil: Any):

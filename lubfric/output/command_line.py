@@ -7,7 +7,7 @@ from argparse import Namespace
 from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .._base import __version__, packaged
 from ..errors import ConvergenceError, InputError, LubfricError
@@ -22,7 +22,7 @@ CURVE = "a Stribeck curve"
 RATIOS = "a traction curve (--ratios)"
 IN_TIME = "a scene with [transient]"
 FOR = {"ratios": RATIOS, "animation": IN_TIME} | dict.fromkeys(("speeds", "fields", "workers", "vtk"), CURVE)
-KINDS: dict[str, dict] = {"path": {"type": Path}, "count": {"type": int}, "switch": {"action": "store_true"}}
+KINDS: dict[str, dict[str, Any]] = {"path": {"type": Path}, "count": {"type": int}, "switch": {"action": "store_true"}}
 
 
 def main(argv: Sequence[str] | None = None) -> int:

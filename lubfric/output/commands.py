@@ -181,7 +181,7 @@ def run_begun(
         yield folder, prepared, estimate
 
 
-def read_record(folder: Path) -> dict:
+def read_record(folder: Path) -> dict[str, Any]:
     """What result.json of a run holds: at least the name of the scene. Raises `InputError` for anything else."""
     path = folder / RESULT
     again = "give a folder that 'lubfric run' wrote, or run it again"
@@ -195,7 +195,7 @@ def read_record(folder: Path) -> dict:
     return record
 
 
-def files_read(paths: Iterable) -> list[Path]:
+def files_read(paths: Iterable[Any]) -> list[Path]:
     """The files among ``paths`` (None and what is no file: omitted), and those that the TOML files among them name."""
     read: dict[Path, None] = {}
     waiting = [Path(path) for path in paths if path is not None]
@@ -226,7 +226,7 @@ def check_outputs(arguments: Namespace, folder: Path, names: Iterable[str], patt
     own.check({*names, *own.among(patterns)}, inputs)
 
 
-def made(name: str, write: Callable, *arguments: Any) -> bytes:
+def made(name: str, write: Callable[..., Any], *arguments: Any) -> bytes:
     """The content of the file that ``write(path, *arguments)`` makes; ``name``: of the file."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / name
@@ -249,7 +249,7 @@ class RunFolder:
         self.contents: dict[str, bytes] = {}
         self.failures: list[str] = []
 
-    def draw(self, name: str, plot: Callable, *arguments: Any) -> None:
+    def draw(self, name: str, plot: Callable[..., Any], *arguments: Any) -> None:
         """Add the picture that ``plot(path, *arguments)`` saves. One that cannot be drawn is reported at the end."""
         try:
             self.contents[name] = made(name, plot, *arguments)
@@ -262,7 +262,7 @@ class RunFolder:
         result: Any,
         units: dict[str, Quantity],
         **numbers: object,
-    ) -> dict:
+    ) -> dict[str, Any]:
         """The record of a run: date, resolved input, map, versions, timing, report, violated assumptions, ``numbers``;
         ``units`` of these, beside those of the input."""
         import scipy
@@ -292,7 +292,7 @@ class RunFolder:
         self,
         prepared: Prepared,
         estimate: SceneEstimate,
-        given: dict,
+        given: dict[str, Any],
         result: Any,
         units: dict[str, Quantity],
         law: Law | str = "",

@@ -62,10 +62,10 @@ def report_page(
     prepared: Prepared,
     result: CurveResult | TransientResult,
     *,
-    record: dict,
+    record: dict[str, Any],
     contents: dict[str, bytes],
     estimate: SceneEstimate,
-    given: dict,
+    given: dict[str, Any],
     law: Law | str = "",
 ) -> bytes:
     """Return the page of ``result``.
@@ -443,7 +443,7 @@ def _effects(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: str) -
         return "<p>No known effect that is not modelled would change f by more than its tolerance.</p>"
     rows = [
         f"<td>{escape(sentence(what))}</td>"
-        f'<td class="number">{change_in_words(*changes)}</td>'  # type: ignore[arg-type]
+        f'<td class="number">{change_in_words(*changes)}</td>'
         f"<td>{escape(sentence(advice))}</td>"
         for what, *changes, advice in effects
     ]
@@ -456,7 +456,7 @@ def _warnings(validity: Iterable[str]) -> str:
     return _list(texts, "Every assumption that is checked holds.", "warning")
 
 
-def _inputs(scene: Scene, section: str, given: dict) -> str:
+def _inputs(scene: Scene, section: str, given: dict[str, Any]) -> str:
     """Return the inputs of a section: each value used, how it was given, and what follows from them."""
     shown = dict(given)
     rows = []
@@ -473,7 +473,7 @@ def _inputs(scene: Scene, section: str, given: dict) -> str:
     return (f"<h3>{section}</h3>{table(heads, rows)}" if rows else "") + facts
 
 
-def _short(section: str, given: dict) -> bool:
+def _short(section: str, given: dict[str, Any]) -> bool:
     return any(name in given for name in short_keys(section))
 
 
@@ -496,7 +496,7 @@ def _method(prepared: Prepared, estimate: SceneEstimate) -> str:
     )
 
 
-def _made(record: dict) -> str:
+def _made(record: dict[str, Any]) -> str:
     """Return versions, the hash of the scene, and the time of the run."""
     rows = [
         *record["versions"].items(),

@@ -59,7 +59,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
     one are there. Every point is on disk when it ends, so an interrupted run continues from there. A failed run writes
     what it has, then raises `ConvergenceError`.
     """
-    ended: list[tuple] = []
+    ended: list[tuple[Any, ...]] = []
     speeds, chosen = _requested(scene, arguments.speeds, arguments.fields)
     total = "some" if speeds == studies.AUTO else len(speeds)
     progress = _progress("U = {:<9.4g} m/s")
@@ -195,7 +195,7 @@ def _drawable(columns: Columns) -> np.ndarray:
     return np.isfinite(columns["coefficient"]) & ("ratio" in columns or columns["speed"] != 0)
 
 
-def _point(curve: studies.CurveResult, index: int) -> dict:
+def _point(curve: studies.CurveResult, index: int) -> dict[str, Any]:
     """The record of a point: its numbers, the error of f as text too, and the errors of the other numbers; or why
     there are none."""
     name = curve.SWEPT[0]
@@ -229,7 +229,9 @@ def plot_again(arguments: Namespace) -> None:
     record = read_record(folder)
     title = record["scene"]["name"]
     if name == "history":
-        again: Callable = partial(plot_history, columns=columns, title=figures.plain_words(title), options=options)
+        again: Callable[..., Any] = partial(
+            plot_history, columns=columns, title=figures.plain_words(title), options=options
+        )
     else:
         points = _points_of(folder / f"{name}.csv", columns, record)
         again = partial(_plot, columns=columns, title=title, points=points, options=options)
@@ -262,7 +264,7 @@ def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
     return PictureOptions(panels=panels, width=width, **scales)
 
 
-def _points_of(source: Path, columns: Columns, record: dict) -> list[dict]:
+def _points_of(source: Path, columns: Columns, record: dict[str, Any]) -> list[dict[str, Any]]:
     """The points of a ``record`` that belong to the table ``source``, of which something can be drawn."""
     points = record.get("points", [])
     count = columns["coefficient"].size
@@ -278,7 +280,7 @@ def _plot(
     path: Path,
     columns: Columns,
     title: str,
-    points: list[dict],
+    points: list[dict[str, Any]],
     measured: Any = None,
     options: PictureOptions = PictureOptions(),
 ) -> None:
@@ -326,7 +328,7 @@ def _raise_if_failed(curve: studies.CurveResult) -> None:
     raise ConvergenceError(f"{', '.join(counts)}; first: {curve.errors[min(curve.errors)]}", curve.report)
 
 
-def _requested(scene: Scene, speeds: str | None, fields: str | None) -> tuple:
+def _requested(scene: Scene, speeds: str | None, fields: str | None) -> tuple[Any, ...]:
     """Return the speeds [m/s] to solve, or "auto", and those of them whose fields are drawn and written. The latter are
     added where they are missing, in order if the others are in order; a line on stderr says so."""
     chosen = parse_speeds("--fields", fields) or [scene.motion.entrainment_speed]
@@ -428,7 +430,7 @@ def _moments_told(interval: float = PATIENCE) -> Callable[[str, int, int], None]
     return report
 
 
-def _progress(place: str) -> Callable:
+def _progress(place: str) -> Callable[..., Any]:
     """What says how a point ended; ``place``: the template of its place on the curve."""
 
     def on_point(done: int, total: int, value: float, outcome: FrictionResult | ValidityError) -> None:

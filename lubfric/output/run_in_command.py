@@ -9,6 +9,7 @@ from html import escape
 from importlib.resources import files
 from pathlib import Path
 from string import Template
+from typing import Any
 
 import numpy as np
 
@@ -87,7 +88,7 @@ def answer_lines(result: RunIn) -> list[str]:
             ("The friction coefficient", wear.coefficient, wear.interval, "-"),
             ("The lift-off speed", wear.lift_off_speed, wear.lift_off_interval, "m/s"),
         ):
-            ends = [with_interval(float(values[i]), *map(float, intervals[i]), unit=unit) for i in (0, -1)]
+            ends = [with_interval(values[i], intervals[i][0], intervals[i][1], unit=unit) for i in (0, -1)]
             lines.append(f"{name} changes from {ends[0]} to {ends[1]}.")
         lines += [f"Note: {note}." for note in wear.notes]
     return lines
@@ -139,7 +140,7 @@ def _npy(heights: np.ndarray) -> bytes:
     return file.getvalue()
 
 
-def _record(scene: Scene, result: RunIn) -> dict:
+def _record(scene: Scene, result: RunIn) -> dict[str, Any]:
     """Return what run_in.json holds."""
     return {
         "version": __version__,

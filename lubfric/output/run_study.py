@@ -9,7 +9,7 @@ from argparse import Namespace
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -196,7 +196,7 @@ def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
     return bounds
 
 
-def _record(fitted: studies.FitResult) -> dict:
+def _record(fitted: studies.FitResult) -> dict[str, Any]:
     of_fit = ("values", "intervals", "covariance", "moved_by_surface", "undetermined", "at_bounds", "validity")
     names = (*of_fit, "describes_data", "other_minima", "starts")
     return {name: getattr(fitted, name) for name in names} | {

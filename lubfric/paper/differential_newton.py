@@ -32,7 +32,7 @@ class DifferentialSolution:
     H: np.ndarray
     terms: DifferentialTerms
     status: str
-    residuals: dict
+    residuals: dict[str, Any]
     history: tuple[float, ...]
     solves: int
 

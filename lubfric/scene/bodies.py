@@ -20,7 +20,7 @@ FRICTION_OVER = {"sliding_speed": "m/s", "temperature": "K"}  # what a table of 
 LARGEST = 2**26  # cells of a contact grid
 
 
-def pair(name: str, value: tuple[float, float], unit: str) -> tuple:
+def pair(name: str, value: tuple[float, float], unit: str) -> tuple[Any, ...]:
     """A list or tuple of two values, one for each body."""
     if not isinstance(value, (list, tuple)) or len(value) != 2:
         raise InputError(f" = {validate.shown(value)} must be a pair, one value a body [{unit}]", name)

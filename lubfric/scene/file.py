@@ -60,12 +60,12 @@ def load_scene(
     return scene_from_table(table, folder, name)
 
 
-def given_tables(source: str) -> dict:
+def given_tables(source: str) -> dict[str, Any]:
     """Return the tables of a scene file, or of a built-in scene, as they are written; ``source`` as in `load_scene`."""
     return dict(source) if isinstance(source, dict) else _read(source)[0]
 
 
-def read_toml(path: Path | Traversable, what: str) -> dict:
+def read_toml(path: Path | Traversable, what: str) -> dict[str, Any]:
     """The tables of a TOML file; raises `InputError`, which says ``what`` it should be, where it cannot be read."""
     try:
         size = path.stat().st_size if isinstance(path, Path) else 0
@@ -83,7 +83,7 @@ def read_toml(path: Path | Traversable, what: str) -> dict:
         raise InputError(f"{said} (numbers have a decimal point; one with a unit stands in quotes: '12 mm')") from None
 
 
-def _put_map(table: dict, section: str, path: str | Path) -> None:
+def _put_map(table: dict[str, Any], section: str, path: str | Path) -> None:
     """Put the map at ``path`` instead of the roughness in ``section`` of a scene's ``table``."""
     path = _map_path(f"{section}_file", path, Path())
     if not all(isinstance(table.get(name, {}), dict) for name in (section, "contact")):
@@ -119,7 +119,7 @@ def builtin_scenes() -> tuple[str, ...]:
     return tuple(sorted(f.name.removesuffix(".toml") for f in SCENES.iterdir() if f.name.endswith(".toml")))
 
 
-def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
+def scene_from_table(table: dict[str, Any], folder: Path, name: str) -> Scene:
     """A validated `Scene` from the tables of a TOML file."""
     validate.keys("scene", table, ("name", *SECTIONS), lambda: meant("scene"))
     for section in SECTIONS:
@@ -143,7 +143,7 @@ def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
     return Scene(**parts, name=table.get("name", name), transient=plan, ranges=as_ranges(ranges))
 
 
-def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
+def _plan(table: dict[str, Any], folder: Path) -> tuple[dict[str, Any], Transient | None]:
     """The `Transient` of a scene, and the table without its histories.
 
     Histories are in [transient] or, as inline tables, in the sections they belong to. In their place the table gets a
@@ -173,7 +173,7 @@ def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
     return table, plan
 
 
-def _read(source: object) -> tuple[dict, Path, str]:
+def _read(source: object) -> tuple[dict[str, Any], Path, str]:
     """Its tables, the folder that its files are relative to, and its name."""
     names = builtin_scenes()
     if not isinstance(source, (str, os.PathLike)):

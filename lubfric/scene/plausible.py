@@ -27,7 +27,7 @@ def source_of(name: str, word: str) -> str:
     return _rows(name)[word][-1]
 
 
-def _rows(name: str) -> dict[str, list]:
+def _rows(name: str) -> dict[str, list[Any]]:
     section, _, key = name.partition(".")
     return packaged(__package__, "typical.toml").get(section, {}).get(key, {})
 
@@ -74,7 +74,7 @@ def _index(scene: Any) -> float | None:
 
 
 @contextmanager
-def naming_slips(section: str, values: dict) -> Iterator[None]:
+def naming_slips(section: str, values: dict[str, Any]) -> Iterator[None]:
     """Add the likely slip, if there is one, to an `InputError` about one of ``values``."""
     try:
         yield

@@ -130,7 +130,7 @@ class Scene(Shown):
         """A copy with the ``values`` by "section.key", or by "section" for a whole one. All keys of a section act at
         once, in any order: a Hertz pressure is that with the radius given with it."""
         whole = {key: value for key, value in values.items() if "." not in key and not isinstance(value, dict)}
-        parts: dict[str, dict] = {}
+        parts: dict[str, dict[str, Any]] = {}
         for key, value in values.items():
             section, dot, name = key.partition(".")
             if key not in whole:

@@ -28,7 +28,7 @@ def meant(section: str) -> dict[str, str]:
     return {word: text for words, text in groups.items() for word in words.split()}
 
 
-def check_keys(section: str, given: dict, others: tuple[str, ...] = ()) -> None:
+def check_keys(section: str, given: dict[str, Any], others: tuple[str, ...] = ()) -> None:
     """Raise `InputError` for a key of [``section``] that is not known; ``others`` are known in addition to its own."""
     if section == "numerics":
         refuse_dropped(given)
@@ -36,7 +36,7 @@ def check_keys(section: str, given: dict, others: tuple[str, ...] = ()) -> None:
     validate.keys(f"[{section}]", given, allowed, lambda: meant("surface" if section in ROUGH else section))
 
 
-def made_section(section: str, given: dict, old: Any = None) -> Any:
+def made_section(section: str, given: dict[str, Any], old: Any = None) -> Any:
     """The section that the keys ``given`` make, or ``old`` with them changed. An error has the likely slip."""
     check_keys(section, given)
     with naming_slips(section, dict(given)), named(section):
@@ -92,7 +92,7 @@ def changed_section(section: str, old: Any, values: Any) -> Any:
     return made_section(section, as_given(old, values) if section in ROUGH else values, old)
 
 
-def check_complete(name: str, table: dict) -> None:
+def check_complete(name: str, table: dict[str, Any]) -> None:
     """Raise `InputError` with everything that the ``table`` of scene ``name`` lacks.
 
     A section whose keys contradict each other is left to the check that says so.
@@ -104,7 +104,7 @@ def check_complete(name: str, table: dict) -> None:
         raise InputError(f"scene {name} is not complete: {'; '.join(incomplete)}")
 
 
-def _missing(section: str, table: dict) -> str:
+def _missing(section: str, table: dict[str, Any]) -> str:
     given = dict(table.get(section, {}))
     if section in ROUGH:
         height = any(key in given for key in ("sq", *PER_SQ, "sk"))
@@ -116,7 +116,7 @@ def _missing(section: str, table: dict) -> str:
     return _missing_fields(section, plain)
 
 
-def _missing_fields(section: str, plain: dict) -> str:
+def _missing_fields(section: str, plain: dict[str, Any]) -> str:
     """Return the fields without a default that the ``plain`` values of a ``section`` leave out, as text; "" for none."""
     needed = [
         f.name

@@ -43,7 +43,7 @@ def short_keys(section: str) -> tuple[str, ...]:
     return (*keys, *OIL_KEYS) if section == "lubricant" else keys
 
 
-def resolve(section: str, given: dict, old: Any = None) -> dict:
+def resolve(section: str, given: dict[str, Any], old: Any = None) -> dict[str, Any]:
     """Plain fields of ``section`` from what was ``given``; ``old``: the section to be changed, None for a new one.
 
     Raises `InputError` if two keys say the same thing, one lacks its partner, or a value is out of range.
@@ -61,7 +61,7 @@ def resolve(section: str, given: dict, old: Any = None) -> dict:
     return resolve_oil(given, old) if section == "lubricant" else given
 
 
-def _without_none(given: dict, section: str) -> dict:
+def _without_none(given: dict[str, Any], section: str) -> dict[str, Any]:
     """Return what is ``given`` without the keys that are None because another says the same thing: ``{"ra": 1e-7, "sq":
     None}`` states Ra alone."""
     groups = [{*keys, *fields} for keys, fields, _ in FORMS.get(section, ())]
@@ -73,7 +73,7 @@ def _without_none(given: dict, section: str) -> dict:
     return {key: value for key, value in given.items() if key not in needless}
 
 
-def _of_radii(radii: Any, *_: Any) -> dict:
+def _of_radii(radii: Any, *_: Any) -> dict[str, Any]:
     """R [m], 1/R = 1/R1 + 1/R2; a plane is inf, a hollow (the outer ring around a roller) negative."""
     first, second = pair("bodies.radii", radii, "m")
     for radius in (first, second):
@@ -87,7 +87,7 @@ def _of_radii(radii: Any, *_: Any) -> dict:
     return {"radius": 1 / curvature}
 
 
-def _of_materials(names: Any, *_: Any) -> dict:
+def _of_materials(names: Any, *_: Any) -> dict[str, Any]:
     """Fields of one or two named materials (materials.toml)."""
     known = packaged(__package__, "materials.toml")
     both = (names, names) if isinstance(names, str) else pair("bodies.material", names, "names")
@@ -100,7 +100,7 @@ def _of_materials(names: Any, *_: Any) -> dict:
     }
 
 
-def _of_moduli(moduli: Any, ratios: Any, *_: Any) -> dict:
+def _of_moduli(moduli: Any, ratios: Any, *_: Any) -> dict[str, Any]:
     (e1, e2) = pair("bodies.young_modulus", moduli, "Pa")
     (nu1, nu2) = pair("bodies.poisson_ratio", ratios, "-")
     for e in (e1, e2):
@@ -111,7 +111,7 @@ def _of_moduli(moduli: Any, ratios: Any, *_: Any) -> dict:
 
 def _of_hertz_pressure(
     pressure: float, given: dict[str, float | tuple[float, float] | None], old: Bodies | None
-) -> dict:
+) -> dict[str, Any]:
     """The load [N] of a peak Hertz pressure [Pa]: w = 2 pi R p²/E'."""
     validate.of_key("bodies.hertz_pressure", pressure)
     needed = ("radius", "width", "e_prime")
@@ -122,7 +122,7 @@ def _of_hertz_pressure(
     return {"load": 2 * math.pi * radius * pressure**2 / e_prime * width}
 
 
-def _of_surface_speeds(speeds: Any, *_: Any) -> dict:
+def _of_surface_speeds(speeds: Any, *_: Any) -> dict[str, Any]:
     both = pair("motion.surface_speeds", speeds, "m/s")
     u1, u2 = (validate.number("motion.surface_speeds", u, "m/s") for u in both)
     if u1 + u2 == 0:
@@ -154,7 +154,7 @@ def _of_heights(key: str, per_sq: float) -> Callable[..., dict[str, Any]]:
     return plain
 
 
-def resolve_oil(given: dict, old: Lubricant | None) -> dict:
+def resolve_oil(given: dict[str, Any], old: Lubricant | None) -> dict[str, Any]:
     """Plain fields of [lubricant] from an oil at ``temperature`` [K]: viscosity, pressure-viscosity coefficient,
     temperature coefficient and law of the density (as given, else of the oil).
 
@@ -190,7 +190,7 @@ def resolve_oil(given: dict, old: Lubricant | None) -> dict:
     return oil_fields | given
 
 
-def _check_temperature(given: dict, old: Lubricant | None) -> None:
+def _check_temperature(given: dict[str, Any], old: Lubricant | None) -> None:
     """Raise `InputError` for a new temperature that would leave the viscosity, a number, unchanged."""
     if old is None or "viscosity" in given or given.get("temperature") in (None, old.temperature):
         return
@@ -200,7 +200,7 @@ def _check_temperature(given: dict, old: Lubricant | None) -> None:
     raise InputError(f"[lubricant] temperature moves no viscosity that is given as a number; {ways}")
 
 
-def fields_of(oil: Oil, temperature: float) -> dict:
+def fields_of(oil: Oil, temperature: float) -> dict[str, Any]:
     """Fields of a `Lubricant` of ``oil`` at ``temperature`` [K]."""
     temperature = checked_temperature(temperature, "lubricant.temperature")
     return {
@@ -214,7 +214,7 @@ def fields_of(oil: Oil, temperature: float) -> dict:
     }
 
 
-def of_celsius(celsius: float, *_: Any) -> dict:
+def of_celsius(celsius: float, *_: Any) -> dict[str, Any]:
     """The temperature [K] of ``lubricant.temperature_celsius``."""
     degrees = validate.number("lubricant.temperature_celsius", celsius, "°C")
     if degrees > 250:
@@ -223,7 +223,7 @@ def of_celsius(celsius: float, *_: Any) -> dict:
     return {"temperature": degrees + CELSIUS}
 
 
-def _oil(source: dict, before: Oil | None) -> Oil:
+def _oil(source: dict[str, Any], before: Oil | None) -> Oil:
     """The oil that ``source`` names. It keeps the properties of the one ``before`` that ``source`` does not change."""
     only_one("lubricant", source, "grade", "nu40+nu100", "viscosity_table", "oil")
     only_one("lubricant", source, "viscosity_index", "nu100", "viscosity_table", "oil")
@@ -253,7 +253,7 @@ def _oil(source: dict, before: Oil | None) -> Oil:
     return before
 
 
-def only_one(section: str, given: dict, *keys: str) -> None:
+def only_one(section: str, given: dict[str, Any], *keys: str) -> None:
     """At most one of ``keys`` (each a key, or several that go together joined by '+') is given."""
     given_keys = [key for key in keys if any(k in given for k in key.split("+"))]
     if len(given_keys) > 1:
@@ -261,7 +261,7 @@ def only_one(section: str, given: dict, *keys: str) -> None:
         raise InputError(f"[{section}] has {names}, which say the same thing; give one of {', '.join(keys)}")
 
 
-def together(section: str, given: dict, *keys: str) -> bool:
+def together(section: str, given: dict[str, Any], *keys: str) -> bool:
     """True when all ``keys`` are given, False when none is; an error when some are."""
     there = [key for key in keys if key in given]
     if there and len(there) < len(keys):

@@ -105,7 +105,7 @@ def alike(value: float, values: Iterable[float]) -> float:
     return next((other for other in values if abs(value - other) <= ALIKE * max(abs(value), abs(other))), value)
 
 
-def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable) -> Iterator[tuple[float, Any]]:
+def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable[..., Any]) -> Iterator[tuple[float, Any]]:
     """Yield (speed [m/s], outcome) of a curve that begins with the speeds ``ahead``, and then chooses one after the other.
     ``solve(speed)`` gives an outcome."""
     outcomes: dict[float, Any] = {}

@@ -46,7 +46,7 @@ def _name(kind: type) -> str:
     return f"{kind.__module__}.{kind.__name__}"
 
 
-def encode(value: Any, field: Callable[..., Any] = getattr) -> list:
+def encode(value: Any, field: Callable[..., Any] = getattr) -> list[Any]:
     """``value`` as bytes, in pieces that follow each other. It may be a tree of dataclasses, numbers, texts and
     arrays. ``field(object, name)`` gives what is encoded of a field of a dataclass."""
     arrays: list[bytes | memoryview] = []
@@ -103,7 +103,7 @@ def _hints(kind: Any) -> dict[str, Any]:
     return {name: float if isinstance(hints[name], TypeVar) else hints[name] for name in own}
 
 
-def _plain(value: Any, arrays: list, field: Callable[..., Any]) -> Any:
+def _plain(value: Any, arrays: list[Any], field: Callable[..., Any]) -> Any:
     """JSON types for ``value``. Its arrays are added to ``arrays``."""
     if value is None or isinstance(value, (bool, int, str)):
         return value

@@ -2,7 +2,7 @@
 their tables."""
 
 from collections.abc import Sequence
-from typing import ClassVar, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
@@ -84,7 +84,7 @@ class CurveResult(Shown):
         return facts | {"failed": str(len(self.errors)), "warnings": str(len(self.validity))}
 
 
-def parted(outcomes: Sequence) -> tuple[tuple[FrictionResult | None, ...], dict[int, Exception]]:
+def parted(outcomes: Sequence[Any]) -> tuple[tuple[FrictionResult | None, ...], dict[int, Exception]]:
     """The points (None for what is no result), and the errors by index, of results, exceptions, or None."""
     points = tuple(outcome if isinstance(outcome, FrictionResult) else None for outcome in outcomes)
     return points, {i: outcome for i, outcome in enumerate(outcomes) if isinstance(outcome, Exception)}
@@ -96,12 +96,14 @@ def without_rolling(point: FrictionResult) -> float:
     return (point.boundary_force + point.couette_force) / (point.contact_load + point.film_load)
 
 
-def columns_of(points: Sequence) -> dict[str, np.ndarray]:
+def columns_of(points: Sequence[Any]) -> dict[str, np.ndarray]:
     """Every number of ``points`` by name, NaN where one is None."""
     return {name: np.array([np.nan if p is None else getattr(p, name) for p in points]) for name in NUMBERS}
 
 
-def report_of(solver: str, names: list[str], plural: str, points: Sequence, errors: dict[int, Exception]) -> Report:
+def report_of(
+    solver: str, names: list[str], plural: str, points: Sequence[Any], errors: dict[int, Exception]
+) -> Report:
     """The largest residual of the points over the largest of their tolerances, with a note for each that failed;
     ``names`` of the points."""
     status = ITERATION_LIMIT if errors else CONVERGED

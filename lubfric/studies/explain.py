@@ -38,7 +38,7 @@ def curve_seconds(prepared: Prepared, speeds: Sequence[float]) -> float:
     return sum(seconds) * (1.0 if speeds else CHOSEN / len(at))
 
 
-def estimated_study(plan, store=None) -> float:
+def estimated_study(plan: Any, store: str | Path | None = None) -> float:
     """Return the estimated processor seconds of the points of a `StudyPlan` that the folder ``store`` has not yet. Some
     of the maps are made."""
     table = StudyTable(plan)
@@ -46,7 +46,7 @@ def estimated_study(plan, store=None) -> float:
     return _seconds_left(plan, table)[0]
 
 
-def _seconds_left(plan, table: StudyTable) -> tuple[float, list[str]]:
+def _seconds_left(plan: Any, table: StudyTable) -> tuple[float, list[str]]:
     """Return the estimated seconds of what is left of a study, from some of its scenes, and why some cannot be solved."""
     left = [(plan.scenes[curve], speeds) for curve, _, speeds in table.left()]
     some = left[:: -(-len(left) // SAMPLED)] if left else []
@@ -100,7 +100,7 @@ def explain(plan: Any, store: Path | None = None) -> str:
     return "\n".join([*lines, *dict.fromkeys(failed)])
 
 
-def _range(key: str, values: tuple) -> str:
+def _range(key: str, values: tuple[Any, ...]) -> str:
     """The values of a key: all of them if they are few, else the smallest and the largest, or first and last."""
     if len(values) > LISTED:
         ends = (min(values), max(values)) if all(isinstance(v, Real) for v in values) else (values[0], values[-1])

@@ -59,7 +59,7 @@ def fit(
     starts: int | None = None,
     executor: Any = None,
     store: str | Path | None = None,
-    on_progress: Callable | None = None,
+    on_progress: Callable[..., Any] | None = None,
 ) -> FitResult:
     """Find the values of ``parameters`` with which the friction of a scene is nearest to a measured curve.
 
@@ -154,7 +154,9 @@ def explain_fit(scene: Scene, measured: Measured, parameters: Mapping[str, Any],
     return "\n".join([*lines, f"  time: about {in_words(seconds)} on one core (within a factor of about {WITHIN:g})"])
 
 
-def estimated_fit(scene: Scene, measured: Measured, parameters, *, starts: int | None = None) -> float:
+def estimated_fit(
+    scene: Scene, measured: Measured, parameters: Mapping[str, Any], *, starts: int | None = None
+) -> float:
     """Return the estimated processor seconds of a fit; arguments as for `lubfric.fit`."""
     bounds = _checked(scene, measured, parameters)
     coarse, fine = _curves(scene, measured, bounds)
@@ -230,7 +232,9 @@ def _usual_seconds(curves: FitCurves, begin: np.ndarray) -> float:
 class _Progress:
     """Reports of the curves of a fit, with the least misfit and the time left."""
 
-    def __init__(self, coarse: FitCurves, fine: FitCurves, begin: np.ndarray, starts: int, on_progress: Callable):
+    def __init__(
+        self, coarse: FitCurves, fine: FitCurves, begin: np.ndarray, starts: int, on_progress: Callable[..., Any]
+    ):
         parameters = begin.size
         self.curves = {
             id(coarse): (coarse, estimated_curves(parameters, starts) if starts else 0, _usual_seconds(coarse, begin)),

@@ -107,19 +107,19 @@ def operating_points(scene: Scene, table: Any) -> OperatingPoints:
     return OperatingPoints(axis=axis, speeds=tuple(map(float, speeds)), coordinates=coordinates)
 
 
-def _columns(table: Any) -> dict[str, list]:
+def _columns(table: Any) -> dict[str, list[Any]]:
     """Return the columns of ``table`` in SI units, by the keys of a scene or the names of `COORDINATES`, `SPEEDS`."""
     if isinstance(table, (str, Path)):
         path = validate.folder("points", table)
         headings = table_headings(path, (*NAMES, TEMPERATURE, *COORDINATES, *SPEEDS, *KEYS))
         quantities = [_quantity(*name_and_unit(heading))[1] for heading in headings]
         units = ["K" if quantity.unit == "°C" else quantity.unit for quantity in quantities]
-        given: dict[str, list] = dict(zip(headings, read_columns(path, headings, units)))
+        given: dict[str, list[Any]] = dict(zip(headings, read_columns(path, headings, units)))
         in_file = True
     else:
         given = _as_columns(table)
         in_file = False
-    columns: dict[str, list] = {}
+    columns: dict[str, list[Any]] = {}
     for heading, values in given.items():
         name, unit = name_and_unit(str(heading))
         key, quantity = _quantity(name, unit)
@@ -136,7 +136,7 @@ def _columns(table: Any) -> dict[str, list]:
     return columns
 
 
-def _as_columns(table: Any) -> dict[str, list]:
+def _as_columns(table: Any) -> dict[str, list[Any]]:
     """Return the columns of rows, of columns or of a DataFrame by their headings."""
     if hasattr(table, "to_dict") and hasattr(table, "columns"):
         table = table.to_dict("list")
@@ -200,7 +200,7 @@ def _value(heading: str, key: str, value: Any, unit: str | None, quantity: Quant
     return converted(number, word, row)
 
 
-def _with_speeds(columns: dict[str, list]) -> dict[str, list]:
+def _with_speeds(columns: dict[str, list[Any]]) -> dict[str, list[Any]]:
     """Return the columns with speed and slide-roll ratio in place of the speeds of the surfaces."""
     columns = dict(columns)
     pair = [columns.pop(name, None) for name in (U1, U2)]

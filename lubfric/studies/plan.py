@@ -196,7 +196,7 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
     validate.instance(f"scene of {path.name}", name, str, "a file or a built-in scene")
     beside = path.parent / name
     scene = load_scene(beside if beside.is_file() else name)
-    vary: dict[Any, list] = _lists(table.get("vary", {}), "vary", path.parent)
+    vary: dict[Any, list[Any]] = _lists(table.get("vary", {}), "vary", path.parent)
     together = table.get("together", [])
     for group in together if isinstance(together, list) else [together]:
         lists = _lists(group, "together", path.parent)
@@ -224,7 +224,7 @@ def _flat_rows(rows: Any) -> Any:
     return _flat(rows, lambda value: not isinstance(value, dict)) if isinstance(rows, dict) else rows
 
 
-def _add(known: dict, key: str | tuple[str, ...], values: Any) -> None:
+def _add(known: dict[Any, Any], key: str | tuple[str, ...], values: Any) -> None:
     """Put ``values`` into ``known``. Raises `InputError` for a key that is there already, whose values would be
     lost."""
     if key in known:
@@ -232,7 +232,7 @@ def _add(known: dict, key: str | tuple[str, ...], values: Any) -> None:
     known[key] = values
 
 
-def _flat(table: dict, is_value: Callable[[Any], bool]) -> dict[str, Any]:
+def _flat(table: dict[str, Any], is_value: Callable[[Any], bool]) -> dict[str, Any]:
     """{"section.key": value} from ``"section.key" = value`` or ``section.key = value``."""
     flat: dict[str, Any] = {}
     for key, value in table.items():
@@ -242,7 +242,7 @@ def _flat(table: dict, is_value: Callable[[Any], bool]) -> dict[str, Any]:
     return flat
 
 
-def _lists(table: Any, where: str, folder: Path) -> dict[str, list]:
+def _lists(table: Any, where: str, folder: Path) -> dict[str, list[Any]]:
     """The lists of values by their keys. Files are relative to ``folder``."""
     validate.instance(f"[{where}]", table, dict, "keys of a scene with lists of values")
     lists = _flat(table, lambda value: not isinstance(value, dict))

@@ -84,7 +84,7 @@ def solved(
 
 def solved_together(
     tasks: Sequence[tuple[Scene, str, tuple[float, ...]]], folder: str | Path | None = None
-) -> Iterator:
+) -> Iterator[Any]:
     """Yield what `solved` yields of each of the ``tasks`` (scene, key, speeds)."""
     for scene, key, speeds in tasks:
         yield from solved(scene, key, speeds, folder=folder)

@@ -297,7 +297,7 @@ def study(
         return _result(_carried_out(plan, executor, kept, on_progress))
 
 
-def _carried_out(plan: StudyPlan, executor: Any, store: Store, on_progress: Callable | None) -> StudyTable:
+def _carried_out(plan: StudyPlan, executor: Any, store: Store, on_progress: Callable[..., Any] | None) -> StudyTable:
     """Return the table of all points of a plan, those in the ``store`` and those that are solved now."""
     table = StudyTable(plan)
     table.read(store)
@@ -325,7 +325,9 @@ def _carried_out(plan: StudyPlan, executor: Any, store: Store, on_progress: Call
     return table
 
 
-def _jobs(plan: StudyPlan, left: list, store: Store, together: int | None) -> Iterator[Callable[[], Iterator]]:
+def _jobs(
+    plan: StudyPlan, left: list[Any], store: Store, together: int | None
+) -> Iterator[Callable[[], Iterator[Any]]]:
     """Yield the jobs of what is ``left`` to solve (`StudyTable.left`), with at most so many points ``together``; None: a
     curve each, done here."""
     scenes = enumerate(scenes_of(plan.scene, plan.axes))

@@ -89,7 +89,7 @@ class Store:
         """Return whether there is a record of ``key``, sound or not."""
         return self.folder is not None and os.path.lexists(self._path(key))
 
-    def known(self, keys: Iterable[str], kind: Any = Any) -> dict:
+    def known(self, keys: Iterable[str], kind: Any = Any) -> dict[str, Any]:
         """All sound records of ``keys``."""
         records = {key: self.get(key, kind) for key in keys} if self.folder is not None and self.folder.is_dir() else {}
         return {key: outcome for key, outcome in records.items() if outcome is not None}

@@ -160,7 +160,7 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
         (line,) = axes.plot(over[order], values, **own | style)
         if quantity in ENDS:
             low, high = (times * result[name][index][order] for name in ENDS[quantity])
-            known = {"label": BAND} if index == indices[-1] and np.isfinite(low).any() else {}
+            known: dict[str, Any] = {"label": BAND} if index == indices[-1] and np.isfinite(low).any() else {}
             axes.fill_between(over[order], low, high, color=line.get_color(), alpha=0.2, lw=0, **known)
     axes.set(xlabel=label_over, ylabel=axis_label(quantity, unit))
     figures.key_above(axes, 2)

@@ -73,7 +73,7 @@ class Axis:
 
     name: str
     keys: tuple[str, ...]
-    values: tuple[tuple, ...]
+    values: tuple[tuple[Any, ...], ...]
 
     def at(self, index: int) -> dict[str, Any]:
         """The values of position ``index`` by their keys."""

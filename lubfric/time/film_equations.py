@@ -21,6 +21,7 @@ as full: mass is conserved in the pressurised film, but not through cavitation.
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -109,17 +110,17 @@ class StepTerms:
 
     P: np.ndarray
     H: np.ndarray
-    rho: tuple  # value and slope
+    rho: tuple[Any, ...]  # value and slope
     log_slope: np.ndarray  # of the viscosity
-    up: tuple
-    centre: tuple
-    fluidity: tuple
+    up: tuple[Any, ...]
+    centre: tuple[Any, ...]
+    fluidity: tuple[Any, ...]
     gradient: np.ndarray
-    thin: tuple  # Φ, s dΦ/ds, b dΦ/db
+    thin: tuple[Any, ...]  # Φ, s dΦ/ds, b dΦ/db
     flux: np.ndarray  # towards +X, (n,)
     stored: np.ndarray  # per unit time in each control volume
     r: np.ndarray  # node equations
-    ends: tuple  # pressure and load beyond each end, with their derivatives
+    ends: tuple[Any, ...]  # pressure and load beyond each end, with their derivatives
     carried: float  # ∫ P dX with the tails of ends that are not cavitated
     spring: tuple[float, float]
     balance: float  # carried + spring - load

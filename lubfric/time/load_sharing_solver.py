@@ -129,7 +129,7 @@ class LoadSharingSolver:
             return None
 
 
-def _softness(old: float, seen, load: float, closed: ContactState) -> float:
+def _softness(old: float, seen: tuple[float, float] | None, load: float, closed: ContactState) -> float:
     """Secant of the gap over the logarithm of the load, if it is meaningful."""
     if seen is None or abs(math.log(load / seen[0])) < 1e-6:
         return old

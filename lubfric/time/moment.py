@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
@@ -117,7 +118,9 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
     return row, tuple([*_violated(model, scene, row, shear, heat), *of_typical_heat(scene, heat.typical)])
 
 
-def _violated(model: LoadSharingSolver, scene: Scene, row: dict, shear: ShearForce, heat: Heat) -> Iterator[Validity]:
+def _violated(
+    model: LoadSharingSolver, scene: Scene, row: dict[str, Any], shear: ShearForce, heat: Heat
+) -> Iterator[Validity]:
     """The assumptions of the steady model and of a run that do not hold at one moment."""
     speed = row["entrainment_speed"]
     film = row["central_film"]
@@ -204,7 +207,7 @@ def film_shear(
 
 
 def _summed(
-    model: LoadSharingSolver, time: float, solution: Step, stress: Callable, drag: float | None = None
+    model: LoadSharingSolver, time: float, solution: Step, stress: Callable[..., Any], drag: float | None = None
 ) -> ShearForce:
     """`ShearForce` by trapezes of ``stress(x, pressure, film)`` [Pa]. ``drag``: that times the film [N/m] beyond the
     ends of the grid; None: as at the last node, because at any film its own heat thins it by the same factor."""

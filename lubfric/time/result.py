@@ -186,7 +186,7 @@ class TransientResult(Shown):
             text=tuple("; ".join((f"sampling {percent(each)}", *self.not_in)) for each in error),
         )
 
-    def plot(self, ax: "Axes | None" = None):
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Friction over time, with its parts, on ``ax`` or new axes, which are returned."""
         axes = figures.axes_or_new(ax)
         (low, high) = self.uncertainty.interval.T
@@ -196,7 +196,7 @@ class TransientResult(Shown):
         friction_over_time(axes, self.columns)
         return axes
 
-    def plot_loop(self, ax: "Axes | None" = None):
+    def plot_loop(self, ax: "Axes | None" = None) -> "Axes":
         """Friction over speed, the hysteresis loop with its start marked, on ``ax`` or new axes, which are returned.
         At a standstill no friction coefficient is defined, and none is drawn."""
         axes = figures.axes_or_new(ax)

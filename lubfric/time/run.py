@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -145,7 +146,7 @@ def _marched(
     plan: Plan,
     store: Store,
     key: str,
-    on_step: Callable | None,
+    on_step: Callable[..., Any] | None,
     *,
     most_work: float,
 ) -> tuple[Progress, list[Output], bool]:

@@ -143,7 +143,9 @@ def _history(
     return TimeHistory(extrapolated=extrapolated, step=step, last=last, follows_lubricant=True)
 
 
-def _in_parts(problem_at, at: Iterate, time: float, step: float, work: Work, how: dict[str, Any]) -> State:
+def _in_parts(
+    problem_at: Callable[[float], Problem], at: Iterate, time: float, step: float, work: Work, how: dict[str, Any]
+) -> State:
     """Return the state after the step after ``time`` in `PARTS` Euler steps, as far as they are solved: a start only,
     because they do not keep the mass that the steps of second order keep."""
     for part in range(1, PARTS + 1):
@@ -161,7 +163,7 @@ def _moved(state: State, before: State, cells: int, smooth: int) -> State:
     cells, and what the pressure has in addition to its mean over y and ``smooth`` cells along x. Half of its change
     since the moment ``before`` is added."""
 
-    def moved(values, times=1):
+    def moved(values: np.ndarray, times: int = 1) -> np.ndarray:
         return np.concatenate([np.repeat(values[:1], times * cells, axis=0), values[: -times * cells]])
 
     mean, old = (

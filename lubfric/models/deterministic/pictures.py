@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -26,7 +27,7 @@ def animate_moments(path: Path | str, moments: Sequence[Moment], frames_per_seco
     figure = figures.new_figure(figsize=(5, 5.5))
     limits = _limits(moments)
 
-    def draw(number: int):
+    def draw(number: int) -> list[Any]:
         figure.clear()
         _fields(figure.subplots(2, 1, sharex=True), moments[number], *limits)
         return []
@@ -67,7 +68,7 @@ def _limits(moments: Sequence[Moment]) -> tuple[float, float]:
     return 1e9 * float(gap), 1e-9 * float(max(moment.at.state.pressure.max() for moment in moments))
 
 
-def _fields(axes, moment: Moment, gap: float, pressure: float) -> None:
+def _fields(axes: Any, moment: Moment, gap: float, pressure: float) -> None:
     """Both fields of a ``moment``; lines, if there is one row of cells."""
     problem = moment.at.problem
     y = np.arange(moment.at.gap.shape[1]) * problem.spacing[1]

@@ -26,7 +26,7 @@ class CellFluid:
     log_slope: np.ndarray
     density: np.ndarray
     density_slope: np.ndarray
-    critical: tuple
+    critical: tuple[Any, ...]
 
 
 def cell_fluid(lubricant: Lubricant, pressure: FloatArray) -> CellFluid:

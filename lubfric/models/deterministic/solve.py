@@ -134,7 +134,7 @@ def dry_start(problem: Problem, dry: ContactResult) -> State:
     return State(p.copy(), np.ones_like(p), dent, kind, p >= problem.hardness, film - dry.approach)
 
 
-def _from_faster(problem: Problem, state: State, times: float, tolerance, work: Work) -> NewtonResult:
+def _from_faster(problem: Problem, state: State, times: float, tolerance: float, work: Work) -> NewtonResult:
     """Follow the solution from so many ``times`` the speed of ``problem`` to it, through speeds in between."""
     left = math.log(times)
     step = left / 2
@@ -152,7 +152,7 @@ def _from_faster(problem: Problem, state: State, times: float, tolerance, work: 
             return result
 
 
-def _in_time(problem: Problem, state: State, tolerance, work: Work) -> NewtonResult:
+def _in_time(problem: Problem, state: State, tolerance: float, work: Work) -> NewtonResult:
     marched = march(problem, state, work, most=MARCHED)
     return newton(problem, marched, work, tolerance=tolerance, most=DIRECT)
 

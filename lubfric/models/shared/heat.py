@@ -166,7 +166,7 @@ def film_lubricant(scene: Scene, speed: float) -> Lubricant:
 
 def point_heat(
     scene: Scene, film: Any, contact: ContactState, contact_load: float, force: float, shear: ShearForce
-) -> tuple[Heat, float | None, Callable | None]:
+) -> tuple[Heat, float | None, Callable[..., Any] | None]:
     """Heat of ``film`` with a ``contact`` that carries ``contact_load`` [N]; the viscosity [Pa s] of the warm inlet
     with which it was solved (None: as given); and the stress [Pa] of the heated film, stress(x, pressure, film) at
     positions x [m] running downstream (None: isothermal). ``force``: |f F_T| [N] and ``shear`` (`ShearForce`)

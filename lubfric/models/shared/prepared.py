@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 
@@ -259,7 +259,7 @@ def _without_friction(bodies: Bodies) -> Bodies:
     return replace(bodies, boundary_friction_coefficient=0.0, boundary_friction_table=None)
 
 
-def _check_likeness(scene: Scene, old: Scene, maps, contact) -> None:
+def _check_likeness(scene: Scene, old: Scene, maps: tuple[Any, ...], contact: RoughContact | None) -> None:
     if maps or contact is not None:
         raise InputError("like brings its own surface and contact; give like, or surface and contact, not both")
     for name, a, b in (

@@ -195,7 +195,7 @@ def _parts(scene: Scene, sq: float, speed: float, film: float = 1.0) -> tuple[fl
 def effect_in_words(effect: UnmodelledEffect | ExpectedEffect) -> str:
     """Return the effect in one line: what it is, the change of f to two digits, what to do."""
     what, *changes, advice = effect
-    return f"{what}: f {change_in_words(*changes)}; {advice}"  # type: ignore[arg-type]
+    return f"{what}: f {change_in_words(*changes)}; {advice}"
 
 
 def change_in_words(low: float, high: float | None = None) -> str:
