@@ -83,7 +83,7 @@ class Quantities(Generic[T]):
         note="moment of the load about the middle over R; twice the rolling part without moving roughness",
     )
     boundary_force: T = quantity(
-        "N", "friction force of the contact spots", "f_b F_C", error="split", note="zero in pure rolling"
+        "N", "friction force of the asperity contacts", "f_b F_C", error="split", note="zero in pure rolling"
     )
     real_contact_area_fraction: T = quantity("-", "real contact area over nominal area", "A_c/A", error="area")
     real_contact_area: T = quantity("m2", "real contact area", "A_c", error="area", note="on the whole line")
@@ -135,7 +135,7 @@ class PointQuantities(Quantities[T]):
     load_residual: T = quantity("-", "relative residual of the load balance", note="(F_C + F_H - F_T)/F_T")
     volume_residual: T = quantity("-", "relative residual of the volume balance", note="(gap - film)/(gap + film)")
     clearance: T = quantity(
-        "-", "gap between the film and the highest summits over Sq", note="NaN where they touch, or without a film"
+        "-", "gap between the film and the highest asperities over Sq", note="NaN where they touch, or without a film"
     )
     steepness: T = quantity(
         "-", "d ln(film_load/contact_load) over d ln(speed)", note="NaN where film and contact do not share the load"
@@ -166,7 +166,7 @@ class UncertaintyQuantities(Generic[T]):
     )
     sampling: T = quantity(
         "-",
-        "relative standard error of f because a finite length of rough surface stands for all of it",
+        "relative standard error of f because the sample of the rough surface is finite",
         column="sampling_error",
         note="NaN where it is not known",
         default=math.nan,
@@ -174,7 +174,9 @@ class UncertaintyQuantities(Generic[T]):
     line_scatter: T = quantity(
         "-", "relative standard deviation of f between lines as wide as that of the scene", default=math.nan
     )
-    spots: T = quantity("-", "effective number of contact spots: alike, they would scatter as much", default=math.nan)
+    spots: T = quantity(
+        "-", "effective number of asperity contacts: so many equal ones would scatter as much", default=math.nan
+    )
     length: T = quantity("m", "length of the line of rough surface", column="line_length", default=math.nan)
     area_needed: T = quantity("-", "how many times more of a measured map is needed", note="1: enough", default=1.0)
     model: T = quantity("-", "relative error of f by the model, at 95 %", column="model_error", default=math.nan)

@@ -226,7 +226,7 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
         hrc = given == "HRC" and "HV" in row
         said = f"is in {written}, a unit of another kind ({other})" if other else f"has an unknown unit, {written!r}"
         if unit == "Pa s" and other == "m2/s":
-            allowed += "; a kinematic viscosity goes into nu40 (at 40 °C) beside nu100 or viscosity_index"
+            allowed += "; a kinematic viscosity goes into nu40 (at 40 °C), together with nu100 or viscosity_index"
         said = "is no pressure: give HV; 57 HRC is 633 HV, 60: 697, 63: 772" if hrc else said
         raise InputError(f" = {shown!r} {said}", name, allowed)
     try:

@@ -129,4 +129,4 @@ def estimate_in_words(oil: Oil, temperature: float) -> str:
     if other is not None:
         text += f"; {other.source} gives {other.value * 1e9:.3g} ({100 * (other.value / alpha.value - 1):+.2g} %)"
     thin, thick = ((bound / alpha.value) ** FILM_EXPONENT - 1 for bound in (alpha.low, alpha.high))
-    return f"{text}; the range is worth {100 * thin:+.2g} to {100 * thick:+.2g} % of a full film"
+    return f"{text}; this range changes a full film by {100 * thin:+.2g} to {100 * thick:+.2g} %"

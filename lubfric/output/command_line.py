@@ -84,13 +84,13 @@ def run(arguments: Namespace) -> None:
     if changed and not takes_strips(scene):
         raise InputError(
             "--sampling-tolerance is for a rough cylinder on strips of its roughness (numerics.sampling = 'strips'), "
-            f"and {scene.name} is solved on one patch, as it is; leave it out"
+            f"and {scene.name} is solved on one patch; omit the option"
         )
     scene = scene.with_(numerics=changed | ({"accept": True} if arguments.accept else {}))
     what = IN_TIME if scene.transient is not None else RATIOS if arguments.ratios else CURVE
     for option, of in FOR.items():
         if getattr(arguments, option) not in (None, False) and of != what:
-            raise InputError(f"--{option} is for {of}, and this is {what}; leave it out")
+            raise InputError(f"--{option} is for {of}, and this is {what}; omit it")
     solve = {RATIOS: run_curve.run_traction, IN_TIME: run_history.run_history, CURVE: run_curve.run_sweep}[what]
     solve(scene, arguments)
 
@@ -103,7 +103,7 @@ def info(arguments: Namespace) -> None:
     scene = scene_of(arguments)
     speeds = arguments.speeds
     if speeds is not None and scene.transient is not None:
-        raise InputError("--speeds is for a curve, and this is a scene with [transient]; leave it out")
+        raise InputError("--speeds is for a curve, and this is a scene with [transient]; omit it")
     description = describe_scene(scene, speeds if speeds == "auto" else parse_speeds("--speeds", speeds))
     answer(description + "\n")
 

@@ -32,7 +32,7 @@ from ..time import check_run, estimated_run, periods, sampled_times, scene_at, s
 from ..units import worded
 from .inputs import FACTS, input_rows
 
-# speeds at which the work is counted, and that stand in the table, about
+# speeds at which the work is counted, and that are in the table, about
 SOME = 25
 SHOWN = 6
 TABLE_CAPTION = "estimate by closed forms: film under the whole load, asperity contact, and cost"
@@ -111,7 +111,7 @@ def estimate_scene(
     at = expected(scene, surface, sorted(set(speeds)))
     refusals = _doubts([(speed, entry) for speed, entry in at if entry.severe])
     whole = sample.map
-    notes = [note for note in whole.notes if "nm as it is" in note]
+    notes = [note for note in whole.notes if "nm as measured" in note]
     effects = expected_effects(_fastest_moment(scene), whole.sq, own)
     changes = [
         f"likely changes of f at {own:g} m/s, estimated by closed forms before the solve; the report has those of the "

@@ -79,7 +79,11 @@ def report_page(
     law : the formula of a curve, or why it has none; "" for what is no Stribeck curve
     """
     scene = prepared.scene
-    parts = _curve_parts(scene, result, law) if isinstance(result, CurveResult) else _history_parts(result, estimate)
+    parts = (
+        _curve_parts(scene, result, law, estimate)
+        if isinstance(result, CurveResult)
+        else _history_parts(result, estimate)
+    )
     home = files(__package__)
     page = Template((home / "report.html").read_text(encoding="utf-8")).substitute(
         parts
@@ -119,20 +123,20 @@ def _subject(scene: Scene) -> str:
 # curves
 
 
-def _curve_parts(scene: Scene, curve: CurveResult, law: Law | str) -> dict[str, str]:
+def _curve_parts(scene: Scene, curve: CurveResult, law: Law | str, estimate: SceneEstimate) -> dict[str, str]:
     """Return the parts of the page that a curve fills."""
     nearest = _nearest(scene, curve)
     failed = bool(curve.errors)
     point = None if nearest is None else nearest[0]
     answer = ["No point of the curve has an answer."] if nearest is None else _curve_answer(curve, *nearest)
-    effects = () if point is None else point.unmodelled_effects
+    effects = estimate.effects if point is None else point.unmodelled_effects
     return {
         "kind": "failed" if failed else "",
         "status": escape(curve_status(curve)),
         "answer": _paragraphs(answer),
         "budget": "" if nearest is None else _point_budget(*nearest),
         "table": _operating_table(curve),
-        "effects": _effects(effects, "" if nearest is None else nearest[1]),
+        "effects": _effects(effects, "before the solve" if nearest is None else nearest[1]),
         "details": _details(curve) + _law(law, curve),
         "sources": _list(curve.cite().splitlines()),
     }

@@ -223,7 +223,7 @@ def plot_again(arguments: Namespace) -> None:
     if name is None:
         raise InputError(f"{folder} holds no stribeck.csv; give a folder that 'lubfric run' wrote")
     if given and name != "stribeck":
-        raise InputError(f"--measured is drawn beside a Stribeck curve, and {folder} holds {TABLES[name]}")
+        raise InputError(f"--measured is drawn with a Stribeck curve, and {folder} holds {TABLES[name]}")
     options = _picture_options(arguments, name)
     columns = read_table(folder / f"{name}.csv")
     record = read_record(folder)
@@ -251,7 +251,7 @@ def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
     panels = PANELS
     if arguments.panels is not None:
         if name != "stribeck":
-            raise InputError(f"--panels chooses parts of a Stribeck curve, and this is {TABLES[name]}; leave it out")
+            raise InputError(f"--panels chooses parts of a Stribeck curve, and this is {TABLES[name]}; omit it")
         panels = tuple(validate.choice("--panels", word.strip(), PANELS) for word in arguments.panels.split(","))
     scales = {option: getattr(arguments, option) for option in ("x_scale", "y_scale")}
     for option, scale in scales.items():
@@ -408,7 +408,7 @@ def _range(option: str, words: list[str], unit: str, most: float, *, linear: boo
         way_out = f"write a whole number from 2 to {MOST_SPEEDS}" + (
             f", or {low:g} for one value" if count == 1 else ""
         )
-        raise InputError(f" {text} asks for {count:g} values", option, way_out=way_out)
+        raise InputError(f" {text} has {count:g} values", option, way_out=way_out)
     return (np.linspace if linear else np.geomspace)(low, high, int(count)).tolist()
 
 

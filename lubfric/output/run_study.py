@@ -16,7 +16,7 @@ import numpy as np
 from .. import studies
 from .._base import IntArray, figures, plain, validate
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report
-from ..quantities import KEYS, axis_label, counted
+from ..quantities import KEYS, axis_label, counted, worded_value
 from ..units import numbers_of
 from .command_line import scene_of
 from .commands import answer, check_outputs, keeping, made, paced, run_folder, say
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 def run_study(arguments: Namespace) -> None:
-    """Plan, solve, write study.csv, study.png and report.html (and study.nc, study.parquet), and say the least and the
+    """Plan, solve, write study.csv, study.png and report.html (and study.nc, study.parquet), and report the smallest and the
     largest f and power loss."""
     workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
     if arguments.cluster is not None and workers > 1:
@@ -166,9 +166,9 @@ def run_fit(arguments: Namespace) -> None:
     def on_progress(done: int, total: int, left: float, misfit: float, values: dict[str, float]) -> None:
         if due(done == 1):
             off = f"{100 * misfit:.2g} % of f" if measured.deviation is None else f"{misfit:.3g} deviations"
-            best = ", ".join(f"{key} = {value:.4g}" for key, value in values.items())
+            place = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
             passed = f"{time.perf_counter() - begun:.0f} s, about {studies.in_words(left)} left"
-            say(f"curve {done} of about {total}: least deviation so far {off}, at {best}; {passed}")
+            say(f"curve {done} of about {total}: smallest deviation so far {off}, at {place}; {passed}")
 
     with keeping(lambda: f"the points solved so far are kept in {arguments.out}"):
         fitted = studies.fit(

@@ -186,7 +186,7 @@ def refuse_outliers(surface: Surface, name: str) -> None:
     if off[worst] > 0:
         z = (surface.heights[worst] - surface.measured.mean()) / surface.sq
         count = np.count_nonzero(off > 0)
-        alone = "1 point stands alone above its" if count == 1 else f"{count} points stand alone above their"
+        alone = "1 isolated point is above its" if count == 1 else f"{count} isolated points are above their"
         raise InputError(
             f"surface {surface.source}: {alone} neighbours and would carry the load, the worst at (ix, iy) = {worst}, "
             f"{z:.3g} Sq high; give {name}.outliers = "

@@ -203,7 +203,7 @@ class ContactDomain(Shown):
         validate.python_fields(self, "contact")
         validate.in_range("contact", self)
         if self.geometry == "flat" and self.region != "hertz":
-            said = f" = {self.region!r} does nothing with geometry = 'flat', whose patch stands for the Hertz strip"
+            said = f" = {self.region!r} does nothing with geometry = 'flat', whose patch represents the Hertz strip"
             raise InputError(said, "contact.region", "'hertz', or geometry = 'cylinder'")
         if self.model == "half-space" and self.asperity_separation != "volume":
             said = f" = {self.asperity_separation!r} does nothing with model = 'half-space'"

@@ -80,7 +80,7 @@ def read_toml(path: Path | Traversable, what: str) -> dict[str, Any]:
         raise
     except (ValueError, RecursionError) as error:  # tomllib's own, integers too long, tables too deep
         said = f"{what} {path} is not valid TOML: {validate.shown(str(error))}"
-        raise InputError(f"{said} (numbers have a decimal point; one with a unit stands in quotes: '12 mm')") from None
+        raise InputError(f"{said} (numbers have a decimal point; one with a unit is in quotes: '12 mm')") from None
 
 
 def _put_map(table: dict[str, Any], section: str, path: str | Path) -> None:

@@ -85,7 +85,7 @@ def explain(plan: Any, store: Path | None = None) -> str:
     elif plan.chooses_speeds:
         lines.append(f"      about {CHOSEN} speeds that each curve chooses")
     if plan.scene.transient is not None:
-        lines.append("  steady   every point; what changes in time in the scene ([transient]) is left out")
+        lines.append("  steady   every point; what changes in time in the scene ([transient]) is ignored")
     table = StudyTable(plan)
     table.read(Store(store))
     held = len(table.ended) if plan.chooses_speeds else table.solved

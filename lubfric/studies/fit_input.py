@@ -58,7 +58,7 @@ class Measured:
                 raise InputError(f"{name} has {value.size} values for {x.size} of x; give as many")
             object.__setattr__(self, name, value.copy())
         if self.deviation is not None and np.any(self.deviation <= 0):
-            raise InputError("deviation holds values that are not positive; give positive ones, or leave it out")
+            raise InputError("deviation holds values that are not positive; give positive ones, or omit it")
         if self.deviation is None and np.any(self.coefficient <= 0):
             said = " holds values that are not positive, whose relative deviation means nothing"
             raise InputError(said, "coefficient", "> 0, or give a deviation")
@@ -171,7 +171,7 @@ def read_measured(
     units = ("m/s" if over == SPEED else "-", "-", "-")
     names = (heading, coefficient) if deviation is None else (heading, coefficient, deviation)
     for name in names:
-        validate.instance("heading", name, str, "words, as they stand in the file")
+        validate.instance("heading", name, str, "words, as in the file")
     file = validate.folder("path", path)
     columns = [np.array(c) for c in read_columns(file, names, units, must_say=("m/s",))]
     branch = ramps(columns[0])

@@ -171,14 +171,14 @@ class FitResult(Shown):
             for j in range(i):
                 if abs(correlation[i, j]) > CORRELATED:
                     pair = f"{keys[j]} and {keys[i]}"
-                    lines.append(f"the data hardly separate {pair}: correlation {correlation[i, j]:.3f}")
+                    lines.append(f"the data do not separate {pair} well: correlation {correlation[i, j]:.3f}")
         for values in self.other_minima:
             at = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
             lines.append(f"by the load-sharing model, {at} describe the data about as well")
         return lines
 
     def _surface_note(self) -> str:
-        """What the intervals leave out, as text; "" for a surface that leaves nothing open."""
+        """What the intervals do not include, as text; "" where they include all."""
         if not np.isfinite(self.sampling).any():
             if self.base.surface.sq == 0 or not self.sampling.size:
                 return ""

@@ -89,7 +89,7 @@ def axes_of(scene: Scene, vary: Mapping[Any, Any]) -> tuple[Axis, ...]:
     points = math.prod(len(v) for v in vary.values() if hasattr(v, "__len__") and getattr(v, "ndim", 1) != 0)
     if points > MOST_POINTS:
         most = f"up to {MOST_POINTS:.0e} in a study (several studies, or lubfric.sample for points of the box)"
-        raise InputError(f" asks for {float(points):.3g} combinations", "vary", most)
+        raise InputError(f" has {float(points):.3g} combinations", "vary", most)
     for key, values in vary.items():
         keys = key if isinstance(key, tuple) else (key,)
         for name in keys:
@@ -167,7 +167,7 @@ def check_key(
         _refuse_key(what, scene, key, sections)
     validate.keys(f"{what}: [{section}]", [field] * bool(field), allowed)
     if key == "motion" or key in SPEEDS:
-        ways = "give speeds = [...] in m/s beside it (a fit takes those of the measurement)"
+        ways = "give speeds = [...] in m/s (a fit takes those of the measurement)"
         said = f"{what}: {key!r} is what a curve is over"
         raise InputError(said, way_out=f"{ways}; motion.slide_roll_ratio is a key")
     if key in seen:

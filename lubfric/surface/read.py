@@ -212,7 +212,9 @@ def _prepared(surface: Surface, level: bool, fill: bool, form: str) -> Surface:
         left = surface.left_by()
         surface = surface.level(form)
         check_slopes(surface)
-        words = ", ".join(f"{sq * 1e9:.4g} nm {f'without {name}' if name else 'as it is'}" for name, sq in left.items())
+        words = ", ".join(
+            f"{sq * 1e9:.4g} nm {f'without {name}' if name else 'as measured'}" for name, sq in left.items()
+        )
         least = min(left, key=lambda name: left[name])
         if left[least] < BETTER * left[form]:
             words += f"; a form is left in it? give form = {least!r}"

@@ -77,7 +77,7 @@ def test_the_film_is_thinner_by_the_inlet_factor(model):
 def test_what_is_left_out_is_part_of_the_numerical_error(model):
     auto = at(model, 0.3, 0.01)
     on = at(model, 0.3, 0.01, numerics={"heat": "on"})
-    assert "flash left out" in auto.decision.heat and "flash left out" not in on.decision.heat
+    assert "flash not included" in auto.decision.heat and "flash not included" not in on.decision.heat
     assert auto.uncertainty.numerical >= abs(on.coefficient / auto.coefficient - 1) > 1e-3
     for name in ("shear_force", "couette_force"):
         assert getattr(auto.errors, name) >= abs(getattr(on, name) / getattr(auto, name) - 1), name

@@ -12,10 +12,10 @@ from lubfric.output.run_curve import parse_ratios, parse_speeds
     [
         ("5:0:3", "begins at 5 m/s, above its end 0 m/s", "0:5:3"),
         ("-1:10:5", "begins at -1 m/s", "begin above 0"),
-        ("1:10:1", "asks for 1 values", "or 1 for one value"),
+        ("1:10:1", "has 1 values", "or 1 for one value"),
         ("1:1:3", "begins and ends at 1 m/s", "write 1 for this value"),
         ("1:3", "has 2 parts", "low:high:count"),
-        ("1:3:2.5", "asks for 2.5 values", "a whole number"),
+        ("1:3:2.5", "has 2.5 values", "a whole number"),
         ("2 m/s:10 mm/s:3", "above its end 0.01 m/s", "10 mm/s:2 m/s:3"),
     ],
 )

@@ -52,7 +52,7 @@ def test_the_error_asked_is_reached_and_more_strips_are_used():
     assert tight.uncertainty.sampling <= 0.02 < loose.uncertainty.sampling <= 0.1
     assert tight.decision.strips > loose.decision.strips == 2
     assert tight.uncertainty.length / loose.uncertainty.length == pytest.approx(tight.decision.strips / 2)
-    assert "few spots" not in tight.uncertainty.text and tight.uncertainty.spots >= 10
+    assert "few asperity contacts" not in tight.uncertainty.text and tight.uncertainty.spots >= 10
     scatter = tight.uncertainty.sampling * math.sqrt(tight.uncertainty.length / PAPER.bodies.width)
     assert tight.uncertainty.line_scatter == pytest.approx(scatter)
 

@@ -302,7 +302,7 @@ def test_explain_counts_before_anything_is_solved(monkeypatch):
         assert words in text, text
     assert "cannot be solved: correlation_length" in lubfric.plan_study(SCENE, {"contact.spacing": [1e-4]}).explain()
     moving = SCENE.with_(transient=lubfric.Transient(duration=0.1))
-    assert "[transient]) is left out" in lubfric.plan_study(moving, {}, [0.1]).explain()
+    assert "[transient]) is ignored" in lubfric.plan_study(moving, {}, [0.1]).explain()
     assert "about 12 speeds that each curve chooses" in lubfric.plan_study(SCENE, {}, "auto").explain()
 
 

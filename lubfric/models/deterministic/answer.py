@@ -278,7 +278,7 @@ def _entries(
     drawn = mean(result.drawn for result in results)
     if drawn > DRAWN:
         consequence = "f depends on the 1 nm of lubricant that touching bodies are said to keep, by about a percent"
-        remedy = "read f to a percent or two: hardly any lubricant passes the contact"
+        remedy = "take f as known to 2 %: next to no lubricant passes the contact"
         yield Validity("share of the lubricant out of touching cells", drawn, DRAWN, "", consequence, remedy)
     yield from of_heat(scene, heat)
     if why := too_hot(heat):

@@ -89,7 +89,7 @@ def solve_balance(
         try:
             separated = _film_alone(Point(scene, speed, contact, _first_settings(scene, alone=True)))
         except ConvergenceError as error:  # then a balance in contact, one of a kind, is what excludes separation
-            notes = (f"the film of the whole load was not solved ({error})",)
+            notes = (f"the full-load film was not solved ({error})",)
         else:
             if separated.contact.volume_residual <= 0:
                 return separated

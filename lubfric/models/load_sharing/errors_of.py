@@ -252,7 +252,7 @@ def _notes(balanced: BalancedSample, scene: Scene, sampling: float) -> tuple[str
         notes.append(f"more than the requested {percent(tolerance)}")
     if too_few(balanced.scatter.spots, sampling, tolerance):
         notes.append(
-            f"few spots carry the load (as {balanced.scatter.spots:.2g} equal ones would, fewer than {FEW:g}): the "
+            f"few asperity contacts carry the load (as {balanced.scatter.spots:.2g} equal ones would, fewer than {FEW:g}): the "
             "interval is too narrow more often than it says"
         )
     return tuple(notes)

@@ -64,7 +64,7 @@ class PaperSolution(SampleSolution):
     def sufficient(self) -> str:
         tolerance = self.prepared.scene.numerics.model_tolerance
         if self.balanced.response is None and max(model_error(self.balanced)[0]) <= tolerance:
-            return "load sharing alone: the film is so thick that the roughness hardly matters"
+            return "load sharing alone: the film is so thick that the roughness changes f by less than the tolerance"
         return ""
 
     def heat(self) -> Heat:

@@ -10,6 +10,7 @@ from ..._base import FloatArray
 from ...contact import ridges
 from ...film import FAST, LARGEST, SLIDING, LineContact, ShearForce
 from ...oil import CELSIUS, NO_LIQUID
+from ...units import worded
 from .heat import TYPICAL, Heat
 from .validity import Validity
 
@@ -142,7 +143,7 @@ def of_deflection(scene: Scene, mean_gap: float, remedy: str = ANOTHER) -> Itera
 def of_ends(share: float, length: float) -> Iterator[Validity]:
     """Entries for the ``share`` of the contact's load on the edge columns of a patch of ``length`` [m] along x."""
     if share > ON_ENDS:
-        why = f"its ends, {length:.3g} m apart, cut the contact off"
+        why = f"its ends, {worded(length, 'm')} apart, cut the contact off"
         what = "share of the contact load on the edge columns of the patch"
         yield Validity(what, 100 * share, 100 * ON_ENDS, "%", why, LONGER, True)
 
@@ -234,7 +235,7 @@ def of_typical_heat(scene: Scene, change: float) -> Iterator[Validity]:
             100 * change,
             100 * scene.numerics.tolerance,
             "%",
-            "heat is left out, as the viscosity is a number; that is its effect, at most, on a typical oil, whose "
+            "heat is not included, because the viscosity is a number; this is its effect, at most, on a typical oil, whose "
             f"viscosity falls by {100 * coefficient:.2g} % per K, at {temperature - CELSIUS:.0f} °C",
             "give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); numerics.heat = "
             "'off' leaves it out on purpose",

@@ -110,11 +110,13 @@ class Heat:
         if self.inlet is None:
             return ""
         limit = f"{100 * budget.HEAT * tolerance:.2g} %"
-        inlet = f"inlet left out, film -{100 * (1 - self.inlet.factor):.2g} %"
+        inlet = f"inlet not included, film -{100 * (1 - self.inlet.factor):.2g} %"
         if self.used:
             inlet = f"inlet, film x {self.inlet.factor:.3g} ({self.inlet.other:.3g} by another factor)"
         if self.heated is None:
-            return f"heat: {inlet}; film and flash left out, at most {100 * self.change:.2g} % of f ({limit} allowed)"
+            return (
+                f"heat: {inlet}; film and flash not included, at most {100 * self.change:.2g} % of f ({limit} allowed)"
+            )
         return f"heat: {inlet}; flash {self.flash:.2g} K and film {self.film:.2g} K, f {-100 * self.change:+.2g} %"
 
 

@@ -133,7 +133,7 @@ def _of_film(scene: Scene, sq: float, speed: float, known: tuple[float, float] |
         size = math.nan if narrow and alone else change(scene, sq, STARVED)  # the rolling part may fall by more
         effects.append((f"a starved inlet (film x {STARVED:g})", size, words))
     words = f"oil in the inlet {WARMER:g} K warmer than the given temperature"
-    effects.append((words, change(warm, sq), "give lubricant.temperature as it is at the inlet of the contact"))
+    effects.append((words, change(warm, sq), "give lubricant.temperature at the inlet of the contact"))
     if sq > 0:
         words = f"running-in of the surface (Sq x {WORN:g})"
         effects.append(
