@@ -1,0 +1,70 @@
+"""Runs in time: the interval and the power loss of every output and of the mean, against steady answers and sums."""
+
+import numpy as np
+import pytest
+from scene_text import paper_scene
+
+import lubfric
+from lubfric.output import main
+from lubfric.output.describe import describe_scene
+from lubfric.scene import Harmonic, Transient
+
+STRIPS = paper_scene(motion={"entrainment_speed": 0.02}, bodies={"boundary_friction_coefficient": 0.09})
+
+
+@pytest.fixture(scope="module")
+def held():
+    """At one speed throughout: a steady contact."""
+    return lubfric.transient(STRIPS, [0.0, 1e-3, 3e-3])
+
+
+def test_a_steady_contact_has_the_model_form_error_of_the_steady_answer(held):
+    steady = lubfric.friction(STRIPS)
+    assert held.uncertainty.model[-1] == pytest.approx(steady.uncertainty.model, rel=0.05)
+    half = np.diff(held.uncertainty.interval[-1]) / 2
+    np.testing.assert_allclose(half, np.diff(steady.uncertainty.interval) / 2, rtol=0.1)
+    assert held.power_loss[-1] == pytest.approx(steady.power_loss, rel=5e-3)
+    np.testing.assert_allclose(
+        [held.power_loss_low[-1], held.power_loss_high[-1]], steady.power_loss_interval, rtol=0.03
+    )
+
+
+def test_the_mean_is_the_integral_over_the_cycle_and_its_interval_that_of_the_ends(held):
+    mean = held.average()
+    duration = held.time[-1] - held.time[0]
+    for number, column in zip(
+        (mean.power_loss, *mean.power_loss_interval, *mean.interval),
+        (held.power_loss, held.power_loss_low, held.power_loss_high, *held.uncertainty.interval.T),
+    ):
+        assert number == pytest.approx(np.trapezoid(column, held.time) / duration)
+    assert mean.interval[0] < mean.coefficient < mean.interval[1]
+    assert held.cite().splitlines()[0] == lubfric.friction(STRIPS).cite().splitlines()[0]
+
+
+def test_a_reversal_is_told_without_the_advice_on_percent():
+    plan = Transient(0.02, outputs=20, speed=Harmonic(amplitude=0.05, frequency=50.0, phase=1.5), sliding=0.05)
+    scene = paper_scene(numerics={"sampling": "patch"}).with_(transient=plan)
+    text = " ".join(lubfric.transient(scene).validity)
+    assert "slide-roll ratio is" in text and "percent" not in text and "transient.sliding" in text
+    assert "slide-roll ratio: 2" not in describe_scene(scene)
+
+
+def test_info_refuses_what_a_run_refuses(tmp_path, capsys):
+    plan = Transient(0.02, load=Harmonic(mean=5.5, amplitude=1.0, frequency=50.0))
+    scene = paper_scene().with_(transient=plan)
+    with pytest.raises(lubfric.InputError) as of_info:
+        describe_scene(scene)
+    with pytest.raises(lubfric.InputError) as of_run:
+        lubfric.transient(scene)
+    assert str(of_info.value) == str(of_run.value) and "rises to 6.5 N" in str(of_info.value)
+
+
+def test_the_report_of_a_run_has_budget_table_and_sources(tmp_path):
+    plan = Transient(0.01, outputs=10, speed=Harmonic(amplitude=0.05, frequency=100.0, phase=1.5))
+    (tmp_path / "s.toml").write_text(paper_scene(numerics={"sampling": "patch"}).with_(transient=plan).to_toml())
+    assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "out")]) in (0, 1)
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert "<h2>Uncertainty budget</h2>" in page and "<h2>Operating points</h2>" in page
+    assert "The mean power loss is" in page and "Akchurin" in page.partition("Method and sources")[2]
+    header = (tmp_path / "out" / "history.csv").read_text().splitlines()[0]
+    assert "interval_low [-]" in header and "power_loss_high [W]" in header and "model_error_high [-]" in header
