@@ -2,6 +2,7 @@
 
 from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, too_hot, warmed
 from .levels import DIFFERENCE, mean
+from .linear import gmres
 from .model import DeterministicModel, DeterministicSolution
 from .moving import Moment, RoughBody, moments, travelling
 from .moving_strip import (
@@ -14,6 +15,7 @@ from .moving_strip import (
     SampleTarget,
     continued_strip,
     effort_for,
+    effort_of,
     moving_work,
     solve_moving_strip,
     strip_at_rest,

@@ -35,7 +35,8 @@ FAST = 2.0  # of U: where some roughness is faster, it passes one cell in a step
 CONTINUED = 0.4  # half-widths: distance that the lubricant travels in the moments of a continuation that count
 FEWEST = 8  # moments of a continuation that count, at least
 PILOT = 1.5  # half-widths travelled by the roughness that counts, after which the error of the mean is known first
-MORE = (1.25, 2.5)  # factors by which the moments that count may grow from one look at that error to the next
+MORE = (1.25, 2.5)  # factors by which the moments that count may grow from one check of that error to the next
+EXPECTED = 5.0  # half-widths that count, for the estimate of the work (bearing 2 to 3, gear flank 6, needle roller 10)
 SPARE = 1.1  # times the moments that the error needs
 SERIES = "coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film", "peak_pressure"
 AVERAGED = tuple(f.name for f in fields(DeterministicResult) if f.type is float) + ("load_at", "friction_at")
@@ -161,8 +162,8 @@ def solve_moving_strip(
     rows: list[dict[str, Any]] = []
     early_result: DeterministicResult | None = None
     state_after_discard = rest.result.state
-    look = count if target is None else min(count, _pilot(rest.problem.contact, bodies, step))
-    last = discarded + max(look, sum(early) if for_continuation else 0)
+    required = count if target is None else min(count, _pilot(rest.problem.contact, bodies, step))
+    last = discarded + max(required, sum(early) if for_continuation else 0)
     for number, moment in enumerate(islice(passing, 1, None), 1):
         rows.append(_row(moment) | {"summits_at": summits_at(number * step)})
         report_progress("moving roughness", number, last)
@@ -170,15 +171,15 @@ def solve_moving_strip(
             state_after_discard = moment.at.state
         if for_continuation and number == discarded + sum(early):
             early_result = _mean(rows[-early[1] :], moment.result)
-        if number == discarded + look:
+        if number == discarded + required:
             counted = moment
             sample = _sample(rows[discarded:], moment.result, travelled)
             if target is not None:
-                look = _next_look(sample, target, look, count)
-                last = max(last, discarded + look)
+                required = _required_moments(sample, target, required, count)
+                last = max(last, discarded + required)
         if number == last:
             break
-    count = look
+    count = required
     speeds = " and ".join(f"{body.speed:.4g}" for body in bodies)
     note = (
         f"the roughness moved at {speeds} m/s, by {count} steps of {step:.3g} s after {discarded} that do not count; "
@@ -249,8 +250,8 @@ def _on_longer_cells(state: State) -> State:
     )
 
 
-def _next_look(sample: TimeAndPlace, target: SampleTarget, look: int, most: int) -> int:
-    """Return the number of moments that shall count, of ``most``: ``look``, those of the ``sample``, if its error is within
+def _required_moments(sample: TimeAndPlace, target: SampleTarget, required: int, most: int) -> int:
+    """Return the number of moments that shall count, of ``most``: ``required``, those of the ``sample``, if its error is within
     the ``target``.
 
     The error is itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. So 1 + 1/sqrt(nu) times the error has to
@@ -260,9 +261,9 @@ def _next_look(sample: TimeAndPlace, target: SampleTarget, look: int, most: int)
     freedom = friction.error.freedom
     reached = friction.error.error * (1 + 1 / math.sqrt(freedom)) / abs(friction.value) if freedom else math.inf
     if reached <= target.error:
-        return look
+        return required
     times = SPARE * (reached / target.error) ** 2
-    return min(most, math.ceil(look * min(max(times, MORE[0]), MORE[1])))
+    return min(most, math.ceil(required * min(max(times, MORE[0]), MORE[1])))
 
 
 def _pilot(contact: LineContact, bodies: Sequence[RoughBody], step: float) -> int:
@@ -443,5 +444,6 @@ def moving_work(
     effort = effort_for(contact, sq, cell)
     step, discarded, count = _steps(contact, cell, fastest, length, effort)
     once_more = sum(continued_moments(contact, cell, contact.entrainment_speed * step, effort))
-    steps = discarded + max(count, once_more) + (continuations + ON_LONGER) * once_more
+    expected = math.ceil(EXPECTED * half_width(contact) / (abs(fastest) * step))
+    steps = discarded + max(min(count, expected), once_more) + (continuations + ON_LONGER) * once_more
     return AT_REST * work_of_steps(cells, STEPS, KRYLOV) + steps * work_of_steps(cells, STEPS, KRYLOV)

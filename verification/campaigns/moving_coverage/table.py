@@ -1,0 +1,315 @@
+"""The tables: moving answers on surfaces of their own, and the friction of the endless line that they are compared with.
+
+An answer is one strip, followed until its error is within the tolerance of the scene, as `lubfric.friction` takes it. Its
+half-width here has the sampling error and that of the cells only. The reference of a contact is the mean over other
+strips, each followed over a whole pass after a longer discard, times the change of f on cells half as long along both
+axes. That change is found on a narrower strip, over the same way.
+"""
+
+import csv
+import math
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import lubfric
+from lubfric.estimate import sampled
+from lubfric.models import DeterministicModel
+from lubfric.models.deterministic import RoughBody, SampleTarget, effort_of, mean_over_blocks, solve_moving_strip
+from lubfric.models.deterministic.rough_bodies import bodies_of, summit_control
+from lubfric.models.deterministic.strip_on_two_grids import strip_of
+from lubfric.models.shared import prepare, student
+from lubfric.scene import Scene, moving_bodies
+from lubfric.surface import generate_surface
+
+FOLDER = Path(__file__).parent
+ANSWERS = "answers.csv"
+REFERENCES = "references.csv"
+ANSWER_COLUMNS = (
+    "contact",
+    "seed",
+    "f",
+    "sampling",
+    "freedom",
+    "numerical",
+    "strips",
+    "steps",
+    "work",
+    "seconds",
+    "failure",
+)
+REFERENCE_COLUMNS = ("contact", "kind", "seed", "f", "error", "seconds", "failure")
+
+# Seeds of the strips of references, far from those of answers.
+REFERENCE_SEED = 1000
+
+# Strips of a reference, and half-widths that they discard.
+REFERENCE_STRIPS = 2
+REFERENCE_DISCARDED = 4.0
+
+# Of the narrower strip on shorter cells: correlation lengths along y, and half-widths whose moments count.
+NARROW = 24
+WAY = 2.0
+
+# Standard errors of the reference that an answer may be off beyond its own half-width.
+OF_REFERENCE = 2.0
+
+DIGITS = 7  # of a number in the tables
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A rolling contact: its scene, its speed [m/s], and whether it is heavily loaded, at 1 GPa."""
+
+    name: str
+    scene: Scene
+    speed: float
+    heavy: bool = False
+
+
+def _contact(name: str, speed: float, *, heavy: bool = False, **sections: Any) -> Contact:
+    """Return a contact of steel bodies with a stated boundary film, so that only cells and sample are uncertain."""
+    bodies = {"boundary_film": 2e-8, "hardness": None, "boundary_friction_coefficient": 0.12} | sections.pop("bodies")
+    scene = lubfric.load_scene("paper").with_(bodies=bodies, **sections)
+    return Contact(name, scene, speed, heavy)
+
+
+def contacts() -> tuple[Contact, ...]:
+    """Return the contacts; the surfaces have no seeds of their own yet."""
+    return (
+        _contact(
+            "needle roller",
+            2.0,
+            heavy=True,
+            bodies={"radii": (3e-3, 30e-3), "width": 10e-3, "load": 800.0, "material": "steel"},
+            lubricant={"viscosity": 0.0105, "pressure_viscosity_coefficient": 17e-9, "eyring_stress": 5e6},
+            motion={"slide_roll_ratio": 0.01},
+            surface={"sq": 1.88e-7, "correlation_length": 20e-6, "acf": "gaussian"},
+            counterface={"sq": 1.0e-7, "correlation_length": 20e-6, "acf": "gaussian"},
+            contact={"shape": (100, 100), "spacing": 5e-6},
+        ),
+        _contact(
+            "roller bearing",
+            3.0,
+            heavy=True,
+            bodies={"radii": (6e-3, 30e-3), "width": 14e-3, "load": 2000.0, "material": "steel"},
+            lubricant={
+                "viscosity": 0.018,
+                "pressure_viscosity_coefficient": 18e-9,
+                "eyring_stress": 5e6,
+                "limiting_stress_coefficient": 0.06,
+            },
+            motion={"slide_roll_ratio": 0.1},
+            surface={"sq": 2.5e-7, "correlation_length": 30e-6, "acf": "gaussian"},
+            counterface={"sq": 1.2e-7, "correlation_length": 30e-6, "acf": "gaussian"},
+            contact={"shape": (80, 80), "spacing": 7e-6},
+        ),
+        _contact(
+            "gear flank",
+            2.5,
+            bodies={"radii": (8e-3, 14e-3), "width": 14e-3, "load": 1750.0, "material": "steel"},
+            lubricant={
+                "viscosity": 0.03,
+                "pressure_viscosity_coefficient": 18e-9,
+                "eyring_stress": 5e6,
+                "limiting_stress_coefficient": 0.05,
+            },
+            motion={"slide_roll_ratio": 0.4},
+            surface={"sq": 3e-7, "correlation_length": 25e-6, "acf": "gaussian"},
+            counterface={"sq": 3e-7, "correlation_length": 25e-6, "acf": "gaussian"},
+            contact={"shape": (96, 96), "spacing": 6e-6},
+        ),
+        _contact(
+            "light contact",
+            0.6,
+            bodies={"radius": 5e-3, "width": 10e-3, "load": 150.0, "material": "steel"},
+            lubricant={"viscosity": 0.05, "pressure_viscosity_coefficient": 15e-9, "eyring_stress": 5e6},
+            motion={"slide_roll_ratio": -0.5},
+            surface={"sq": 1.5e-7, "correlation_length": 15e-6, "acf": "gaussian"},
+            contact={"shape": (80, 80), "spacing": 3.5e-6},
+        ),
+        _contact(
+            "sliding roller",
+            1.5,
+            bodies={"radius": 6e-3, "width": 10e-3, "load": 500.0, "material": "steel"},
+            lubricant={
+                "viscosity": 0.02,
+                "pressure_viscosity_coefficient": 16e-9,
+                "limiting_stress_coefficient": 0.08,
+            },
+            motion={"slide_roll_ratio": 1.0},
+            surface={"sq": 1.2e-7, "correlation_length": 20e-6, "acf": "gaussian"},
+            contact={"shape": (80, 80), "spacing": 5e-6},
+        ),
+        _contact(
+            "exponential surface",
+            1.0,
+            bodies={"radius": 6e-3, "width": 10e-3, "load": 700.0, "material": "steel"},
+            lubricant={"viscosity": 0.03, "pressure_viscosity_coefficient": 18e-9, "eyring_stress": 8e6},
+            motion={"slide_roll_ratio": 0.1},
+            surface={"sq": 2e-7, "correlation_length": 45e-6, "acf": "exponential"},
+            contact={"shape": (96, 96), "spacing": 5e-6},
+        ),
+    )
+
+
+def with_seed(contact: Contact, seed: int) -> Scene:
+    """Return the scene of ``contact`` with surfaces of this ``seed``."""
+    sections = {name: {"seed": seed + 500_000 * k} for k, (name, _) in enumerate(moving_bodies(contact.scene))}
+    return contact.scene.with_(**sections)
+
+
+def answer(contact: Contact, seed: int) -> dict[str, Any]:
+    """Return the row of one moving answer."""
+    solution = sampled(prepare(with_seed(contact, seed)), contact.speed, DeterministicModel())
+    parts = solution.answer()
+    first = solution.strips[0].resolved
+    return {
+        "f": parts.numbers["coefficient"],
+        "sampling": parts.sampling.error,
+        "freedom": parts.sampling.freedom,
+        "numerical": parts.numerical,
+        "strips": len(solution.strips),
+        "steps": first.times.size - first.discarded,
+        "work": sum(pair.resolved.work for pair in solution.strips),
+    }
+
+
+def reference_strip(contact: Contact, seed: int) -> dict[str, Any]:
+    """Return f of a whole pass of one strip and its standard error, on the cells of the answers."""
+    prepared = prepare(with_seed(contact, REFERENCE_SEED + seed))
+    _, factors = strip_of(prepared, 0)
+    bodies = bodies_of(prepared, 0, contact.speed)
+    effort = replace(effort_of(prepared.scene, bodies, contact.speed, factors), discarded=REFERENCE_DISCARDED)
+    control = summit_control(prepared)
+    length = prepared.sample.lengths[1]
+    target = SampleTarget(error=0.0, correlation_length=length, control=control)
+    strip = solve_moving_strip(prepared.scene, bodies, contact.speed, factors=factors, effort=effort, target=target)
+    mean = mean_over_blocks([strip.sample], "friction", length, control)
+    return {"f": mean.value, "error": mean.error.error}
+
+
+def change_by_cells(contact: Contact, seed: int) -> dict[str, Any]:
+    """Return the ratio of f on cells half as long along both axes to that on the cells of the answers."""
+    scene = with_seed(contact, REFERENCE_SEED + seed)
+    prepared = prepare(scene)
+    _, (fx, fy) = strip_of(prepared, 0)
+    (dx, dy) = prepared.sample.cells.coarse
+    spacing = (0.5 * dx, 0.5 * dy)
+    half_width = scene.bodies.half_width
+    columns = 2 * math.ceil(6 * half_width / dx)
+    rows = 8 * fy * math.ceil(NARROW * prepared.sample.lengths[1] / (4 * fy * dy))
+    bodies = []
+    for k, (name, ratio) in enumerate(moving_bodies(scene)):
+        rough = getattr(scene, name)
+        surface = generate_surface(
+            (columns, rows),
+            spacing,
+            sq=rough.sq,
+            correlation_length=rough.correlation_length,
+            acf=rough.acf,
+            decay_level=rough.decay_level,
+            seed=seed + 17 * k,
+        )
+        bodies.append(RoughBody(surface, contact.speed * ratio, name == "counterface"))
+    f = []
+    for times in (2, 1):
+        steps = round(WAY * half_width / (0.5 * times * fx * dx))
+        factors = (times * fx, times * fy)
+        strip = solve_moving_strip(scene, bodies, contact.speed, factors=factors, most_steps=steps)
+        f.append(strip.result.coefficient)
+    return {"f": f[1] / f[0], "error": 0.0}
+
+
+KINDS = {"strip": reference_strip, "cells": change_by_cells}
+
+
+def extend(seeds: int, budget: float, folder: Path = FOLDER) -> Iterator[dict[str, Any]]:
+    """Solve what the tables have not, as long as the processor time of this process is below ``budget`` [s], and append
+    each row as it is solved. References come after the first three answers of each contact."""
+    known = {(row["contact"], row["seed"]) for row in rows(folder / ANSWERS)}
+    kept = {(row["contact"], row["kind"], row["seed"]) for row in rows(folder / REFERENCES)}
+    for seed in range(seeds):
+        for contact in contacts():
+            if time.process_time() > budget:
+                return
+            if (contact.name, str(seed)) not in known:
+                row = {"contact": contact.name, "seed": seed} | _timed(answer, contact, seed)
+                yield _appended(folder / ANSWERS, ANSWER_COLUMNS, row)
+        if seed != min(2, seeds - 1):
+            continue
+        for kind, number in (("strip", 0), ("cells", 0), *(("strip", k) for k in range(1, REFERENCE_STRIPS))):
+            for contact in contacts():
+                if time.process_time() > budget:
+                    return
+                if (contact.name, kind, str(number)) not in kept:
+                    row = {"contact": contact.name, "kind": kind, "seed": number} | _timed(KINDS[kind], contact, number)
+                    yield _appended(folder / REFERENCES, REFERENCE_COLUMNS, row)
+
+
+def _timed(solve, contact: Contact, seed: int) -> dict[str, Any]:
+    begun = time.process_time()
+    try:
+        row = solve(contact, seed) | {"failure": ""}
+    except lubfric.LubfricError as error:
+        row = {"failure": f"{type(error).__name__}: {error}".replace("\n", " ")[:120]}
+    return row | {"seconds": time.process_time() - begun}
+
+
+def rows(file: Path) -> list[dict[str, str]]:
+    """Return the rows of a table as text."""
+    if not file.is_file():
+        return []
+    with file.open(newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def _appended(file: Path, columns: tuple[str, ...], row: dict[str, Any]) -> dict[str, Any]:
+    new = not file.is_file()
+    with file.open("a", newline="") as stream:
+        writer = csv.DictWriter(stream, columns)
+        if new:
+            writer.writeheader()
+        writer.writerow({name: _as_text(row.get(name, "")) for name in columns})
+    return row
+
+
+def _as_text(value: Any) -> str:
+    return f"{value:.{DIGITS}g}" if isinstance(value, (float, np.floating)) else str(value)
+
+
+def covered(folder: Path = FOLDER) -> Iterator[dict[str, Any]]:
+    """Yield of each contact how many answers hold the reference within their half-width, and within it and
+    `OF_REFERENCE` standard errors of the reference."""
+    for contact in contacts():
+        of_contact = [row for row in rows(folder / REFERENCES) if row["contact"] == contact.name and not row["failure"]]
+        strips = [row for row in of_contact if row["kind"] == "strip"]
+        cells = [float(row["f"]) for row in of_contact if row["kind"] == "cells"]
+        answers = [row for row in rows(folder / ANSWERS) if row["contact"] == contact.name and not row["failure"]]
+        if not strips or not cells or not answers:
+            continue
+        truth = float(np.mean([float(row["f"]) for row in strips])) * float(np.mean(cells))
+        error = math.sqrt(sum(float(row["error"]) ** 2 for row in strips)) / len(strips) / truth
+        deviations = np.array([float(row["f"]) / truth - 1 for row in answers])
+        widths = np.array([_half_width(row) for row in answers])
+        yield {
+            "contact": contact.name,
+            "heavy": contact.heavy,
+            "answers": len(answers),
+            "reference": truth,
+            "reference_error": error,
+            "mean_deviation": float(deviations.mean()),
+            "scatter": float(deviations.std(ddof=1)) if len(answers) > 1 else math.nan,
+            "half_width": float(np.median(widths)),
+            "inside": int((np.abs(deviations) <= widths).sum()),
+            "inside_with_reference": int((np.abs(deviations) <= np.hypot(widths, OF_REFERENCE * error)).sum()),
+            "seconds": float(np.median([float(row["seconds"]) for row in answers])),
+        }
+
+
+def _half_width(row: dict[str, str]) -> float:
+    return math.hypot(student(int(row["freedom"])) * float(row["sampling"]), float(row["numerical"]))
