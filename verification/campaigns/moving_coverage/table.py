@@ -19,7 +19,14 @@ import numpy as np
 import lubfric
 from lubfric.estimate import sampled
 from lubfric.models import DeterministicModel
-from lubfric.models.deterministic import RoughBody, SampleTarget, effort_of, mean_over_blocks, solve_moving_strip
+from lubfric.models.deterministic import (
+    DeterministicSolution,
+    RoughBody,
+    SampleTarget,
+    effort_of,
+    mean_over_blocks,
+    solve_moving_strip,
+)
 from lubfric.models.deterministic.rough_bodies import bodies_of, summit_control
 from lubfric.models.deterministic.strip_on_two_grids import strip_of
 from lubfric.models.shared import prepare, student
@@ -166,6 +173,7 @@ def with_seed(contact: Contact, seed: int) -> Scene:
 def answer(contact: Contact, seed: int) -> dict[str, Any]:
     """Return the row of one moving answer."""
     solution = sampled(prepare(with_seed(contact, seed)), contact.speed, DeterministicModel())
+    assert isinstance(solution, DeterministicSolution)
     parts = solution.answer()
     first = solution.strips[0].resolved
     return {
