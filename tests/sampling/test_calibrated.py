@@ -225,6 +225,10 @@ def test_the_asperity_load_does_not_jump_with_the_law_of_the_oil(newtonian):
     shares = [(r.boundary_film_load / load, r.saturated_film_load / load) for r in (newtonian, limited)]
     assert shares[0] == pytest.approx(shares[1], abs=0.05)
     assert shares[0][1] > 0.25
+    for result in (newtonian, lubfric.friction(PAPER, 0.01)):  # whatever control and shorter cells change
+        parts = result.boundary_film_load + result.saturated_film_load
+        assert parts == pytest.approx(result.contact_load, rel=1e-12)
+    assert limited.boundary_film_load == limited.contact_load
     assert math.isnan(lubfric.friction(PAPER, 0.03, model="paper").saturated_film_load)
 
 

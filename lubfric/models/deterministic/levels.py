@@ -18,7 +18,7 @@ import numpy as np
 
 from ..._base.jobs import map_parts
 from ...samples import Sample
-from ...scene import Numerics
+from ...scene import Numerics, Scene
 from ..shared import (
     BlockError,
     ControlVariate,
@@ -155,6 +155,7 @@ def levels_of(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]
     pieces, shortest, by_cells, numerical, has_unsolved_cells = on_shorter_cells(prepared, speed, pairs)
     numbers = changed(prepared, estimate.numbers, [(piece[1], piece[-1]) for piece in pieces])
     numbers = changed(prepared, numbers, [shortest[-2:]] if shortest else [])
+    numbers = with_divided_contact_load(prepared.scene, numbers)
     f = abs(numbers["coefficient"])
     of_strips = add_errors(estimate.whole, replace(by_cells, error=by_cells.error * f))
     difference = BlockError(min(estimate.difference.error, of_strips.error) / f, estimate.difference.freedom)
@@ -186,6 +187,21 @@ def levels_of(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]
         length=length,
         note=estimate.note,
     )
+
+
+def with_divided_contact_load(scene: Scene, numbers: dict[str, float]) -> dict[str, float]:
+    """Return ``numbers`` with parts of the asperity load that belong to it: the control and shorter cells change the load
+    itself, and its parts in proportion.
+
+    Of a Newtonian oil the parts are the boundary film and the saturated film. With a shear law the load on asperities is
+    that of the boundary film; a film at its limiting stress is part of the film load.
+    """
+    contact = numbers["contact_load"]
+    if not scene.lubricant.newtonian:
+        return numbers | {"boundary_film_load": contact}
+    names = ("boundary_film_load", "saturated_film_load")
+    parts = sum(numbers[name] for name in names)
+    return numbers | {name: numbers[name] * contact / parts for name in names} if parts > 0 else numbers
 
 
 def _sum(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], line: ControlVariate | None) -> TwoLevelEstimate:
