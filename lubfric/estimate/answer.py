@@ -16,7 +16,8 @@ from .ranges import with_ranges
 from .result import FrictionResult
 from .uncertainty import Uncertainty, field_errors_of, interval
 
-ONE_STANDS_STILL = 2.0  # slide-roll ratio, without its sign
+# Slide-roll ratio, without its sign, at which one surface stands still: (u_2 - u_1)/U with u_1 = 0.
+ONE_STANDS_STILL = 2.0
 
 
 def result_of(prepared: Prepared, choice: Choice, begun: float, *, fine: bool = False) -> FrictionResult:

@@ -13,7 +13,9 @@ from .result import FrictionResult
 from .uncertainty import Uncertainty
 
 HARDNESS = "bodies.hardness"
-LEAST = 5e-4  # of f: a smaller change is not reported
+
+# Change of f over f by the range of an input below which no note reports it: 0.05 %. Not measured: a convention.
+LEAST = 5e-4
 
 
 def with_ranges(prepared: Prepared, result: FrictionResult, answer: ModelAnswer) -> FrictionResult:

@@ -12,13 +12,30 @@ from ..errors import InputError
 from ..scene import Roughness, Scene
 from ..surface import Surface, correlation_length
 
-ACROSS = 40  # cells across the Hertz strip in a picture: an asperity contact of the paper has five across
-CELLS_PER_LENGTH = 4.0  # of the correlation length
-CELLS_PER_HALF_WIDTH = 2.0  # of the Hertz strip, along x
-EVEN = 4  # cells along x come in fours
-FAST = 16  # and along y in sixteens
-SUMMITS = 4.5  # Sq
-BLEND = 2.0  # correlation lengths along y over which one strip passes into the next
+# Cells across the Hertz strip in a picture: an asperity contact of the built-in scene then has five across. Changes
+# no number.
+ACROSS = 40
+
+# Cells in a correlation length, at least: with five f is within 1 % (docs/measurements.md, cells per correlation
+# length), and pieces on shorter cells correct the rest.
+CELLS_PER_LENGTH = 4.0
+
+# Cells in the Hertz half-width along x, at least. Half as many change f of the scene "paper" by nothing, where the
+# correlation length decides (the command in statistics.py).
+CELLS_PER_HALF_WIDTH = 2.0
+
+# Cells along x come in multiples of this number, so that their transforms are fast and pieces can be thinned.
+EVEN = 4
+
+# Cells along y come in multiples of this number times a fast length of the transform, so that lengths can be halved
+# four times.
+FAST = 16
+
+# Height [Sq] up to which asperities may touch: 3 in a million points of a Gaussian surface are higher.
+SUMMITS = 4.5
+
+# Correlation lengths along y over which one strip passes into the next: a Gaussian correlation is 0.02 there.
+BLEND = 2.0
 
 
 @dataclass(frozen=True)

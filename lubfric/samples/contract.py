@@ -21,7 +21,9 @@ from ..surface import Surface
 from .cells import Cells
 from .contacts import half_space_contact_of
 
-PIECE = 42.0  # correlation lengths along y: a piece on native cells, which shows what the cells of the sample change
+# Correlation lengths along y of a piece on native cells: eight blocks of five lengths (statistics.py), so that a
+# piece states its own error.
+PIECE = 42.0
 
 
 class Sample(ABC):

@@ -12,7 +12,9 @@ from ..errors import InputError
 from ..scene import ContactDomain, Roughness, Scene, named
 from ..surface import Surface, check_slopes, generate_surface, outliers, read_surface
 
-REACH = 6.0  # length of a measured patch under a cylinder, in Hertz half-widths each side
+# Hertz half-widths on each side to which a measured patch is cut. Not measured: at the lightest loads of rough
+# contacts the contact is wider than the Hertz strip by a factor of this order.
+REACH = 6.0
 TOO_SHORT = (
     "surface.extension = 'mirror' (continues the map by its mirror image) or contact.geometry = 'flat' (its roughness "
     "spread over the strip)"

@@ -39,8 +39,11 @@ from .result import DeterministicResult
 from .rough_bodies import HARDNESS, bodies_of, map_of
 from .strip_on_two_grids import strip_of
 
-DRAWN_LENGTH = 10.0  # half-widths of the Hertz strip along y that are solved again for a picture
-LEAST_DRAWN = 8.0  # correlation lengths along y of the same, at least
+# Half-widths of the Hertz strip along y that are solved again for a picture.
+DRAWN_LENGTH = 10.0
+
+# Correlation lengths along y of the same, at least.
+LEAST_DRAWN = 8.0
 FEW_STRIPS = "not known from fewer than three strips"
 UNSOLVED_CELLS = (
     "shorter cells did not converge within the work of a point: the numerical error is twice the estimate from longer "
@@ -58,8 +61,11 @@ OF_MODEL = (
 OF_LIMIT = "the limiting stress of the oil, which is not given: lubricant.limiting_stress_coefficient narrows it"
 LIMITED = ("coefficient", "at_least_limit", "at_most_limit")
 LOOSER = "a larger numerics.tolerance"
-# lubricant drawn from touching cells, load of a Newtonian film sheared beyond f_b p: reported above
+
+# Share of the lubricant out of touching cells above which a warning reports it.
 DRAWN = 0.1
+
+# Share of the load on a Newtonian film that is sheared beyond f_b p above which a warning reports it.
 CUT = 0.1
 
 

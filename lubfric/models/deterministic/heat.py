@@ -21,8 +21,10 @@ from .result import (
     DeterministicResult,
 )
 
-# factor on the film, and relative change of f: beyond them only Eq. (8) was checked
+# Factor on the film by heat below which only Eq. (8) was checked.
 LEAST_FILM = 0.7
+
+# Relative change of f by heat beyond which only Eq. (8) was checked.
 MOST_CHANGE = 0.2
 
 

@@ -42,8 +42,11 @@ from .strip_on_two_grids import (
 )
 
 CELLS = 0.7  # of numerics.sampling_tolerance: standard error that the effect of the cells may leave
-# s, counted: beyond it no more are solved
+
+# Pieces, at most.
 MOST_PIECES = 32
+
+# Counted work [s] of pieces beyond which no more are solved.
 PIECES_WORK = 30.0
 MOVING = 0.5  # times (cell along x/correlation length)²: error of f where roughness moves, at least; one change may be
 # small by chance (to cells of an eighth, f of nine Gaussian maps moved by 0 to 10 % from a half, and 0 to 2 % from a
@@ -51,8 +54,11 @@ MOVING = 0.5  # times (cell along x/correlation length)²: error of f where roug
 AS_START = 100  # LU factorisations of a piece on longer cells, from which it starts, at most
 SOLVED = 2e-3  # of f: what the tolerance of a strip may move
 SHORT = 60.0  # correlation lengths: a strip that is shorter serves as a piece
-# correlation lengths: pieces of the third level, and the one of the last
+
+# Correlation lengths of a piece of the third level.
 LENGTH = 42.0
+
+# Correlation lengths of the piece of the last level.
 SHORTEST = 14.0
 SMOOTH = 3.0  # mean square of the change of heights over two cells, over that over one: 4 of smooth ones, 2 of others
 OFF = 0.5  # of what a piece as short as that changes: how far that may be from the mean

@@ -15,13 +15,16 @@ from .point import Strip, change_of, solve_strip
 from .result import DeterministicResult
 from .rough_bodies import bodies_of, strip_surface, summit_control
 
-# cells, at least: in a correlation length, and in b along x
+# Cells in a correlation length, at least.
 PER_LENGTH = 2.0
+
+# Cells in the Hertz half-width along x, at least.
 PER_HALF_WIDTH = 1.0
 # Part of numerics.sampling_tolerance: standard error of f at which a strip of moving roughness ends.
 MOVING_SAMPLE = 0.6
 
-MOVING = 4.0  # the former along x where roughness moves (docs/levels.md)
+# Cells in a correlation length along x, at least, where roughness moves (docs/levels.md).
+MOVING = 4.0
 
 
 @dataclass(frozen=True)

@@ -19,18 +19,37 @@ from .point import (
 )
 from .response import Response, loads_at, respond
 
-SAFE_FILM = 2.0  # times Moes' film: more than any film has
-BOUNDS = (-40.0, 30.0)  # of ln(F_H/F_C): film shares down to 4e-18, contact shares to 1e-13
-EMPTY = math.log(1e-4)  # of a film that arrives: it is none if it carries less than that and leaves the gap empty
-# of ln(F_H/F_C): from a guess, and from a balance at another speed
+# Factor on Moes' film above any film. Half and twice as much change f by 1e-15 (`python -m
+# verification.campaigns.constants`).
+SAFE_FILM = 2.0
+
+# Bounds of ln(F_H/F_C): film shares down to 4e-18, contact shares to 1e-13.
+BOUNDS = (-40.0, 30.0)
+
+# Bound of ln(F_H/F_C) of a film that arrives: it is none if it carries less and leaves the gap empty.
+EMPTY = math.log(1e-4)
+
+# First step of ln(F_H/F_C) from a guess. Half and twice as much take 6 and 15 % longer (`python -m
+# verification.campaigns.constants`).
 FIRST_STEP = 1.5
+
+# First step of ln(F_H/F_C) from a balance at another speed. Half and twice as much take 10 % longer.
 NEXT_STEP = 0.7
-# of Newton's method, its longest one, and how far it goes in ln(F_H/F_C)
+
+# Steps of Newton's method, at most.
 STEPS = 30
+
+# Longest step of Newton's method in ln(F_H/F_C).
 FARTHEST = 1.0
+
+# Step in ln(F_H/F_C) at which Newton's method ends: it gives a start only.
 NEAR = 1e-3
-ROUNDS = 6  # each with tighter tolerances
-SETTLED = 0.3  # of ln(F_H/F_C): a response found as near as that to the balance is its own
+
+# Rounds, each with tighter tolerances, at most.
+ROUNDS = 6
+
+# Distance in ln(F_H/F_C) from the balance up to which a response is its own.
+SETTLED = 0.3
 
 
 @dataclass(frozen=True)

@@ -60,12 +60,23 @@ from .undetected import (
     undetected_contact,
 )
 
-FARTHEST = 0.5  # of ln(F_H/F_C), by which what the cells change may be corrected
-LARGEST = 0.2  # of the mean gap: a change of gap or film beyond it is not to first order
-CLOSE = 1.0  # Sq: clearance below which summits may be lost to the cells
-REFERENCES = (0.05, 0.4, 1.6)  # expected film of the whole load over Sq, at the speeds of reference points
-NEAR_LOAD = 0.25  # of ln F_C, from a reference point whose cells serve as one's own,
-REFERENCED = 0.1  # if they leave no more than that of the tolerance on f
+# Change of ln(F_H/F_C) that cells may make and be corrected for to first order.
+FARTHEST = 0.5
+
+# Change of gap or film over the mean gap that is to first order, at most.
+LARGEST = 0.2
+
+# Clearance [Sq] below which asperities may be lost to the cells. Not measured.
+CLOSE = 1.0
+
+# Expected films of the total load over Sq at the speeds of reference points: contact, mixed, and about lift-off.
+REFERENCES = (0.05, 0.4, 1.6)
+
+# Distance in ln F_C from a reference point up to which its effect of the cells may serve.
+NEAR_LOAD = 0.25
+
+# Part of the tolerance on f that this may leave.
+REFERENCED = 0.1
 
 
 @dataclass(frozen=True, kw_only=True)

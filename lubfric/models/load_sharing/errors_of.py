@@ -12,7 +12,8 @@ from .forces import Forces
 from .model_error import least_error, load_sharing_error, starved_error
 from .scatter import Scatter
 
-PLASTIC = 3.0  # a relative change of the load or of the area on the plastic part, at most about
+# Relative change of the plastic part over that of the load or the area, at most about. Not measured.
+PLASTIC = 3.0
 NO_CELLS = "not known: this contact has no places along y to compare"
 NONE = (0.0, 0.0)
 UNKNOWN = (math.nan, math.nan)

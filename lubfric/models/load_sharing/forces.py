@@ -14,7 +14,8 @@ from ..shared import (
     point_heat,
 )
 
-HERTZ_NODES = 101  # of the asperity pressure where the contact has no cells
+# Nodes of the asperity pressure where the contact has no cells. Not measured.
+HERTZ_NODES = 101
 
 
 @dataclass(frozen=True)

@@ -24,9 +24,12 @@ from .balance import (
     Balance,
 )
 
+# Windows of a measured map whose scatter states an error.
 FEWEST_WINDOWS = 3
-# correlation lengths of the surface along y in a block: wanted, and at least
-SPOT = 1.75  # correlation lengths along y in a block that counts as one contact spot
+
+# Correlation lengths along y in a block that counts as one asperity contact. Half and twice as many change the width
+# of an interval by less than 1 % (`python -m verification.campaigns.constants`).
+SPOT = 1.75
 
 
 def strip_gap(contact: Any, state: Any) -> np.ndarray:

@@ -16,11 +16,19 @@ if TYPE_CHECKING:
     from ...scene import Scene
 
 
-# blocks, the latter of 25 correlation lengths
+# Blocks, below which nothing is known.
 FEWEST = 4
+
+# Blocks with which the scale of the extreme values is known: 14 blocks of `SPOT` correlation lengths are 25 of these.
 ENOUGH = 14
-UNSURE = 2.0  # times the scale that fewer blocks than enough show
-OVERLAP = math.gamma(2.5)  # mean of (excess/scale)^1.5 of an exponential excess
+
+# Factor on the scale that fewer blocks show. Not measured: that scale is known to 1/sqrt(2 (n - 1)), 40 % with four.
+UNSURE = 2.0
+
+# Mean of (excess/scale)^1.5 of an exponential excess.
+OVERLAP = math.gamma(2.5)
+
+# Euler's constant: the mean of the standard Gumbel distribution.
 EULER = 0.5772156649
 
 

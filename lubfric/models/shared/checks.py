@@ -18,21 +18,45 @@ if TYPE_CHECKING:
     from ...scene import Scene
 
 
-# rho U h/eta
+# Reynolds number rho U h/eta up to which a film is laminar; between it and `TURBULENT` it is in transition. Usual for
+# bearings; not measured here.
 LAMINAR = 1000.0
+
+# Reynolds number rho U h/eta from which a film is turbulent, and Reynolds' equation means nothing. Usual for
+# bearings; not measured here.
 TURBULENT = 2000.0
-INERTIA = 0.1  # (rho U h/eta) h/b
-OPPOSED = 2.0  # slide-roll ratio
-DENSITY = 870.0  # kg/m³ of an oil, where none is given
-ROELANDS_LIMIT = 1e9  # Pa, about the pressure to which the law was fitted
-BARUS_LIMIT = 3e8  # Pa
-THICK = 0.1  # of the radius
-STRIP_SHARE = 0.2  # of the mean gap that the undeformed cylinder may rise over the strip
+
+# Reduced Reynolds number (rho U h/eta) h/b from which inertia counts: it is the ratio of inertia to viscous forces.
+INERTIA = 0.1
+
+# Slide-roll ratio beyond which the surfaces move against one another.
+OPPOSED = 2.0
+
+# Density of an oil [kg/m³], where none is given: that of a mineral oil at 30 °C (oils.toml).
+DENSITY = 870.0
+
+# Pressure [Pa], about, up to which the law of Roelands was fitted (thesis, Delft 1966).
+ROELANDS_LIMIT = 1e9
+
+# Pressure [Pa] from which the law of Barus is far above measured viscosities. Not measured here.
+BARUS_LIMIT = 3e8
+
+# Film over the radius from which it is not thin: at sqrt(2 R h) the parabola for the circle is off by 5 %.
+THICK = 0.1
+
+# Part of the mean gap that the undeformed cylinder may rise over the Hertz strip. Not measured.
+STRIP_SHARE = 0.2
 ANOTHER = "numerics.film_deflection = 'scaled'"
-ON_ENDS = 0.01  # of the contact load, on the two edge columns of a patch
+
+# Share of the contact load on the two edge columns of a patch from which its ends cut off the contact. Not measured.
+ON_ENDS = 0.01
 LONGER = "make the patch longer in x: contact.shape, or for a measured map surface.extension = 'mirror'"
-SHARE = 0.2  # of f: excess above which f is no answer
-FRICTION = 0.2  # of the film
+
+# Share of f from stresses that no oil carries from which on f is refused. Not measured: a convention.
+SHARE = 0.2
+
+# Friction coefficient of a film that no lubricant reaches: traction fluids have some 0.1 (typical.toml).
+FRICTION = 0.2
 
 
 def of_motion(scene: Scene, speed: float, film: float) -> Iterator[Validity]:

@@ -32,9 +32,14 @@ if TYPE_CHECKING:
     from ...contact import ContactState
 
 
-NOTHING = 1e-9  # of the film: less heat than that is none
-TYPICAL = 343.15, 0.035  # K, 1/K: a mineral oil of ISO VG 68 at 70 °C
-DOUBT = 0.5  # of what heat does to f: how far that may be off
+# Relative change of the film by the heat of its inlet that is none: rounding. Half and twice as much change nothing.
+NOTHING = 1e-9
+# Temperature [K] and temperature coefficient of the viscosity [1/K] of a mineral oil of ISO VG 68 at 70 °C.
+TYPICAL = (343.15, 0.035)
+
+# Part of what heat does to f that counts as its error. Not measured: published factors of the inlet differ by as much
+# (`InletHeat.other`).
+DOUBT = 0.5
 
 # Exponent of the viscosity in Moes' film, about: it changes slowly, between 0.5 and 1.
 EXPONENT = 0.7

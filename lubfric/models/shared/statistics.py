@@ -7,19 +7,49 @@ import numpy as np
 
 from ..._base import FloatArray
 
-MOST_BLOCKS = 32  # blocks of a line: more of them are no more independent
-ENOUGH_BLOCKS = 8  # blocks of the wanted length; a line with fewer is cut into shorter ones
-LEAST_BLOCKS = 5  # blocks, below which the error is not known
-WIDE = 9.0  # correlation lengths along y in a block: wanted
-BLOCK = 5.0  # correlation lengths along y in a block: at least
-ENDS = 1 / math.sqrt(math.pi)  # correlation lengths of a block that are as its neighbours, for a Gaussian correlation
+# Blocks of a line, at most. The constants of this module are judged by the coverage of the 95 % intervals (`python -m
+# verification sampling`, docs/measurements.md: 91 to 99 %); `python -m verification.campaigns.constants` halves and
+# doubles each. Twice as many change the width of an interval by 1 %.
+MOST_BLOCKS = 32
+
+# Blocks of the wanted length; a line with fewer is cut into shorter ones.
+ENOUGH_BLOCKS = 8
+
+# Blocks, below which the error is not known: four degrees of freedom.
+LEAST_BLOCKS = 5
+
+# Correlation lengths along y in a block, wanted: neighbouring blocks share 6 % of their variance (`ENDS`).
+WIDE = 9.0
+
+# Correlation lengths along y in a block, at least: neighbouring blocks share 11 % of their variance (`ENDS`).
+BLOCK = 5.0
+
+# Correlation lengths of a block that are as those of its neighbour: ∫ |y| exp(-y²) dy/∫ exp(-y²) dy, of a Gaussian
+# correlation.
+ENDS = 1 / math.sqrt(math.pi)
+
+# Factor on the number of strips that an error needs, because this error is itself known to 1/sqrt(2 nu) only.
 SAFETY = 1.3
+
+# Factor by which a sample grows, at least: fewer new strips tell little that is new. Not measured.
 LEAST = 1.5
-GROWTH = 4.0, 8.0  # times the length so far: a standard error from few blocks is no guide further
+
+# Factors by which a sample grows, at most: the first one, and a longer one. A standard error from few blocks is no
+# guide further.
+GROWTH = 4.0, 8.0
+
+# Confidence of the intervals.
 CONFIDENCE = 0.95
-ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
-FEW = 10.0  # effective contact spots below which an interval covers less often than it says
-MATTERS = 0.25  # of the sampling tolerance: an error below it needs no more of them
+
+# Degrees of freedom of an error that is not counted from blocks: Student's t is then 2.04 for 1.96.
+ORDER = 30
+
+# Effective asperity contacts below which an interval covers less often than it states: 91.5 % at 55 N
+# (docs/measurements.md, `python -m verification sampling`).
+FEW = 10.0
+
+# Part of the sampling tolerance below which an error needs no more asperity contacts. Not measured.
+MATTERS = 0.25
 TOO_SHORT = (
     "not known: {:.2g} correlation lengths along y are too few for an interval (leave numerics.sampling and "
     "surface.extension out, or give a map that is longer across the motion)"

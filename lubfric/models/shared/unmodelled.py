@@ -18,22 +18,47 @@ from ...oil import carried_stress, shear_stress
 from ...scene import Scene, moves
 from .heat import TYPICAL
 
-# of the film; of Sq; K; of f_b
+# Film over that of a full inlet, of the example of a starved one. A convention, not measured.
 STARVED = 0.7
+
+# Sq after running-in over that before, of the example. Not measured: `lubfric.run_in` computes it for a scene.
 WORN = 0.6
+
+# Temperature rise of the oil in the inlet [K] of the example. A convention, not measured.
 WARMER = 10.0
+
+# f_b with another additive over that of the scene, of the example. A convention, not measured.
 RUBBED = 0.75
-GAP = 1.6  # Sq: mean gap of a contact that carries most of the load, about
-THICK = 3.0  # film over Sq from which roughness that moves hardly matters
-# Pa: E' of covered rollers and seals; half-widths that a cover must be thick
+
+# Mean gap of a contact that carries most of the load [Sq], about: 1.67 in the scene "paper" at 1 mm/s.
+GAP = 1.6
+
+# Film over Sq from which roughness that moves hardly matters.
+THICK = 3.0
+
+# E' [Pa] below which a body is a covered roller or a seal.
 SOFT = 5e9
+
+# Half-widths of the Hertz strip that a cover must be thick to count as a half-space.
 DEEP = 5.0
-SURE = 1e-6  # of the load: a share of the asperities or of the film is not scaled beyond it
-# of √(2 R h): how far a film reaches before and behind a narrow contact
+
+# Least share of asperities or film of the load that is scaled to that of a result.
+SURE = 1e-6
+
+# Distance that a film reaches before a narrow contact, in sqrt(2 R h): the pressure of a rigid one has
+# fallen to 4 % of its largest there.
 UPSTREAM = 4.0
+
+# Distance that a film reaches behind a narrow contact, in sqrt(2 R h), by Reynolds' condition on a rigid cylinder.
 RUPTURE = 0.475
-ALONE = 0.1  # of f by asperities, below which the film makes it
-NARROW = 0.184  # by which the least film of a rigid contact is thinner than that which flows
+
+# Part of f by asperities below which the film makes it.
+ALONE = 0.1
+
+# Part by which the least film of a rigid contact is thinner than that which flows: 1 - 1/1.226, Reynolds' condition.
+NARROW = 0.184
+
+# Nodes of the sums along x, as in checks_before.py.
 NODES = 201
 
 # Powers of the guess of s between which that of a result lies, and 0: the built-in contact, by three models, has those
