@@ -267,7 +267,7 @@ def test_a_number_with_a_unit_of_any_length_is_read_in_no_time():
 
 
 def test_speeds_with_a_decimal_comma_are_refused(capsys):
-    from lubfric.output.command_line import main
+    from lubfric.output import main
 
     assert main(["info", "paper", "--speeds", "1,5 mm/s"]) == 2
     assert "with a unit" in capsys.readouterr().err

@@ -25,7 +25,7 @@ FRAGMENT = re.compile(r"^(Of|Those|That of|The same|As)\b")
 # What stands in lubfric from before these rules: a number here may only fall.
 REMAINING = {"classes": 0, "odd words": 0, "fragments": 0, "untyped": 0}
 # Names that tests import from inside a room, of all names that they import from lubfric.
-PRIVATE_SHARE = 0.25
+PRIVATE_SHARE = 0.10
 
 
 @cache

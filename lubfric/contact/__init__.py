@@ -7,7 +7,7 @@ from .cylinder import LoadedCylinder
 from .dents import dent_by_pass, operator_under
 from .flat import ContactCurve, FlatContact, asperity_curve, contact_curve, flat_contact
 from .half_space import BOUNDARY, HalfSpaceContact, half_space_contact
-from .kernels import semiperiodic_coefficients
+from .kernels import bessel_cells, line_coefficients, love_coefficients, semiperiodic_coefficients
 from .operator import HalfSpace, even_transform, half_space
 from .problem import ContactProblem, TrialContact, contact_problem, on_grid
 from .refinement import (

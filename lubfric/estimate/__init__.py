@@ -20,4 +20,4 @@ from .outlook import Forecast, forecast
 from .power import power_of_forces
 from .result import FrictionResult, cited, together
 from .sampled import sampled
-from .uncertainty import Uncertainty, UncertaintyCurve, curve_of
+from .uncertainty import Uncertainty, UncertaintyCurve, curve_of, interval

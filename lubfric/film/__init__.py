@@ -23,6 +23,7 @@ from .heat import (
     heated_stress,
     inlet_heat,
     isothermal_heat,
+    viscosity_at,
 )
 from .hertz import HasLineContact, LineContact, composite_modulus
 from .nested import Effort
@@ -31,3 +32,4 @@ from .reduced import true_pressure
 from .reynolds import count_film_step, log_mean_fluidity, step_length
 from .shear import ShearForce, above_carried, rolling_error, shear_force, spike_error
 from .start import FilmState, rupture_guess
+from .thinning import thinned

@@ -1,4 +1,9 @@
 """Tables, pictures, reports and the command line."""
 
 from .command_line import main
-from .fields import write_moments
+from .commands import read_record
+from .describe import describe_scene
+from .fields import fields_bytes, grid_bytes, write_moments
+from .pictures import plot_contact, plot_history, plot_stribeck, plot_surface, plot_traction
+from .progress import ProgressLine
+from .run_curve import parse_ratios, parse_speeds

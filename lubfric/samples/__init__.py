@@ -12,4 +12,4 @@ from .contacts import cylinder_of, flat_contact_of, half_space_contact_of
 from .contract import PIECE, Sample
 from .maps import check_grid, contact_maps, measured, together, whole_maps
 from .patch import SinglePatch, UnresolvedSample
-from .strips import GeneratedStrips, MeasuredStrips
+from .strips import GeneratedStrips, MeasuredStrips, measured_strips

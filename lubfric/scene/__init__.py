@@ -1,7 +1,7 @@
 """The scene: bodies, surfaces, lubricant, motion and numerics, from a file or from Python."""
 
 from .bodies import FASTEST, FRICTION, FRICTION_OVER, LARGEST_RATIO, Bodies, ContactDomain, FrictionTable, Motion
-from .file import builtin_scenes, given_tables, load_scene, read_toml, write_template
+from .file import builtin_scenes, given_tables, load_scene, read_toml, scene_from_table, write_template
 from .history import Constant, Harmonic, History, Ramp, Table
 from .numerics import BY_LOAD_SHARING, Numerics
 from .plausible import source_of, typical, unusual_values, warn_unusual_values

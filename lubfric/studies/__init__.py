@@ -2,17 +2,19 @@
 
 from .._base.processes import MOST_WORKERS, cluster, pool, processors
 from .choose import AUTO, CHOSEN, span
-from .codec import classes_of, fits
+from .codec import classes_of, decode, encode, fits
 from .curve import CurveResult, csv_bytes
 from .explain import estimated_study, in_words
 from .fit import estimated_fit, explain_fit, fit
+from .fit_checks import ResidualTests, probability_of_order, probability_of_runs, residual_tests
 from .fit_input import Measured, read_measured
 from .fit_result import FitResult
-from .law import Law
+from .interpolate import Interpolant, Samples, knee_of
+from .law import Law, law_of
 from .operating_points import ENDS, OperatingPoints, operating_points
 from .plan import StudyPlan, load_study, plan_study
 from .result import StudyResult, open_study, study
-from .store import Store, digest, fingerprint, fingerprint_without_files, opened
+from .store import Store, digest, fingerprint, fingerprint_without_files, opened, point_key
 from .sweep import StribeckResult, TractionResult, stribeck, traction
 from .tables import (
     KNOWN,

@@ -6,6 +6,6 @@ from .header import UNITS
 from .height_map import Surface
 from .honed import Honing, honed_sq
 from .prepare import FORMS, outliers
-from .read import read_surface, units_of
-from .statistics import PER_SQ, check_slopes, correlation_length, rms_slope
+from .read import INSTRUMENTS, SUFFIXES, read_surface, units_of
+from .statistics import PER_SQ, autocorrelation, check_slopes, correlation_length, rms_slope
 from .text import DECIMALS

@@ -2,6 +2,7 @@
 
 from .estimated import RunEstimate, estimated_run, periods
 from .film import TransientFilm, solve_transient_ehl
+from .film_equations import Spring, StepEquations, outside, outside_shear
 from .film_grid import make_fixed_grid, symmetric_nodes
 from .film_setting import FIRST_STEP, TIME_SHARE, WET, ContactHistory, make_setting
 from .march import Memory, Plan, Progress, Step, advance, checked_times, plan_of, report_of, steps
@@ -11,3 +12,4 @@ from .run import check_run, transient
 from .scene_in_time import sampled_times, scene_at
 from .start import speeds_of_run
 from .transient_deterministic import start_deterministic, work_of_run
+from .transient_load_sharing import TransientLoadSharing

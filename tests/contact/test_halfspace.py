@@ -8,8 +8,7 @@ from scipy.integrate import dblquad, quad
 from scipy.special import k0
 
 from lubfric import InputError
-from lubfric.contact import half_space, semiperiodic_coefficients
-from lubfric.contact.kernels import bessel_cells, line_coefficients, love_coefficients
+from lubfric.contact import bessel_cells, half_space, line_coefficients, love_coefficients, semiperiodic_coefficients
 from lubfric.contact.operator import filtered
 
 BOUNDARIES = [(a, b) for a in ("periodic", "free") for b in ("periodic", "free")]

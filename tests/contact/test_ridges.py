@@ -6,7 +6,7 @@ from scipy import ndimage
 
 import lubfric
 from lubfric.contact import ridges
-from lubfric.models.shared.checks import of_patches
+from lubfric.models.shared import of_patches
 
 FLAT = lubfric.load_scene("flat").with_(
     contact={"shape": (64, 64), "spacing": 8e-6, "model": "patches"},

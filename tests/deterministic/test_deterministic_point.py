@@ -7,10 +7,8 @@ import pytest
 
 import lubfric
 from lubfric.film import LineContact
-from lubfric.models.deterministic import dry_contact, lay_out, reach, solve_point
-from lubfric.models.deterministic.newton import Work, march
+from lubfric.models.deterministic import Work, dry_contact, evaluated, lay_out, march, reach, residuals, solve_point
 from lubfric.models.deterministic.solve import refined_start
-from lubfric.models.deterministic.state import evaluated, residuals
 from lubfric.oil import Lubricant, shear_stress
 from lubfric.surface import Surface
 from verification.campaigns.stability.whole_map import bearing, check

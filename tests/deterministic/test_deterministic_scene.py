@@ -8,8 +8,7 @@ import pytest
 
 import lubfric
 from lubfric.output import main
-from lubfric.studies import classes_of
-from lubfric.studies.codec import decode, encode
+from lubfric.studies import classes_of, decode, encode
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (48, 48), "spacing": 90e-6 / 48},

@@ -9,11 +9,17 @@ from scipy.integrate import quad
 
 from lubfric.contact import half_space
 from lubfric.film import LineContact
-from lubfric.models.deterministic import Problem, lay_out, solve_point
-from lubfric.models.deterministic.flow import derivatives, mass_balance
+from lubfric.models.deterministic import (
+    Problem,
+    derivatives,
+    lay_out,
+    mass_balance,
+    mean_fluidity,
+    solve_point,
+    thinning,
+)
 from lubfric.models.deterministic.inlet import inlet
 from lubfric.models.deterministic.linear import Patterns
-from lubfric.models.deterministic.rheology import mean_fluidity, thinning
 from lubfric.oil import Lubricant
 from lubfric.surface import Surface
 

@@ -9,8 +9,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 import lubfric
-from lubfric.film import heated_stress, inlet_heat
-from lubfric.film.heat import viscosity_at
+from lubfric.film import heated_stress, inlet_heat, viscosity_at
 from lubfric.oil import Lubricant
 
 T0 = 350.0

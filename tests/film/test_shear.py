@@ -9,8 +9,7 @@ from scipy.integrate import quad
 
 import lubfric
 from lubfric.contact import ContactState
-from lubfric.film import shear_force
-from lubfric.film.shear import rolling_error, spike_error
+from lubfric.film import rolling_error, shear_force, spike_error
 from lubfric.oil import Lubricant
 
 R = 2e-3

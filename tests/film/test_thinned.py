@@ -9,8 +9,7 @@ from scipy.optimize import brentq
 from test_ehl import contact
 
 from lubfric import InputError, Lubricant, solve_ehl
-from lubfric.film import LineContact
-from lubfric.film.thinning import thinned
+from lubfric.film import LineContact, thinned
 from lubfric.models.shared import exponents
 from lubfric.oil import shear_stress
 

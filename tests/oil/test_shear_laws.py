@@ -8,8 +8,7 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.film import heated_stress
-from lubfric.models.deterministic import solve_strip
-from lubfric.models.deterministic.rheology import thinning
+from lubfric.models.deterministic import solve_strip, thinning
 from lubfric.oil import FLOW_LAWS, LIMITS, Eyring, Lubricant, ShearLaw, lubricant
 from lubfric.surface import Surface
 

@@ -10,7 +10,7 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric._base import packaged
-from lubfric.estimate.result import cited
+from lubfric.estimate import cited
 from lubfric.output import main
 
 

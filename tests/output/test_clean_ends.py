@@ -16,7 +16,7 @@ import pytest
 import lubfric
 from lubfric import InputError
 from lubfric._base import read_table, table_bytes
-from lubfric.output.command_line import main
+from lubfric.output import main
 
 COMMAND = [sys.executable, "-m", "lubfric"]
 full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")

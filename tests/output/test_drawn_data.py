@@ -12,11 +12,17 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric._base.figures import field_image, new_figure
-from lubfric.output import main
-from lubfric.output.fields import fields_bytes, grid_bytes
-from lubfric.output.pictures import plot_contact, plot_history, plot_stribeck, plot_surface, plot_traction
-from lubfric.studies import csv_bytes, plot_map
-from lubfric.studies.tables import interval_band
+from lubfric.output import (
+    fields_bytes,
+    grid_bytes,
+    main,
+    plot_contact,
+    plot_history,
+    plot_stribeck,
+    plot_surface,
+    plot_traction,
+)
+from lubfric.studies import csv_bytes, interval_band, plot_map
 
 UNITS = {  # of the columns of results, typed by hand
     **dict.fromkeys(

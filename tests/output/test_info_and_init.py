@@ -5,8 +5,7 @@ import pytest
 from instrument_files import write_x3p
 
 import lubfric
-from lubfric.output import main
-from lubfric.output.describe import describe_scene
+from lubfric.output import describe_scene, main
 from lubfric.scene import Harmonic, Ramp, Table
 
 HEAVY = lubfric.load_scene("paper").with_(

@@ -8,10 +8,10 @@ import time
 import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
-from lubfric.output import main
+from lubfric.output import ProgressLine, main
 from lubfric.output import progress as module
 from lubfric.output.commands import say
-from lubfric.output.progress import CLEAR, ProgressLine
+from lubfric.output.progress import CLEAR
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lubfric import InputError
-from lubfric.output.run_curve import parse_ratios, parse_speeds
+from lubfric.output import parse_ratios, parse_speeds
 
 
 @pytest.mark.parametrize(

@@ -128,7 +128,7 @@ def test_the_parts_of_a_history_add_up_to_its_friction_either_way():
 
 
 def test_a_scene_prints_in_a_line():
-    from lubfric.scene.bodies import Bodies
+    from lubfric.scene import Bodies
 
     oil = {"grade": "VG 68", "viscosity_index": 95, "temperature": 333.15}
     scene = SCENE.with_(lubricant=oil, motion={"speeds": np.geomspace(1e-3, 1, 40)})

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from lubfric.contact.solve import solve_contact
+from lubfric.contact import solve_contact
 from verification.__main__ import main
 from verification.campaigns.figures import FIGURES, deviation, spheres
 
@@ -15,7 +15,7 @@ pytest.importorskip("PIL")
 
 
 def test_the_mean_of_the_box_is_loves_kernel_summed_over_it():
-    from lubfric.contact.kernels import love_coefficients
+    from lubfric.contact import love_coefficients
 
     count = 201
     step = 1e-6

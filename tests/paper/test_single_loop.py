@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.contact import half_space
-from lubfric.contact.solve import solve_contact
+from lubfric.contact import half_space, solve_contact
 from lubfric.paper import alternating, single_loop
 
 E = 231e9

@@ -8,10 +8,16 @@ import pytest
 
 import lubfric
 from lubfric.models.deterministic import lay_out, solve_point
-from lubfric.models.load_sharing import error_models, features, widening
-from lubfric.models.load_sharing.model_error import least_error, starved_error
-from lubfric.models.load_sharing.rough_film import RoughMap, flattened
-from lubfric.output.describe import describe_scene
+from lubfric.models.load_sharing import (
+    RoughMap,
+    error_models,
+    features,
+    flattened,
+    least_error,
+    starved_error,
+    widening,
+)
+from lubfric.output import describe_scene
 from verification.campaigns.calibration import fit
 from verification.campaigns.calibration.case import drawn
 from verification.campaigns.calibration.features import quick
@@ -255,7 +261,7 @@ def test_f_is_not_negative_where_one_surface_stands_still():
 
 
 def test_every_model_of_the_scene_has_an_estimate_and_a_run_in_time():
-    from lubfric.estimate.outlook import forecast
+    from lubfric.estimate import forecast
     from lubfric.quantities import CHOICES
     from lubfric.time.run import MODELS
 

@@ -10,7 +10,7 @@ from scene_text import paper_scene
 import lubfric
 from lubfric.estimate import forecast, sampled
 from lubfric.models import DeterministicModel, PaperModel
-from lubfric.output.describe import describe_scene
+from lubfric.output import describe_scene
 from verification.campaigns.hostile.soak_force import friction_force
 
 PAPER = paper_scene()

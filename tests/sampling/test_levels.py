@@ -13,25 +13,21 @@ import lubfric
 from lubfric.estimate import sampled
 from lubfric.models import DeterministicModel, PaperModel
 from lubfric.models.deterministic import (
+    StripOnTwoGrids,
+    cells_of,
     change_by_flow,
     levels,
     moving_point_work,
     solve_strip,
+    strip_of,
 )
 from lubfric.models.deterministic import (
     shorter_cells as shorter,
 )
-from lubfric.models.deterministic.strip_on_two_grids import (
-    StripOnTwoGrids,
-    cells_of,
-    solve_pair,
-    strip_of,
-)
+from lubfric.models.deterministic.strip_on_two_grids import solve_pair
 from lubfric.models.load_sharing import solve_balance
 from lubfric.models.load_sharing.control_variate import control_variate_of
-from lubfric.models.shared import on_strip
-from lubfric.models.shared.control_variate import ControlVariate
-from lubfric.models.shared.statistics import BlockError
+from lubfric.models.shared import BlockError, ControlVariate, on_strip
 
 FINE = lubfric.load_scene("paper").with_(numerics={"film_deflection": "scaled"})
 SCENE = FINE.with_(  # its cells are those of the second level; the limit of the oil is given, so that its range does not count

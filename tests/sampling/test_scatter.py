@@ -6,11 +6,8 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from lubfric.models.load_sharing.scatter import effective_spots
-from lubfric.models.shared.statistics import (
-    BlockError,
-    block_error,
-)
+from lubfric.models.load_sharing import effective_spots
+from lubfric.models.shared import BlockError, block_error
 
 
 def correlated(rng, count, length):

@@ -5,7 +5,7 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.samples.strips import measured_strips
+from lubfric.samples import measured_strips
 
 PAPER = paper_scene()
 

@@ -9,17 +9,9 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.estimate import Uncertainty
-from lubfric.estimate.uncertainty import interval
-from lubfric.models.load_sharing.model_error import load_sharing_error
-from lubfric.models.load_sharing.undetected import (
-    summit_radius,
-    undetected_load,
-)
-from lubfric.models.shared.statistics import (
-    BlockError,
-    add_errors,
-)
+from lubfric.estimate import Uncertainty, interval
+from lubfric.models.load_sharing import load_sharing_error, summit_radius, undetected_load
+from lubfric.models.shared import BlockError, add_errors
 
 E_PRIME = 2.3e11
 WIDTH = 6e-3

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scene_text import paper_scene
 
-from lubfric.scene.file import scene_from_table
+from lubfric.scene import scene_from_table
 from lubfric.studies import fingerprint
 
 SCENE = paper_scene(numerics={"sampling": "patch"})

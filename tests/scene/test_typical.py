@@ -7,7 +7,7 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.oil.pressure import BASES
+from lubfric.oil import BASES
 from lubfric.quantities import KEYS
 from lubfric.scene import source_of, typical
 from lubfric.units import converted

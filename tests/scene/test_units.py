@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.output.run_curve import parse_speeds
+from lubfric.output import parse_speeds
 from lubfric.quantities import KEYS, NUMBERS, QUANTITIES
 from lubfric.units import UNITS, kind_of
 

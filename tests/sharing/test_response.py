@@ -7,8 +7,7 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.models.load_sharing import solve_balance
-from lubfric.models.load_sharing.response import Response, Slopes
+from lubfric.models.load_sharing import Response, Slopes, solve_balance
 
 SCENE = paper_scene(
     contact={"shape": (96, 96), "spacing": 0.9e-6},

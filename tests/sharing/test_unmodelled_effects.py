@@ -13,7 +13,7 @@ from lubfric.models.shared import (
     expected_effects,
     unmodelled_effects,
 )
-from lubfric.output.describe import describe_scene
+from lubfric.output import describe_scene
 
 ROLLER = lubfric.load_scene(
     {

@@ -10,15 +10,13 @@ from scene_text import paper_scene
 import lubfric
 from lubfric.film import ShearForce
 from lubfric.models.shared import (
+    of_bodies,
     of_deflection,
+    of_map,
     of_motion,
     of_pressure,
+    of_shear,
     of_thickness,
-)
-from lubfric.models.shared.checks import of_shear
-from lubfric.models.shared.checks_before import (
-    of_bodies,
-    of_map,
 )
 
 PAPER = paper_scene(contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling": "patch"})

@@ -7,8 +7,8 @@ import pytest
 from small_study import SCENE
 
 import lubfric
-from lubfric.studies.choose import next_speed, span
-from lubfric.studies.interpolate import Interpolant, Samples, knee_of
+from lubfric.studies import Interpolant, Samples, knee_of, span
+from lubfric.studies.choose import next_speed
 
 FIRST = np.geomspace(1e-4, 1.0, 5)
 

@@ -14,8 +14,7 @@ from small_study import SCENE
 
 import lubfric
 from lubfric._base import read_checked, write_checked
-from lubfric.output import main
-from lubfric.output.run_curve import read_record
+from lubfric.output import main, read_record
 
 DEEP = "[" * 100_000 + "]" * 100_000
 WORDS = (  # what is put in place of a part of JSON

@@ -9,8 +9,8 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.errors import CONVERGED, Report
+from lubfric.studies import FitResult
 from lubfric.studies.fit_input import parameters_of
-from lubfric.studies.fit_result import FitResult
 
 KEY = "bodies.boundary_friction_coefficient"
 OTHER = "lubricant.viscosity"

@@ -13,9 +13,8 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.scene import Constant, Harmonic, Ramp
-from lubfric.studies import store
+from lubfric.studies import Store, fingerprint, point_key, store
 from lubfric.studies.arithmetic import arithmetic
-from lubfric.studies.store import Store, fingerprint, point_key
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70}
 SCENE = paper_scene(

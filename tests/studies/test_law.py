@@ -11,7 +11,7 @@ import pytest
 from small_study import SCENE
 
 import lubfric
-from lubfric.studies.law import law_of
+from lubfric.studies import law_of
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70}
 # K, N

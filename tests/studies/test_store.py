@@ -24,9 +24,7 @@ from lubfric.models.shared import (
     prepare,
 )
 from lubfric.output import command_line as cli
-from lubfric.studies import classes_of, fingerprint
-from lubfric.studies.codec import decode, encode
-from lubfric.studies.store import Store, digest, opened
+from lubfric.studies import Store, classes_of, decode, digest, encode, fingerprint, opened
 
 ROOT = Path(__file__).parents[2]
 SCENE = paper_scene(contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6})

@@ -7,8 +7,8 @@ import pytest
 from small_study import SCENE
 
 import lubfric
-from lubfric.studies.codec import fits
-from lubfric.studies.store import OUTCOME, Store, digest
+from lubfric.studies import Store, digest, fits
+from lubfric.studies.store import OUTCOME
 
 
 class InMemory:

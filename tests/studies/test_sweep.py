@@ -10,8 +10,7 @@ from small_study import SCENE
 
 import lubfric
 from lubfric.quantities import NUMBERS
-from lubfric.studies import points
-from lubfric.studies.store import digest
+from lubfric.studies import digest, points
 
 STRIATED = {"model": "deterministic", "cavitated_shear": "striated"}
 SPEEDS = np.geomspace(1e-4, 1.0, 9)

@@ -10,7 +10,7 @@ from instrument_files import write_sdf, write_sur, write_x3p
 
 import lubfric
 from lubfric import InputError, Surface, read_surface
-from lubfric.surface.read import INSTRUMENTS, SUFFIXES
+from lubfric.surface import INSTRUMENTS, SUFFIXES
 
 STEP = (1e-6, 2.5e-6)
 GROUND = (0.5e-6, 2e-6)

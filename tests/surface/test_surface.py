@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lubfric import InputError, Surface, generate_surface
-from lubfric.surface.statistics import autocorrelation, correlation_length
+from lubfric.surface import autocorrelation, correlation_length
 
 ROUGH = {"sq": 240e-9, "correlation_length": 16e-6}
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from lubfric import Surface, generate_surface
-from lubfric.surface.statistics import autocorrelation, correlation_length, rms_slope
+from lubfric.surface import autocorrelation, correlation_length, rms_slope
 
 DX = 1e-6
 DY = 2.5e-6

@@ -10,8 +10,7 @@ from scipy.integrate import quad
 import lubfric
 from lubfric.models.deterministic import RoughBody, solve_moving_strip
 from lubfric.scene import Harmonic, Ramp, Table, Transient
-from lubfric.time import start_deterministic
-from lubfric.time.march import Memory
+from lubfric.time import Memory, start_deterministic
 
 CELL = 4e-6
 SCENE = lubfric.load_scene("paper").with_(

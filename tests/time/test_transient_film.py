@@ -9,8 +9,16 @@ import pytest
 import lubfric
 from lubfric.film import solve_ehl
 from lubfric.scene import Harmonic, Ramp, Table
-from lubfric.time import Memory, make_fixed_grid, solve_transient_ehl, symmetric_nodes
-from lubfric.time.film_equations import Spring, StepEquations, outside, outside_shear
+from lubfric.time import (
+    Memory,
+    Spring,
+    StepEquations,
+    make_fixed_grid,
+    outside,
+    outside_shear,
+    solve_transient_ehl,
+    symmetric_nodes,
+)
 from verification.check import Check
 from verification.fem.studies import transient as study
 from verification.fem.studies.transient import contact as moes

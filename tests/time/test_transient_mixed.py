@@ -13,7 +13,7 @@ import lubfric
 from lubfric.models.shared import prepare
 from lubfric.output import main
 from lubfric.scene import Harmonic, Ramp, Table, Transient
-from lubfric.time.transient_load_sharing import TransientLoadSharing
+from lubfric.time import TransientLoadSharing
 
 SCENE = paper_scene(
     numerics={"sampling": "patch"},

@@ -1,5 +1,6 @@
 """The deterministic mixed-lubrication model: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
+from .flow import derivatives, mass_balance
 from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, too_hot, warmed
 from .levels import DIFFERENCE, mean
 from .linear import gmres
@@ -20,7 +21,7 @@ from .moving_strip import (
     solve_moving_strip,
     strip_at_rest,
 )
-from .newton import Work, newton
+from .newton import Work, march, newton
 from .pictures import animate_moments, plot_moments, plot_passing
 from .point import (
     Strip,
@@ -35,6 +36,7 @@ from .point import (
 )
 from .problem import BOUNDARY_FILM, Problem, lay_out, reach, shifted
 from .result import DeterministicResult, assemble
+from .rheology import mean_fluidity, thinning
 from .rough_bodies import HARDNESS, MOST_WORK, bodies_of, maps_of, moving_point_work, too_costly
 from .shorter_cells import SHORT
 from .solve import dry_contact, solve_point

@@ -15,9 +15,10 @@ from .errors_of import moment_model_error
 from .forces import Forces, forces
 from .limits import limits_exceeded
 from .load_sharing_model import LoadSharingModel, LoadSharingSolution
-from .model_error import load_sharing_error
+from .model_error import least_error, load_sharing_error, starved_error
 from .paper_model import PaperModel, PaperSolution
 from .point import Point
 from .response import Response, Slopes, loads_at, quantities, touched_length, with_contact_area_scaled
-from .rough_film import RoughFilm, RoughMap, rough_film
-from .scatter import Scatter, moment_error
+from .rough_film import RoughFilm, RoughMap, flattened, rough_film
+from .scatter import Scatter, effective_spots, moment_error
+from .undetected import summit_radius, undetected_load

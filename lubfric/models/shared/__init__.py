@@ -14,11 +14,12 @@ from .checks import (
     of_motion,
     of_patches,
     of_pressure,
+    of_shear,
     of_thickness,
     of_typical_heat,
     peak_hertz_pressure,
 )
-from .checks_before import expected
+from .checks_before import expected, of_bodies, of_map
 from .control_variate import ControlVariate
 from .decision import Decision
 from .film_speed import exponents, speed_of
