@@ -17,6 +17,7 @@ from argparse import Namespace
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_type_hints
 
@@ -234,6 +235,11 @@ def made(name: str, write: Callable[..., Any], *arguments: Any) -> bytes:
         return path.read_bytes()
 
 
+def _as_json(record: dict) -> bytes:
+    """Return ``record`` as JSON in plain types; null where a number is not finite."""
+    return json.dumps(plain(record), indent=1, allow_nan=False).encode()
+
+
 class RunFolder:
     """What a command that has ``begun`` (`time.perf_counter`) puts in the folder ``path``: ``contents`` by name. The
     last says that the others are complete.
@@ -251,10 +257,23 @@ class RunFolder:
 
     def draw(self, name: str, plot: Callable[..., Any], *arguments: Any) -> None:
         """Add the picture that ``plot(path, *arguments)`` saves. One that cannot be drawn is reported at the end."""
-        try:
+        with self.reporting(f"{name} was not drawn"):
             self.contents[name] = made(name, plot, *arguments)
-        except Exception as problem:  # of any kind: a picture must not cost the numbers
-            self.failures.append(f"{name} was not drawn ({type(problem).__name__}: {validate.shown(str(problem))})")
+
+    def add(self, name: str, content_of: Callable[..., bytes], *arguments: Any) -> None:
+        """Add the file ``name``, what ``content_of(*arguments)`` returns. One that cannot be made is reported at the
+        end."""
+        with self.reporting(f"{name} was not written"):
+            self.contents[name] = content_of(*arguments)
+
+    @contextmanager
+    def reporting(self, what: str) -> Iterator[None]:
+        """Keep an exception of any kind inside for the end, as ``what`` happened: no file must cost the others, which
+        hold the answer."""
+        try:
+            yield
+        except Exception as problem:
+            self.failures.append(f"{what} ({type(problem).__name__}: {validate.shown(str(problem))})")
 
     def _record(
         self,
@@ -303,18 +322,23 @@ class RunFolder:
         an earlier one; its record, which names the files, last as result.json. Then violated assumptions,
         ``unusual_values`` and files are said, and what was saved for a resume is removed."""
         with suppress(InputError):  # a path that is not Unicode has no place in a scene file
-            self.contents[RESOLVED] = prepared.scene.to_toml().encode()
+            self.add(RESOLVED, lambda: prepared.scene.to_toml().encode())
         if prepared.surface.sq > 0:
             self.draw("surface.png", plot_surface, prepared)
-        record = self._record(prepared, result, units, **numbers)
-        self.contents["report.html"] = report_page(
-            prepared, result, record=record, contents=self.contents, estimate=estimate, given=given, law=law
-        )
-        whole = plain({"files": sorted([*self.contents, RESULT])} | record)
-        self.contents[RESULT] = json.dumps(whole, indent=1, allow_nan=False).encode()
-        self.put(OUTPUTS, (*record["validity"], *unusual_values))
-        Store(self.unfinished).clear()
-        clear_checked(self.unfinished.parent)
+        record: dict[str, Any] = {"scene": {"name": prepared.scene.name}, "points": [], **numbers}
+        with self.reporting(f"{RESULT} has the numbers alone"):
+            record = self._record(prepared, result, units, **numbers)
+            self.contents[RESULT] = _as_json({"files": sorted([*self.contents, RESULT])} | record)
+        if RESULT not in self.contents:
+            self.contents[RESULT] = json.dumps(record, indent=1, default=str).encode()
+        page = {"record": record, "contents": self.contents, "estimate": estimate, "given": given, "law": law}
+        self.add("report.html", partial(report_page, prepared, result, **page))
+        with self.reporting(f"{RESULT} does not list its files"):
+            self.contents[RESULT] = _as_json({"files": sorted(self.contents)} | record)
+        self.put(OUTPUTS, (*record.get("validity", ()), *unusual_values))
+        if not self.failures:  # else what was saved is all that has everything
+            Store(self.unfinished).clear()
+            clear_checked(self.unfinished.parent)
 
     def put(self, patterns: Iterable[str] = (), said: Iterable[str] = ()) -> None:
         """Put ``contents`` in the folder, remove what else of ours matches ``patterns``, and say so."""

@@ -140,29 +140,48 @@ def _write(
     ``estimate``: before it was solved."""
     name = "traction" if curve.SWEPT[0] == "ratio" else "stribeck"
     contents = folder.contents
-    contents[f"{name}.csv"] = studies.csv_bytes(curve)
+    table = f"{name}.csv"
+    folder.add(table, studies.csv_bytes, curve)
     units = {number: COLUMNS[number] for number in (*NUMBERS, curve.SWEPT[0])}
     numbers = [_point(curve, i) for i in range(len(curve.points))]
-    columns = read_table(folder.path / f"{name}.csv", contents[f"{name}.csv"])
-    if _drawable(columns).any():
-        folder.draw(f"{name}.png", _plot, columns, _title(prepared.scene, curve), numbers)
+    if table in contents:
+        with folder.reporting(f"{name}.png was not drawn"):
+            columns = read_table(folder.path / table, contents[table])
+            if _drawable(columns).any():
+                folder.draw(f"{name}.png", _plot, columns, _title(prepared.scene, curve), numbers)
+    with folder.reporting("the fields were not written"):
+        _write_fields(folder, prepared, curve, chosen, vtk=arguments.vtk)
+    law: studies.Law | str = ""
+    unusual_values: list[str] = []
+    with folder.reporting("law.json was not written"):
+        law = _law(curve)
+        if isinstance(law, studies.Law):
+            contents |= {"law.json": law.json.encode(), "law.c": law.c.encode()}
+    with folder.reporting("doubts about f are not said"):
+        unusual_values = _doubts(prepared.scene, curve)
+    given: dict = {}
+    with folder.reporting("report.html is without the inputs as they were given"):
+        given = given_tables(arguments.scene)
+    folder.complete(prepared, estimate, given, curve, units, law, unusual_values, points=numbers)
+
+
+def _write_fields(
+    folder: RunFolder, prepared: Prepared, curve: studies.CurveResult, chosen: list[float], *, vtk: bool
+) -> None:
+    """The fields of the ``chosen`` speeds [m/s], and their pictures."""
     points = [p for p in curve.points if p is not None and (p.fields is not None or p.balance is not None)]
     points.sort(key=lambda p: chosen.index(p.speed))
     if points:
-        contents["fields.npz"] = fields_bytes(points)
+        folder.add("fields.npz", fields_bytes, points)
         folder.draw("contact.png", plot_contact, prepared, points[0])
         if points[0].compared_fields is not None:
             folder.draw("sharing.png", plot_compared, prepared, points[0])
-    if arguments.vtk:
+    if vtk:
         touching = [p for p in points if p.shows_contact]
-        contents |= {f"contact_{i}.vtk": vtk_bytes(point) for i, point in enumerate(touching)}
+        for i, point in enumerate(touching):
+            folder.add(f"contact_{i}.vtk", vtk_bytes, point)
         if not touching:
             say("no .vtk file: none of the speeds of --fields has a contact with fields")
-    law = _law(curve)
-    if isinstance(law, studies.Law):
-        contents |= {"law.json": law.json.encode(), "law.c": law.c.encode()}
-    given = given_tables(arguments.scene)
-    folder.complete(prepared, estimate, given, curve, units, law, _doubts(prepared.scene, curve), points=numbers)
 
 
 def _title(scene: Scene, curve: studies.CurveResult) -> str:

@@ -60,12 +60,15 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
 
 def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, animation: bool) -> None:
     """The table, the fields and the pictures of the run alone."""
-    columns = {heading(name): result.columns[name] for name in OF_MOMENT}
-    warnings = {"validity": [in_a_cell(entries) for entries in result.entries]}
-    folder.contents["history.csv"] = table_bytes(columns | warnings)
+    folder.add("history.csv", _table, result)
     fields = {"time": result.time, "x": result.x, "pressure": result.pressure, "film_thickness": result.film_thickness}
-    folder.contents["fields.npz"] = npz_bytes(fields)
+    folder.add("fields.npz", npz_bytes, fields)
     if result.time.size > 1:
         folder.draw("history.png", plot_history, result.columns, figures.plain_words(scene.name))
     if animation:
         folder.draw("animation.gif", animate, result, scene.bodies.half_width)
+
+
+def _table(result: TransientResult) -> bytes:
+    columns = {heading(name): result.columns[name] for name in OF_MOMENT}
+    return table_bytes(columns | {"validity": [in_a_cell(entries) for entries in result.entries]})

@@ -48,14 +48,17 @@ def run_study(arguments: Namespace) -> None:
         result = studies.study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun, shown))
     writers = {"csv": result.to_csv, "nc": result.to_netcdf, "parquet": result.to_parquet}
     with run_folder(arguments.out, begun) as folder:
-        folder.contents |= {name: made(name, writers[name.partition(".")[2]]) for name in names}
+        for name in names:
+            folder.add(name, made, name, writers[name.partition(".")[2]])
         if np.isfinite(result["coefficient"]).any():
             folder.draw("study.png", _picture, result)
         if result.with_warnings:
             where = f"{result.with_warnings} of {counted(result.solved, 'points')}"
             say(f"warnings at {where}: column validity of study.csv")
-        rows = answer_lines(result)
-        folder.contents["report.html"] = study_page(result, folder.contents, rows)
+        rows: list[str] = []
+        with folder.reporting("the least and the largest f are not said"):
+            rows = answer_lines(result)
+        folder.add("report.html", study_page, result, folder.contents, rows)
         folder.put()
     for row in rows:
         say(row)
@@ -176,9 +179,9 @@ def run_fit(arguments: Namespace) -> None:
         )
     say(fitted.explain())
     with run_folder(arguments.out, begun) as folder:
-        folder.contents["fitted.toml"] = fitted.scene.to_toml().encode()
+        folder.add("fitted.toml", lambda: fitted.scene.to_toml().encode())
         folder.draw("fit.png", _draw, fitted)
-        folder.contents["fit.json"] = json.dumps(plain(_record(fitted)), indent=1).encode()
+        folder.add("fit.json", lambda: json.dumps(plain(_record(fitted)), indent=1).encode())
         folder.put()
 
 
