@@ -15,6 +15,7 @@ CHARTS = {
     "contact": "Dry contact: error against time",
     "film": "Smooth film: error against time",
     "models": "Both models on four kinds of surface: error against time per point",
+    "rolling": "Rolling contacts: error against time of one strip, before and after, and of load sharing",
 }
 PARTS = [(name, "charts:chart", title, {"name": name}) for name, title in CHARTS.items()]
 COMMAND = frame.campaign("charts", __doc__, PARTS, ("full", "quick"))

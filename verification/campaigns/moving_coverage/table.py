@@ -20,6 +20,7 @@ import lubfric
 from lubfric.estimate import sampled
 from lubfric.models import DeterministicModel
 from lubfric.models.deterministic import (
+    TIGHT,
     DeterministicSolution,
     RoughBody,
     SampleTarget,
@@ -49,7 +50,7 @@ ANSWER_COLUMNS = (
     "seconds",
     "failure",
 )
-REFERENCE_COLUMNS = ("contact", "kind", "seed", "f", "error", "seconds", "failure")
+REFERENCE_COLUMNS = ("contact", "kind", "seed", "f", "error", "plain", "plain_error", "seconds", "failure")
 
 # Seeds of the strips of references, far from those of answers.
 REFERENCE_SEED = 1000
@@ -69,7 +70,7 @@ DIGITS = 7  # of a number in the tables
 
 
 @dataclass(frozen=True)
-class Contact:
+class RollingContact:
     """A rolling contact: its scene, its speed [m/s], and whether it is heavily loaded, at 1 GPa."""
 
     name: str
@@ -78,14 +79,14 @@ class Contact:
     heavy: bool = False
 
 
-def _contact(name: str, speed: float, *, heavy: bool = False, **sections: Any) -> Contact:
+def _contact(name: str, speed: float, *, heavy: bool = False, **sections: Any) -> RollingContact:
     """Return a contact of steel bodies with a stated boundary film, so that only cells and sample are uncertain."""
     bodies = {"boundary_film": 2e-8, "hardness": None, "boundary_friction_coefficient": 0.12} | sections.pop("bodies")
     scene = lubfric.load_scene("paper").with_(bodies=bodies, **sections)
-    return Contact(name, scene, speed, heavy)
+    return RollingContact(name, scene, speed, heavy)
 
 
-def contacts() -> tuple[Contact, ...]:
+def contacts() -> tuple[RollingContact, ...]:
     """Return the contacts; the surfaces have no seeds of their own yet."""
     return (
         _contact(
@@ -164,13 +165,13 @@ def contacts() -> tuple[Contact, ...]:
     )
 
 
-def with_seed(contact: Contact, seed: int) -> Scene:
+def with_seed(contact: RollingContact, seed: int) -> Scene:
     """Return the scene of ``contact`` with surfaces of this ``seed``."""
     sections = {name: {"seed": seed + 500_000 * k} for k, (name, _) in enumerate(moving_bodies(contact.scene))}
     return contact.scene.with_(**sections)
 
 
-def answer(contact: Contact, seed: int) -> dict[str, Any]:
+def answer(contact: RollingContact, seed: int) -> dict[str, Any]:
     """Return the row of one moving answer."""
     solution = sampled(prepare(with_seed(contact, seed)), contact.speed, DeterministicModel())
     assert isinstance(solution, DeterministicSolution)
@@ -187,7 +188,7 @@ def answer(contact: Contact, seed: int) -> dict[str, Any]:
     }
 
 
-def reference_strip(contact: Contact, seed: int) -> dict[str, Any]:
+def reference_strip(contact: RollingContact, seed: int) -> dict[str, Any]:
     """Return f of a whole pass of one strip and its standard error, on the cells of the answers."""
     prepared = prepare(with_seed(contact, REFERENCE_SEED + seed))
     _, factors = strip_of(prepared, 0)
@@ -198,10 +199,22 @@ def reference_strip(contact: Contact, seed: int) -> dict[str, Any]:
     target = SampleTarget(error=0.0, correlation_length=length, control=control)
     strip = solve_moving_strip(prepared.scene, bodies, contact.speed, factors=factors, effort=effort, target=target)
     mean = mean_over_blocks([strip.sample], "friction", length, control)
+    plain = {"plain": mean.value - mean.correction, "plain_error": mean.plain.error}
+    return {"f": mean.value, "error": mean.error.error} | plain
+
+
+def tight_strip(contact: RollingContact, seed: int) -> dict[str, Any]:
+    """Return f of a whole pass of one strip in tight steps, without a control: as version 0.2.0 took it, but on its cells
+    of today."""
+    prepared = prepare(with_seed(contact, REFERENCE_SEED + seed))
+    _, factors = strip_of(prepared, 0)
+    bodies = bodies_of(prepared, 0, contact.speed)
+    strip = solve_moving_strip(prepared.scene, bodies, contact.speed, factors=factors, effort=TIGHT)
+    mean = mean_over_blocks([strip.sample], "friction", prepared.sample.lengths[1], None)
     return {"f": mean.value, "error": mean.error.error}
 
 
-def change_by_cells(contact: Contact, seed: int) -> dict[str, Any]:
+def change_by_cells(contact: RollingContact, seed: int) -> dict[str, Any]:
     """Return the ratio of f on cells half as long along both axes to that on the cells of the answers."""
     scene = with_seed(contact, REFERENCE_SEED + seed)
     prepared = prepare(scene)
@@ -233,7 +246,7 @@ def change_by_cells(contact: Contact, seed: int) -> dict[str, Any]:
     return {"f": f[1] / f[0], "error": 0.0}
 
 
-KINDS = {"strip": reference_strip, "cells": change_by_cells}
+KINDS = {"strip": reference_strip, "cells": change_by_cells, "tight": tight_strip}
 
 
 def extend(seeds: int, budget: float, folder: Path = FOLDER) -> Iterator[dict[str, Any]]:
@@ -250,16 +263,21 @@ def extend(seeds: int, budget: float, folder: Path = FOLDER) -> Iterator[dict[st
                 yield _appended(folder / ANSWERS, ANSWER_COLUMNS, row)
         if seed != min(2, seeds - 1):
             continue
-        for kind, number in (("strip", 0), ("cells", 0), *(("strip", k) for k in range(1, REFERENCE_STRIPS))):
+        for kind, number in (
+            ("strip", 0),
+            ("cells", 0),
+            *(("strip", k) for k in range(1, REFERENCE_STRIPS)),
+            ("tight", 0),
+        ):
             for contact in contacts():
                 if time.process_time() > budget:
                     return
-                if (contact.name, kind, str(number)) not in kept:
+                if (contact.name, kind, str(number)) not in kept and (contact.heavy or kind != "tight"):
                     row = {"contact": contact.name, "kind": kind, "seed": number} | _timed(KINDS[kind], contact, number)
                     yield _appended(folder / REFERENCES, REFERENCE_COLUMNS, row)
 
 
-def _timed(solve, contact: Contact, seed: int) -> dict[str, Any]:
+def _timed(solve, contact: RollingContact, seed: int) -> dict[str, Any]:
     begun = time.process_time()
     try:
         row = solve(contact, seed) | {"failure": ""}
