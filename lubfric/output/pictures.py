@@ -32,6 +32,7 @@ WIDTH = 7.0  # inch: of a picture
 INCH = 0.0254  # m
 LEAST_SCALE = 0.8  # of the heights: panels of a narrow picture are no lower
 NARROW = 4.5  # inch: narrower pictures have smaller fonts
+LONE = 2.0  # factor between a lone speed and the ends of its axis
 LOWEST = 0.2  # of the smallest f, where a logarithmic axis of f begins
 SLENDER = 1.5  # times as long along y as along x: a narrow picture
 PANEL_GAP = 0.15  # inch between panels, so that a colour bar does not touch the next panel
@@ -123,6 +124,8 @@ def plot_stribeck(
         _films(axes["film"], speed, c)
     last = shown[-1]
     last.set(xscale="log", xlabel=figures.speed_label(c["speed"]))
+    if speed.size == 1:  # a narrow bar in the middle
+        last.set_xlim(speed[0] / LONE, speed[0] * LONE)
     options.scale(last, friction=axes.get("friction"), f=c["coefficient"])
     for each in shown:
         figures.plain_ticks(each.xaxis)

@@ -32,6 +32,9 @@ AT_BOUND = 5e-3
 # Correlation of two parameters, without sign, above which it is reported.
 CORRELATED = 0.9
 
+# Other minima that are named in the text of a fit, at most.
+MOST_MINIMA = 3
+
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class FitResult(Shown):
@@ -132,7 +135,7 @@ class FitResult(Shown):
 
     @property
     def moved_by_surface(self) -> dict[str, float]:
-        """By how much another piece of the surface would move the parameters, as a standard deviation to first order.
+        """By how much another sample of the surface would move the parameters, as a standard deviation to first order.
 
         It would move f by ``sampling``, at all points together or at each by itself; the larger effect counts.
         """
@@ -172,9 +175,14 @@ class FitResult(Shown):
                 if abs(correlation[i, j]) > CORRELATED:
                     pair = f"{keys[j]} and {keys[i]}"
                     lines.append(f"the data do not separate {pair} well: correlation {correlation[i, j]:.3f}")
-        for values in self.other_minima:
+        minima = self.other_minima
+        for values in minima[:MOST_MINIMA]:
             at = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
             lines.append(f"by the load-sharing model, {at} describe the data about as well")
+        if len(minima) > MOST_MINIMA:
+            lines.append(
+                f"so do {len(minima) - MOST_MINIMA} other sets of values (fit.json and .other_minima have them)"
+            )
         return lines
 
     def _surface_note(self) -> str:
@@ -182,12 +190,12 @@ class FitResult(Shown):
         if not np.isfinite(self.sampling).any():
             if self.base.surface.sq == 0 or not self.sampling.size:
                 return ""
-            return "not in the intervals: what another piece of the surface would give, which is not known"
+            return "not in the intervals: what another sample of the surface would give, which is not known"
         if np.nanmax(self.sampling) == 0:
             return ""
         moved = ", ".join(f"{key} by {move:.2g}" for key, move in self.moved_by_surface.items())
         return (
-            f"not in the intervals: another piece of the surface (standard error of f up to "
+            f"not in the intervals: another sample of the surface (standard error of f up to "
             f"{percent(float(np.nanmax(self.sampling)))}), which moves {moved}"
         )
 
@@ -219,10 +227,12 @@ class FitResult(Shown):
         self.measured.draw(axes)
         order = np.argsort(x := np.abs(self.measured.x))
         axes.plot(x[order], self.predicted[order], color=figures.BLUE, label="fit")
-        axes.fill_between(x[order], low[order], high[order], color=figures.BLUE, alpha=0.2, lw=0, label="95 % band")
+        axes.fill_between(
+            x[order], low[order], high[order], color=figures.BLUE, alpha=0.2, lw=0, label="95 % interval of the fit"
+        )
         self.measured.label(axes)
         axes.set(ylim=(0.0, None), ylabel=figures.FRICTION)
-        axes.legend(frameon=False)
+        figures.key_above(axes)
         return axes
 
     def plot_residuals(self, ax: "Axes | None" = None) -> "Axes":

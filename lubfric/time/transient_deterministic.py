@@ -333,6 +333,6 @@ def deterministic_moment(
     entries = [*solver.prepared.known, *of_motion(scene, speed, film), *of_thickness(scene, film)]
     lost = max(heat.change, 1 - heat.inlet.factor if heat.inlet else 0.0)
     if lost > scene.numerics.tolerance:
-        remedy = "numerics.model = 'load-sharing', which has the heat in time; heat = 'off' leaves it out on purpose"
+        remedy = "numerics.model = 'load-sharing', which has the heat in time; heat = 'off' states that this is meant"
         entries.append(Validity("loss of film or f by heat", lost, scene.numerics.tolerance, "", ISOTHERMAL, remedy))
     return row, tuple(entries)

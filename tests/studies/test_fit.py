@@ -414,7 +414,7 @@ def test_what_another_piece_of_the_surface_would_move_is_told_beside_the_interva
     found = lubfric.fit(scene, lubfric.Measured(speeds, [p.coefficient for p in points]), {key: (0.05, 0.2)})
     expected = np.mean([p.uncertainty.sampling for p in points])
     assert found.moved_by_surface[key] / found.values[key] == pytest.approx(expected, rel=0.3)
-    assert "not in the intervals: another piece of the surface" in found.explain()
+    assert "not in the intervals: another sample of the surface" in found.explain()
 
 
 @pytest.mark.parametrize("stated, told", [(1.0, False), (0.1, True)])
