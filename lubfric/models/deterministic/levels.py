@@ -34,6 +34,7 @@ from .point import (
     change_by_flow,
     thinned_less,
 )
+from .result import DeterministicResult
 from .rough_bodies import summit_control
 from .shorter_cells import (
     changed,
@@ -155,13 +156,13 @@ def levels_of(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]
     pieces, shortest, by_cells, numerical, has_unsolved_cells = on_shorter_cells(prepared, speed, pairs)
     numbers = changed(prepared, estimate.numbers, [(piece[1], piece[-1]) for piece in pieces])
     numbers = changed(prepared, numbers, [shortest[-2:]] if shortest else [])
-    numbers = with_divided_contact_load(prepared.scene, numbers)
+    results = [pair.resolved.result for pair in pairs]
+    numbers = with_divided_contact_load(prepared.scene, numbers, results)
     f = abs(numbers["coefficient"])
     of_strips = add_errors(estimate.whole, replace(by_cells, error=by_cells.error * f))
     difference = BlockError(min(estimate.difference.error, of_strips.error) / f, estimate.difference.freedom)
     by_chance = math.sqrt((of_strips.error / f) ** 2 - difference.error**2)
     sampling = replace(of_strips, error=math.hypot(by_chance, BALANCED * (estimate.between / f) ** 2))
-    results = [pair.resolved.result for pair in pairs]
     films = tuple(mean(getattr(result, name) - result.coefficient for result in results) / f for name in OTHER_FILMS)
     errors = _errors(prepared, pairs, numbers)
     errors["coefficient"] = math.hypot(*(e for e in (sampling.error, difference.error, numerical) if math.isfinite(e)))
@@ -189,19 +190,26 @@ def levels_of(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]
     )
 
 
-def with_divided_contact_load(scene: Scene, numbers: dict[str, float]) -> dict[str, float]:
-    """Return ``numbers`` with parts of the asperity load that belong to it: the control and shorter cells change the load
-    itself, and its parts in proportion.
+def with_divided_contact_load(
+    scene: Scene, numbers: dict[str, float], results: Sequence[DeterministicResult]
+) -> dict[str, float]:
+    """Return ``numbers`` with the asperity load divided into boundary film and saturated film as on the strips, of which
+    the ``results`` are. The control and shorter cells change the load itself.
 
-    Of a Newtonian oil the parts are the boundary film and the saturated film. With a shear law the load on asperities is
-    that of the boundary film; a film at its limiting stress is part of the film load.
+    How shorter cells change the division depends on the speed, and pieces are solved at another one: on the patch of the
+    scene "paper" the saturated film falls from 12 to 0.4 % of the load at 0.01 m/s, and grows from 43 to 55 % at 0.015
+    m/s. The bounds by the unknown limit of the oil rest on the same division. With a shear law a film at its limiting
+    stress is part of the film load.
     """
-    contact = numbers["contact_load"]
-    if not scene.lubricant.newtonian:
-        return numbers | {"boundary_film_load": contact}
-    names = ("boundary_film_load", "saturated_film_load")
-    parts = sum(numbers[name] for name in names)
-    return numbers | {name: numbers[name] * contact / parts for name in names} if parts > 0 else numbers
+    thin = mean(result.split.thin for result in results)
+    capped = mean(result.split.capped for result in results)
+    if thin + capped == 0:
+        return numbers
+    share = thin / (thin + capped)
+    divided = {"boundary_film_load": share * numbers["contact_load"]}
+    if scene.lubricant.newtonian:
+        divided["saturated_film_load"] = (1 - share) * numbers["contact_load"]
+    return numbers | divided
 
 
 def _sum(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], line: ControlVariate | None) -> TwoLevelEstimate:
