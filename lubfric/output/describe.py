@@ -35,7 +35,7 @@ from .inputs import FACTS, input_rows
 # speeds at which the work is counted, and that are in the table, about
 SOME = 25
 SHOWN = 6
-TABLE_CAPTION = "estimate by closed forms: film under the whole load, asperity contact, and cost"
+TABLE_CAPTION = "estimate with closed forms: full-load film, asperity contact, and cost"
 # How well times are estimated, in words: `python -m verification.campaigns.estimates` measures it.
 WITHIN_WORDS = "within a factor of about 3"
 # Processor seconds of ``lubfric run`` beside its solves: 1.0 to start, the others for pictures and files.

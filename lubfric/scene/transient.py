@@ -68,7 +68,7 @@ class Transient:
         validate.in_range("transient", self)
         validate.integer("transient.outputs", self.outputs, minimum=1, maximum=1_000_000)
         if self.initial_film is not None and self.initial != "auto":
-            said = f" = {self.initial!r} does nothing beside initial_film, from which the run starts"
+            said = f" = {self.initial!r} has no effect together with initial_film, from which the run starts"
             raise InputError(said, "transient.initial", "one of the two")
         for name, unit in UNITS.items():
             given = getattr(self, name)

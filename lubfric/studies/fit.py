@@ -149,7 +149,7 @@ def explain_fit(scene: Scene, measured: Measured, parameters: Mapping[str, Any],
     coarse, fine = _curves(scene, measured, bounds)
     searched, fitted, seconds = _estimated(coarse, fine, _start(scene, bounds, {}), starts)
     lines.append(f"  search: about {counted(searched, 'curves')} of {counted(coarse.measured.x.size, 'points')} ")
-    lines[-1] += "by the load-sharing model, over the whole bounds" if starts else "by the load-sharing model"
+    lines[-1] += "by the load-sharing model, over the complete bounds" if starts else "by the load-sharing model"
     lines.append(f"  fit: about {counted(fitted, 'curves')} of {counted(measured.x.size, 'points')}")
     return "\n".join([*lines, f"  time: about {in_words(seconds)} on one core (within a factor of about {WITHIN:g})"])
 

@@ -261,7 +261,7 @@ def _stated_scales(path: Path, table: NumberTable, units: Units) -> list[float]:
             raise InputError(said, way_out="leave unit out, or remove the wrong line from the file")
         scale = given if statement is None else statement.value
         if scale is None:
-            said = f"file {path.name} states the unit of {'the heights' if place == 2 else 'x and y'} nowhere"
+            said = f"file {path.name} does not state the unit of {'the heights' if place == 2 else 'x and y'}"
             raise InputError(said, way_out="give unit = (unit of x, of y, of z), such as ('mm', 'mm', 'um')")
         scales.append(scale)
     return scales

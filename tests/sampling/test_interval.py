@@ -149,7 +149,7 @@ def test_one_patch_is_too_short_for_an_interval():
     assert math.isnan(known.sampling) and all(math.isnan(end) for end in known.interval)
     assert "correlation lengths along y are too few for an interval" in known.text and known.numerical > 0
     cleared = lubfric.friction(PATCH.with_(contact={"shape": (200, 80)}), 0.15).uncertainty
-    assert "too short along y to tell what contact it misses" in cleared.text
+    assert "too short along y to estimate the undetected contact" in cleared.text
 
 
 @pytest.mark.parametrize("scene", [PATCH.with_(contact={"model": "summits"}), FLAT], ids=["summits", "flat"])

@@ -179,7 +179,9 @@ def test_impossible_runs_are_refused(plan, words):
 
 
 def test_starts_that_contradict_or_are_missing_are_refused():
-    with pytest.raises(lubfric.InputError, match="transient.initial = 'steady' does nothing beside initial_film"):
+    with pytest.raises(
+        lubfric.InputError, match="transient.initial = 'steady' has no effect together with initial_film"
+    ):
         Transient(1e-3, initial="steady", initial_film=1e-6)
     with pytest.raises(lubfric.InputError, match="initial_film"):
         lubfric.transient(SCENE.with_(surface={"sq": 0.0}, transient=Transient(1.0, speed=Ramp(end=1.0))))

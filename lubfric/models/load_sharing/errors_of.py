@@ -20,7 +20,7 @@ UNKNOWN = (math.nan, math.nan)
 EMPTY = "the film that arrives does not fill the gap: Eq. (8) takes it for none, and f may be lower"
 NOT_STUDIED = "the error of the model itself is not known for this contact"
 MODEL_UNKNOWN = "the error of the model itself is not known and not in the interval: {}"
-MISSED = "not known: the patch is too short along y to tell what contact it misses"
+MISSED = "not known: the patch is too short along y to estimate the undetected contact"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,7 +50,7 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
     scatter = balanced.scatter
     sampling = balanced.sampling
     error = BlockError(0.0, ORDER)
-    why = "there was none of it, or too little to tell"
+    why = "there was none, or too little to estimate it"
     if balance.film is None:
         # only areas scatter
         errors = _area_errors(scene, balance, scatter)

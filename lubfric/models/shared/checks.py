@@ -144,7 +144,7 @@ def of_inlet(scene: Scene, line: LineContact, flow: float, friction: float) -> I
     out = oil.inlet_length or math.inf
     lost = 12 * oil.viscosity * line.entrainment_speed * line.radius / out * scene.bodies.width
     if not oil.floods and flow <= (1 - tolerance) * flooded:
-        consequence = "the inlet is starved, as inlet_length or inlet_film asks; f rests on what they say"
+        consequence = "inlet_length or inlet_film makes the inlet starved; f depends on their values"
         what = "film over that of a full inlet, by Moes,"
         yield Validity(what, flow / flooded, 1.0, "", consequence, "leave both out")
     elif lost > tolerance * friction:
