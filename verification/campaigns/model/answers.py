@@ -173,7 +173,11 @@ def answers(level: str, run: Run = Run(), rollers: bool = False) -> Iterator[Ite
 def compared(name: str, result: list[tuple], failed: int, source: str) -> Iterator[Item]:
     """Table, checks and picture of answers ``result``: the groups of each, and by both ways what is `interval_error`."""
     every = {way: np.array([both[k] for _, both in result]).reshape(-1, 3) for k, way in enumerate(WAYS)}
-    names = [name for name in dict.fromkeys(itertools.chain(*zip(*(groups for groups, _ in result)))) if name != ROLLER]
+    names = [
+        name
+        for name in dict.fromkeys(itertools.chain(*zip(*(groups for groups, _ in result))))
+        if name != ROLLER and not name.endswith(" N")
+    ]  # loads differ less than surfaces
     rows = [
         [group, str(sum(here)), *summary(every["default"][here]), *summary(every["load sharing"][here])]
         for group in (*names, "all")
