@@ -81,7 +81,7 @@ def sphere_array(level: str, run: Run = Run()) -> Iterator[Item]:
     titles = (
         "asperity model (any spacing)",
         "half-space, without the mean deflection",
-        "half-space, with the mean deflection of the box",
+        "half-space, with the mean deflection",
     )
     for ax, title in zip((asperities, without_mean, with_mean), titles):
         a = np.linspace(0, ax.get_xlim()[1] * 1e-9, 60)
