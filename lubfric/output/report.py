@@ -16,7 +16,7 @@ from ..models.shared import ExpectedEffect, Prepared, UnmodelledEffect, change_i
 from ..quantities import COLUMNS, counted
 from ..scene import Scene, short_keys
 from ..studies import KNOWN, CurveResult, Law, StribeckResult
-from ..time import MANY, TransientResult
+from ..time import MANY, TransientResult, in_motion
 from ..units import converted, interval_in_words, plain_number, printed, unit_for, with_interval, worded
 from .describe import TABLE_CAPTION, SceneEstimate
 from .inputs import FACTS, SECTIONS, inputs
@@ -53,6 +53,9 @@ BUDGET = {
     "model-form": "model-form (equations)",
     "input": "input (stated ranges)",
 }
+# A number smaller than this times the largest of its column is 0 in a table.
+ROUNDING = 1e-9
+
 # Columns of a table that a narrow screen shows as they are.
 NARROW_COLUMNS = 3
 MOST_GIVEN = 60  # characters of a value in the column of how an input was given
@@ -267,6 +270,12 @@ def _number(value: float) -> str:
     return plain_number(value) if math.isfinite(value) else "-"
 
 
+def _rounded(values: np.ndarray, index: int) -> float:
+    """Return one of ``values``; 0 where it is below the rounding errors of the largest."""
+    value = float(values[index])
+    return 0.0 if abs(value) < ROUNDING * float(np.nanmax(np.abs(values), initial=0.0)) else value
+
+
 def _details(curve: CurveResult) -> str:
     """Return the uncertainty budget of every point and the model that solved it, folded."""
     swept = curve.SWEPT[0]
@@ -356,6 +365,7 @@ def _history_answer(result: TransientResult, complete: bool) -> list[str]:
     when = f"over {span}" if mean.in_motion == 1 else f"over the {100 * mean.in_motion:.3g} % in motion of {span}"
     head = "" if complete else "The run has no valid answer. Its outputs so far show: "
     film = worded(float(np.nanmin(result.min_film)), "m")
+    deterministic = "deterministic model" in result.methods
     mean_text = with_interval(mean.coefficient, *mean.interval)
     sentences = [sentence(f"{head}the mean friction coefficient {when} is {mean_text}.")]
     range_ = with_interval(float(f[peak]), low, high)
@@ -364,11 +374,16 @@ def _history_answer(result: TransientResult, complete: bool) -> list[str]:
     if np.isfinite(power).any():
         loss = with_interval(mean.power_loss, *mean.power_loss_interval, unit="W")
         sentences.append(f"The mean power loss is {loss}, the largest {worded(float(np.nanmax(power)), 'W')}.")
-    sentences.append(f"The smallest film is {film}.")
+    sentences.append(
+        f"The smallest film is {film}."
+        if deterministic
+        else f"Under its share of the load, the film is at least {film} thick."
+    )
     ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio)]
     if ratio.size:
         sentences.append(
-            f"The lambda ratio of the full-load film lies between {ratio.min():.3g} and {ratio.max():.3g}."
+            f"The lambda ratio of the full-load film lies between {_number(_rounded(ratio, ratio.argmin()))} and "
+            f"{_number(float(ratio.max()))}."
         )
     return sentences
 
@@ -390,7 +405,7 @@ def _history_budget(result: TransientResult) -> str:
         "numerical": float(known.numerical[at]),
         "sampling": float(known.sampling[at]) * student(MANY),
         "model-form": float(known.model[at]),
-        "input": max(low, high) / value,
+        "input": max(abs(low), abs(high)) / value,
     }
     notes = [
         "Numerical: the sum of the film's shear stress; the local error of the steps is within transient.tolerance, and "
@@ -414,6 +429,7 @@ def _history_table(result: TransientResult) -> str:
     if np.isfinite(c["power_loss"]).any():
         chosen |= {int(np.nanargmax(c["power_loss"]))}
     rows_at = sorted(chosen)
+    moving = in_motion(c)
     units = {name: unit_for(c[name].tolist(), COLUMNS[name].unit) for name in OF_OUTPUT}
     shown = {name: converted(c[name], COLUMNS[name].unit, unit) for name, unit in units.items()}
     before = [name for name in OF_OUTPUT if OF_OUTPUT[name] == "before"]
@@ -432,8 +448,11 @@ def _history_table(result: TransientResult) -> str:
         f = with_interval(float(c["coefficient"][index]), low, high).partition(" (")[0]
         interval = interval_in_words(low, high, value=float(c["coefficient"][index]))
         ratio = _number(float(c["contact_load"][index] / c["load"][index]))
-        numbers = [_number(float(shown[name][index])) for name in after]
-        rows.append(_cells([*(_number(float(shown[name][index])) for name in before), f, interval, *numbers, ratio]))
+        numbers = [_number(_rounded(shown[name], index)) for name in after]
+        if not moving[index]:
+            f = "at rest"
+            interval = "-"
+        rows.append(_cells([*(_number(_rounded(shown[name], index)) for name in before), f, interval, *numbers, ratio]))
     about = f"{len(rows)} of {counted(count, 'outputs')}, spread evenly, with the largest f and the largest power loss;"
     return f"<h2>Operating points</h2><p>{about} history.csv has all of them.</p>{table(heads, rows)}"
 

@@ -17,7 +17,7 @@ from .. import studies
 from .._base import IntArray, figures, plain, validate
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report
 from ..quantities import KEYS, axis_label, counted, worded_value
-from ..units import numbers_of
+from ..units import CELSIUS, converted, numbers_of, unit_for
 from .command_line import scene_of
 from .commands import answer, check_outputs, keeping, made, paced, run_folder, say
 from .progress import ProgressLine
@@ -68,6 +68,10 @@ def run_study(arguments: Namespace) -> None:
         raise ConvergenceError(said, report, result)
 
 
+# Panels of the picture of a study, at most: one for each number that is varied.
+MOST_PANELS = 4
+
+
 @figures.styled
 def _picture(path: Path, result: studies.StudyResult) -> None:
     """Draw what a study found: curves over the speed; operating points with their power loss; of one speed, f over what
@@ -87,6 +91,10 @@ def _picture(path: Path, result: studies.StudyResult) -> None:
     if numbers and len(keys) == 2 and "speed" not in keys and len(result.dims) == 3:
         studies.plot_map(path, result, keys[0], keys[1], title)
         return
+    over = {key: values for key, values in _along(result).items() if key in keys and values.dtype.kind == "f"}
+    if 1 < len(over) <= MOST_PANELS and "speed" not in keys and not result.chosen:
+        _draw_panels(path, result, over, title)
+        return
     figure = figures.new_figure(figsize=(7, 4.5))
     axes = figure.subplots()
     if "speed" in keys or result.chosen:
@@ -105,6 +113,42 @@ def _picture(path: Path, result: studies.StudyResult) -> None:
     figure.savefig(path)
 
 
+def _along(result: studies.StudyResult) -> dict[str, np.ndarray]:
+    """Return what is varied by its key, one value for each point, in the shape of the study."""
+    shape = result.status.shape
+    arrays = {}
+    for key, (dim, values) in result.coords.items():
+        sides = [1] * len(shape)
+        sides[result.dims.index(dim)] = values.size
+        arrays[key] = np.broadcast_to(values.reshape(sides), shape)
+    return arrays
+
+
+def _draw_panels(path: Path, result: studies.StudyResult, over: dict[str, np.ndarray], title: str) -> None:
+    """Draw f of all points over each of the numbers that are varied, side by side."""
+    figure = figures.new_figure(figsize=(1.0 + 2.9 * len(over), 4.2))
+    panels = figure.subplots(1, len(over), sharey=True, squeeze=False)[0]
+    for axes, (key, values) in zip(panels, over.items()):
+        shown = values.ravel()
+        label = axis_label(key)
+        if key == "lubricant.temperature":
+            shown = shown - float(CELSIUS)
+            label = axis_label("lubricant.temperature_celsius")
+        elif key in KEYS:
+            unit = unit_for(shown.tolist(), KEYS[key].unit)
+            shown = converted(shown, KEYS[key].unit, unit)
+            label = axis_label(key, unit)
+        _draw_intervals(axes, shown, result)
+        axes.set_xlabel(label)
+        figures.log_if_wide(axes, "x", shown)
+        figures.plain_ticks(axes.xaxis)
+        axes.label_outer()
+        if axes is not panels[0]:
+            axes.get_legend().remove()
+    figure.suptitle(title)
+    figure.savefig(path)
+
+
 def _draw_intervals(
     axes: Axes, over: np.ndarray, result: studies.StudyResult, order: slice | IntArray = slice(None)
 ) -> None:
@@ -113,7 +157,8 @@ def _draw_intervals(
     low, high = (result[f"uncertainty_{end}"].ravel()[order] for end in ("low", "high"))
     known = np.isfinite(low) & np.isfinite(high)
     width = 4 if f.size <= 40 else 1.5
-    axes.vlines(over[known], low[known], high[known], color=figures.BLUE, alpha=0.4, lw=width, label="95 % interval")
+    band = {"label": "95 % interval"} if known.any() else {}
+    axes.vlines(over[known], low[known], high[known], color=figures.BLUE, alpha=0.4, lw=width, **band)
     axes.plot(over, f, "o", ms=5 if f.size <= 40 else 2.5, color=figures.BLUE, label="friction coefficient")
     axes.set_ylabel(figures.FRICTION)
     finite = np.concatenate([f[np.isfinite(f)], low[known], high[known]])

@@ -40,6 +40,11 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     rows = min(MOST_ROWS, result.status.size)
     size = result.status.size
     about = "study.csv has all numbers." if rows == size else f"{rows} of {size} points; study.csv has all of them."
+    unknown = int(np.isnan(result["uncertainty_low"][np.isfinite(result["coefficient"])]).sum())
+    if unknown:
+        about += f" The interval of f is not known at {counted(unknown, 'points')}"
+        patch = result.plan.scene.numerics.sampling == "patch"
+        about += ": a single patch has no sampling error; numerics.sampling = 'strips' gives it." if patch else "."
     page = Template((files(__package__) / "study_report.html").read_text(encoding="utf-8")).substitute(
         name=escape(result.plan.scene.name),
         style=style_sheet(),

@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 from .._base import validate
 from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, WORK_LIMIT, InputError, Report
 from ..scene import History
-from ..units import worded
+from ..units import plain_number, worded
 
 # of the step; BDF2 is stable for growth below 2.41
 SAFETY = 0.85
@@ -219,7 +219,7 @@ def report_of(
     elif not worst.value <= 1.0:
         status = ITERATION_LIMIT
         summary = (
-            f"all {plan.times.size} outputs are solved, but {worst.what} is {worst.value:.3g} times its tolerance"
+            f"all {plan.times.size} outputs are solved, but {worst.what} is {plain_number(worst.value)} times its tolerance"
             f"{worst.where and ' ' + worst.where}"
         )
         advice = worst.advice

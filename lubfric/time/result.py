@@ -227,7 +227,7 @@ class TransientResult(Shown):
 
 def interval_in_time(columns: dict[str, np.ndarray], inputs_down: np.ndarray, inputs_up: np.ndarray) -> np.ndarray:
     """Return the 95 % interval of f at every time, (nt, 2); ``inputs_down``, ``inputs_up`` (nt,) [-]: how far the range
-    of f_b moves f. A part that is not known (NaN) is not in it."""
+    of f_b moves f. A part that is not known (NaN) is not in it; NaN where sampling is not known, and at rest."""
     f = columns["coefficient"]
     of_sample = student(MANY) * np.nan_to_num(columns["sampling_error"]) * np.abs(f)
     numerical = np.nan_to_num(columns.get("shear_error", np.zeros(f.size))) * np.abs(f)
@@ -238,7 +238,7 @@ def interval_in_time(columns: dict[str, np.ndarray], inputs_down: np.ndarray, in
         np.sqrt(of_sample**2 + numerical**2 + model**2 + inputs**2)
         for model, inputs in ((model_down, inputs_down), (model_up, inputs_up))
     )
-    unknown = np.isnan(columns["sampling_error"])
+    unknown = np.isnan(columns["sampling_error"]) | ~in_motion(columns)  # at rest there is no f
     return np.where(unknown[:, None], math.nan, np.stack([f - down, f + up], axis=1))
 
 
@@ -253,7 +253,8 @@ def _with_intervals(columns: dict[str, np.ndarray], inputs: np.ndarray) -> dict[
     by_sliding = columns["load"] * np.abs(columns["sliding_speed"])
     rolling = columns["power_loss"] - columns["friction_force"] * columns["sliding_speed"]
     ends = []
-    for end in interval.T:
+    resting = ~in_motion(columns)
+    for end in np.where(resting, f, interval.T):
         relative = np.minimum(np.abs(end - f) / np.maximum(np.abs(f), TINY), 1.0)
         ends.append(np.hypot((end - f) * by_sliding, relative * rolling))
     return columns | {

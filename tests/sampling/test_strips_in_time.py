@@ -51,7 +51,9 @@ def test_an_average_over_time_is_as_unsure_as_its_line(held):
 
 def test_an_average_is_the_integral_over_time(held):
     """f rises, stays and falls along straight lines: 0.75 of its height, whatever the outputs."""
-    columns = held.columns | {"time": np.array([0.0, 1.0, 3.0, 4.0]), "coefficient": np.array([0.0, 0.1, 0.1, 0.0])}
+    held = dataclasses.replace(held, inputs=0.0)
+    columns = {name: np.resize(values, 4) for name, values in held.columns.items()}
+    columns |= {"time": np.array([0.0, 1.0, 3.0, 4.0]), "coefficient": np.array([0.0, 0.1, 0.1, 0.0])}
     columns |= {"sampling_error": np.full(4, 0.02), "entrainment_speed": np.full(4, 0.03), "sliding_speed": np.zeros(4)}
     mean = dataclasses.replace(held, columns=columns, renewal=1e-3).average()
     assert mean.coefficient == pytest.approx(0.075) and mean.sampling == pytest.approx(0.02)
