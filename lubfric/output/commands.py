@@ -331,8 +331,8 @@ class RunFolder:
             self.contents[RESULT] = _as_json({"files": sorted([*self.contents, RESULT])} | record)
         if RESULT not in self.contents:
             self.contents[RESULT] = json.dumps(record, indent=1, default=str).encode()
-        page = {"record": record, "contents": self.contents, "estimate": estimate, "given": given, "law": law}
-        self.add("report.html", partial(report_page, prepared, result, **page))
+        page = partial(report_page, record=record, contents=self.contents, estimate=estimate, given=given, law=law)
+        self.add("report.html", page, prepared, result)
         with self.reporting(f"{RESULT} does not list its files"):
             self.contents[RESULT] = _as_json({"files": sorted(self.contents)} | record)
         self.put(OUTPUTS, (*record.get("validity", ()), *unusual_values))

@@ -159,7 +159,7 @@ def _write(
             contents |= {"law.json": law.json.encode(), "law.c": law.c.encode()}
     with folder.reporting("doubts about f are not said"):
         unusual_values = _doubts(prepared.scene, curve)
-    given: dict = {}
+    given: dict[str, Any] = {}
     with folder.reporting("report.html is without the inputs as they were given"):
         given = given_tables(arguments.scene)
     folder.complete(prepared, estimate, given, curve, units, law, unusual_values, points=numbers)

@@ -56,6 +56,11 @@ WIDEST = 12.0  # of ln U, each way from the scene's speed, in which the lift-off
 NORMAL_95 = 1.96  # half of the 95 % interval of a normal distribution over its standard deviation
 FEWEST_WINDOWS = 4  # from which their scatter gives an interval
 NM = 1e9
+# Balances of a run: some ten for the lift-off speed at each record, and two at each step.
+USUAL_BALANCES = 150
+# Processor seconds of a balance, whatever its cells; and over its cells.
+BALANCE_SECONDS = 0.02
+CELL_SECONDS = 6e-7
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -222,6 +227,12 @@ class _WearProgress:
     def vanished(self) -> bool:
         """Whether the asperities carried less than `VANISHED` of the load at the beginning of the last two steps."""
         return max(self.ratios) < VANISHED
+
+
+def estimated_wear(scene: Scene, surface: Surface) -> float:
+    """Return the estimated processor seconds of `worn_in` on a map like ``surface``: balances of all its windows."""
+    rig = _rig(scene, surface)
+    return USUAL_BALANCES * (BALANCE_SECONDS + CELL_SECONDS * math.prod(rig.stack.shape))
 
 
 def _first_length(rig: _WearRig, row: dict[str, Any], coefficient: float, hardness: float) -> float:

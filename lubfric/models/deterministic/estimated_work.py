@@ -7,7 +7,7 @@ from ...samples import Sample
 from ...scene import FRICTION, Scene, gap_not_resolved, moves
 from ...surface import Surface
 from ..contract import WorkEstimate
-from ..shared import ORDER, SAFETY, student
+from ..shared import ORDER, SAFETY, smooth_over_cells, student
 from .counted_work import work_of_steps
 from .levels import DIFFERENCE
 from .problem import reach
@@ -26,6 +26,10 @@ LAST_STEPS = 20
 
 # Newton steps on a strip whose neighbour is solved: at an end of the range of an input.
 AGAIN = 4
+
+# Factor on the work at rest where the heights are not smooth over a cell: cells a quarter as long, and more steps on all
+# (3 to 5 in four of five points of `python -m verification.campaigns.estimates`).
+ROUGH = 3.5
 
 # Processor time of moving roughness over its counted work, which is that of the systems alone.
 IN_MOTION = 1.1
@@ -63,7 +67,9 @@ def estimated_work(
         count = min(count, max(1, int(MOST_WORK / one_strip)))  # no more are solved
         return WorkEstimate(strips=count, seconds=IN_MOTION * count * one_strip, strip_seconds=one_strip)
     ends = 2 * sum(name != FRICTION for name, *_ in scene.ranges)
-    return WorkEstimate(strips=count, seconds=_work_at_rest(scene, sample, sq, speed, count, ends))
+    seconds = _work_at_rest(scene, sample, sq, speed, count, ends)
+    rough = 1.0 if smooth_over_cells(surface.heights) else ROUGH
+    return WorkEstimate(strips=count, seconds=rough * seconds)
 
 
 def _work_at_rest(scene: Scene, sample: Sample, sq: float, speed: float, count: int, ends: int) -> float:

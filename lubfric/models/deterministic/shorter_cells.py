@@ -21,6 +21,7 @@ from ..shared import (
     ReferenceKey,
     block_error,
     on_piece,
+    smooth_over_cells,
     speed_of,
 )
 from .point import (
@@ -60,7 +61,6 @@ LENGTH = 42.0
 
 # Correlation lengths of the piece of the last level.
 SHORTEST = 14.0
-SMOOTH = 3.0  # mean square of the change of heights over two cells, over that over one: 4 of smooth ones, 2 of others
 OFF = 0.5  # of what a piece as short as that changes: how far that may be from the mean
 FIXED = 2.0  # ratio of the expected films at neighbouring fixed speeds
 
@@ -92,7 +92,7 @@ def on_shorter_cells(
     halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
     left = max(estimate([by_longer]), SOLVED, MOVING * _coarse(prepared) ** 2 if moves(scene) else 0.0)
     enough = left <= scene.numerics.tolerance and not (sample.refines_in_place and scene.numerics.grid == "given")
-    enough = enough and (sample.refines_in_place or _smooth(sample))
+    enough = enough and (sample.refines_in_place or smooth_over_cells(sample.strip(0).heights))
     own = sample.cells.is_native and cells_of(scene, sample) == (1, 1)
     if enough or own or moves(scene):
         return (), (), BlockError(0.0, 1), left, False
@@ -131,14 +131,6 @@ def _coarse(prepared: Prepared) -> float:
     """Length along x of the cells of the deterministic model over the correlation length."""
     sample = prepared.sample
     return cells_of(prepared.scene, sample)[0] * sample.cells.coarse[0] / sample.lengths[0]
-
-
-def _smooth(sample: Sample) -> bool:
-    """Whether the heights are smooth over a cell of ``sample``: then they change over two cells twice as much as over
-    one. Of an exponential autocorrelation it is sqrt(2), and one change of f says nothing of what shorter cells do."""
-    z = sample.strip(0).heights
-    one, two = (float(np.mean(np.square(z - np.roll(z, k, axis=1)))) for k in (1, 2))
-    return two >= SMOOTH * one
 
 
 def changed(prepared: Prepared, numbers: dict[str, float], pieces: Sequence[Sequence[Strip]]) -> dict[str, float]:

@@ -3,15 +3,13 @@ how long that takes. Nothing is solved."""
 
 import math
 
-import numpy as np
-
 from ...film import LineContact, flooded_inlet
 from ...oil import shear_stress
 from ...samples import Sample
 from ...scene import Scene, moves
 from ...surface import Surface
 from ..contract import WorkEstimate
-from ..shared import SAFETY
+from ..shared import SAFETY, smooth_over_cells
 from .model_error import load_sharing_error
 
 # Processor time [s] of a cell of the strips in balance: a fit to 33 points of `python -m
@@ -46,10 +44,6 @@ LONG = 12.0
 
 # Part of the gap that the film of the whole load fills, between which that happens.
 SHARED = (0.08, 0.6)
-
-# Squared change of the heights over two cells, over that over one, of smooth heights, at least (4 of a parabola, 2 of an
-# exponential autocorrelation).
-SMOOTH = 3.0
 
 # Scatter of f over that by the closed form, where asperities carry a part of the load.
 SCATTER = 1.8
@@ -108,7 +102,7 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     if touching != "none":
         share = film / (GAP * sq + RISE * film)
         work = CELL_SECONDS * cells.count * count * sample.length / dy + PIECE_SECONDS * piece
-        if SHARED[0] < share < SHARED[1] and not _smooth(surface):
+        if SHARED[0] < share < SHARED[1] and not smooth_over_cells(surface.heights):
             work *= ROUGH_ON_LONG_CELLS if lx < LONG * cells.coarse[0] else ROUGH
         seconds += POINT_SECONDS + work
     return WorkEstimate(
@@ -119,13 +113,6 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
         model_error=error_of_model,
         touching=touching,
     )
-
-
-def _smooth(surface: Surface) -> bool:
-    """Return whether the heights are smooth over a cell."""
-    z = surface.heights
-    (one, two) = (float(np.mean(np.square(z[:, k:] - z[:, :-k]))) for k in (1, 2))
-    return two >= SMOOTH * one
 
 
 def expected_model_error(scene: Scene, film: float, sq: float, speed: float) -> float:

@@ -51,6 +51,7 @@ from .statistics import (
     means_of_blocks,
     percent,
     required_strips,
+    smooth_over_cells,
     student,
     too_few,
 )

@@ -7,6 +7,10 @@ import numpy as np
 
 from ..._base import FloatArray
 
+# Mean square of the change of the heights over two cells, over that over one, of smooth heights, at least: 4 of a
+# parabola, 2 of an exponential autocorrelation.
+SMOOTH = 3.0
+
 # Blocks of a line, at most. The constants of this module are judged by the coverage of the 95 % intervals (`python -m
 # verification sampling`, docs/measurements.md: 91 to 99 %); `python -m verification.campaigns.constants` halves and
 # doubles each. Twice as many change the width of an interval by 1 %.
@@ -161,3 +165,10 @@ def percent(value: float) -> str:
     if value >= 0.995:
         return f"{100 * value:.0f} %"
     return "< 0.001 %" if 0 < value < 1e-5 else f"{100 * value:.2g} %"
+
+
+def smooth_over_cells(heights: FloatArray) -> bool:
+    """Return whether ``heights`` (nx, ny) are smooth over a cell along y: over two cells they change twice as much as over
+    one. Of an exponential autocorrelation it is sqrt(2), and one change of f by shorter cells says nothing of the next."""
+    one, two = (float(np.mean(np.square(heights - np.roll(heights, k, axis=1)))) for k in (1, 2))
+    return two >= SMOOTH * one

@@ -57,6 +57,10 @@ MOST_WORK = 40.0
 # Longest estimate of a run that is done [s], and draws until one is short enough.
 LONGEST = 30.0
 DRAWS = 100
+# Cells in a correlation length, correlation lengths and Hertz half-widths in the side of a patch that runs in.
+CELLS_IN_LENGTH = 5.0
+LENGTHS_IN_PATCH = 10.0
+STRIPS_IN_PATCH = 4.0
 # Length of ridges over their width [-].
 RIDGE = 5.0
 # Speeds between which that film is searched [m/s].
@@ -116,7 +120,7 @@ def _drawn(rng: np.random.Generator, kind: str) -> Job:
         estimate = partial(_of_scene, scene)
         run = partial(lubfric.transient, scene)
     elif kind in ("run-in", "wear"):
-        scene = scene.with_(bodies={"hardness": 10.0 ** rng.uniform(9.3, 9.9)})
+        scene = scene.with_(bodies={"hardness": 10.0 ** rng.uniform(9.3, 9.9)}, contact=_patch(scene))
         keys = {"distance": 10.0 ** rng.uniform(0, 2), "wear_coefficient": 1e-8} if kind == "wear" else {}
         estimate = partial(estimated_run_in, scene, **keys)
         run = partial(lubfric.run_in, scene, **keys)
@@ -164,6 +168,16 @@ def _scene(rng: np.random.Generator, kind: str) -> lubfric.Scene:
         thin = scene.line_contact(math.exp(middle)).moes_film < value["ratio"] * value["sq"]
         (low, high) = (middle, high) if thin else (low, middle)
     return scene.with_(motion={"entrainment_speed": math.exp(low), "speeds": [math.exp(low)]})
+
+
+def _patch(scene: lubfric.Scene) -> dict[str, object]:
+    """Return the keys of a patch that is longer than the Hertz strip and than some correlation lengths, on five cells in
+    the shortest of them."""
+    given = scene.surface.correlation_length or 0.0
+    lengths = given if isinstance(given, tuple) else (given, given)
+    spacing = min(lengths) / CELLS_IN_LENGTH
+    sides = max(LENGTHS_IN_PATCH * lengths[0], STRIPS_IN_PATCH * scene.bodies.half_width), LENGTHS_IN_PATCH * lengths[1]
+    return {"shape": tuple(4 * math.ceil(side / spacing / 4) for side in sides), "spacing": spacing}
 
 
 def _in_time(rng: np.random.Generator, scene: lubfric.Scene, speed: float, model: str) -> lubfric.Scene:
