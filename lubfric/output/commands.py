@@ -235,7 +235,7 @@ def made(name: str, write: Callable[..., Any], *arguments: Any) -> bytes:
         return path.read_bytes()
 
 
-def _as_json(record: dict) -> bytes:
+def _as_json(record: dict[str, Any]) -> bytes:
     """Return ``record`` as JSON in plain types; null where a number is not finite."""
     return json.dumps(plain(record), indent=1, allow_nan=False).encode()
 
