@@ -26,7 +26,7 @@ GOT = {
     "law": "textbook law",
     "derived": "quadrature of the published equations",
     "read": "text of the publication",
-    "transcribed": "transcribed, no second source",
+    "transcribed": "transcribed",
     "quoted": "quoted by another publication",
 }
 

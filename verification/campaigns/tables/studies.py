@@ -107,7 +107,7 @@ def publications_of(part: str) -> Cells:
         origin = f"{source.got}{source.note and '; ' + source.note}"
         rows.append(
             [
-                f"{source.words}: {source.place}",
+                f"{citation(source)}: {source.place}",
                 f"{agreed}{weak and f', {weak} weak' or ''}",
                 deviations(of_source),
                 origin,
@@ -135,14 +135,33 @@ def differing() -> Cells:
     return ["quantity", "published", "lubfric", "cause", "publication"], rows
 
 
+PERSON = re.compile(r"([A-Z]\. )+[\w-]+( et al\.| \d+)?")  # "D. Dowson", "K. L. Johnson et al.", "A. Doleschel 2002"
+
+
+def people_of(source: Source) -> list[str]:
+    """Return the authors as they are written in the citation."""
+    return list(takewhile(PERSON.fullmatch, source.words.split(", ")))
+
+
+def surnames(people: list[str]) -> str:
+    """Return up to two surnames, or the first and "et al."."""
+    names = [re.sub(r"^([A-Z]\. )+| \d+$", "", person) for person in people]
+    return ", ".join(names) if len(names) < 3 else f"{names[0]} et al."
+
+
+def citation(source: Source) -> str:
+    """Return the citation with surnames, as in "Dowson, Toyoda, 5th Leeds-Lyon Symp. (1978) 60"."""
+    people = people_of(source)
+    if not people or people[-1][-1].isdigit():
+        return source.words
+    return surnames(people) + source.words.removeprefix(", ".join(people))
+
+
 def authors(source: Source) -> str:
-    """Surnames and year, as in "Dowson, Toyoda 1978"."""
-    person = re.compile(r"([A-Z]\. )+[\w-]+( et al\.| \d+)?")
-    people = takewhile(person.fullmatch, source.words.split(", "))
-    names = [re.sub(r"^([A-Z]\. )+| \d+$", "", part) for part in people]
+    """Return surnames and year, as in "Dowson, Toyoda 1978"."""
+    people = people_of(source)
     year = re.search(r"\b(18|19|20)\d\d\b", source.words)
-    who = ", ".join(names) if len(names) < 3 else f"{names[0]} et al."
-    return f"{who} {year[0]}" if names and year else source.words
+    return f"{surnames(people)} {year[0]}" if people and year else source.words
 
 
 TABLES: dict[str, Callable[[], Cells]] = {
