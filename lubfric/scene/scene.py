@@ -276,5 +276,3 @@ def _not_taken(scene: Scene, given: bool) -> Iterator[tuple[str, Any, str]]:
     lubricant = scene.lubricant
     if lubricant.shear_modulus is not None:
         yield "lubricant.shear_modulus", lubricant.shear_modulus, "None (no elastic shear at small slip)"
-    if lubricant.limiting_stress_coefficient is not None and lubricant.limiting_stress_offset == 0:
-        yield "lubricant.limiting_stress_offset", 0.0, "a value above 0, some 1e6 Pa (else no film flows at p = 0)"

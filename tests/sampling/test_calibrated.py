@@ -156,7 +156,9 @@ def test_calibration_is_the_fit_to_its_tables():
 @pytest.mark.parametrize("motion, seed", [("rest", 5), ("rest", 118), ("rolling", 12)])
 def test_numbers_of_the_cases_are_those_of_todays_load_sharing(motion, seed):
     known = next(case for case in fit.cases(motion) if case.row["seed"] == str(seed)).numbers
-    assert quick(drawn(motion, seed)) == pytest.approx(known, rel=1e-5, abs=1e-9)
+    solved = quick(drawn(motion, seed))
+    for name in solved.keys() - {"seconds", "seconds_balance"}:
+        assert solved[name] == pytest.approx(known[name], rel=1e-5, abs=1e-9)
 
 
 def test_bounds_of_kinds_that_were_left_out_hold_nine_cases_in_ten():

@@ -16,6 +16,7 @@ PARTS: tuple[tuple[str, str, str, dict], ...] = (
         {"motion": "rest"},
     ),
     ("rolling", "calibration.held_out:coverage", "Roughness that moves", {"motion": "rolling"}),
+    ("summary", "calibration.held_out:summary", "Both, in a row each", {}),
     ("paper-limit", "calibration.paper_limit:band", "The limiting stress that the paper does not give", {}),
 )
 COMMAND = frame.campaign("calibration", __doc__, PARTS)
