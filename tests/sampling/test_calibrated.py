@@ -17,7 +17,7 @@ from lubfric.models.load_sharing import (
     starved_error,
     widening,
 )
-from lubfric.output import describe_scene
+from lubfric.output import describe_scene, main
 from verification.campaigns.calibration import fit
 from verification.campaigns.calibration.case import drawn
 from verification.campaigns.calibration.features import quick
@@ -77,6 +77,19 @@ def test_calibrated_answer_holds_the_deterministic_one_and_is_narrower_than_load
     basis = f"load sharing, calibrated on {error_models()['rest'].cases} solved cases: model-form -"
     assert results["load-sharing"].decision.text.startswith(basis)
     assert results["paper"].decision.basis == ""
+
+
+def test_report_says_first_what_the_answer_rests_on(tmp_path):
+    scene = HEAVIER.with_(
+        motion={"entrainment_speed": 0.1},
+        numerics={"model": "load-sharing", "sampling_tolerance": 0.5, "tolerance": 0.1},
+    )
+    file = tmp_path / "scene.toml"
+    file.write_text(scene.to_toml())
+    assert main(["run", str(file), "--speeds", "0.1", "--out", str(tmp_path / "out")]) == 0
+    page = (tmp_path / "out/report.html").read_text()
+    basis = f"Load sharing, calibrated on {error_models()['rest'].cases} solved cases: model-form -"
+    assert page.index("f = ") < page.index(basis) < page.index("Uncertainty budget")
 
 
 def test_the_ends_of_an_input_are_those_of_the_calibrated_model():
