@@ -8,7 +8,7 @@ import pytest
 
 import lubfric
 from lubfric.errors import CONVERGED, Report
-from lubfric.models import DeterministicModel, Model, ModelAnswer, PaperModel, SampleSolution
+from lubfric.models import MODELS, DeterministicModel, Model, ModelAnswer, PaperModel, SampleSolution
 from lubfric.models.shared import BlockError, Decision
 from lubfric.samples import Sample
 
@@ -24,7 +24,7 @@ def measured(tmp_path) -> lubfric.Scene:
 
 
 @pytest.fixture(params=["generated", "two bodies", "measured", "patch", "flat"])
-def sample(request, tmp_path) -> Sample:
+def prepared(request, tmp_path) -> lubfric.Prepared:
     scenes = {
         "generated": PAPER,
         "two bodies": TWO,
@@ -32,7 +32,12 @@ def sample(request, tmp_path) -> Sample:
         "patch": PAPER.with_(numerics={"sampling": "patch"}),
         "flat": lubfric.load_scene("flat"),
     }
-    return lubfric.prepare(scenes[request.param]).sample
+    return lubfric.prepare(scenes[request.param])
+
+
+@pytest.fixture
+def sample(prepared) -> Sample:
+    return prepared.sample
 
 
 class TestSample:
@@ -65,6 +70,36 @@ class TestSample:
             parts = sum(sample.of_body(k).strip(0).heights for k in (0, 1))
             assert np.allclose(parts, sample.strip(0).heights, atol=1e-12)
 
+    def test_it_makes_the_contact_that_is_solved_first(self, prepared):
+        """On its cells, about their mean; the operator comes from whoever remembers it."""
+        sample = prepared.sample
+        asked = []
+
+        def operator(shape, spacing):
+            asked.append((shape, spacing))
+            return prepared.contact.operator
+
+        contact = sample.contact(prepared.scene, sample.first, operator)
+        assert type(contact) is type(prepared.contact) and np.array_equal(contact.x, prepared.contact.x)
+        if asked:
+            first = sample.stack(sample.first)
+            assert asked == [(first.shape, first.spacing)]
+            assert np.array_equal(contact.heights, first.heights - first.heights.mean())
+
+    def test_only_a_map_that_is_all_there_is_has_images_and_no_renewal(self, prepared):
+        """A map that is its own mirror image holds half of its rows; nothing else of it ever passes the contact."""
+        sample = prepared.sample
+        heights = np.hstack([np.arange(6.0)[None], np.arange(6.0)[None, ::-1]])
+        half_width = prepared.scene.bodies.half_width
+        distance = sample.renewal_length(half_width)
+        if sample.refines_in_place:
+            assert sample.distinct_rows(heights) == 6 and math.isnan(distance) and sample.in_words(1) == "the patch"
+            assert sample.for_fields().cells.is_native and sample.cells_to_look_at(half_width) == (1, 1)
+        else:
+            assert sample.distinct_rows(heights) == 12 and distance > 2 * half_width
+            assert sample.for_fields() is sample and "2 strips" in sample.in_words(2)
+            assert "solved first" in sample.described(prepared.surface)[1]
+
 
 class TestModel:
     @pytest.mark.parametrize("model", [PaperModel(), DeterministicModel()], ids=lambda model: model.name)
@@ -81,6 +116,22 @@ class TestModel:
         assert again.answer().numbers["coefficient"] == pytest.approx(
             solution.answer().numbers["coefficient"], rel=1e-3
         )
+
+    def test_a_model_estimates_its_work_before_any_solve(self, monkeypatch):
+        """Each beyond the cheaper ones; at an order of magnitude that a tighter tolerance raises."""
+        for model in MODELS:
+            monkeypatch.setattr(type(model), "solve", None)
+        for scene in (PAPER, PAPER.with_(numerics={"sampling_tolerance": 0.002, "model_tolerance": 0.005})):
+            sample = lubfric.prepare(scene).sample
+            cheaper = None
+            seconds = []
+            for model in MODELS:
+                cheaper = model.estimate(scene, sample, sample.first_map(), 0.03, cheaper)
+                seconds.append(cheaper.seconds)
+                assert cheaper.strips >= 1
+            if scene is PAPER:
+                before = seconds
+        assert all(a <= b for a, b in zip(before, seconds)) and sum(before) < sum(seconds)
 
     def test_neither_model_has_an_answer_without_its_needs(self):
         flat = lubfric.prepare(lubfric.load_scene("flat"))

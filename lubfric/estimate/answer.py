@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from ..errors import ConvergenceError
-from ..models import ContactFields
+from ..models import ContactFields, ModelAnswer
 from ..models.shared import Prepared, of_error
 from ..quantities import NUMBERS
 from ..scene import Scene
@@ -35,28 +35,11 @@ def result_of(prepared: Prepared, choice: Choice, begun: float, *, fine: bool = 
         compared = solution.answer()
         compared_fields = compared.fields
         details[model.name] = compared.details
-    numerics = scene.numerics
-    f = answer.numbers["coefficient"]
-    sampling = answer.sampling.error
-    uncertainty = Uncertainty(
-        numerical=answer.numerical,
-        sampling=sampling,
-        interval=interval(f, answer.numerical, sampling, answer.sampling.freedom, *answer.model_error),
-        line_scatter=sampling * math.sqrt(answer.length / scene.bodies.width),
-        spots=answer.spots,
-        length=answer.length,
-        freedom=float(answer.sampling.freedom),
-        tolerance=numerics.sampling_tolerance,
-        area_needed=answer.area_needed,
-        model=max(answer.model_error),
-        fluid=answer.by_limit,
-        largest_in_model=answer.largest_in_model,
-        notes=answer.notes,
-    )
+    uncertainty = uncertainty_of(scene, answer)
     decision = answer.decision
     if choice.why:
         decision = replace(decision, notes=(*decision.notes, choice.why))
-    validity = (*answer.warnings, *of_error(answer.numerical, numerics.tolerance, answer.recommendation))
+    validity = (*answer.warnings, *of_error(answer.numerical, scene.numerics.tolerance, answer.recommendation))
     notes = (*answer.report.notes, decision.text, *(entry.text for entry in validity), uncertainty.text)
     numbers: dict[str, Any] = dict.fromkeys(NUMBERS, math.nan) | answer.numbers
     numbers["seconds"] = time.perf_counter() - begun
@@ -75,6 +58,27 @@ def result_of(prepared: Prepared, choice: Choice, begun: float, *, fine: bool = 
     if fine and answer.fine_fields is not None:  # last: work that is spent here is none that the interval needs
         return with_fine_fields(result, answer.fine_fields)
     return result
+
+
+def uncertainty_of(scene: Scene, answer: ModelAnswer) -> Uncertainty:
+    """Return the uncertainty budget of f of an ``answer``, without the ranges of inputs."""
+    f = answer.numbers["coefficient"]
+    sampling = answer.sampling.error
+    return Uncertainty(
+        numerical=answer.numerical,
+        sampling=sampling,
+        interval=interval(f, answer.numerical, sampling, answer.sampling.freedom, *answer.model_error),
+        line_scatter=sampling * math.sqrt(answer.length / scene.bodies.width),
+        spots=answer.spots,
+        length=answer.length,
+        freedom=float(answer.sampling.freedom),
+        tolerance=scene.numerics.sampling_tolerance,
+        area_needed=answer.area_needed,
+        model=max(answer.model_error),
+        fluid=answer.by_limit,
+        largest_in_model=answer.largest_in_model,
+        notes=answer.notes,
+    )
 
 
 def with_fine_fields(result: FrictionResult, solve: Callable[[], ContactFields]) -> FrictionResult:

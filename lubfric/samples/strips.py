@@ -264,24 +264,9 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
         maps = tuple(one.resampled(spacing=scene.contact.spacing) for one in maps)
     reach = reach_of(scene, maps[0].sq)
     surface, *parts = (one.continued(reach) for one in maps) if extended(scene) else maps
-    half_width = scene.bodies.half_width
-    (dx, _) = surface.spacing
     lengths = length_or_half(surface, 0), length_or_half(surface, 1)
-    if scene.contact.shape is not None:
-        reach = scene.contact.shape[0] * dx
-    cells = choose_cells(surface.spacing, lengths, half_width, min(reach, surface.size[0]))
-    while cells.count * cells.coarsening[0] > surface.shape[0]:
-        cells = replace(cells, count=cells.count - EVEN)
-    if cells.count < 1:
-        raise InputError(
-            f"the map is {surface.shape[0]} cells long along x; allowed: at least {4 * cells.coarsening[0]}"
-        )
-    fine = cells.count * cells.coarsening[0]
-    step = max(1, round(max(APART * lengths[0], 2 * half_width) / dx))
-    overhang = 0 if extended(scene) else min(max(0, math.floor(0.5 * fine - half_width / dx)), surface.shape[0])
-    starts = starts_of(surface.shape[0], fine, step, 0)
-    if len(starts) < ENOUGH:
-        starts = starts_of(surface.shape[0], fine, step, overhang)
+    cells = _cells_of_map(scene, surface, lengths, reach)
+    starts = _window_starts(scene, surface, lengths, cells.count * cells.coarsening[0])
     kept = surface.shape[1] - min(blend_of(lengths[1], surface.spacing[1]), surface.shape[1] // 4)
     length = kept * surface.spacing[1]
     count = len(starts)
@@ -304,3 +289,31 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
         starts=tuple(starts),
         bodies=tuple(parts),
     )
+
+
+def _cells_of_map(scene: Scene, surface: Surface, lengths: tuple[float, float], reach: float) -> Cells:
+    """Return the cells of windows of the map ``surface``, of correlation ``lengths`` [m], that are ``reach`` [m] long
+    along x, or as long as the patch of the scene or the map."""
+    if scene.contact.shape is not None:
+        reach = scene.contact.shape[0] * surface.spacing[0]
+    cells = choose_cells(surface.spacing, lengths, scene.bodies.half_width, min(reach, surface.size[0]))
+    while cells.count * cells.coarsening[0] > surface.shape[0]:
+        cells = replace(cells, count=cells.count - EVEN)
+    if cells.count < 1:
+        raise InputError(
+            f"the map is {surface.shape[0]} cells long along x; allowed: at least {4 * cells.coarsening[0]}"
+        )
+    return cells
+
+
+def _window_starts(scene: Scene, surface: Surface, lengths: tuple[float, float], columns: int) -> list[int]:
+    """Return the first columns of windows of so many ``columns`` that the map ``surface`` holds independently; where
+    these are few, of windows that reach over its ends as well."""
+    half_width = scene.bodies.half_width
+    dx = surface.spacing[0]
+    step = max(1, round(max(APART * lengths[0], 2 * half_width) / dx))
+    starts = starts_of(surface.shape[0], columns, step, 0)
+    if len(starts) >= ENOUGH or extended(scene):
+        return starts
+    overhang = min(max(0, math.floor(0.5 * columns - half_width / dx)), surface.shape[0])
+    return starts_of(surface.shape[0], columns, step, overhang)
