@@ -43,9 +43,9 @@ def table_of(study: str, name: str) -> Cells:
     return table.columns, [[str(cell) for cell in row] for row in table.rows]
 
 
-def rough_strip() -> Cells:
-    """Return the strip of both programs at rest and moving, on the finer grid of each."""
-    columns, rows = table_of("rough_strip", "rough-strip")
+def on_finest_grid(study: str, name: str) -> Cells:
+    """Return the rows of both programs for each case, on the finest grid of each."""
+    columns, rows = table_of(study, name)
     return columns, list({tuple(row[:2]): row for row in rows}.values())
 
 
@@ -168,8 +168,8 @@ TABLES: dict[str, Callable[[], Cells]] = {
     "load-sharing": load_sharing,
     **{f"published-{part.name}": partial(publications_of, part.name) for part in PUBLISHED},
     "published-differing": differing,
-    "rough-strip": rough_strip,
-    "touching-strip": partial(table_of, "touching_strip", "touching-strip"),
+    "rough-strip": partial(on_finest_grid, "rough_strip", "rough-strip"),
+    "touching-strip": partial(on_finest_grid, "touching_strip", "touching-strip"),
     "starved": partial(table_of, "starved", "starved"),
     "sharing-in-time": partial(table_of, "sharing_in_time", "sharing-in-time"),
     "waviness": waviness,
