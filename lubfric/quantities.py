@@ -62,7 +62,7 @@ def described_in_doc(kind: type[T]) -> type[T]:
     return kind
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class Quantities(Generic[T]):
     """The numbers of an operating point whose errors are estimated (T: float), or of many points (T: array)."""
 
@@ -127,7 +127,7 @@ class Quantities(Generic[T]):
         return converted(getattr(self, name), _OF_POINT[name].unit, unit)
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class PointQuantities(Quantities[T]):
     """All numbers of an operating point: of a `lubfric.FrictionResult`, and as arrays of a `lubfric.StribeckResult`."""
 

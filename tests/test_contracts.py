@@ -166,8 +166,8 @@ class Highest(SampleSolution):
             numerical=0.0,
             sampling=self.sampling_error,
             model_error=(0.5, 0.5),
-            report=Report("highest summit", CONVERGED, 1, 0.0, 1.0, {}),
-            decision=Decision("highest summit", "none", "none", 0.01, strips=self.count),
+            report=Report("highest summit", CONVERGED, iterations=1, residual=0.0, tolerance=1.0, residuals={}),
+            decision=Decision(model="highest summit", film="none", contact="none", tolerance=0.01, strips=self.count),
             length=self.count * self.sample.length,
         )
 

@@ -28,4 +28,11 @@ class Spring(RoughContact):
         return self.touching - min(self.sigma * (load / self.stiffness) ** (2 / 3), 0.999 * self.touching)
 
     def state(self, film, gap):
-        return ContactState(gap, float(np.mean(film)), self.x, np.zeros(3), 0.0, 0.0)
+        return ContactState(
+            mean_gap=gap,
+            mean_film=float(np.mean(film)),
+            x=self.x,
+            contact_fraction=np.zeros(3),
+            real_contact_area_fraction=0.0,
+            plastic_area_fraction=0.0,
+        )

@@ -27,7 +27,7 @@ def main(argv: list[str] | None = None) -> int:
     if argv and argv[0] in SUBCOMMANDS:
         return frame.main(importlib.import_module(SUBCOMMANDS[argv[0]]).COMMAND, argv[1:])
     summary = f"{__doc__} Other commands: {', '.join(SUBCOMMANDS)}."
-    command = frame.Command("", summary, STUDIES, "out/verification", workers=min(2, os.cpu_count() or 1))
+    command = frame.Command("", summary, studies=STUDIES, out="out/verification", workers=min(2, os.cpu_count() or 1))
     if argv and not argv[0].startswith("-"):
         words = frame.did_you_mean(argv[0], SUBCOMMANDS)
         frame.parser(command).error(f"unknown command {argv[0]!r}{words}")

@@ -189,13 +189,21 @@ Item = Check | Table | Figure | Field
 
 def bound(name: str, error: float, limit: float, source: str, note: str = "") -> Check:
     """The check that an error, or what is left over, is at most ``limit``."""
-    return Check(name, error, 0.0, limit, source, AT_MOST, note=note)
+    return Check(name, error, expected=0.0, tolerance=limit, source=source, kind=AT_MOST, note=note)
 
 
 def compared(label: str, rows: Iterable[tuple], source: str, note: str = "") -> Iterator[Check]:
     """A relative check of each row: (quantity, unit, measured, expected, tolerance)."""
     for quantity, unit, measured, expected, tolerance in rows:
-        yield Check(f"{label}: {quantity}", measured, expected, tolerance, source, unit=unit, note=note)
+        yield Check(
+            f"{label}: {quantity}",
+            measured,
+            expected=expected,
+            tolerance=tolerance,
+            source=source,
+            unit=unit,
+            note=note,
+        )
 
 
 def beside(
@@ -211,7 +219,19 @@ def beside(
     """Compare a value of lubfric with a published one. The check passes when they differ by no more than the root of
     the sum of the squares of both ``errors`` (lubfric, published; 95 % bounds in ``unit``). Its grade is A."""
     allowed = math.hypot(*errors)
-    return Check(name, ours, theirs, allowed, source, ABSOLUTE, unit, note, grade="A", errors=errors, cause=cause)
+    return Check(
+        name,
+        ours,
+        expected=theirs,
+        tolerance=allowed,
+        source=source,
+        kind=ABSOLUTE,
+        unit=unit,
+        note=note,
+        grade="A",
+        errors=errors,
+        cause=cause,
+    )
 
 
 def file_name(name: str) -> str:

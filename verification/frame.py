@@ -84,10 +84,13 @@ def campaign(
     options)`` are more keywords.
     """
     studies = tuple(
-        Study(part, f"verification.campaigns.{target}", title, levels, keys) for part, target, title, keys in parts
+        Study(part, f"verification.campaigns.{target}", title=title, levels=levels, options=keys)
+        for part, target, title, keys in parts
     )
     folder = f"out/{name}"
-    return Command(name, summary, studies, folder, levels, add_options=add_options, own=own, campaign=True)
+    return Command(
+        name, summary, studies=studies, out=folder, levels=levels, add_options=add_options, own=own, campaign=True
+    )
 
 
 def _prepared(command: Command, study: Study, options: argparse.Namespace) -> Study:
@@ -148,7 +151,15 @@ def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Name
     out.mkdir(parents=True, exist_ok=True)
     begun = time.perf_counter()
     now = time.strftime("%Y-%m-%d %H:%M:%S %z")
-    so_far = reports.Report(level, tuple(s.name for s in studies), (), False, now, 0.0, reports.environment())
+    so_far = reports.Report(
+        level,
+        tuple(s.name for s in studies),
+        outcomes=(),
+        complete=False,
+        started=now,
+        seconds=0.0,
+        environment=reports.environment(),
+    )
 
     def save(report: reports.Report) -> reports.Report:
         report = replace(report, seconds=time.perf_counter() - begun)

@@ -48,4 +48,4 @@ def mesh_field(name: str, caption: str, mesh, point_data=None, cell_data=None) -
         raise ValueError(f"field {name!r}: no cell name is known for {type(mesh).__name__}")
     cells = {kind: mesh.t[: len(mesh.elem.refdom.p.T)].T}
     by_cell = {k: [np.asarray(v)] for k, v in (cell_data or {}).items()}
-    return Field(name, caption, mesh.p.T, cells, dict(point_data or {}), by_cell)
+    return Field(name, caption, points=mesh.p.T, cells=cells, point_data=dict(point_data or {}), cell_data=by_cell)

@@ -23,7 +23,7 @@ Progress = Callable[[Check], None]
 INSTALL = 'pip install "lubfric[verification]"'
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Outcome:
     """The outcome of one study.
 
@@ -124,7 +124,18 @@ def run_one(
         results[Check].append(raised(study, error))
     checks, tables, figures, fields = (tuple(items) for items in results.values())
     seconds = time.perf_counter() - start
-    return Outcome(study, level, description, checks, tables, figures, fields, seconds, error, trace)
+    return Outcome(
+        study=study,
+        level=level,
+        description=description,
+        checks=checks,
+        tables=tables,
+        figures=figures,
+        fields=fields,
+        seconds=seconds,
+        error=error,
+        trace=trace,
+    )
 
 
 def load(study: Study) -> Callable[..., Iterable[Item]]:
@@ -145,7 +156,14 @@ def explain(exc: BaseException) -> str:
 def raised(study: Study, error: str) -> Check:
     """Return the failed check of a study that did not reach its end."""
     return Check(
-        f"{study.name} runs to its end", float("nan"), 0.0, 0.0, "the study itself", AT_MOST, note=error, grade="B"
+        f"{study.name} runs to its end",
+        float("nan"),
+        expected=0.0,
+        tolerance=0.0,
+        source="the study itself",
+        kind=AT_MOST,
+        note=error,
+        grade="B",
     )
 
 

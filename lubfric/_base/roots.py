@@ -12,7 +12,7 @@ from ..errors import CONVERGED, ITERATION_LIMIT
 NEARER = 0.3  # of the value before: the secant leads on
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Root:
     """x, f(x), its payload, |f| at every step, and how it ended."""
 
@@ -88,7 +88,7 @@ class _Search:
         """The result."""
         x, value, payload = self.best
         status = CONVERGED if abs(value) <= self.tolerance else ITERATION_LIMIT
-        return Root(x, value, payload, tuple(abs(f) for _, f in self.points), status)
+        return Root(x=x, value=value, payload=payload, history=tuple(abs(f) for _, f in self.points), status=status)
 
 
 def _bracket(

@@ -17,7 +17,7 @@ DEFINITIONS = tuple(FINDERS)
 APPROACHES = np.geomspace(1e-5, 1.0, 53)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class AsperityResult:
     """All contacts at one separation. Arrays have one entry for each contact.
 
@@ -188,7 +188,17 @@ def separation_for_load(
     left = {"load": error}
     steps = len(history) or scanned
     evaluations = scanned + len(history)
-    report = Report("asperity separation", status, steps, error, tolerance, left, history, evaluations, advice=advice)
+    report = Report(
+        "asperity separation",
+        status,
+        iterations=steps,
+        residual=error,
+        tolerance=tolerance,
+        residuals=left,
+        history=history,
+        evaluations=evaluations,
+        advice=advice,
+    )
     return returned(replace(best, report=report), raise_on_failure)
 
 

@@ -259,7 +259,7 @@ def _curve_gap(heights: FloatArray, separation: float, reading: str) -> float:
     return float(np.maximum(separation - heights, 0.0).mean()) if reading == "volume" else float(separation)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class FlatContact(RoughContact):
     """Roughness spread evenly over the Hertz strip of the total load.
 

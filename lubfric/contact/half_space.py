@@ -18,7 +18,7 @@ from .solve import solve_contact
 BOUNDARY = ("free", "periodic")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class HalfSpaceContact(FieldsOnly, RoughContact):
     """A rough surface under a cylinder on its cells: free along x, periodic along y.
 

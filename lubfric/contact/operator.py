@@ -41,7 +41,7 @@ def _once(method: Callable[..., Any]) -> Callable[..., Any]:
     return kept
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class HalfSpace(FrozenArrays, FieldsOnly):
     """Linear map from cell pressures [Pa] to deflections [m] of the cell centres, made by `half_space`.
 
@@ -169,7 +169,9 @@ def half_space(
         workers = validate.integer("workers", workers, minimum=1)
     padded = (_padded_length(shape[0], boundary[0]), _padded_length(shape[1], boundary[1]))
     symbol = _symbol(shape, spacing, e_prime, boundary, padded)
-    return HalfSpace(shape, spacing, e_prime, boundary, padded, symbol, workers)
+    return HalfSpace(
+        shape=shape, spacing=spacing, e_prime=e_prime, boundary=boundary, padded=padded, symbol=symbol, workers=workers
+    )
 
 
 def _padded_length(n: int, kind: str) -> int:

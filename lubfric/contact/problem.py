@@ -26,7 +26,7 @@ NEWTON = 12
 ABSURD = 1e6
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ContactProblem:
     """One contact problem: gap0 [m] (nx, ny) with its minimum at zero and its rms ``roughness`` [m], deflection
     operator, hardness [Pa] (inf: elastic), and when to stop.
@@ -62,7 +62,7 @@ class ContactProblem:
         )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class TrialContact:
     """A pressure [Pa] with its displacement and gap [m] (nx, ny) and its approach [m].
 
@@ -123,7 +123,15 @@ def contact_problem(
                 raise InputError(said, way_out="they must be the same")
     offset = float(gap0.min())
     gap0 = gap0 - offset if offset else gap0
-    return ContactProblem(gap0, offset, float(gap0.std()), operator, hardness, tolerance, max_iterations)
+    return ContactProblem(
+        gap0=gap0,
+        offset=offset,
+        roughness=float(gap0.std()),
+        operator=operator,
+        hardness=hardness,
+        tolerance=tolerance,
+        max_iterations=max_iterations,
+    )
 
 
 def on_grid(name: str, value: Any, shape: tuple[int, int], unit: str) -> np.ndarray:

@@ -39,7 +39,7 @@ WASTED = 4
 EVALUATION = 2.3e-8
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class ContactResult(Shown):
     """Fields and means of one dry contact. Arrays are (nx, ny); means are over the complete array.
 
@@ -88,7 +88,7 @@ class ContactResult(Shown):
         }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class SearchResult:
     """The end of the rounds (``state``): how they ended, their cost, and the pace with which a next search should
     begin."""
@@ -169,7 +169,9 @@ def trial_contact(
     gap -= level
     scale = length_scale(pressure, displacement, problem.gap0, problem.operator, problem.roughness)
     residuals = contact_residuals(pressure, gap, scale, problem.hardness)
-    return TrialContact(pressure, displacement, gap, level, scale, residuals)
+    return TrialContact(
+        pressure=pressure, displacement=displacement, gap=gap, approach=level, scale=scale, residuals=residuals
+    )
 
 
 def refine(
@@ -211,7 +213,14 @@ def refine(
             status = ITERATION_LIMIT
         elif wasted > WASTED:
             status = STAGNATED
-    return SearchResult(state, status, iterations, convolutions, (*history, state.residual), pace)
+    return SearchResult(
+        state=state,
+        status=status,
+        iterations=iterations,
+        convolutions=convolutions,
+        history=(*history, state.residual),
+        pace=pace,
+    )
 
 
 def contact_result(

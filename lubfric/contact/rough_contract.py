@@ -15,7 +15,7 @@ from ..errors import InputError
 from .refinement import ContactResult
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ContactState:
     """A rough contact at one division of the load: where it touches, and both sides of the volume balance, Eq. (8).
 

@@ -197,4 +197,11 @@ def _separated(problem: ContactProblem, mean_gap: float) -> SearchResult:
     """Bodies that carry no load."""
     zero = np.zeros_like(problem.gap0)
     state = trial_contact(problem, zero, zero.copy(), float(problem.gap0.mean()) - mean_gap)
-    return SearchResult(state, CONVERGED, 0, 0.0, solver="none", notes=("the bodies carry no load",))
+    return SearchResult(
+        state=state,
+        status=CONVERGED,
+        iterations=0,
+        convolutions=0.0,
+        solver="none",
+        notes=("the bodies carry no load",),
+    )

@@ -103,7 +103,17 @@ def reported(
     status = solutions[-1].status
     status = failed if status == CONVERGED and residual > tolerance else status
     evaluations = steps if solves is None else solves
-    return Report(solver, status, steps, residual, tolerance, residuals, history, evaluations, notes)
+    return Report(
+        solver,
+        status,
+        iterations=steps,
+        residual=residual,
+        tolerance=tolerance,
+        residuals=residuals,
+        history=history,
+        evaluations=evaluations,
+        notes=notes,
+    )
 
 
 def _report(

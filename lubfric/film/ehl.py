@@ -82,7 +82,14 @@ def solve_ehl(
     """
     fluid = viscosity, pressure_viscosity_coefficient, viscosity_law, density_law, eyring_stress
     lubricant = Lubricant(*fluid, inlet_length=inlet_length, inlet_film=inlet_film, carreau=carreau)
-    contact = LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant, sliding)
+    contact = LineContact(
+        load_per_width=load_per_width,
+        radius=radius,
+        e_prime=e_prime,
+        entrainment_speed=entrainment_speed,
+        lubricant=lubricant,
+        sliding=sliding,
+    )
     effort = Effort(tolerance, least_cells, max_iterations)
     return solve_line_contact(contact, effort, start=start, raise_on_failure=raise_on_failure)
 

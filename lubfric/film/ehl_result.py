@@ -15,7 +15,7 @@ from .start import FilmState
 LUMP = 6
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class EHLResult(Shown, HasLineContact):
     """Steady film of a smooth line contact. Arrays are (n,), x ascending.
 

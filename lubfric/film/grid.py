@@ -31,7 +31,7 @@ UPWIND = (-1, 0, 1)
 CORE = 1.2
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Grid:
     """xi: node positions (n + 1); kernel: from pressure to film at the nodes; face_film (n, n + 1): from nodes to
     faces, third-order upwind; face_kernel = face_film @ kernel; weights: of the pressure integral."""
@@ -52,7 +52,14 @@ class Grid:
         """Return the same nodes ``s`` times as far from the rupture point: ln|s x| = ln s + ln|x|."""
         shift = -4.0 / math.pi * math.log(s) * self.weights
         kernels = s * (self.kernel + shift), s * (self.face_kernel + shift)
-        return Grid(s * self.xi, kernels[0], self.face_film, kernels[1], s * self.cells, s * self.weights)
+        return Grid(
+            xi=s * self.xi,
+            kernel=kernels[0],
+            face_film=self.face_film,
+            face_kernel=kernels[1],
+            cells=s * self.cells,
+            weights=s * self.weights,
+        )
 
 
 def node_positions(half_width: float, film: float, n: int, distance: float | None = None) -> np.ndarray:
@@ -114,7 +121,9 @@ def make_grid(xi: np.ndarray) -> Grid:
         + values[:, 1:2] * kernel[columns[:, 1]]
         + values[:, 2:] * kernel[columns[:, 2]]
     )
-    return Grid(xi, kernel, face_film, face_kernel, cells, trapezoidal(cells))
+    return Grid(
+        xi=xi, kernel=kernel, face_film=face_film, face_kernel=face_kernel, cells=cells, weights=trapezoidal(cells)
+    )
 
 
 def face_weights(x: np.ndarray, stencil: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:

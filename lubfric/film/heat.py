@@ -143,7 +143,9 @@ def isothermal_heat(
     wall = lubricant.temperature + flash_matrix(x[nodes], around.carried) @ heat[nodes]
     wall = np.interp(x, x[nodes], wall)
     left, rise = heated_stress(lubricant, pressure, film, around.sliding, wall)
-    return FilmHeat(left, wall, rise, Report("heat, one pass", CONVERGED, 1, 0.0, math.inf))
+    return FilmHeat(
+        left, wall, rise, Report("heat, one pass", CONVERGED, iterations=1, residual=0.0, tolerance=math.inf)
+    )
 
 
 def heated_film(
@@ -196,7 +198,14 @@ def heated_film(
         if history[-1] <= TOLERANCE:
             break
     status = CONVERGED if history[-1] <= TOLERANCE else ITERATION_LIMIT
-    report = Report("heat of the film", status, len(history), history[-1], TOLERANCE, history=tuple(history))
+    report = Report(
+        "heat of the film",
+        status,
+        iterations=len(history),
+        residual=history[-1],
+        tolerance=TOLERANCE,
+        history=tuple(history),
+    )
     wall = np.interp(x, at, lubricant.temperature + rise)
     stress, film_rise = heated_stress(lubricant, pressure, film, around.sliding, wall)
     return returned(FilmHeat(stress, wall, film_rise, report), raise_on_failure)

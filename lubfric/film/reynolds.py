@@ -202,7 +202,7 @@ def _closing_rows(grid: Grid, problem: FilmProblem, t: ReynoldsTerms, J: np.ndar
     return by_h, rho / q
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class FilmSolution:
     """Unknowns ``z`` on ``grid`` with their `ReynoldsTerms`; ``error``: largest residual or film defect."""
 
@@ -270,4 +270,4 @@ def newton(
         H = H + length * dH
     if status != CONVERGED and step < max_steps:
         status = DIVERGED
-    return FilmSolution(grid, z, terms, status, error, tuple(history))
+    return FilmSolution(grid=grid, z=z, terms=terms, status=status, error=error, history=tuple(history))

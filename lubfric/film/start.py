@@ -11,7 +11,7 @@ from .problem import FilmProblem
 from .reynolds import FilmSolution, elastic_film
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class FilmState:
     """Solution in Moes' variables, kept with a result so that it can start another solve.
 
@@ -64,7 +64,16 @@ def solution_state(problem: FilmProblem, solution: FilmSolution, error: float) -
     t = solution.terms
     rupture = float(solution.z[-1])
     inlet = None if problem.inlet is None else -float(t.X[0])
-    return FilmState(problem, t.P[:-1], t.H, float(t.q), rupture, error, inlet, solution.grid.xi)
+    return FilmState(
+        problem=problem,
+        pressure=t.P[:-1],
+        film=t.H,
+        flux=float(t.q),
+        rupture=rupture,
+        grid_error=error,
+        inlet=inlet,
+        nodes=solution.grid.xi,
+    )
 
 
 def refined_start(solution: FilmSolution) -> tuple[np.ndarray, np.ndarray]:

@@ -83,12 +83,26 @@ def solve_differential_deflection(
     InputError : a value out of range, before any work
     ConvergenceError : residuals above tolerance; carries report and result
     """
-    oil = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density_law, inlet_length=inlet_length)
+    oil = Lubricant(
+        viscosity,
+        pressure_viscosity_coefficient,
+        viscosity_law=viscosity_law,
+        density_law=density_law,
+        inlet_length=inlet_length,
+    )
     Effort(tolerance, 0, max_iterations)  # checks both
     if nodes is not None:
         validate.integer("nodes", nodes, minimum=COARSEST + 1)
     validate.integer("most_nodes", most_nodes, minimum=COARSEST + 1)
-    problem = film_problem(LineContact(load_per_width, radius, e_prime, entrainment_speed, oil))
+    problem = film_problem(
+        LineContact(
+            load_per_width=load_per_width,
+            radius=radius,
+            e_prime=e_prime,
+            entrainment_speed=entrainment_speed,
+            lubricant=oil,
+        )
+    )
     ends = domain_ends(problem, domain)
     cells = _cells(problem, ends, nodes, most_nodes)
     levels = _ascend(problem, ends, cells, tolerance, max_iterations, doubled=nodes is None)
@@ -220,7 +234,7 @@ def _state(problem: FilmProblem, solution: DifferentialSolution, rupture: float,
     X = xi + rupture
     P = np.interp(X, solution.mesh.X, solution.P, left=0.0)
     H = np.interp(X, solution.mesh.X, solution.H - 0.5 * solution.mesh.X**2) + 0.5 * X**2
-    return FilmState(problem, P[:-1], H, solution.terms.q, rupture, error)
+    return FilmState(problem=problem, pressure=P[:-1], film=H, flux=solution.terms.q, rupture=rupture, grid_error=error)
 
 
 def assemble(problem: FilmProblem, levels: list[DifferentialSolution], tolerance: float) -> EHLResult:

@@ -37,7 +37,7 @@ BANDWIDTH = 8
 NEAR = 20
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Mesh:
     """A uniform grid with its kernels.
 
@@ -76,7 +76,16 @@ def make_mesh(first: float, last: float, nodes: int, flooded: bool) -> Mesh:
     near = min(BANDWIDTH, nodes - 1)
     whole = _transform(log_kernel)
     outer = _transform(far)
-    return Mesh(X, step, log_kernel, weights, near, whole, outer, flooded)
+    return Mesh(
+        X=X,
+        step=step,
+        log_kernel=log_kernel,
+        weights=weights,
+        bandwidth=near,
+        log_transform=whole,
+        far_transform=outer,
+        flooded=flooded,
+    )
 
 
 def convolve(transform: np.ndarray, P: np.ndarray) -> np.ndarray:
@@ -114,7 +123,7 @@ def _transform(kernel: np.ndarray) -> np.ndarray:
     return rfft(wrapped)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class DifferentialTerms:
     """One evaluation of the equations.
 
@@ -169,7 +178,16 @@ def evaluate(mesh: Mesh, problem: FilmProblem, P: np.ndarray, H: np.ndarray) -> 
     by_H = face_rho * (1.0 - 3.0 * h**2 * fluidity * gradient)
     by_P = np.stack([left, right])
     return DifferentialTerms(
-        through, last, float(through[last]), balance, defect - defect[0], ends, scale, by_H, by_P, slope
+        through=through,
+        last=last,
+        q=float(through[last]),
+        balance=balance,
+        defect=defect - defect[0],
+        ends=ends,
+        scale=scale,
+        by_H=by_H,
+        by_P=by_P,
+        slope=slope,
     )
 
 

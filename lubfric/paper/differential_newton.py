@@ -23,7 +23,7 @@ KRYLOV_LIMIT = 40
 FORCING = 1e-2
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class DifferentialSolution:
     """Pressures and films on ``mesh`` with their `DifferentialTerms`, residuals of `measure`, and the number of banded solves."""
 
@@ -163,4 +163,6 @@ def newton(
         P[peak:] = np.maximum(P[peak:], 0.0)
     if status != CONVERGED and step < max_steps:
         status = DIVERGED
-    return DifferentialSolution(mesh, P, H, t, status, residuals, tuple(history), solves)
+    return DifferentialSolution(
+        mesh=mesh, P=P, H=H, terms=t, status=status, residuals=residuals, history=tuple(history), solves=solves
+    )

@@ -92,7 +92,14 @@ class ImposedFilm:
         """Return the end of an iteration: its state is computed anew from the pressure and epsilon alone."""
         state = evaluate(self.problem, self.problem.operator, pressure, offset)
         steps = len(history) if iterations is None else iterations
-        return SearchResult(state, status, steps, convolutions + 1, tuple(history), notes=tuple(notes))
+        return SearchResult(
+            state=state,
+            status=status,
+            iterations=steps,
+            convolutions=convolutions + 1,
+            history=tuple(history),
+            notes=tuple(notes),
+        )
 
     def solved(
         self, iterate: Callable[[np.ndarray], SearchResult], solver: str, raise_on_failure: bool

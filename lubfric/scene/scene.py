@@ -142,7 +142,14 @@ class Scene(Shown):
         lubricant."""
         bodies = self.bodies
         sliding = self.motion.slide_roll_ratio * abs(speed)
-        return LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, self.lubricant, sliding)
+        return LineContact(
+            load_per_width=bodies.load / bodies.width,
+            radius=bodies.radius,
+            e_prime=bodies.e_prime,
+            entrainment_speed=speed,
+            lubricant=self.lubricant,
+            sliding=sliding,
+        )
 
     def to_toml(self) -> str:
         """The complete scene as the text of a scene file, which `lubfric.load_scene` reads back to the same numbers.

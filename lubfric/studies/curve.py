@@ -112,7 +112,15 @@ def report_of(
     tolerance = float(max((report.tolerance for report in reports), default=0.0))
     notes = tuple(f"{names[i]}: {error}" for i, error in sorted(errors.items()))
     advice = f"the other {plural} are in .result, the reason of each failed one in its .errors"
-    return Report(solver, status, len(points) - len(errors), residual, tolerance, notes=notes, advice=advice)
+    return Report(
+        solver,
+        status,
+        iterations=len(points) - len(errors),
+        residual=residual,
+        tolerance=tolerance,
+        notes=notes,
+        advice=advice,
+    )
 
 
 R = TypeVar("R", bound=CurveResult)

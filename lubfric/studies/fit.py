@@ -294,10 +294,10 @@ def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[C
     report = Report(
         "fit, trust region",
         status,
-        int(end.nfev),
-        0.0 if status == CONVERGED else 1.0,
-        CLOSE,
-        {"sum of squares": squares},
+        iterations=int(end.nfev),
+        residual=0.0 if status == CONVERGED else 1.0,
+        tolerance=CLOSE,
+        residuals={"sum of squares": squares},
         evaluations=curves.count,
         advice="" if status == CONVERGED else advice,
     )

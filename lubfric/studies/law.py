@@ -68,7 +68,7 @@ SYMBOLS = {"speed": ("U", "m/s"), "temperature": ("T", "K"), "pressure": ("p", "
 VARIED = ("lubricant.temperature", "lubricant.temperature_celsius", "bodies.load")
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class Law(Shown):
     """Friction coefficient over entrainment speed U [m/s], oil temperature T [K] and mean Hertz pressure p [Pa].
 
@@ -221,7 +221,14 @@ def law_of(
     off = value(numbers, U, T, p) / (boundary + film) - 1
     ranges = {n: (float(v.min()), float(v.max())) for n, v in (("speed", U), ("temperature", T), ("pressure", p))}
     widths = np.where(np.isfinite(model), 0.5 * (high - low) / np.abs(f), np.nan)[np.isfinite(f)]
-    return Law(scene.name, numbers, ranges, float(abs(off).max()), float(np.sqrt(np.mean(off**2))), float(widths.max()))
+    return Law(
+        name=scene.name,
+        numbers=numbers,
+        ranges=ranges,
+        largest=float(abs(off).max()),
+        rms=float(np.sqrt(np.mean(off**2))),
+        interval=float(widths.max()),
+    )
 
 
 def law_of_study(result: Any) -> Law:

@@ -25,7 +25,7 @@ FILE = ("Roughness", "file")  # the field of a scene that names a map
 LABELS = {("Scene", "name"), ("Surface", "source"), ("Surface", "notes"), ("Motion", "speeds")}  # no number needs them
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Failure:
     """A point without an answer, as it is stored: the name of its exception, and what that holds."""
 
@@ -133,8 +133,10 @@ def point_key(scene_key: str, speed: float, fields: bool | str = False) -> str:
 
 def _failure(error: LubfricError) -> Failure:
     if isinstance(error, ValidityError):
-        return Failure("ValidityError", error.message, None, tuple(error.entries), error.result)
-    return Failure(type(error).__name__, str(error), getattr(error, "report", None))
+        return Failure(
+            error="ValidityError", message=error.message, report=None, entries=tuple(error.entries), result=error.result
+        )
+    return Failure(error=type(error).__name__, message=str(error), report=getattr(error, "report", None))
 
 
 def _error(stored: Failure) -> LubfricError:

@@ -240,7 +240,7 @@ def _collected(requested: list[float], outcomes: dict[float, Outcome], prepared:
     return replace(curve, report=report_between)
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class TractionResult(CurveResult):
     """Friction over the requested slide-roll ratios, in their order; NaN where a point failed.
 
@@ -316,4 +316,6 @@ def traction(
             on_point(len(outcomes), ratios.size, ratio, outcomes[-1])
     points, errors = parted(outcomes)
     report = report_of("traction", [f"slide-roll ratio {ratio:g}" for ratio in ratios], "ratios", points, errors)
-    return checked_curve(TractionResult(ratios, float(speed), points, errors, report), raise_on_failure)
+    return checked_curve(
+        TractionResult(ratio=ratios, speed=float(speed), points=points, errors=errors, report=report), raise_on_failure
+    )

@@ -13,7 +13,7 @@ from .film_setting import FINER, TIME_SHARE, ContactHistory, Setting, make_setti
 from .march import Plan, Residual, Step, checked_times, grid_residual, initial_progress, plan_of, report_of, steps
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class TransientFilm:
     """Film over time, in SI units.
 
@@ -81,14 +81,20 @@ def solve_transient_ehl(
     duration = float(times[-1])
     eta = checked_history("viscosity", viscosity, "Pa s", duration)
     contact = ContactHistory(
-        checked_history("load_per_width", load_per_width, "N/m", duration),
-        checked_history("radius", radius, "m", duration),
-        validate.positive("e_prime", e_prime, "Pa"),
-        checked_history("entrainment_speed", entrainment_speed, "m/s", duration, positive=False),
-        eta,
-        Lubricant(eta.at(0.0), pressure_viscosity_coefficient, viscosity_law, density_law, inlet_length=inlet_length),
-        duration,
-        initial_film,
+        load=checked_history("load_per_width", load_per_width, "N/m", duration),
+        radius=checked_history("radius", radius, "m", duration),
+        e_prime=validate.positive("e_prime", e_prime, "Pa"),
+        speed=checked_history("entrainment_speed", entrainment_speed, "m/s", duration, positive=False),
+        viscosity=eta,
+        lubricant=Lubricant(
+            eta.at(0.0),
+            pressure_viscosity_coefficient,
+            viscosity_law=viscosity_law,
+            density_law=density_law,
+            inlet_length=inlet_length,
+        ),
+        duration=duration,
+        initial_film=initial_film,
     )
     setting, start, residuals = _start(contact, tolerance)
     changing = contact.speed, contact.load, contact.radius, contact.viscosity

@@ -126,7 +126,7 @@ class StepTerms:
     balance: float  # carried + spring - load
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class StepEquations:
     """The equations of one implicit step, with a ``memory`` of the past: at a speed u, a load M, a curvature c =
     R_ref/R and an ambient viscosity nu, relative to the reference. ``spring``: carries load in addition to the

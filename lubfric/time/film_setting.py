@@ -24,7 +24,7 @@ LIGHTEST = 0.3  # share of the load that the film is taken to carry at least, wh
 SMALLEST_STAGE = 0.01  # of the logarithm of a change of the load
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ContactHistory:
     """A line contact in time: histories in SI units from t = 0 to ``duration`` [s].
 
@@ -77,15 +77,15 @@ class Setting:
         memory = memory or Memory(0.0, np.zeros(self.grid.n + 1))
         sheared = replace(self.problem, contact=replace(reference, sliding=c.sliding and c.sliding(time)))
         return StepEquations(
-            self.grid,
-            sheared,
-            Memory(memory.rate * time_unit, memory.film),
-            c.speed.before(time) / reference.entrainment_speed,
-            c.load.before(time) / self.load_unit,
-            reference.radius / c.radius.before(time),
-            c.viscosity.before(time) / reference.lubricant.viscosity,
-            spring,
-            self.inlet,
+            grid=self.grid,
+            problem=sheared,
+            memory=Memory(memory.rate * time_unit, memory.film),
+            speed=c.speed.before(time) / reference.entrainment_speed,
+            load=c.load.before(time) / self.load_unit,
+            curvature=reference.radius / c.radius.before(time),
+            viscosity=c.viscosity.before(time) / reference.lubricant.viscosity,
+            spring=spring,
+            inlet=self.inlet,
         )
 
     def solve(self, time: float, memory: Memory | None, z: np.ndarray, spring: Spring | None = None) -> Step:
@@ -150,11 +150,19 @@ def _reference(contact: ContactHistory, sq: float) -> tuple[FilmProblem, tuple[f
     fastest = max(abs(low), abs(high))
     lubricant = replace(c.lubricant, viscosity=c.viscosity.at(0.0))
     films = [f for f in (sq, 2.0 * sq, c.initial_film or 0.0) if f > 0.0]
-    reference = LineContact(load[1], c.radius.at(0.0), c.e_prime, fastest or 1.0, lubricant)
+    reference = LineContact(
+        load_per_width=load[1],
+        radius=c.radius.at(0.0),
+        e_prime=c.e_prime,
+        entrainment_speed=fastest or 1.0,
+        lubricant=lubricant,
+    )
 
     def moes(load: float, radius: float, viscosity: float, speed: float) -> float:
         oil = replace(lubricant, viscosity=viscosity)
-        return LineContact(load, radius, c.e_prime, speed, oil).moes_film
+        return LineContact(
+            load_per_width=load, radius=radius, e_prime=c.e_prime, entrainment_speed=speed, lubricant=oil
+        ).moes_film
 
     if fastest:
         slowest = max(0.0 if low < 0.0 < high else min(abs(low), abs(high)), SLOWEST * fastest)
@@ -178,7 +186,14 @@ def steady_start(setting: Setting, load: float | None = None) -> tuple[Step, flo
     load = load or c.load.before(0.0)
     oil = replace(c.lubricant, viscosity=c.viscosity.before(0.0))
     sliding = c.sliding and c.sliding(0.0)
-    line = LineContact(load / c.width, c.radius.before(0.0), c.e_prime, c.speed.before(0.0), oil, sliding)
+    line = LineContact(
+        load_per_width=load / c.width,
+        radius=c.radius.before(0.0),
+        e_prime=c.e_prime,
+        entrainment_speed=c.speed.before(0.0),
+        lubricant=oil,
+        sliding=sliding,
+    )
     steady = solve_line_contact(line, Effort(tolerance=0.01))
     x = steady.x / p.length_unit
     P = steady.pressure / p.pressure_unit

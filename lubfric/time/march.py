@@ -60,7 +60,7 @@ class Step:
     time: float = 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Progress:
     """How far a run has come. It can continue from any progress.
 
@@ -86,7 +86,7 @@ class Progress:
         return self.levels[-1].time
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Plan:
     """The times and the accuracy of a run: output ``times`` [s], ``stops`` (times at which a step ends, these among
     them), those that are ``jumps`` of a history, the step after a start or a jump [s], the largest local error of a
@@ -125,7 +125,13 @@ def plan_of(
     others = np.array([*more], float)
     apart = np.min(np.abs(others[:, None] - stops), axis=1, initial=math.inf)
     stops = np.union1d(stops, others[(apart > CLOSE * np.diff(others, prepend=0.0)) & (others < end)])
-    return Plan(times, tuple(stops.tolist()), frozenset(jumps.tolist()), first_step, tolerance)
+    return Plan(
+        times=times,
+        stops=tuple(stops.tolist()),
+        jumps=frozenset(jumps.tolist()),
+        first_step=first_step,
+        tolerance=tolerance,
+    )
 
 
 def _onto(known: np.ndarray, candidates: list[float]) -> np.ndarray:
@@ -141,7 +147,7 @@ def _onto(known: np.ndarray, candidates: list[float]) -> np.ndarray:
 
 def initial_progress(first: Step, plan: Plan) -> Progress:
     """The progress at t = 0 with the state ``first``."""
-    return Progress((_level(first),), plan.first_step, first.payload, solution=first)
+    return Progress(levels=(_level(first),), step=plan.first_step, payload=first.payload, solution=first)
 
 
 def _level(step: Step) -> Step:
@@ -255,7 +261,16 @@ def advance(now: Progress, until: float, solver: Solver, tolerance: float, short
         if error <= tolerance:
             step, error = planned * min(change, GROWTH), error / tolerance
             worst = max(now.worst, error)
-            return Progress(levels, step, solution.payload, now.steps + 1, rejected, worst, solution, error)
+            return Progress(
+                levels=levels,
+                step=step,
+                payload=solution.payload,
+                steps=now.steps + 1,
+                rejected=rejected,
+                worst=worst,
+                solution=solution,
+                error=error,
+            )
         step, rejected = planned * min(change, 0.9), rejected + 1
     return None
 

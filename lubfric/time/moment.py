@@ -132,12 +132,12 @@ def _violated(
     yield from of_film(scene, film, row["max_pressure"], shear, row["film_load"], force, heat)
     if row["shear_error"] > scene.numerics.tolerance:
         yield Validity(
-            "estimated error of f by the sum of the film's shear stress",
-            row["shear_error"],
-            scene.numerics.tolerance,
-            "",
-            "the grid of a run in time does not hold the pressure spike, or the film is ruptured where it shears most",
-            "a tighter numerics.film_tolerance; the steady f at the same speed (lubfric.friction) resolves the spike",
+            what="estimated error of f by the sum of the film's shear stress",
+            value=row["shear_error"],
+            limit=scene.numerics.tolerance,
+            unit="",
+            consequence="the grid of a run in time does not hold the pressure spike, or the film is ruptured where it shears most",
+            remedy="a tighter numerics.film_tolerance; the steady f at the same speed (lubfric.friction) resolves the spike",
         )
     if row["contact_load"] > 0:
         yield from of_deflection(scene, row["mean_gap"], STEADY_ONLY)

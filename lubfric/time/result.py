@@ -33,7 +33,7 @@ POWER = ("power_loss", "power_loss_low", "power_loss_high")  # columns whose mea
 MASS = 1e-3  # largest residual of a step's mass
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class TimeAverage:
     """The mean of f over the time in which the surfaces of a run move (at a standstill there is no f), the share
     ``in_motion`` of that time, and relative standard deviations.
@@ -59,7 +59,7 @@ class TimeAverage:
     power_loss_interval: tuple[float, float] = (math.nan, math.nan)
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class TransientResult(Shown):
     """Numbers of a run over time: one array (nt,) for each name of `lubfric.quantities.OF_MOMENT`, also as attributes.
 
@@ -136,7 +136,13 @@ class TransientResult(Shown):
         loss, *ends = (of_run.get(name, math.nan) for name in POWER)
         if not share:
             return TimeAverage(
-                math.nan, math.nan, math.nan, math.nan, share, power_loss=loss, power_loss_interval=(ends[0], ends[1])
+                coefficient=math.nan,
+                sampling=math.nan,
+                fixed_scatter=math.nan,
+                moving_scatter=math.nan,
+                in_motion=share,
+                power_loss=loss,
+                power_loss_interval=(ends[0], ends[1]),
             )
         names = "coefficient", "sampling_error", "entrainment_speed"
         f, error, speed = (self.columns[name][moving] for name in names)

@@ -183,14 +183,28 @@ class TransientDeterministic:
             return self._step(evaluated(problem, solve_point(problem, tolerance=EXACT).state), back)
         nothing = np.zeros_like(problem.heights)
         kind = np.full(problem.heights.shape, RUPTURED, np.int8)
-        state = State(nothing, nothing + 1.0, nothing, kind, nothing > 0, plan.initial_film or 0.0)
+        state = State(
+            pressure=nothing,
+            fill=nothing + 1.0,
+            dent=nothing,
+            kind=kind,
+            yielded=nothing > 0,
+            approach=plan.initial_film or 0.0,
+        )
         if plan.initial_film is None:
             dry = dry_contact(problem)
             p = dry.pressure
             yielded = dry.pressure >= problem.hardness
             dent = np.where(yielded, np.maximum(-dry.gap, 0.0), 0.0)
             touching = np.where(p > 0, TOUCHING, RUPTURED).astype(np.int8)
-            state = State(p.copy(), nothing + 1.0, dent, touching, yielded, problem.floor - dry.approach)
+            state = State(
+                pressure=p.copy(),
+                fill=nothing + 1.0,
+                dent=dent,
+                kind=touching,
+                yielded=yielded,
+                approach=problem.floor - dry.approach,
+            )
         elif np.min(problem.rigid_gap) + plan.initial_film < problem.floor:
             least = problem.floor - float(np.min(problem.rigid_gap))
             way_out = f"give more than {least:g} m, or initial = 'rest'"
@@ -299,7 +313,17 @@ def deterministic_moment(
     at = now.solution.terms
     scene = scene_at(solver.scene, now.time)
     left = residuals(at)
-    result = assemble(at, Report("film under moving roughness", CONVERGED, 1, max(left.values()), EXACT, left))
+    result = assemble(
+        at,
+        Report(
+            "film under moving roughness",
+            CONVERGED,
+            iterations=1,
+            residual=max(left.values()),
+            tolerance=EXACT,
+            residuals=left,
+        ),
+    )
     numbers = numbers_of(replace(solver.prepared, scene=scene), result)
     speed = scene.motion.entrainment_speed
     sliding = sliding_at(solver.scene, now.time)

@@ -11,7 +11,7 @@ from verification.fem.studies.given_fluid import GivenFluidCase, contact_by_elem
 
 
 def test_the_contact_is_that_of_finite_elements_given_the_fluid():
-    case = GivenFluidCase(32, 8, 0.003, 40e-9, 2.5e9, 1)
+    case = GivenFluidCase(cells=32, across=8, speed=0.003, floor=40e-9, hardness=2.5e9, fineness=1)
     problem = laid(case, replace(contact(0.1), load_per_width=5 * LOAD))
     found = solve_point(problem)
     body = elements(problem, case.fineness)

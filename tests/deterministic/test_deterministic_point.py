@@ -22,7 +22,9 @@ MAP = lubfric.generate_surface((96, 96), 90e-6 / 96, sq=100e-9, correlation_leng
 
 
 def contact(load, speed, lubricant=NEWTONIAN, radius=RADIUS):
-    return LineContact(load, radius, E_PRIME, speed, lubricant)
+    return LineContact(
+        load_per_width=load, radius=radius, e_prime=E_PRIME, entrainment_speed=speed, lubricant=lubricant
+    )
 
 
 def rough(cells, load, speed, lubricant=NEWTONIAN, surface=MAP, **more):

@@ -31,7 +31,9 @@ from lubfric.output import write_moments
 from lubfric.surface import Surface, generate_surface
 
 OIL = Lubricant(0.05, 15e-9, eyring_stress=5e6)
-LINE = LineContact(2e4, 5e-3, 2.2e11, 0.3, OIL)  # 0.37 GPa, half-width 34 um
+LINE = LineContact(
+    load_per_width=2e4, radius=5e-3, e_prime=2.2e11, entrainment_speed=0.3, lubricant=OIL
+)  # 0.37 GPa, half-width 34 um
 CELL = 4e-6
 
 
@@ -345,7 +347,13 @@ def test_amplitudes_are_reduced_as_published(length, kept, cells):
     Couhier, A. A. Lubrecht, J. A. Greenwood, Tribology Series 32 (1997) 103-112, doi:10.1016/s0167-8922(08)70440-1):
     within 5 %, on 8 cells a wave of .5 b too. (Where the mass is not followed along with the lubricant, there
     .09 is left.)"""
-    line = LineContact(4.41e6 * 0.02, 0.02, 2.2e11, 1.0, Lubricant(0.04, 2e-8, density_law="dowson-higginson"))
+    line = LineContact(
+        load_per_width=4.41e6 * 0.02,
+        radius=0.02,
+        e_prime=2.2e11,
+        entrainment_speed=1.0,
+        lubricant=Lubricant(0.04, 2e-8, density_law="dowson-higginson"),
+    )
     line = replace(line, entrainment_speed=(11 / line.L) ** 4)
     line = replace(line, load_per_width=line.load_per_width * 100 / line.M)
     b = line.half_width

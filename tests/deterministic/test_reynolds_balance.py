@@ -29,7 +29,9 @@ LAWS = {
     "Newtonian": Lubricant(0.36, 25e-9),
     "Eyring": Lubricant(0.36, 25e-9, density_law="dowson-higginson", eyring_stress=5e6),
     "Carreau": Lubricant(0.36, 25e-9, carreau=(5e6, 0.6)),
-    "limit": Lubricant(0.36, 25e-9, "barus", limiting_stress_coefficient=0.09, limiting_stress_offset=2e6),
+    "limit": Lubricant(
+        0.36, 25e-9, viscosity_law="barus", limiting_stress_coefficient=0.09, limiting_stress_offset=2e6
+    ),
     "both": Lubricant(0.1, 20e-9, eyring_stress=3e6, limiting_stress_coefficient=0.05),
     "constant": Lubricant(0.1, viscosity_law="constant", density_law="dowson-higginson"),
 }
@@ -38,9 +40,18 @@ LAWS = {
 def small(lubricant, shape=(12, 6), step=5e-6, e_prime=231e9, load=900.0):
     random = np.random.default_rng(3)
     x = (np.arange(shape[0]) - 8) * step
-    contact = LineContact(load, RADIUS, e_prime, SPEED, lubricant)
+    contact = LineContact(
+        load_per_width=load, radius=RADIUS, e_prime=e_prime, entrainment_speed=SPEED, lubricant=lubricant
+    )
     operator = half_space(shape, step, e_prime, ("free", "periodic"))
-    return Problem(contact, 2 * SPEED, x, 1e-8 * random.standard_normal(shape), operator, 0.09)
+    return Problem(
+        contact=contact,
+        sliding=2 * SPEED,
+        x=x,
+        heights=1e-8 * random.standard_normal(shape),
+        operator=operator,
+        boundary_friction=0.09,
+    )
 
 
 @pytest.mark.parametrize("left, right", [(0.0, 0.0), (1.0, 1.0004), (3.0, 40.0), (40.0, 3.0), (2.0, 1.0)])
@@ -151,7 +162,7 @@ def test_rigid_waviness_against_christensens_averages(along):
         surface = Surface(heights, (dx, dx), periodic_axes=(True, True))
     x = np.linspace(-20 * ends[0], ends[1], 3)
     load, q = rigid_load(factors, lambda s: h0 + s**2 / (2 * RADIUS), eta, x)
-    contact = LineContact(load, RADIUS, 1e13, SPEED, oil)
+    contact = LineContact(load_per_width=load, radius=RADIUS, e_prime=1e13, entrainment_speed=SPEED, lubricant=oil)
     problem = lay_out(surface, contact, sliding=2 * SPEED, boundary_friction=0.09, ends=ends)
     found = solve_point(problem)
     lift = found.gap + problem.heights - (problem.x**2 / (2 * RADIUS))[:, None]
@@ -168,10 +179,12 @@ def test_a_film_ruptures_and_refills_where_its_flow_says():
     step = 1e-6
     x = (np.arange(n) - 400) * step
     oil = Lubricant(0.01, viscosity_law="constant")
-    contact = LineContact(12.0, RADIUS, 1e13, SPEED, oil)
+    contact = LineContact(load_per_width=12.0, radius=RADIUS, e_prime=1e13, entrainment_speed=SPEED, lubricant=oil)
     heights = 2.4e-6 * np.exp(-(((x - 100e-6) / 25e-6) ** 2))[:, None]
     operator = half_space((n, 1), step, 1e13, ("free", "periodic"))
-    problem = Problem(contact, 2 * SPEED, x, heights, operator, 0.09)
+    problem = Problem(
+        contact=contact, sliding=2 * SPEED, x=x, heights=heights, operator=operator, boundary_friction=0.09
+    )
     found = solve_point(problem)
     h = found.gap[:, 0]
     p = found.pressure[:, 0]
@@ -205,8 +218,15 @@ WATER = Lubricant(ETA, viscosity_law="constant")
 
 def even(lubricant=WATER):
     x = (np.arange(SHAPE[0]) - 30) * DX
-    contact = LineContact(900.0, RADIUS, 231e9, U, lubricant)
-    return Problem(contact, 2 * U, x, np.zeros(SHAPE), half_space(SHAPE, (DX, DY), 231e9, ("free", "periodic")), 0.09)
+    contact = LineContact(load_per_width=900.0, radius=RADIUS, e_prime=231e9, entrainment_speed=U, lubricant=lubricant)
+    return Problem(
+        contact=contact,
+        sliding=2 * U,
+        x=x,
+        heights=np.zeros(SHAPE),
+        operator=half_space(SHAPE, (DX, DY), 231e9, ("free", "periodic")),
+        boundary_friction=0.09,
+    )
 
 
 @pytest.mark.parametrize("axis, waves", [(0, 2), (1, 2), (1, 3)])

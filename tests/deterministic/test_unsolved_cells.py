@@ -13,7 +13,9 @@ def test_pieces_that_do_not_converge_enlarge_the_numerical_error(monkeypatch):
     solved = lubfric.friction(SCENE, SPEED)
 
     def fails(*_, **__):
-        raise lubfric.ConvergenceError("no film", lubfric.errors.Report("a piece", "diverged", 3, 1.0, 1e-3))
+        raise lubfric.ConvergenceError(
+            "no film", lubfric.errors.Report("a piece", "diverged", iterations=3, residual=1.0, tolerance=1e-3)
+        )
 
     monkeypatch.setattr(shorter_cells, "_refined", fails)
     unsolved = lubfric.friction(SCENE, SPEED)

@@ -29,7 +29,7 @@ CELLS = 1024
     "oil", [Lubricant(0.05, viscosity_law="constant"), Lubricant(0.05, 10e-9)], ids=["", "Roelands"]
 )
 def test_long_waves_are_pressed_flat_and_short_ones_stay(oil):
-    line = LineContact(2e4, 1e-2, E_PRIME, SPEED, oil)
+    line = LineContact(load_per_width=2e4, radius=1e-2, e_prime=E_PRIME, entrainment_speed=SPEED, lubricant=oil)
     b = line.half_width
     flat = Surface(np.zeros((64, 1)), (5 * b / CELLS,) * 2, periodic_axes=(True, True))
     smooth = lay_out(flat, line, sliding=2 * SPEED, boundary_friction=0.09, ends=(3 * b, 2 * b))

@@ -75,7 +75,7 @@ def test_load_that_saturated_nodes_carry_exactly():
 @pytest.fixture(scope="module")
 def bricks():
     """A unit period of 16 x 16 nodes of unequal weight, and its compliance."""
-    grid = Layer3D(BODY, (1.0, 1.0), graded_levels(1.0, 5, 4.0), (16, 16), 2)
+    grid = Layer3D(body=BODY, size=(1.0, 1.0), levels=graded_levels(1.0, 5, 4.0), shape=(16, 16), degree=2)
     return grid, fourier_compliance(grid)
 
 

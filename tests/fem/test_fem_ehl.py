@@ -19,8 +19,14 @@ from verification.fem.solvers.thinned_film import Law, solve_thinned
 def contact(M: float, L: float) -> LineContact:
     """A contact with Moes' numbers M and L; L = 0 is isoviscous."""
     c = case_of(M, L)
-    fluid = Fluid(c["viscosity"], c["viscosity_law"], ALPHA)
-    return LineContact(c["load_per_width"], c["radius"], c["e_prime"], c["entrainment_speed"], fluid)
+    fluid = Fluid(c["viscosity"], c["viscosity_law"], pressure_viscosity_coefficient=ALPHA)
+    return LineContact(
+        load_per_width=c["load_per_width"],
+        radius=c["radius"],
+        e_prime=c["e_prime"],
+        entrainment_speed=c["entrainment_speed"],
+        fluid=fluid,
+    )
 
 
 def films(solution: EHLSolution) -> tuple[float, float]:
@@ -31,10 +37,16 @@ def films(solution: EHLSolution) -> tuple[float, float]:
 @settings(deadline=None, max_examples=15)
 @given(st.integers(0, 10**6), st.floats(0, 1), st.sampled_from(["constant", "dowson-higginson"]))
 def test_tangent_is_the_derivative(seed, upwind, density):
-    mesh, layout = graded_mesh(Layout(60.0, -4.0, 3.0, (-1.0, 1.0), 0.5, 0.8))
+    mesh, layout = graded_mesh(Layout(side=60.0, inlet=-4.0, outlet=3.0, edges=(-1.0, 1.0), fine=0.5, growth=0.8))
     line = make_body(mesh, layout).line
     rng = np.random.default_rng(seed)
-    film = FilmEquations(line, Fluid(VISCOSITY, "roelands", ALPHA, density_law=density), 3e8, 0.01, upwind=upwind)
+    film = FilmEquations(
+        line=line,
+        fluid=Fluid(VISCOSITY, "roelands", pressure_viscosity_coefficient=ALPHA, density_law=density),
+        hertz_pressure=3e8,
+        speed_parameter=0.01,
+        upwind=upwind,
+    )
     P, H, dP, dH = rng.uniform(0.01, 1, (4, line.N)) * [[1], [1], [0.1], [0.1]]
     step = 3e-5
     ahead, behind = (assemble(film, P + s * dP, H + s * dH).residual for s in (step, -step))

@@ -17,10 +17,16 @@ from verification.fem.studies.reynolds import PARABOLA, parabola_mesh
 UNIT = Elastic(1.0, 0.3)
 STEEL = Elastic.from_e_prime(231e9, 0.3)
 OIL = Fluid(0.1)
-BRICKS = layer3d.Layer3D(UNIT, (1.0, 1.0), layer3d.graded_levels(1.0, 2, 4.0), (8, 8), 1)
+BRICKS = layer3d.Layer3D(body=UNIT, size=(1.0, 1.0), levels=layer3d.graded_levels(1.0, 2, 4.0), shape=(8, 8), degree=1)
 STRIP = HarmonicStrip((24, 12), (1e-6, 1e-6), STEEL)
 LINE = ehl.LineContact.of(case_of(20, 5))
-FLAT = sharing.FlatBodies(LINE, 6e-3, lambda p: (3e-7 * math.exp(-p / 5e7), p / 5e9), 0.09, 0.04)
+FLAT = sharing.FlatBodies(
+    contact=LINE,
+    width=6e-3,
+    pressed=lambda p: (3e-7 * math.exp(-p / 5e7), p / 5e9),
+    boundary_friction=0.09,
+    sliding=0.04,
+)
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +45,9 @@ def test_an_impossible_load_on_the_strip_is_refused(strip, shape, load, limit):
 def cut_short(name, strip):
     """A solver with too few steps, and where its result is."""
     heights = np.random.default_rng(5).standard_normal((24, 12)) * 1e-7
-    parabola = reynolds.ReynoldsProblem(parabola_mesh(200), PARABOLA.film, OIL, 1.0, cavitation=True)
+    parabola = reynolds.ReynoldsProblem(
+        mesh=parabola_mesh(200), film=PARABOLA.film, fluid=OIL, speed=1.0, cavitation=True
+    )
     return {
         "film": lambda: reynolds.solve_reynolds(parabola, max_iterations=2),
         "contact": lambda: contact.solve_contact(lambda f: f, np.ones(9), np.arange(9.0), 1.0, max_iterations=1),

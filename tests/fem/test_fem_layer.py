@@ -70,7 +70,13 @@ def test_compliance_is_reciprocal_and_positive(sides):
 
 
 def brick(nodes, degree, layers=None, depth=1.0, body=UNIT):
-    return Layer3D(body, (1.0, 1.0), graded_levels(depth, layers or nodes // degree, 4.0), (nodes, nodes), degree)
+    return Layer3D(
+        body=body,
+        size=(1.0, 1.0),
+        levels=graded_levels(depth, layers or nodes // degree, 4.0),
+        shape=(nodes, nodes),
+        degree=degree,
+    )
 
 
 @pytest.mark.parametrize("degree, element", [(1, ElementHex1), (2, ElementHex2)])
@@ -78,7 +84,7 @@ def test_assembled_layer_is_that_of_scikit_fem(degree, element):
     """The energy of a random periodic displacement, with the mesh of the whole period assembled by scikit-fem."""
     nx = 3 * degree
     ny = 2 * degree
-    layer = Layer3D(UNIT, (1.2, 0.7), graded_levels(0.9, 2, 3.0), (nx, ny), degree)
+    layer = Layer3D(body=UNIT, size=(1.2, 0.7), levels=graded_levels(0.9, 2, 3.0), shape=(nx, ny), degree=degree)
     x = np.linspace(0, 1.2, 4)
     y = np.linspace(0, 0.7, 3)
     basis = Basis(MeshHex.init_tensor(x, y, layer.levels), ElementVector(element()), intorder=2 * degree)

@@ -12,7 +12,13 @@ from verification.fem.solvers.fluid import Fluid
 from verification.fem.solvers.report import InputError
 from verification.fem.solvers.rough_ehl import Discretisation, RoughLine, march, solve_rough
 
-STEEL = LineContact(1e5, 1e-2, 2.3e11, 0.5, Fluid(0.04, "roelands", 18e-9, density_law="dowson-higginson"))
+STEEL = LineContact(
+    load_per_width=1e5,
+    radius=1e-2,
+    e_prime=2.3e11,
+    entrainment_speed=0.5,
+    fluid=Fluid(0.04, "roelands", pressure_viscosity_coefficient=18e-9, density_law="dowson-higginson"),
+)
 B = STEEL.half_width
 
 

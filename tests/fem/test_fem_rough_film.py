@@ -19,7 +19,9 @@ def given(contact=lambda x: np.zeros(x.shape, bool)):
     wide = np.ones(8)
     gap = EXACT.film([x])[:, None] * wide
     pressure = EXACT.pressure([x])[:, None] * wide
-    return GivenGap(x, 7.5e-7, gap, pressure, contact(x)[:, None] & (wide > 0), 2e-3, 0.0)
+    return GivenGap(
+        x=x, dy=7.5e-7, gap=gap, pressure=pressure, contact=contact(x)[:, None] & (wide > 0), radius=2e-3, log=0.0
+    )
 
 
 @pytest.mark.parametrize("contact", [lambda x: x > 1, lambda x: np.abs(x + 2e-5) < 1e-5], ids=["film", "film and spot"])

@@ -49,9 +49,11 @@ def test_hertz_line(strip):
 
 
 def test_shear_of_a_rigid_film():
-    contact = ehl.LineContact(20.0, 2e-3, E_PRIME, 0.5, Fluid(0.36))
+    contact = ehl.LineContact(
+        load_per_width=20.0, radius=2e-3, e_prime=E_PRIME, entrainment_speed=0.5, fluid=Fluid(0.36)
+    )
     film = ehl.solve_ehl(contact, refinements=1)[-1]
-    exact = Parabola(0.36, 0.5, 2e-3, film.min_film, -1e5)
+    exact = Parabola(viscosity=0.36, speed=0.5, radius=2e-3, film_thickness=film.min_film, inlet=-1e5)
     edges = np.linspace(-2e-5, 2e-5, 11)
     couette, rolling = shear(film, 1.0, edges, np.ones(10))
     assert couette == pytest.approx(exact.couette * 1.0, rel=5e-3)
@@ -114,9 +116,24 @@ def test_cell_means_are_double_integrals_of_the_kernel(away):
 def test_flat_balance_of_the_finite_elements():
     """A contact whose gap falls like exp(-p): both balances close, the sense of sliding changes the rolling part
     only."""
-    line = ehl.LineContact(5.5 / 6e-3, 2e-3, E_PRIME, 0.02, Fluid(0.36, "roelands", 25e-9))
+    line = ehl.LineContact(
+        load_per_width=5.5 / 6e-3,
+        radius=2e-3,
+        e_prime=E_PRIME,
+        entrainment_speed=0.02,
+        fluid=Fluid(0.36, "roelands", pressure_viscosity_coefficient=25e-9),
+    )
     found = [
-        share_load(FlatBodies(line, 6e-3, lambda p: (3e-7 * math.exp(-p / 5e7), p / 5e9), 0.09, sliding), refinements=0)
+        share_load(
+            FlatBodies(
+                contact=line,
+                width=6e-3,
+                pressed=lambda p: (3e-7 * math.exp(-p / 5e7), p / 5e9),
+                boundary_friction=0.09,
+                sliding=sliding,
+            ),
+            refinements=0,
+        )
         for sliding in (0.04, -0.04)
     ]
     for shared in found:

@@ -143,7 +143,13 @@ def test_jacobian_matches_differences(density, options):
     """Also where a starved inlet begins, and where shear thins the flow."""
     si, _ = contact(5, 5)
     law = options.pop("law", {})
-    line = LineContact(si["load_per_width"], 0.01, 2.2e11, si["entrainment_speed"], Lubricant(0.04, ALPHA, "roelands"))
+    line = LineContact(
+        load_per_width=si["load_per_width"],
+        radius=0.01,
+        e_prime=2.2e11,
+        entrainment_speed=si["entrainment_speed"],
+        lubricant=Lubricant(0.04, ALPHA, viscosity_law="roelands"),
+    )
     line = replace(line, lubricant=replace(line.lubricant, density_law=density, **law))
     line = replace(line, sliding=0.5 * line.entrainment_speed if law else None)
     p = problem.FilmProblem(line, **options)

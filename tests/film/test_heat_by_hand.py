@@ -42,13 +42,13 @@ def test_stresses_and_viscosity_over_temperature(temperature):
     log_viscosity, slope = viscosity_at(OIL, p, temperature)
     np.testing.assert_allclose(log_viscosity, exponent - 9.67, rtol=1e-12)
     np.testing.assert_allclose(slope, exponent * s0 / (temperature - 138.0), rtol=1e-12)
-    barus = viscosity_at(Lubricant(ETA, ALPHA, "barus", **LAWS), p, temperature)[0]
+    barus = viscosity_at(Lubricant(ETA, ALPHA, viscosity_law="barus", **LAWS), p, temperature)[0]
     np.testing.assert_allclose(barus, math.log(ETA) + ALPHA * p - BETA * (temperature - T0), rtol=1e-12)
 
 
 def test_a_film_that_hardly_heats_is_as_hot_in_the_mean_as_a_parabola():
     """Heat tau dU/h in a slab of conductivity k between walls: (tau dU/h) h²/(12 k) in the mean."""
-    plain = Lubricant(ETA, 0.0, "constant", **LAWS)
+    plain = Lubricant(ETA, 0.0, viscosity_law="constant", **LAWS)
     film = np.array([2e-7])
     sliding = 0.3
     tau, rise = heated_stress(plain, np.zeros(1), film, sliding, np.array([T0]))
@@ -63,7 +63,7 @@ def test_a_hot_carreau_film_is_that_of_the_heat_equation_across_it():
     n = 0.6
     h = 4e-6
     sliding = 12.0
-    oil = Lubricant(ETA, 0.0, "constant", carreau=(G0, n), **LAWS)
+    oil = Lubricant(ETA, 0.0, viscosity_law="constant", carreau=(G0, n), **LAWS)
     (tau,), (rise,) = heated_stress(oil, np.zeros(1), np.array([h]), sliding, np.array([T0]))
     G = G0 * (T0 + rise) / T0
     rate = G / ETA * brentq(lambda r: r * (1 + r * r) ** ((n - 1) / 2) - tau / G, 0.0, (tau / G) ** (1 / n) + 1)

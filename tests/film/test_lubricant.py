@@ -15,7 +15,7 @@ OIL = Lubricant(0.04, 2.2e-8)
 @pytest.mark.parametrize("density", ["constant", "dowson-higginson"])
 @given(p=st.floats(0.0, 3e9))
 def test_derivatives_match_differences(law, density, p):
-    oil = Lubricant(0.04, 2.2e-8, law, density)
+    oil = Lubricant(0.04, 2.2e-8, viscosity_law=law, density_law=density)
     step = 1e3
     for function in (log_viscosity_ratio, density_ratio):
         _value, slope = function(oil, p + step)
@@ -25,7 +25,7 @@ def test_derivatives_match_differences(law, density, p):
 
 @pytest.mark.parametrize("law", ["roelands", "barus"])
 def test_laws_are_smooth_through_ambient_pressure(law):
-    oil = Lubricant(0.04, 2.2e-8, law, "dowson-higginson")
+    oil = Lubricant(0.04, 2.2e-8, viscosity_law=law, density_law="dowson-higginson")
     for function in (log_viscosity_ratio, density_ratio):
         value, slope = function(oil, np.array([-1.0, 0.0, 1.0]))
         assert np.allclose(np.diff(value), slope[1], rtol=1e-6)

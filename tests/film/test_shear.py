@@ -16,7 +16,7 @@ R = 2e-3
 ETA = 0.36
 U = 1.0
 B = 6e-3
-OIL = Lubricant(ETA, 1e-13, "barus")
+OIL = Lubricant(ETA, 1e-13, viscosity_law="barus")
 
 
 def film(speed=U, tolerance=1e-4):
@@ -84,7 +84,14 @@ def test_the_share_in_contact_is_that_of_each_cell_of_the_film():
     """Whatever the nodes, no contact is lost or counted twice; a cell within one column has the share of that
     column."""
     x = np.linspace(-1.5, 1.5, 4)
-    closure = ContactState(1.0, 1.0, x, np.array([0.1, 0.9, 0.2, 0.4]), 0.4, 0.0)
+    closure = ContactState(
+        mean_gap=1.0,
+        mean_film=1.0,
+        x=x,
+        contact_fraction=np.array([0.1, 0.9, 0.2, 0.4]),
+        real_contact_area_fraction=0.4,
+        plastic_area_fraction=0.0,
+    )
     nodes = np.array([-3.0, -1.7, -0.4, -0.2, 0.7, 5.0])
     share = closure.touching(nodes)
     assert share @ np.diff(nodes) == pytest.approx(closure.contact_fraction.sum())

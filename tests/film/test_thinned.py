@@ -98,7 +98,7 @@ def test_the_film_to_expect_is_that_of_the_solution_to_a_quarter(fluid):
 
 
 def test_carreaus_law_as_it_is_written():
-    oil = Lubricant(0.04, 2e-8, "barus", carreau=(2e6, 0.4))
+    oil = Lubricant(0.04, 2e-8, viscosity_law="barus", carreau=(2e6, 0.4))
     p = 1e8
     rates = np.array([-1e7, 0.0, 1e3, 1e6, 1e9])
     newtonian = 0.04 * math.exp(2.0) * rates

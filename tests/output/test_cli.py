@@ -89,7 +89,9 @@ def test_a_failed_speed_ends_with_1_and_keeps_the_rest(tmp_path, monkeypatch, ca
 
     def failing(model, speed, **kw):
         if speed == 0.01:
-            raise lubfric.ConvergenceError("injected", lubfric.Report("x", "diverged", 1, 1.0, 0.1))
+            raise lubfric.ConvergenceError(
+                "injected", lubfric.Report("x", "diverged", iterations=1, residual=1.0, tolerance=0.1)
+            )
         return real(model, speed, **kw)
 
     monkeypatch.setattr(points, "friction", failing)

@@ -269,7 +269,9 @@ def test_a_limit_of_zero_at_ambient_pressure_is_left_to_eq_8():
 
 def test_strips_that_fail_are_told(prepared, monkeypatch):
     def fails(*_):
-        raise lubfric.ConvergenceError("no film", lubfric.errors.Report("a strip", "diverged", 3, 1.0, 1e-3))
+        raise lubfric.ConvergenceError(
+            "no film", lubfric.errors.Report("a strip", "diverged", iterations=3, residual=1.0, tolerance=1e-3)
+        )
 
     monkeypatch.setattr(levels, "solve_pair", fails)
     found = lubfric.friction(prepared, 0.01)

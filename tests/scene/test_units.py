@@ -197,7 +197,7 @@ def test_ra_and_rz_of_every_map_are_told():
         lines = heights.reshape(5, 800, 400)
         rz = np.mean(np.nanmax(lines, 1) - np.nanmin(lines, 1))
         told = f"Ra {1e9 * np.nanmean(abs(heights - np.nanmean(heights))):.4g} nm, Rz {1e9 * rz:.4g} nm over 0.8 mm"
-        surface = lubfric.Surface(heights, 1e-6, mask)
+        surface = lubfric.Surface(heights, 1e-6, mask=mask)
         assert told in repr(surface) and told in surface.describe()
 
 

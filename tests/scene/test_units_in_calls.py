@@ -37,7 +37,12 @@ CALLS = {  # name: (call of one value, that value in words, plain, words of anot
     ),
     "measured": (lambda u: lubfric.Measured(u, ["10 %", "5 %"]).x, ["10 cm/s", "1 m/s"], [0.1, 1], ["1 N", "1 N"]),
     "lubricant": (lambda eta: lubfric.Lubricant(eta, 2e-8), "80 mPa s", 0.08, "80 mm2/s"),
-    "bodies": (lambda r: lubfric.Bodies(r, "6 mm", "5 N", "231 GPa", 0.1).radius, "2 mm", 0.002, "2 N"),
+    "bodies": (
+        lambda r: lubfric.Bodies(r, "6 mm", load="5 N", e_prime="231 GPa", boundary_friction_coefficient=0.1).radius,
+        "2 mm",
+        0.002,
+        "2 N",
+    ),
     "film": (lambda w: lubfric.solve_ehl(**FILM | {"load_per_width": w}).min_film, "10 N/mm", 1e4, "10 N"),
     "contact": (
         lambda p: lubfric.solve_contact(-MAP.heights, 1e-6, 2e11, mean_pressure=p).mean_gap,

@@ -32,7 +32,7 @@ def test_the_paper_scene_needs_none():
     "words, entries",
     [
         ("extrapolation", of_pressure(PAPER, 2e9)),
-        ("eyring_stress", of_shear(PAPER, ShearForce(5.0, 0.0), PAPER.bodies.load, FRICTION)),
+        ("eyring_stress", of_shear(PAPER, ShearForce(couette=5.0, rolling=0.0), PAPER.bodies.load, FRICTION)),
         ("does not tend to f_b", of_deflection(PAPER.with_(bodies={"load": 550.0}), 3e-7)),
         ("not thin", of_thickness(PAPER.with_(bodies={"radius": 1e-6}), 3e-7)),
         ("against one another", of_motion(PAPER.with_(motion={"slide_roll_ratio": 3.0}), 0.003, 3e-7)),
@@ -48,7 +48,7 @@ def test_each_limit_is_told(words, entries):
 
 @pytest.mark.parametrize("share, severe", [(0.005, None), (0.05, False), (0.5, True)])
 def test_stress_that_no_oil_carries_by_its_share_of_f(share, severe):
-    shear = ShearForce(0.0, 0.0, excess=share * FRICTION, stress_ratio=3.0)
+    shear = ShearForce(couette=0.0, rolling=0.0, excess=share * FRICTION, stress_ratio=3.0)
     entries = list(of_shear(PAPER, shear, PAPER.bodies.load, FRICTION))
     assert [entry.severe for entry in entries] == ([] if severe is None else [severe])
     assert all("Newtonian" in entry.text for entry in entries)

@@ -424,6 +424,6 @@ def test_points_farther_off_than_their_deviations_say_are_told(stated, told):
     speeds = np.geomspace(1e-3, 5e-3, 6)
     f = lubfric.stribeck(SCENE, speeds).coefficient
     off = 0.03 * f * np.array([1, -1, -1, 1, 1, -1])
-    found = lubfric.fit(SCENE, lubfric.Measured(speeds, f + off, stated * np.abs(off)), {key: (0.05, 0.2)})
+    found = lubfric.fit(SCENE, lubfric.Measured(speeds, f + off, deviation=stated * np.abs(off)), {key: (0.05, 0.2)})
     assert ("times as large as the stated deviations" in found.explain()) == told
     assert not told or "are 11 times" in found.explain()  # sqrt(6/5) of ten, one parameter

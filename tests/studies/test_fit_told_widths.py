@@ -30,7 +30,7 @@ def result(freedom, spread=0.01):
         unit_covariance=np.diag([spread**2, 9 * spread**2]),
         predicted=np.full(n, 0.1),
         slopes=np.tile([0.02, 0.0], (n, 1)),
-        report=Report("fit", CONVERGED, 1, 0.0, 1.0),
+        report=Report("fit", CONVERGED, iterations=1, residual=0.0, tolerance=1.0),
     )
 
 
@@ -63,13 +63,13 @@ def test_a_deviation_is_a_weight_and_a_width(curve):
     off = curve * np.array([1.0, 1.0, 1.0, 1.3])
     stated = curve * np.array([0.01, 0.01, 0.01, 0.5])
     bounds = {OTHER: (0.2, 0.6)}
-    told = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, off, stated), bounds)
+    told = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, off, deviation=stated), bounds)
     blind = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, off), bounds)
     assert abs(told.values[OTHER] / 0.36 - 1) < 0.01 < abs(blind.values[OTHER] / 0.36 - 1)
     # df/f = q d eta/eta: three points of 1 %, 0.58 % together, and at least that over q < 1 in the viscosity
     width = told.deviations[OTHER] / told.values[OTHER]
     assert 0.0058 < width < 0.015
-    wider = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, off, 3 * stated), bounds)
+    wider = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, off, deviation=3 * stated), bounds)
     assert wider.deviations[OTHER] == pytest.approx(3 * told.deviations[OTHER], rel=0.1)
 
 

@@ -144,14 +144,16 @@ def test_a_record_of_another_version_does_not_count(tmp_path, name):
 
 
 def test_every_outcome_comes_back_as_it_was(tmp_path):
-    entry = Validity("f", 2.0, 1.0, "", "too much", "less", True)
+    entry = Validity(what="f", value=2.0, limit=1.0, unit="", consequence="too much", remedy="less", severe=True)
     store = Store(tmp_path)
     model = prepare(SCENE)
     point = lubfric.friction(model, 0.01).without_fields()
     for key, error in enumerate(
         (
             lubfric.ValidityError("beyond", (entry,), point),
-            lubfric.ConvergenceError("lost", Report("a solver", "diverged", 3, float("inf"), 1e-3)),
+            lubfric.ConvergenceError(
+                "lost", Report("a solver", "diverged", iterations=3, residual=float("inf"), tolerance=1e-3)
+            ),
             lubfric.InputError("wrong"),
             lubfric.LubfricError("other"),
         )
@@ -242,7 +244,7 @@ def test_plain_values_come_back_the_same(value):
 
 
 def test_only_classes_of_the_table_are_built():
-    report = Report("a solver", "diverged", 3, float("inf"), 1e-3)
+    report = Report("a solver", "diverged", iterations=3, residual=float("inf"), tolerance=1e-3)
     stored = b"".join(encode(report))
     assert decode(stored, classes_of(Report)) == report
     with pytest.raises(ValueError):

@@ -73,7 +73,9 @@ def test_the_curve_has_the_shape_of_stribeck(curve):
 def test_a_failing_point_loses_nothing(monkeypatch, model, curve):
     def failing(model, speed, **options):
         if speed == SPEEDS[4]:
-            raise lubfric.ConvergenceError("injected", lubfric.Report("x", "diverged", 1, 1.0, 0.1))
+            raise lubfric.ConvergenceError(
+                "injected", lubfric.Report("x", "diverged", iterations=1, residual=1.0, tolerance=0.1)
+            )
         return FRICTION(model, speed, **options)
 
     monkeypatch.setattr(points, "friction", failing)

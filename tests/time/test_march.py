@@ -30,7 +30,7 @@ JUMP = Table(times=(0.0, 1.0, 1.0, 9.0), values=(0.0, 0.0, 3.0, 3.0))
 
 
 def begun(step=1e-3):
-    return Progress((Step(film=np.array([1.0, 2.0]), z=np.array([1.0, 2.0, -1.0])),), step)
+    return Progress(levels=(Step(film=np.array([1.0, 2.0]), z=np.array([1.0, 2.0, -1.0])),), step=step)
 
 
 def outputs(solver, plan, now):

@@ -114,7 +114,9 @@ def rough_state():
     P = np.sqrt(np.maximum(0.05, 1 - (grid.x / b) ** 2)) * (1 + 0.01 * rng.standard_normal(grid.n + 1))
     memory = Memory(0.7, 40 + 0.5 * grid.x**2)
     spring = Spring(rng.random(grid.n + 1) / grid.n, 20.0, 2.0, 30.0)
-    return StepEquations(grid, problem, memory, 0.4, 3.0, 1.2, 0.8, spring), np.append(P, 30.0)
+    return StepEquations(
+        grid=grid, problem=problem, memory=memory, speed=0.4, load=3.0, curvature=1.2, viscosity=0.8, spring=spring
+    ), np.append(P, 30.0)
 
 
 def test_the_jacobian_is_the_derivative():

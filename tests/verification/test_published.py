@@ -29,14 +29,14 @@ def test_a_check_has_the_grade_of_its_study_unless_it_has_its_own(monkeypatch):
     import verification.fem.studies.sampling as module
 
     def made(level):
-        yield Check("mine", 1.0, 1.0, 0.1, "x", grade="A")
-        yield Check("of the study", 1.0, 1.0, 0.1, "x")
+        yield Check("mine", 1.0, expected=1.0, tolerance=0.1, source="x", grade="A")
+        yield Check("of the study", 1.0, expected=1.0, tolerance=0.1, source="x")
 
     monkeypatch.setattr(module, "sampling", made)
-    outcome = run_one(Study("s", "verification.fem.studies.sampling:sampling", "s", grade="B"), "quick", quiet)
+    outcome = run_one(Study("s", "verification.fem.studies.sampling:sampling", title="s", grade="B"), "quick", quiet)
     assert [c.grade for c in outcome.checks] == ["A", "B"]
     with pytest.raises(ValueError, match="grade = 'D'"):
-        Check("x", 1.0, 1.0, 0.1, "x", grade="D")
+        Check("x", 1.0, expected=1.0, tolerance=0.1, source="x", grade="D")
 
 
 def test_oils_and_heat_agree_and_their_page_shows_both_values(tmp_path):

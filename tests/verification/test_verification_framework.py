@@ -22,24 +22,24 @@ def good(level):
 
     A second paragraph with <angle brackets> & an ampersand.
     """
-    yield Check("right", 1.0, 1.0, 1e-9, "arithmetic")
+    yield Check("right", 1.0, expected=1.0, tolerance=1e-9, source="arithmetic")
     canvas, ax = plotting.axes()
     ax.plot([0, 1], [0, 1])
     yield plotting.finish("line", canvas, 'a "quoted" caption')
     yield Table("numbers", "caption", ("a", "b"), ((1, np.float64(2.5)), ("x", math.nan)))
     corners = np.array([[0.0, 0], [1, 0], [0, 1]])
     cells = {"triangle": np.array([[0, 1, 2]])}
-    yield Field("mesh", "a triangle", corners, cells, {"p": np.arange(3.0)})
+    yield Field("mesh", "a triangle", points=corners, cells=cells, point_data={"p": np.arange(3.0)})
 
 
 def wrong(level):
     """A check that fails."""
-    return [Check("off by one", 2.0, 1.0, 0.1, "arithmetic")]
+    return [Check("off by one", 2.0, expected=1.0, tolerance=0.1, source="arithmetic")]
 
 
 def raises(level):
     """Fails after its first check."""
-    yield Check("before", 1.0, 1.0, 0.0, "arithmetic", ABSOLUTE)
+    yield Check("before", 1.0, expected=1.0, tolerance=0.0, source="arithmetic", kind=ABSOLUTE)
     raise SolveError("the solve <stopped>\nshort")
 
 
@@ -56,17 +56,17 @@ def no_extra(level):
 
 
 def twice(level):
-    yield Check("same", 1.0, 1.0, 1.0, "arithmetic")
-    yield Check("same", 1.0, 1.0, 1.0, "arithmetic")
+    yield Check("same", 1.0, expected=1.0, tolerance=1.0, source="arithmetic")
+    yield Check("same", 1.0, expected=1.0, tolerance=1.0, source="arithmetic")
 
 
 def bad_field(level):
-    yield Check("right", 1.0, 1.0, 1e-9, "arithmetic")
-    yield Field("mesh", "", np.zeros((2, 2)), {"triangle": np.array([[0, 1, 2]])})
+    yield Check("right", 1.0, expected=1.0, tolerance=1e-9, source="arithmetic")
+    yield Field("mesh", "", points=np.zeros((2, 2)), cells={"triangle": np.array([[0, 1, 2]])})
 
 
 def interrupted(level):
-    yield Check("right", 1.0, 1.0, 1e-9, "arithmetic")
+    yield Check("right", 1.0, expected=1.0, tolerance=1e-9, source="arithmetic")
     raise KeyboardInterrupt
 
 
@@ -81,7 +81,7 @@ def run(monkeypatch, tmp_path, capsys):
             name = function if isinstance(function, str) else function.__name__
             if callable(function):
                 setattr(module, name, function)
-            listed.append(Study(name, f"studies_under_test:{name}", f"study {name}", levels))
+            listed.append(Study(name, f"studies_under_test:{name}", title=f"study {name}", levels=levels))
         monkeypatch.setitem(sys.modules, "studies_under_test", module)
         monkeypatch.setattr(command, "STUDIES", tuple(listed))
         code = command.main([*options, "--workers", "1", "--out", str(tmp_path)])
@@ -200,9 +200,11 @@ PASSES |= {AT_MOST: ((-50.0,), (2.2,)), AT_LEAST: ((50.0,), (1.8,))}
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_passes(kind):
     right, wrong = PASSES.get(kind, ((), ()))
-    assert all(Check("c", measured, 2.0, 0.1, "s", kind).passed for measured in right)
+    assert all(Check("c", measured, expected=2.0, tolerance=0.1, source="s", kind=kind).passed for measured in right)
     wrong = (*wrong, math.nan, math.inf, -math.inf)
-    assert not any(Check("c", measured, 2.0, 0.1, "s", kind).passed for measured in wrong)
+    assert not any(
+        Check("c", measured, expected=2.0, tolerance=0.1, source="s", kind=kind).passed for measured in wrong
+    )
 
 
 BAD = [{"kind": "x"}, {"expected": math.nan}, {"expected": 0}, {"tolerance": -1}, {"tolerance": math.inf}]

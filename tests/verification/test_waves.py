@@ -18,7 +18,12 @@ from verification.fem.solvers.ripple import ripple
 def smooth():
     """M = 100, L = 11, as in the published table."""
     case = case_of(100, 11)
-    fluid = Fluid(case["viscosity"], "roelands", case["pressure_viscosity_coefficient"], density_law="dowson-higginson")
+    fluid = Fluid(
+        case["viscosity"],
+        "roelands",
+        pressure_viscosity_coefficient=case["pressure_viscosity_coefficient"],
+        density_law="dowson-higginson",
+    )
     sizes = case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"]
     return solve_ehl(LineContact(*sizes, fluid), refinements=0, fineness=1.0, between=0.06)[-1]
 

@@ -25,7 +25,7 @@ MOST = 150  # steps
 TOLERANCE = 1e-8
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class DenseFilm:
     """Nodes x [m], pressure [Pa], film [m], flow film [m]; ``converged``, and the steps."""
 
@@ -56,7 +56,7 @@ def dense_newton(case: dict[str, Any], nodes: int) -> DenseFilm:
     p, approach, steps, converged = _solved(contact, x, stiff, p, approach)
     h = x**2 / (2 * contact.radius) + stiff @ p + approach
     inflow = float(_balance(contact, x, stiff, p, h)[0][0]) / contact.entrainment_speed
-    return DenseFilm(x, p, h, inflow, converged, steps)
+    return DenseFilm(x=x, pressure=p, film=h, flow_film=inflow, converged=converged, steps=steps)
 
 
 def _deflections(x: np.ndarray, e_prime: float) -> np.ndarray:

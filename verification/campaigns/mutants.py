@@ -151,7 +151,15 @@ def verdict(name: str, code: int, wanted: int) -> Check:
     refused = "it did not come to an end" if code == BROKEN else ""
     kind = AT_LEAST if wanted == FAILED else AT_MOST
     value = float("nan") if refused else code
-    return Check(f"{name}: something fails", value, wanted, 0.0, "tests and studies", kind, refused=refused)
+    return Check(
+        f"{name}: something fails",
+        value,
+        expected=wanted,
+        tolerance=0.0,
+        source="tests and studies",
+        kind=kind,
+        refused=refused,
+    )
 
 
 COMMAND = frame.campaign("mutants", __doc__, [("mutants", "mutants:mutants", "Mistakes in the text of lubfric", {})])

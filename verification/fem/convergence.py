@@ -50,7 +50,16 @@ class Series:
         if self.order is None:
             raise ValueError(f"series {self.label!r} has no expected order to be checked")
         order = fitted_order(self.sizes[-self.finest :], self.errors[-self.finest :])
-        return Check(self.check, order, self.order, self.tolerance, self.source, self.kind, note=self.note, grade="B")
+        return Check(
+            self.check,
+            order,
+            expected=self.order,
+            tolerance=self.tolerance,
+            source=self.source,
+            kind=self.kind,
+            note=self.note,
+            grade="B",
+        )
 
 
 def convergence(name: str, caption: str, series: Sequence[Series], size: str, error: str) -> Iterator[Item]:

@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 from ..arrays import FloatArray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Slider:
     """A plane slider without side flow. Its film falls linearly from ``inlet`` to ``outlet`` over ``length``.
 
@@ -53,7 +53,7 @@ class Slider:
         return 2 * self.speed * self.inlet * self.outlet / (self.inlet + self.outlet)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Parabola:
     """A rigid parabolic film ``h0 + x^2/(2R)``, flooded from ``x = inlet sqrt(2 R h0)``, with Reynolds' outlet.
 
@@ -129,7 +129,7 @@ def antiderivative(big_x: FloatArray | float, xe: float) -> Any:
     return second - (1 + xe**2) * fourth
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ExponentialPad:
     """A pad of finite width with the film ``inlet exp(-g x)``, from ``inlet`` to ``outlet`` over ``length``.
 

@@ -56,7 +56,13 @@ def line_contact(case: dict) -> LineContact:
     """The contact of arguments of `solve_ehl`, which may have an ``eyring_stress`` as well."""
     laws = ("viscosity", "pressure_viscosity_coefficient", "viscosity_law", "density_law", "eyring_stress")
     oil = Lubricant(**{name: case[name] for name in laws if name in case})
-    return LineContact(case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"], oil)
+    return LineContact(
+        load_per_width=case["load_per_width"],
+        radius=case["radius"],
+        e_prime=case["e_prime"],
+        entrainment_speed=case["entrainment_speed"],
+        lubricant=oil,
+    )
 
 
 def moes_unit(speed: float) -> float:

@@ -31,7 +31,7 @@ GOT = {
 }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Source:
     """A publication: ``words`` (who, where, when), ``place`` in it, how its numbers were ``got``, ``error`` (relative)
     and what else a reader has to know."""
@@ -164,7 +164,9 @@ class Pocket:
         return (x >= self.begins) & (x < self.ends)
 
 
-BANDS = tuple(Pocket(10e-3, 2e-3, 5e-3, 1.05e-6, 1e-6, depth) for depth in (1e-6, 0.4e-6))
+BANDS = tuple(
+    Pocket(length=10e-3, begins=2e-3, ends=5e-3, start=1.05e-6, end=1e-6, depth=depth) for depth in (1e-6, 0.4e-6)
+)
 _BERTOCCHI = (20e-3, 4e-3, 10e-3, 1.1e-6, 1e-6, 0.4e-6)
 BERTOCCHI = {
     "narrow": Pocket(*_BERTOCCHI, 10e-3, 7e-3, 12e-9, (6.32, 4.11, 2.12), 3e4),
@@ -350,7 +352,7 @@ def skf_boundary_weight(rpm: float, nu: float, mean_diameter: float) -> float:
     return math.exp(-2.6e-8 * (rpm * nu * 1e6) ** 1.4 * mean_diameter * 1e3)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class GearC14:
     """The spur gear FZG C14: radii [m] of base and tip circles, width [m], distance of the centres [m], teeth, mean Ra
     [m] and Sq [m] of both flanks together."""

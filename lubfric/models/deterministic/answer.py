@@ -205,7 +205,15 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     words = _words_of_levels(levels)
     tolerance = scene.numerics.tolerance
     known = heat.text(tolerance)
-    return Decision("deterministic", words, "boundary film", tolerance, strips=len(results), heat=known, notes=notes)
+    return Decision(
+        model="deterministic",
+        film=words,
+        contact="boundary film",
+        tolerance=tolerance,
+        strips=len(results),
+        heat=known,
+        notes=notes,
+    )
 
 
 def _of_model(model: float, tolerance: float) -> Iterator[Validity]:
@@ -280,13 +288,34 @@ def _entries(
     if cut > CUT:
         consequence = "a Newtonian film would be sheared above f_b p there; its stress was limited to that"
         remedy = 'give lubricant.limiting_stress_coefficient (or "f_b" if that is meant) or eyring_stress'
-        yield Validity("share of the load on a saturated film", cut, CUT, "", consequence, remedy)
+        yield Validity(
+            what="share of the load on a saturated film",
+            value=cut,
+            limit=CUT,
+            unit="",
+            consequence=consequence,
+            remedy=remedy,
+        )
     drawn = mean(result.drawn for result in results)
     if drawn > DRAWN:
         consequence = "f depends on the 1 nm of lubricant that touching bodies are said to keep, by about a percent"
         remedy = "take f as known to 2 %: next to no lubricant passes the contact"
-        yield Validity("share of the lubricant out of touching cells", drawn, DRAWN, "", consequence, remedy)
+        yield Validity(
+            what="share of the lubricant out of touching cells",
+            value=drawn,
+            limit=DRAWN,
+            unit="",
+            consequence=consequence,
+            remedy=remedy,
+        )
     yield from of_heat(scene, heat)
     if why := too_hot(heat):
         parts = (1 - heat.film_factor) / (1 - LEAST_FILM), heat.change / MOST_CHANGE
-        yield Validity("heat over the most that was checked", max(parts), 1.0, "", why, "read f with its interval")
+        yield Validity(
+            what="heat over the most that was checked",
+            value=max(parts),
+            limit=1.0,
+            unit="",
+            consequence=why,
+            remedy="read f with its interval",
+        )

@@ -90,7 +90,7 @@ def couette_flow(problem: Problem, mass: FloatArray, fill: float | FloatArray, U
     return CouetteFlow(fill * full, fill * U * (1 + by_own), fill * U * by_before, full)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class MassBalance:
     """Outflow minus inflow of each cell, ``residual`` [m/s] (nx, ny), and its parts.
 
@@ -133,7 +133,9 @@ def mass_balance(
     residual[1:] -= along.flow
     residual /= dx
     residual += (across.flow - np.roll(across.flow, 1, axis=1)) / dy
-    return MassBalance(residual, film, fluid, along, across, end, couette, upstream)
+    return MassBalance(
+        residual=residual, film=film, fluid=fluid, along=along, across=across, end=end, couette=couette, inlet=upstream
+    )
 
 
 class Stencil:

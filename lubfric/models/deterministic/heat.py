@@ -33,7 +33,7 @@ def strip_heat(scene: Scene, result: DeterministicResult) -> Heat:
     inlet, used = inlet_at(scene, result.speed)
     sliding = abs(scene.motion.slide_roll_ratio * result.speed)
     if inlet is None or sliding == 0:
-        return Heat(inlet, used)
+        return Heat(inlet=inlet, used=used)
     wet = result.wet
     cells = result.wet.sum(axis=1)
     covered = np.where(cells[:, None] > 0, wet / np.maximum(cells, 1)[:, None], 1 / wet.shape[1])
@@ -43,7 +43,7 @@ def strip_heat(scene: Scene, result: DeterministicResult) -> Heat:
     hot = np.abs(heated_stress(scene.lubricant, result.pressure, result.gap, sliding, film.wall[:, None])[0])
     lost = float(((result.shear - hot) * wet).mean(axis=1).sum()) * result.spacing[0]
     change = lost / max(abs(result.coefficient) * result.load, 1e-300)
-    return Heat(inlet, used, change, film, peclet_at(scene, result.speed))
+    return Heat(inlet=inlet, used=used, change=change, heated=film, peclet=peclet_at(scene, result.speed))
 
 
 def warmed(scene: Scene, numbers: dict[str, float], heat: Heat) -> dict[str, float]:

@@ -42,7 +42,7 @@ def _rule() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return (node + 1) / 2, weight / 2, integral @ coefficients / 2
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Inlet:
     """Values of every row: flow [m²/s] into the grid, and its derivatives by p of the first cell and by h of the first
     face. Also the load [N/m] carried upstream, and the derivatives of its mean over the rows by the same; and the
@@ -101,9 +101,9 @@ def inlet(problem: Problem, pressure: FloatArray, film: FloatArray) -> Inlet:
     at_given_flow = np.where(fed, (slope * wet) @ (weight * stretch) * reduced_slope, by_flow * by_pressure)
     by_gap = (slope * (a_h @ integral.T - flow[:, None] * (b_h @ integral.T))) @ (weight * stretch)
     return Inlet(
-        flow,
-        by_pressure,
-        by_film,
+        flow=flow,
+        by_pressure=by_pressure,
+        by_film=by_film,
         load=p @ (weight * stretch),
         load_by_pressure=at_given_flow / film.size,
         load_by_film=np.where(fed, 0.0, by_gap + by_flow * by_film) / film.size,

@@ -93,7 +93,7 @@ class Levels:
     note: str = ""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class TwoLevelEstimate:
     """The first two levels: ``line``, ``numbers`` as in `Levels`; standard errors of f: ``whole``, and the part of it
     that is the ``difference`` between the models; ``between``: standard deviation of f between strips;
@@ -219,14 +219,22 @@ def _sum(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], line: ControlVari
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
     if line is None:
         whole = _scatter(pairs, prepared.sample)
-        return TwoLevelEstimate(0, numbers, whole, BlockError(0.0, 1), whole.error * math.sqrt(count))
+        return TwoLevelEstimate(
+            line=0, numbers=numbers, whole=whole, difference=BlockError(0.0, 1), between=whole.error * math.sqrt(count)
+        )
     for name, differences in line.numbers.items():
         numbers[name] -= mean(differences[:count])
     unsolved = 1 - count / line.count
     others = replace(line.sampling, error=math.sqrt(unsolved) * line.sampling.error * abs(numbers["coefficient"]))
     whole = add_errors(_scatter(pairs, prepared.sample, line, unsolved), others)
     between = float(np.std(line.numbers["coefficient"]))
-    return TwoLevelEstimate(line.count, numbers, whole, _scatter(pairs, prepared.sample, line, 1.0), between)
+    return TwoLevelEstimate(
+        line=line.count,
+        numbers=numbers,
+        whole=whole,
+        difference=_scatter(pairs, prepared.sample, line, 1.0),
+        between=between,
+    )
 
 
 def _of_moving(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], strips: Sequence[MovingStrip]) -> TwoLevelEstimate:
@@ -251,7 +259,9 @@ def _of_moving(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], strips: Seq
     numbers["couette_force"] = numbers["shear_force"] - numbers["rolling_force"]
     between = friction.plain.error * math.sqrt(len(strips))
     note = SUMMITS.format(100 * friction.correction / friction.value) if friction.correction else ""
-    return TwoLevelEstimate(0, numbers, friction.error, BlockError(0.0, 1), between, note)
+    return TwoLevelEstimate(
+        line=0, numbers=numbers, whole=friction.error, difference=BlockError(0.0, 1), between=between, note=note
+    )
 
 
 def mean(values: Iterable[float]) -> float:

@@ -31,7 +31,7 @@ PANEL = 4  # columns that are eliminated together: a sixth faster than the defau
 SMALL = 24  # cells that nested dissection does not cut again
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Change:
     """Changes of pressure [Pa], fill [-], dent [m], gap [m] (nx, ny) and h0 [m]."""
 
@@ -125,7 +125,13 @@ class System:
         cells = unknowns[:-1].reshape(self.at.gap.shape)
         approach = float(unknowns[-1] * self.film)
         pressure, fill, dent = (cells * scale for scale in (self.to_pressure, self.to_fill, self.to_dent))
-        return Change(pressure, fill, dent, self.at.problem.operator.apply(pressure) + dent + approach, approach)
+        return Change(
+            pressure=pressure,
+            fill=fill,
+            dent=dent,
+            gap=self.at.problem.operator.apply(pressure) + dent + approach,
+            approach=approach,
+        )
 
     def apply(self, unknowns: FloatArray) -> FloatArray:
         """The Jacobian times scaled unknowns."""

@@ -57,7 +57,12 @@ class Moment:
         steps = self.work.factorisations
         cost = self.work.krylov
         name = "film under moving roughness"
-        return assemble(self.at, Report(name, CONVERGED, steps, worst, worst, left, evaluations=cost))
+        return assemble(
+            self.at,
+            Report(
+                name, CONVERGED, iterations=steps, residual=worst, tolerance=worst, residuals=left, evaluations=cost
+            ),
+        )
 
 
 def moments(
@@ -113,7 +118,15 @@ def moments(
             advice = "shorter cells make the step shorter, and a higher speed the film thicker"
             cost = work.factorisations
             left = result.residuals
-            Report(name, ITERATION_LIMIT, cost, result.residual, tolerance, left, advice=advice).raise_if_failed()
+            Report(
+                name,
+                ITERATION_LIMIT,
+                iterations=cost,
+                residual=result.residual,
+                tolerance=tolerance,
+                residuals=left,
+                advice=advice,
+            ).raise_if_failed()
         before = at
         at = result.at
         if carries_imbalance:

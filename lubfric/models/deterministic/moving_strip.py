@@ -94,7 +94,7 @@ class SampleTarget:
     control: SummitControl
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class MovingStrip(Strip):
     """A strip whose roughness moved through the film; ``result`` has the means over time, and the fields of the last
     moment.

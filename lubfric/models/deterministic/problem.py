@@ -38,7 +38,7 @@ FILM_OUTLET = 0.8  # sqrt(2 R h) to the outlet end, at least
 LARGEST = 2**20  # cells
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Problem(HasLineContact):
     """One operating point, plain values in SI units.
 
@@ -178,7 +178,16 @@ def lay_out(
     operator = half_space(heights.shape, (dx, dy), contact.e_prime, ("free", "periodic"))
     x = (index - middle) * surface.spacing[0]
     limit = math.inf if hardness is None else hardness
-    return Problem(contact, sliding, x, heights, operator, boundary_friction, limit, boundary_film)
+    return Problem(
+        contact=contact,
+        sliding=sliding,
+        x=x,
+        heights=heights,
+        operator=operator,
+        boundary_friction=boundary_friction,
+        hardness=limit,
+        boundary_film=boundary_film,
+    )
 
 
 def shifted(problem: Problem, surface: Surface) -> Callable[[float], np.ndarray]:

@@ -41,7 +41,7 @@ class LoadSplit:
         return self.thin + self.capped
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class DeterministicResult(ModelDetails):
     """One operating point: fields on cells (nx, ny), x along the motion; forces per width [N/m].
 
@@ -111,7 +111,7 @@ class DeterministicResult(ModelDetails):
         return self.given / (self.given + max(self.flow_film, 0.0)) if self.given > 0 else 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class SurfaceShear:
     """How the fields shear surface 2: bools (nx, ny) of the gaps that are ``thin``, of all ``spots`` where the
     stress is f_b p, and of the ``wet`` rest, fluid under its own law; the ``stress`` [Pa] (nx, ny); and of every column

@@ -17,7 +17,7 @@ from ...oil import Lubricant, density_ratio, log_viscosity_ratio
 THICKEST = 300.0  # of ln(eta/eta0): the exponential beyond it is not distinguished from a solid's
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class CellFluid:
     """The laws at the pressures of the cells: ln(eta/eta0), rho/rho0, and their derivatives by p [1/Pa]; of each shear
     law tau_c [Pa] and its derivative [-], numbers if that is 0."""
@@ -34,7 +34,13 @@ def cell_fluid(lubricant: Lubricant, pressure: FloatArray) -> CellFluid:
     log_viscosity, log_slope = log_viscosity_ratio(lubricant, pressure)
     density, density_slope = density_ratio(lubricant, pressure)
     critical = tuple(law.critical(pressure) for law in lubricant.shear_laws)
-    return CellFluid(np.minimum(log_viscosity, THICKEST), log_slope, density, density_slope, critical)
+    return CellFluid(
+        log_viscosity=np.minimum(log_viscosity, THICKEST),
+        log_slope=log_slope,
+        density=density,
+        density_slope=density_slope,
+        critical=critical,
+    )
 
 
 def mean_fluidity(left: FloatArray, right: FloatArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -131,7 +131,14 @@ def dry_start(problem: Problem, dry: ContactResult) -> State:
     dent = np.where(p >= problem.hardness, np.maximum(-dry.gap, 0.0), 0.0)
     full = max(RUPTURE * math.sqrt(2 * problem.radius * film), problem.contact.half_width)
     kind = np.where((p <= 0) & (problem.x > full)[:, None], RUPTURED, FLUID).astype(np.int8)
-    return State(p.copy(), np.ones_like(p), dent, kind, p >= problem.hardness, film - dry.approach)
+    return State(
+        pressure=p.copy(),
+        fill=np.ones_like(p),
+        dent=dent,
+        kind=kind,
+        yielded=p >= problem.hardness,
+        approach=film - dry.approach,
+    )
 
 
 def _from_faster(problem: Problem, state: State, times: float, tolerance: float, work: Work) -> NewtonResult:
@@ -188,7 +195,14 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
         pressure = np.where(ruptured, 0.0, np.clip(pressure, 0.0, problem.hardness))
         yielded = pressure >= problem.hardness
         kind, dent = kind.astype(np.int8), np.where(yielded, dent, 0.0)
-        return State(pressure, np.where(ruptured, fill, 1.0), dent, kind, yielded, approach)
+        return State(
+            pressure=pressure,
+            fill=np.where(ruptured, fill, 1.0),
+            dent=dent,
+            kind=kind,
+            yielded=yielded,
+            approach=approach,
+        )
 
     longer = nx * problem.spacing[0] / (nx_old * coarse.spacing[0])
     approach = old.approach - 4 * (result.load - result.inlet_load) / (math.pi * problem.e_prime) * math.log(longer)

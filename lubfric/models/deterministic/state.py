@@ -31,7 +31,7 @@ class TimeHistory:
     follows_lubricant: bool = False
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class State:
     """The unknowns, arrays (nx, ny): pressure [Pa], fill (filled part of the gap, -), dent w [m], kind (`FLUID`,
     `RUPTURED` or `TOUCHING`), yielded (bool); and the approach h0 [m]. The unknown of a ruptured cell is its fill, with
@@ -46,7 +46,7 @@ class State:
     approach: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Iterate:
     """A state with its gap h [m] (nx, ny) and the mass balance of its cells. ``history``: of an implicit step in time.
     residual [m/s]: outflow minus inflow plus, in time, what the cell stores (`stored`)."""
@@ -102,7 +102,7 @@ def evaluated(problem: Problem, state: State, history: TimeHistory | None = None
     gap = problem.rigid_gap + problem.operator.apply(state.pressure) + state.dent + state.approach
     follows = history is not None and history.follows_lubricant
     flows = mass_balance(problem, state.pressure, gap, state.fill, follows)
-    at = Iterate(problem, state, gap, flows, history, flows.residual)
+    at = Iterate(problem=problem, state=state, gap=gap, balance=flows, history=history, residual=flows.residual)
     return at if history is None else replace(at, residual=flows.residual + stored(at.mass, history)[0])
 
 

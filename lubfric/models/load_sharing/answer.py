@@ -153,7 +153,11 @@ def _finer(change: float, tolerance: float) -> tuple[Validity, ...]:
     what = "change of f by cells half as long, estimated"
     remedy = "use a map on shorter cells"
     consequence = "the map is too coarse for its roughness; the interval of f does not include that"
-    return (Validity(what, 100 * change, 100 * tolerance, "%", consequence, remedy),)
+    return (
+        Validity(
+            what=what, value=100 * change, limit=100 * tolerance, unit="%", consequence=consequence, remedy=remedy
+        ),
+    )
 
 
 def _numbers(balanced: BalancedSample) -> dict[str, float]:

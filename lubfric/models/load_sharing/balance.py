@@ -125,7 +125,15 @@ def _dry(scene: Scene, contact: RoughContact, why: str = "no entrainment: all co
     state = contact.close(shape, load)
     report = _report(scene, CONVERGED, (0.0,), state, None, (why,))
     friction = forces(scene, None, state, load)
-    return Balance(0.0, load, None, state, friction, report, respond(scene, contact, state, load, shape))
+    return Balance(
+        film_load=0.0,
+        contact_load=load,
+        film=None,
+        contact=state,
+        forces=friction,
+        report=report,
+        response=respond(scene, contact, state, load, shape),
+    )
 
 
 def _film_alone(point: Point) -> Balance:
@@ -141,7 +149,15 @@ def _film_alone(point: Point) -> Balance:
         trial = point.trial(load, 0.0, trial)
     notes = ("separated: the film clears the summits",)
     report = _report(point.scene, CONVERGED, (0.0,), trial.contact, trial.film, notes)
-    return Balance(load, 0.0, trial.film, trial.contact, friction, report, settings=point.settings)
+    return Balance(
+        film_load=load,
+        contact_load=0.0,
+        film=trial.film,
+        contact=trial.contact,
+        forces=friction,
+        report=report,
+        settings=point.settings,
+    )
 
 
 def _certainly_touching(scene: Scene, speed: float, contact: RoughContact) -> bool:
@@ -156,7 +172,12 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
     cannot be closed as tightly as needed, because f jumps with single cells, the last one is kept and its error reported."""
     log_load_ratio, slope, step, last = _beginning(point, sq, start)
     if last is None and alone is not None:
-        last = Trial(alone, point.contact.close(alone.film_at(point.contact.x), 0.0), 0.0, 0.0)
+        last = Trial(
+            film=alone,
+            contact=point.contact.close(alone.film_at(point.contact.x), 0.0),
+            film_load=0.0,
+            contact_load=0.0,
+        )
     value: float | None = None
     closed: Balance | None = None
     response = None
@@ -202,7 +223,13 @@ def _beginning(point: Point, sq: float, start: Balance | None) -> tuple[float, f
         thickness = max(2 * sq, 1e-12)
         share = min(point.line(point.scene.bodies.load).rigid_film / thickness, 0.9)
         return math.log(share / (1 - share)), None, FIRST_STEP, None
-    trial = Trial(start.film, start.contact, start.film_load, start.contact_load, start.contact)
+    trial = Trial(
+        film=start.film,
+        contact=start.contact,
+        film_load=start.film_load,
+        contact_load=start.contact_load,
+        touched=start.contact,
+    )
     if start.film.entrainment_speed == point.speed:
         return start.log_load_ratio, start.slope, NEXT_STEP, trial
     return *predicted(point, start), NEXT_STEP, trial
@@ -297,7 +324,7 @@ def _first_settings(scene: Scene, alone: bool = False) -> Settings:
     film = numerics.film_tolerance or min(budget.FILM_ALONE * numerics.tolerance, budget.LOOSEST_FILM)
     if not alone and numerics.film_tolerance is None:
         film = budget.FIRST_FILM
-    return Settings(film, numerics.balance_tolerance or budget.LOOSEST_VOLUME)
+    return Settings(film_tolerance=film, balance_tolerance=numerics.balance_tolerance or budget.LOOSEST_VOLUME)
 
 
 def _needed(point: Point, balance: Balance) -> Settings:
@@ -324,7 +351,13 @@ def _needed(point: Point, balance: Balance) -> Settings:
         closed = min(0.5 * allowed, budget.LOOSEST_VOLUME * min(mean_film, balance.film.central_film))
         volume = _tightened(volume, max(closed / mean_film, budget.TIGHTEST_VOLUME))
     contact = _contact_tolerance(point, balance.contact, volume)
-    return Settings(film, volume, _cells(point, balance.film, balance.forces), contact, now.correctable)
+    return Settings(
+        film_tolerance=film,
+        balance_tolerance=volume,
+        film_cells=_cells(point, balance.film, balance.forces),
+        contact_tolerance=contact,
+        correctable=now.correctable,
+    )
 
 
 def _tightened(now: float, needed: float) -> float:
@@ -357,4 +390,14 @@ def _report(
     if contact.fields is not None:
         residuals["contact"] = contact.fields.report.residual
     tolerance, steps = scene.numerics.tolerance_of("balance") if tolerance is None else tolerance, len(history)
-    return Report("load sharing", status, steps, min(history), tolerance, residuals, tuple(history), steps, notes)
+    return Report(
+        "load sharing",
+        status,
+        iterations=steps,
+        residual=min(history),
+        tolerance=tolerance,
+        residuals=residuals,
+        history=tuple(history),
+        evaluations=steps,
+        notes=notes,
+    )

@@ -266,7 +266,7 @@ def solve_sample(
         balance=solved,
         solved=solved,
         contact=contact,
-        scatter=Scatter(sample.rows_of(count) * sample.cells.coarse[1]),
+        scatter=Scatter(length=sample.rows_of(count) * sample.cells.coarse[1]),
         sample=sample,
         first_effect=None if start is None else start.first_effect,
         count=count,

@@ -64,7 +64,7 @@ PIECE_SHARE = 0.5
 BY_LOAD = 2.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class CellStep:
     """The change when the cells of a piece become the scene's own, at a film and ``contact_load`` [N].
 
@@ -89,7 +89,7 @@ class CellStep:
     edge_load_ratio: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class CellEffect:
     """The mean `CellStep` of several pieces, which were solved at ``contact_load`` [N]."""
 

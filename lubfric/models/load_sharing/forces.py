@@ -18,7 +18,7 @@ from ..shared import (
 HERTZ_NODES = 101
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Forces:
     """The forces [N] that resist sliding: f = (boundary + shear.total)/F_T.
 
@@ -49,7 +49,7 @@ def forces(scene: Scene, film: EHLResult | None, contact: ContactState, contact_
     bodies = scene.bodies
     boundary = bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0) * contact_load
     if film is None:
-        return Forces(boundary / bodies.load, boundary, ShearForce(0.0, 0.0))
+        return Forces(coefficient=boundary / bodies.load, boundary=boundary, shear=ShearForce(couette=0.0, rolling=0.0))
     elastic = _elastic(scene, film, contact, contact_load)
     shear = _shear(scene, film, contact, elastic)
     boundary *= shear.asperity_share
@@ -58,7 +58,13 @@ def forces(scene: Scene, film: EHLResult | None, contact: ContactState, contact_
         shear = _shear(scene, film, contact, elastic, warm, stress)
     total = abs(boundary + shear.total)
     quadrature = shear.quadrature / total if 0 < total < np.inf else 0.0
-    return Forces((boundary + shear.total) / bodies.load, boundary, shear, quadrature, heat)
+    return Forces(
+        coefficient=(boundary + shear.total) / bodies.load,
+        boundary=boundary,
+        shear=shear,
+        quadrature=quadrature,
+        heat=heat,
+    )
 
 
 def _elastic(scene: Scene, film: EHLResult, contact: ContactState, contact_load: float) -> ElasticContact | None:

@@ -12,7 +12,7 @@ from ...scene import Scene
 from ..shared import film_lubricant
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Settings:
     """Relative tolerances of the film and of the volume balance; the least number of cells of the film; tolerance of
     the contact (None: its own). ``correctable``: what the root leaves open is corrected to first order afterwards."""
@@ -24,7 +24,7 @@ class Settings:
     correctable: bool = False
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Trial:
     """Film and contact at one division of the load [N]. ``touched``: the last contact that touched; ``cells``: of the
     films so far: from the second on all keep to one grid, because otherwise the root of the balance would have a jump.
@@ -80,7 +80,9 @@ class Point:
         film = self.film(film_load, start, cells)
         contact = self.pressed(self.contact, film, contact_load, touched)
         touched, cells = contact if contact_load > 0 else touched, max(film.cells, cells) if last else 0
-        return Trial(film, contact, film_load, contact_load, touched, cells)
+        return Trial(
+            film=film, contact=contact, film_load=film_load, contact_load=contact_load, touched=touched, cells=cells
+        )
 
     def pressed(self, contact: RoughContact, film: EHLResult, load: float, start: ContactState | None) -> ContactState:
         """``contact`` under ``film``, with ``load`` [N]."""

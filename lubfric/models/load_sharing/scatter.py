@@ -57,7 +57,7 @@ def effective_spots(line_load: FloatArray, step: float, correlation_length: floa
     return float(np.sum(loads)) ** 2 / square if square > 0 else 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Scatter:
     """Standard errors of what a sample of ``length`` [m] represents: at given load of its mean gap [m], its contact
     area fraction of A [-] and its contact area per length [m]; in balance, of f, relative. ``spots``:
@@ -95,12 +95,12 @@ def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, sample
     if balance.film is not None and response.rates and balance.forces.total:
         of_friction = error(friction_influence(scene, contact, balance)[rows])
     return Scatter(
-        by_place.size * step,
-        at_given_load(strip_gap(contact, state)[rows], slopes.gap),
-        at_given_load(contact.weight @ touching / contact.weight.sum(), slopes.area),
-        at_given_load(touching.sum(axis=0) * contact.spacing[0], slopes.touched),
-        of_friction,
-        effective_spots(by_place, step, sample.lengths[1]),
+        length=by_place.size * step,
+        gap=at_given_load(strip_gap(contact, state)[rows], slopes.gap),
+        area=at_given_load(contact.weight @ touching / contact.weight.sum(), slopes.area),
+        touched=at_given_load(touching.sum(axis=0) * contact.spacing[0], slopes.touched),
+        friction=of_friction,
+        spots=effective_spots(by_place, step, sample.lengths[1]),
     )
 
 

@@ -70,7 +70,7 @@ def of_motion(scene: Scene, speed: float, film: float) -> Iterator[Validity]:
             advice = (
                 "give numerics.heat = 'off' if the sliding is meant; else check transient.speed and transient.sliding"
             )
-        yield Validity(what, ratio, OPPOSED, "", why, advice)
+        yield Validity(what=what, value=ratio, limit=OPPOSED, unit="", consequence=why, remedy=advice)
     if math.isfinite(film) and film > 0:
         oil = scene.lubricant.oil
         temperature = scene.lubricant.temperature
@@ -82,11 +82,21 @@ def of_motion(scene: Scene, speed: float, film: float) -> Iterator[Validity]:
             why = "the film is turbulent or near it"
             what = "Reynolds number"
             remedy = "a laminar film needs less speed or more viscosity"
-            yield Validity(what, reynolds, limit, "", why, remedy, reynolds > TURBULENT)
+            yield Validity(
+                what=what,
+                value=reynolds,
+                limit=limit,
+                unit="",
+                consequence=why,
+                remedy=remedy,
+                severe=reynolds > TURBULENT,
+            )
         elif inertia > INERTIA:
             why = "Reynolds' equation leaves inertia out"
             what = "inertia over viscous forces in the film"
-            yield Validity(what, inertia, INERTIA, "", why, "less speed or more viscosity")
+            yield Validity(
+                what=what, value=inertia, limit=INERTIA, unit="", consequence=why, remedy="less speed or more viscosity"
+            )
 
 
 def of_film(
@@ -122,7 +132,15 @@ def of_pressure(scene: Scene, peak: float) -> Iterator[Validity]:
     if scene.lubricant.density_law == "constant" and hertz_peak < limit:
         consequence += f"; it is a spike over the {hertz_peak / 1e9:.2g} GPa of Hertz, of an oil that is not compressed"
         remedy = f"give lubricant.density_law = 'dowson-higginson', which lowers it; {remedy}"
-    yield Validity("film pressure", peak / 1e9, limit / 1e9, "GPa", consequence, remedy, severe)
+    yield Validity(
+        what="film pressure",
+        value=peak / 1e9,
+        limit=limit / 1e9,
+        unit="GPa",
+        consequence=consequence,
+        remedy=remedy,
+        severe=severe,
+    )
 
 
 def of_thickness(scene: Scene, film: float) -> Iterator[Validity]:
@@ -131,7 +149,14 @@ def of_thickness(scene: Scene, film: float) -> Iterator[Validity]:
     if not film > THICK * radius:
         return
     why = "the film is not thin against the cylinder"
-    yield Validity("film over radius", film / radius, THICK, "", why, "check bodies.radius, viscosity and speed")
+    yield Validity(
+        what="film over radius",
+        value=film / radius,
+        limit=THICK,
+        unit="",
+        consequence=why,
+        remedy="check bodies.radius, viscosity and speed",
+    )
 
 
 def of_inlet(scene: Scene, line: LineContact, flow: float, friction: float) -> Iterator[Validity]:
@@ -146,11 +171,20 @@ def of_inlet(scene: Scene, line: LineContact, flow: float, friction: float) -> I
     if not oil.floods and flow <= (1 - tolerance) * flooded:
         consequence = "inlet_length or inlet_film makes the inlet starved; f depends on their values"
         what = "film over that of a full inlet, by Moes,"
-        yield Validity(what, flow / flooded, 1.0, "", consequence, "leave both out")
+        yield Validity(
+            what=what, value=flow / flooded, limit=1.0, unit="", consequence=consequence, remedy="leave both out"
+        )
     elif lost > tolerance * friction:
         what = "rolling friction of the inlet beyond inlet_length, in f,"
         why = "f rests on where the lubricant begins"
-        yield Validity(what, 100 * lost / friction, 100 * tolerance, "%", why, "leave it out for a full inlet")
+        yield Validity(
+            what=what,
+            value=100 * lost / friction,
+            limit=100 * tolerance,
+            unit="%",
+            consequence=why,
+            remedy="leave it out for a full inlet",
+        )
 
 
 def of_deflection(scene: Scene, mean_gap: float, remedy: str = ANOTHER) -> Iterator[Validity]:
@@ -161,7 +195,7 @@ def of_deflection(scene: Scene, mean_gap: float, remedy: str = ANOTHER) -> Itera
         return
     why = "a film flattened by its own pressure alone takes too much of the load: f does not tend to f_b"
     what = "rise of the undeformed cylinder over the Hertz strip, relative to the mean gap,"
-    yield Validity(what, change, STRIP_SHARE, "", why, remedy)
+    yield Validity(what=what, value=change, limit=STRIP_SHARE, unit="", consequence=why, remedy=remedy)
 
 
 def of_ends(share: float, length: float) -> Iterator[Validity]:
@@ -169,7 +203,9 @@ def of_ends(share: float, length: float) -> Iterator[Validity]:
     if share > ON_ENDS:
         why = f"its ends, {worded(length, 'm')} apart, cut the contact off"
         what = "share of the contact load on the edge columns of the patch"
-        yield Validity(what, 100 * share, 100 * ON_ENDS, "%", why, LONGER, True)
+        yield Validity(
+            what=what, value=100 * share, limit=100 * ON_ENDS, unit="%", consequence=why, remedy=LONGER, severe=True
+        )
 
 
 def of_patches(scene: Scene, heights: FloatArray, area: float) -> Iterator[Validity]:
@@ -181,7 +217,14 @@ def of_patches(scene: Scene, heights: FloatArray, area: float) -> Iterator[Valid
     if count:
         why = "a ridge without ends is one asperity, blunter the longer the map is: f depends on that length"
         what = "number of asperities that reach round the map"
-        yield Validity(what, count, 0, "", why, "contact.model = 'half-space', or 'summits'")
+        yield Validity(
+            what=what,
+            value=count,
+            limit=0,
+            unit="",
+            consequence=why,
+            remedy="contact.model = 'half-space', or 'summits'",
+        )
 
 
 def meaningless(shear: ShearForce) -> bool:
@@ -206,19 +249,19 @@ def of_shear(scene: Scene, shear: ShearForce, film_load: float, friction_force: 
     if share > tolerance:
         severe = share > SHARE
         yield Validity(
-            "share of f from shear stresses that no oil carries",
-            share,
-            SHARE if severe else tolerance,
-            "",
-            f"{law} reaches {shear.stress_ratio:.2g} times the 5 MPa + 0.12 p that an oil carries, and gives the film a friction "
+            what="share of f from shear stresses that no oil carries",
+            value=share,
+            limit=SHARE if severe else tolerance,
+            unit="",
+            consequence=f"{law} reaches {shear.stress_ratio:.2g} times the 5 MPa + 0.12 p that an oil carries, and gives the film a friction "
             f"coefficient of {friction:.2g}",
-            remedy,
-            severe,
+            remedy=remedy,
+            severe=severe,
         )
     elif friction > FRICTION and abs(shear.couette) > tolerance * friction_force:
         what = "friction coefficient of the film"
         why = "more than any lubricant gives"
-        yield Validity(what, friction, FRICTION, "", why, remedy)
+        yield Validity(what=what, value=friction, limit=FRICTION, unit="", consequence=why, remedy=remedy)
 
 
 def of_heat(scene: Scene, heat: Heat) -> Iterator[Validity]:
@@ -229,23 +272,23 @@ def of_heat(scene: Scene, heat: Heat) -> Iterator[Validity]:
         extrapolated = abs(scene.motion.slide_roll_ratio) > SLIDING or heat.inlet.thermal_number > LARGEST
         if extrapolated and spread > tolerance:
             yield Validity(
-                "difference of two published inlet heating factors",
-                spread,
-                tolerance,
-                "",
-                f"the film is between {heat.inlet.factor:.2g} and {heat.inlet.other:.2g} of the isothermal one, "
+                what="difference of two published inlet heating factors",
+                value=spread,
+                limit=tolerance,
+                unit="",
+                consequence=f"the film is between {heat.inlet.factor:.2g} and {heat.inlet.other:.2g} of the isothermal one, "
                 "neither factor was made for such sliding",
-                "a measured film; numerics.heat = 'off' gives the isothermal bound",
+                remedy="a measured film; numerics.heat = 'off' gives the isothermal bound",
             )
     if heat.slow and heat.change > tolerance:
         yield Validity(
-            "Péclet number of the faster surface",
-            heat.peclet,
-            FAST,
-            "",
-            "the heat source moves slowly: the flash temperature "
+            what="Péclet number of the faster surface",
+            value=heat.peclet,
+            limit=FAST,
+            unit="",
+            consequence="the heat source moves slowly: the flash temperature "
             f"used is too high, and f too low by at most {100 * heat.change:.2g} %",
-            "numerics.heat = 'off' gives the other bound",
+            remedy="numerics.heat = 'off' gives the other bound",
         )
 
 
@@ -255,11 +298,11 @@ def of_typical_heat(scene: Scene, change: float) -> Iterator[Validity]:
     if change > scene.numerics.tolerance:
         temperature, coefficient = TYPICAL
         yield Validity(
-            "share of f that the heat of the film would take away",
-            100 * change,
-            100 * scene.numerics.tolerance,
-            "%",
-            "heat is not included, because the viscosity is a number; this is its effect, at most, on a typical oil, whose "
+            what="share of f that the heat of the film would take away",
+            value=100 * change,
+            limit=100 * scene.numerics.tolerance,
+            unit="%",
+            consequence="heat is not included, because the viscosity is a number; this is its effect, at most, on a typical oil, whose "
             f"viscosity falls by {100 * coefficient:.2g} % per K, at {temperature - CELSIUS:.0f} °C",
             "give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); numerics.heat = "
             "'off' states that this is meant",
@@ -270,4 +313,11 @@ def of_error(error: float | None, tolerance: float, remedy: str) -> Iterator[Val
     """A warning if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known)."""
     if error is not None and error > tolerance:
         why = "the error of the solve is above the requested tolerance"
-        yield Validity("estimated numerical error of f", 100 * error, 100 * tolerance, "%", why, remedy)
+        yield Validity(
+            what="estimated numerical error of f",
+            value=100 * error,
+            limit=100 * tolerance,
+            unit="%",
+            consequence=why,
+            remedy=remedy,
+        )

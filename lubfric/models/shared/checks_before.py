@@ -47,7 +47,14 @@ YIELDED = 4.5e9
 def beforehand(scene: Scene, surface: Surface) -> tuple[Validity, ...]:
     """Entries for values far from the usual, for the bodies and for the map."""
     unusual = [
-        Validity(name, value, limit, unit, "the value is unusual", "; ".join(filter(None, (CHECK, meant))))
+        Validity(
+            what=name,
+            value=value,
+            limit=limit,
+            unit=unit,
+            consequence="the value is unusual",
+            remedy="; ".join(filter(None, (CHECK, meant))),
+        )
         for name, value, limit, unit, meant in unusual_values(scene)
     ]
     cells = [_cells_of_length(surface, axis) for axis in (0, 1)]
@@ -72,16 +79,38 @@ def of_bodies(bodies: Bodies) -> Iterator[Validity]:
         remedy = "check bodies.load, e_prime and radius; a lighter load or a stiffer body"
         why = "the contact is as wide as the body, which is then no half-space"
         what = "contact half-width over radius"
-        yield Validity(what, wide, WIDEST if wide > WIDEST else WIDE, "", why, remedy, wide > WIDEST)
+        yield Validity(
+            what=what,
+            value=wide,
+            limit=WIDEST if wide > WIDEST else WIDE,
+            unit="",
+            consequence=why,
+            remedy=remedy,
+            severe=wide > WIDEST,
+        )
     if bodies.width < 2 * bodies.half_width:
         why = "the contact is wider than long: no line contact"
         what = "line length over contact width"
-        yield Validity(what, bodies.width / (2 * bodies.half_width), 1.0, "", why, "check bodies.width and load")
+        yield Validity(
+            what=what,
+            value=bodies.width / (2 * bodies.half_width),
+            limit=1.0,
+            unit="",
+            consequence=why,
+            remedy="check bodies.width and load",
+        )
     peak = hertz.line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
     if bodies.hardness is None and peak > YIELDED:
         why = "hard steel yields there, the bodies are elastic here"
         what = "peak Hertz pressure"
-        yield Validity(what, peak / 1e9, YIELDED / 1e9, "GPa", why, "check bodies.load; give bodies.hardness")
+        yield Validity(
+            what=what,
+            value=peak / 1e9,
+            limit=YIELDED / 1e9,
+            unit="GPa",
+            consequence=why,
+            remedy="check bodies.load; give bodies.hardness",
+        )
 
 
 def of_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterator[Validity]:
@@ -91,15 +120,38 @@ def of_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterato
         remedy = "check the units of heights and spacing; filter the map at the scale that matters"
         why = "the half-space takes slopes as small: contact area and pressures are off"
         what = "rms slope of the map"
-        yield Validity(what, slope, STEEPEST if slope > STEEPEST else STEEP, "", why, remedy, slope > STEEPEST)
+        yield Validity(
+            what=what,
+            value=slope,
+            limit=STEEPEST if slope > STEEPEST else STEEP,
+            unit="",
+            consequence=why,
+            remedy=remedy,
+            severe=slope > STEEPEST,
+        )
     if lengths < FEW:
         why = "few asperities: another patch of the same surface would give another f"
-        yield Validity("width of the map over its correlation length", lengths, FEW, "", why, "a larger map")
+        yield Validity(
+            what="width of the map over its correlation length",
+            value=lengths,
+            limit=FEW,
+            unit="",
+            consequence=why,
+            remedy="a larger map",
+        )
     for axis, count in zip("xy", cells):
         if count < NOISE:
             what = f"cells in a correlation length along {axis}"
             remedy = f"a shorter step along {axis}, {FILTERED}"
-            yield Validity(what, count, NOISE, "", "neighbouring heights are as good as noise", remedy, severe=True)
+            yield Validity(
+                what=what,
+                value=count,
+                limit=NOISE,
+                unit="",
+                consequence="neighbouring heights are as good as noise",
+                remedy=remedy,
+                severe=True,
+            )
 
 
 def expected(scene: Scene, surface: Surface, speeds: list[float]) -> tuple[tuple[float | None, Validity], ...]:
@@ -130,6 +182,8 @@ def _of_film(scene: Scene, speed: float, film: float) -> list[Validity]:
         stress = np.minimum(shear_stress(lubricant, pressure, sliding / film), 1e30)
     above = np.maximum(stress - carried_stress(pressure), 0.0)
     force, excess = (float(bodies.width * np.trapezoid(tau, x)) for tau in (stress, above))
-    shear = ShearForce(force, 0.0, excess=excess, stress_ratio=float(np.max(stress / carried_stress(pressure))))
+    shear = ShearForce(
+        couette=force, rolling=0.0, excess=excess, stress_ratio=float(np.max(stress / carried_stress(pressure)))
+    )
     total = max(force, bodies.boundary_friction_coefficient * bodies.load)
     return [*of_pressure(scene, peak_hertz_pressure(scene)), *of_shear(scene, shear, bodies.load, total)]

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from .statistics import percent
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Decision:
     """The models of film and contact, and the sample, of one operating point.
 

@@ -45,7 +45,7 @@ DOUBT = 0.5
 EXPONENT = 0.7
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Heat:
     """Heat of an operating point.
 
@@ -184,14 +184,14 @@ def point_heat(
     warm = film_lubricant(scene, film.entrainment_speed).viscosity if used else None
     pressed = float(film.pressure.max()) > NO_LIQUID  # a rigid film far above its range, on the way to one that is not
     if scene.motion.slide_roll_ratio == 0 or pressed or not shear.excess < math.inf:
-        return Heat(inlet, used), warm, None
+        return Heat(inlet=inlet, used=used), warm, None
     lubricant = scene.lubricant
     numerics = scene.numerics
     nodes, change_by = _nodes(scene, film, contact, contact_load, force)
     change = change_by(isothermal_heat(lubricant, *nodes).stress)
     peclet = peclet_at(scene, film.entrainment_speed)
     if numerics.heat != "on" and change <= budget.HEAT * numerics.tolerance:
-        return Heat(inlet, used, change, None, peclet), warm, None
+        return Heat(inlet=inlet, used=used, change=change, heated=None, peclet=peclet), warm, None
     heated = heated_film(lubricant, *nodes)
     (x, *_, around) = nodes
     change = change_by(heated.stress)
@@ -199,7 +199,7 @@ def point_heat(
     def stress(at: FloatArray, pressure: FloatArray, thickness: FloatArray) -> FloatArray:
         return heated_stress(lubricant, pressure, thickness, around.sliding, np.interp(at, x, heated.wall))[0]
 
-    return Heat(inlet, used, change, heated, peclet), warm, stress
+    return Heat(inlet=inlet, used=used, change=change, heated=heated, peclet=peclet), warm, stress
 
 
 def _nodes(

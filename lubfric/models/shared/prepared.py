@@ -27,7 +27,7 @@ from .validity import Validity
 OWN = HalfSpaceContact, FlatContact, AsperityContact
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class Prepared(FieldsOnly, Shown):
     """A scene prepared by `prepare`. It is accepted wherever a scene is, and safe to share: only what it remembers
     (`Memo`) changes, and that changes no result.
@@ -132,7 +132,9 @@ def _on_sample(scene: Scene, sample: Sample, *, is_given: bool) -> Prepared:
     memo = Memo()
     contact = sample.contact(scene, sample.first, partial(_operator, memo, scene))
     memo.put(StackKey(sample.cells.coarsening, sample.first), contact, _cells(contact))
-    prepared = Prepared(scene, surface, contact, sample, beforehand(scene, surface), given=is_given)
+    prepared = Prepared(
+        scene=scene, surface=surface, contact=contact, sample=sample, known=beforehand(scene, surface), given=is_given
+    )
     prepared.memo.keep_surface_of(memo)
     return prepared
 

@@ -25,7 +25,14 @@ def band(level: str, run: Run = Run()) -> Iterator[Item]:
             with_limit = scene.with_(lubricant={"limiting_stress_coefficient": limit})
             solved.append(lubfric.friction(with_limit, speed).coefficient)
         outside = max(0.0, low - min(solved), max(solved) - high)
-        yield Check(f"{speed:g} m/s: f with a limit, outside the interval", outside, 0.0, 1e-9, "solved", AT_MOST)
+        yield Check(
+            f"{speed:g} m/s: f with a limit, outside the interval",
+            outside,
+            expected=0.0,
+            tolerance=1e-9,
+            source="solved",
+            kind=AT_MOST,
+        )
         saturated = unknown.saturated_film_load / scene.bodies.load
         numbers = (f"{unknown.coefficient:.4f}", f"{low:.3f} to {high:.3f}", f"{100 * saturated:.0f} %")
         rows.append((f"{speed:g}", *numbers, *(f"{f:.4f}" for f in solved)))

@@ -30,7 +30,9 @@ def point(
     median, low, high = (float(s) for s in seconds)
     where = at | {"panel": panel, "method": method, "setting": setting, "seconds": median, "low": low, "high": high}
     name = f"{panel}; {method}; {setting}"
-    return Check(name, error, 0.0, 0.0, "a tighter solution", REPORTED, seconds=median, at=where).as_dict()
+    return Check(
+        name, error, expected=0.0, tolerance=0.0, source="a tighter solution", kind=REPORTED, seconds=median, at=where
+    ).as_dict()
 
 
 def interleaved(calls: Mapping[K, Callable[[], V]], repeats: int) -> dict[K, tuple[V, Quartiles]]:

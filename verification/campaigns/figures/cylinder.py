@@ -100,7 +100,7 @@ def stribeck_curves(level: str, run: Run = Run()) -> Iterator[Item]:
     of_loads = ("L, Gaussian, 1/e [m]", "F_H mean [N]", "sd [N]", "lowest [N]", "highest [N]")
     words = "f of the plastic surface compared with the elastic one: largest change"
     source = "the paper: it changes little"
-    yield Check(words, most, 0.05, 0.0, source, AT_MOST)
+    yield Check(words, most, expected=0.05, tolerance=0.0, source=source, kind=AT_MOST)
     title = "Fig. 8: the cylinder, three contact models"
     yield Table("fig8", title, headings, rows)
     yield Table("fig8_film_load", title, of_loads, table)
@@ -196,8 +196,18 @@ def pressure_map(level: str, run: Run = Run()) -> Iterator[Item]:
     fractions = ("contact area fraction of the strip", "plastic area fraction")
     headings = ("acf", "F_C [N]", "F_H [N]", *fractions, "highest pressure [Pa]", "asperity contacts in 90 um")
     hardness = parts.the(PAPER.bodies.hardness, "hardness")
-    yield Check("F_C + F_H, Gaussian", c1 + h1, PAPER.bodies.load, 1e-9, "load balance", unit="N")
-    yield Check("highest pressure", max(top1, top2), hardness, 0.0, "hardness", AT_MOST, "Pa")
+    yield Check(
+        "F_C + F_H, Gaussian", c1 + h1, expected=PAPER.bodies.load, tolerance=1e-9, source="load balance", unit="N"
+    )
+    yield Check(
+        "highest pressure",
+        max(top1, top2),
+        expected=hardness,
+        tolerance=0.0,
+        source="hardness",
+        kind=AT_MOST,
+        unit="Pa",
+    )
     title = "Fig. 9: contact pressure at 0.001 m/s"
     yield Table("fig9", title, headings, rows)
     agrees = f"Almost all of the load is carried by few, small asperity contacts: F_C = {c1:.3f} and {c2:.3f} N, F_H = "
@@ -241,7 +251,14 @@ def sections(level: str, run: Run = Run()) -> Iterator[Item]:
             f"At {speed:g} m/s the mean film over the Hertz strip is {weight @ h * 1e9:.0f} nm, F_H = "
             f"{point.film_load:.3g} N, and {100 * point.real_contact_area_fraction:.1f} % of the strip is in contact."
         )
-    yield Check("smallest gap over Sq", min(r[5] for r in rows) / 100e-9, 0.0, 0.01, "no penetration", AT_LEAST)
+    yield Check(
+        "smallest gap over Sq",
+        min(r[5] for r in rows) / 100e-9,
+        expected=0.0,
+        tolerance=0.01,
+        source="no penetration",
+        kind=AT_LEAST,
+    )
     title = "Fig. 10: film, separation and surface at 0.001 and 0.3 m/s"
     yield Table("fig10", title, ("speed [m/s]", "x [m]", "h [m]", "h_s [m]", "z [m]", "gap [m]"), rows)
     agrees = "In boundary lubrication the separation lies below the summits, in full-film lubrication above them.\n\n- "

@@ -134,7 +134,14 @@ def deviation_map(level: str, run: Run = Run()) -> Iterator[Item]:
             rows.append((label, seed, length, load, load * 4 / math.pi, 100 * one, at))
     most = max(max(d[BASE_LABEL, length, 1]) for length in LENGTHS)
     source = "Fig. 6 of the paper: the asperity model lies above"
-    yield Check("largest d of summits on an exponential surface, %", most, 0.0, 0.0, source, AT_LEAST)
+    yield Check(
+        "largest d of summits on an exponential surface, %",
+        most,
+        expected=0.0,
+        tolerance=0.0,
+        source=source,
+        kind=AT_LEAST,
+    )
     title = "Fig. 6: d over load and L"
     pressures = ("mean Hertz pressure [Pa]", "peak Hertz pressure [Pa]")
     columns = ("assumption", "seed", "L [m]", *pressures, "d [%], + asperity model higher", "at speed [m/s]")

@@ -92,10 +92,17 @@ def sphere_array(level: str, run: Run = Run()) -> Iterator[Item]:
     both = ("approach without mean deflection [m]", "approach with mean deflection [m]")
     last = "asperity model at the approach without mean deflection [N]"
     headings = ("spacing [m]", "load per asperity [N]", *both, last)
-    yield Check("asperity model against Hertz, any spacing", worst, 0.02, 0.0, "Hertz 1882", AT_MOST)
+    yield Check(
+        "asperity model against Hertz, any spacing",
+        worst,
+        expected=0.02,
+        tolerance=0.0,
+        source="Hertz 1882",
+        kind=AT_MOST,
+    )
     name = "load over Hertz with the mean deflection falls as spheres come closer: smallest step"
     step = np.diff(falls).min()
-    yield Check(name, step, 0.0, 0.0, "Fig. 4 of the paper", AT_LEAST)
+    yield Check(name, step, expected=0.0, tolerance=0.0, source="Fig. 4 of the paper", kind=AT_LEAST)
     title = "Figs. 3 and 4: spheres of 30 µm, 14 to 40 µm apart"
     yield Table("fig4", title, headings, rows)
     kept_words, free_words = (", ".join(f"{r:.2f}" for r in ratios) for ratios in (falls, grows))

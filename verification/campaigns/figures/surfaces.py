@@ -40,8 +40,17 @@ def generated_surfaces(level: str, run: Run = Run()) -> Iterator[Item]:
             ax.set(title=f"{acf}, L = {length * 1e6:g} µm (1/e)", xlabel="x (µm)", ylabel="y (µm)")
     off = max(abs(r[k] / r[1] - 1) for r in rows for k in (3, 4))
     headings = ("acf", "L requested [m]", "Sq [m]", "L along x [m]", "L along y [m]", "rms slope [-]")
-    yield Check("Sq of the last map", rows[-1][2], SQ, 1e-9, "the Sq given to the generator", unit="m")
-    yield Check("largest error of a measured length", off, 0.25, 0.0, "scatter of one map", AT_MOST)
+    yield Check(
+        "Sq of the last map", rows[-1][2], expected=SQ, tolerance=1e-9, source="the Sq given to the generator", unit="m"
+    )
+    yield Check(
+        "largest error of a measured length",
+        off,
+        expected=0.25,
+        tolerance=0.0,
+        source="scatter of one map",
+        kind=AT_MOST,
+    )
     title = "Fig. 2: generated surfaces, L = 34 and 57 µm"
     yield Table("fig2", title, headings, rows)
     agrees = "Sq is 240 nm exactly. The measured correlation lengths are within "

@@ -54,6 +54,14 @@ def bad_inputs(level: str, run: Run = Run()) -> Iterator[Item]:
         for verdict in BAD:
             first = next((words for ended, words in result if ended == verdict), "")
             name = f"{group}: {verdict}"
-            yield Check(name, counted[verdict], 0, 0, "bad by construction", AT_MOST, note=first[:200])
+            yield Check(
+                name,
+                counted[verdict],
+                expected=0,
+                tolerance=0,
+                source="bad by construction",
+                kind=AT_MOST,
+                note=first[:200],
+            )
         rows.append((group, *(counted[verdict] for verdict in (*GOOD, *BAD))))
     yield Table("bad-inputs", "Bad inputs by how they ended", ("input", *GOOD, *BAD), rows)

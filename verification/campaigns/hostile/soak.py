@@ -46,10 +46,30 @@ def summarized(chunks: list[dict]) -> Iterator[Item]:
     worst = max(closed, key=lambda one: one["ratio"], default=none)
     wrong = [one["words"] for one in closed if not one["ratio"] <= 1]
     raw = [one["words"] for one in scenes if one["ended"] == RAW]
-    yield Check("raw errors", len(raw), 0, 0, "none is allowed", AT_MOST, note="; ".join(raw[:3]))
-    yield Check("silently wrong", len(wrong), 0, 0, "independent balance", AT_MOST, note="; ".join(wrong[:3]))
-    yield Check("worst error / allowed", worst["ratio"], 1, 0, "independent balance", AT_MOST, note=worst["words"])
-    yield Check("growth of memory", growth(chunks), MOST_GROWTH, 0, "flat", AT_MOST, unit="MiB")
+    yield Check(
+        "raw errors", len(raw), expected=0, tolerance=0, source="none is allowed", kind=AT_MOST, note="; ".join(raw[:3])
+    )
+    yield Check(
+        "silently wrong",
+        len(wrong),
+        expected=0,
+        tolerance=0,
+        source="independent balance",
+        kind=AT_MOST,
+        note="; ".join(wrong[:3]),
+    )
+    yield Check(
+        "worst error / allowed",
+        worst["ratio"],
+        expected=1,
+        tolerance=0,
+        source="independent balance",
+        kind=AT_MOST,
+        note=worst["words"],
+    )
+    yield Check(
+        "growth of memory", growth(chunks), expected=MOST_GROWTH, tolerance=0, source="flat", kind=AT_MOST, unit="MiB"
+    )
     words = f"{len(scenes)} scenes: {ended[ANSWERED]} answered, {ended[REFUSED]} refused, {len(closed)} closed again"
     why = Counter(one["words"] for one in scenes if one["ended"] == REFUSED)
     yield Table("soak", words, ("why", "refused"), why.most_common(12))

@@ -43,7 +43,7 @@ class MappedStrip:
     x: np.ndarray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Sides:
     """Film, mean gap and mean film over A [m], and the share of the width in contact at each x [m]."""
 
@@ -54,7 +54,7 @@ class Sides:
     touching: np.ndarray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Judge:
     """A prepared scene at one speed [m/s].
 
@@ -81,7 +81,13 @@ class Judge:
             gap += (fine - coarse) / len(self.pairs)
             mean_film += (under - over) / len(self.pairs)
             areas.append(more.mean() / fewer.mean() if fewer.any() and more.any() else 1.0)
-        return Sides(film, gap, mean_film, self.strip.x, touching * (np.mean(areas) if areas else 1.0))
+        return Sides(
+            film=film,
+            gap=gap,
+            mean_film=mean_film,
+            x=self.strip.x,
+            touching=touching * (np.mean(areas) if areas else 1.0),
+        )
 
     def film(self, film_load: float, modulus: float):
         """The film by differential deflection, or by the tightest Newton solution where that does not converge or where
@@ -166,7 +172,9 @@ def judge_of(prepared: Prepared, result) -> Judge:
         strip = _strip(sample.stack(result.decision.strips), sample.cells.axis())
         if not sample.cells.is_native:
             pairs = tuple(_pair(sample, i) for i in range(min(PIECES, sample.pieces)))
-    return Judge(prepared, result.speed, scaled, strip, pairs, tolerance)
+    return Judge(
+        prepared=prepared, speed=result.speed, scaled=scaled, strip=strip, pairs=pairs, film_tolerance=tolerance
+    )
 
 
 def _strip(surface, x) -> MappedStrip:

@@ -186,9 +186,21 @@ def compared(name: str, result: list[tuple], failed: int, source: str) -> Iterat
     yield Table(name, f"The default answer, and load sharing alone, compared with {source}", COLUMNS, rows)
     for way, said in (("default", "default answer"), ("load sharing", "load sharing alone")):
         inside = float(np.mean(every[way][:, 1] <= every[way][:, 2])) if result else math.nan
-        yield Check(f"{said}: share of {len(result)} intervals with f", inside, 1.0, 0.1, source, ABSOLUTE)
+        yield Check(
+            f"{said}: share of {len(result)} intervals with f",
+            inside,
+            expected=1.0,
+            tolerance=0.1,
+            source=source,
+            kind=ABSOLUTE,
+        )
     yield Check(
-        "default answers that failed, or gave moving roughness to load sharing", failed, 0, 0.0, "the answers", REPORTED
+        "default answers that failed, or gave moving roughness to load sharing",
+        failed,
+        expected=0,
+        tolerance=0.0,
+        source="the answers",
+        kind=REPORTED,
     )
     yield drawn(name, every)
 

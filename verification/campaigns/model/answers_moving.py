@@ -31,7 +31,10 @@ FINE = 160 / 18, 40 / 18  # of these in a correlation length: along x twice thos
 def cases(level: str) -> list[AnswerCase]:
     """The cases of ``level``."""
     every = itertools.product(CONTACTS.items(), RATIOS, SLIPS)
-    values = [AnswerCase("Gaussian", contact, 1.0, ratio, slip, times) for (contact, times), ratio, slip in every]
+    values = [
+        AnswerCase("Gaussian", contact, over=1.0, ratio=ratio, slip=slip, longer=times)
+        for (contact, times), ratio, slip in every
+    ]
     return values[-1:] if level == "quick" else values
 
 

@@ -39,10 +39,23 @@ def boundary_film(level: str, run: Run = Run()) -> Iterator[Item]:
     off = np.maximum(np.maximum(values - high[:, None], low[:, None] - values), 0.0)
     worst = np.nanmax(off, axis=(0, 1))
     for film, distance in zip(FILMS, worst):
-        yield Check(f"{film * 1e9:g} nm: largest distance from the band", distance, 0.0, 1.0, "four laws", REPORTED)
+        yield Check(
+            f"{film * 1e9:g} nm: largest distance from the band",
+            distance,
+            expected=0.0,
+            tolerance=1.0,
+            source="four laws",
+            kind=REPORTED,
+        )
     chosen = FILMS[int(np.argmin(worst))]
     yield Check(
-        "best boundary film", chosen, BOUNDARY_FILM, 0.0, "lubfric's default", unit="m", decisive=level != "quick"
+        "best boundary film",
+        chosen,
+        expected=BOUNDARY_FILM,
+        tolerance=0.0,
+        source="lubfric's default",
+        unit="m",
+        decisive=level != "quick",
     )
     columns = ("film/Sq", "four laws", *(f"h < {film * 1e9:g} nm" for film in FILMS))
     rows = [

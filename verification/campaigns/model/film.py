@@ -34,7 +34,7 @@ def grids(level: str, run: Run = Run()) -> Iterator[Item]:
     table = []
     for speed, change, slopes, times in zip((0.03, 0.01, 0.003), last, order, seconds[..., 2]):
         name = f"{speed:g} m/s, {count} surfaces: largest change of f from {cells[1]} to {cells[2]} cells"
-        yield Check(name, change.max(), ALLOWED[level], 0.0, "the finer grid", AT_MOST)
+        yield Check(name, change.max(), expected=ALLOWED[level], tolerance=0.0, source="the finer grid", kind=AT_MOST)
         result = f"{100 * change.max():.2f} %", f"{slopes.min():.1f} to {slopes.max():.1f}", f"{np.median(times):.0f} s"
         table.append((f"{speed:g}", str(count), *result, f"{memory:.1f} GB"))
     columns: tuple[str, ...] = ("U (m/s)", "surfaces", f"largest change of f, {cells[1]} to {cells[2]}", "order")
@@ -43,8 +43,16 @@ def grids(level: str, run: Run = Run()) -> Iterator[Item]:
     model = patch(1, 32 if level == "quick" else 128)
     speeds = np.geomspace(1.0, 1e-3, 25)
     _, taken = paced(lambda: lubfric.stribeck(model, speeds))
-    yield Check("25 speeds: processor time on the stated core", taken, SECONDS, 0.0, "target", AT_MOST, unit="s")
-    yield Check("memory", memory, MEMORY, 0.0, "of the process", AT_MOST, unit="GB")
+    yield Check(
+        "25 speeds: processor time on the stated core",
+        taken,
+        expected=SECONDS,
+        tolerance=0.0,
+        source="target",
+        kind=AT_MOST,
+        unit="s",
+    )
+    yield Check("memory", memory, expected=MEMORY, tolerance=0.0, source="of the process", kind=AT_MOST, unit="GB")
 
 
 def patch(seed: int, cells: int):

@@ -99,10 +99,26 @@ def random_moving(level: str, run: Run = Run()) -> Iterator[Item]:
     given = np.array([row["drawn"] for row in fine])
     wrong = np.any([~(off[name] <= ALLOWED[name]) for name in BALANCES], axis=0)
     name = f"{len(rows)} random points of moving roughness"
-    yield Check(f"{name}: silently wrong", int(wrong.sum()), 0, 0.0, "balances of the fields", "absolute")
+    yield Check(
+        f"{name}: silently wrong",
+        int(wrong.sum()),
+        expected=0,
+        tolerance=0.0,
+        source="balances of the fields",
+        kind="absolute",
+    )
     what = f"{name}: said to rest on the lubricant of touching cells"
-    yield Check(what, int((given > DRAWN).sum()), 0, 0.0, "the warning of a result", REPORTED)
-    yield Check(f"{name}: said not to be solved", len(rows) - len(fine), 0, 0.0, "the solver's report", REPORTED)
+    yield Check(
+        what, int((given > DRAWN).sum()), expected=0, tolerance=0.0, source="the warning of a result", kind=REPORTED
+    )
+    yield Check(
+        f"{name}: said not to be solved",
+        len(rows) - len(fine),
+        expected=0,
+        tolerance=0.0,
+        source="the solver's report",
+        kind=REPORTED,
+    )
     table = [
         (name, f"{np.median(off[name]):.1e}", f"{np.quantile(off[name], 0.95):.1e}", f"{off[name].max():.1e}",
          f"{ALLOWED[name]:g}") for name in BALANCES

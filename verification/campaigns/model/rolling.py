@@ -95,12 +95,31 @@ def rolling(level: str, run: Run = Run()) -> Iterator[Item]:
     sides = np.array([stated(row["fast"]) for _, row in values])
     stated_error = np.where(off < 0, *sides.T)
     off = np.abs(off)
-    yield Check("moving points that were not solved", len(rows) - len(values), 0, 0.0, "the solver's report", REPORTED)
+    yield Check(
+        "moving points that were not solved",
+        len(rows) - len(values),
+        expected=0,
+        tolerance=0.0,
+        source="the solver's report",
+        kind=REPORTED,
+    )
     name = f"load sharing in rolling: share of {len(values)} points within its stated error"
-    yield Check(name, float(np.mean(off <= stated_error)), HOLDS, 0.0, "moving roughness", AT_LEAST)
+    yield Check(
+        name,
+        float(np.mean(off <= stated_error)),
+        expected=HOLDS,
+        tolerance=0.0,
+        source="moving roughness",
+        kind=AT_LEAST,
+    )
     quantile = float(np.quantile(off / stated_error, SURE))
     yield Check(
-        "load sharing in rolling: error over the stated one, 99 % quantile", quantile, 1.0, 0.0, "moving", REPORTED
+        "load sharing in rolling: error over the stated one, 99 % quantile",
+        quantile,
+        expected=1.0,
+        tolerance=0.0,
+        source="moving",
+        kind=REPORTED,
     )
     columns = ("film/Sq", "f moving / paper", "f moving / at rest", "F_C/F_T: paper", "at rest", "moving")
     caption = "f of moving roughness, and the share of the load at 20 nm, lowest and highest of all that slide"
@@ -139,7 +158,7 @@ def shares(result: list) -> Iterator[Check]:
         off = np.maximum(np.maximum(at - high, low - at), 0).max(axis=0)
         for film, distance in zip(FILMS, off):
             what = f"{name}, h < {film * 1e9:g} nm: largest distance of the share from the band"
-            yield Check(what, distance, 0.0, 1.0, "four laws", REPORTED)
+            yield Check(what, distance, expected=0.0, tolerance=1.0, source="four laws", kind=REPORTED)
 
 
 def drawn(rows: list) -> Figure:

@@ -40,10 +40,22 @@ def running_in(level: str, run: Run = Run()) -> Iterator[Item]:
         table = np.array(columns)
         dented = table[:, 1]
         last = table[:, -1]
-        yield Check(f"{kind}: Sq after over before", last[1], PUBLISHED_SQ, 0.17, "Hansen et al. 2020", REPORTED)
+        yield Check(
+            f"{kind}: Sq after over before",
+            last[1],
+            expected=PUBLISHED_SQ,
+            tolerance=0.17,
+            source="Hansen et al. 2020",
+            kind=REPORTED,
+        )
         ratio = last[2] / table[2, 0]
         yield Check(
-            f"{kind}: lift-off speed after over before", ratio, PUBLISHED_SPEED, 0.9, "Hansen et al. 2020", REPORTED
+            f"{kind}: lift-off speed after over before",
+            ratio,
+            expected=PUBLISHED_SPEED,
+            tolerance=0.9,
+            source="Hansen et al. 2020",
+            kind=REPORTED,
         )
         for name, at in (("dents", dented), ("wear", last)):
             rows.append((kind, name, f"{at[0]:.3g}", f"{at[1]:.3f}", f"{at[2]:.3g}", f"{at[3]:.3g}", f"{at[4]:.4f}"))

@@ -69,8 +69,17 @@ def seeds(level: str, run: Run = Run()) -> Iterator[Item]:
         open_ = np.hypot(error, f.std(ddof=1) / truth / np.sqrt(f.size))
         slack = BIAS + 2 * open_ + SECOND_ORDER * scatter**2
         cheaper = needed / seconds.mean()
-        yield Check(f"{name}: bias of f", bias, 0.0, slack, "strips one by one", ABSOLUTE)
-        yield Check(f"{name}: times cheaper than plain sampling", cheaper, 1.0, 0.0, "strips one by one", REPORTED)
+        yield Check(
+            f"{name}: bias of f", bias, expected=0.0, tolerance=slack, source="strips one by one", kind=ABSOLUTE
+        )
+        yield Check(
+            f"{name}: times cheaper than plain sampling",
+            cheaper,
+            expected=1.0,
+            tolerance=0.0,
+            source="strips one by one",
+            kind=REPORTED,
+        )
         shares = f"{100 * covered:.0f} %", f"{100 * half.mean() / truth:.1f} %", f"{stated / f.std(ddof=1):.2f}"
         costs = f"{seconds.mean():.2g} s", f"{needed:.2g} s", f"{cheaper:.2g}"
         rows.append((name, str(f.size), *shares, f"{100 * bias:+.1f} ± {100 * open_:.1f} %", *costs))

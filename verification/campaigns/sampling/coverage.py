@@ -64,7 +64,7 @@ def _other(name: str, **changes: dict[str, float | str | tuple[float, float]]) -
 
 SPEEDS = (
     CoverageCase("0.003 m/s", 0.003),
-    CoverageCase("0.01 m/s", 0.01, 0.01),
+    CoverageCase("0.01 m/s", 0.01, target=0.01),
     CoverageCase("0.03 m/s", 0.03),
     CoverageCase("0.046 m/s", 0.046),
 )
@@ -230,9 +230,16 @@ def checks(result: Result) -> Iterator[Check]:
     decides = float(result.column("few").mean()) <= 0.5
     yield within(f"{case.name}: coverage", float(result.covered.mean()), n, case.bounds, ENDLESS, decides)
     slack = RATIO + CHANCE / math.sqrt(2 * n)
-    yield Check(f"{case.name}: reported over scatter", result.ratio, 1.0, slack, "scatter of the trials", ABSOLUTE)
+    yield Check(
+        f"{case.name}: reported over scatter",
+        result.ratio,
+        expected=1.0,
+        tolerance=slack,
+        source="scatter of the trials",
+        kind=ABSOLUTE,
+    )
     slack = BIAS * case.target + CHANCE * result.bias_error
-    yield Check(f"{case.name}: bias of f", result.bias, 0.0, slack, ENDLESS, ABSOLUTE)
+    yield Check(f"{case.name}: bias of f", result.bias, expected=0.0, tolerance=slack, source=ENDLESS, kind=ABSOLUTE)
 
 
 def within(
@@ -241,7 +248,13 @@ def within(
     """A check of a share of trials between two bounds, with what chance does to it."""
     low, high = bounds
     return Check(
-        name, measured, (high + low) / 2, (high - low) / 2 + chance(trials), source, ABSOLUTE, decisive=decides
+        name,
+        measured,
+        expected=(high + low) / 2,
+        tolerance=(high - low) / 2 + chance(trials),
+        source=source,
+        kind=ABSOLUTE,
+        decisive=decides,
     )
 
 

@@ -75,7 +75,14 @@ def quantities(level: str, run: Run = Run()) -> Iterator[Item]:
                 (f"`{name}`", f"{len(stated)} of {len(values)}", f"{100 * held:.0f} %", f"{100 * median:.2g} %")
             )
             words = f"{name}: within its stated error in {len(stated)} scenes"
-            yield Check(words, held, WITHIN, chance(len(stated)), "the same scene at 0.01 %", AT_LEAST)
+            yield Check(
+                words,
+                held,
+                expected=WITHIN,
+                tolerance=chance(len(stated)),
+                source="the same scene at 0.01 %",
+                kind=AT_LEAST,
+            )
     columns = ("quantity", "scenes that state an error", "within it", "median of it")
     yield Table("sampling-numbers", "Every quantity compared with its stated error", columns, rows)
 

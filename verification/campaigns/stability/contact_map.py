@@ -142,8 +142,10 @@ def loads(quick: bool) -> Iterator[Cell]:
         for row, kind in enumerate(SURFACES):
             flat = full_contact(surface(kind, n, n))
             for share in (1e-9, 1e-2, 1.5) if quick else many:
-                asked = Pressed(kind, (n, n), boundary, share * flat, second=boundary == PERIODIC)
-                yield Cell("contact: load and surface", label, share, row, asked)
+                asked = Pressed(
+                    kind, (n, n), boundary=boundary, mean_pressure=share * flat, second=boundary == PERIODIC
+                )
+                yield Cell("contact: load and surface", label, x=share, y=row, problem=asked)
 
 
 def hardnesses(quick: bool) -> Iterator[Cell]:
@@ -155,8 +157,8 @@ def hardnesses(quick: bool) -> Iterator[Cell]:
             for hardness in np.geomspace(1e-5, 1, 3 if quick else 6).tolist():
                 for share in (1e-4, 0.5, 1.0) if quick else many:
                     limit = hardness * E_PRIME
-                    asked = Pressed(kind, (n, n), boundary, share * limit, hardness=limit)
-                    yield Cell("contact: hardness", f"{kind}, {label}", hardness, share, asked)
+                    asked = Pressed(kind, (n, n), boundary=boundary, mean_pressure=share * limit, hardness=limit)
+                    yield Cell("contact: hardness", f"{kind}, {label}", x=hardness, y=share, problem=asked)
 
 
 def sizes(quick: bool) -> Iterator[Cell]:
@@ -167,9 +169,9 @@ def sizes(quick: bool) -> Iterator[Cell]:
         for aspect in (1.0, 50.0) if quick else (0.02, 0.1, 1.0, 10.0, 50.0):
             for label, boundary in BOUNDARIES.items():
                 for pressure in (1e8,) if quick else (1e6, 1e9, 3e10):
-                    asked = Pressed("exponential", shape, boundary, pressure, aspect=aspect)
+                    asked = Pressed("exponential", shape, boundary=boundary, mean_pressure=pressure, aspect=aspect)
                     panel = f"{label}, {pressure / 1e6:g} MPa"
-                    yield Cell("contact: size and aspect ratio", panel, aspect, row, asked)
+                    yield Cell("contact: size and aspect ratio", panel, x=aspect, y=row, problem=asked)
 
 
 def gaps(quick: bool) -> Iterator[Cell]:
@@ -182,8 +184,8 @@ def gaps(quick: bool) -> Iterator[Cell]:
             hardness = None if row % 2 else 0.05 * E_PRIME
             for share in (1e-3, 0.5, 0.99) if quick else (1e-6, 1e-4, 1e-2, 0.1, 0.3, 0.6, 0.9, 0.999):
                 if hardness is None or share >= 1e-2:
-                    asked = Pressed(kind, (n, n), boundary, mean_gap=share * touching, hardness=hardness)
-                    yield Cell("contact: mean gap", label, share, row, asked)
+                    asked = Pressed(kind, (n, n), boundary=boundary, mean_gap=share * touching, hardness=hardness)
+                    yield Cell("contact: mean gap", label, x=share, y=row, problem=asked)
 
 
 def heights(quick: bool) -> Iterator[Cell]:
@@ -192,7 +194,7 @@ def heights(quick: bool) -> Iterator[Cell]:
         for sigma in np.geomspace(1e-12, 1e-3, 4 if quick else 10).tolist():
             for pressure in (1e6, 1e9) if quick else (1e3, 1e6, 1e8, 1e10):
                 asked = Pressed(kind, (40, 40), mean_pressure=pressure, sigma=sigma, second=True)
-                yield Cell("contact: roughness height", kind, sigma, pressure, asked)
+                yield Cell("contact: roughness height", kind, x=sigma, y=pressure, problem=asked)
 
 
 def tilts(quick: bool) -> Iterator[Cell]:
@@ -202,9 +204,11 @@ def tilts(quick: bool) -> Iterator[Cell]:
         for tilt in (0.0, 100.0) if quick else (0.0, 1.0, 10.0, 100.0, 1000.0):
             for offset in (0.0, 1e-3) if quick else (0.0, 1e-3, 1.0):
                 for pressure in (1e8,) if quick else (1e6, 1e8, 1e10):
-                    asked = Pressed("exponential", (n, n), boundary, pressure, tilt=tilt, offset=offset)
+                    asked = Pressed(
+                        "exponential", (n, n), boundary=boundary, mean_pressure=pressure, tilt=tilt, offset=offset
+                    )
                     panel = f"{label}, {pressure / 1e6:g} MPa"
-                    yield Cell("contact: tilt and offset", panel, tilt, offset, asked)
+                    yield Cell("contact: tilt and offset", panel, x=tilt, y=offset, problem=asked)
 
 
 def precisions(quick: bool) -> Iterator[Cell]:
@@ -216,4 +220,4 @@ def precisions(quick: bool) -> Iterator[Cell]:
                     "exponential", (48, 48), mean_pressure=pressure, tolerance=tolerance, single=single, start=start
                 )
                 panel = f"{pressure / 1e6:g} MPa"
-                yield Cell("contact: precision, tolerance, start", panel, tolerance, row, asked)
+                yield Cell("contact: precision, tolerance, start", panel, x=tolerance, y=row, problem=asked)

@@ -127,7 +127,7 @@ def tolerances(quick: bool) -> Iterator[Cell]:
     for row, (M, L) in enumerate(few if quick else many):
         for tolerance in (0.1, 1e-2, 1e-3) if quick else (0.1, 0.05, 0.03, 0.01, 3e-3, 1e-3, 3e-4):
             film = FilmCell(case_of(M, L), tolerance)
-            yield Cell("film: tolerance", "cases by M, L", row, tolerance, film, "solve_ehl")
+            yield Cell("film: tolerance", "cases by M, L", x=row, y=tolerance, problem=film, method="solve_ehl")
 
 
 def starts(quick: bool) -> Iterator[Cell]:
@@ -137,7 +137,7 @@ def starts(quick: bool) -> Iterator[Cell]:
     for column, start in enumerate(few if quick else many):
         for row, (M, L) in enumerate(few if quick else many):
             film = FilmCell(case_of(M, L), start=start)
-            yield Cell("film: poor start", "cases by M, L", column, row, film, "solve_ehl")
+            yield Cell("film: poor start", "cases by M, L", x=column, y=row, problem=film, method="solve_ehl")
 
 
 def starved(quick: bool) -> Iterator[Cell]:
@@ -149,4 +149,4 @@ def starved(quick: bool) -> Iterator[Cell]:
             case["inlet_length"] = half_width + share * math.sqrt(
                 2 * RADIUS * moes_film(M, 10) * moes_unit(case["entrainment_speed"])
             )
-            yield Cell("film: starved inlet", "L = 10", M, share, FilmCell(case), "solve_ehl")
+            yield Cell("film: starved inlet", "L = 10", x=M, y=share, problem=FilmCell(case), method="solve_ehl")

@@ -43,7 +43,9 @@ def cells(quick: bool) -> Iterator[Cell]:
             for speed in (0.01, 0.3) if quick else np.geomspace(1e-3, 1.0, 10).tolist():
                 name = f"whole: Sq {1e9 * sq:g} nm"
                 problem = (sq, load, speed)
-                yield Cell(name, "load by speed", load, speed, problem, "deterministic", inside=False)
+                yield Cell(
+                    name, "load by speed", x=load, y=speed, problem=problem, method="deterministic", inside=False
+                )
 
 
 def solve(cell: Cell):
@@ -61,7 +63,7 @@ def bearing(sq: float, load: float, speed: float, seed: int = 1, across: int = A
     surface = lubfric.generate_surface(
         (128 * across // ACROSS, across), WIDTH / across, sq=sq, correlation_length=10e-6, acf="gaussian", seed=seed
     )
-    contact = LineContact(load, RADIUS, E_PRIME, speed, OIL)
+    contact = LineContact(load_per_width=load, radius=RADIUS, e_prime=E_PRIME, entrainment_speed=speed, lubricant=OIL)
     return lay_out(surface, contact, sliding=2 * speed, boundary_friction=FRICTION, hardness=HARDNESS)
 
 

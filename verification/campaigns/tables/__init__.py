@@ -29,7 +29,7 @@ def written(level: str, name: str, run: Run = Run()) -> Iterator[Item]:
     """One table, measured now."""
     columns, rows = TABLES[name]()
     yield Table(name, caption(name), columns, rows)
-    yield Check(f"{name}: rows", len(rows), 1, 0.0, "a table says something", AT_LEAST)
+    yield Check(f"{name}: rows", len(rows), expected=1, tolerance=0.0, source="a table says something", kind=AT_LEAST)
 
 
 def _options(parser: ArgumentParser) -> None:

@@ -64,9 +64,22 @@ def asperities() -> Iterator[Check]:
         s = lubfric.load_scene("paper").with_(bodies={"hardness": hardness}, contact=contact, numerics=DRY)
         return lubfric.friction(prepare(s, surface), 0.0).real_contact_area_fraction
 
-    yield Check("soft summits, flat: area", area("flat", 2.5e8), 102e6 / 2.5e8, 0.03, "load over hardness")
+    yield Check(
+        "soft summits, flat: area",
+        area("flat", 2.5e8),
+        expected=102e6 / 2.5e8,
+        tolerance=0.03,
+        source="load over hardness",
+    )
     softer = area("cylinder", 2.5e8) / area("cylinder", None)
-    yield Check("soft summits, cylinder: area over the elastic one", softer, 2.0, 0.0, "softer", AT_LEAST)
+    yield Check(
+        "soft summits, cylinder: area over the elastic one",
+        softer,
+        expected=2.0,
+        tolerance=0.0,
+        source="softer",
+        kind=AT_LEAST,
+    )
 
 
 def cylinder() -> Iterator[Check]:
@@ -104,17 +117,39 @@ def coarse() -> Iterator[Check]:
     made = parts.half_space(prepare(s, lubfric.Surface(z, (0.5e-6, 0.5e-6))))
     expected = np.interp(made.x, x, z[:, 0])
     off = np.abs(made.heights - (expected - expected.mean())[:, None]).max() / z.std() + float(made.x.size == 128)
-    yield Check("coarse cells: largest error of a height over Sq", float(off), 0.0, 1e-6, "the map there", "absolute")
+    yield Check(
+        "coarse cells: largest error of a height over Sq",
+        float(off),
+        expected=0.0,
+        tolerance=1e-6,
+        source="the map there",
+        kind="absolute",
+    )
 
 
 def columns() -> Iterator[Check]:
     """The share in contact of stretches of x: it sums to all of it, and lies about the right place."""
     x = np.arange(-5.0, 6.0)
     share = np.array([0, 0, 1, 0.5, 0, 0, 0, 0.2, 0, 0, 0.0])
-    state = ContactState(1.0, 1.0, x, share, 0.0, 0.0)
+    state = ContactState(
+        mean_gap=1.0,
+        mean_film=1.0,
+        x=x,
+        contact_fraction=share,
+        real_contact_area_fraction=0.0,
+        plastic_area_fraction=0.0,
+    )
     edges = np.linspace(-6.0, 6.0, 481)
     result = state.touching(edges) * np.diff(edges)
     middle = 0.5 * (edges[1:] + edges[:-1])
-    yield Check("columns in contact: sum", float(result.sum()), 1.7, 1e-9, "the sum of the columns")
+    yield Check(
+        "columns in contact: sum", float(result.sum()), expected=1.7, tolerance=1e-9, source="the sum of the columns"
+    )
     centre = float(share @ x / share.sum())
-    yield Check("columns in contact: centre", float(result @ middle / result.sum()), centre, 1e-9, "their first moment")
+    yield Check(
+        "columns in contact: centre",
+        float(result @ middle / result.sum()),
+        expected=centre,
+        tolerance=1e-9,
+        source="their first moment",
+    )

@@ -78,9 +78,23 @@ def measured(folder: Path) -> Iterator[Check]:
         off = (
             np.inf if result.heights.shape != heights.shape else np.abs(result.heights - heights).max() / heights.std()
         )
-        yield Check(f"map, {name}: largest error over Sq", min(off, 1e9), 0.0, 1e-6, OWN, ABSOLUTE)
+        yield Check(
+            f"map, {name}: largest error over Sq",
+            min(off, 1e9),
+            expected=0.0,
+            tolerance=1e-6,
+            source=OWN,
+            kind=ABSOLUTE,
+        )
         for axis in range(2):
-            yield Check(f"map, {name}: cell along {'xy'[axis]}", result.spacing[axis], cells[axis], 1e-9, OWN, unit="m")
+            yield Check(
+                f"map, {name}: cell along {'xy'[axis]}",
+                result.spacing[axis],
+                expected=cells[axis],
+                tolerance=1e-9,
+                source=OWN,
+                unit="m",
+            )
 
 
 def made(rough: Roughness, contact: dict) -> HalfSpaceContact:
@@ -98,13 +112,29 @@ def generated() -> Iterator[Check]:
         s = PATCH.with_(surface=rough, contact={"shape": (512, 512), "spacing": 0.5e-6})
         maps[seed] = prepare(s).surface.heights
     z = maps[1] - maps[1].mean()
-    yield Check("generated map: Sq", float(z.std()), 80e-9, 1e-6, "the requested value", unit="m")
+    yield Check(
+        "generated map: Sq", float(z.std()), expected=80e-9, tolerance=1e-6, source="the requested value", unit="m"
+    )
     for axis, (name, length) in enumerate((("x", 3e-6), ("y", 6e-6))):
         cells = round(length / 0.5e-6)
         value = float(np.mean(z * np.roll(z, cells, axis)) / np.mean(z * z))
         words = f"generated map: autocorrelation at the length along {name}"
-        yield Check(words, value, 0.2, 0.06, "the requested value", ABSOLUTE)
+        yield Check(words, value, expected=0.2, tolerance=0.06, source="the requested value", kind=ABSOLUTE)
     far = float(np.mean(z * np.roll(z, 24, 0)) / np.mean(z * z))
-    yield Check("generated map: autocorrelation at four lengths", abs(far), 0.0, 0.12, "Gaussian: none left", AT_MOST)
+    yield Check(
+        "generated map: autocorrelation at four lengths",
+        abs(far),
+        expected=0.0,
+        tolerance=0.12,
+        source="Gaussian: none left",
+        kind=AT_MOST,
+    )
     apart = float(np.sqrt(np.mean((maps[1] - maps[2]) ** 2)) / 80e-9)
-    yield Check("generated map: difference of two seeds over Sq", apart, 1.2, 0.0, "independent: 1.41", AT_LEAST)
+    yield Check(
+        "generated map: difference of two seeds over Sq",
+        apart,
+        expected=1.2,
+        tolerance=0.0,
+        source="independent: 1.41",
+        kind=AT_LEAST,
+    )

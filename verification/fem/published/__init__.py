@@ -34,7 +34,9 @@ def summary(report) -> str:
 
 
 LEVELS = ("default", "full")
-COMMAND = frame.Command("published", __doc__, PUBLISHED, "out/published", LEVELS, finished=lambda r, o: summary(r))
+COMMAND = frame.Command(
+    "published", __doc__, studies=PUBLISHED, out="out/published", levels=LEVELS, finished=lambda r, o: summary(r)
+)
 
 
 def against(

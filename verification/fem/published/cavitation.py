@@ -50,11 +50,21 @@ class Pad:
         gap[:nx, :ny] = p.wedge(x)[:, None]
         gap[:nx, :ny] += p.depth * (p.inside(x)[:, None] & (2 * np.abs(y) < p.across - 1e-9))
         alpha, law = (p.alpha, "barus") if p.alpha else (0.0, "constant")
-        oil = Lubricant(p.viscosity, alpha, law, density_law=self.density)
+        oil = Lubricant(p.viscosity, alpha, viscosity_law=law, density_law=self.density)
         x = (np.arange(nx + 1) + 0.5) * dx
         heights = (x**2 / (2 * CURVATURE))[:, None] - (gap - p.end)
         operator = half_space(gap.shape, (dx, dy), RIGID, ("free", "periodic"))
-        return Problem(LineContact(load, CURVATURE, RIGID, p.speed, oil), 0.0, x, heights, operator, 0.1, floor=1e-12)
+        return Problem(
+            contact=LineContact(
+                load_per_width=load, radius=CURVATURE, e_prime=RIGID, entrainment_speed=p.speed, lubricant=oil
+            ),
+            sliding=0.0,
+            x=x,
+            heights=heights,
+            operator=operator,
+            boundary_friction=0.1,
+            floor=1e-12,
+        )
 
     def solved(self, load: float) -> tuple[float, Profile]:
         """Gap at the end of the pad [m], and the pressure, from an even one."""
@@ -62,7 +72,14 @@ class Pad:
         on = problem.rigid_gap < DEEP / 2
         p = np.where(on, load / self.pocket.length, 0.0)
         kind = np.where(on, FLUID, RUPTURED).astype(np.int8)
-        start = State(p, np.ones_like(p), np.zeros_like(p), kind, np.zeros(p.shape, bool), self.pocket.end)
+        start = State(
+            pressure=p,
+            fill=np.ones_like(p),
+            dent=np.zeros_like(p),
+            kind=kind,
+            yielded=np.zeros(p.shape, bool),
+            approach=self.pocket.end,
+        )
         solution = solve_point(problem, start=start, tolerance=1e-6)
         middle = solution.pressure[:-1, self.cells[1] // 2]
         return solution.state.approach, (problem.x[:-1] / self.pocket.length, middle / 1e6)

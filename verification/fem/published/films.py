@@ -96,7 +96,7 @@ def rigid() -> Iterator[Check]:
     where = solution.rupture / math.sqrt(2 * RADIUS * h0)
     yield against("swift", "rigid cylinder, rupture of the film", where, r["rupture"], own(solution))
 
-    closed = Parabola(VISCOSITY, solution.entrainment_speed, RADIUS, h0)
+    closed = Parabola(viscosity=VISCOSITY, speed=solution.entrainment_speed, radius=RADIUS, film_thickness=h0)
     yield against("swift", "rupture, closed form of the verification", closed.exit, r["rupture"], 1e-9)
     rolled = closed.rolling / (2 * VISCOSITY * solution.entrainment_speed * math.sqrt(RADIUS / h0))
     yield against("martin", "rolling force, closed form of the verification", rolled, r["rolling"], 1e-9)

@@ -136,7 +136,7 @@ def rigid() -> Iterator[Check]:
 def eyring(m: float, l: float, stress: float, ratio: float) -> Check:
     """Compare the traction of a heavy contact (Barus, Eyring) with the published law at the central film of lubfric."""
     solution = film(m, l, law="barus")
-    ours = force(solution, Lubricant(VISCOSITY, ALPHA, "barus", eyring_stress=stress), ratio).couette
+    ours = force(solution, Lubricant(VISCOSITY, ALPHA, viscosity_law="barus", eyring_stress=stress), ratio).couette
     rate = ratio * solution.entrainment_speed / solution.central_film
     half_width, peak = references.hertz_line(solution.contact.load_per_width, RADIUS, E_PRIME)
     theirs = references.eyring_force(stress, VISCOSITY, ALPHA, rate, half_width, peak)

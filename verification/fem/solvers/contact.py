@@ -21,7 +21,7 @@ ROUNDING = 1e-12  # of the load; what saturated nodes may carry beyond it
 PATIENCE = 8  # steps without fewer nodes in the wrong place, before they are moved one at a time
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Contact:
     """Nodal fields (n,) of a contact, in the order of ``gap0``.
 
@@ -42,7 +42,7 @@ class Contact:
     report: SolveReport
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ContactProblem:
     """Checked input of `solve_contact`. ``limit`` is the limit of the nodal forces (inf without a cap)."""
 
@@ -127,7 +127,14 @@ def checked(
     most = np.inf if limit is None else limit
     carried = f"> 0, < what limit = {most:g} Pa carries on {weights.sum():g} m or m^2"
     require(most > 0 and 0 < load < most * weights.sum(), f"load = {load:g} N or N/m", carried)
-    return ContactProblem(displacement, weights, gap0, float(load), most * weights, tolerance)
+    return ContactProblem(
+        displacement=displacement,
+        weights=weights,
+        gap0=gap0,
+        load=float(load),
+        limit=most * weights,
+        tolerance=tolerance,
+    )
 
 
 def active_set(
@@ -251,7 +258,22 @@ def finish(problem: ContactProblem, force: FloatArray, steps: tuple[int, list[fl
         "complementarity": float(force @ off / (scale * force.sum())),
         "load": float(abs(force.sum() / problem.load - 1)),
     }
-    report = SolveReport(SOLVER, status, iterations, problem.tolerance, residuals, tuple(history))
+    report = SolveReport(
+        solver=SOLVER,
+        status=status,
+        iterations=iterations,
+        tolerance=problem.tolerance,
+        residuals=residuals,
+        history=tuple(history),
+    )
     status = CONVERGED if report.residual <= problem.tolerance else STAGNATED if status == CONVERGED else status
     report = replace(report, status=status)
-    return Contact(force / problem.weights, gap, displacement, approach, force > 0, saturated, report)
+    return Contact(
+        pressure=force / problem.weights,
+        gap=gap,
+        displacement=displacement,
+        approach=approach,
+        touching=force > 0,
+        saturated=saturated,
+        report=report,
+    )

@@ -218,12 +218,12 @@ def make_layout(contact: LineContact, fineness: float, side: float) -> Layout:
     l = math.sqrt(2 * film)
     edge = math.hypot(1, 0.475 * l)
     return Layout(
-        side * math.hypot(1, l),
-        -(3 + 20 * l),
-        2 + 2 * l,
-        (-edge, edge),
-        0.5 * l * (l / (1 + l)) ** (1 / 3) / fineness,
-        0.5 / fineness,
+        side=side * math.hypot(1, l),
+        inlet=-(3 + 20 * l),
+        outlet=2 + 2 * l,
+        edges=(-edge, edge),
+        fine=0.5 * l * (l / (1 + l)) ** (1 / 3) / fineness,
+        growth=0.5 / fineness,
     )
 
 

@@ -28,7 +28,7 @@ NEAR = 1e-9  # of the side: the same point
 QUARTERS = np.array([(i, j) for i in range(5) for j in range(5 - i)]).T / 4  # P2 nodes of the four parts of a triangle
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Layout:
     """Where the mesh is fine. Lengths are in b.
 
@@ -71,7 +71,7 @@ def graded_mesh(layout: Layout) -> tuple[MeshTri, Layout]:
     )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Body:
     """The discrete body and the line on top of it.
 
@@ -135,7 +135,14 @@ def make_body(mesh: MeshTri, layout: Layout) -> Body:
     line = Basis(MeshLine(x), ElementLineP2(), intorder=8)
     trace = trace_matrix(basis, line)[:, free]
     mass = BilinearForm(lambda u, v, w: u * v).assemble(line)
-    return Body(basis, line, free, stiffness.tocsc(), (trace.T @ mass).tocsc(), trace.tocsc())
+    return Body(
+        basis=basis,
+        line=line,
+        free=free,
+        stiffness=stiffness.tocsc(),
+        traction=(trace.T @ mass).tocsc(),
+        trace=trace.tocsc(),
+    )
 
 
 def trace_matrix(basis: Basis, line: Basis) -> sp.csr_matrix:

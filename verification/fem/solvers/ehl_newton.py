@@ -79,7 +79,18 @@ def newton(
         it = step(body, film, it, at, weights)
     steps = len(history) - 1
     solver = "full-system finite-element EHL"
-    return it, at.flow.inflow, SolveReport(solver, status, steps, tolerance, residuals, tuple(history))
+    return (
+        it,
+        at.flow.inflow,
+        SolveReport(
+            solver=solver,
+            status=status,
+            iterations=steps,
+            tolerance=tolerance,
+            residuals=residuals,
+            history=tuple(history),
+        ),
+    )
 
 
 def imbalance(body: Body, film: FilmEquations, it: Iterate, weights: np.ndarray) -> Imbalance:

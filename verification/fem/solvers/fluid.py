@@ -65,7 +65,7 @@ class Fluid:
         return cls(
             oil["viscosity"],
             oil.get("viscosity_law", "roelands") if alpha else "constant",
-            alpha,
+            pressure_viscosity_coefficient=alpha,
             density_law=oil.get("density_law", "constant"),
             eyring_stress=oil.get("eyring_stress") or math.inf,
             limiting_stress=None if limit is None else (oil.get("limiting_stress_offset", 0.0), limit),

@@ -23,7 +23,7 @@ NEAR = 1e-9  # of the thickness: the same point
 BLOCK = 64  # right-hand sides solved at a time
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Layer:
     """The discrete layer and the nodes of its surface that may carry force.
 
@@ -131,7 +131,14 @@ def make_layer(
         inside &= x < right - near
     chosen = vertical[inside][np.argsort(x[inside])]
     unknowns = spread[chosen].tocsr().indices
-    return Layer(body, basis, spread, basis.doflocs[0, chosen], (spread.T @ weights)[unknowns], unknowns)
+    return Layer(
+        body=body,
+        basis=basis,
+        spread=spread,
+        x=basis.doflocs[0, chosen],
+        weights=(spread.T @ weights)[unknowns],
+        unknowns=unknowns,
+    )
 
 
 def spread_matrix(basis: Basis, periodic: bool) -> sp.csc_matrix:

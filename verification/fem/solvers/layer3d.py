@@ -23,7 +23,7 @@ ELEMENTS = {1: ElementHex1, 2: ElementHex2}
 RULES = {1: np.array([1.0]), 2: np.array([1 / 3, 2 / 3])}  # share of a cell's width by node, trapezoid and Simpson
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Layer3D:
     """What the layer is made of, and its grid.
 
@@ -211,5 +211,12 @@ def solve(grid: Multigrid, force: FloatArray, *, tolerance: float = 1e-8, max_it
     status = CONVERGED if residual <= tolerance else ITERATION_LIMIT
     solver = "smoothed aggregation, conjugate gradients"
     past = tuple(r / scale for r in history)
-    report = SolveReport(solver, status, len(history) - 1, tolerance, {"equilibrium": residual}, past)
+    report = SolveReport(
+        solver=solver,
+        status=status,
+        iterations=len(history) - 1,
+        tolerance=tolerance,
+        residuals={"equilibrium": residual},
+        history=past,
+    )
     return report.checked(LayerSolution(result.reshape(layer.planes, *layer.shape, 3), report))

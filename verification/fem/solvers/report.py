@@ -33,7 +33,7 @@ class SolveError(RuntimeError):
         return self.args[0]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class SolveReport:
     """Outcome of an iterative solve, converged when ``residual`` (largest of ``residuals``) <= ``tolerance``.
 

@@ -42,7 +42,7 @@ STABILISATIONS = ("none", "supg")
 LARGEST_STEP = 3.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ReynoldsProblem:
     """What is solved. Lengths in m, speeds in m/s.
 
@@ -90,7 +90,7 @@ class ReynoldsProblem:
         return ELEMENTS[names[0]] if names else None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ReynoldsSolution:
     """Pressure and how it was found.
 
@@ -268,8 +268,15 @@ def solve_reynolds(
             break
         p = p + newton_step(problem, matrix, r, p, held, cavitated)
     steps = len(history) - 1
-    report = SolveReport("Reynolds finite elements", status, steps, tolerance, residuals, tuple(history))
-    return report.checked(ReynoldsSolution(problem, basis, p, r, report))
+    report = SolveReport(
+        solver="Reynolds finite elements",
+        status=status,
+        iterations=steps,
+        tolerance=tolerance,
+        residuals=residuals,
+        history=tuple(history),
+    )
+    return report.checked(ReynoldsSolution(problem=problem, basis=basis, pressure=p, reaction=r, report=report))
 
 
 def solve_refined(problem: ReynoldsProblem, refinements: int, **options) -> list[ReynoldsSolution]:

@@ -368,7 +368,14 @@ def newton(
         p = p + share * change
         approach = approach + share * rise
     steps = len(history) - 1
-    report = SolveReport("rough EHL by finite elements", status, steps, tolerance, residuals, tuple(history))
+    report = SolveReport(
+        solver="rough EHL by finite elements",
+        status=status,
+        iterations=steps,
+        tolerance=tolerance,
+        residuals=residuals,
+        history=tuple(history),
+    )
     return p, approach, at, report, touching
 
 

@@ -21,7 +21,7 @@ COARSE = 160  # cells of it, geometrically longer
 SYMMETRY = 1e-6
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class GivenGap:
     """A gap that is given on cells.
 
@@ -110,10 +110,10 @@ def rough_film(given: GivenGap, fluid: Fluid, speed: float, *, cells: int) -> Ro
     """Solve for the pressure in ``given`` at the entrainment ``speed`` [m/s]. The film ruptures where it would pull."""
     width = given.width
     problem = ReynoldsProblem(
-        mesh_of(given, cells),
-        given.film,
-        fluid,
-        speed,
+        mesh=mesh_of(given, cells),
+        film=given.film,
+        fluid=fluid,
+        speed=speed,
         open_boundary=lambda middle: (middle[1] < 1e-9 * width) | (middle[1] > width * (1 - 1e-9)),
         given=given.prescribed if given.contact.any() else None,
         cavitation=True,

@@ -66,7 +66,7 @@ class Bodies:
         return Under(np.maximum(solution.gap, 0).mean(axis=1), (solution.pressure > 0).mean(axis=1), solution)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class FlatBodies:
     """Bodies as `Bodies`, with roughness that is the same all over the Hertz strip of the total load (paper, Sec. 3.1).
 
@@ -110,7 +110,7 @@ class Under:
     pressed: Contact | None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class SharedLoad:
     """A division of the load.
 
@@ -172,7 +172,14 @@ def share_load(
     history = tuple(abs(s.residual) for s in tried.values())
     status = CONVERGED if min(history) <= tolerance else ITERATION_LIMIT
     residuals = {"volume": min(history)}
-    report = SolveReport("load sharing by finite elements", status, len(history), tolerance, residuals, history)
+    report = SolveReport(
+        solver="load sharing by finite elements",
+        status=status,
+        iterations=len(history),
+        tolerance=tolerance,
+        residuals=residuals,
+        history=history,
+    )
     return report.checked(replace(best(tried), report=report))
 
 
@@ -226,7 +233,17 @@ def loads_at(bodies: Bodies | FlatBodies, split: float, refinements: int) -> Sha
     f = float(math.copysign(1.0, bodies.sliding) * (boundary + couette + rolling) / bodies.load)
     gap, mean_film, area = (float(weight @ values) for values in (under.gap, shape, under.touching))
     return SharedLoad(
-        film_load, contact_load, couette, rolling, f, gap, mean_film, area, film, under.pressed, film.report
+        film_load=film_load,
+        contact_load=contact_load,
+        couette=couette,
+        rolling=rolling,
+        coefficient=f,
+        mean_gap=gap,
+        mean_film=mean_film,
+        area=area,
+        film=film,
+        pressed=under.pressed,
+        report=film.report,
     )
 
 

@@ -45,7 +45,7 @@ class Law:
         return r * sign, r / size / (1 + (n - 1) * r * r / (1 + r * r))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ThinnedFilm(FilmEquations):
     """A `FilmEquations` of a fluid with a ``law``; stress_per_film [Pa]: the Newtonian stress of sliding at the film b^2/R and
     eta = eta0; pull [Pa]: h dp/dx/2 at that film and dP/dX = 1."""
@@ -88,7 +88,13 @@ def solve_thinned(
     for times in STAGES:
         stage = replace(law, critical=times * law.critical)
         film = ThinnedFilm(
-            plain.line, plain.fluid, plain.hertz_pressure, plain.speed_parameter, plain.penalty, **units, law=stage
+            line=plain.line,
+            fluid=plain.fluid,
+            hertz_pressure=plain.hertz_pressure,
+            speed_parameter=plain.speed_parameter,
+            penalty=plain.penalty,
+            **units,
+            law=stage,
         )
         end, flow, report = newton(body, film, end, 1e-7, 40)
         report.checked(None)

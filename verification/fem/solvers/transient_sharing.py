@@ -69,7 +69,7 @@ def share_in_time(
     at = ehl.solve_ehl(contact, refinements=refinements)[-1]
     unit = step * contact.entrainment_speed / contact.half_width
     start = started(at, begun.film)
-    steady = Moving(at, 0.0, 0.0, REST, unit, 1.0)
+    steady = Moving(at=at, now=0.0, before=0.0, rates=REST, length=unit, pace=1.0)
     state, moment, split = balanced(bodies, steady, start, begun.split, 0.0, tolerance, max_evaluations)
     yield moment
     now = content(at, state.P, film_of(at, state))
@@ -80,14 +80,14 @@ def share_in_time(
         time = count * step
         pace = speed(time) / contact.entrainment_speed
         require(pace > SMALLEST_SPEED, f"speed = {pace:g} U0", f"> {SMALLEST_SPEED:g} U0")
-        moving = Moving(at, now, before, BDF2 if count > 1 else EULER, unit, pace)
+        moving = Moving(at=at, now=now, before=before, rates=BDF2 if count > 1 else EULER, length=unit, pace=pace)
         state, moment, split = balanced(bodies, moving, state, split, time, tolerance, max_evaluations)
         before = now
         now = content(at, state.P, film_of(at, state))
         yield moment
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Moving:
     """A step in time of the film ``at`` the total load: its mass ``now`` and ``before``, the rates of BDF2 or Euler
     (0: a steady film), its length [b/U0], and the speed over U0."""
@@ -146,7 +146,7 @@ def started(at: ehl.EHLSolution, film: ehl.EHLSolution) -> TransientFilmState:
     middle = int(np.argmin(np.abs(at.body.x)))
     gap = film.at(np.array([0.0]))[1][0] / at.contact.film_unit
     state = TransientFilmState(P, gap - float((at.body.compliance @ P)[middle]), P <= 0)
-    return stepped(Moving(at, 0.0, 0.0, REST, 1.0, 1.0), state, share)
+    return stepped(Moving(at=at, now=0.0, before=0.0, rates=REST, length=1.0, pace=1.0), state, share)
 
 
 def film_of(at: ehl.EHLSolution, state: TransientFilmState) -> np.ndarray:

@@ -86,9 +86,15 @@ def hertz(level: str):
             rows.append((f"P{degree}", layer.x.size, fine, errors[-1], off[-1], peak, p.report.iterations))
         check = f"Hertz line P{degree}: order of the pressure error"
         why = "an edge like a square root in some cell"
-        series.append(Series(f"P{degree}", fines, errors, 1, check, 0.3, why, AT_LEAST))
-    yield Check("Hertz line P2: peak pressure", p.pressure.max(), PEAK, 5e-3, HERTZ, unit="Pa")
-    yield Check("Hertz line P2: half-width", half_width(layer.x, p.pressure), B, 5e-3, HERTZ, unit="m")
+        series.append(
+            Series(f"P{degree}", fines, errors=errors, order=1, check=check, tolerance=0.3, source=why, kind=AT_LEAST)
+        )
+    yield Check(
+        "Hertz line P2: peak pressure", p.pressure.max(), expected=PEAK, tolerance=5e-3, source=HERTZ, unit="Pa"
+    )
+    yield Check(
+        "Hertz line P2: half-width", half_width(layer.x, p.pressure), expected=B, tolerance=5e-3, source=HERTZ, unit="m"
+    )
     allowed = 0.015 if level == "quick" else 5e-3
     yield bound("Hertz line P2: pressure difference to lubfric", off[-1], allowed, DRY, "L2")
     name = "Hertz line P2: the difference shrinks, finest over coarsest mesh"

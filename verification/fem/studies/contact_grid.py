@@ -68,7 +68,18 @@ def family(solve, cells: tuple[int, ...], size: str, at: int, allowed: dict[str,
         note = f"{cells[-1]} {size}"
         yield bound(f"{name}: {quantity}, relative error", column[-1], limit, source, note)
         check = f"{name}: {quantity}, order"
-        series.append(Series(quantity, sizes, column, order, check, 0.3, REASONS[order], AT_LEAST))
+        series.append(
+            Series(
+                quantity,
+                sizes,
+                errors=column,
+                order=order,
+                check=check,
+                tolerance=0.3,
+                source=REASONS[order],
+                kind=AT_LEAST,
+            )
+        )
     caption = f"Relative errors of a {name}, root mean squares over {PLACES} places of the edge."
     yield Table(f"contact_{name}", caption, (size, *allowed), [(n, *row) for n, row in zip(cells, errors.tolist())])
     caption = f"Errors of a {name} by lubfric.solve_contact against the closed form. Dotted: the expected order."

@@ -94,7 +94,7 @@ def corrected_area(mask) -> float:
 def layer_of(nodes: int, degree: int, depth: float = THICKNESS, layers: int | None = None) -> Layer3D:
     """The periodic layer under the box, ``depth`` boxes thick."""
     levels = graded_levels(depth * BOX, layers or nodes // (2 * degree), 6.0)
-    return Layer3D(BODY, (BOX, BOX), levels, (nodes, nodes), degree)
+    return Layer3D(body=BODY, size=(BOX, BOX), levels=levels, shape=(nodes, nodes), degree=degree)
 
 
 def press_patch(grid: Layer3D, limit: float | None = None) -> Patch:
@@ -171,7 +171,16 @@ def patch_checks(name: str, patches, best: Patch, off):
     yield from compared(label, rows if np.isfinite(finest.limit) else rows[:2], other)
     sizes = [1 / p.gap.shape[0] for p in patches]
     source = "edges like a square root, at places the grid does not know"
-    yield Series("", sizes, off, 1, f"{label}: order of the pressure difference", 0.4, source, AT_LEAST).check_order()
+    yield Series(
+        "",
+        sizes,
+        errors=off,
+        order=1,
+        check=f"{label}: order of the pressure difference",
+        tolerance=0.4,
+        source=source,
+        kind=AT_LEAST,
+    ).check_order()
     yield bound(f"{label}: pressure difference", off[-1], 2 / nodes, other, "L2")
 
 
@@ -183,7 +192,7 @@ def thickness(level: str):
 
     def gap(depth: float) -> float:
         levels = -np.append(reach[reach <= 1.001 * depth * BOX][::-1], 0)
-        return press_patch(Layer3D(BODY, (BOX, BOX), levels, (nodes, nodes), 2)).mean_gap
+        return press_patch(Layer3D(body=BODY, size=(BOX, BOX), levels=levels, shape=(nodes, nodes), degree=2)).mean_gap
 
     gaps = np.array([gap(d) for d in depths])
     thick = gap(reach[-1] / BOX)
@@ -197,7 +206,15 @@ def thickness(level: str):
     yield bound(name, off[chosen], 1e-4, "thickness study")
     near = (off > 1e-5) & (stiff < 0.1)
     name = "rough patch: change of the mean gap follows the missing compliance, exponent"
-    yield Series("", stiff[near], off[near], 1, name, 0.15, "first order in what the layer lacks").check_order()
+    yield Series(
+        "",
+        stiff[near],
+        errors=off[near],
+        order=1,
+        check=name,
+        tolerance=0.15,
+        source="first order in what the layer lacks",
+    ).check_order()
 
 
 def certified(level: str):

@@ -58,7 +58,13 @@ def deterministic(level: str):
 
 def contact(speed: float) -> LineContact:
     """The paper's cylinder."""
-    return LineContact(LOAD, RADIUS, E_PRIME, speed, Lubricant(VISCOSITY, ALPHA))
+    return LineContact(
+        load_per_width=LOAD,
+        radius=RADIUS,
+        e_prime=E_PRIME,
+        entrainment_speed=speed,
+        lubricant=Lubricant(VISCOSITY, ALPHA),
+    )
 
 
 def surface(cells: int, seed: int = 1) -> Surface:
@@ -95,7 +101,15 @@ def dry():
     solution = solve_point(case).pressure
     exact = dry_contact(case, tolerance=1e-8).pressure
     difference = np.sqrt(np.mean((solution - exact) ** 2) / np.mean(exact**2))
-    yield Check("dry limit: rms of the pressure", difference, 0.0, 0.01, "solve_contact", ABSOLUTE, grade="B")
+    yield Check(
+        "dry limit: rms of the pressure",
+        difference,
+        expected=0.0,
+        tolerance=0.01,
+        source="solve_contact",
+        kind=ABSOLUTE,
+        grade="B",
+    )
 
 
 def same_gap(cells: int, speed: float):
@@ -105,8 +119,10 @@ def same_gap(cells: int, speed: float):
     pressure = 0.5 * (solution.pressure + solution.pressure[:, ::-1])
     gap = 0.5 * (solution.gap + solution.gap[:, ::-1])
     spots = pressure > SPOT
-    given = GivenGap(solution.x, case.spacing[1], gap, pressure, spots, RADIUS, case.edge_log)
-    judge = rough_film(given, Fluid(VISCOSITY, "roelands", ALPHA), speed, cells=cells)
+    given = GivenGap(
+        x=solution.x, dy=case.spacing[1], gap=gap, pressure=pressure, contact=spots, radius=RADIUS, log=case.edge_log
+    )
+    judge = rough_film(given, Fluid(VISCOSITY, "roelands", pressure_viscosity_coefficient=ALPHA), speed, cells=cells)
     half = pressure.shape[1] // 2
     free = ~spots[:, :half]
     cell = case.spacing[0] / half

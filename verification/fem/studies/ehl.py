@@ -186,7 +186,7 @@ def differences(pairs: list[Pair], level: str):
     for pair in pairs:
         sizes = [s.cell_length / s.contact.half_width for s in pair.solutions]
         errors = [pair.differences(s)[2] for s in pair.solutions]
-        series[pair.point[1]].append(Series(pair.label, sizes, errors))
+        series[pair.point[1]].append(Series(pair.label, sizes, errors=errors))
         name = f"{pair.label}: film difference, finest over coarsest"
         yield bound(name, errors[-1] / errors[0], 0.6 if level == "quick" else 0.35, SOLVER)
     for L, order, source in (
@@ -196,7 +196,16 @@ def differences(pairs: list[Pair], level: str):
         if level != "quick":
             mean = np.sqrt(np.mean(np.square([list(s.errors) for s in series[L]]), axis=0))
             name = f"order of the film difference, L = {L}, root mean square over contacts"
-            yield Series("", 0.5 ** np.arange(mean.size), mean, order, name, 0.2, source, AT_LEAST).check_order()
+            yield Series(
+                "",
+                0.5 ** np.arange(mean.size),
+                errors=mean,
+                order=order,
+                check=name,
+                tolerance=0.2,
+                source=source,
+                kind=AT_LEAST,
+            ).check_order()
         caption = f"Film of the full-system finite elements against lubfric at L = {L}, root mean square over the "
         caption += "contact in flow films, against the smallest cell."
         words = "smallest cell / Hertz half-width", "film difference / flow film"
@@ -214,7 +223,9 @@ def ringing():
     name = "half the total variation of pressure"
     source = "1 for one hump of height p_h, spike on top"
     note = "rings, as it must where nothing is added"
-    yield Check(f"{name}, Galerkin", variation["Galerkin"], 2.0, 0.0, source, AT_LEAST, note=note)
+    yield Check(
+        f"{name}, Galerkin", variation["Galerkin"], expected=2.0, tolerance=0.0, source=source, kind=AT_LEAST, note=note
+    )
     yield bound(f"{name}, slope penalty", variation["slope penalty"], 1.6, source, "does not ring")
 
 
@@ -228,7 +239,9 @@ def finite_body():
     for name, error in zip(("flow film", "smallest film"), errors.T, strict=True):
         check = f"finite body: order of the {name}'s error in b/D"
         source = "curvature of the surface under the image of the load, O((b/D)²)"
-        series.append(Series(name, 1 / sides[:3], error[:3], 2.0, check, 0.2, source))
+        series.append(
+            Series(name, 1 / sides[:3], errors=error[:3], order=2.0, check=check, tolerance=0.2, source=source)
+        )
         yield bound(f"finite body: {name}'s error with D = 60 b", error[0], 5e-4, "small against 0.5 %")
         yield bound(f"finite body: {name}'s error with D = 240 b, used here", error[2], 3e-5, "likewise")
     caption = "Error of the film from a square body of side D in place of a half-space, M = 20, L = 5, against the "

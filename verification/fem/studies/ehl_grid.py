@@ -80,7 +80,7 @@ def rigid(level: str):
     worst = float(np.max(np.array(errors) / estimates))
     yield bound("rigid limit: error per estimated error", worst, 1.0, "the estimate has to cover the error")
     caption = "lubfric.solve_ehl at M = 0.001: film error against the closed form, and the error it states."
-    series = [Series("error", 1 / cells, errors, 2), Series("stated", 1 / cells, estimates)]
+    series = [Series("error", 1 / cells, errors=errors, order=2), Series("stated", 1 / cells, errors=estimates)]
     yield from convergence("ehl_rigid", caption, series, "1 / cells", "relative film error")
 
 
@@ -101,7 +101,18 @@ def elastic(level: str):
             rows.append((M, L, cells[-1], tolerance, f.report.residuals["discretisation"], errors[-1]))
         name = f"M = {M:g}, L = {L:g}"
         why, kind = SECOND[1:]
-        series.append(Series(name, 1 / np.array(cells), errors, 2.0, f"{name}: order in the cells", 0.5, why, kind))
+        series.append(
+            Series(
+                name,
+                1 / np.array(cells),
+                errors=errors,
+                order=2.0,
+                check=f"{name}: order in the cells",
+                tolerance=0.5,
+                source=why,
+                kind=kind,
+            )
+        )
     columns = ("M", "L", "cells", "requested", "stated", "actual")
     yield Table("ehl_grid", "Requested tolerance, stated error and actual error.", columns, rows)
     caption = "lubfric.solve_ehl: largest error of smallest film and flow film against its finest grid."
@@ -117,14 +128,18 @@ def starved():
         begins = inlet * math.sqrt(2 * RADIUS * flooded.min_film)
         f = film(RIGID_LOAD, 5.0, law="constant", tolerance=1e-4, inlet_length=begins)
         own = inlet * math.sqrt(flooded.min_film / f.min_film)  # in units of sqrt(2 R h) of this film
-        load = Parabola(VISCOSITY, f.entrainment_speed, RADIUS, f.min_film, -own).load
+        load = Parabola(
+            viscosity=VISCOSITY, speed=f.entrainment_speed, radius=RADIUS, film_thickness=f.min_film, inlet=-own
+        ).load
         rows = [("load", "N/m", f.load, load, 1e-3)]
         source = "closed form with the same inlet, Martin 1916"
         yield from compared(f"starved inlet at {inlet:g} √(2 R h)", rows, source)
         losses.append(1 - f.flow_film / flooded.flow_film)
     name = "starved inlet: order of the loss of film"
     source = "pressure falls like |x|^-3, its integral like |x|^-2"
-    series = [Series("flow film", 1 / inlets, losses, 2.0, name, 0.2, source, finest=3)]
+    series = [
+        Series("flow film", 1 / inlets, errors=losses, order=2.0, check=name, tolerance=0.2, source=source, finest=3)
+    ]
     caption = "Loss of film by an inlet that is not flooded, rigid cylinder. lubfric's flooded inlet follows the "
     caption += "parabolic gap to infinity."
     yield from convergence("ehl_inlet", caption, series, "√(2 R h) / inlet distance", "1 − film / flooded film")

@@ -96,7 +96,9 @@ def formulations(level: str):
                 source = "load-controlled contact solve"
                 note = result.report.message
                 about = {"note": note, "seconds": seconds}
-                yield Check(f"{name}: {case.name}", off, 0.0, AGREEMENT, source, AT_MOST, **about)
+                yield Check(
+                    f"{name}: {case.name}", off, expected=0.0, tolerance=AGREEMENT, source=source, kind=AT_MOST, **about
+                )
     caption = f"Contact formulations, {COUNTS[level]} x {COUNTS[level]} cells, cold start, tolerance 1e-6. {PAPER}"
     yield Table("formulations", caption, COLUMNS, rows)
 

@@ -74,7 +74,9 @@ def full_film():
     made = prepare(made.scene.with_(lubricant={"viscosity_law": "constant"}), like=made)
     point = lubfric.friction(made, 20.0)
     b = made.scene.bodies
-    exact = Parabola(made.scene.lubricant.viscosity, 20.0, b.radius, point.min_film, -1e6)
+    exact = Parabola(
+        viscosity=made.scene.lubricant.viscosity, speed=20.0, radius=b.radius, film_thickness=point.min_film, inlet=-1e6
+    )
     rows = [
         ("F_H", "N", point.film_load, exact.load * b.width, 2e-3),
         ("Couette force", "N", point.couette_force, exact.couette * 40.0 * b.width, 2e-3),
@@ -114,7 +116,7 @@ def contact_cells(finest: int):
     source = f"{finest} x {finest} cells of the same surface"
     for label, error, allowed in zip(labels.values(), errors[-1], bounds, strict=True):
         yield bound(f"contact grid: {label}, {cells[-1]:.1f} cells per correlation length", error, allowed, source)
-    series = [Series(label, 1 / cells, column) for label, column in zip(labels.values(), errors.T)]
+    series = [Series(label, 1 / cells, errors=column) for label, column in zip(labels.values(), errors.T)]
     if len(grids) > 2:
         why = "area of asperity contacts, first order"
         order = replace(series[0], order=1.0, check="contact grid: order of f", tolerance=0.2, source=why)
@@ -158,7 +160,14 @@ def area_of_the_balance():
     source = "the mean of a deflection that grows like ln|x| depends on the box, not over a fixed strip"
     name = "change of F_H from 45 to 180 µm"
     yield bound(f"area A = strip: {name}", float(np.ptp(strip) / strip[-1]), 1e-6, source)
-    yield Check(f"area A = box: {name}", float(np.ptp(box) / box[-1]), 0.02, 0.0, source, AT_LEAST)
+    yield Check(
+        f"area A = box: {name}",
+        float(np.ptp(box) / box[-1]),
+        expected=0.02,
+        tolerance=0.0,
+        source=source,
+        kind=AT_LEAST,
+    )
     widths = np.array(WIDTHS) * 1e6
     columns = ("width (µm)", "strip |x| <= b", "complete box")
     rows = zip(widths.tolist(), strip.tolist(), box.tolist())
@@ -187,7 +196,7 @@ def patch_size():
     scatter = np.std(values, axis=0, ddof=1)
     name = "patch along the line: scatter of f at 360 µm over that at 45 µm"
     source = "independent stretches average out, one over the root of their number; 12 surfaces"
-    yield Check(name, scatter[-1] / scatter[0], 8**-0.5, 0.45, source, AT_MOST)
+    yield Check(name, scatter[-1] / scatter[0], expected=8**-0.5, tolerance=0.45, source=source, kind=AT_MOST)
     caption = "Coefficient at 0.01 m/s over 12 surfaces, patch 90 µm along the motion, one period long."
     rows = [(length * 1e6, float(m), float(s)) for length, m, s in zip(lengths, mean, scatter, strict=True)]
     yield Table("patch_size", caption, ("along the line (µm)", "mean f", "standard deviation"), rows)

@@ -31,7 +31,7 @@ LENGTH = 5e-6  # m, of its correlation
 MORE = 1.02  # times the load, for the slope of the gap
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class GivenFluidCase:
     """Cells over 90 µm, and across; speed [m/s]; floor [m]; hardness [Pa]; 2^fineness facets of elements in a cell."""
 
@@ -49,12 +49,17 @@ class GivenFluidCase:
         return f"{self.cells} x {self.across} cells, {self.speed:g} m/s, floor {1e9 * self.floor:g} nm{plastic}"
 
 
-TOUCHING = GivenFluidCase(64, 64, 0.01, 20e-9, 2.5e9, 2)
-DENTED = GivenFluidCase(64, 64, 3e-4, 1e-9, 4e9, 2)
+TOUCHING = GivenFluidCase(cells=64, across=64, speed=0.01, floor=20e-9, hardness=2.5e9, fineness=2)
+DENTED = GivenFluidCase(cells=64, across=64, speed=3e-4, floor=1e-9, hardness=4e9, fineness=2)
 CASES = {
     "quick": (),
     "default": (TOUCHING, DENTED),
-    "full": (TOUCHING, replace(TOUCHING, hardness=None), DENTED, GivenFluidCase(64, 64, 1e-4, 1e-9, None, 2)),
+    "full": (
+        TOUCHING,
+        replace(TOUCHING, hardness=None),
+        DENTED,
+        GivenFluidCase(cells=64, across=64, speed=1e-4, floor=1e-9, hardness=None, fineness=2),
+    ),
 }
 # of the pressure, the load at the same gap, the gap; twice as long elements: 3 times
 RMS = 5e-3
@@ -110,13 +115,42 @@ def compared(
     rms = np.sqrt(np.mean((judge - mine) ** 2) / np.mean(mine**2))
     share = mine.sum() / solution.pressure.sum()
     note = f"{np.count_nonzero(mine)} cells touch and carry {100 * share:.0f} %"
-    yield Check(f"{case.name}: rms of the contact pressure", rms, 0.0, RMS, SOURCE, ABSOLUTE, note=note)
+    yield Check(
+        f"{case.name}: rms of the contact pressure",
+        rms,
+        expected=0.0,
+        tolerance=RMS,
+        source=SOURCE,
+        kind=ABSOLUTE,
+        note=note,
+    )
     misplaced = np.count_nonzero((judge > 0) != (mine > 0)) / np.count_nonzero(mine)
-    yield Check(f"{case.name}: cells of one contact alone, of all", misplaced, 0.0, MISPLACED, SOURCE, ABSOLUTE)
-    yield Check(f"{case.name}: load of the contact at the same gap", load, 1.0, LOAD, SOURCE, note="relative")
+    yield Check(
+        f"{case.name}: cells of one contact alone, of all",
+        misplaced,
+        expected=0.0,
+        tolerance=MISPLACED,
+        source=SOURCE,
+        kind=ABSOLUTE,
+    )
+    yield Check(
+        f"{case.name}: load of the contact at the same gap",
+        load,
+        expected=1.0,
+        tolerance=LOAD,
+        source=SOURCE,
+        note="relative",
+    )
     apart = ~solution.touching & (judge == 0)
     gap = float((by_elements.gap + problem.floor)[apart].mean() / solution.gap[apart].mean())
-    yield Check(f"{case.name}: mean gap of the film under the same load", gap, 1.0, GAP, SOURCE, note="relative")
+    yield Check(
+        f"{case.name}: mean gap of the film under the same load",
+        gap,
+        expected=1.0,
+        tolerance=GAP,
+        source=SOURCE,
+        note="relative",
+    )
 
 
 def contact_by_elements(problem: Problem, solution: DeterministicResult, body: Compliance) -> tuple[Contact, float]:

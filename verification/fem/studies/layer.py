@@ -63,9 +63,20 @@ def plane_orders(level: str):
         name = f"plane layer P{degree}"
         order = 2 * degree
         check = f"{name}: order of the compliance"
-        series.append(Series(f"P{degree}", WAVE / cells, energy, order, check, 0.2, source, finest=2))
+        series.append(
+            Series(
+                f"P{degree}",
+                WAVE / cells,
+                errors=energy,
+                order=order,
+                check=check,
+                tolerance=0.2,
+                source=source,
+                finest=2,
+            )
+        )
         if degree == 2:  # for P1 the two coincide
-            series.append(Series("P2, nodes", WAVE / cells, [f[1] for f in values], degree + 1))
+            series.append(Series("P2, nodes", WAVE / cells, errors=[f[1] for f in values], order=degree + 1))
         allowed = {1: 40, 2: 60}[degree] / cells[-1] ** order
         yield from compared(name, [("compliance at kd = π", "m/Pa", values[-1][0], exact, allowed)], SOURCE)
     caption = "Plane-strain layer, half a wavelength thick: relative error of the compliance of a wave, from its "
@@ -96,7 +107,7 @@ def plane_finite(level: str):
 def brick(nodes: int, degree: int, depth: float = 1.0, layers: int | None = None) -> Layer3D:
     """A square period of one wavelength, ``depth`` wavelengths thick."""
     levels = graded_levels(depth * WAVE, layers or nodes // degree, 4.0)
-    return Layer3D(BODY, (WAVE, WAVE), levels, (nodes, nodes), degree)
+    return Layer3D(body=BODY, size=(WAVE, WAVE), levels=levels, shape=(nodes, nodes), degree=degree)
 
 
 def brick_orders(level: str):
@@ -115,7 +126,18 @@ def brick_orders(level: str):
             energy = np.sum(fourier_compliance(grid).displacement(force) * force) / np.sum(pressure * force)
             errors.append(abs(energy / exact - 1))
         check = f"layer of bricks Q{degree}: order of the compliance"
-        series.append(Series(f"Q{degree}", WAVE / nodes, errors, 2 * degree, check, 0.2, source, finest=2))
+        series.append(
+            Series(
+                f"Q{degree}",
+                WAVE / nodes,
+                errors=errors,
+                order=2 * degree,
+                check=check,
+                tolerance=0.2,
+                source=source,
+                finest=2,
+            )
+        )
     name = f"layer of bricks Q2: compliance of a wave askew, {nodes[-1]}² nodes"
     yield bound(name, errors[-1], 1e-3, SOURCE)
     caption = "Three-dimensional layer, one wavelength thick: error of the compliance of the wave (1, 2)."
@@ -163,7 +185,13 @@ def approach(level: str):
     far = (depths >= 3) & (exact > 100 * floor)
     exponent = np.polyfit(depths[far], np.log(np.abs(values[far]) / polynomial[far]), 1)[0]
     source = "expansion of the exact compliance, q(kd) exp(-2 kd)"
-    yield Check("wave on a thick layer: exponent of the approach to the half-space", exponent, -2, 0.02, source)
+    yield Check(
+        "wave on a thick layer: exponent of the approach to the half-space",
+        exponent,
+        expected=-2,
+        tolerance=0.02,
+        source=source,
+    )
     worst = np.max(np.abs(values - exact))
     allowed = {"quick": 5e-5, "default": 1e-5, "full": 3e-6}[level]
     note = "1 - C/C(half-space), absolute"
@@ -204,9 +232,19 @@ def narrow(level: str):
     source = "expansion of the exact compliance for a load narrow against d"
     check = "narrow load: order in 1/d of the extra curvature"
     note = f"differences to a layer of {deepest / b:g} b"
-    yield Series("", np.sqrt(inverse), values, 2, check, 0.05, source, note=note, finest=3).check_order()
+    yield Series(
+        "", np.sqrt(inverse), errors=values, order=2, check=check, tolerance=0.05, source=source, note=note, finest=3
+    ).check_order()
     name = f"narrow load: extra curvature from d = {deepest / b:g} b to {depths[-1] / b:g} b"
     source = f"J b²/d², J = {number:.4f} by quadrature"
-    yield Check(name, values[-1], number * inverse[-1], 0.02, source, note="in units of 4w/(πE'b²)")
+    yield Check(
+        name, values[-1], expected=number * inverse[-1], tolerance=0.02, source=source, note="in units of 4w/(πE'b²)"
+    )
     name = "narrow load, d = 10 b, width 8 d: curvature with free sides over periodic ones"
-    yield Check(name, (at(depths[1], "free") - base) / values[1], 1, 0.01, "sides so far do not matter")
+    yield Check(
+        name,
+        (at(depths[1], "free") - base) / values[1],
+        expected=1,
+        tolerance=0.01,
+        source="sides so far do not matter",
+    )

@@ -142,7 +142,15 @@ def cylinder(s: lubfric.Scene, speed: float, body: Compliance, heights: np.ndarr
     b = s.bodies
     sliding = s.motion.slide_roll_ratio * speed
     hardness = b.hardness or math.inf
-    return Bodies(whole(s, speed), b.width, body, heights, hardness, b.boundary_friction_coefficient, sliding)
+    return Bodies(
+        whole(s, speed),
+        b.width,
+        compliance=body,
+        heights=heights,
+        hardness=hardness,
+        boundary_friction=b.boundary_friction_coefficient,
+        sliding=sliding,
+    )
 
 
 def whole(s: lubfric.Scene, speed: float) -> LineContact:
@@ -221,7 +229,7 @@ def approach(points: list[Point], grids: tuple[int, ...]):
     series = []
     for label, name in (("coefficient", "coefficient"), ("F_H", "film_load"), ("mean gap", "mean_gap")):
         errors = [max(p.difference(name) for p in points if p.cells == n) for n in grids]
-        series.append(Series(label, sizes, errors))
+        series.append(Series(label, sizes, errors=errors))
     why = "finite elements as fine as the cells: at least first order at the edges of asperity contacts"
     name = "difference in mean gap: order in the cell size"
     yield replace(series[-1], order=1.0, check=name, tolerance=0.3, source=why, kind=AT_LEAST).check_order()
@@ -242,7 +250,9 @@ def pressure_field(p: Point) -> Field:
     values |= {"gap": pressed.gap, "gap_lubfric": contact.gap}
     caption = f"Contact pressure (Pa) and gap (m) at {p.speed:g} m/s by finite elements and lubfric"
     data = {name: [v.ravel()] for name, v in values.items()}
-    return Field("load_sharing", caption, np.column_stack([x.ravel(), y.ravel()]), {"quad": quads}, cell_data=data)
+    return Field(
+        "load_sharing", caption, points=np.column_stack([x.ravel(), y.ravel()]), cells={"quad": quads}, cell_data=data
+    )
 
 
 def pressure_figure(p: Point):

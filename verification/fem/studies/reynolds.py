@@ -37,13 +37,24 @@ def slider(refinements: int):
     for degree in (1, 2):
         mesh = skfem.MeshLine(np.linspace(0, SLIDER.length, 9))
         solution = solve_refined(
-            ReynoldsProblem(mesh, SLIDER.film, Fluid(SLIDER.viscosity), SLIDER.speed, degree), refinements
+            ReynoldsProblem(
+                mesh=mesh, film=SLIDER.film, fluid=Fluid(SLIDER.viscosity), speed=SLIDER.speed, degree=degree
+            ),
+            refinements,
         )
         sizes = [SLIDER.length / s.problem.mesh.nelements for s in solution]
         errors = [s.error(SLIDER.pressure) for s in solution]
         name = f"slider P{degree}"
         series.append(
-            Series(f"P{degree}", sizes, errors, degree + 1, f"{name}: order of the pressure error", 0.1, finest=3)
+            Series(
+                f"P{degree}",
+                sizes,
+                errors=errors,
+                order=degree + 1,
+                check=f"{name}: order of the pressure error",
+                tolerance=0.1,
+                finest=3,
+            )
         )
         allowed = (sizes[-1] / SLIDER.length) ** (2 * degree)
         rows = (
@@ -64,7 +75,9 @@ def parabola_mesh(cells: int, inlet: float = PARABOLA.inlet, shift: float = 0.0)
 
 def ruptured(e: exact.Parabola, mesh: skfem.MeshLine, degree: int, refinements: int, fluid: Fluid | None = None):
     """Solutions with a free rupture point on a mesh and its refinements."""
-    problem = ReynoldsProblem(mesh, e.film, fluid or Fluid(e.viscosity), e.speed, degree, cavitation=True)
+    problem = ReynoldsProblem(
+        mesh=mesh, film=e.film, fluid=fluid or Fluid(e.viscosity), speed=e.speed, degree=degree, cavitation=True
+    )
     return solve_refined(problem, refinements)
 
 
@@ -83,7 +96,7 @@ def parabola(refinements: int):
         sizes = [1 / s.problem.mesh.nelements for s in result]
         why = "rupture is held at a node, where the true pressure is O(h²): 2 for either element"
         check = f"parabola P{degree}: order of the pressure error"
-        series.append(Series(f"P{degree}", sizes, errors, 2, check, 0.15, why))
+        series.append(Series(f"P{degree}", sizes, errors=errors, order=2, check=check, tolerance=0.15, source=why))
         rows += [
             (f"P{degree}", s.problem.mesh.nelements, float(error), *constants(s), s.report.iterations)
             for s, error in zip(result, errors, strict=True)
@@ -124,26 +137,33 @@ def parabola_checks(finest: ReynoldsSolution, size: float, degree: int):
     true = exact_constants()
     near = {1: 60, 2: 6}[degree] * size**2
     for i, name in ((0, "load"), (1, "rupture point"), (3, "rolling friction")):
-        yield Check(f"parabola P{degree}: {name}", result[i], true[i], near, source)
+        yield Check(f"parabola P{degree}: {name}", result[i], expected=true[i], tolerance=near, source=source)
     # the Couette integral runs over whole cells under pressure; the last one is cut by the rupture point
     cell = np.sqrt(2) * np.diff(np.sort(finest.problem.mesh.p[0]))[-1] / PARABOLA.scale
     name = f"parabola P{degree}: Couette friction"
-    yield Check(name, result[2], true[2], cell, source, ABSOLUTE, note="within the last cell")
+    yield Check(
+        name, result[2], expected=true[2], tolerance=cell, source=source, kind=ABSOLUTE, note="within the last cell"
+    )
 
 
 def piezoviscous(refinements: int):
     """Barus and Roelands oils in the parabolic gap, which are exact through the reduced pressure."""
-    base = exact.Parabola(0.04, 1.0, 0.01, 1e-6, -10.0)
+    base = exact.Parabola(viscosity=0.04, speed=1.0, radius=0.01, film_thickness=1e-6, inlet=-10.0)
     index = 0.6
     strong = 2e-8
     alpha = 0.99 / base.pressure(np.linspace(-2, 1, 200_001)[None] * base.scale).max()
 
     def roelands(coefficient: float):
-        law = Fluid(0.04, "roelands", coefficient, index)
+        law = Fluid(0.04, "roelands", pressure_viscosity_coefficient=coefficient, roelands_index=index)
         return law, lambda q: exact.roelands_to_true(q, coefficient * 1.96e8 / index, index)
 
     cases = (
-        ("Barus", base, Fluid(0.04, "barus", alpha), lambda q: exact.reduced_to_true(q, alpha)),
+        (
+            "Barus",
+            base,
+            Fluid(0.04, "barus", pressure_viscosity_coefficient=alpha),
+            lambda q: exact.reduced_to_true(q, alpha),
+        ),
         ("Roelands, low pressure", base, *roelands(alpha)),
         ("Roelands, high pressure", fast_film(base, strong, index), *roelands(strong)),
     )
@@ -163,7 +183,13 @@ def fast_film(e: exact.Parabola, alpha: float, index: float) -> exact.Parabola:
     s = np.linspace(0, 5e8, 20_001)
     reduced = np.trapezoid(np.exp(-alpha * 1.96e8 / index * ((1 + s / 1.96e8) ** index - 1)), s)
     peak = e.pressure(np.linspace(-2, 1, 200_001)[None] * e.scale).max()
-    return exact.Parabola(e.viscosity, e.speed * reduced / peak, e.radius, e.film_thickness, e.inlet)
+    return exact.Parabola(
+        viscosity=e.viscosity,
+        speed=e.speed * reduced / peak,
+        radius=e.radius,
+        film_thickness=e.film_thickness,
+        inlet=e.inlet,
+    )
 
 
 def ringing():
@@ -177,7 +203,9 @@ def ringing():
         for count in cells:
             x = np.linspace(0, GAS.length, count + 1)
             s = solve_reynolds(
-                ReynoldsProblem(skfem.MeshLine(x), GAS.film, fluid, GAS.speed, stabilisation=stabilisation)
+                ReynoldsProblem(
+                    mesh=skfem.MeshLine(x), film=GAS.film, fluid=fluid, speed=GAS.speed, stabilisation=stabilisation
+                )
             )
             true = exact.gas_slider(GAS, AMBIENT, x)
             errors.append(s.error(lambda at: np.reshape(exact.gas_slider(GAS, AMBIENT, np.ravel(at[0])), at[0].shape)))
@@ -185,8 +213,16 @@ def ringing():
         name = f"gas slider, {label}"
         if stabilisation == "none":
             words = f"{name}: excess variation on 20 cells, which rings where nothing is added"
-            yield Check(words, over[0], 1.0, 0.0, source, AT_LEAST)
+            yield Check(words, over[0], expected=1.0, tolerance=0.0, source=source, kind=AT_LEAST)
         else:
             yield bound(f"{name}: excess variation on 20 cells, which does not ring", over[0], 0.01, source)
-        yield Series(label, 1 / cells, errors, 2, f"{name}: order of the pressure error", 0.2, finest=2).check_order()
+        yield Series(
+            label,
+            1 / cells,
+            errors=errors,
+            order=2,
+            check=f"{name}: order of the pressure error",
+            tolerance=0.2,
+            finest=2,
+        ).check_order()
         yield bound(f"{name}: finest pressure error", errors[-1], 5e-3, source)

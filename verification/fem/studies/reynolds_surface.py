@@ -36,7 +36,9 @@ def reynolds_surface(level: str):
 class Manufactured:
     """``P sin(pi x/L) sin(pi y/B)`` (a line has no second factor), in an oil that thickens and compresses."""
 
-    fluid = Fluid(VISCOSITY, "roelands", 2e-8, 0.65, "dowson-higginson")
+    fluid = Fluid(
+        VISCOSITY, "roelands", pressure_viscosity_coefficient=2e-8, roelands_index=0.65, density_law="dowson-higginson"
+    )
     peak = 1.5e8
 
     def __init__(self, dimension: int):
@@ -94,12 +96,20 @@ def manufactured(refinements: int):
         mesh = box(kind, 8) if kind == "line" else box(kind, 8).translated((0.0, WIDTH / 2))
         for degree, form in ((1, "none"), (1, "supg"), (2, "none")):
             label = f"{kind} {'Q' if kind == 'quadrilateral' else 'P'}{degree}{' SUPG' if form == 'supg' else ''}"
-            problem = ReynoldsProblem(mesh, case.film, case.fluid, SPEED, degree, case.source, stabilisation=form)
+            problem = ReynoldsProblem(
+                mesh=mesh,
+                film=case.film,
+                fluid=case.fluid,
+                speed=SPEED,
+                degree=degree,
+                source=case.source,
+                stabilisation=form,
+            )
             solution = solve_refined(problem, refinements)
             errors = [s.error(case.pressure) for s in solution]
             rows += [(label, round(LENGTH / h), e, s.report.iterations) for h, e, s in zip(sizes, errors, solution)]
             check = f"manufactured, {label}: order of the pressure error"
-            series.append(Series(label, sizes, errors, degree + 1, check, 0.15, finest=2))
+            series.append(Series(label, sizes, errors=errors, order=degree + 1, check=check, tolerance=0.15, finest=2))
     columns = ("element", "cells a side", "error", "Newton steps")
     yield Table("manufactured", "Manufactured pressure: relative L2 error.", columns, rows)
     caption = "Manufactured pressure of 150 MPa in a compressible Roelands oil: relative error in the L2 norm."
@@ -108,14 +118,18 @@ def manufactured(refinements: int):
 
 def pad(ratio: float) -> exact.ExponentialPad:
     """The exact pad with this ratio of width to length."""
-    return exact.ExponentialPad(VISCOSITY, SPEED, LENGTH, ratio * LENGTH, INLET, OUTLET)
+    return exact.ExponentialPad(
+        viscosity=VISCOSITY, speed=SPEED, length=LENGTH, width=ratio * LENGTH, inlet=INLET, outlet=OUTLET
+    )
 
 
 def finite_width(refinements: int):
     """Pads of all widths against the series, which runs between the two limits."""
 
     def solved(e: exact.ExponentialPad) -> ReynoldsSolution:
-        return solve_refined(ReynoldsProblem(edged(e), e.film, Fluid(VISCOSITY), SPEED, 2), refinements - 1)[-1]
+        return solve_refined(
+            ReynoldsProblem(mesh=edged(e), film=e.film, fluid=Fluid(VISCOSITY), speed=SPEED, degree=2), refinements - 1
+        )[-1]
 
     source = "separation of variables, exact series (verification.fem.exact.ExponentialPad)"
     results = {ratio: solved(pad(ratio)) for ratio in (0.05, 0.2, 1.0, 5.0, 20.0)}
@@ -128,12 +142,14 @@ def finite_width(refinements: int):
     source = "infinitely narrow pad (Michell 1905, Ocvirk 1952)"
     note = "the ends take a part of the order of width/length"
     name = "exponential pad, width/length 0.02: load"
-    yield Check(name, solved(e).load, e.narrow_load, 0.03, source, unit="N", note=note)
+    yield Check(name, solved(e).load, expected=e.narrow_load, tolerance=0.03, source=source, unit="N", note=note)
 
     def side(x):
         return (x[0] > 1e-9) & (x[0] < LENGTH - 1e-9)
 
-    closed = ReynoldsProblem(box("quadrilateral", 8), e.film, Fluid(VISCOSITY), SPEED, 2, open_boundary=side)
+    closed = ReynoldsProblem(
+        mesh=box("quadrilateral", 8), film=e.film, fluid=Fluid(VISCOSITY), speed=SPEED, degree=2, open_boundary=side
+    )
     load = solve_refined(closed, refinements)[-1].load / WIDTH
     allowed = 1e-4 * 8.0 ** (1 - refinements)
     rows = [("load / width", "N/m", load, e.wide_load, allowed)]
@@ -158,11 +174,19 @@ def edged(e: exact.ExponentialPad) -> skfem.MeshQuad:
 
 def parabolic(refinements: int):
     """Rupture: infinite width repeats the line; finite width agrees on both kinds of cells and loses no mass."""
-    e = exact.Parabola(VISCOSITY, SPEED, 0.01, 1e-6, -10.0)
+    e = exact.Parabola(viscosity=VISCOSITY, speed=SPEED, radius=0.01, film_thickness=1e-6, inlet=-10.0)
     x = np.sinh(np.linspace(-np.arcsinh(10), np.arcsinh(2), 25)) * e.scale
 
     def solved(mesh, degree: int, refinements: int, side=None) -> ReynoldsSolution:
-        problem = ReynoldsProblem(mesh, e.film, Fluid(VISCOSITY), SPEED, degree, cavitation=True, open_boundary=side)
+        problem = ReynoldsProblem(
+            mesh=mesh,
+            film=e.film,
+            fluid=Fluid(VISCOSITY),
+            speed=SPEED,
+            degree=degree,
+            cavitation=True,
+            open_boundary=side,
+        )
         return solve_refined(problem, refinements)[-1]
 
     def side(at):

@@ -79,7 +79,7 @@ class StripCase:
         return LineContact.of(self.given)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Fields:
     """A film at a moment, wherever it was solved: x, y [m] over half of the period, pressure [Pa] and gap [m] there, and
     the flow [m²/s] per width that enters, NaN if it was not summed."""
@@ -216,7 +216,7 @@ def steps_of(b: float, speed: float, cell: float) -> tuple[int, int]:
 
 def fields_of(film: RoughStripFilm) -> Fields:
     """The fields of a finite-element film."""
-    return Fields(film.problem.x, film.problem.y, film.pressure, film.gap, film.flow)
+    return Fields(x=film.problem.x, y=film.problem.y, pressure=film.pressure, gap=film.gap, flow=film.flow)
 
 
 def own_films(case: StripCase, cells: int, moving: bool) -> list[Fields]:
@@ -253,7 +253,7 @@ def half_of(problem: Problem, pressure: np.ndarray, gap: np.ndarray, flow: float
     """The fields over half of the period, which is its own mirror image."""
     half = gap.shape[1] // 2 + 1
     y = np.arange(half) * problem.spacing[1]
-    return Fields(problem.x, y, pressure[:, :half], gap[:, :half], flow)
+    return Fields(x=problem.x, y=y, pressure=pressure[:, :half], gap=gap[:, :half], flow=flow)
 
 
 def middle_of(case: StripCase, film: Fields) -> tuple[np.ndarray, np.ndarray]:
@@ -302,13 +302,23 @@ def judged_films(
     theirs = averages(case, elements)
     for quantity, most in allowed.items():
         if math.isfinite(mine[quantity]) and math.isfinite(theirs[quantity]):
-            yield Check(f"{name}: {quantity}", mine[quantity], theirs[quantity], most, SOURCE)
+            yield Check(f"{name}: {quantity}", mine[quantity], expected=theirs[quantity], tolerance=most, source=SOURCE)
     pairs = [(middle_of(case, a), middle_of(case, b)) for a, b in zip(ours, elements, strict=True)]
     pressure = math.sqrt(np.mean([(a[0] - b[0]) ** 2 for a, b in pairs])) / hertz
     gap = math.sqrt(np.mean([(a[1] - b[1]) ** 2 for a, b in pairs])) / case.sq
     note = f"largest pressure {max(b[0].max() for _, b in pairs) / hertz:.2f} of Hertz"
-    yield Check(f"{name}: rms of the pressure over Hertz", pressure, 0.0, ALLOWED_PRESSURE, SOURCE, ABSOLUTE, note=note)
-    yield Check(f"{name}: rms of the gap over Sq", gap, 0.0, ALLOWED_GAP, SOURCE, ABSOLUTE)
+    yield Check(
+        f"{name}: rms of the pressure over Hertz",
+        pressure,
+        expected=0.0,
+        tolerance=ALLOWED_PRESSURE,
+        source=SOURCE,
+        kind=ABSOLUTE,
+        note=note,
+    )
+    yield Check(
+        f"{name}: rms of the gap over Sq", gap, expected=0.0, tolerance=ALLOWED_GAP, source=SOURCE, kind=ABSOLUTE
+    )
 
 
 def picture_field(name: str, what: str, case: StripCase, ours: Fields, elements: Fields) -> Field:
@@ -322,4 +332,4 @@ def picture_field(name: str, what: str, case: StripCase, ours: Fields, elements:
         pressure, gap = middle_of(case, film)
         data |= {f"pressure_{by}": pressure.ravel(), f"gap_{by}": gap.ravel()}
     caption = f"Pressure (Pa) and gap (m) of {what} by both programs"
-    return Field(name, caption, np.column_stack([x.ravel(), y.ravel()]), {"quad": quads}, point_data=data)
+    return Field(name, caption, points=np.column_stack([x.ravel(), y.ravel()]), cells={"quad": quads}, point_data=data)

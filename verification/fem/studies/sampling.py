@@ -37,9 +37,16 @@ def sampling(level: str) -> Iterator[Check]:
     allowed = 2 / np.sqrt(2 * (count - 1))
     name = f"scatter of f over {count} seeds, over the error stated"
     source = "chi-square law of a standard error"
-    yield Check(name, ratio, 1.0, allowed, source, ABSOLUTE, grade="B")
+    yield Check(name, ratio, expected=1.0, tolerance=allowed, source=source, kind=ABSOLUTE, grade="B")
     worst = float(stated.max() / ASKED)
-    yield Check("largest sampling error of f over its target", worst, 1.0, 0.0, "the target", AT_MOST)
+    yield Check(
+        "largest sampling error of f over its target",
+        worst,
+        expected=1.0,
+        tolerance=0.0,
+        source="the target",
+        kind=AT_MOST,
+    )
 
 
 def statistics() -> Iterator[Check]:
@@ -51,9 +58,11 @@ def statistics() -> Iterator[Check]:
         spectrum = np.abs(np.fft.fft(z, axis=axis)) ** 2
         power = spectrum.mean(axis=1 - axis) / CELLS**2
         slope = float(np.sqrt((waves**2) @ power))
-        yield Check(f"rms slope along {name}", slope, np.sqrt(2) * SQ / LENGTH, 0.05, GAUSS, grade="A")
+        yield Check(
+            f"rms slope along {name}", slope, expected=np.sqrt(2) * SQ / LENGTH, tolerance=0.05, source=GAUSS, grade="A"
+        )
     for step in STEPS:
         pairs = [np.mean((z - np.roll(z, step, axis)) ** 2) for axis in (0, 1)]
         law = 2 * SQ**2 * (1 - np.exp(-((step * CELL / LENGTH) ** 2)))
         name = f"structure function at {step * CELL / LENGTH:g} correlation lengths"
-        yield Check(name, float(np.mean(pairs)), law, 0.05, GAUSS, unit="m²", grade="A")
+        yield Check(name, float(np.mean(pairs)), expected=law, tolerance=0.05, source=GAUSS, unit="m²", grade="A")

@@ -78,8 +78,22 @@ def yielded(solution: SharedLoad, main: lubfric.FrictionResult, body: Compliance
     weight = model.contact.weight / model.contact.weight.sum()
     share = float(weight @ the(solution.pressed, "dry contact").saturated.mean(axis=1))
     words = f"{YIELDING}: share of the strip at the hardness"
-    yield Check(f"{words}, finite elements", share, 1e-3, 0.0, "the hardness was chosen so", AT_LEAST)
-    yield Check(words, main.plastic_area_fraction, share, 0.1, SOURCE, note="whole cells: a few of them")
+    yield Check(
+        f"{words}, finite elements",
+        share,
+        expected=1e-3,
+        tolerance=0.0,
+        source="the hardness was chosen so",
+        kind=AT_LEAST,
+    )
+    yield Check(
+        words,
+        main.plastic_area_fraction,
+        expected=share,
+        tolerance=0.1,
+        source=SOURCE,
+        note="whole cells: a few of them",
+    )
 
 
 def measured_map(allowed, refinements: int):
@@ -124,7 +138,13 @@ def flat(allowed, refinements: int):
     model = prepare(s, lubfric.Surface(heights, (BOX / nodes,) * 2))
     b = s.bodies
     sliding = s.motion.slide_roll_ratio * speed
-    bodies = FlatBodies(whole(s, speed), b.width, pressed_layer(32), b.boundary_friction_coefficient, sliding)
+    bodies = FlatBodies(
+        contact=whole(s, speed),
+        width=b.width,
+        pressed=pressed_layer(32),
+        boundary_friction=b.boundary_friction_coefficient,
+        sliding=sliding,
+    )
     solution = share_load(bodies, refinements=refinements, tolerance=1e-4)
     yield from compared("flat", rows_of(lubfric.friction(model, speed), solution, allowed), SOURCE)
 

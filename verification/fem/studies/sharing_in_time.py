@@ -60,18 +60,28 @@ def sharing_in_time(level: str) -> Iterator[Item]:
         load = Check(
             f"{name}: asperity load over the total load",
             history.contact_load[k] / bodies.load,
-            moment.contact_load / bodies.load,
-            LOAD,
-            SOURCE,
-            ABSOLUTE,
+            expected=moment.contact_load / bodies.load,
+            tolerance=LOAD,
+            source=SOURCE,
+            kind=ABSOLUTE,
         )
         yield load
-        yield Check(f"{name}: mean gap", history.mean_gap[k], moment.mean_gap, GAP, SOURCE, unit="m")
+        yield Check(
+            f"{name}: mean gap", history.mean_gap[k], expected=moment.mean_gap, tolerance=GAP, source=SOURCE, unit="m"
+        )
     steady = lubfric.friction(averaged(prepare(s, lubfric.Surface(heights, (LENGTH / cells, LENGTH / cells)))), LAST)
     middle = moments[count // 2]
     ahead = 1 - middle.contact_load / steady.contact_load
     name = "the film lags: contact load below the steady one at the end of the ramp"
-    yield Check(name, ahead, 0.02, 0.0, "the film was made at a higher speed", AT_LEAST, grade="B")
+    yield Check(
+        name,
+        ahead,
+        expected=0.02,
+        tolerance=0.0,
+        source="the film was made at a higher speed",
+        kind=AT_LEAST,
+        grade="B",
+    )
     columns = ("t U0/b", "U (m/s)", "F_C (N): elements", "lubfric", "mean gap (nm): elements", "lubfric")
     yield Table("sharing-in-time", "Load sharing while the speed falls to half, by both programs", columns, rows)
 

@@ -137,7 +137,7 @@ def compared(
     for by, values in (("lubfric", mine), ("finite elements", theirs)):
         rows.append((name, by, *(f"{1e9 * value:.2f}" for value in values)))
     for (quantity, allowed), value, expected in zip(ALLOWED.items(), mine, theirs):
-        yield Check(f"{name}: {quantity}", value, float(expected), allowed, SOURCE, unit="m")
+        yield Check(f"{name}: {quantity}", value, expected=float(expected), tolerance=allowed, source=SOURCE, unit="m")
 
 
 def order_of(films: list[RoughStripFilm], grids: tuple[int, ...]) -> Check:
@@ -151,4 +151,12 @@ def order_of(films: list[RoughStripFilm], grids: tuple[int, ...]) -> Check:
 
     order = brentq(mismatch, 0.2, 6.0) if mismatch(0.2) * mismatch(6.0) < 0 else float("nan")
     source = "bilinear elements: second order"
-    return Check("order of the flow in the cell of the elements", order, ORDER, 0.6, source, AT_LEAST, grade="B")
+    return Check(
+        "order of the flow in the cell of the elements",
+        order,
+        expected=ORDER,
+        tolerance=0.6,
+        source=source,
+        kind=AT_LEAST,
+        grade="B",
+    )

@@ -99,8 +99,28 @@ def squeeze(most: int):
     cells = np.array([setting(r).grid.n for r in resolutions])
     equal = "BDF2 at equal steps"
     series = [
-        Series("film, time step", 1 / counts, in_time, 2, "order in time", 0.2, equal, AT_LEAST, finest=3),
-        Series("sinking speed, cells", 1 / cells, in_space, 2, "order in space", 0.3, LAW, AT_LEAST, finest=3),
+        Series(
+            "film, time step",
+            1 / counts,
+            errors=in_time,
+            order=2,
+            check="order in time",
+            tolerance=0.2,
+            source=equal,
+            kind=AT_LEAST,
+            finest=3,
+        ),
+        Series(
+            "sinking speed, cells",
+            1 / cells,
+            errors=in_space,
+            order=2,
+            check="order in space",
+            tolerance=0.3,
+            source=LAW,
+            kind=AT_LEAST,
+            finest=3,
+        ),
     ]
     caption = "Rigid squeeze: relative error of the film at the end against step (of the finest steps), of the sinking "
     caption += "speed against cells (of the exact law)."
@@ -109,8 +129,23 @@ def squeeze(most: int):
 
 def setting(resolution: float):
     """The rigid squeeze on a grid of a given resolution."""
-    oil, load, radius, still, viscosity = Lubricant(0.1, 0.0, "constant"), *map(Constant, (100.0, 0.01, 0.0, 0.1))
-    made = make_setting(ContactHistory(load, radius, 2.2e17, still, viscosity, oil, LONG, 1e-6), 3e-3)
+    oil, load, radius, still, viscosity = (
+        Lubricant(0.1, 0.0, viscosity_law="constant"),
+        *map(Constant, (100.0, 0.01, 0.0, 0.1)),
+    )
+    made = make_setting(
+        ContactHistory(
+            load=load,
+            radius=radius,
+            e_prime=2.2e17,
+            speed=still,
+            viscosity=viscosity,
+            lubricant=oil,
+            duration=LONG,
+            initial_film=1e-6,
+        ),
+        3e-3,
+    )
     edge = made.problem.half_width
     return replace(made, grid=make_fixed_grid(symmetric_nodes(resolution, (edge, edge), (0.1, 1.0))))
 
@@ -119,7 +154,7 @@ def marched(resolution: float, steps: int) -> float:
     """Film after 0.3 of the squeeze in equal steps, in units of the film at the start."""
     made = setting(resolution)
     first = made.undeformed(1e-6)
-    now = Progress((first,), LONG)
+    now = Progress(levels=(first,), step=LONG)
     system = SimpleNamespace(solve=made.solve, error_of=lambda solution, difference: 0.0)
     for k in range(steps):
         result = advance(replace(now, step=LONG), 0.3 * LONG * (k + 1) / steps, system, 1.0, 0.0)
@@ -162,14 +197,16 @@ def stopped():
     history = solve_transient_ehl(**keywords, times=unit * np.linspace(0, 40, 41), time_tolerance=1e-6)
     exact = keywords["load_per_width"] / (6 * math.sqrt(2) * math.pi * VISCOSITY * RADIUS**1.5)
     slope = (history.min_film[-1] ** -0.5 - history.min_film[20] ** -0.5) / (history.time[-1] - history.time[20])
-    yield Check("light contact stopped: rate of h^-1/2", slope, exact, 3e-3, LAW)
+    yield Check("light contact stopped: rate of h^-1/2", slope, expected=exact, tolerance=3e-3, source=LAW)
     keywords, _, unit = contact(20, 5)
     keywords["entrainment_speed"] = step_history(keywords["entrainment_speed"], 0.0)
     history = solve_transient_ehl(**keywords, times=unit * np.geomspace(1e-2, 1e3, 41), **COARSE)
     centre = history.central_film / history.central_film[0]
     name = "heavy contact stopped: film left in the centre after 10 transits"
     source = "viscous entrapment: the film at the edge closes first and seals the centre (M = 20, L = 5, 0.4 GPa)"
-    yield Check(name, np.interp(10 * unit, history.time, centre), 0.8, 0.0, source, AT_LEAST)
+    yield Check(
+        name, np.interp(10 * unit, history.time, centre), expected=0.8, tolerance=0.0, source=source, kind=AT_LEAST
+    )
 
 
 def reversal():
@@ -183,7 +220,9 @@ def reversal():
     yield bound("reversal: third cycle against the second", change, 5e-3, "a periodic run becomes periodic")
     wet = np.min(history.pressure[20] > 0)
     source = "pure squeeze has no cavity"
-    yield Check("no entrainment: film pressurised on both sides", wet, 1.0, 0.0, source, AT_LEAST)
+    yield Check(
+        "no entrainment: film pressurised on both sides", wet, expected=1.0, tolerance=0.0, source=source, kind=AT_LEAST
+    )
 
 
 def jumps(level: str):

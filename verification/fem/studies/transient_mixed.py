@@ -57,7 +57,9 @@ def steady(model):
     fine = prepare(model.scene.with_(numerics={"tolerance": 2e-3}), like=model)
     held = run(fine, Transient(1.0), [0.0, 0.1, 1.0])
     point = lubfric.friction(fine)
-    yield Check("held in time: friction", held.coefficient[-1], point.coefficient, 2e-3, STEADY)
+    yield Check(
+        "held in time: friction", held.coefficient[-1], expected=point.coefficient, tolerance=2e-3, source=STEADY
+    )
     yield bound("held in time: drift", np.ptp(held.coefficient) / point.coefficient, 5e-4, "a steady state")
     ramp = Ramp(start=0.005, end=0.15, until=4.0)
     slow = run(model, Transient(4.0, speed=ramp), np.linspace(0, 4, 13))
@@ -77,7 +79,7 @@ def loops(model):
         opening.append(history.coefficient[70] - history.coefficient[50])  # up minus down at the mean speed
     name = "hysteresis: f speeding up above f slowing down (shortest period)"
     source = "the film lags behind the speed"
-    yield Check(name, opening[0], 1e-3, 0.0, source, AT_LEAST)
+    yield Check(name, opening[0], expected=1e-3, tolerance=0.0, source=source, kind=AT_LEAST)
     name = "hysteresis: longest period against shortest"
     closed = abs(opening[-1] / opening[0])
     yield bound(name, closed, 0.1, "slow loops close on the Stribeck curve")
@@ -87,7 +89,14 @@ def loops(model):
     change = np.max(np.abs(history.coefficient[60:101] / history.coefficient[20:61] - 1))
     yield bound("reciprocating: third cycle against the second", change, 5e-3, "a periodic run becomes periodic")
     share = history.film_load[90] / history.load[90]
-    yield Check("reciprocating: lubricant held at U = 0 carries load", share, 0.05, 0.0, "squeeze", AT_LEAST)
+    yield Check(
+        "reciprocating: lubricant held at U = 0 carries load",
+        share,
+        expected=0.05,
+        tolerance=0.0,
+        source="squeeze",
+        kind=AT_LEAST,
+    )
 
 
 def stop_and_start(model):
@@ -99,7 +108,7 @@ def stop_and_start(model):
     low = np.interp(0.04, history.entrainment_speed[down][::-1], history.coefficient[down][::-1])
     high = np.interp(0.04, history.entrainment_speed[up], history.coefficient[up])
     name = "start-up friction over shut-down friction at 0.04 m/s"
-    yield Check(name, high / low, 1.1, 0.0, "the film lags", AT_LEAST)
+    yield Check(name, high / low, expected=1.1, tolerance=0.0, source="the film lags", kind=AT_LEAST)
     rest = history.film_load[(history.time > 9e-3) & (history.time <= 1e-2)][-1] / history.load[0]
     name = "after 5 ms of rest the contact carries the load: share left to the film"
     yield bound(name, rest, 5e-3, "squeeze decays against the contact")
@@ -128,4 +137,4 @@ def cost():
     scene = lubfric.load_scene("paper").with_(transient=Transient(0.1, outputs=300, speed=wave(0.03, 10.0)))
     history, seconds = paced(lambda: lubfric.transient(scene))
     name = f"paper scene, {history.report.iterations} steps of a cycle: processor time on the stated core"
-    yield Check(name, seconds, 30.0, 0.0, "target", AT_MOST, unit="s")
+    yield Check(name, seconds, expected=30.0, tolerance=0.0, source="target", kind=AT_MOST, unit="s")

@@ -97,9 +97,24 @@ def waviness(level: str) -> Iterator[Item]:
         rows.append((case.name, f"{speed:g}", length, *row))
         name = f"{case.name}: waves of {length:g} b at {speed:g} U"
         allowed = MOVING if speed else ALLOWED
-        yield Check(f"{name}, rms of the film", row[-1], 0.0, allowed, SOURCE, ABSOLUTE, note="of their height")
+        yield Check(
+            f"{name}, rms of the film",
+            row[-1],
+            expected=0.0,
+            tolerance=allowed,
+            source=SOURCE,
+            kind=ABSOLUTE,
+            note="of their height",
+        )
         for part, mine, judge in (("of the surface", *row[:2]), ("from the inlet", *row[2:4])):
-            yield Check(f"{name}, part {part}", mine, judge, max(0.1 * judge, 0.003), SOURCE, ABSOLUTE)
+            yield Check(
+                f"{name}, part {part}",
+                mine,
+                expected=judge,
+                tolerance=max(0.1 * judge, 0.003),
+                source=SOURCE,
+                kind=ABSOLUTE,
+            )
     yield Table("waviness", "Waves of small height: what the film has of them", COLUMNS, tuple(rows))
     if level != "quick":
         yield from in_time()
@@ -165,6 +180,22 @@ def in_time() -> Iterator[Check]:
     source = "full-system finite elements in time"
     size = float(np.sqrt(np.mean(np.abs(two) ** 2)))
     rms = float(np.sqrt(np.mean(np.abs(one - two) ** 2)))
-    yield Check("a wave in time: amplitude in the film", np.sqrt(np.mean(np.abs(one) ** 2)), size, 0.02, source)
-    yield Check("a wave in time: rms of the film", rms, 0.0, 0.02, source, ABSOLUTE, note="of its height")
-    yield Check("a wave in time: mean film", mine.mean(), judge.mean(), 0.005, source, unit="m")
+    yield Check(
+        "a wave in time: amplitude in the film",
+        np.sqrt(np.mean(np.abs(one) ** 2)),
+        expected=size,
+        tolerance=0.02,
+        source=source,
+    )
+    yield Check(
+        "a wave in time: rms of the film",
+        rms,
+        expected=0.0,
+        tolerance=0.02,
+        source=source,
+        kind=ABSOLUTE,
+        note="of its height",
+    )
+    yield Check(
+        "a wave in time: mean film", mine.mean(), expected=judge.mean(), tolerance=0.005, source=source, unit="m"
+    )
