@@ -382,7 +382,7 @@ def _history_answer(result: TransientResult, complete: bool) -> list[str]:
     ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio)]
     if ratio.size:
         sentences.append(
-            f"The lambda ratio of the full-load film lies between {_number(_rounded(ratio, ratio.argmin()))} and "
+            f"The lambda ratio of the full-load film lies between {_number(_rounded(ratio, int(ratio.argmin())))} and "
             f"{_number(float(ratio.max()))}."
         )
     return sentences

@@ -159,7 +159,7 @@ def _draw_intervals(
     low, high = (result[f"uncertainty_{end}"].ravel()[order] for end in ("low", "high"))
     known = np.isfinite(low) & np.isfinite(high)
     width = 4 if f.size <= 40 else 1.5
-    band = {"label": "95 % interval"} if known.any() else {}
+    band: dict[str, Any] = {"label": "95 % interval"} if known.any() else {}
     axes.vlines(over[known], low[known], high[known], color=figures.BLUE, alpha=0.4, lw=width, **band)
     axes.plot(over, f, "o", ms=5 if f.size <= 40 else 2.5, color=figures.BLUE, label="friction coefficient")
     axes.set_ylabel(figures.FRICTION)

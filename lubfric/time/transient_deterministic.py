@@ -358,5 +358,14 @@ def deterministic_moment(
     lost = max(heat.change, 1 - heat.inlet.factor if heat.inlet else 0.0)
     if lost > scene.numerics.tolerance:
         remedy = "numerics.model = 'load-sharing', which has the heat in time; heat = 'off' states that this is meant"
-        entries.append(Validity("loss of film or f by heat", lost, scene.numerics.tolerance, "", ISOTHERMAL, remedy))
+        entries.append(
+            Validity(
+                what="loss of film or f by heat",
+                value=lost,
+                limit=scene.numerics.tolerance,
+                unit="",
+                consequence=ISOTHERMAL,
+                remedy=remedy,
+            )
+        )
     return row, tuple(entries)

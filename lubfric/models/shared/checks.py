@@ -304,7 +304,7 @@ def of_typical_heat(scene: Scene, change: float) -> Iterator[Validity]:
             unit="%",
             consequence="heat is not included, because the viscosity is a number; this is its effect, at most, on a typical oil, whose "
             f"viscosity falls by {100 * coefficient:.2g} % per K, at {temperature - CELSIUS:.0f} °C",
-            "give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); numerics.heat = "
+            remedy="give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); numerics.heat = "
             "'off' states that this is meant",
         )
 

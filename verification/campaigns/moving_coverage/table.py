@@ -179,7 +179,7 @@ def answer(contact: RollingContact, seed: int) -> dict[str, Any]:
     solution = sampled(prepare(with_seed(contact, seed)), contact.speed, DeterministicModel())
     assert isinstance(solution, DeterministicSolution)
     parts = solution.answer()
-    first = solution.strips[0].resolved
+    first: Any = solution.strips[0].resolved  # a `MovingStrip`
     return {
         "f": parts.numbers["coefficient"],
         "sampling": parts.sampling.error,
