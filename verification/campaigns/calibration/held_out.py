@@ -22,13 +22,26 @@ def coverage(level: str, motion: str, run: Run = Run()) -> Iterator[Item]:
     quantile = quantile_of(parts)
     inside = np.concatenate(_inside(parts, quantile))
     name = f"{len(solved)} cases, {motion}"
-    yield Check(f"{name}: within the bounds", float(inside.mean()), LEAST, 0.0, "kinds left out", AT_LEAST)
+    yield Check(
+        f"{name}: within the bounds",
+        float(inside.mean()),
+        expected=LEAST,
+        tolerance=0.0,
+        source="kinds left out",
+        kind=AT_LEAST,
+    )
     width = _width(parts, quantile)
-    yield Check(f"{name}: median half-width", width, TARGETS[motion], 0.0, "the target", REPORTED)
+    yield Check(
+        f"{name}: median half-width", width, expected=TARGETS[motion], tolerance=0.0, source="the target", kind=REPORTED
+    )
     errors = _without_bias(known)
     plain = _by_equation(solved)
-    yield Check(f"{name}: rms error of ln f", _rms(errors), 0.0, 0.0, "deterministic", REPORTED)
-    yield Check(f"{name}: the same by Eq. (9)", _rms(plain), 0.0, 0.0, "deterministic", REPORTED)
+    yield Check(
+        f"{name}: rms error of ln f", _rms(errors), expected=0.0, tolerance=0.0, source="deterministic", kind=REPORTED
+    )
+    yield Check(
+        f"{name}: the same by Eq. (9)", _rms(plain), expected=0.0, tolerance=0.0, source="deterministic", kind=REPORTED
+    )
     rows = [
         (
             part.kind,
@@ -53,7 +66,9 @@ def summary(level: str, run: Run = Run()) -> Iterator[Item]:
         quantile = quantile_of(parts)
         inside = [float(part.mean()) for part in _inside(parts, quantile)]
         share = float(np.concatenate(_inside(parts, quantile)).mean())
-        yield Check(f"{motion}: within the bounds", share, LEAST, 0.0, "kinds left out", AT_LEAST)
+        yield Check(
+            f"{motion}: within the bounds", share, expected=LEAST, tolerance=0.0, source="kinds left out", kind=AT_LEAST
+        )
         rows.append(
             (
                 WORDS[motion],
