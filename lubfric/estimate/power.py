@@ -11,7 +11,11 @@ from .result import FrictionResult
 # is off by -6.5 and +5.5 % at Λ of 0.70 and 0.31, and by at most 0.9 % from 1.7 to 15 (built-in contact and the bearing of
 # docs/start.md in pure rolling).
 OF_ROLLING = 0.08
+
+# Least of these errors.
 LEAST_OF_ROLLING = 0.02
+
+# Largest of these errors.
 MOST_OF_ROLLING = 0.15
 
 

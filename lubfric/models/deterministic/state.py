@@ -7,8 +7,13 @@ import numpy as np
 from .flow import MassBalance, mass_balance
 from .problem import Problem
 
+# Kind of a cell: the film fills the gap.
 FLUID = 0
+
+# Kind of a cell: the film is ruptured, its pressure is 0.
 RUPTURED = 1
+
+# Kind of a cell: the bodies touch, the gap is the floor.
 TOUCHING = 2
 PULL = 0.01  # of U times the floor over dx: suction in a touching cell, below which it is left alone
 

@@ -15,6 +15,8 @@ from .scatter import Scatter
 # Relative change of the plastic part over that of the load or the area, at most about. Not measured.
 PLASTIC = 3.0
 NO_CELLS = "not known: this contact has no places along y to compare"
+
+# Errors below and above f where the model has none.
 NONE = (0.0, 0.0)
 UNKNOWN = (math.nan, math.nan)
 EMPTY = "the film that arrives does not fill the gap: Eq. (8) takes it for none, and f may be lower"

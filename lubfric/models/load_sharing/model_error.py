@@ -2,14 +2,32 @@
 
 import math
 
+# Error of the load on asperities over sqrt(s (1 - s)) of the total load, s = F_C/F_T. The constants of this module
+# cover 95 % and more of the differences from deterministic answers: `python -m verification model --only answers`,
+# docs/measurements.md.
 OF_SHARE = 0.7
+
+# Error of f in contact over sqrt(1 - s).
 IN_CONTACT = 0.25
+
+# Error of the shear force of the film times Λ², over that force.
 OF_FILM = 3.2
+
+# Error of the shear force of the film over that force, at most.
 MOST_OF_FILM = 0.3
-OF_ROLLING = 8.0  # of the rolling force: what pressure on the flanks of moving roughness may add; up to 7 were seen
-STARVED = (0.5, 0.1)  # of the filled part of the gap: error of f below and above where a given film arrives
-LEAST_WITH_FILM = 0.1  # of the lambda ratio, up to 1: least error of f where there is a film between rough surfaces
-FLANKS = 1.5  # film/Sq from which on that falls, with the square of it; 2.4 times the rolling force were seen at 2
+
+# Factor on the rolling force: what pressure on the flanks of moving roughness may add; up to 7 were seen (`python -m
+# verification model --only rolling`).
+OF_ROLLING = 8.0
+
+# Error of f below and above, over the filled part of the gap, where a given film arrives (`starved_error`).
+STARVED = (0.5, 0.1)
+
+# Least error of f over Λ, up to 1, where there is a film between rough surfaces.
+LEAST_WITH_FILM = 0.1
+
+# Λ from which the flanks add less, with the square of it: 2.4 times the rolling force were seen at 2.
+FLANKS = 1.5
 
 
 def load_sharing_error(

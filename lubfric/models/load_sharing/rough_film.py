@@ -42,6 +42,8 @@ MOVING = 3.0
 # thicker than the boundary film, and the steepness about it (68 Newtonian cases of the campaign at rest: medians 0, .12,
 # .58, .93, 1 at 1.2, 2.2, 4, 6.5, 11)
 HALF_SATURATED = 3.7
+
+# Steepness of that ratio about it.
 STEEPNESS = 3
 FLOOR = 1e-9  # m: least gap of a cell
 THICKEST = 60.0  # of ln(eta/eta0): a solid
