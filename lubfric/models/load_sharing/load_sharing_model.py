@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from ...samples import Sample
-from ...scene import Scene, gap_not_resolved
+from ...scene import Scene, gap_not_resolved, moves
 from ...surface import Surface
 from ..contract import AtInputs, Model, ModelAnswer, SampleSolution, WorkEstimate
 from ..shared import ControlVariate, Prepared, limit_in_words, no_rough_film, percent
@@ -23,6 +23,11 @@ from .paper_model import PaperModel, PaperSolution
 IN_WORDS = "load sharing, calibrated"
 BOUNDARY = "the lambda ratio is below that of the solved cases behind the calibration: f of Eq. (9), the paper{}"
 ELASTIC = "elastic shear (lubricant.shear_modulus) is not calibrated: friction by Eq. (9)"
+# what narrows the bounds; at rest long cells cost as much as this model and err less (docs/models.md, chart)
+NARROWER = {
+    "at rest": "numerics.model = 'deterministic' narrows f, with numerics.tolerance = 0.1 at about the same cost",
+    "moving": "numerics.model = 'deterministic' narrows f, at the cost that `lubfric info` estimates",
+}
 NOT_FLOODED = (
     "f of Eq. (9) with the error of load sharing: the campaign behind the calibration has flooded contacts only"
 )
@@ -167,7 +172,7 @@ def calibrated_answer(prepared: Prepared, answer: ModelAnswer, friction: Calibra
             answer.decision,
             model=IN_WORDS,
             basis=basis_of(friction),
-            notes=(in_words(friction), *answer.decision.notes),
+            notes=(in_words(friction, is_moving=moves(scene)), *answer.decision.notes),
         ),
     )
 
@@ -194,7 +199,7 @@ def basis_of(friction: CalibratedFriction) -> str:
     return f"load sharing, calibrated on {friction.cases} solved cases: model-form -{percent(low)} / +{percent(high)}"
 
 
-def in_words(friction: CalibratedFriction) -> str:
+def in_words(friction: CalibratedFriction, *, is_moving: bool) -> str:
     """Return what makes f up, and what narrows it, as text."""
     parts = []
     if any(friction.by_film):
@@ -204,5 +209,5 @@ def in_words(friction: CalibratedFriction) -> str:
     parts.append(
         f"asperity load: boundary film {percent(film.boundary_film)}, saturated film {percent(film.saturated_film)}"
     )
-    parts.append("numerics.model = 'deterministic' narrows f, at the cost that `lubfric info` estimates")
+    parts.append(NARROWER["moving" if is_moving else "at rest"])
     return "; ".join(parts)
