@@ -145,7 +145,7 @@ INPUTS = (
     "points",
 )  # options of commands that name files they read
 OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
-    *(f"{table}.{kind}" for table in ("stribeck", "traction", "history") for kind in ("csv", "png")),
+    *(f"{table}.{kind}" for table in ("stribeck", "traction", "history") for kind in ("csv", "png", "pdf", "svg")),
     *("contact.png", "contact_*.vtk", "sharing.png", "surface.png", "animation.gif", "law.json", "law.c"),
     *("fields.npz", "report.html", RESOLVED, RESULT),
 )

@@ -332,7 +332,7 @@ def _nearest(scene: Scene, curve: CurveResult) -> tuple[FrictionResult, str] | N
 
 def _place(curve: CurveResult, index: int) -> str:
     name, symbol, unit, _ = curve.SWEPT
-    return f"at {symbol} = {getattr(curve, name)[index]:.4g} {unit.removesuffix('(slide-roll ratio)')}".rstrip()
+    return f"at {symbol} = {getattr(curve, name)[index]:.4g} {unit}".rstrip()
 
 
 # runs in time

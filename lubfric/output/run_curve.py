@@ -23,6 +23,7 @@ from ..estimate import FrictionResult
 from ..models.shared import (
     Prepared,
     Validity,
+    at_value,
     effect_in_words,
 )
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
 
 
 SCALES = ("linear", "log")  # of an axis
+FORMATS = ("png", "pdf", "svg")  # of a picture that is drawn again
 NARROWEST = 0.05  # m: width of a picture
 WIDEST = 0.6  # m: width of a picture
 TABLES = {"history": "a run in time", "traction": "a traction curve", "stribeck": "a Stribeck curve"}
@@ -186,15 +188,13 @@ def _write_fields(
 
 def _title(scene: Scene, curve: studies.CurveResult) -> str:
     """Return the title of the picture of ``curve``: the name of the scene, and what the model-form error of its points rests
-    on, where a point states it; that of the widest error."""
+    on, where a point states it. The band of the picture shows how large it is."""
     stated = [p for p in curve.points if p is not None and p.decision.basis]
     if not stated:
         return scene.name
-    widest = max(stated, key=lambda point: point.uncertainty.model)
     solved = [p for p in curve.points if p is not None]
     of = "" if len(stated) == len(solved) else f" ({len(stated)} of {counted(len(solved), curve.SWEPT[3])})"
-    most = " at most" if len(stated) > 1 else ""
-    return f"{scene.name}\n{widest.decision.basis}{most}{of}"
+    return f"{scene.name}\n{stated[0].decision.basis.partition(':')[0]}{of}"
 
 
 def _law(curve: studies.CurveResult) -> studies.Law | str:
@@ -232,7 +232,7 @@ def _point(curve: studies.CurveResult, index: int) -> dict[str, Any]:
 
 
 def plot_again(arguments: Namespace) -> None:
-    """Draw the picture of a run again from its table; of a Stribeck curve with the measured curve that the
+    """Draw the picture of a run again from its table, as a PNG, or as a PDF or SVG for a paper; of a Stribeck curve with the measured curve that the
     ``arguments`` of ``lubfric plot`` name."""
     folder = arguments.folder
     name = next((name for name in TABLES if (folder / f"{name}.csv").is_file()), None)
@@ -259,10 +259,12 @@ def plot_again(arguments: Namespace) -> None:
             raise InputError("--measured needs --speed and --coefficient, the headings of its columns")
         columns_of = {"coefficient": arguments.coefficient, "speed": arguments.speed}
         again = partial(again, measured=studies.read_measured(arguments.measured, **columns_of))
-    check_outputs(arguments, folder, [f"{name}.png"])
-    content = made(f"{name}.png", again)
+    file = f"{name}.{validate.choice('--format', arguments.format, FORMATS)}"
+    check_outputs(arguments, folder, [file])
+    content = made(file, again)
     with FolderLock(folder):
-        OwnFiles(folder).replace({f"{name}.png": content})
+        OwnFiles(folder).replace({file: content})
+    say(f"wrote {file} to {folder}")
 
 
 def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
@@ -325,10 +327,10 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
         at, worst = max(noted, key=lambda p: p[1].sampling if math.isfinite(p[1].sampling) else math.inf)
         others = counted(len(noted) - 1, f"more {plural}")
         more = f" (the largest; result.json has {others})" if len(noted) > 1 else ""
-        said.append(f"uncertainty of f at {at:.4g} {unit}: {'; '.join(worst.notes)}{more}")
+        said.append(f"uncertainty of f {at_value(at, unit, plural)}: {'; '.join(worst.notes)}{more}")
         if few and few != [at]:
-            where = ", ".join(f"{value:.4g}" for value in few)
-            said.append(f"few asperity contacts carry the load at {where} {unit}: these intervals are too narrow")
+            where = ", ".join(at_value(value, unit, plural) for value in few)
+            said.append(f"few asperity contacts carry the load {where}: these intervals are too narrow")
     if scene.numerics.accept and any(e.severe for i in range(len(curve.points)) for e in curve.entries(i)):
         said.append("accepted outside the range of the model (--accept): the coefficients that are marked mean nothing")
     return said

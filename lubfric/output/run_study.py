@@ -63,9 +63,7 @@ def run_study(arguments: Namespace) -> None:
     for row in rows:
         say(row)
     if result.failed:
-        report = Report(
-            "study", ITERATION_LIMIT, iterations=result.solved - result.failed, residual=float("inf"), tolerance=0.0
-        )
+        report = Report("study", ITERATION_LIMIT, result.solved - result.failed, float("inf"), 0.0)
         said = f"{result.failed} of {counted(result.solved, 'points')} failed; first: {result.failures[0]}"
         raise ConvergenceError(said, report, result)
 
@@ -159,8 +157,10 @@ def _draw_intervals(
     low, high = (result[f"uncertainty_{end}"].ravel()[order] for end in ("low", "high"))
     known = np.isfinite(low) & np.isfinite(high)
     width = 4 if f.size <= 40 else 1.5
-    band: dict[str, Any] = {"label": "95 % interval"} if known.any() else {}
-    axes.vlines(over[known], low[known], high[known], color=figures.BLUE, alpha=0.4, lw=width, **band)
+    if known.any():
+        axes.vlines(
+            over[known], low[known], high[known], color=figures.BLUE, alpha=0.4, lw=width, label="95 % interval"
+        )
     axes.plot(over, f, "o", ms=5 if f.size <= 40 else 2.5, color=figures.BLUE, label="friction coefficient")
     axes.set_ylabel(figures.FRICTION)
     finite = np.concatenate([f[np.isfinite(f)], low[known], high[known]])

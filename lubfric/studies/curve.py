@@ -80,7 +80,10 @@ class CurveResult(Shown):
         if good.any():
             known = getattr(self, name)[good]
             f = self["coefficient"][good]
-            facts |= {symbol: f"{known.min():.4g} to {known.max():.4g} {unit}", "f": f"{f.min():.4g} to {f.max():.4g}"}
+            facts |= {
+                symbol: f"{known.min():.4g} to {known.max():.4g} {unit}".rstrip(),
+                "f": f"{f.min():.4g} to {f.max():.4g}",
+            }
         return facts | {"failed": str(len(self.errors)), "warnings": str(len(self.validity))}
 
 

@@ -113,7 +113,7 @@ class FitResult(Shown):
     @property
     def validity(self) -> tuple[str, ...]:
         """One sentence for each assumption that does not hold at some of the points."""
-        unit, name = ("m/s", "speeds") if self.measured.over == SPEED else ("(slide-roll ratio)", "ratios")
+        unit, name = ("m/s", "speeds") if self.measured.over == SPEED else ("", "slide-roll ratios")
         return gathered(list(zip(self.measured.x.tolist(), self.entries)), unit, name)
 
     @property

@@ -253,7 +253,7 @@ class TractionResult(CurveResult):
     report : the largest residual of the points over its tolerance
     """
 
-    SWEPT = "ratio", "S", "(slide-roll ratio)", "ratios"
+    SWEPT = "ratio", "S", "", "slide-roll ratios"
 
     ratio: np.ndarray
     speed: float

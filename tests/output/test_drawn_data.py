@@ -143,7 +143,7 @@ def test_a_picture_is_drawn_as_the_command_asks(figures, tmp_path, monkeypatch):
     assert top.get_yscale() == "log" and bottom.get_xscale() == "linear" and "film" in bottom.get_ylabel()
     low, high = top.get_ylim()
     assert 0 < low < 0.02 and high > 0.09
-    for wrong in (["--panels", "torque"], ["--y-scale", "cubic"], ["--width", "1 mm"]):
+    for wrong in (["--format", "bmp"], ["--panels", "torque"], ["--y-scale", "cubic"], ["--width", "1 mm"]):
         assert main(["plot", out, *wrong]) == 2
 
 
@@ -343,3 +343,15 @@ def test_a_spike_does_not_take_the_colours_of_a_map_and_is_told():
     low, high = surface.plot(axes.figure.subplots()).images[0].get_clim()
     z = 1e9 * (surface.heights - surface.heights.mean())
     assert (low, high) == pytest.approx((z.min(), z.max()), rel=0.2)
+
+
+def test_a_picture_for_a_paper_is_a_vector_graphic(tmp_path):
+    scene = tmp_path / "s.toml"
+    scene.write_text(SCENE.with_(motion={"entrainment_speed": 0.1}).to_toml())
+    out = tmp_path / "out"
+    main(["run", str(scene), "--speeds", "0.1,1", "--out", str(out)])
+    for kind, begin in (("pdf", b"%PDF"), ("svg", b"<?xml")):
+        assert main(["plot", str(out), "--format", kind, "--width", "85 mm"]) == 0
+        assert (out / f"stribeck.{kind}").read_bytes().startswith(begin)
+    main(["run", str(scene), "--speeds", "0.1,1", "--out", str(out)])  # a new run removes what is no longer its own
+    assert not (out / "stribeck.pdf").exists() and (out / "stribeck.png").exists()

@@ -64,4 +64,4 @@ from .unmodelled import (
     expected_effects,
     unmodelled_effects,
 )
-from .validity import Validity, entries_of, gathered, in_a_cell, refused, sentence
+from .validity import Validity, at_value, entries_of, gathered, in_a_cell, refused, sentence

@@ -93,10 +93,17 @@ def gathered(
         worst = max((entry for _, entry in group), key=_distance)
         values = sorted(value for value, _ in group)
         if len(group) == 1:
-            lines.append(f"at {values[0]:g} {unit}: {worst.text}")
+            lines.append(f"{at_value(values[0], unit, name)}: {worst.text}")
         else:
-            lines.append(f"{len(group)} {name}, {values[0]:g} to {values[-1]:g} {unit}: {worst.text}")
+            ends = f"{values[0]:g} to {values[-1]:g} {unit}".rstrip()
+            lines.append(f"at {len(group)} {name}, {ends}: {worst.text}")
     return tuple(lines)
+
+
+def at_value(value: float, unit: str, name: str) -> str:
+    """Return the place of one value of a curve: "at 3 m/s", or without a ``unit`` "at a slide-roll ratio of 0.05".
+    ``name``: of several values."""
+    return f"at {value:.6g} {unit}" if unit else f"at a {name.removesuffix('s')} of {value:.6g}"
 
 
 def _distance(entry: Validity) -> float:
