@@ -61,3 +61,12 @@ def test_half_of_wear_is_refused(folder, capsys):
     assert main(["run-in", str(folder / "s.toml"), "--distance", "1 m", "--out", str(folder / "x")]) == 2
     assert "--distance is for wear, which needs --wear-coefficient as well" in capsys.readouterr().err
     assert not (folder / "x").exists()
+
+
+def test_passes_end_a_running_in_that_still_yields(folder, capsys):
+    out = folder / "one"
+    assert main(["run-in", str(folder / "s.toml"), "--passes", "1", "--out", str(out)]) == 0
+    result = lubfric.run_in(lubfric.load_scene(folder / "s.toml"), passes=1)
+    np.testing.assert_array_equal(np.load(out / "surface.npy"), result.surface.heights)
+    assert not result.shaken_down and "Give more --passes" in capsys.readouterr().err
+    assert "Not complete: asperities still yield." in (out / "report.html").read_text(encoding="utf-8")
