@@ -63,7 +63,9 @@ def run_study(arguments: Namespace) -> None:
     for row in rows:
         say(row)
     if result.failed:
-        report = Report("study", ITERATION_LIMIT, result.solved - result.failed, float("inf"), 0.0)
+        report = Report(
+            "study", ITERATION_LIMIT, iterations=result.solved - result.failed, residual=float("inf"), tolerance=0.0
+        )
         said = f"{result.failed} of {counted(result.solved, 'points')} failed; first: {result.failures[0]}"
         raise ConvergenceError(said, report, result)
 

@@ -234,5 +234,5 @@ def change_in_words(low: float, high: float | None = None) -> str:
 def _signed(change: float) -> str:
     """Return a change in percent with its sign, to two digits; "0" for what rounds to nothing."""
     percentage = 100 * change
-    text = f"{percentage:+.0f}" if abs(percentage) >= 9.5 else f"{percentage:+.2g}"
+    text = f"{percentage:+.0f}" if abs(percentage) >= 99.5 else f"{percentage:+.2g}"
     return "0" if abs(percentage) < 0.005 else text
