@@ -1,8 +1,14 @@
-"""Load sharing, Eq. (8) of the paper: film and contact carry one load.
+"""Load sharing, Eq. (8) of the paper: film and contact carry one load. Two models share its balance.
 
-`point` solves film and contact, each at its share of the load; `balance` finds the division at which they agree;
-`forces` gives the friction; `response` shows how strongly all that depends on an error of the gap; `limits` are the
-assumptions of the model that a balance violates.
+- The balance: `point` solves film and contact, each at its share of the load; `balance` finds the division at which they
+  agree; `balanced_sample` solves it on the first strips of a sample; `cell_effect` corrects it for their cells,
+  `scatter` and `undetected` give its sampling error, and `response` shows how strongly all that depends on an error of
+  the gap.
+- `paper_model`, ``"paper"``: `forces` gives the friction by Eq. (9), `model_error` its error, `limits` the assumptions
+  that a balance violates; `answer` and `errors_of` make the answer.
+- `load_sharing_model`, ``"load-sharing"``: `rough_film` gives the friction of the film between flattened roughness,
+  `calibrated` corrects it, with the error that a campaign of solved cases gives it (`error_model`, calibration.toml).
+- `control_variate` hands what is known of the strips to the deterministic model; `estimated_work` estimates the cost.
 """
 
 from .balance import Balance, solve_balance

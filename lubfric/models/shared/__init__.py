@@ -1,6 +1,8 @@
-"""What both models take: the scene made ready, heat, the limits of validity, and the effects that are not modelled.
+"""What the models have in common: the scene made ready, heat, limits of validity, effects that are not modelled.
 
-Neither model imports the other; both import this room.
+`prepared` makes a scene ready and finds the contact on strips and pieces, with `memo`; `statistics` has the standard
+errors of means along a line and the number of strips that they need. No room of a model imports the other; both import
+this one.
 """
 
 from .checks import (
