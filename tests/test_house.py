@@ -6,6 +6,7 @@ import pkgutil
 import re
 from collections import defaultdict
 from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -24,6 +25,8 @@ ODD_WORDS = frozenset(
 FRAGMENT = re.compile(r"^(Of|Those|That of|The same|As)\b")
 # What stands in lubfric from before these rules: a number here may only fall.
 REMAINING = {"classes": 0, "odd words": 0, "fragments": 0, "untyped": 0}
+# Records of more than four fields that may be filled by position: those that users make, and what is left of the rest.
+BY_POSITION = {"lubfric": 22, "verification": 20}
 # Names that tests import from inside a room, of all names that they import from lubfric.
 PRIVATE_SHARE = 0.10
 
@@ -152,6 +155,25 @@ def test_parameters_of_public_functions_have_types():
         if key not in ("self", "cls") and parameter.annotation is parameter.empty
     ]
     assert len(untyped) <= REMAINING["untyped"], untyped
+
+
+def records(package: str) -> Iterator[tuple[str, type]]:
+    """Yield the dataclasses of a package with their names."""
+    for info in pkgutil.walk_packages(import_module(package).__path__, f"{package}."):
+        if not info.name.endswith("__main__"):
+            members = inspect.getmembers(import_module(info.name), is_dataclass)
+            yield from ((name, kind) for name, kind in members if getattr(kind, "__module__", "") == info.name)
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_records_of_more_than_four_fields_are_filled_by_keyword(package):
+    """mypy holds the calls to this."""
+    by_position = [
+        name
+        for name, kind in records(package)
+        if inspect.isclass(kind) and sum(field.init and not field.kw_only for field in fields(kind)) > 4
+    ]
+    assert len(by_position) <= BY_POSITION[package], sorted(by_position)
 
 
 def test_what_a_user_imports_is_fifty_names():

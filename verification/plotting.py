@@ -78,7 +78,7 @@ def image(
 ) -> None:
     """A map (nx, ny) with x to the right and a labelled colour bar."""
     shown = ax.imshow(field.T, origin="lower", extent=extent, interpolation="nearest", **options)
-    ax.grid(False)
+    ax.grid(visible=False)
     canvas.colorbar(shown, ax=ax, label=label, shrink=0.85)
 
 

@@ -183,7 +183,7 @@ def field_image(
     slender = not 1 / SLENDER <= ratio <= SLENDER
     aspect: Literal["auto", "equal"] = "auto" if slender else "equal"
     image = axes.imshow(values.T, origin="lower", aspect=aspect, cmap=colours, extent=extent, **options)
-    axes.grid(False)
+    axes.grid(visible=False)
     axes.figure.colorbar(image, ax=axes, label=label, extend=extend)
     axes.set(xlabel="x (µm), along the motion")
     axes.set(ylabel=f"y (µm), along the line{' (not to scale)' if slender else ''}")

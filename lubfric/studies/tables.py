@@ -321,7 +321,7 @@ def plot_map(path: Path, study: Any, across: str, up: str, title: str = "", quan
 def _table_of(ax: Axes, x: FloatArray, y: FloatArray, values: FloatArray, bar: str) -> None:
     """Few values (ny, nx) as a table of colours with their numbers: contours would say more than is known."""
     image = ax.imshow(values, origin="lower", aspect="auto", cmap="viridis")
-    ax.grid(False)
+    ax.grid(visible=False)
     middle = 0.5 * (np.nanmin(values) + np.nanmax(values))
     for (row, column), value in np.ndenumerate(values):
         known = np.isfinite(value)

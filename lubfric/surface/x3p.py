@@ -154,7 +154,7 @@ def _parse(document: bytes) -> ElementTree.Element:
     guard = expat.ParserCreate()
     guard.StartDoctypeDeclHandler = refuse
     try:
-        guard.Parse(document, True)
+        guard.Parse(document, True)  # noqa: FBT003  # pyexpat takes no keyword
         root = ElementTree.fromstring(document)
     except (expat.ExpatError, ElementTree.ParseError, LookupError) as problem:
         raise _bad("main.xml", f"XML that cannot be parsed ({problem})", "well-formed XML") from None

@@ -50,7 +50,7 @@ def test_the_parts_of_a_law_agree(key):
     if oil.limit:
         assert replace(oil, **law.twice()).limit.critical(p)[0] == pytest.approx(2 * critical(p))
     else:
-        assert 1 / law.thinning(s, True)[0] == pytest.approx(differences(law.f, s, 1e-5 * s), rel=1e-6)
+        assert 1 / law.thinning(s, along=True)[0] == pytest.approx(differences(law.f, s, 1e-5 * s), rel=1e-6)
         assert factor == pytest.approx(s / law.f(s), rel=1e-9) and not (law.thins and law.critical(p)[1])
 
 

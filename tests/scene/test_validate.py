@@ -14,7 +14,7 @@ from lubfric.errors import InputError
 NO_NUMBERS = [
     *(True, np.True_, "1", b"1", 1 + 0j, None, {}, object(), float("nan"), float("inf"), 10**400, 10**5000),
     *(np.ma.masked, np.datetime64("2020"), np.timedelta64(1, "s"), datetime.date(2020, 1, 1)),
-    *([1], np.array([1.0]), np.array(True), decimal.Decimal("1e999")),
+    *([1], np.array([1.0]), np.array(object=True), decimal.Decimal("1e999")),
 ]
 
 

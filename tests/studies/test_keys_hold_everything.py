@@ -69,7 +69,11 @@ def test_a_second_body_and_other_kinds_of_a_history_make_other_keys():
 
 def test_speed_fields_and_versions_make_other_keys(monkeypatch):
     other_speeds = (0.1, -0.1, 0.10000000000000002)
-    keys = {point_key("a", 0.1, True), point_key("b", 0.1), *(point_key("a", speed) for speed in other_speeds)}
+    keys = {
+        point_key("a", 0.1, fields=True),
+        point_key("b", 0.1),
+        *(point_key("a", speed) for speed in other_speeds),
+    }
     assert len(keys) == 5
     keys = {fingerprint(SCENE)}
     known = arithmetic()

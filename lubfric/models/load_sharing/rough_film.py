@@ -212,8 +212,8 @@ def viscosities(oil: Lubricant, pressure: float, sliding: float, film: float) ->
     along = across = 1.0
     for law in oil.shear_laws if sliding > 0 else ():
         relative = np.array(viscosity * sliding / film / float(law.critical(np.array(pressure))[0]))
-        along += float(law.thinning(relative, True)[0]) - 1.0
-        across += float(law.thinning(relative, False)[0]) - 1.0
+        along += float(law.thinning(relative, along=True)[0]) - 1.0
+        across += float(law.thinning(relative, along=False)[0]) - 1.0
     return viscosity / along, viscosity / across
 
 

@@ -265,7 +265,7 @@ def pressure_figure(p: Point):
     for ax, pressure, title in ((left, own, "finite elements"), (middle, contact.pressure, "lubfric")):
         image = ax.imshow(pressure.T / 1e9, vmax=own.max() / 1e9, **shown)
         ax.set(title=title, xlabel="x (µm)", xlim=(-half / 2, half / 2))
-        ax.grid(False)
+        ax.grid(visible=False)
     left.set_ylabel("y (µm)")
     canvas.colorbar(image, ax=(left, middle), label="contact pressure (GPa)", shrink=0.85)
     film = p.fem.film
