@@ -329,14 +329,15 @@ class RunFolder:
         with self.reporting(f"{RESULT} has the numbers alone"):
             record = self._record(prepared, result, units, **numbers)
             self.contents[RESULT] = _as_json({"files": sorted([*self.contents, RESULT])} | record)
-        if RESULT not in self.contents:
+        is_complete = RESULT in self.contents
+        if not is_complete:
             self.contents[RESULT] = json.dumps(record, indent=1, default=str).encode()
         page = partial(report_page, record=record, contents=self.contents, estimate=estimate, given=given, law=law)
         self.add("report.html", page, prepared, result)
         with self.reporting(f"{RESULT} does not list its files"):
             self.contents[RESULT] = _as_json({"files": sorted(self.contents)} | record)
         self.put(OUTPUTS, (*record.get("validity", ()), *unusual_values))
-        if not self.failures:  # else what was saved is all that has everything
+        if is_complete:  # else what was saved is all that has everything
             Store(self.unfinished).clear()
             clear_checked(self.unfinished.parent)
 

@@ -65,7 +65,10 @@ MOST = 25  # Newton steps in a step
 REST = 1e-6  # of the fastest entrainment (without any, of b over the duration): slower one counts as that
 LEAST_FLOW = 1e-3  # of the film of the fastest entrainment times that: what residuals are relative to, at least
 FIRST = 0.1  # cells by which the fastest surface moves in the step after a start or a jump
-START = 20  # steps after the start, about
+# Steps beside those that end at an output or a cell of motion, about: 21 to 26 in all were seen with 20 outputs.
+START = 5
+# Processor time of a step over its counted work by the steps of a steady point, about.
+STEP_SECONDS = 0.7
 MOST_CELLS = 100_000  # by which the roughness may move in a run
 TRAVEL_TIMES = 20_001  # times at which the speeds are looked up to find the steps
 ISOTHERMAL = "the deterministic model in time is isothermal; a real film is thinner and shears more easily"
@@ -254,11 +257,11 @@ def start_deterministic(scene: Scene | Prepared) -> Start:
 
 
 def work_of_run(scene: Scene) -> tuple[int, float]:
-    """About how many steps a run takes, and its counted work [s of a usual core]."""
+    """Return about how many steps a run takes, and its processor time [s of a usual core]."""
     solver = make_deterministic(scene)
     plan = transient_of(scene)
     steps = max(len(solver.stops), plan.outputs) + START
-    return steps, steps * work_of_steps(solver.base.heights.size, STEPS, KRYLOV)
+    return steps, STEP_SECONDS * steps * work_of_steps(solver.base.heights.size, STEPS, KRYLOV)
 
 
 def check_deterministic(scene: Scene) -> None:

@@ -1,0 +1,82 @@
+"""Estimated times against the counted work of quick runs of every kind, within a wide factor; no clock is asked."""
+
+import math
+from functools import partial
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric._base import limited_work
+from lubfric.output.describe import estimate_scene
+from lubfric.running_in import estimated_run_in
+from lubfric.scene import Harmonic, Transient
+from lubfric.studies import estimated_fit, estimated_study
+from verification.campaigns.estimates.jobs import KINDS, drawn
+from verification.campaigns.estimates.table import ratios, summary
+
+PAPER = lubfric.load_scene("paper").with_(numerics={"model": "paper"})
+# A run takes 1 to 3 times its counted work in processor time: maps, fields and Python are not counted.
+FACTOR = 8.0
+
+
+def of_scene(scene, speeds=(), ratios=()):
+    prepared = lubfric.prepare(scene)
+    return estimate_scene(scene, prepared.sample, prepared.surface, speeds, ratios).seconds
+
+
+ROLLING = PAPER.with_(motion={"slide_roll_ratio": 0.1}, numerics={"model": "load-sharing", "accept": True})
+PATCH = PAPER.with_(bodies={"hardness": 2e9}, contact={"shape": (96, 96), "spacing": 0.9e-6})
+IN_TIME = PAPER.with_(
+    motion={"entrainment_speed": 0.03},
+    transient=Transient(duration=4e-3, outputs=8, speed=Harmonic(mean=0.03, amplitude=0.01, frequency=250.0)),
+)
+AXES = {"bodies.load": [4.0, 5.0]}
+MEASURED = lubfric.Measured(x=[0.01, 0.03, 0.1, 0.3], coefficient=[0.09, 0.05, 0.03, 0.03])
+FITTED = {"bodies.boundary_friction_coefficient": (0.05, 0.15)}
+RUNS = {
+    "point": (partial(of_scene, PAPER, [0.03]), lambda: lubfric.friction(PAPER, 0.03)),
+    "deterministic": (
+        partial(of_scene, PAPER.with_(numerics={"model": "deterministic"}), [0.03]),
+        lambda: lubfric.friction(PAPER.with_(numerics={"model": "deterministic"}), 0.03),
+    ),
+    "rolling": (partial(of_scene, ROLLING, [0.03]), lambda: lubfric.friction(ROLLING, 0.03)),
+    "speeds": (partial(of_scene, PAPER, [0.01, 0.1]), lambda: lubfric.stribeck(PAPER, [0.01, 0.1])),
+    "ratios": (
+        partial(of_scene, ROLLING.with_(motion={"entrainment_speed": 0.03}), ratios=[0.1, 0.5]),
+        lambda: lubfric.traction(ROLLING, [0.1, 0.5], speed=0.03),
+    ),
+    "study": (
+        lambda: estimated_study(lubfric.plan_study(PAPER, AXES, [0.01, 0.1])),
+        lambda: lubfric.study(PAPER, AXES, [0.01, 0.1]),
+    ),
+    "fit": (
+        lambda: estimated_fit(PATCH, MEASURED, FITTED, starts=0),
+        lambda: lubfric.fit(PATCH, MEASURED, FITTED, starts=0),
+    ),
+    "in time": (partial(of_scene, IN_TIME), lambda: lubfric.transient(IN_TIME)),
+    "run-in": (partial(estimated_run_in, PATCH), lambda: lubfric.run_in(PATCH)),
+}
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_the_estimate_is_near_the_counted_work(name):
+    estimate, run = RUNS[name]
+    seconds = estimate()
+    with limited_work(math.inf) as meter:
+        run()
+    assert meter.spent / 2 <= seconds <= FACTOR * meter.spent, (seconds, meter.spent)
+
+
+def test_random_runs_are_the_same_every_time_and_of_every_kind():
+    kinds = [drawn(seed).kind for seed in (1, 2, 5)]
+    assert kinds == [KINDS[seed] for seed in (1, 2, 5)]
+    again = drawn(1)
+    assert again.scene == drawn(1).scene and again.estimate() == drawn(1).estimate()
+
+
+def test_the_table_of_runs_holds_what_the_words_promise():
+    """At least three of four runs of the table are within a factor of 3, and its summary has every kind once."""
+    apart = np.concatenate([np.abs(np.log(values)) for values in ratios().values()])
+    assert apart.size >= 30 and np.mean(apart <= math.log(3)) >= 0.75
+    assert summary().count("\n") == 1 + len(ratios())
