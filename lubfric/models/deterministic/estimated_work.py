@@ -21,8 +21,9 @@ STEPS = 9
 # Newton steps on cells half as long, which begin there.
 FINER_STEPS = 6
 
-# Newton steps on cells a quarter as long, on which a map shorter than a piece is solved as a whole.
-LAST_STEPS = 20
+# Newton steps on cells a quarter as long, on which a map shorter than a piece is solved as a whole: 20, in half of the
+# points.
+LAST_STEPS = 10
 
 # Newton steps on a strip whose neighbour is solved: at an end of the range of an input.
 AGAIN = 4
@@ -67,14 +68,15 @@ def estimated_work(
         count = min(count, max(1, int(MOST_WORK / one_strip)))  # no more are solved
         return WorkEstimate(strips=count, seconds=IN_MOTION * count * one_strip, strip_seconds=one_strip)
     ends = 2 * sum(name != FRICTION for name, *_ in scene.ranges)
-    seconds = _work_at_rest(scene, sample, sq, speed, count, ends)
-    rough = 1.0 if smooth_over_cells(surface.heights) else ROUGH
-    return WorkEstimate(strips=count, seconds=rough * seconds)
+    is_smooth = smooth_over_cells(surface.heights)
+    return WorkEstimate(strips=count, seconds=_work_at_rest(scene, sample, sq, speed, count, ends, is_smooth=is_smooth))
 
 
-def _work_at_rest(scene: Scene, sample: Sample, sq: float, speed: float, count: int, ends: int) -> float:
+def _work_at_rest(
+    scene: Scene, sample: Sample, sq: float, speed: float, count: int, ends: int, *, is_smooth: bool
+) -> float:
     """Return the counted work [s] of ``count`` strips whose roughness rests, of shorter cells, and of so many ``ends``
-    of input ranges."""
+    of input ranges; ``is_smooth``: whether the heights are smooth over a cell."""
     (fx, fy) = cells_of(scene, sample)
     (dx, dy) = sample.cells.coarse
     (ux, uy) = sample.cells.coarsening
@@ -87,4 +89,5 @@ def _work_at_rest(scene: Scene, sample: Sample, sq: float, speed: float, count: 
     again = work_of_steps(cells, AGAIN) * (ends + (ends > 0))
     short = sample.length < SHORT * sample.lengths[1] and fx * ux >= 4 <= fy * uy
     shorter = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if short else 0.0
-    return count * work_of_steps(cells, STEPS) + work_of_steps(finer, FINER_STEPS) + again + shorter
+    seconds = count * work_of_steps(cells, STEPS) + work_of_steps(finer, FINER_STEPS) + again
+    return seconds + shorter if is_smooth or short else ROUGH * seconds

@@ -86,7 +86,7 @@ def drawn(seed: int) -> Job:
     for draw in range(DRAWS):
         job = _drawn(np.random.default_rng([48, seed, draw]), kind)
         with suppress(lubfric.InputError):  # a map too short for its correlation length
-            if job.estimate() <= LONGEST:
+            if 0 < job.estimate() <= LONGEST:
                 return job
     raise RuntimeError(f"no run of the kind {kind!r} is short enough")
 
