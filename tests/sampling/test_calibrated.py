@@ -92,6 +92,18 @@ def test_report_says_first_what_the_answer_rests_on(tmp_path):
     assert page.index("f = ") < page.index(basis) < page.index("Uncertainty budget")
 
 
+def test_the_sampling_error_holds_the_scatter_of_other_samples():
+    """The rough film is solved on some strips of the line: other seeds differ by what the sampling error states."""
+    results = [
+        lubfric.friction(PAPER.with_(surface={"seed": seed}, numerics={"model": "load-sharing"}), 0.03)
+        for seed in range(1, 5)
+    ]
+    values = np.array([result.coefficient for result in results])
+    stated = math.sqrt(np.mean([result.uncertainty.sampling**2 for result in results]))
+    assert values.std(ddof=1) / values.mean() < 2.3 * stated  # chi square, 3 degrees of freedom: 99.9 %
+    assert stated < 0.04
+
+
 def test_the_ends_of_an_input_are_those_of_the_calibrated_model():
     """A range of the Eyring stress moves f by as much as a solve at its ends does, not as Eq. (9) would be moved."""
     scene = HEAVIER.with_(numerics={"model": "load-sharing", "sampling_tolerance": 0.5, "tolerance": 0.1})

@@ -8,11 +8,12 @@ import numpy as np
 
 from ...samples import Sample
 from ...scene import Scene, moves, moving_bodies
-from ..shared import Prepared, error_by_heat, limit_bounds, on_strip
+from ..shared import BlockError, Prepared, error_by_heat, limit_bounds, on_strip
 from .balance import Balance, solve_balance
 from .error_model import error_model_of, error_models, features, out_of_range, rms_slopes, weight_of, widening
 from .rough_film import RoughFilm, RoughMap, rough_film
 
+STRIPS = 4  # of the rough film: f of one scatters by some 7 % about their mean (scene "paper", .03 m/s)
 ROLLING = 8.0  # of the rolling part of f: what pressure on the flanks of moving roughness may add (docs/uncertainty.md)
 FLANKS = 1.5  # lambda ratio from which on that falls, with the square of it
 
@@ -24,6 +25,7 @@ class CalibratedFriction:
     coefficient : f, with the bias taken away; film : the rough film behind it
     bounds : 95 % bounds of f by the model, relative, below and above; least_bounds : those that a contact in the range
         of the campaign would have; bias : that was taken away, of ln f
+    of_strips : relative standard error of f by the scatter of the strips, beside that of Eq. (9) on the line
     by_film : relative change of f by half and by twice the boundary film
     by_heat : relative error of f by what heat does to it (`lubfric.models.shared.error_by_heat`)
     by_limit : how much lower and higher f is with the limiting stress of a Newtonian oil at the ends of what oils
@@ -37,6 +39,7 @@ class CalibratedFriction:
     bounds: tuple[float, float]
     least_bounds: tuple[float, float]
     bias: float
+    of_strips: BlockError
     by_film: tuple[float, float]
     by_heat: float
     by_limit: tuple[float, float]
@@ -59,28 +62,31 @@ class CalibratedFriction:
 
 
 def calibrated_friction(prepared: Prepared, sample: Sample, speed: float, line: Balance) -> CalibratedFriction:
-    """Return f of ``prepared``, whose ``sample`` is resolved, at ``speed`` [m/s], not 0. ``line``: its balance of load
-    sharing on all strips; the rough film is that of the first one, and the ratio of their f by Eq. (9) corrects for it.
+    """Return f of ``prepared``, whose ``sample`` is resolved, at ``speed`` [m/s], not 0.
+
+    ``line``: its balance of load sharing on all strips. The rough film is the mean over `STRIPS` strips. The ratio of f by
+    Eq. (9) on the line and on a strip corrects f of the strip; what is left of the scatter is a sampling error.
     Raises `ConvergenceError`."""
     scene = prepared.scene
     start = replace(line, contact=replace(line.contact, fields=None)) if line.response is not None else None
-    strip = film_on_strip(prepared, sample, scene, speed, start)
-    film = strip.film
-    here = strip.balance.forces.coefficient
-    there = line.forces.coefficient
-    of_line = there / here if here > 0 < there else 1.0
+    count = min(STRIPS, sample.available)
+    strips = [film_on_strip(prepared, sample, scene, speed, start, k) for k in range(count)]
+    film = _mean_film([strip.film for strip in strips])
+    x = {name: float(np.mean([strip.features[name] for strip in strips])) for name in strips[0].features}
+    values = np.array([strip.film.coefficient * _of_line(strip.balance, line) for strip in strips])
     heat = line.forces.heat.change if line.forces.heat.heated else 0.0
     model = error_model_of(scene)
     sq = prepared.surface.sq
-    bias = model.bias_at(strip.features)
+    bias = model.bias_at(x)
     outside = out_of_range(scene, sq, speed, model.range)
-    in_range = model.half_width(strip.features)
+    in_range = model.half_width(x)
     width = in_range * widening(outside.values())
     flanks = _by_flanks(scene, film, sq, speed)
     bounds = (math.hypot(-math.expm1(-width), flanks), math.hypot(math.expm1(width), flanks))
     return CalibratedFriction(
-        coefficient=film.coefficient * of_line * math.exp(bias) * (1 - heat),
+        coefficient=float(values.mean()) * math.exp(bias) * (1 - heat),
         film=film,
+        of_strips=_scatter(values),
         bounds=bounds,
         least_bounds=(-math.expm1(-in_range), math.expm1(in_range)),
         bias=bias,
@@ -102,26 +108,48 @@ class StripFilm:
     features: dict[str, float]
 
 
-def film_on_strip(prepared: Prepared, sample: Sample, scene: Scene, speed: float, start: Balance | None) -> StripFilm:
-    """Return the rough film of ``scene``, which may differ from that of ``prepared`` in inputs, on the first strip of
+def film_on_strip(
+    prepared: Prepared, sample: Sample, scene: Scene, speed: float, start: Balance | None, index: int = 0
+) -> StripFilm:
+    """Return the rough film of ``scene``, which may differ from that of ``prepared`` in inputs, on strip ``index`` of
     ``sample`` at ``speed`` [m/s]. Raises `ConvergenceError`."""
-    contact = on_strip(prepared, sample, 0)
+    contact = on_strip(prepared, sample, index)
     if scene.bodies.hardness != prepared.scene.bodies.hardness:
         contact = replace(contact, hardness=scene.bodies.hardness)
     sq = prepared.surface.sq
     balance = solve_balance(scene, speed, contact, sq, start)
-    film = rough_film(scene, speed, contact, balance, rough_maps(prepared, sample, contact.heights, speed))
+    film = rough_film(scene, speed, contact, balance, rough_maps(prepared, sample, contact.heights, speed, index))
     slopes = rms_slopes(contact.heights, contact.spacing)
     return StripFilm(balance=balance, film=film, features=features(scene, speed, sq, slopes, asdict(film)))
 
 
-def rough_maps(prepared: Prepared, sample: Sample, heights: np.ndarray, speed: float) -> list[RoughMap]:
-    """Return the map of each rough body on the first strip, whose ``heights`` [m] are those of all, and its speed along
+def _of_line(strip: Balance, line: Balance) -> float:
+    """Return f of the ``line`` over f of the ``strip``, both by Eq. (9); 1 where one is not positive."""
+    here = strip.forces.coefficient
+    there = line.forces.coefficient
+    return there / here if here > 0 < there else 1.0
+
+
+def _mean_film(films: list[RoughFilm]) -> RoughFilm:
+    """Return the mean of every number of ``films``."""
+    rows = [asdict(film) for film in films]
+    return RoughFilm(**{name: float(np.mean([row[name] for row in rows])) for name in rows[0]})
+
+
+def _scatter(values: np.ndarray) -> BlockError:
+    """Return the relative standard error of the mean of ``values`` of independent strips; of one it is not known here."""
+    if values.size < 2 or values.mean() == 0:
+        return BlockError(0.0, 0)
+    return BlockError(float(values.std(ddof=1) / math.sqrt(values.size) / abs(values.mean())), values.size - 1)
+
+
+def rough_maps(prepared: Prepared, sample: Sample, heights: np.ndarray, speed: float, index: int = 0) -> list[RoughMap]:
+    """Return the map of each rough body on strip ``index``, whose ``heights`` [m] are those of all, and its speed along
     x at U = ``speed`` [m/s]."""
     bodies = moving_bodies(prepared.scene)
     if len({ratio for _, ratio in bodies}) < 2 or prepared.joint:
         return [RoughMap(heights, speed * bodies[0][1])]
-    return [RoughMap(sample.of_body(k).strip(0).heights, speed * ratio) for k, (_, ratio) in enumerate(bodies)]
+    return [RoughMap(sample.of_body(k).strip(index).heights, speed * ratio) for k, (_, ratio) in enumerate(bodies)]
 
 
 def _by_heat(line: Balance) -> float:

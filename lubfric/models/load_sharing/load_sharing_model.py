@@ -13,7 +13,7 @@ from ...samples import Sample
 from ...scene import Scene, gap_not_resolved, moves
 from ...surface import Surface
 from ..contract import AtInputs, Model, ModelAnswer, SampleSolution, WorkEstimate
-from ..shared import ControlVariate, Prepared, limit_in_words, no_rough_film, percent
+from ..shared import ControlVariate, Prepared, add_errors, limit_in_words, no_rough_film, percent
 from .answer import answer_of
 from .calibrated import CalibratedFriction, calibrated_friction, film_on_strip
 from .error_model import error_model_of, least_half_width
@@ -165,6 +165,7 @@ def calibrated_answer(prepared: Prepared, answer: ModelAnswer, friction: Calibra
         answer,
         numbers=answer.numbers | numbers,
         model_error=(below, above),
+        sampling=add_errors(answer.sampling, replace(friction.of_strips, error=weight * friction.of_strips.error)),
         by_limit=max(friction.by_limit),
         largest_in_model=_largest(friction),
         notes=tuple(notes),
