@@ -206,10 +206,10 @@ def with_divided_contact_load(
     if thin + capped == 0:
         return numbers
     share = thin / (thin + capped)
-    divided = {"boundary_film_load": share * numbers["contact_load"]}
+    parts = {"boundary_film_load": share * numbers["contact_load"]}
     if scene.lubricant.newtonian:
-        divided["saturated_film_load"] = (1 - share) * numbers["contact_load"]
-    return numbers | divided
+        parts["saturated_film_load"] = (1 - share) * numbers["contact_load"]
+    return numbers | parts
 
 
 def _sum(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], line: ControlVariate | None) -> TwoLevelEstimate:
