@@ -1,10 +1,19 @@
 """Fields on meshes, in files. The only module that knows meshio."""
 
+from __future__ import annotations
+
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .arrays import FloatArray
 from .check import Field
+
+if TYPE_CHECKING:
+    from skfem.mesh.mesh_quad_1 import MeshQuad1
+    from skfem.mesh.mesh_tri_1 import MeshTri1
+
 
 CELL_NAMES = dict(MeshLine="line", MeshTri="triangle", MeshQuad="quad", MeshTet="tetra", MeshHex="hexahedron")
 
@@ -38,7 +47,9 @@ def in_space(points: np.ndarray) -> np.ndarray:
     return np.pad(points, ((0, 0), (0, 3 - points.shape[1])))
 
 
-def mesh_field(name: str, caption: str, mesh, point_data=None, cell_data=None) -> Field:
+def mesh_field(
+    name: str, caption: str, mesh: MeshQuad1 | MeshTri1, point_data: dict[str, FloatArray] | None = None, cell_data=None
+) -> Field:
     """A `Field` on the vertices of a scikit-fem mesh.
 
     ``point_data`` has values at the vertices, shape (n,) or (n, components); ``cell_data`` (m,) each.

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .. import frame
-from ..check import AT_LEAST, AT_MOST, Check
+from ..check import AT_LEAST, AT_MOST, Check, Item
 from ..kept import Run
 
 ROOT = Path(__file__).parents[2]
@@ -81,7 +81,7 @@ def table(text: str | None = None) -> list[Mutant]:
     return [Mutant(place, right, wrong, tuple(by.split())) for place, right, wrong, by in parts]
 
 
-def mutants(level: str, run: Run = Run()) -> Iterator[Check]:
+def mutants(level: str, run: Run = Run()) -> Iterator[Item]:
     """Try every mutant of the table. Each has to make a test or a check of a study fail, or a study end with an error
     that `lubfric` raises on purpose. A test that cannot be loaded, and any other error, is no catch. The library as it
     is has to pass all of them. A mutant that was tried is not tried again while `lubfric` and its line stay the same."""

@@ -4,15 +4,20 @@ They are written from the equations, with nothing from `lubfric` nor from `verif
 speed, the mean of the two surface speeds, so that d/dx(h^3/(12 eta) dp/dx) = U dh/dx.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
 from ..arrays import FloatArray
+
+if TYPE_CHECKING:
+    from scipy.integrate._ivp.ivp import OdeResult
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -214,22 +219,22 @@ class ExponentialPad:
         return self.viscosity * self.speed * self.width**3 * self.decay * over
 
 
-def reduced_to_true(reduced, alpha: float):
+def reduced_to_true(reduced: FloatArray, alpha: float) -> FloatArray:
     """Barus pressure from the isoviscous one q of the same film: ``p = -ln(1 - alpha q)/alpha`` (Blok)."""
     return -np.log1p(-alpha * reduced) / alpha
 
 
-def roelands_to_true(reduced, exponent: float, index: float, pressure: float = 1.96e8):
+def roelands_to_true(reduced: FloatArray, exponent: float, index: float, pressure: float = 1.96e8) -> FloatArray:
     """Roelands pressures from isoviscous ones, inverting ``q = integral_0^p eta(0)/eta(s) ds``.
 
     ``eta/eta0 = exp(exponent ((1 + s/pressure)^index - 1))``; solved point by point to rounding.
     """
 
-    def fluidity(s):
+    def fluidity(s: float) -> float:
         return np.exp(-exponent * ((1 + s / pressure) ** index - 1))
 
-    def solve(q):
-        def over(p):
+    def solve(q: float) -> float:
+        def over(p: float) -> float:
             return quad(fluidity, 0, p, epsrel=1e-12, epsabs=0)[0] - q if p else -q
 
         high = q
@@ -239,7 +244,7 @@ def roelands_to_true(reduced, exponent: float, index: float, pressure: float = 1
                 raise ValueError(f"no Roelands pressure belongs to a reduced pressure of {q:.4g} Pa")
         return brentq(over, 0, high, rtol=1e-13)
 
-    flat = [solve(q) if q > 0 else 0.0 for q in np.ravel(reduced)]
+    flat = [solve(float(q)) if q > 0 else 0.0 for q in np.ravel(reduced)]
     return np.reshape(flat, np.shape(reduced))
 
 
@@ -250,8 +255,8 @@ def gas_slider(slider: Slider, ambient: float, points: np.ndarray) -> np.ndarray
     direction. The flow q is found such that the inlet is at ambient pressure. The relative error is below 1e-9.
     """
 
-    def upstream(q, where=None):
-        def rate(x, p):
+    def upstream(q: float, where: FloatArray | None = None) -> OdeResult:
+        def rate(x: float, p: FloatArray) -> FloatArray:
             h = slider.film([x])
             return 12 * slider.viscosity * (slider.speed / h**2 - q / (p * h**3))
 

@@ -149,7 +149,7 @@ def summary(result: list) -> Iterator[list[str]]:
             yield [f"{ratio:g}", *(f"{low:.2f}–{high:.2f}" for low, high in zip(rows.min(axis=0), rows.max(axis=0)))]
 
 
-def shares(result: list) -> Iterator[Check]:
+def shares(result: list) -> Iterator[Item]:
     """How far the share of the load on gaps below each of `FILMS` is from the band of four laws, at most."""
     ratios = np.array([case[2] for case, _ in result])
     low, high = (side[:, None] for side in load_share_band(ratios))

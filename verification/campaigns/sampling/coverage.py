@@ -220,7 +220,7 @@ def _plain(scene, surface, speed: float) -> float:
     return lubfric.friction(lubfric.prepare(patch, surface), speed).coefficient
 
 
-def checks(result: Result) -> Iterator[Check]:
+def checks(result: Result) -> Iterator[Item]:
     """Coverage, reported error over observed scatter, and bias against the truth.
 
     The coverage decides nothing in a case of which most trials say that the map is too small.

@@ -8,7 +8,7 @@ import lubfric
 from lubfric.contact import ContactState
 from lubfric.models.shared import prepare
 
-from ...check import AT_LEAST, Check, compared
+from ...check import AT_LEAST, Check, Item, compared
 from ...fem import parts
 
 DRY = {"accept": True, "tolerance": 1e-3, "sampling": "patch"}
@@ -16,7 +16,7 @@ CELL = 2e-6
 STRIP = "pressures of the strip that was found, summed anew"
 
 
-def wiring_contact(level: str) -> Iterator[Check]:
+def wiring_contact(level: str) -> Iterator[Item]:
     """At rest the contact carries everything, so that hardness and area can be seen on it alone.
 
     The flat curve is held against one dry contact at its pressure, asperities that all yield against load over
@@ -37,7 +37,7 @@ def heights(nx: int, ny: int, seed: int = 4) -> np.ndarray:
     return (z - z.mean()) * (240e-9 / z.std())
 
 
-def flat() -> Iterator[Check]:
+def flat() -> Iterator[Item]:
     """The contact curve at the mean Hertz pressure, elastic and yielding, against `lubfric.solve_contact`."""
     z = heights(64, 64)
     for words, hardness in (("elastic", None), ("hardness 1 GPa", 1e9)):
@@ -55,7 +55,7 @@ def flat() -> Iterator[Check]:
         yield from compared(f"flat, {words}", rows, "lubfric.solve_contact")
 
 
-def asperities() -> Iterator[Check]:
+def asperities() -> Iterator[Item]:
     """Summits so soft that all of them yield carry the hardness on all that they touch."""
     surface = lubfric.Surface(heights(64, 64), (CELL, CELL))
 
@@ -82,7 +82,7 @@ def asperities() -> Iterator[Check]:
     )
 
 
-def cylinder() -> Iterator[Check]:
+def cylinder() -> Iterator[Item]:
     """Check that no pressure exceeds the hardness, that the pressure carries the total load, and that the area A has
     the requested width."""
     z = heights(64, 32)
@@ -109,7 +109,7 @@ def cylinder() -> Iterator[Check]:
         yield from compared(f"cylinder, {region}", rows, STRIP)
 
 
-def coarse() -> Iterator[Check]:
+def coarse() -> Iterator[Item]:
     """Coarse cells have the heights of the map at their own x."""
     s = lubfric.load_scene("paper").with_(contact={"shape": (128, 64), "spacing": 0.5e-6})
     x = (np.arange(128) - 63.5) * 0.5e-6
@@ -127,7 +127,7 @@ def coarse() -> Iterator[Check]:
     )
 
 
-def columns() -> Iterator[Check]:
+def columns() -> Iterator[Item]:
     """The share in contact of stretches of x: it sums to all of it, and lies about the right place."""
     x = np.arange(-5.0, 6.0)
     share = np.array([0, 0, 1, 0.5, 0, 0, 0, 0.2, 0, 0, 0.0])

@@ -6,8 +6,9 @@ from typing import Any
 import numpy as np
 
 import lubfric
+from lubfric.film import EHLResult
 
-from ...check import Check, compared
+from ...check import Item, compared
 from ...fem import parts
 from ...fem.solvers.fluid import Fluid
 
@@ -38,7 +39,7 @@ SHEARED: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
 }
 
 
-def wiring_film(level: str) -> Iterator[Check]:
+def wiring_film(level: str) -> Iterator[Item]:
     """Laws of the oil in the film of `friction`, against another discretisation that is called with plain numbers.
 
     The shear force, with each law of shear, is held against an integral of its own with the columns in contact taken
@@ -61,7 +62,7 @@ def smooth(oil: dict, load: float = 300.0, shape: tuple[int, int] = (160, 12)) -
     )
 
 
-def film(name: str, oil: dict) -> Iterator[Check]:
+def film(name: str, oil: dict) -> Iterator[Item]:
     """Smallest film at 0.3 m/s."""
     s = smooth(oil)
     b = s.bodies
@@ -87,7 +88,7 @@ def mixed(oil: dict, motion: dict) -> lubfric.Scene:
     )
 
 
-def shear(name: str, oil: dict, motion: dict) -> Iterator[Check]:
+def shear(name: str, oil: dict, motion: dict) -> Iterator[Item]:
     """Shear force and coefficient at 0.1 m/s."""
     s = mixed(oil, motion)
     speed = 0.1
@@ -118,7 +119,7 @@ def shear(name: str, oil: dict, motion: dict) -> Iterator[Check]:
     yield from compared(name, rows, OWN)
 
 
-def upstream(line, radius: float) -> float:
+def upstream(line: EHLResult, radius: float) -> float:
     """∫ dx/h before the first node of a parabola."""
     a = -line.x[0]
     h = line.film_thickness[0]

@@ -13,7 +13,7 @@ from lubfric.contact import HalfSpaceContact
 from lubfric.models.shared import prepare
 from lubfric.scene.roughness import Roughness
 
-from ...check import ABSOLUTE, AT_LEAST, AT_MOST, Check
+from ...check import ABSOLUTE, AT_LEAST, AT_MOST, Check, Item
 from ...fem.parts import half_space
 
 # of the file, along its first and second axis
@@ -24,7 +24,7 @@ SIZE = (56, 40)
 PATCH = lubfric.load_scene("paper").with_(numerics={"model": "paper", "sampling": "patch", "grid": "given"})
 
 
-def wiring_maps(level: str) -> Iterator[Check]:
+def wiring_maps(level: str) -> Iterator[Item]:
     """What becomes of a file: its axes, cells, unit, form, height and edges, each done again by plain NumPy.
 
     Of a generated map, its height and its lengths.
@@ -52,7 +52,7 @@ def planed(z: np.ndarray, order: int = 1) -> np.ndarray:
     return z - (terms @ np.linalg.lstsq(terms, z.ravel(), rcond=None)[0]).reshape(z.shape)
 
 
-def measured(folder: Path) -> Iterator[Check]:
+def measured(folder: Path) -> Iterator[Item]:
     """The map that the contact gets, case by case: the largest height error over Sq, and both cell lengths."""
     z = ground()
     np.save(folder / "z.npy", z)
@@ -103,7 +103,7 @@ def made(rough: Roughness, contact: dict) -> HalfSpaceContact:
     return half_space(prepare(s))
 
 
-def generated() -> Iterator[Check]:
+def generated() -> Iterator[Item]:
     """Check the height, the correlation length at the given level along each axis, and that another seed gives another
     map."""
     maps = {}

@@ -4,9 +4,11 @@ from collections.abc import Iterator
 from typing import Any
 
 import lubfric
+from lubfric.estimate import FrictionResult
 from lubfric.scene import Ramp
+from lubfric.time import TransientResult
 
-from ...check import Check, compared
+from ...check import Item, compared
 from .film import mixed, smooth
 
 UNCHANGED = {  # unit and relative tolerance
@@ -33,7 +35,7 @@ OILS: dict[str, dict[str, Any]] = {
 TIGHT = {"film_tolerance": 1e-3}
 
 
-def wiring_time(level: str) -> Iterator[Check]:
+def wiring_time(level: str) -> Iterator[Item]:
     """A transient in which nothing changes, with each law of the oil, against the steady coefficient.
 
     In another one load, radius, viscosity, speed and sliding ramp at once. It ends in the steady state of the new
@@ -44,7 +46,7 @@ def wiring_time(level: str) -> Iterator[Check]:
     yield from ramped()
 
 
-def unchanged(name: str, oil: dict) -> Iterator[Check]:
+def unchanged(name: str, oil: dict) -> Iterator[Item]:
     """Mixed lubrication at 0.1 m/s, a slide-roll ratio of 0.5, for a fifth of a passage of the contact."""
     s = mixed(oil, {"slide_roll_ratio": 0.5, "entrainment_speed": 0.1}).with_(numerics=TIGHT)
     steady = lubfric.friction(s)
@@ -52,7 +54,9 @@ def unchanged(name: str, oil: dict) -> Iterator[Check]:
     yield from ended(f"{name}, nothing changes", run, steady, UNCHANGED)
 
 
-def ended(label: str, run, steady, tolerances: dict[str, tuple[str, float]]) -> Iterator[Check]:
+def ended(
+    label: str, run: TransientResult, steady: FrictionResult, tolerances: dict[str, tuple[str, float]]
+) -> Iterator[Item]:
     """Return the last values of a run in time and the steady ones."""
     rows = [
         (what.replace("_", " "), unit, float(getattr(run, what)[-1]), getattr(steady, what), tolerance)
@@ -61,7 +65,7 @@ def ended(label: str, run, steady, tolerances: dict[str, tuple[str, float]]) -> 
     yield from compared(label, rows, "lubfric.friction, steady")
 
 
-def ramped() -> Iterator[Check]:
+def ramped() -> Iterator[Item]:
     """All histories at once. The film forgets within a few passages of the contact."""
     end = 2e-3
 

@@ -14,7 +14,7 @@ from lubfric.models.deterministic.state import FLUID, RUPTURED, State
 from lubfric.oil import Lubricant
 
 from ... import plotting
-from ...check import Check, Figure, Item
+from ...check import Figure, Item
 from .. import references
 from . import against
 
@@ -114,7 +114,7 @@ def cavitation(level: str) -> Iterator[Item]:
         yield drawn(name, pocket, results)
 
 
-def band(pocket: references.Pocket) -> Iterator[Check]:
+def band(pocket: references.Pocket) -> Iterator[Item]:
     """A pocket as wide as the pad, with the load of the closed form."""
     load, refill, peak = references.refilled(pocket)
     (coarse, (_, low)), (fine, (x, p)) = (Pad(pocket, (n, 1)).solved(load) for n in (800, 1600))

@@ -1,7 +1,7 @@
 """Dry contact compared with Hertz, Westergaard, Johnson, Greenwood and Higginson, and two programs for rough surfaces."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -61,14 +61,14 @@ def dry(level: str) -> Iterator[Item]:
     yield drawn(values)
 
 
-def halved(solve, cells: int) -> tuple[float, float]:
+def halved(solve: Callable[..., Any], cells: int) -> tuple[float, float]:
     """The value with ``cells`` cells, and its relative change from half as many."""
     fine = solve(cells)
     coarse = solve(cells // 2)
     return fine, abs(fine / coarse - 1)
 
 
-def cylinder() -> Iterator[Check]:
+def cylinder() -> Iterator[Item]:
     """Half-width and peak pressure of the cylinder."""
     half_width, peak = references.hertz_line(LOAD, RADIUS, E_PRIME)
 
@@ -112,7 +112,7 @@ def summits() -> Check:
     return against("longuet", "summits of a Gaussian surface", *mean(counts, theirs), "1/m²")
 
 
-def self_affine() -> Iterator[Check]:
+def self_affine() -> Iterator[Item]:
     """Compare gap, area and pressure of self-affine surfaces with other programs."""
     for load, (gap, area, square) in references.SELF_AFFINE.items():
         result = [pressed(waves(seed, (4, 4, 400), 1024), load) for seed in SEEDS[:3]]

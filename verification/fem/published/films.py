@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -63,7 +64,7 @@ def films(level: str) -> Iterator[Item]:
     yield drawn()
 
 
-def film(m: float, l: float, density: str = "constant", law: str = "roelands", **options) -> lubfric.EHLResult:
+def film(m: float, l: float, density: str = "constant", law: str = "roelands", **options: Any) -> lubfric.EHLResult:
     """A film with Moes' numbers."""
     case = case_of(m, l, law, density)
     return lubfric.solve_ehl(**case, **({"tolerance": TOLERANCE} | options))
@@ -85,7 +86,7 @@ def numbers(solution: lubfric.EHLResult) -> tuple[float, float, float]:
     return VISCOSITY * solution.entrainment_speed / scale, ALPHA * E_PRIME, solution.contact.load_per_width / scale
 
 
-def rigid() -> Iterator[Check]:
+def rigid() -> Iterator[Item]:
     """A load so light that nothing deflects: M = 0.001."""
     solution = film(1e-3, 5.0, law="constant", tolerance=1e-4)
     scale = 1e-3 / unit(solution)
@@ -104,7 +105,7 @@ def rigid() -> Iterator[Check]:
     yield against("moes", name, moes_film(20, 5), references.moes(20, 5), 0, error=1e-6)
 
 
-def limits() -> Iterator[Check]:
+def limits() -> Iterator[Item]:
     """Near two of the four corners of Moes."""
     for m in (10, 50, 200):
         solution = film(m, 5.0, law="constant")

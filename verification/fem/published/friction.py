@@ -57,7 +57,7 @@ def friction(level: str) -> Iterator[Item]:
     yield drawn(rolled)
 
 
-def bearing() -> Iterator[Check]:
+def bearing() -> Iterator[Item]:
     """Torque of tapered roller bearing 32216 in FVA 3 at 50 °C, by the rolling forces of its 16 rollers on both races.
 
     How much lubricant reaches the inlets is not published. Ours is the middle between inlets of 0.2 and 0.3 mm, which
@@ -116,7 +116,7 @@ def starved(m: float, l: float, inlet: float) -> tuple[float, float, float]:
     return part / whole, float(full.film_at(np.array([-inlet * full.half_width]))[0]) / full.min_film, first + second
 
 
-def rigid() -> Iterator[Check]:
+def rigid() -> Iterator[Item]:
     """Forces on the rigid cylinder."""
     solution = film(1e-3, 5.0, law="constant", tolerance=1e-4)
     forces = force(solution, solution.contact.lubricant, 1.0)

@@ -12,7 +12,7 @@ from lubfric.oil import named_oil
 
 from ... import plotting
 from ...campaigns.model.boundary_film import FILMS, RATIOS, SURFACES, shares
-from ...check import Check, Figure, Item, beside
+from ...check import Figure, Item, beside
 from .. import references
 from . import against
 from .friction import FVA_3, STEEL
@@ -71,7 +71,7 @@ def mixed(level: str) -> Iterator[Item]:
     yield drawn(ours, own)
 
 
-def masjedi(level: str) -> Iterator[Check]:
+def masjedi(level: str) -> Iterator[Item]:
     """The asperity load ratio of the deterministic model at the three roughnesses of Masjedi and Khonsari.
 
     The roughness moves at a slide-roll ratio of 0.1. The value of lubfric is the load on gaps thinner than the
@@ -126,7 +126,7 @@ def masjedi(level: str) -> Iterator[Check]:
         yield beside(name, usual, theirs, errors, source, note=note, cause="unknown")
 
 
-def bearing() -> Iterator[Check]:
+def bearing() -> Iterator[Item]:
     """The asperity load ratio on the inner race of bearing 32216 at low speeds, compared with SKF's weight of boundary
     friction.
 
@@ -166,7 +166,7 @@ def bearing() -> Iterator[Check]:
         yield beside(name, float(usual), theirs, errors, references.SOURCES["skf"].text, note=note, cause="both")
 
 
-def gears() -> Iterator[Check]:
+def gears() -> Iterator[Item]:
     """The mean friction of the gear FZG C14 along its path of contact, by the load-sharing model, compared with two fits.
 
     It is weighted with the load and the sliding speed, as the fits define it; where two pairs of teeth are in contact

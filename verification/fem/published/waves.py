@@ -81,7 +81,7 @@ def reduced(m: float, l: float, length: float, height: float, cells: float) -> t
     return kept, abs(kept / fine - 1)
 
 
-def steady(name: str) -> Iterator[Check]:
+def steady(name: str) -> Iterator[Item]:
     """Residual wave and pressure of waves at rest, for the height that they have there."""
     alpha, film, pressure, wave = references.STEADY[name]
     wide = ripples(alpha, film, 20)

@@ -20,6 +20,7 @@ from scipy.spatial import cKDTree
 from skfem import Basis, BilinearForm, ElementLineP2, ElementTriP2, ElementVector, MeshLine, MeshTri
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
+from ...arrays import FloatArray
 from .triangles import factorised, graded, section_stress
 
 POISSON = 0.3
@@ -58,7 +59,7 @@ def graded_mesh(layout: Layout) -> tuple[MeshTri, Layout]:
     half = layout.side / 2
     mesh = MeshTri.init_tensor(np.linspace(-half, half, 9), np.linspace(-layout.side, 0, 9))
 
-    def allowed(corners):
+    def allowed(corners: FloatArray) -> FloatArray:
         distance = np.min([np.hypot(corners[0] - e, corners[1]).min(axis=0) for e in layout.edges], axis=0)
         away = corners[0] - np.clip(corners[0], *layout.edges)
         inside = np.hypot(layout.between, layout.growth * np.hypot(away, corners[1]).min(axis=0))

@@ -13,15 +13,24 @@ to have several solutions where the pressure spike is not resolved. First-order 
 serves first guesses. Both fade where pressure diffuses in less than a cell.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy.sparse as sp
 from skfem import Basis, BilinearForm, LinearForm
 
+from ...arrays import ComplexArray, FloatArray
 from .fluid import STEP, Fluid, slope
+
+if TYPE_CHECKING:
+    from skfem.assembly.form.form import FormExtraParams
+    from skfem.element.discrete_field import DiscreteField
+
 
 NEAR = 1e-5  # of p_h, for a slope that a complex step can pass through
 PENALTY = 0.03
@@ -51,30 +60,41 @@ class FilmEquations:
     piezo: float = 1.0
     shear: float = 0.0
 
-    def log_viscosity(self, P):
+    def log_viscosity(self, P: complex | ComplexArray | FloatArray) -> complex | ComplexArray | FloatArray:
         """ln(eta/eta0). Below zero, where only iterates are, it goes on by its tangent at zero."""
         return self.piezo * extended(self.fluid.log_viscosity, P * self.hertz_pressure)
 
-    def density(self, P):
+    def density(self, P: Any) -> Any:
         """rho/rho0, which also goes on by its tangent below zero."""
         return extended(self.fluid.rho, P * self.hertz_pressure)
 
-    def mobility(self, P, H):
+    def mobility(
+        self, P: complex | ComplexArray | FloatArray, H: complex | ComplexArray | FloatArray
+    ) -> complex | ComplexArray | FloatArray:
         """The mobility m."""
         fluidity = np.exp(-self.log_viscosity(P))
         if self.shear:
             fluidity = np.sqrt(fluidity**2 + (self.shear / H) ** 2)
         return self.density(P) * H**3 * fluidity / self.speed_parameter
 
-    def wave(self, P, H):
+    def wave(self, P: ComplexArray | FloatArray, H: ComplexArray | FloatArray) -> ComplexArray | FloatArray:
         """d(rho H)/dP at constant H."""
         return (self.density(P + NEAR) - self.density(P - NEAR)) / (2 * NEAR) * H
 
-    def carried(self, P, H, size):
+    def carried(
+        self, P: ComplexArray | FloatArray, H: ComplexArray | FloatArray, size: FloatArray
+    ) -> ComplexArray | FloatArray:
         """1 where pressure goes with the flow, falling to 0 where it diffuses in less than a cell."""
         return 1 / np.sqrt(1 + (6 * self.mobility(P, H) / size / (1 + self.wave(P, H))) ** 2)
 
-    def flux(self, P, P1, H, H1, size):
+    def flux(
+        self,
+        P: ComplexArray | FloatArray,
+        P1: ComplexArray | FloatArray,
+        H: ComplexArray | FloatArray,
+        H1: ComplexArray | FloatArray,
+        size: FloatArray,
+    ) -> ComplexArray | FloatArray:
         """The flux q, with upwinding, real or complex.
 
         P and H have the slopes P1 and H1 in a cell of length ``size``.
@@ -85,22 +105,29 @@ class FilmEquations:
             q = q - self.upwind * size / 2 * self.carried(P, H, size) * (rho * H1 + self.wave(P, H) * P1)
         return q
 
-    def charge(self, P, P_jump, H, H_jump, size):
+    def charge(
+        self,
+        P: ComplexArray | FloatArray,
+        P_jump: ComplexArray | FloatArray,
+        H: ComplexArray | FloatArray,
+        H_jump: ComplexArray | FloatArray,
+        size: FloatArray,
+    ) -> ComplexArray | FloatArray:
         """What a jump of v' is multiplied with at a vertex where P' and H' jump."""
         return self.penalty * size**2 * self.carried(P, H, size) * (self.density(P) * H_jump + self.wave(P, H) * P_jump)
 
-    def inflow(self, P, H, inlet: float):
+    def inflow(self, P: complex, H: complex, inlet: float) -> complex:
         """The flux q at the inlet."""
         return self.density(P) * H - self.mobility(P, H) * 3 * P / abs(inlet)
 
 
-def extended(law: Callable, p):
+def extended(law: Callable, p: Any) -> Any:
     """``law`` continued below p = 0 by its tangent."""
     above = np.real(p) > 0
     return np.where(above, law(np.where(above, p, 0.0)), law(0.0) + slope(law, 0.0) * p)
 
 
-def partials(function: Callable, *values) -> tuple[np.ndarray, list[np.ndarray]]:
+def partials(function: Callable, *values: float | FloatArray) -> tuple[np.ndarray, list[np.ndarray]]:
     """A function and its derivatives by each of its arguments, by complex steps."""
     slopes = [
         np.imag(function(*(v + 1j * STEP * (i == k) for i, v in enumerate(values)))) / STEP for k in range(len(values))
@@ -128,13 +155,13 @@ def slope_jumps(line: Basis) -> tuple[np.ndarray, np.ndarray, sp.csr_matrix]:
 
 
 @LinearForm
-def flux_form(v, w):
+def flux_form(v: DiscreteField, w: FormExtraParams) -> FloatArray:
     """``-(q, v')``."""
     return -w.q * v.grad[0]
 
 
 @BilinearForm
-def flux_tangent(u, v, w):
+def flux_tangent(u: DiscreteField, v: DiscreteField, w: FormExtraParams) -> FloatArray:
     """The derivative of `flux_form`."""
     return -(w.by_value * u + w.by_slope * u.grad[0]) * v.grad[0]
 
@@ -160,7 +187,7 @@ def assemble(film: FilmEquations, P: np.ndarray, H: np.ndarray) -> Flow:
     return Flow(r, by_P - slopes[0] * there, by_H - slopes[1] * there, float(inflow))
 
 
-def inside(film: FilmEquations, P, H) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
+def inside(film: FilmEquations, P: FloatArray, H: FloatArray) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
     """``-(q, v')`` and its derivatives by P and H."""
     line = film.line
     p = line.interpolate(P)
@@ -176,7 +203,7 @@ def inside(film: FilmEquations, P, H) -> tuple[np.ndarray, sp.csr_matrix, sp.csr
     )
 
 
-def penalty(film: FilmEquations, P, H) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
+def penalty(film: FilmEquations, P: FloatArray, H: FloatArray) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
     """``sum gamma size^2 [(rho H)'][v']`` and its derivatives by P and H."""
     at, size, jump = slope_jumps(film.line)
     c, (p0, p1, h0, h1) = partials(

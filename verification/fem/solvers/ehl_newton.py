@@ -8,17 +8,25 @@ The unknowns are u, P and H0, with H = H0 + X^2/2 - u_z. The matrix of all of it
 step. The order of elimination comes from the stiffness, once for a mesh.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 from skfem import LinearForm
 
+from ...arrays import FloatArray
 from .ehl_body import Body
 from .ehl_film import FilmEquations, Flow, assemble
 from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, SolveReport
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_matrix
+
 
 HERTZ_LOAD = math.pi / 2
 LARGEST_GROWTH = 3.0  # of ln(eta) at any point in one step
@@ -143,7 +151,7 @@ def step(body: Body, film: FilmEquations, it: Iterate, at: Imbalance, weights: n
     return Iterate(it.u + share * du, it.P + share * dP, it.H0 + share * dH0, held)
 
 
-def tangent(body: Body, by_P, by_H, free: np.ndarray, weights: np.ndarray) -> sp.csc_matrix:
+def tangent(body: Body, by_P: csr_matrix, by_H: csr_matrix, free: np.ndarray, weights: np.ndarray) -> sp.csc_matrix:
     """Return the matrix of the complete system for changes of u, of P at the ``free`` degrees of freedom, and of H0."""
     return sp.bmat(
         [
@@ -164,7 +172,7 @@ def solve(matrix: sp.csc_matrix, rhs: np.ndarray, order: np.ndarray) -> np.ndarr
     return change
 
 
-def step_length(film: FilmEquations, P, dP, H, dH) -> float:
+def step_length(film: FilmEquations, P: FloatArray, dP: FloatArray, H: FloatArray, dH: FloatArray) -> float:
     """The share of a step after which no viscosity has changed, and no film has shrunk, by more than the limits say."""
     growth = np.abs(film.log_viscosity(np.maximum(P + dP, 0)) - film.log_viscosity(np.maximum(P, 0))).max()
     shrinking = float(np.max(-dH[H > 0] / H[H > 0], initial=0.0))

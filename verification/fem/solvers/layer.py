@@ -77,7 +77,7 @@ class Layer:
         columns = np.eye(n)
         return np.hstack([self.displacement(columns[:, i : i + BLOCK]) for i in range(0, n, BLOCK)])
 
-    def stress(self, force) -> np.ndarray:
+    def stress(self, force: FloatArray) -> np.ndarray:
         """(3, vertices) sigma_xx, sigma_zz, sigma_xz in Pa, projected on continuous linear functions."""
         return section_stress(self.basis, self.spread @ self.response(force), self.body.young, self.body.poisson)
 

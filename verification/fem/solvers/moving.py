@@ -6,12 +6,15 @@ The body is linear, so its displacement is eliminated once and for all (`Body.co
 line). A step then solves for pressure and approach alone, by Newton's method with the active set of `ehl_newton`.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from skfem import LinearForm
 
+from ...arrays import BoolArray, FloatArray
 from .ehl import EHLSolution
 from .ehl_body import Body
 from .ehl_film import assemble
@@ -19,12 +22,18 @@ from .ehl_newton import HERTZ_LOAD, load_weights, step_length
 from .report import SolveError, require
 from .ripple import stored
 
+if TYPE_CHECKING:
+    from scipy.sparse import csr_matrix
+    from skfem.assembly.form.form import FormExtraParams
+    from skfem.element.discrete_field import DiscreteField
+
+
 BDF2 = (1.5, -2.0, 0.5)
 EULER = (1.0, -1.0, 0.0)
 
 
 @LinearForm
-def gained(v, w):
+def gained(v: DiscreteField, w: FormExtraParams) -> FloatArray:
     """``(c, v)``."""
     return w.c * v
 
@@ -89,13 +98,15 @@ def march(
         yield Moment(time, P, H)
 
 
-def content(at: EHLSolution, P, H):
+def content(at: EHLSolution, P: FloatArray, H: FloatArray) -> FloatArray:
     """rho H at the points of quadrature."""
     line = at.body.line
     return at.film.density(np.asarray(line.interpolate(P))) * np.asarray(line.interpolate(H))
 
 
-def newton_change(body: Body, P, held, lost, load: float, by_P, by_H) -> tuple[np.ndarray, float]:
+def newton_change(
+    body: Body, P: FloatArray, held: BoolArray, lost: FloatArray, load: float, by_P: csr_matrix, by_H: csr_matrix
+) -> tuple[np.ndarray, float]:
     """Change of pressure and approach by one step of Newton's method: ``lost`` and ``load`` to 0, ``held`` P to 0."""
     free = np.flatnonzero(~held)
     weights = load_weights(body)

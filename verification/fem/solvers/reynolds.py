@@ -158,7 +158,13 @@ def weak_form(
     return -w["f"] + 0 * p, flow
 
 
-def upwind_flow(problem: ReynoldsProblem, p, gradient, mobility, w) -> np.ndarray:
+def upwind_flow(
+    problem: ReynoldsProblem,
+    p: ComplexArray | FloatArray,
+    gradient: ComplexArray | FloatArray,
+    mobility: ComplexArray | FloatArray,
+    w: dict[str, FloatArray],
+) -> np.ndarray:
     """What the streamline-upwind form adds to the flow: ``tau`` times wave speed times strong residual.
 
     Brooks & Hughes 1982, doi:10.1016/0045-7825(82)90071-8; tau of Shakib, Hughes & Johan 1991,

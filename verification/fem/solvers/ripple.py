@@ -9,21 +9,31 @@ solve the tangent of the complete system (`ehl_newton`) at the smooth solution, 
 its right side. The rupture point does not move, because pressure and its slope vanish there.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 from skfem import BilinearForm
 
+from ...arrays import FloatArray
 from .ehl import EHLSolution
 from .ehl_film import FilmEquations, assemble
 from .ehl_newton import load_weights, solve, tangent
 
+if TYPE_CHECKING:
+    from scipy.sparse import csr_matrix
+    from skfem.assembly.form.form import FormExtraParams
+    from skfem.element.discrete_field import DiscreteField
+
 
 @BilinearForm
-def mass(u, v, w):
+def mass(u: DiscreteField, v: DiscreteField, w: FormExtraParams) -> FloatArray:
     """``(c u, v)``."""
     return w.c * u * v
 
 
-def stored(film: FilmEquations, P, H):
+def stored(film: FilmEquations, P: FloatArray, H: FloatArray) -> tuple[csr_matrix, csr_matrix]:
     """Derivatives of ``(rho H, v)`` by P and by H."""
     line = film.line
     p = np.asarray(line.interpolate(P))

@@ -23,9 +23,12 @@ Newton's method solves for all pressures and h0 at once, with the full dense mat
 nodes with h = floor. Steps in time are implicit, of second order (BDF2; the first is Euler's).
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy.linalg
@@ -34,11 +37,17 @@ from scipy.interpolate import RegularGridInterpolator
 from skfem import Basis, BilinearForm, ElementQuad1, LinearForm, MeshQuad
 from skfem.helpers import grad
 
+from ...arrays import FloatArray
 from .compliance import Elastic
 from .ehl import LineContact, solve_ehl
 from .fluid import slope
 from .harmonic import Compliance, HarmonicStrip, compliance
 from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, SolveReport, require
+
+if TYPE_CHECKING:
+    from skfem.assembly.form.form import FormExtraParams
+    from skfem.element.discrete_field import DiscreteField
+
 
 PENALTY = 0.03  # on the jumps of slope: the value of `ehl_film`
 LARGEST_GROWTH = 3.0  # of ln(eta) at any node in one step of Newton's method
@@ -200,13 +209,13 @@ class Discretisation:
 
 
 @LinearForm
-def residual_form(v, w):
+def residual_form(v: DiscreteField, w: FormExtraParams) -> FloatArray:
     """``(c, v) - (q, grad v)``: what is gained, and the flow."""
     return w.c * v - w.qx * grad(v)[0] - w.qy * grad(v)[1]
 
 
 @BilinearForm
-def tangent_form(u, v, w):
+def tangent_form(u: DiscreteField, v: DiscreteField, w: FormExtraParams) -> FloatArray:
     """The derivative of `residual_form` by a field: by its value in c and q, and by its gradient in q."""
     flow = (w.x_value * u - w.mobility * grad(u)[0]) * grad(v)[0]
     flow = flow + (w.y_value * u - w.mobility * grad(u)[1]) * grad(v)[1]
@@ -453,7 +462,7 @@ def solved(
     tolerance: float,
     step: Step = Step(),
     touching: np.ndarray | None = None,
-):
+) -> tuple[np.ndarray, float, Any, float, SolveReport, np.ndarray]:
     """`newton`, in the order of the arguments of `film_of`."""
     p, approach, at, report, touching = newton(grid, p, approach, time, step, tolerance=tolerance, touching=touching)
     return p, approach, at, time, report, touching

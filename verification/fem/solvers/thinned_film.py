@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...arrays import ComplexArray, FloatArray
 from .ehl import EHLSolution, LineContact, solve_ehl
 from .ehl_film import FilmEquations
 from .ehl_newton import Iterate, film_thickness, newton
@@ -54,7 +55,9 @@ class ThinnedFilm(FilmEquations):
     stress_per_film: float = 0.0
     pull: float = 0.0
 
-    def factor(self, P, P1, H):
+    def factor(
+        self, P: ComplexArray | FloatArray, P1: ComplexArray | FloatArray, H: ComplexArray | FloatArray
+    ) -> ComplexArray | FloatArray:
         """By which the pressure flow is larger than a Newtonian one."""
         s = self.stress_per_film * np.exp(self.log_viscosity(P)) / H / self.law.critical
         b = self.pull * np.where(np.real(P1) < 0, -P1, P1) * H / self.law.critical + SMALLEST
@@ -67,7 +70,14 @@ class ThinnedFilm(FilmEquations):
         moment = (self.law.rate(a + b * Z)[0] * Z * SIMPSON).sum(-1)
         return 3 * moment / b[..., 0]
 
-    def flux(self, P, P1, H, H1, size):
+    def flux(
+        self,
+        P: ComplexArray | FloatArray,
+        P1: ComplexArray | FloatArray,
+        H: ComplexArray | FloatArray,
+        H1: ComplexArray | FloatArray,
+        size: FloatArray,
+    ) -> ComplexArray | FloatArray:
         """The flux with the thinned pressure flow."""
         return super().flux(P, P1, H, H1, size) + (1 - self.factor(P, P1, H)) * self.mobility(P, H) * P1
 

@@ -11,6 +11,8 @@ from skfem import Basis, ElementTriP1, MeshTri
 from skfem.helpers import sym_grad
 from skfem.models.elasticity import lame_parameters, linear_stress
 
+from ...arrays import FloatArray
+
 if TYPE_CHECKING:
     from scipy.sparse import csc_matrix, csr_matrix
 
@@ -31,14 +33,14 @@ def factorised(matrix: csc_matrix | csr_matrix) -> SuperLU:
     return splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
 
-def section_stress(basis: Basis, displacement, young: float, poisson: float) -> np.ndarray:
+def section_stress(basis: Basis, displacement: FloatArray, young: float, poisson: float) -> np.ndarray:
     """(3, vertices): sigma_xx, sigma_zz, sigma_xz of a plane-strain ``displacement``, on linear functions."""
     sigma = linear_stress(*lame_parameters(young, poisson))(sym_grad(basis.interpolate(displacement)))
     linear = basis.with_element(ElementTriP1())
     return np.array([linear.project(sigma[i, j]) for i, j in ((0, 0), (1, 1), (0, 1))])
 
 
-def von_mises(sigma, poisson: float):
+def von_mises(sigma: FloatArray, poisson: float) -> FloatArray:
     """Von Mises stress in plane strain from sigma_xx, sigma_zz, sigma_xz."""
     xx, zz, xz = sigma
     yy = poisson * (xx + zz)

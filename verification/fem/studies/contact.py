@@ -1,9 +1,14 @@
 """Hertz line contact on the finite-element layer, elastic and with a plastic limit, compared with
 `lubfric.solve_contact`."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
-from ...check import AT_LEAST, Check, Table, bound, compared
+from lubfric.contact import ContactResult
+
+from ...arrays import FloatArray
+from ...check import AT_LEAST, Check, Item, Table, bound, compared
 from ...meshes import mesh_field
 from ..convergence import Series, convergence
 from ..exact_contact import Line
@@ -50,25 +55,25 @@ def press(layer: Layer, load: float = LINE_LOAD, limit: float | None = None) -> 
     )
 
 
-def difference(layer: Layer, values, expected) -> float:
+def difference(layer: Layer, values: FloatArray, expected: FloatArray) -> float:
     """Relative difference of two pressures in the L2 norm over the surface."""
     return float(np.sqrt(layer.weights @ np.square(values - expected) / (layer.weights @ np.square(expected))))
 
 
-def hertz_pressure(x, load: float):
+def hertz_pressure(x: FloatArray, load: float) -> FloatArray:
     """Hertz pressure [Pa] of the cylinder on the half-space."""
     b = B * np.sqrt(load / LINE_LOAD)
     return 2 * load / (np.pi * b) * np.sqrt(np.maximum(1 - (x / b) ** 2, 0))
 
 
-def half_width(x, pressure) -> float:
+def half_width(x: FloatArray, pressure: FloatArray) -> float:
     """Half-width where p² would vanish, from its slope against x² at more than 0.3 of the peak."""
     high = pressure > 0.3 * pressure.max()
     slope, top = np.polyfit(x[high] ** 2, pressure[high] ** 2, 1)
     return float(np.sqrt(-top / slope))
 
 
-def hertz(level: str):
+def hertz(level: str) -> Iterator[Item]:
     """Hertz pressure: the orders, and the finest mesh against the closed form and `lubfric`."""
     fines = 0.4 / 2.0 ** np.arange({"quick": 3, "default": 4, "full": 5}[level])
     rows = []
@@ -116,7 +121,7 @@ def edge_mean_error(layer: Layer, fine: float) -> float:
     return float(np.sqrt(np.mean(np.square(errors))))
 
 
-def capped_cylinder(layer: Layer, elastic: Contact, x, smooth, level: str):
+def capped_cylinder(layer: Layer, elastic: Contact, x: FloatArray, smooth: ContactResult, level: str) -> Iterator[Item]:
     """The cylinder with pressures cut at 0.7 of the Hertz peak, and the stress below the elastic one."""
     p = press(layer, limit=CAP)
     _, other = pressed_cylinder(LINE, 200, CAP)
@@ -133,7 +138,7 @@ def capped_cylinder(layer: Layer, elastic: Contact, x, smooth, level: str):
     yield from axis_stress(layer, sigma)
 
 
-def axis_stress(layer: Layer, sigma):
+def axis_stress(layer: Layer, sigma: FloatArray) -> Iterator[Item]:
     """Stresses on the axis against the closed form."""
     x, z = layer.basis.mesh.p / B
     at = (np.abs(x) < 1e-9) & (z < -0.2) & (z > -3)

@@ -1,12 +1,13 @@
 """Dry contact of `lubfric` against closed forms on ever finer grids, for each of the three boundary conditions."""
 
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 
 import lubfric
 
-from ...check import AT_LEAST, Table, bound, compared
+from ...check import AT_LEAST, Item, Table, bound, compared
 from ..convergence import Series, convergence
 from ..exact_contact import Line, Sphere, Wave
 from ..parts import pressed_cylinder
@@ -52,7 +53,14 @@ def contact_grid(level: str):
     yield from row_of_spheres(16)
 
 
-def family(solve, cells: tuple[int, ...], size: str, at: int, allowed: dict[str, tuple[float, int]], source: str):
+def family(
+    solve: Callable[..., Any],
+    cells: tuple[int, ...],
+    size: str,
+    at: int,
+    allowed: dict[str, tuple[float, int]],
+    source: str,
+) -> Iterator[Item]:
     """Errors of one shape on all grids.
 
     ``allowed`` is the bound with ``at`` cells, and the order by which it falls.

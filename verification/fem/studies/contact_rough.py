@@ -1,13 +1,15 @@
 """A rough periodic patch on the finite-element layer, elastic and with a plastic limit, compared with
 `lubfric.solve_contact`."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 import lubfric
 
-from ...check import AT_LEAST, Table, bound, compared
+from ...arrays import BoolArray, FloatArray
+from ...check import AT_LEAST, Item, Table, bound, compared
 from ..convergence import Series
 from ..solvers.compliance import Elastic, missing
 from ..solvers.contact import solve_contact
@@ -40,7 +42,7 @@ def contact_rough(level: str):
     yield from certified(level)
 
 
-def roughness(x, y, seed: int = 2, waves: int = 4, slope: float = -1.8):
+def roughness(x: FloatArray, y: FloatArray, seed: int = 2, waves: int = 4, slope: float = -1.8) -> FloatArray:
     """Heights [m] of rms SQ: waves of random phase, 1 to ``waves`` in the box, of amplitude |n|^slope."""
     phases = np.random.default_rng(seed).uniform(0, 2 * np.pi, (waves + 1, 2 * waves + 1))
     total = np.zeros(np.broadcast_shapes(x.shape, y.shape))
@@ -85,7 +87,7 @@ class Patch:
         return float(np.sum(self.weights * np.maximum(self.gap, 0)) / np.sum(self.weights))
 
 
-def corrected_area(mask) -> float:
+def corrected_area(mask: BoolArray) -> float:
     """Share of the grid, less ``(pi - 1 + ln 2)/24`` spacings for every length of edge."""
     edges = sum(np.count_nonzero(mask != np.roll(mask, 1, axis)) for axis in (0, 1))
     return float(np.count_nonzero(mask) - (np.pi - 1 + np.log(2)) / 24 * edges) / mask.size
@@ -129,7 +131,7 @@ def half_space_patch(nodes: int, limit: float | None = None) -> Patch:
     return Patch(solution.pressure, solution.gap, np.ones_like(solution.gap), np.inf if limit is None else limit)
 
 
-def rough(level: str):
+def rough(level: str) -> Iterator[Item]:
     """The rough patch, elastic and capped, on several grids."""
     rows = []
     for name, limit in (("elastic", None), ("capped", CAP)):
@@ -145,7 +147,7 @@ def rough(level: str):
     yield Table("contact_rough", caption, columns, rows)
 
 
-def at_nodes(values, nodes: int) -> np.ndarray:
+def at_nodes(values: FloatArray, nodes: int) -> np.ndarray:
     """The values on a finer grid at the nodes of a coarser one."""
     every = values.shape[0] // nodes
     return values[::every, ::every]
@@ -157,7 +159,7 @@ def patch_difference(p: Patch, best: Patch) -> float:
     return float(np.sqrt(np.sum(p.weights * (p.pressure - other) ** 2) / np.sum(p.weights * other**2)))
 
 
-def patch_checks(name: str, patches, best: Patch, off):
+def patch_checks(name: str, patches: list[Patch], best: Patch, off: list[float]) -> Iterator[Item]:
     """Compare area, mean gap and pressure with `lubfric`."""
     finest = patches[-1]
     nodes = patches[-1].gap.shape[0]
@@ -184,7 +186,7 @@ def patch_checks(name: str, patches, best: Patch, off):
     yield bound(f"{label}: pressure difference", off[-1], 2 / nodes, other, "L2")
 
 
-def thickness(level: str):
+def thickness(level: str) -> Iterator[Item]:
     """Mean gap of the rough patch against the thickness of the layer."""
     nodes = 32 if level == "quick" else 64
     reach = np.cumsum(BOX / nodes * 1.2 ** np.arange(20))  # the same levels near the surface, fewer or more below
@@ -217,7 +219,7 @@ def thickness(level: str):
     ).check_order()
 
 
-def certified(level: str):
+def certified(level: str) -> Iterator[Item]:
     """The contact that was solved wave by wave, as a load on the assembled layer: does it hold there as well?"""
     nodes = 32 if level == "quick" else 64
     grid = layer_of(nodes, 2 if level == "full" else 1, layers=nodes // 4)

@@ -1,5 +1,6 @@
 """The deterministic mixed film of lubfric: its limits, its grids, and its film in the same gap by finite elements."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -7,11 +8,11 @@ import numpy as np
 
 import lubfric
 from lubfric.film import LineContact
-from lubfric.models.deterministic import dry_contact, lay_out, solve_point
+from lubfric.models.deterministic import Problem, dry_contact, lay_out, solve_point
 from lubfric.oil import Lubricant
 from lubfric.surface import Surface
 
-from ...check import ABSOLUTE, Check, compared
+from ...check import ABSOLUTE, Check, Item, compared
 from ..parts import line_contact
 from ..solvers.fluid import Fluid
 from ..solvers.rough_film import GivenGap, rough_film
@@ -76,7 +77,7 @@ def surface(cells: int, seed: int = 1) -> Surface:
     return mirrored.resampled(shape=(cells, round(cells * 100 / 256) * 2))
 
 
-def problem(cells: int, speed: float, seed: int = 1):
+def problem(cells: int, speed: float, seed: int = 1) -> Problem:
     """The deterministic problem on that surface."""
     return lay_out(surface(cells, seed), contact(speed), sliding=2 * speed, boundary_friction=0.09, hardness=6e9)
 
@@ -95,7 +96,7 @@ def smooth():
         yield from compared(f"smooth, {load:g} N/m, {speed:g} m/s", rows, "solve_ehl")
 
 
-def dry():
+def dry() -> Iterator[Item]:
     """At 2 µm/s the fluid carries nothing, and the dry contact is left."""
     case = problem(64, 2e-6)
     solution = solve_point(case).pressure

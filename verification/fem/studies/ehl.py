@@ -1,13 +1,14 @@
 """The EHL line contact by finite elements, full system, against `lubfric.solve_ehl` and a table."""
 
 import time
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 import lubfric
 
-from ...check import AT_LEAST, Check, Field, Table, bound, compared
+from ...check import AT_LEAST, Check, Field, Item, Table, bound, compared
 from ...meshes import mesh_field
 from ..convergence import Series, convergence, picture
 from ..parts import case_of
@@ -43,7 +44,7 @@ TABLE_SOURCE = "separate finite-difference solver on nested meshes, inlet at -6 
 SOLVER = "lubfric.solve_ehl, tolerance 3e-5"
 
 
-def ehl(level: str):
+def ehl(level: str) -> Iterator[Item]:
     """Compare full-system finite elements (elastic body, Reynolds on its surface and load in one Newton iteration)
     with `lubfric`.
 
@@ -180,7 +181,7 @@ def body_field(pair: Pair) -> Field:
     return mesh_field("ehl_body", caption, scaled, {"displacement": np.pad(moved, ((0, 0), (0, 1)))} | data)
 
 
-def differences(pairs: list[Pair], level: str):
+def differences(pairs: list[Pair], level: str) -> Iterator[Item]:
     """The film's difference from `lubfric` shrinks with the mesh."""
     series: dict[float, list[Series]] = {5: [], 10: []}
     for pair in pairs:
@@ -212,7 +213,7 @@ def differences(pairs: list[Pair], level: str):
         yield picture(f"ehl_convergence_L{L}", caption, series[L], *words)
 
 
-def ringing():
+def ringing() -> Iterator[Item]:
     """Plain Galerkin and slope penalty on one coarse mesh at 2.6 GPa."""
     contact = LineContact.of(case_of(200, 10))
     variation = {}

@@ -1,11 +1,12 @@
 """The line-contact film of `lubfric` against exact and tight references: grid, inlet."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
-from ...check import AT_LEAST, Table, bound, compared
+from ...check import AT_LEAST, Item, Table, bound, compared
 from ..convergence import Series, convergence
 from ..exact import Parabola
 from ..parts import ALPHA, E_PRIME, RADIUS, VISCOSITY
@@ -56,7 +57,7 @@ def table():
         yield from (replace(c, grade="C") for c in compared(f"M = {M}, L = {L}", rows, TABLE_SOURCE))
 
 
-def rigid(level: str):
+def rigid(level: str) -> Iterator[Item]:
     """Light load: smallest film 2.447484/M and flow film 3.000000/M of the rigid isoviscous cylinder.
 
     What is left on fine grids is the finite inlet, which is estimated apart. So the order is that of the changes from
@@ -84,7 +85,7 @@ def rigid(level: str):
     yield from convergence("ehl_rigid", caption, series, "1 / cells", "relative film error")
 
 
-def elastic(level: str):
+def elastic(level: str) -> Iterator[Item]:
     """Elastic, piezoviscous films against the solution on a grid of its own at the finest tolerance."""
     series = []
     rows = []

@@ -1,18 +1,18 @@
 """The contact formulations of the paper against the load-controlled default: agreement, work, time."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 import lubfric
-from lubfric.contact import half_space
+from lubfric.contact import ContactResult, half_space
 from lubfric.contact.solve import solve_contact
 from lubfric.paper import alternating, single_loop
 
 from ...campaigns.charts.measure import interleaved
-from ...check import AT_MOST, Check, Table
+from ...check import AT_MOST, Check, Item, Table
 
 E_PRIME = 231e9
 RADIUS = 2e-3
@@ -54,7 +54,7 @@ class FormulationCase:
         self.given = (z, film + volume - np.sum(area * film) / area.sum(), SPACING, E_PRIME)
         self.options: dict[str, Any] = self.load | {"weight": area, "tolerance": TOLERANCE, "raise_on_failure": False}
 
-    def by_load(self):
+    def by_load(self) -> ContactResult:
         """The load-controlled default."""
         options: dict[str, Any] = {"mean_pressure": self.pressure, "tolerance": TOLERANCE}
         return solve_contact(self.shape, SPACING, E_PRIME, **options, **self.load)
@@ -73,7 +73,7 @@ def body(shape: str, x: np.ndarray, b: float) -> tuple[np.ndarray, np.ndarray, f
     return square / (2 * RADIUS), (square <= b**2) * 1.0, pressure
 
 
-def formulations(level: str):
+def formulations(level: str) -> Iterator[Item]:
     """Return the contacts solved for a given load, and by the paper's methods for the volume that this solution holds.
 
     There are three boundary conditions, elastic and with a plastic limit, cold starts, and a tolerance of 1e-6 on the
@@ -95,7 +95,7 @@ def formulations(level: str):
             if name in MUST_AGREE:
                 source = "load-controlled contact solve"
                 note = result.report.message
-                about = {"note": note, "seconds": seconds}
+                about: dict[str, Any] = {"note": note, "seconds": seconds}
                 yield Check(
                     f"{name}: {case.name}", off, expected=0.0, tolerance=AGREEMENT, source=source, kind=AT_MOST, **about
                 )
@@ -103,7 +103,7 @@ def formulations(level: str):
     yield Table("formulations", caption, COLUMNS, rows)
 
 
-def row(case: FormulationCase, name: str, result, off: float, seconds: float) -> tuple:
+def row(case: FormulationCase, name: str, result: ContactResult, off: float, seconds: float) -> tuple:
     """A line of the table."""
     r = result.report
     residuals = float(f"{r.residual:.2g}"), float(f"{off:.2g}")

@@ -1,5 +1,6 @@
 """Effect of grid, patch, area A, tolerance and direction on the friction coefficient of `lubfric`."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -12,7 +13,7 @@ from lubfric.models.shared import (
 )
 
 from ... import plotting
-from ...check import AT_LEAST, AT_MOST, Check, Table, bound, compared
+from ...check import AT_LEAST, AT_MOST, Check, Item, Table, bound, compared
 from ..convergence import Series, picture
 from ..exact import Parabola
 
@@ -97,7 +98,7 @@ def mirrored():
     yield from compared("backwards over the mirrored surface", rows, "mirror symmetry of the problem")
 
 
-def contact_cells(finest: int):
+def contact_cells(finest: int) -> Iterator[Item]:
     """One surface averaged in ever larger blocks: errors against the finest grid, by cells per correlation length."""
     heights = surface((finest, finest), PATCH / finest)
     grids = [n for n in (32, 64, 128, 256) if n < finest]

@@ -17,7 +17,7 @@ import lubfric
 from lubfric.film import LineContact
 from lubfric.models.deterministic import DeterministicResult, Problem, lay_out, reach, solve_point
 
-from ...check import ABSOLUTE, Check
+from ...check import ABSOLUTE, Check, Item
 from ..solvers.compliance import Elastic
 from ..solvers.contact import Contact
 from ..solvers.harmonic import Compliance, HarmonicStrip, compliance, press
@@ -68,7 +68,7 @@ GAP = 5e-4
 MISPLACED = 0.1  # share of touching cells
 
 
-def contact_given_fluid(level: str, contact: LineContact) -> Iterator[Check]:
+def contact_given_fluid(level: str, contact: LineContact) -> Iterator[Item]:
     """Pressure and cells of the contact, its load at the same gap, and the gap of the film."""
     bodies: dict[tuple, Compliance] = {}
     for case in CASES[level]:
@@ -105,9 +105,7 @@ def elements(problem: Problem, fineness: int) -> Compliance:
     return compliance(HarmonicStrip(problem.heights.shape, problem.spacing, body, fineness=fineness))
 
 
-def compared(
-    case: GivenFluidCase, problem: Problem, solution: DeterministicResult, body: Compliance
-) -> Iterator[Check]:
+def compared(case: GivenFluidCase, problem: Problem, solution: DeterministicResult, body: Compliance) -> Iterator[Item]:
     """Checks of one case."""
     mine = np.where(solution.touching, solution.pressure, 0.0)
     by_elements, load = contact_by_elements(problem, solution, body)

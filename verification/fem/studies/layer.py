@@ -1,9 +1,11 @@
 """The elastic layer by finite elements against its exact compliance, and its approach to the half-space."""
 
+from collections.abc import Iterator
+
 import numpy as np
 from skfem import MeshTri
 
-from ...check import Check, Table, bound, compared
+from ...check import Check, Item, Table, bound, compared
 from ..convergence import Series, convergence
 from ..solvers.compliance import Elastic, curvature_number, half_space_compliance, layer_compliance, missing
 from ..solvers.layer import Layer, graded_mesh, make_layer
@@ -84,7 +86,7 @@ def plane_orders(level: str):
     yield from convergence("layer_plane", caption, series, "cell length (m)", "relative error")
 
 
-def plane_finite(level: str):
+def plane_finite(level: str) -> Iterator[Item]:
     """Plane strain at several depths and Poisson's ratios."""
     rows = []
     cells = 24 if level == "quick" else 48
@@ -110,7 +112,7 @@ def brick(nodes: int, degree: int, depth: float = 1.0, layers: int | None = None
     return Layer3D(body=BODY, size=(WAVE, WAVE), levels=levels, shape=(nodes, nodes), degree=degree)
 
 
-def brick_orders(level: str):
+def brick_orders(level: str) -> Iterator[Item]:
     """Three dimensions: orders of trilinear and triquadratic bricks on a wave askew to the grid."""
     exact = layer_compliance(K * np.sqrt(5), WAVE, BODY)
     series = []
@@ -144,7 +146,7 @@ def brick_orders(level: str):
     yield from convergence("layer_bricks", caption, series, "node spacing (m)", "relative error of the compliance")
 
 
-def assembled(level: str):
+def assembled(level: str) -> Iterator[Item]:
     """The assembled layer by multigrid against the same layer wave by wave, and the effect of the rigid-body modes."""
     n = MULTIGRID[level]
     rows = []
@@ -169,7 +171,7 @@ def assembled(level: str):
     yield Table("layer_multigrid", caption, columns, rows)
 
 
-def approach(level: str):
+def approach(level: str) -> Iterator[Item]:
     """How a wave on the layer nears the same wave on the half-space."""
     depths = np.arange(0.5, 5.1 if level == "quick" else 7.1, 0.5)
     nu = BODY.poisson
@@ -213,7 +215,7 @@ def bending(result: Layer) -> float:
     return float(curvature / (4 * (3 * np.pi / 8) * b / (np.pi * BODY.e_prime)))
 
 
-def narrow(level: str):
+def narrow(level: str) -> Iterator[Item]:
     """The shape of the surface under a narrow load, with periodic and with free sides: 1/d² and its coefficient."""
     b = HALF_WIDTH
     depths = b * np.array([5, 10, 20] if level == "quick" else [5, 10, 20, 40])

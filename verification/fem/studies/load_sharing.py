@@ -1,6 +1,7 @@
 """Film, rough contact and their load sharing by finite elements, compared with `lubfric.friction`."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
@@ -15,7 +16,7 @@ from lubfric.models.shared import (
 )
 
 from ... import plotting
-from ...check import AT_LEAST, Field, Table, compared
+from ...check import AT_LEAST, Field, Figure, Item, Table, compared
 from .. import parts
 from ..convergence import Series, convergence
 from ..solvers.compliance import Elastic
@@ -53,7 +54,7 @@ TOLERANCE = {"quick": (3e-3, 1.2e-2, 5e-3), "default": (3e-3, 5e-3, 3e-3), "full
 COLUMNS = ("U (m/s)", "cells", "by", "f", "F_C (N)", "F_H (N)", "mean gap (nm)", "area", "Couette (N)", "rolling (N)")
 
 
-def load_sharing(level: str):
+def load_sharing(level: str) -> Iterator[Item]:
     """Coefficient, contact load and film load of the paper's cylinder, computed twice with nothing in common.
 
     It is Tables 1 and 2 of the paper on a patch of 45 x 45 µm (Gaussian roughness of 100 nm, correlation length 4 µm),
@@ -222,7 +223,7 @@ def side_by_side(points: list[Point]) -> Table:
     return Table("load_sharing", caption, COLUMNS, rows)
 
 
-def approach(points: list[Point], grids: tuple[int, ...]):
+def approach(points: list[Point], grids: tuple[int, ...]) -> Iterator[Item]:
     """Differences against cell size, with their orders."""
     # µm
     sizes = [1e6 * LENGTH / n for n in grids]
@@ -255,7 +256,7 @@ def pressure_field(p: Point) -> Field:
     )
 
 
-def pressure_figure(p: Point):
+def pressure_figure(p: Point) -> Figure:
     """Contact pressure of both and the film's pressure of both."""
     canvas, (left, middle, right) = plotting.axes(1, 3, width=9.6, height=3.4)
     half = LENGTH / 2 * 1e6

@@ -1,9 +1,12 @@
 """Reynolds equation on a line: closed forms, rupture, piezoviscosity, and a wave Galerkin rings on."""
 
+from collections.abc import Callable, Iterator
+from typing import Any
+
 import numpy as np
 import skfem
 
-from ...check import ABSOLUTE, AT_LEAST, Check, Table, bound, compared
+from ...check import ABSOLUTE, AT_LEAST, Check, Item, Table, bound, compared
 from .. import exact
 from ..convergence import Series, convergence
 from ..solvers.fluid import Fluid
@@ -73,7 +76,9 @@ def parabola_mesh(cells: int, inlet: float = PARABOLA.inlet, shift: float = 0.0)
     return skfem.MeshLine(np.sinh(stretched) * PARABOLA.scale)
 
 
-def ruptured(e: exact.Parabola, mesh: skfem.MeshLine, degree: int, refinements: int, fluid: Fluid | None = None):
+def ruptured(
+    e: exact.Parabola, mesh: skfem.MeshLine, degree: int, refinements: int, fluid: Fluid | None = None
+) -> list[ReynoldsSolution]:
     """Solutions with a free rupture point on a mesh and its refinements."""
     problem = ReynoldsProblem(
         mesh=mesh, film=e.film, fluid=fluid or Fluid(e.viscosity), speed=e.speed, degree=degree, cavitation=True
@@ -81,7 +86,7 @@ def ruptured(e: exact.Parabola, mesh: skfem.MeshLine, degree: int, refinements: 
     return solve_refined(problem, refinements)
 
 
-def parabola(refinements: int):
+def parabola(refinements: int) -> Iterator[Item]:
     """A parabolic film with a free rupture point: the constants of the rigid isoviscous cylinder.
 
     It is chance where in its cell the rupture point lies, so errors are root mean squares over shifted meshes.
@@ -130,7 +135,7 @@ def exact_constants() -> tuple[float, float, float, float]:
     return scaled(PARABOLA.load, PARABOLA.exit, PARABOLA.couette, PARABOLA.rolling)
 
 
-def parabola_checks(finest: ReynoldsSolution, size: float, degree: int):
+def parabola_checks(finest: ReynoldsSolution, size: float, degree: int) -> Iterator[Item]:
     """Checks of one element on its finest mesh."""
     source = "closed form with Reynolds' outlet, inlet at X = -100 (Martin 1916)"
     result = constants(finest)
@@ -146,14 +151,14 @@ def parabola_checks(finest: ReynoldsSolution, size: float, degree: int):
     )
 
 
-def piezoviscous(refinements: int):
+def piezoviscous(refinements: int) -> Iterator[Item]:
     """Barus and Roelands oils in the parabolic gap, which are exact through the reduced pressure."""
     base = exact.Parabola(viscosity=0.04, speed=1.0, radius=0.01, film_thickness=1e-6, inlet=-10.0)
     index = 0.6
     strong = 2e-8
     alpha = 0.99 / base.pressure(np.linspace(-2, 1, 200_001)[None] * base.scale).max()
 
-    def roelands(coefficient: float):
+    def roelands(coefficient: float) -> tuple[Fluid, Callable[..., Any]]:
         law = Fluid(0.04, "roelands", pressure_viscosity_coefficient=coefficient, roelands_index=index)
         return law, lambda q: exact.roelands_to_true(q, coefficient * 1.96e8 / index, index)
 
@@ -192,7 +197,7 @@ def fast_film(e: exact.Parabola, alpha: float, index: float) -> exact.Parabola:
     )
 
 
-def ringing():
+def ringing() -> Iterator[Item]:
     """Gas slider at bearing number 1080: Galerkin P1 rings on a coarse mesh, SUPG does not; both converge."""
     fluid = Fluid(GAS.viscosity, density_law="linear", bulk_modulus=AMBIENT)
     source = "isothermal gas slider (Harrison 1913) integrated upstream to 1e-9"

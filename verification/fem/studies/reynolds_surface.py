@@ -1,14 +1,26 @@
 """Reynolds equation on a surface: manufactured solutions, finite width, rupture."""
 
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 import skfem
 
-from ...check import Check, Table, bound, compared
+from ...arrays import BoolArray, FloatArray
+from ...check import Check, Item, Table, bound, compared
 from ...meshes import mesh_field
 from .. import exact
 from ..convergence import Series, convergence
 from ..solvers.fluid import Fluid, slope
 from ..solvers.reynolds import ReynoldsProblem, ReynoldsSolution, solve_refined
+
+if TYPE_CHECKING:
+    from skfem.element.discrete_field import DiscreteField
+    from skfem.mesh.mesh_quad_1 import MeshQuad1
+    from skfem.mesh.mesh_tri_1 import MeshTri1
+
 
 KINDS = {"line": skfem.MeshLine, "triangle": skfem.MeshTri, "quadrilateral": skfem.MeshQuad}
 REFINEMENTS = {"quick": 2, "default": 3, "full": 4}
@@ -44,28 +56,28 @@ class Manufactured:
     def __init__(self, dimension: int):
         self.wave = np.pi / np.array([LENGTH, WIDTH][:dimension])
 
-    def film(self, x):
+    def film(self, x: FloatArray) -> FloatArray:
         """Film [m], sloping in x and bent in y."""
         return 1e-6 * (2 - x[0] / LENGTH + (0.3 * np.cos(2 * x[1] / WIDTH) if len(self.wave) > 1 else 0.0))
 
-    def film_slope(self, x):
+    def film_slope(self, x: FloatArray) -> FloatArray:
         """Gradient of the film."""
         along = -1e-6 / LENGTH + 0 * x[0]
         if len(self.wave) == 1:
             return np.array([along])
         return np.array([along, -0.6e-6 / WIDTH * np.sin(2 * x[1] / WIDTH)])
 
-    def pressure(self, x):
+    def pressure(self, x: DiscreteField | FloatArray) -> FloatArray:
         """The pressure to be found, Pa."""
         return self.peak * np.prod([np.sin(k * a) for k, a in zip(self.wave, x, strict=True)], axis=0)
 
-    def gradient(self, x):
+    def gradient(self, x: FloatArray) -> FloatArray:
         """Gradient of the pressure [Pa/m]."""
         sines = np.array([np.sin(k * a) for k, a in zip(self.wave, x, strict=True)])
         slopes = np.array([k * np.cos(k * a) for k, a in zip(self.wave, x, strict=True)])
         return self.peak * (slopes if len(self.wave) == 1 else slopes * sines[::-1])
 
-    def source(self, x):
+    def source(self, x: FloatArray) -> FloatArray:
         """``-div(D grad p) + d(rho U h)/dx`` derived by hand, with D = rho h^3/(12 eta)."""
         p = self.pressure(x)
         dp = self.gradient(x)
@@ -86,7 +98,7 @@ def box(kind: str, cells: int, width: float = WIDTH, length: float = LENGTH) -> 
     return KINDS[kind].init_tensor(x, np.linspace(-width / 2, width / 2, cells + 1))
 
 
-def manufactured(refinements: int):
+def manufactured(refinements: int) -> Iterator[Item]:
     """The order of all six elements, and of the stabilised form."""
     series = []
     rows = []
@@ -123,7 +135,7 @@ def pad(ratio: float) -> exact.ExponentialPad:
     )
 
 
-def finite_width(refinements: int):
+def finite_width(refinements: int) -> Iterator[Item]:
     """Pads of all widths against the series, which runs between the two limits."""
 
     def solved(e: exact.ExponentialPad) -> ReynoldsSolution:
@@ -144,7 +156,7 @@ def finite_width(refinements: int):
     name = "exponential pad, width/length 0.02: load"
     yield Check(name, solved(e).load, expected=e.narrow_load, tolerance=0.03, source=source, unit="N", note=note)
 
-    def side(x):
+    def side(x: FloatArray) -> BoolArray:
         return (x[0] > 1e-9) & (x[0] < LENGTH - 1e-9)
 
     closed = ReynoldsProblem(
@@ -164,7 +176,7 @@ def finite_width(refinements: int):
 def edged(e: exact.ExponentialPad) -> skfem.MeshQuad:
     """A mesh of the pad with its lines crowded at the four edges, more so along the longer side."""
 
-    def crowded(length, other):
+    def crowded(length: float, other: float) -> FloatArray:
         strength = np.clip(1.5 * np.log10(max(length / other, 1.0)) * 1.6, 0.5, 4.0)
         s = np.linspace(-1, 1, 17)
         return length * (1 + np.tanh(strength * s) / np.tanh(strength)) / 2
@@ -177,7 +189,9 @@ def parabolic(refinements: int):
     e = exact.Parabola(viscosity=VISCOSITY, speed=SPEED, radius=0.01, film_thickness=1e-6, inlet=-10.0)
     x = np.sinh(np.linspace(-np.arcsinh(10), np.arcsinh(2), 25)) * e.scale
 
-    def solved(mesh, degree: int, refinements: int, side=None) -> ReynoldsSolution:
+    def solved(
+        mesh: MeshQuad1 | MeshTri1, degree: int, refinements: int, side: Callable[..., Any] | None = None
+    ) -> ReynoldsSolution:
         problem = ReynoldsProblem(
             mesh=mesh,
             film=e.film,
@@ -189,7 +203,7 @@ def parabolic(refinements: int):
         )
         return solve_refined(problem, refinements)[-1]
 
-    def side(at):
+    def side(at: FloatArray) -> BoolArray:
         return (at[0] > x[0] + 1e-9) & (at[0] < x[-1] - 1e-9)
 
     for kind, degree in (("triangle", 1), ("quadrilateral", 1), ("triangle", 2), ("quadrilateral", 2)):

@@ -8,7 +8,7 @@ import numpy as np
 
 import lubfric
 
-from ...check import ABSOLUTE, AT_MOST, Check
+from ...check import ABSOLUTE, AT_MOST, Check, Item
 
 SEEDS = {"quick": 30, "default": 60, "full": 100}
 # m/s, relative: of mixed lubrication
@@ -22,7 +22,7 @@ STEPS = (4, 20, 40)  # cells
 GAUSS = "Gaussian surface with the autocorrelation exp(-(r/length)²)"
 
 
-def sampling(level: str) -> Iterator[Check]:
+def sampling(level: str) -> Iterator[Item]:
     """Check that generated surfaces have the slope and the structure function of the requested law, that f of many
     seeds scatters by the stated standard error, and that no error exceeds its target.
 
@@ -49,7 +49,7 @@ def sampling(level: str) -> Iterator[Check]:
     )
 
 
-def statistics() -> Iterator[Check]:
+def statistics() -> Iterator[Item]:
     """Slope and structure function of one large surface: m2 = 2 Sq²/length² along each axis, and 2 Sq² (1 - acf)."""
     keys: dict[str, Any] = {"sq": SQ, "correlation_length": LENGTH, "acf": "gaussian", "seed": 3}
     z = lubfric.generate_surface((CELLS, CELLS), CELL, **keys).heights

@@ -128,7 +128,7 @@ def ground(across: float) -> np.ndarray:
     return 1e-7 * (waves - 0.35 * waves**2) + 2e-3 * x + 1e-3 * y + 3e-7
 
 
-def flat(allowed, refinements: int):
+def flat(allowed: tuple[float, float, float], refinements: int):
     """The paper's nominally flat contact on a patch of few waves."""
     nodes = 64
     speed = 0.02

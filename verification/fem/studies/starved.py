@@ -130,7 +130,7 @@ def extrapolated(films: list[RoughStripFilm], grids: tuple[int, ...]) -> np.ndar
 
 def compared(
     name: str, own: lubfric.EHLResult, films: list[RoughStripFilm], grids: tuple[int, ...], rows: list[tuple]
-) -> Iterator[Check]:
+) -> Iterator[Item]:
     """The checks of one inlet."""
     mine = (own.min_film, float(own.film_at(np.array([0.0]))[0]), own.flow_film)
     theirs = extrapolated(films, grids)

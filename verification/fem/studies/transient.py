@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -23,8 +24,9 @@ from lubfric.time import (
     solve_transient_ehl,
     symmetric_nodes,
 )
+from lubfric.time.film_setting import Setting
 
-from ...check import AT_LEAST, Check, Table, bound, compared
+from ...check import AT_LEAST, Check, Item, Table, bound, compared
 from ..convergence import Series, convergence
 from ..parts import E_PRIME, RADIUS, VISCOSITY, case_of, line_contact, the
 
@@ -85,7 +87,7 @@ def step_history(value: float, factor: float) -> History:
     return History(times=(0.0, 0.0, 1e3), values=(value, factor * value, factor * value))
 
 
-def squeeze(most: int):
+def squeeze(most: int) -> Iterator[Item]:
     """The exact law, and the orders in time and space, with up to ``most`` equal steps."""
     times = np.linspace(0, LONG, 21)
     history = solve_transient_ehl(**SQUEEZE, times=times, tolerance=1e-3, time_tolerance=1e-6)
@@ -127,7 +129,7 @@ def squeeze(most: int):
     yield from convergence("squeeze_orders", caption, series, "1/number of steps or cells", "relative error")
 
 
-def setting(resolution: float):
+def setting(resolution: float) -> Setting:
     """The rigid squeeze on a grid of a given resolution."""
     oil, load, radius, still, viscosity = (
         Lubricant(0.1, 0.0, viscosity_law="constant"),
@@ -171,7 +173,7 @@ def one_step(resolution: float) -> float:
     return float((1e-6 - h) / step / (2 * h**1.5 * RATE) - 1)
 
 
-def halved():
+def halved() -> Iterator[Item]:
     """The speed halved at once at M = 20, L = 5."""
     keywords, problem, unit = contact(20, 5, "dowson-higginson")
     keywords["entrainment_speed"] = step_history(keywords["entrainment_speed"], 0.5)
@@ -189,7 +191,7 @@ def halved():
     yield Table("halved", caption, ("T = U₀t/b", "H(0)", "H_min", "table H(0)", "table H_min"), rows)
 
 
-def stopped():
+def stopped() -> Iterator[Item]:
     """A contact brought to a stop. Light loads follow the squeeze law, and heavy ones trap their film."""
     keywords, _, unit = contact(0.05, 1)
     keywords |= {"viscosity_law": "constant", "pressure_viscosity_coefficient": 0.0, "e_prime": 1e4 * E_PRIME}
@@ -209,7 +211,7 @@ def stopped():
     )
 
 
-def reversal():
+def reversal() -> Iterator[Item]:
     """Speed through zero and back."""
     keywords, problem, unit = contact(5, 5)
     period = 20 * unit
@@ -225,7 +227,7 @@ def reversal():
     )
 
 
-def jumps(level: str):
+def jumps(level: str) -> Iterator[Item]:
     """Tenfold jumps, with first steps over four decades: the steady state, or a reported failure."""
     rows: list[tuple] = []
     wrong = failed = 0
@@ -255,7 +257,7 @@ def jumps(level: str):
     yield from steps_and_ramp()
 
 
-def steps_and_ramp():
+def steps_and_ramp() -> Iterator[Item]:
     """The first step makes no difference, and a load that rises over two transits ends in its steady film."""
     keywords, _, unit = contact(10, 5)
     slower = keywords | {"entrainment_speed": step_history(keywords["entrainment_speed"], 0.5)}

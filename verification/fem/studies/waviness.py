@@ -153,7 +153,7 @@ def parts(film: np.ndarray, x: np.ndarray, length: float, speed: float) -> tuple
     return float(abs(coefficients[0])), float(abs(coefficients[1]))
 
 
-def in_time() -> Iterator[Check]:
+def in_time() -> Iterator[Item]:
     """A wave of a fifth of the film, one half-width long, in pure rolling: gap over a period by both."""
     smooth = laid_out(STEEL.line, 1.0, 2.4 * CELLS)
     height = 0.2 * smooth.film.central_gap
