@@ -204,19 +204,24 @@ def test_a_picture_that_fails_costs_nothing_else(tmp_path, monkeypatch, capsys, 
     assert not (out / "unfinished").exists()
 
 
-def test_a_page_that_cannot_be_made_leaves_the_earlier_run(tmp_path, monkeypatch, undrawn):
+def test_a_page_that_cannot_be_made_costs_no_numbers(tmp_path, monkeypatch, undrawn, capsys):
+    """They are written, the page of an earlier run does not stay beside them, and the end says what is missing."""
     (tmp_path / "s.toml").write_text(SCENE)
     out = tmp_path / "o"
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(out)]) == 0
-    before = {path.name: path.read_bytes() for path in out.iterdir()}
+    table = (out / "stribeck.csv").read_text()
 
     def broken(*_, **__):
         raise ZeroDivisionError("no page")
 
     monkeypatch.setattr("lubfric.output.commands.report_page", broken)
-    with pytest.raises(ZeroDivisionError):
-        main(["run", str(tmp_path / "s.toml"), "--out", str(out)])
-    assert {path.name: path.read_bytes() for path in out.iterdir() if path.is_file()} == before
+    capsys.readouterr()
+    assert main(["run", str(tmp_path / "s.toml"), "--out", str(out)]) == 2
+    assert "report.html was not written (ZeroDivisionError: 'no page')" in capsys.readouterr().err
+    rows = [line.split(",")[:2] for line in (out / "stribeck.csv").read_text().splitlines()]
+    assert rows == [line.split(",")[:2] for line in table.splitlines()]
+    assert "report.html" not in json.loads((out / "result.json").read_text())["files"]
+    assert not (out / "report.html").exists()
 
 
 @pytest.mark.parametrize("options, table", [([], "stribeck"), (["--ratios", "0.5,2"], "traction")])
