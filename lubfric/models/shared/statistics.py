@@ -55,8 +55,8 @@ FEW = 10.0
 # Part of the sampling tolerance below which an error needs no more asperity contacts. Not measured.
 MATTERS = 0.25
 TOO_SHORT = (
-    "not known: {:.2g} correlation lengths along y are too few for an interval (leave numerics.sampling and "
-    "surface.extension out, or give a map that is longer across the motion)"
+    "not known: {:.2g} correlation lengths along y are too few for an interval (omit numerics.sampling and "
+    "surface.extension, or give a map that is longer along y)"
 )
 
 
