@@ -103,3 +103,21 @@ def test_the_record_has_units_and_a_date(run):
     assert (units["bodies.load"], units["speed"], units["central_film"], units["coefficient"]) == ("N", "m/s", "m", "-")
     numbers = [name for name, value in record["points"][0].items() if isinstance(value, float)]
     assert set(numbers) <= set(units)
+
+
+def test_the_page_of_a_study_fits_a_phone(tmp_path):
+    """Each row of its table is a list there, with the heading before every number."""
+    (tmp_path / "s.toml").write_text(SCENE + SMALL_PATCH + "sampling = 'patch'\n")
+    (tmp_path / "p.csv").write_text("position [mm],load [N],speed [m/s]\n-1,3,0.1\n0,5,0.2\n1,4,0.3\n")
+    out = tmp_path / "out"
+    assert main(["study", str(tmp_path / "s.toml"), "--points", str(tmp_path / "p.csv"), "--out", str(out)]) == 0
+    page = (out / "report.html").read_text(encoding="utf-8")
+    frame = f'<iframe srcdoc="{escape(page)}" style="width: 375px; height: 9000px; border: 0"></iframe>'
+    look = LOOK.replace(
+        "beyond:", "tables: [...page.querySelectorAll('.scroll')].map(t => t.scrollWidth - t.clientWidth), beyond:"
+    )
+    (tmp_path / "look.html").write_text(f'<meta charset="utf-8"><body>{frame}{look}', encoding="utf-8")
+    shown = browse(tmp_path, "--window-size=1300,900", "--dump-dom", (tmp_path / "look.html").as_uri()).stdout
+    seen = json.loads(unescape(re.search(r'data-seen="(.*?)"', shown)[1]))
+    assert seen["beyond"] <= 0 and seen["tables"] and max(seen["tables"]) <= 0
+    assert seen["status"] == "Converged: all 3 points are solved." and 'data-label="total load [N]"' in page
