@@ -121,13 +121,13 @@ class FilmEquations:
         return self.density(P) * H - self.mobility(P, H) * 3 * P / abs(inlet)
 
 
-def extended(law: Callable, p: Any) -> Any:
+def extended(law: Callable[..., Any], p: Any) -> Any:
     """``law`` continued below p = 0 by its tangent."""
     above = np.real(p) > 0
     return np.where(above, law(np.where(above, p, 0.0)), law(0.0) + slope(law, 0.0) * p)
 
 
-def partials(function: Callable, *values: float | FloatArray) -> tuple[np.ndarray, list[np.ndarray]]:
+def partials(function: Callable[..., Any], *values: float | FloatArray) -> tuple[np.ndarray, list[np.ndarray]]:
     """A function and its derivatives by each of its arguments, by complex steps."""
     slopes = [
         np.imag(function(*(v + 1j * STEP * (i == k) for i, v in enumerate(values)))) / STEP for k in range(len(values))

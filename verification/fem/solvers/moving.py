@@ -9,7 +9,7 @@ line). A step then solves for pressure and approach alone, by Newton's method wi
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from skfem import LinearForm
@@ -47,7 +47,7 @@ class Moment(NamedTuple):
 
 
 def march(
-    at: EHLSolution, waves: Callable, step: float, *, tolerance: float = 1e-7, max_iterations: int = 30
+    at: EHLSolution, waves: Callable[..., Any], step: float, *, tolerance: float = 1e-7, max_iterations: int = 30
 ) -> Iterator[Moment]:
     """Moments that are ``step`` [b/U] apart, without end, from the smooth solution on.
 

@@ -285,7 +285,7 @@ def solve_reynolds(
     return report.checked(ReynoldsSolution(problem=problem, basis=basis, pressure=p, reaction=r, report=report))
 
 
-def solve_refined(problem: ReynoldsProblem, refinements: int, **options) -> list[ReynoldsSolution]:
+def solve_refined(problem: ReynoldsProblem, refinements: int, **options: Any) -> list[ReynoldsSolution]:
     """Solve on ``problem.mesh`` and on each of its uniform refinements, each started from the one before.
 
     Besides giving a convergence study its meshes, this keeps the active set cheap: started from nothing, a
@@ -342,7 +342,7 @@ def boundary_dofs(problem: ReynoldsProblem, basis: Basis) -> np.ndarray:
     return held
 
 
-def given_fields(problem: ReynoldsProblem, basis: Basis) -> dict:
+def given_fields(problem: ReynoldsProblem, basis: Basis) -> dict[str, Any]:
     """Film, its gradient and the source at the quadrature points."""
     x = basis.global_coordinates()
     fields = {"film": problem.film(np.asarray(x)), "f": 0.0 * x[0], "size": np.asarray(basis.mesh_parameters())}
@@ -354,7 +354,7 @@ def given_fields(problem: ReynoldsProblem, basis: Basis) -> dict:
     return fields
 
 
-def flow_scale(problem: ReynoldsProblem, basis: Basis, fields: dict) -> np.ndarray:
+def flow_scale(problem: ReynoldsProblem, basis: Basis, fields: dict[str, Any]) -> np.ndarray:
     """What a residual is measured against at each degree of freedom, m^2/s or m^3/s; 1 when nothing moves."""
     width = float(np.ptp(problem.mesh.p[1])) if problem.mesh.dim() > 1 else 1.0
     made = np.abs(LinearForm(lambda v, w: w.f * v).assemble(basis, f=fields["f"])).sum()

@@ -183,7 +183,7 @@ def share_load(
     return report.checked(replace(best(tried), report=report))
 
 
-def best(tried: dict) -> SharedLoad:
+def best(tried: dict[float, SharedLoad]) -> SharedLoad:
     """The division with the smallest residual."""
     return min(tried.values(), key=lambda s: abs(s.residual))
 
