@@ -22,7 +22,7 @@ BENCHMARKS = {
     "study-points": "study",
 }
 CAMPAIGNS = {  # command: its tables
-    "calibration": ("paper-limit",),
+    "calibration": ("calibration", "paper-limit"),
     "charts": ("contact-methods",),
     "model": (
         "answers",

@@ -124,15 +124,21 @@ def deviations(checks: list[Check]) -> str:
 
 
 def differing() -> Cells:
-    """Return every value of `python -m verification published` that differs by more than both bounds, with the cause."""
+    """Return values of `python -m verification published` that differ by more than both bounds, with the cause: all of a
+    publication, or the two that differ least and most."""
     sources = {source.text: source for source in SOURCES.values()}
-    rows = []
+    of_source: dict[str, list[Check]] = {}
     for check in (c for part in PUBLISHED for c in published_checks(part.name) if not c.passed):
-        ours, theirs = check.errors
-        name = check.name if check.unit == "1" else f"{check.name}, in {check.unit}"
-        values = (f"{check.expected:.4g} ± {theirs:.2g}", f"{check.measured:.4g} ± {ours:.2g}")
-        rows.append([name, *values, check.cause or "unknown", authors(sources[check.source])])
-    return ["quantity", "published", "lubfric", "cause", "publication"], rows
+        of_source.setdefault(check.source, []).append(check)
+    rows = []
+    for source, checks in of_source.items():
+        ordered = sorted(checks, key=lambda check: check.units)
+        for check in ordered if len(ordered) <= 2 else (ordered[0], ordered[-1]):
+            ours, theirs = check.errors
+            name = check.name if check.unit == "1" else f"{check.name}, in {check.unit}"
+            values = (f"{check.expected:.4g} ± {theirs:.2g}", f"{check.measured:.4g} ± {ours:.2g}")
+            rows.append([name, *values, check.cause or "unknown", f"{authors(sources[source])}: {len(checks)}"])
+    return ["quantity", "published", "lubfric", "cause", "publication: values that differ"], rows
 
 
 PERSON = re.compile(r"([A-Z]\. )+[\w-]+( et al\.| \d+)?")  # "D. Dowson", "K. L. Johnson et al.", "A. Doleschel 2002"
