@@ -70,7 +70,9 @@ def _deflections(x: np.ndarray, e_prime: float) -> np.ndarray:
     return -4 / (math.pi * e_prime) * (integral(distance + cell / 2) - integral(distance - cell / 2) - cell)
 
 
-def _balance(contact: LineContact, x, stiff, p, h) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _balance(
+    contact: LineContact, x: np.ndarray, stiff, p: np.ndarray, h: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the flow [m²/s] over each face between nodes, and its derivatives by the pressures and by the approach."""
     fluid = contact.fluid
     speed = contact.entrainment_speed
@@ -100,7 +102,9 @@ def _balance(contact: LineContact, x, stiff, p, h) -> tuple[np.ndarray, np.ndarr
     return flow, by, speed * dense - 2 * bent[:, 0]
 
 
-def _solved(contact: LineContact, x, stiff, p, approach: float) -> tuple[np.ndarray, float, int, bool]:
+def _solved(
+    contact: LineContact, x: np.ndarray, stiff, p: np.ndarray, approach: float
+) -> tuple[np.ndarray, float, int, bool]:
     """Return pressure, approach, steps and whether Newton's method converged, from ``p`` and ``approach`` on."""
     cell = x[1] - x[0]
     unit = contact.hertz_pressure

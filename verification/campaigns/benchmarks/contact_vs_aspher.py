@@ -41,7 +41,7 @@ SIGMA = 240e-9
 FIRST = {"lubfric": 1e-3, "aspher": 1e-2, "tamaas": 1e-4}  # tolerances that the search begins with
 
 
-def loosest(solve, load, reference, target, first):
+def loosest(solve, load: float, reference: np.ndarray, target: float, first):
     """(tolerance, error, seconds): loosest of the ladder, from ``first`` on, that meets the target, or the best of
     it."""
     best = (np.nan, np.inf, np.nan)
@@ -56,7 +56,7 @@ def loosest(solve, load, reference, target, first):
     return best
 
 
-def measured(solve, load, tolerance, reference):
+def measured(solve, load: float, tolerance: float, reference: np.ndarray):
     """(error, processor seconds) of one solve."""
     begun = time.process_time()
     pressure = solve(load, tolerance)
@@ -64,7 +64,7 @@ def measured(solve, load, tolerance, reference):
     return float(np.linalg.norm(pressure - reference) / np.linalg.norm(reference)), seconds
 
 
-def compare(solvers, load, reference, target, repeats, first):
+def compare(solvers, load: float, reference: np.ndarray, target: float, repeats: int, first):
     """Rows (name, tolerance, error, median and quartiles of seconds), repeats interleaved; ``first``: the tolerances
     that the search begins with."""
     results = {name: loosest(solve, load, reference, target, first[name]) for name, solve in solvers.items()}
@@ -76,7 +76,7 @@ def compare(solvers, load, reference, target, repeats, first):
     return [(name, *results[name][:2], *np.quantile(seconds[name][-repeats:], (0.5, 0.25, 0.75))) for name in solvers]
 
 
-def stopped(heights, load, reference, seconds):
+def stopped(heights: np.ndarray, load: float, reference: np.ndarray, seconds: float):
     """Row of tamaas after about ``seconds``: its iterations are counted from the time of twenty."""
     few = tamaas_solver(heights, SPACING, E_PRIME, max_iterations=20)
     if few is None:
@@ -102,7 +102,7 @@ def of_page(rows) -> tuple[list[str], list[list[str]]]:
     return ["surface, grid", *(f"{load:g} MPa" for load in loads)], lines
 
 
-def case_rows(kind, cells, load, solvers, heights, options, kept) -> list[dict]:
+def case_rows(kind, cells: int, load: float, solvers, heights: np.ndarray, options, kept) -> list[dict]:
     """The rows of one case, printed as they come."""
     reference = solvers["lubfric"](1e6 * load, 1e-10)
     label = f"{kind} {cells} {load:g}"

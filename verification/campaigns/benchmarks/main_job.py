@@ -19,7 +19,7 @@ PAPER: dict[str, Any] = dict(
 )
 
 
-def median(work, repeats):
+def median(work, repeats: int):
     work()
     times = []
     for _ in range(repeats):

@@ -59,7 +59,7 @@ def measured(case: tuple) -> list[dict]:
     return panel(*case) if len(case) > 3 else grids(*case[1:])
 
 
-def methods(z, pressure: float, boundary: str, mean_gap: float) -> dict:
+def methods(z: np.ndarray, pressure: float, boundary: str, mean_gap: float) -> dict:
     """{name: solve(tolerance) -> pressure}. The paper's methods are given the mean gap instead of the load."""
     kind = BOUNDARIES[boundary]
     spacing = 512 * SPACING / len(z)
@@ -69,15 +69,15 @@ def methods(z, pressure: float, boundary: str, mean_gap: float) -> dict:
     options: dict[str, Any] = dict(operator=operator, boundary=kind, raise_on_failure=False)
     by_gap: dict[str, Any] = options | {"weight": weight}
 
-    def default(tolerance):
+    def default(tolerance: float):
         result = solve_contact(gap0, spacing, E_PRIME, mean_pressure=pressure, tolerance=tolerance, **options)
         return result.pressure
 
-    def in_one_loop(tolerance):
-        asked = {"tolerance": tolerance, "max_iterations": 600}
+    def in_one_loop(tolerance: float):
+        asked: dict[str, Any] = {"tolerance": tolerance, "max_iterations": 600}
         return single_loop(z, mean_gap, spacing, E_PRIME, **asked, **by_gap).pressure
 
-    def in_turns(tolerance):
+    def in_turns(tolerance: float):
         return alternating(z, mean_gap, spacing, E_PRIME, tolerance=tolerance, **by_gap).pressure
 
     results = {"lubfric": default, "paper, single loop": in_one_loop, "paper, alternating": in_turns}

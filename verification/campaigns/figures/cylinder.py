@@ -36,7 +36,7 @@ PAPER_FILM_LOAD = 0.225  # N, at 0.001 m/s
 REAL = "ground-77nm.x3p"
 
 
-def scene_of(acf="gaussian", length=8e-6, seed=1):
+def scene_of(acf="gaussian", length: float = 8e-6, seed: int = 1):
     """The paper's cylinder on a generated surface. Lengths that do not fit 90 µm are cut from a longer map."""
     fits = length <= (16e-6 if acf == "gaussian" else 8e-6)
     return PAPER.with_(surface={"acf": acf, "correlation_length": length, "seed": seed, "oversize": 1 if fits else 5})

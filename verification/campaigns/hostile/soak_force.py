@@ -52,7 +52,7 @@ def friction_force(scene: Scene, sides, contact_load: float, speed: float) -> tu
     return float(boundary + force), float(parts), float(spike)
 
 
-def _upstream(x0, h0, radius) -> float:
+def _upstream(x0, h0, radius: float) -> float:
     """∫dx/h before the first node [-], where h is a parabola."""
     share = np.linspace(0, 1, 4001)[1:]  # x0/x
     return float(np.trapezoid(abs(x0) / share**2 / (h0 + x0**2 * (share**-2.0 - 1) / (2 * radius)), share))
@@ -76,7 +76,7 @@ def _touched(x: FloatArray, sides) -> np.ndarray:
     return np.diff(np.interp(x, edges, np.concatenate([[0.0], step * np.cumsum(sides.touching)]))) / np.diff(x)
 
 
-def _inside(x, half) -> np.ndarray:
+def _inside(x: np.ndarray, half) -> np.ndarray:
     """Part of each cell that lies within ``half`` of the middle."""
     return np.diff(np.clip(x, -half, half)) / np.diff(x)
 

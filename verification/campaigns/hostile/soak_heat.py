@@ -5,6 +5,7 @@ of the surfaces comes from heat that is constant in each cell, and that of the i
 """
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -24,7 +25,7 @@ def heats(scene: Scene) -> bool:
     return scene.numerics.heat != "off" and bool(scene.lubricant.temperature_coefficient)
 
 
-def moes(w, radius, e_prime, speed, viscosity, alpha) -> float:
+def moes(w: float, radius: float, e_prime: float, speed: float, viscosity: float, alpha: float) -> float:
     """Return the film [m] by Moes' formula as printed."""
     u1 = 2 * viscosity * speed / (e_prime * radius)
     m = w / (e_prime * radius * math.sqrt(u1))
@@ -53,20 +54,29 @@ def inlet_viscosity(scene: Scene, speed: float) -> float:
     thinner /= 1 + 0.213 * (1 + 2.23 * abs(scene.motion.slide_roll_ratio) ** 0.83) * number**0.64
     alpha = oil.pressure_viscosity_coefficient * (oil.viscosity_law != "constant")
 
-    def film(eta):
+    def film(eta: float):
         return moes(bodies.load / bodies.width, bodies.radius, bodies.e_prime, u, eta, alpha)
 
     whole = thinner * film(oil.viscosity)
     return halved(1e-9 * oil.viscosity, oil.viscosity, lambda eta: film(eta) < whole, 80)
 
 
-def heated_stress(scene, x, p, h, log_ratio, free, contact_load, speed) -> np.ndarray:
+def heated_stress(
+    scene: Scene,
+    x: np.ndarray,
+    p: np.ndarray,
+    h: np.ndarray,
+    log_ratio: np.ndarray,
+    free: np.ndarray,
+    contact_load: float,
+    speed: float,
+) -> np.ndarray:
     """Shear stress [Pa], without sign, at nodes running downstream, of film and surfaces that heat one another.
 
     ``log_ratio`` is ln(eta/eta0) at the nodes, at the temperature of the oil. ``free`` is the share of the width on
     which they have film.
     """
-    oil = scene.lubricant
+    oil: Any = scene.lubricant  # its temperature and its limits are stated
     bodies = scene.bodies
     k = scene.lubricant.conductivity
     slide = abs(scene.motion.slide_roll_ratio * speed)
@@ -106,7 +116,7 @@ def heated_stress(scene, x, p, h, log_ratio, free, contact_load, speed) -> np.nd
     return np.full(x.size, np.nan)  # a judge that does not know
 
 
-def _twice_integrated(source, z) -> np.ndarray:
+def _twice_integrated(source: np.ndarray, z: np.ndarray) -> np.ndarray:
     """Temperature of -T'' = source by the trapezoidal rule: it is 0 at the wall, its slope in the middle."""
     step = z[1] - z[0]
     cells = 0.5 * (source[:, 1:] + source[:, :-1]) * step
@@ -115,7 +125,7 @@ def _twice_integrated(source, z) -> np.ndarray:
     return np.concatenate([np.zeros((source.shape[0], 1)), np.cumsum(rises, axis=1)], axis=1)
 
 
-def _viscosity(oil, log_ratio, temperature) -> tuple[np.ndarray, np.ndarray]:
+def _viscosity(oil, log_ratio: np.ndarray, temperature: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """ln eta and -d ln(eta)/dT at temperatures [K], by Roelands' law if the scene requests it, otherwise exponential."""
     t0 = oil.temperature
     beta = oil.temperature_coefficient

@@ -177,7 +177,7 @@ def judge_of(prepared: Prepared, result) -> Judge:
     )
 
 
-def _strip(surface, x) -> MappedStrip:
+def _strip(surface, x: np.ndarray) -> MappedStrip:
     return MappedStrip(surface.heights - surface.heights.mean(), surface.spacing, x)
 
 

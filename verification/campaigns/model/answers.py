@@ -95,7 +95,7 @@ class AnswerCase:
         motion = {"slide_roll_ratio": self.slip}
         return scene.with_(bodies=film, lubricant=oil, surface=rough, contact=patch, motion=motion, numerics=keys)
 
-    def speed(self, scene) -> float:
+    def speed(self, scene: Scene) -> float:
         """Return the speed [m/s] at which Moes' film under the total load is the given number of Sq."""
         sq = CONTACTS[self.contact][0].get("surface", {}).get("sq", 100e-9)
         return halved(1e-7, 1e3, lambda u: scene.line_contact(u).moes_film < self.ratio * sq)

@@ -21,6 +21,7 @@ from lubfric.models.deterministic import (
     solve_strip,
     travelling,
 )
+from lubfric.scene import Scene
 
 from ...arrays import FloatArray
 from ...fem.solvers.fluid import Fluid
@@ -35,7 +36,7 @@ FLOOR = 1e-9  # m
 BALANCES = "mass", "load", "gap", "bounds"
 
 
-def passed(scene, bodies: Sequence[RoughBody], speed: float) -> dict[str, Any]:
+def passed(scene: Scene, bodies: Sequence[RoughBody], speed: float) -> dict[str, Any]:
     """Means over one pass of the fastest of ``bodies`` (at rest: of the steady film): ``f``, ``central`` and ``mean``
     gap [m], ``shares`` of the load on gaps below each of `FILMS`, and ``drawn``, the share of the lubricant that
     touching cells give off; the same at rest, from which it starts; ``off``: how far the `BALANCES` are from 0."""

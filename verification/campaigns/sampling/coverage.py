@@ -8,14 +8,16 @@ effect of these cells is computed on shorter patches, on the scene's own cells a
 
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from scipy.special import stdtrit
 
 import lubfric
 from lubfric.scene import Scene
+from lubfric.surface import Surface
 
 from ...check import ABSOLUTE, Check, Figure, Item, Table
 from ...kept import Run
@@ -177,18 +179,17 @@ def endless(case_and_seed: tuple[CoverageCase, int]) -> tuple[float, float]:
     return float(np.mean(values)) * (1 + change), math.hypot(_error(values), own)
 
 
-def cells_of(scene) -> tuple[tuple[float, float], tuple[int, int], float]:
+def cells_of(scene: Scene) -> tuple[tuple[float, float], tuple[int, int], float]:
     """The scene's own spacing [m]; how many of its cells (a power of two) make a quarter of the correlation length
     along x and y, and half the Hertz strip; the correlation length along y [m]."""
-    spacing, length = (
-        np.broadcast_to(v, 2).tolist() for v in (scene.contact.spacing, scene.surface.correlation_length)
-    )
+    given: tuple[Any, Any] = (scene.contact.spacing, scene.surface.correlation_length)
+    spacing, length = (np.broadcast_to(v, 2).tolist() for v in given)
     most = min(length[0] / 4, scene.bodies.half_width / 2) / spacing[0], length[1] / 4 / spacing[1]
     fx, fy = (2 ** max(0, math.floor(math.log2(m * (1 + 1e-9)))) for m in most)
     return (spacing[0], spacing[1]), (fx, fy), length[1]
 
 
-def _change(scene, speed: float, seed: int, across: int) -> tuple[float, float]:
+def _change(scene: Scene, speed: float, seed: int, across: int) -> tuple[float, float]:
     """Relative change of f from the cells of the long patches to the scene's own, and its standard error."""
     spacing, (fx, fy), along = cells_of(scene)
     if (fx, fy) == (1, 1):
@@ -203,17 +204,17 @@ def _change(scene, speed: float, seed: int, across: int) -> tuple[float, float]:
     return float(np.mean(changes)), float(np.std(changes, ddof=1)) / math.sqrt(PIECES)
 
 
-def _error(values) -> float:
+def _error(values: Sequence[float]) -> float:
     return float(np.std(values, ddof=1) / np.mean(values) / math.sqrt(len(values)))
 
 
-def _surface(scene, shape, spacing, seed: int):
+def _surface(scene: Scene, shape: tuple[int, int], spacing: tuple[float, float], seed: int) -> Surface:
     rough = scene.surface
-    keys = {"sq": rough.sq, "correlation_length": rough.correlation_length, "acf": rough.acf}
+    keys: dict[str, Any] = {"sq": rough.sq, "correlation_length": rough.correlation_length, "acf": rough.acf}
     return lubfric.generate_surface(shape, spacing, seed=seed, **keys)
 
 
-def _plain(scene, surface, speed: float) -> float:
+def _plain(scene: Scene, surface: Surface, speed: float) -> float:
     """f of one patch on its own cells."""
     contact = {"shape": surface.shape, "spacing": surface.spacing}
     patch = scene.with_(contact=contact, numerics={"sampling": "patch", "grid": "given", "tolerance": 2e-3})

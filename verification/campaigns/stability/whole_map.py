@@ -105,7 +105,7 @@ def flow_error(result) -> float:
     return float((difference / allowed).max())
 
 
-def _pressure_flow(p, h, speed: float, dx: float) -> tuple[np.ndarray, np.ndarray]:
+def _pressure_flow(p: np.ndarray, h: np.ndarray, speed: float, dx: float) -> tuple[np.ndarray, np.ndarray]:
     """Pressure flow along x between cells [m²/s], by the mean of the laws between their pressures, and its error: the
     difference from the mean by Simpson's rule on three points. Where the pressure jumps within one cell, as at the
     edge of an asperity contact, the law is not close to a parabola between two cells, which do not resolve the film
@@ -117,7 +117,7 @@ def _pressure_flow(p, h, speed: float, dx: float) -> tuple[np.ndarray, np.ndarra
     return fine, np.abs(fine - three)
 
 
-def _mean_fluidity(p, film, speed: float, points: int) -> np.ndarray:
+def _mean_fluidity(p: np.ndarray, film, speed: float, points: int) -> np.ndarray:
     """Mean of rho/eta_eff between neighbours along x, p linear between them, by Simpson's rule."""
     between = p[:-1, :, None] + (p[1:] - p[:-1])[:, :, None] * np.linspace(0.0, 1.0, points)
     fluidity = 1 / FLUID.eta(between) + 2 * speed / (film[..., None] * (OFFSET + COEFFICIENT * between))

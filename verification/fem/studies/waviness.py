@@ -163,7 +163,7 @@ def in_time() -> Iterator[Item]:
     unit = at.contact.film_unit
     count = 64
 
-    def waves(x, time):
+    def waves(x: np.ndarray, time: float):
         phase = min(time, 1.0)
         return height / unit * phase**2 * (3 - 2 * phase) * np.cos(2 * np.pi * (x - time))
 
