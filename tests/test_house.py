@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from functools import cache
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -23,6 +24,8 @@ ODD_WORDS = frozenset(
     "half_again settled Rubbing Foretold OneGap judged looks look".split()
 )
 FRAGMENT = re.compile(r"^(Of|Those|That of|The same|As)\b")
+# A dotted name of lubfric in backquotes.
+DOTTED = re.compile(r"`(lubfric(?:\.\w+)+)\b")
 # What stands in lubfric from before these rules: a number here may only fall.
 REMAINING = {"classes": 0, "odd words": 0, "fragments": 0, "untyped": 0}
 # Records of more than four fields that may be filled by position: those that users make, and what is left of the rest.
@@ -174,6 +177,37 @@ def test_records_of_more_than_four_fields_are_filled_by_keyword(package):
         if inspect.isclass(kind) and sum(field.init and not field.kw_only for field in fields(kind)) > 4
     ]
     assert len(by_position) <= BY_POSITION[package], sorted(by_position)
+
+
+def resolves(name: str) -> bool:
+    """Return whether a dotted ``name`` is that of a module, or of an attribute or a field of what is in one."""
+    first, *others = name.split(".")
+    thing = import_module(first)
+    path = first
+    for part in others:
+        path = f"{path}.{part}"
+        if hasattr(thing, part):
+            thing = getattr(thing, part)
+        elif inspect.isclass(thing) and part in getattr(thing, "__dataclass_fields__", {}):
+            thing = None
+        elif hasattr(thing, "__path__") and find_spec(path):
+            thing = import_module(path)
+        else:
+            return False
+    return True
+
+
+def test_names_in_docstrings_and_pages_exist():
+    files = [path for folder in (*PACKAGES, "docs", "tests") for path in (ROOT / folder).rglob("*.*")]
+    files = [path for path in (*files, *ROOT.glob("*.md")) if path.suffix in (".py", ".md", ".toml")]
+    quoted = {name: path for path in files for name in DOTTED.findall(path.read_text(encoding="utf-8"))}
+    assert len(quoted) > 50
+    assert {name: str(path) for name, path in quoted.items() if not resolves(name)} == {}
+
+
+@pytest.mark.parametrize("name, there", [("lubfric.models.Model.solve", True), ("lubfric.estimate.response", False)])
+def test_a_name_that_does_not_exist_is_seen(name, there):
+    assert resolves(name) == there
 
 
 def test_what_a_user_imports_is_fifty_names():

@@ -35,7 +35,7 @@ from .cells import (
 from .contract import PIECE, Sample
 from .maps import extended, measured, rough_bodies, statistics, whole_maps
 
-# Correlation lengths along y of a strip: ten blocks of nine lengths (statistics.py).
+# Correlation lengths along y of a strip: ten blocks of nine lengths (models/shared/statistics.py).
 STRIP = 90.0
 
 # Correlation lengths in the Hertz half-width from which on a strip half as long has as many asperity contacts. Not
@@ -47,7 +47,7 @@ WIDE = 5.0
 PASSING = 30.0
 
 # Correlation lengths that are solved first: 20 blocks, whose scatter is known to 1/sqrt(38) = 16 %. Half and twice as
-# many change f by up to 1.7 %, within the sampling tolerance of 2 % (the command in statistics.py).
+# many change f by up to 1.7 %, within the sampling tolerance of 2 % (the command in models/shared/statistics.py).
 FIRST = 180.0
 
 # Correlation lengths, at most: 512 strips. A sample that needs more is stated with the error it has.

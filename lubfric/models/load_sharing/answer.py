@@ -142,7 +142,7 @@ def _cells(balanced: BalancedSample) -> tuple[tuple[int, int], float]:
     columns, on the map's own cells."""
     factors = balanced.sample.cells.coarsening
     if balanced.sample.refines_in_place and factors != (1, 1):
-        return factors, balanced.effect.edge_load_ratio
+        return factors, balanced.effect.edge_load_share
     return factors, balanced.contact.on_the_ends(balanced.solved.contact) / factors[0]
 
 

@@ -66,15 +66,17 @@ BY_LOAD = 2.0
 
 @dataclass(frozen=True, kw_only=True)
 class CellStep:
-    """The change when the cells of a piece become the scene's own, at a film and ``contact_load`` [N].
+    """The change when the cells of a piece become native, at one film and one contact load.
 
     - ``gap`` [m]: change of the mean gap beyond that of the mean film, whose columns change with the cells; ``error``:
-      its standard error; ``rest`` [m]: estimated change still to come on the scene's own cells (0: they were reached).
-    - ``beyond`` [m]: estimated change on cells half as long as the scene's own (NaN: own cells not reached).
+      its standard error.
+    - ``remaining_change`` [m]: estimated change of the gap still to come on native cells (0: they were reached).
+    - ``finer_grid_change`` [m]: estimated change of the gap on cells half as long as native ones (NaN: native cells
+      were not reached).
     - ``film`` [m]: change of the mean film.
-    - ``area``: factor on the contact area; ``area_error``: its relative standard error and the rest.
+    - ``area``: factor on the contact area; ``area_error``: its relative standard error and remaining change.
     - ``touched``: factor on the contact area of the complete line, which may touch beyond A.
-    - ``plastic``: to be added to the plastic area fraction; ``ends``: share of the load on the edge columns.
+    - ``plastic``: to be added to the plastic area fraction; ``edge_load_share``: share of the load on the edge columns.
     """
 
     gap: float
@@ -86,7 +88,7 @@ class CellStep:
     area_error: float
     touched: float
     plastic: float
-    edge_load_ratio: float
+    edge_load_share: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,7 +104,7 @@ class CellEffect:
     area_error: float = 0.0
     touched: float = 1.0
     plastic: float = 0.0
-    edge_load_ratio: float = 0.0
+    edge_load_share: float = 0.0
     contact_load: float = 0.0
 
     def at_load(self, contact_load: float) -> CellEffect:
@@ -131,7 +133,7 @@ def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, sample: 
     def mean(name: str) -> float:
         return sum(getattr(step, name) for step in steps) / len(steps)
 
-    names = ("gap", "remaining_change", "finer_grid_change", "film", "area", "touched", "plastic", "edge_load_ratio")
+    names = ("gap", "remaining_change", "finer_grid_change", "film", "area", "touched", "plastic", "edge_load_share")
     values = {name: mean(name) for name in names}
     return CellEffect(error=error, area_error=_error_of_area(steps), contact_load=balance.contact_load, **values)
 
@@ -194,7 +196,7 @@ def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, in
         area_error=area_error,
         touched=touched_length(states[-1]) / touched_length(states[0]),
         plastic=states[-1].plastic_area_fraction - states[0].plastic_area_fraction,
-        edge_load_ratio=contact.on_the_ends(states[-1]),
+        edge_load_share=contact.on_the_ends(states[-1]),
     )
 
 

@@ -90,7 +90,7 @@ def features(
 
     - "one"; "film": t (1 - a)/f; "unthinned": the same for a fluid whose flow no shear thins, else 0
     - "asperity": S = a (1 - a) (f_b - t)/f, by which f changes with the logit of a; and S times
-      "thickness", ln of Moes' film over the boundary film; "contact", the load ratio of the flattened roughness; "width",
+      "thickness", ln of Moes' film over the boundary film; "contact", the share of the load on the flattened roughness; "width",
       ln of the wavelength along y over the Hertz half-width; "length", the same along x; "lay" times ln of the lambda
       ratio; "thinness", the square of that; "no thinning", 1 for a fluid as above
     - of σ only: "sensitivity" |S|; "contrast"; "viscous", ln of the viscosity at the mean Hertz pressure;

@@ -92,7 +92,7 @@ class Response:
 
 def load_growth(moved: float, load_ratio: float) -> float:
     """How much more the contact load grows than to first order, when ln(F_H/F_C) falls by ``moved`` >= 0 from
-    ln(``odds``), ``odds`` = F_H/F_C. As F_C = F_T/(1 + F_H/F_C), it is less than 1 where the contact carries most."""
+    ln(``load_ratio``), ``load_ratio`` = F_H/F_C. As F_C = F_T/(1 + F_H/F_C), it is less than 1 where the contact carries most."""
     moved = min(moved, LARGEST_GROWTH)
     if not moved or not load_ratio:
         return 1.0

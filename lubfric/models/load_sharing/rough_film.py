@@ -9,7 +9,7 @@ and the pressure that does so varies from cell to cell; viscosity and limiting s
 3. sums the shear stress over the cells, by the local pressure and the local gap (`summed`): f_b p where the gap is below
    the boundary film, the law of the lubricant elsewhere, at most f_b p where it is Newtonian.
 
-It costs as much as one more balance. What it leaves of the error is calibrated (`lubfric.estimate.calibrated`).
+It costs as much as one more balance. What it leaves of the error is calibrated (`lubfric.models.load_sharing.calibrated`).
 """
 
 import math

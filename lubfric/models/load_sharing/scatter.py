@@ -159,8 +159,8 @@ def moment_error(
 
     ``loads``: (F_C, F_H) [N]; ``softness``: -dG/d ln F_C [m] of the contact; ``parts``: boundary and viscous friction
     [N]; ``thinning``: -d ln h/d ln F_H of the film, 1 if it is rigid and some .1 if it is elastic. Film and contact are
-    assumed to have time to divide the load anew (`lubfric.estimate.response.respond`). A film that is squeezed follows
-    more slowly, and the error is smaller then.
+    assumed to have time to divide the load anew (`lubfric.models.load_sharing.response.respond`). A film that is
+    squeezed follows more slowly, and the error is smaller then.
     """
     contact_load, film_load = loads
     boundary, viscous = parts
