@@ -44,7 +44,7 @@ class TestSample:
     def test_a_strip_depends_on_its_number_alone(self, sample):
         last = min(sample.available, 3) - 1
         assert np.array_equal(sample.strip(last).heights, sample.strip(last).heights)
-        assert sample.strip(0).shape == (sample.cells.count, sample.rows)
+        assert sample.strip(0).shape == (sample.cells.columns, sample.rows)
 
     def test_a_longer_sample_contains_a_shorter_one(self, sample):
         if sample.available > 1:
@@ -55,15 +55,15 @@ class TestSample:
 
     def test_native_cells_are_those_of_the_scene(self, sample):
         native = sample.native()
-        assert native.cells.is_native and native.cells.coarse == pytest.approx(native.strip(0).spacing)
-        assert native.cells.count == sample.cells.count * sample.cells.coarsening[0]
-        assert native.lengths == sample.lengths and native.length == sample.length
+        assert native.cells.is_native and native.cells.spacing == pytest.approx(native.strip(0).spacing)
+        assert native.cells.columns == sample.cells.columns * sample.cells.coarsening[0]
+        assert native.correlation_lengths == sample.correlation_lengths and native.strip_length == sample.strip_length
 
     def test_every_nth_cell_of_a_piece_is_a_coarse_one(self, sample):
         piece = sample.piece(0)
         thinned = sample.cells.thinned(piece.heights, sample.cells.coarsening)
-        assert thinned.shape[0] == sample.cells.axis().size == sample.cells.count
-        assert piece.spacing == pytest.approx(sample.cells.spacing)
+        assert thinned.shape[0] == sample.cells.axis().size == sample.cells.columns
+        assert piece.spacing == pytest.approx(sample.cells.native_spacing)
 
     def test_bodies_add_up(self, sample):
         if sample.bodies or getattr(sample, "roughness", ())[1:]:
@@ -168,7 +168,7 @@ class Highest(SampleSolution):
             model_error=(0.5, 0.5),
             report=Report("highest summit", CONVERGED, iterations=1, residual=0.0, tolerance=1.0, residuals={}),
             decision=Decision(model="highest summit", film="none", contact="none", tolerance=0.01, strips=self.count),
-            length=self.count * self.sample.length,
+            length=self.count * self.sample.strip_length,
         )
 
 

@@ -40,20 +40,23 @@ BLEND = 2.0
 
 @dataclass(frozen=True)
 class Cells:
-    """``factors`` (fx, fy): length of a cell in the scene's own cells, of ``spacing`` [m]; ``count``: along x;
-    ``first`` [m]: centre of the first own cell along x (None: such that the coarse cells lie evenly about the line of
-    contact).
+    """The cells of a strip.
+
+    - ``coarsening`` (fx, fy): length of a cell in native cells, those of the scene, of ``native_spacing`` [m].
+    - ``columns``: number of cells along x.
+    - ``first_x`` [m]: centre of the first native cell along x (None: such that the cells lie evenly about the line of
+      contact).
     """
 
     coarsening: tuple[int, int]
-    spacing: tuple[float, float]
-    count: int
-    first: float | None = None
+    native_spacing: tuple[float, float]
+    columns: int
+    first_x: float | None = None
 
     @property
-    def coarse(self) -> tuple[float, float]:
+    def spacing(self) -> tuple[float, float]:
         """Length of a cell [m] along x and y."""
-        return self.spacing[0] * self.coarsening[0], self.spacing[1] * self.coarsening[1]
+        return self.native_spacing[0] * self.coarsening[0], self.native_spacing[1] * self.coarsening[1]
 
     @property
     def is_native(self) -> bool:
@@ -63,7 +66,7 @@ class Cells:
     def halved(self) -> Cells:
         """Cells half as long along each axis, or as near to that as the scene's own cells allow."""
         factors = max(1, self.coarsening[0] // 2), max(1, self.coarsening[1] // 2)
-        return replace(self, coarsening=factors, count=self.count * self.coarsening[0] // factors[0])
+        return replace(self, coarsening=factors, columns=self.columns * self.coarsening[0] // factors[0])
 
     def ladder(self) -> list[tuple[int, int]]:
         """Factors from those of these cells down to the scene's own, each half the one before."""
@@ -79,7 +82,7 @@ class Cells:
         Hertz strip of this ``half_width`` [m]; native cells where they are longer."""
         longest = 2 * half_width / ACROSS
         for coarsening in self.ladder():
-            if max(n * step for n, step in zip(coarsening, self.spacing)) <= longest:
+            if max(n * step for n, step in zip(coarsening, self.native_spacing)) <= longest:
                 return coarsening
         return (1, 1)
 
@@ -87,16 +90,16 @@ class Cells:
         """Number of cells along y of a strip of about ``length`` [m]: one that suits the Fourier transform."""
         from scipy.fft import next_fast_len
 
-        return FAST * next_fast_len(max(1, round(length / (FAST * self.coarse[1]))), real=True)
+        return FAST * next_fast_len(max(1, round(length / (FAST * self.spacing[1]))), real=True)
 
     def axis(self, factors: tuple[int, int] | None = None) -> np.ndarray:
         """Cell centres [m] along x of these cells, or of the finer ones of ``factors``, which share columns with
         them."""
         fx = self.coarsening[0]
-        first = self.first
+        first = self.first_x
         if first is None:
-            first = -0.5 * (self.count - 1) * self.coarse[0] - fx // 2 * self.spacing[0]
-        own = first + np.arange(self.count * fx) * self.spacing[0]
+            first = -0.5 * (self.columns - 1) * self.spacing[0] - fx // 2 * self.native_spacing[0]
+        own = first + np.arange(self.columns * fx) * self.native_spacing[0]
         step = fx if factors is None else factors[0]
         return own[fx // 2 % step :: step]
 

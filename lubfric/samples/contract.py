@@ -32,8 +32,8 @@ class Sample(ABC):
     Attributes
     ----------
     cells : cells of a strip along x, and their length in native cells, those of the scene
-    lengths : correlation lengths [m] at 1/e along x and y
-    length : what one strip adds to the line [m], along y
+    correlation_lengths : correlation lengths [m] at 1/e along x and y
+    strip_length : what one strip adds to the line [m], along y
     first, available : number of strips that are solved first, and that there are
     pieces : number of pieces that there are
     windows : whether each strip is a window of a measured map, which may differ from place to place
@@ -46,8 +46,8 @@ class Sample(ABC):
     """
 
     cells: Cells
-    lengths: tuple[float, float]
-    length: float
+    correlation_lengths: tuple[float, float]
+    strip_length: float
     first: int
     available: int
     pieces: int
@@ -107,7 +107,7 @@ class Sample(ABC):
     def renewal_length(self, half_width: float) -> float:
         """Return the distance [m] that a surface moves until another part of it is in a Hertz strip of this
         ``half_width`` [m]; NaN where there is no other part."""
-        return 2 * half_width + math.sqrt(math.pi) * self.lengths[0]
+        return 2 * half_width + math.sqrt(math.pi) * self.correlation_lengths[0]
 
     def in_words(self, count: int) -> str:
         """Return what the first ``count`` strips are, in words."""

@@ -53,7 +53,7 @@ class SinglePatch(OnlyMap):
     """One patch, ``surface``, of which there is no more."""
 
     cells: Cells
-    lengths: tuple[float, float]
+    correlation_lengths: tuple[float, float]
     surface: Surface
     bodies: tuple[Surface, ...] = ()
     first: int = 1
@@ -62,13 +62,13 @@ class SinglePatch(OnlyMap):
     refines_in_place: bool = True
 
     @property
-    def length(self) -> float:  # type: ignore[override]
+    def strip_length(self) -> float:  # type: ignore[override]
         """Return the length of the patch along y [m]."""
         return self.surface.size[1]
 
     def joined(self, indices: Sequence[int]) -> Surface:
         heights = self.cells.thinned(self.surface.heights, self.cells.coarsening)
-        return replace(self.surface, heights=heights, spacing=self.cells.coarse, mask=None)
+        return replace(self.surface, heights=heights, spacing=self.cells.spacing, mask=None)
 
     def piece(self, index: int, length: float = PIECE) -> Surface:
         return self.surface
@@ -102,12 +102,12 @@ class UnresolvedSample(FieldsOnly, OnlyMap):
         return Cells((1, 1), self.surface.spacing, self.surface.shape[0])
 
     @cached_property
-    def lengths(self) -> tuple[float, float]:  # type: ignore[override]
+    def correlation_lengths(self) -> tuple[float, float]:  # type: ignore[override]
         """Correlation lengths [m] of the map along x and y; half the map where they are longer."""
         return length_or_half(self.surface, 0), length_or_half(self.surface, 1)
 
     @property
-    def length(self) -> float:  # type: ignore[override]
+    def strip_length(self) -> float:  # type: ignore[override]
         """Return the length of the map along y [m]."""
         return self.surface.size[1]
 
@@ -142,5 +142,5 @@ def single_patch(
     """
     first = float(centred_axis(surface.shape[0], surface.spacing[0])[0])
     cells = cells_of_a_box(surface.spacing, lengths, scene.bodies.half_width, surface.shape, first)
-    patch = SinglePatch(cells=cells, lengths=lengths, surface=surface, bodies=bodies)
+    patch = SinglePatch(cells=cells, correlation_lengths=lengths, surface=surface, bodies=bodies)
     return patch.native() if scene.numerics.grid == "given" else patch

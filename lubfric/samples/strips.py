@@ -81,8 +81,8 @@ class GeneratedStrips(FieldsOnly, Sample):
     """
 
     cells: Cells
-    lengths: tuple[float, float]
-    length: float
+    correlation_lengths: tuple[float, float]
+    strip_length: float
     first: int
     available: int
     pieces: int
@@ -91,7 +91,7 @@ class GeneratedStrips(FieldsOnly, Sample):
     roughness: tuple[tuple[Roughness, str], ...]
 
     def rows_of(self, count: int) -> int:
-        return count * self.cells.rows(self.length)
+        return count * self.cells.rows(self.strip_length)
 
     def of_body(self, body: int) -> GeneratedStrips:
         smooth = ROUGH[1 - body]
@@ -99,18 +99,18 @@ class GeneratedStrips(FieldsOnly, Sample):
         return replace(self, roughness=tuple(parts))
 
     def joined(self, indices: Sequence[int]) -> Surface:
-        blend = blend_of(self.lengths[1], self.cells.coarse[1])
-        shape = self.cells.count, self.rows + blend
+        blend = blend_of(self.correlation_lengths[1], self.cells.spacing[1])
+        shape = self.cells.columns, self.rows + blend
         known = self._known
-        strip = self._generator(STRIPS, self.cells.coarse, shape)
+        strip = self._generator(STRIPS, self.cells.spacing, shape)
         strips = [known.get(index) or strip(index) for index in indices]
         known.update((i, s) for i, s in zip(indices, strips) if i < KEPT_CELLS // math.prod(shape))
         return replace(strips[0], heights=stacked([strip.heights for strip in strips], blend))
 
     def piece(self, index: int, length: float = PIECE) -> Surface:
         fx, fy = self.cells.coarsening
-        rows = self.cells.rows(length * self.lengths[1]) * fy
-        return self._generator(PIECES, self.cells.spacing, (self.cells.count * fx, rows))(index)
+        rows = self.cells.rows(length * self.correlation_lengths[1]) * fy
+        return self._generator(PIECES, self.cells.native_spacing, (self.cells.columns * fx, rows))(index)
 
     @cached_property
     def _known(self) -> dict[int, Surface]:
@@ -150,8 +150,8 @@ class MeasuredStrips(Sample):
     """
 
     cells: Cells
-    lengths: tuple[float, float]
-    length: float
+    correlation_lengths: tuple[float, float]
+    strip_length: float
     first: int
     available: int
     pieces: int
@@ -175,15 +175,15 @@ class MeasuredStrips(Sample):
         pieces = [self._columns(self.starts[index])[fx // 2 :: fx] for index in indices]
         heights = stacked(pieces, self._blend)
         rows = self._rows(heights.shape[1]) * fy
-        shape = f"{self.cells.count * fx} x {self.surface.shape[1]} cells"
+        shape = f"{self.cells.columns * fx} x {self.surface.shape[1]} cells"
         note = f"{counted(len(pieces), 'windows')} of {shape}, stacked along y"
-        return self._made(heights[:, fy // 2 : rows : fy], self.cells.coarse, note)
+        return self._made(heights[:, fy // 2 : rows : fy], self.cells.spacing, note)
 
     def piece(self, index: int, length: float = PIECE) -> Surface:
         whole = self._columns(self.starts[index])
         blend = self._blend
         unit = 4 * self.cells.coarsening[1]
-        wanted = round(length * self.lengths[1] / self.surface.spacing[1])
+        wanted = round(length * self.correlation_lengths[1] / self.surface.spacing[1])
         rows = min(whole.shape[1] - blend, wanted) // unit * unit
         first = (whole.shape[1] - rows - blend) // 2
         piece = stacked([whole[:, first : first + rows + blend]], blend)[:, :rows]
@@ -195,10 +195,10 @@ class MeasuredStrips(Sample):
 
     @property
     def _blend(self) -> int:
-        return min(blend_of(self.lengths[1], self.surface.spacing[1]), self.surface.shape[1] // 4)
+        return min(blend_of(self.correlation_lengths[1], self.surface.spacing[1]), self.surface.shape[1] // 4)
 
     def _columns(self, start: int) -> np.ndarray:
-        columns = start + np.arange(self.cells.count * self.cells.coarsening[0])
+        columns = start + np.arange(self.cells.columns * self.cells.coarsening[0])
         last = self.surface.shape[0] - 1
         return self.surface.heights[np.minimum(np.where(columns < 0, -1 - columns, columns), 2 * last + 1 - columns)]
 
@@ -237,13 +237,13 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
     long = STRIP if narrow > 1 else STRIP / 2
     if moves(scene):  # other places pass through the contact in time
         long = min(STRIP, PASSING * max(1.0, narrow))
-    length = min(long * lengths[1], MOST_CELLS / 2 / cells.count * cells.coarse[1])
-    available = int(min(MOST / long, MOST_CELLS / (cells.count * cells.rows(length))))
+    length = min(long * lengths[1], MOST_CELLS / 2 / cells.columns * cells.spacing[1])
+    available = int(min(MOST / long, MOST_CELLS / (cells.columns * cells.rows(length))))
     first = min(round(FIRST / long), available)
     return GeneratedStrips(
         cells=cells,
-        lengths=lengths,
-        length=length,
+        correlation_lengths=lengths,
+        strip_length=length,
         first=first,
         available=available,
         pieces=available,
@@ -266,22 +266,22 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
     surface, *parts = (one.continued(reach) for one in maps) if extended(scene) else maps
     lengths = length_or_half(surface, 0), length_or_half(surface, 1)
     cells = _cells_of_map(scene, surface, lengths, reach)
-    starts = _window_starts(scene, surface, lengths, cells.count * cells.coarsening[0])
+    starts = _window_starts(scene, surface, lengths, cells.columns * cells.coarsening[0])
     kept = surface.shape[1] - min(blend_of(lengths[1], surface.spacing[1]), surface.shape[1] // 4)
     length = kept * surface.spacing[1]
     count = len(starts)
-    if length < EVEN * cells.coarse[1] * (1 - 1e-9):
+    if length < EVEN * cells.spacing[1] * (1 - 1e-9):
         raise InputError(
             f"the map is {surface.shape[1]} cells wide along y, across the motion: no line can be made of that; give a "
             f"wider one, or numerics.sampling = 'patch' (its rows go on along y as they are)"
         )
-    most = max(1, min(count, int(MOST_CELLS * cells.coarse[1] / (cells.count * length))))
+    most = max(1, min(count, int(MOST_CELLS * cells.spacing[1] / (cells.columns * length))))
     first = min(most, max(1, math.ceil(FIRST * lengths[1] / length * (1 - 1e-9))))
     starts = [starts[i] for i in spread(count)]
     return MeasuredStrips(
         cells=cells,
-        lengths=lengths,
-        length=length,
+        correlation_lengths=lengths,
+        strip_length=length,
         first=first,
         available=most,
         pieces=count,
@@ -297,9 +297,9 @@ def _cells_of_map(scene: Scene, surface: Surface, lengths: tuple[float, float], 
     if scene.contact.shape is not None:
         reach = scene.contact.shape[0] * surface.spacing[0]
     cells = choose_cells(surface.spacing, lengths, scene.bodies.half_width, min(reach, surface.size[0]))
-    while cells.count * cells.coarsening[0] > surface.shape[0]:
-        cells = replace(cells, count=cells.count - EVEN)
-    if cells.count < 1:
+    while cells.columns * cells.coarsening[0] > surface.shape[0]:
+        cells = replace(cells, columns=cells.columns - EVEN)
+    if cells.columns < 1:
         raise InputError(
             f"the map is {surface.shape[0]} cells long along x; allowed: at least {4 * cells.coarsening[0]}"
         )

@@ -52,7 +52,7 @@ def estimated_run(scene: Scene, sample: Sample, surface: Surface) -> RunEstimate
     cells = surface.heights.size
     if not sample.refines_in_place:
         widest = max(forecasts, key=lambda forecast: forecast.strips)
-        cells = round(sample.cells.count * widest.length / sample.cells.coarse[1])
+        cells = round(sample.cells.columns * widest.length / sample.cells.spacing[1])
     tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")
     swings = max((periods(history, plan.duration) or 1.0 for history in plan.histories), default=0.5)
     changing = STEPS_OF_SWING * swings * (STEP_TOLERANCE / tolerance) ** (1 / 3)

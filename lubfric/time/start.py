@@ -202,19 +202,19 @@ def strip_of_run(prepared: Prepared) -> RunStrip:
     sample = prepared.sample
     speeds = speeds_of_run(prepared.scene)
     if not sample.is_resolved:
-        return RunStrip(prepared=prepared, correlation_length=sample.lengths[1])
+        return RunStrip(prepared=prepared, correlation_length=sample.correlation_lengths[1])
     if sample.refines_in_place:
-        return RunStrip(prepared=_made(prepared, sample.native(), 1), correlation_length=sample.lengths[1])
+        return RunStrip(prepared=_made(prepared, sample.native(), 1), correlation_length=sample.correlation_lengths[1])
     if not speeds:
         known = 1.0 if sample.cells.is_native else math.nan
-        return RunStrip(prepared=prepared, correlation_length=sample.lengths[1], area=known, plastic=known)
+        return RunStrip(prepared=prepared, correlation_length=sample.correlation_lengths[1], area=known, plastic=known)
     needs = _needs(prepared, sample, speeds)
     while not sample.cells.is_native and max(needs[1]) > prepared.scene.numerics.tolerance:
         sample = sample.halved()
         needs = _needs(prepared, sample, speeds)
     return RunStrip(
         prepared=_made(prepared, sample, min(int(max(needs[0])), sample.available)),
-        correlation_length=sample.lengths[1],
+        correlation_length=sample.correlation_lengths[1],
         area=_mean(needs[2]),
         plastic=_mean(needs[3]),
     )

@@ -305,7 +305,7 @@ def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
     base = replace(base, least_flow=LEAST_FLOW * line.entrainment_speed * line.moes_film)
     of_strip = replace(prepared, surface=surface)
     heights = {name: shifted(base, one) for name, one in maps.items()}
-    return TransientDeterministic(of_strip, base, heights, sample.lengths[1])
+    return TransientDeterministic(of_strip, base, heights, sample.correlation_lengths[1])
 
 
 def deterministic_moment(

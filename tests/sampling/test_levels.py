@@ -189,7 +189,9 @@ def test_where_roughness_moves_cells_along_the_motion_are_a_quarter_of_a_correla
         prepared = lubfric.prepare(FINE.with_(motion=motion))
         strips = prepared.sample
         factors = strip_of(prepared, 0)[1]
-        along, across = (f * cell / one for f, cell, one in zip(factors, strips.cells.coarse, strips.lengths))
+        along, across = (
+            f * cell / one for f, cell, one in zip(factors, strips.cells.spacing, strips.correlation_lengths)
+        )
         assert most / 2 < along <= most and 0.25 < across <= 0.5
 
 
@@ -305,7 +307,7 @@ def test_standard_error_of_the_sum_by_monte_carlo(prepared, monkeypatch, n, betw
     """What is stated of the sum of the first two levels is its scatter; without a line, that of the mean (by 1.3 if
     places alone tell it). Windows of a measured map may differ by more than their places tell."""
     monkeypatch.setattr(levels, "numbers_of", lambda _, result: {"coefficient": result.coefficient})
-    sample = replace(prepared.sample, lengths=(8e-6, 8e-6), windows=windows)
+    sample = replace(prepared.sample, correlation_lengths=(8e-6, 8e-6), windows=windows)
     model = replace(prepared, sample=sample)
     rng = np.random.default_rng(5)
     sums = []

@@ -15,7 +15,7 @@ def test_a_strip_is_always_the_same_and_like_no_other():
     one = strips.stack(1)
     both = strips.stack(2)
     length = one.shape[1]
-    assert both.shape[1] == 2 * length and one.size[1] == pytest.approx(90 * strips.lengths[1], rel=0.05)
+    assert both.shape[1] == 2 * length and one.size[1] == pytest.approx(90 * strips.correlation_lengths[1], rel=0.05)
     np.testing.assert_array_equal(strips.stack(2).heights, both.heights)
     middle = slice(length // 4, length)
     np.testing.assert_array_equal(one.heights[:, middle], both.heights[:, middle])
@@ -31,12 +31,12 @@ def test_a_measured_map_gives_its_own_columns_no_more_than_it_holds():
     surface = lubfric.generate_surface((600, 256), 0.45e-6, sq=1e-7, correlation_length=4e-6, acf="gaussian", seed=1)
     strips = measured_strips(PAPER.with_(contact={"shape": None, "spacing": None}), surface)
     fx, fy = strips.cells.coarsening
-    wide = strips.cells.count * fx
+    wide = strips.cells.columns * fx
     assert strips.windows and all(0 <= start <= 600 - wide for start in strips.starts)
     assert strips.rows == strips.strip(0).shape[1]
     assert np.diff(sorted(strips.starts)).min() * 0.45e-6 >= 4 * 3.5e-6
     line = strips.stack(strips.available)
-    assert line.size[1] == pytest.approx(strips.available * strips.length, rel=0.05)
+    assert line.size[1] == pytest.approx(strips.available * strips.strip_length, rel=0.05)
     own = surface.heights[strips.starts[0] + fx // 2 : strips.starts[0] + wide : fx, fy // 2 :: fy]
     np.testing.assert_array_equal(line.heights[:, 20:40], own[:, 20:40])
 

@@ -152,7 +152,9 @@ def fine_fields_of(prepared: Prepared, speed: float) -> ContactFields:
     sample = prepared.sample
     half_width = prepared.scene.bodies.half_width
     cells = sample.cells_to_look_at(half_width)
-    contact = on_piece(prepared, sample, 0, cells, max(LEAST_DRAWN, DRAWN_LENGTH * half_width / sample.lengths[1]))
+    contact = on_piece(
+        prepared, sample, 0, cells, max(LEAST_DRAWN, DRAWN_LENGTH * half_width / sample.correlation_lengths[1])
+    )
     strip = solve_strip(prepared.scene, map_of(prepared, contact), speed)
     where = sample.piece_in_words()
     return fields_of(strip, f"{where}, on cells of {contact.spacing[0] * 1e6:.3g} x {contact.spacing[1] * 1e6:.3g} µm")
@@ -238,7 +240,7 @@ def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[s
     sample = prepared.sample
     tolerance = prepared.scene.numerics.sampling_tolerance
     if math.isnan(sampling):
-        return TOO_SHORT.format(length / sample.lengths[1]), BIASED
+        return TOO_SHORT.format(length / sample.correlation_lengths[1]), BIASED
     return (f"the sampling error is above the requested {percent(tolerance)}",) if sampling > tolerance else ()
 
 

@@ -78,16 +78,16 @@ def _work_at_rest(
     """Return the counted work [s] of ``count`` strips whose roughness rests, of shorter cells, and of so many ``ends``
     of input ranges; ``is_smooth``: whether the heights are smooth over a cell."""
     (fx, fy) = cells_of(scene, sample)
-    (dx, dy) = sample.cells.coarse
+    (dx, dy) = sample.cells.spacing
     (ux, uy) = sample.cells.coarsening
-    cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * sample.length / (fy * dy)
+    cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * sample.strip_length / (fy * dy)
     if sample.refines_in_place:  # it may be solved down to its own cells, and the ends on the same
         finer = 0.5 * cells * fx * fy * ux * uy
         again = work_of_steps(finer, AGAIN) * (ends + (ends > 0))
         return work_of_steps(cells, STEPS) + work_of_steps(finer, FINER_STEPS) + again
     finer = 0.5 * cells * fx * fy
     again = work_of_steps(cells, AGAIN) * (ends + (ends > 0))
-    short = sample.length < SHORT * sample.lengths[1] and fx * ux >= 4 <= fy * uy
+    short = sample.strip_length < SHORT * sample.correlation_lengths[1] and fx * ux >= 4 <= fy * uy
     shorter = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if short else 0.0
     seconds = count * work_of_steps(cells, STEPS) + work_of_steps(finer, FINER_STEPS) + again
     return seconds + shorter if is_smooth or short else ROUGH * seconds

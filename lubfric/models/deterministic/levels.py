@@ -166,7 +166,7 @@ def levels_of(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]
     films = tuple(mean(getattr(result, name) - result.coefficient for result in results) / f for name in OTHER_FILMS)
     errors = _errors(prepared, pairs, numbers)
     errors["coefficient"] = math.hypot(*(e for e in (sampling.error, difference.error, numerical) if math.isfinite(e)))
-    length = prepared.sample.length * max(estimate.line, len(pairs))
+    length = prepared.sample.strip_length * max(estimate.line, len(pairs))
     first = pairs[0].resolved
     at_rest = first.rest if isinstance(first, MovingStrip) else first
     oil = prepared.scene.lubricant
@@ -243,7 +243,7 @@ def _of_moving(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], strips: Seq
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
     samples = [strip.sample.half() if pair.mirrored else strip.sample for pair, strip in zip(pairs, strips)]
     control = None if prepared.sample.refines_in_place else summit_control(prepared)
-    width = prepared.sample.lengths[1]
+    width = prepared.sample.correlation_lengths[1]
     friction = mean_over_blocks(samples, "friction", width, control)
     contact = mean_over_blocks(samples, "contact_load", width, control)
     load = prepared.scene.bodies.load
@@ -312,4 +312,4 @@ def _block_error(values: Sequence[np.ndarray], sample: Sample, pair: StripOnTwoG
     """Standard error of the mean of ``values`` along strips such as ``pair``; of a mirrored map only half counts."""
     kept = values[0].size // (2 if pair.mirrored else 1)
     places = np.concatenate([one[:kept] for one in values])
-    return block_error(places, pair.resolved.problem.spacing[1], sample.lengths[1])
+    return block_error(places, pair.resolved.problem.spacing[1], sample.correlation_lengths[1])

@@ -82,14 +82,14 @@ def moving_point_work(scene: Scene, sample: Sample, sq: float, speed: float, fac
     the hardness are omitted, because in most contacts no pressure reaches them.
     """
     (fx, fy) = factors
-    (dx, dy) = sample.cells.coarse
+    (dx, dy) = sample.cells.spacing
     line = scene.line_contact(abs(speed))
     effort = effort_for(line, sq, fx * dx)
     ends = reach(line, sq, inlet=effort.inlet, outlet=effort.outlet)
-    cells = sum(ends) / (fx * dx) * sample.length / (fy * dy)
+    cells = sum(ends) / (fx * dx) * sample.strip_length / (fy * dy)
     fastest = abs(speed) * max(abs(ratio) for _, ratio in moving_bodies(scene))
     continuations = 2 * sum(name not in (FRICTION, HARDNESS) for name, *_ in scene.ranges)
-    return moving_work(line, sq, fx * dx, fastest, sample.cells.count * dx, cells, continuations)
+    return moving_work(line, sq, fx * dx, fastest, sample.cells.columns * dx, cells, continuations)
 
 
 def too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -> str:

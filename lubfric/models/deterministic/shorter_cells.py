@@ -107,7 +107,7 @@ def on_shorter_cells(
         return (patch,), (), BlockError(0.0, 1), max(estimate(changes_of(patch)), SOLVED), False
     try:
         with limited_work(PIECES_SHARE * work_left()):
-            if sample.length < SHORT * sample.lengths[1] and strip_of(prepared, 0)[1] != (1, 1):
+            if sample.strip_length < SHORT * sample.correlation_lengths[1] and strip_of(prepared, 0)[1] != (1, 1):
                 pieces, error = _pieces(prepared, speed, pairs[0])
             else:
                 pieces, error = _at_fixed_speed(prepared, speed)
@@ -117,7 +117,9 @@ def on_shorter_cells(
     change = abs(float(np.mean(changes)))  # its error is reported
     left = max(estimate((by_longer, change), max(halvings - 1, 1)), SOLVED)
     spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
-    short = SHORTEST * sample.lengths[1] / (pieces[0][-1].result.load_at.size * pieces[0][-1].result.spacing[1])
+    short = (
+        SHORTEST * sample.correlation_lengths[1] / (pieces[0][-1].result.load_at.size * pieces[0][-1].result.spacing[1])
+    )
     dear = spent + 4 * min(short, 1.0) * pieces[0][-1].work > MOST_WORK  # a short map is all of both pieces
     if left <= scene.numerics.tolerance or halvings < 2 or dear:
         return pieces, (), error, left, False
@@ -144,7 +146,7 @@ def _by_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -> float:
 def _coarse(prepared: Prepared) -> float:
     """Length along x of the cells of the deterministic model over the correlation length."""
     sample = prepared.sample
-    return cells_of(prepared.scene, sample)[0] * sample.cells.coarse[0] / sample.lengths[0]
+    return cells_of(prepared.scene, sample)[0] * sample.cells.spacing[0] / sample.correlation_lengths[0]
 
 
 def changed(prepared: Prepared, numbers: dict[str, float], pieces: Sequence[Sequence[Strip]]) -> dict[str, float]:
@@ -258,4 +260,4 @@ def _error(pieces: Sequence[Piece], sample: Sample) -> BlockError:
         last = piece[-1]
         places = last.deviations.reshape(base.result.load_at.size, -1).mean(axis=1) - base.deviations
         changes.append((places + last.result.coefficient - base.result.coefficient) / abs(base.result.coefficient))
-    return block_error(np.concatenate(changes), pieces[0][1].problem.spacing[1], sample.lengths[1])
+    return block_error(np.concatenate(changes), pieces[0][1].problem.spacing[1], sample.correlation_lengths[1])

@@ -55,8 +55,8 @@ def cells_of(scene: Scene, sample: Sample) -> tuple[int, int]:
     """Length of the cells of the deterministic model in cells of the ``sample``, along x and y: 2, or 1 where 2 would
     leave less than `PER_LENGTH` (or `MOVING`) in a correlation length or `PER_HALF_WIDTH` in half the Hertz strip, or
     does not divide the rows of a strip."""
-    (lx, ly) = sample.lengths
-    (dx, dy) = sample.cells.coarse
+    (lx, ly) = sample.correlation_lengths
+    (dx, dy) = sample.cells.spacing
     longest = min(lx / (MOVING if moves(scene) else PER_LENGTH), scene.bodies.half_width / PER_HALF_WIDTH)
     along = longest >= 2 * dx * (1 - 1e-9)
     across = ly / PER_LENGTH >= 2 * dy * (1 - 1e-9) and sample.rows % 2 == 0
@@ -120,7 +120,7 @@ def sample_target(prepared: Prepared) -> SampleTarget:
     """Return how long a strip of moving roughness is followed (`MOVING_SAMPLE`)."""
     return SampleTarget(
         error=MOVING_SAMPLE * prepared.scene.numerics.sampling_tolerance,
-        correlation_length=prepared.sample.lengths[1],
+        correlation_length=prepared.sample.correlation_lengths[1],
         control=summit_control(prepared),
     )
 

@@ -266,7 +266,7 @@ def solve_sample(
         balance=solved,
         solved=solved,
         contact=contact,
-        scatter=Scatter(length=sample.rows_of(count) * sample.cells.coarse[1]),
+        scatter=Scatter(length=sample.rows_of(count) * sample.cells.spacing[1]),
         sample=sample,
         first_effect=None if start is None else start.first_effect,
         count=count,
@@ -275,7 +275,7 @@ def solve_sample(
     if on_cells is None:
         return replace(solution, undetected=math.nan)
     if solved.response is None:
-        undetected = undetected_contact(scene, contact, solved.film, solved.forces, sample.lengths[1])
+        undetected = undetected_contact(scene, contact, solved.film, solved.forces, sample.correlation_lengths[1])
         return replace(solution, undetected=undetected)
     effect = solution.first_effect
     if effect is None and solved.film is not None:

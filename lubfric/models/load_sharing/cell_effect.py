@@ -178,8 +178,8 @@ def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, in
             changes.append(float(np.mean(places[-1][0]) - np.mean(places[-2][0])))
             rest = remaining(changes)
     own = len(places) == len(ladder)
-    step = coarse.coarse[1]
-    length = sample.lengths[1]
+    step = coarse.spacing[1]
+    length = sample.correlation_lengths[1]
     difference = places[-1][0] - places[0][0]
     area, area_error = _ratio(places[-1][1], places[0][1], step, length)
     if sample.refines_in_place:

@@ -245,7 +245,7 @@ def _notes(balanced: BalancedSample, scene: Scene, sampling: float) -> tuple[str
             return (NO_CELLS,)
         if balanced.response is None:
             return (MISSED,)
-        return (TOO_SHORT.format(balanced.scatter.length / sample.lengths[1]),)
+        return (TOO_SHORT.format(balanced.scatter.length / sample.correlation_lengths[1]),)
     if sampling > tolerance and needed > 1:
         times = float(f"{needed:.2g}")
         notes.append(

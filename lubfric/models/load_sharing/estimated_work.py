@@ -84,8 +84,8 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
         if touching != "none":
             seconds += PATCH_SECONDS + MAP_SECONDS * surface.heights.size
         return WorkEstimate(strips=1, seconds=seconds, model_error=error_of_model, touching=touching)
-    (lx, ly) = sample.lengths
-    first = sample.first * sample.length
+    (lx, ly) = sample.correlation_lengths
+    first = sample.first * sample.strip_length
     target = scene.numerics.sampling_tolerance
     error = 0.0
     if speed and film <= CLEAR * sq:
@@ -97,18 +97,18 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     count = min(count, sample.available)
     cells = sample.cells
     (fx, fy) = cells.coarsening
-    (_, dy) = cells.coarse
-    piece = 0.0 if cells.is_native else cells.count * fx * fy * sample.length / dy / 2
+    (_, dy) = cells.spacing
+    piece = 0.0 if cells.is_native else cells.columns * fx * fy * sample.strip_length / dy / 2
     if touching != "none":
         share = film / (GAP * sq + RISE * film)
-        work = CELL_SECONDS * cells.count * count * sample.length / dy + PIECE_SECONDS * piece
+        work = CELL_SECONDS * cells.columns * count * sample.strip_length / dy + PIECE_SECONDS * piece
         if SHARED[0] < share < SHARED[1] and not smooth_over_cells(surface.heights):
-            work *= ROUGH_ON_LONG_CELLS if lx < LONG * cells.coarse[0] else ROUGH
+            work *= ROUGH_ON_LONG_CELLS if lx < LONG * cells.spacing[0] else ROUGH
         seconds += POINT_SECONDS + work
     return WorkEstimate(
         strips=count,
         seconds=seconds,
-        length=count * sample.length,
+        length=count * sample.strip_length,
         sampling=error,
         model_error=error_of_model,
         touching=touching,

@@ -100,7 +100,7 @@ def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, sample
         area=at_given_load(contact.weight @ touching / contact.weight.sum(), slopes.area),
         touched=at_given_load(touching.sum(axis=0) * contact.spacing[0], slopes.touched),
         friction=of_friction,
-        spots=effective_spots(by_place, step, sample.lengths[1]),
+        spots=effective_spots(by_place, step, sample.correlation_lengths[1]),
     )
 
 
@@ -128,7 +128,7 @@ def place_error(
     """Standard error of the mean of the ``influence`` of places along ``count`` strips, on cells of ``step`` [m]: from
     blocks (`block_error`). If there are three windows of a measured map or more, it is the larger of that and the one
     from windows, which show whether a surface differs from place to place."""
-    blocks = block_error(influence, step, sample.lengths[1], exact)
+    blocks = block_error(influence, step, sample.correlation_lengths[1], exact)
     if not sample.windows or count < FEWEST_WINDOWS:
         return blocks
     means = means_of_blocks(influence, count)

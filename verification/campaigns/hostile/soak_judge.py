@@ -185,7 +185,7 @@ def _pair(sample: Sample, index: int) -> tuple[MappedStrip, MappedStrip]:
     """A piece on its own cells and on those of the strips."""
     cells = sample.cells
     piece = sample.piece(index)
-    kept = replace(piece, heights=cells.thinned(piece.heights, cells.coarsening), spacing=cells.coarse)
+    kept = replace(piece, heights=cells.thinned(piece.heights, cells.coarsening), spacing=cells.spacing)
     return _strip(piece, cells.axis((1, 1))), _strip(kept, cells.axis())
 
 

@@ -198,7 +198,7 @@ def reference_strip(contact: RollingContact, seed: int) -> dict[str, Any]:
     bodies = bodies_of(prepared, 0, contact.speed)
     effort = replace(effort_of(prepared.scene, bodies, contact.speed, factors), discarded=REFERENCE_DISCARDED)
     control = summit_control(prepared)
-    length = prepared.sample.lengths[1]
+    length = prepared.sample.correlation_lengths[1]
     target = SampleTarget(error=WHOLE_PASS, correlation_length=length, control=control)
     strip = solve_moving_strip(prepared.scene, bodies, contact.speed, factors=factors, effort=effort, target=target)
     mean = mean_over_blocks([strip.sample], "friction", length, control)
@@ -213,7 +213,7 @@ def tight_strip(contact: RollingContact, seed: int) -> dict[str, Any]:
     _, factors = strip_of(prepared, 0)
     bodies = bodies_of(prepared, 0, contact.speed)
     strip = solve_moving_strip(prepared.scene, bodies, contact.speed, factors=factors, effort=TIGHT)
-    mean = mean_over_blocks([strip.sample], "friction", prepared.sample.lengths[1], None)
+    mean = mean_over_blocks([strip.sample], "friction", prepared.sample.correlation_lengths[1], None)
     return {"f": mean.value, "error": mean.error.error}
 
 
@@ -222,11 +222,11 @@ def change_by_cells(contact: RollingContact, seed: int) -> dict[str, Any]:
     scene = with_seed(contact, REFERENCE_SEED + seed)
     prepared = prepare(scene)
     _, (fx, fy) = strip_of(prepared, 0)
-    (dx, dy) = prepared.sample.cells.coarse
+    (dx, dy) = prepared.sample.cells.spacing
     spacing = (0.5 * dx, 0.5 * dy)
     half_width = scene.bodies.half_width
     columns = 2 * math.ceil(6 * half_width / dx)
-    rows = 8 * fy * math.ceil(NARROW * prepared.sample.lengths[1] / (4 * fy * dy))
+    rows = 8 * fy * math.ceil(NARROW * prepared.sample.correlation_lengths[1] / (4 * fy * dy))
     bodies = []
     for k, (name, ratio) in enumerate(moving_bodies(scene)):
         rough = getattr(scene, name)
