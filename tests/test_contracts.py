@@ -9,7 +9,7 @@ import pytest
 import lubfric
 from lubfric.errors import CONVERGED, Report
 from lubfric.models import MODELS, DeterministicModel, Model, ModelAnswer, PaperModel, SampleSolution
-from lubfric.models.shared import BlockError, Decision
+from lubfric.models.shared import Decision, StandardError
 from lubfric.samples import Sample
 
 PAPER = lubfric.load_scene("paper")
@@ -135,8 +135,8 @@ class TestModel:
 
     def test_neither_model_has_an_answer_without_its_needs(self):
         flat = lubfric.prepare(lubfric.load_scene("flat"))
-        assert PaperModel().unable(flat, 0.0) == "" and DeterministicModel().unable(flat, 0.03)
-        assert DeterministicModel().unable(lubfric.prepare(PAPER), 0.0)
+        assert PaperModel().why_unable(flat, 0.0) == "" and DeterministicModel().why_unable(flat, 0.03)
+        assert DeterministicModel().why_unable(lubfric.prepare(PAPER), 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -153,9 +153,9 @@ class Highest(SampleSolution):
         return np.array([1e5 * self.sample.strip(k).heights.max() for k in range(self.count)])
 
     @property
-    def sampling_error(self) -> BlockError:
+    def sampling_error(self) -> StandardError:
         error = self.values.std(ddof=1) / math.sqrt(self.count) / self.values.mean()
-        return BlockError(float(error), self.count - 1)
+        return StandardError(float(error), self.count - 1)
 
     def answer(self) -> ModelAnswer:
         load = self.prepared.scene.bodies.load

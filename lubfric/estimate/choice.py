@@ -37,12 +37,12 @@ class Choice:
 def choose(prepared: Prepared, speed: float, requested: str | Model, *, native: bool = False) -> Choice:
     """Solve ``prepared`` at ``speed`` [m/s] by the ``requested`` model, or by the cheapest that is good enough.
 
-    Where the requested model has no answer (`Model.unable`), the most expensive of the cheaper ones that has one
+    Where the requested model has no answer (`Model.why_unable`), the most expensive of the cheaper ones that has one
     answers in its place. ``native``: a single patch is solved on its own cells. Raises `ConvergenceError`.
     """
     if isinstance(requested, Model):
         return Choice(model=requested, solution=sampled(prepared, speed, requested, native=native))
-    able = [model for model in models_up_to(requested) if not model.unable(prepared, speed)]
+    able = [model for model in models_up_to(requested) if not model.why_unable(prepared, speed)]
     if requested == AUTO:
         return _cheapest(prepared, speed, able, native=native)
     *cheaper, model = able
@@ -56,8 +56,8 @@ def choose(prepared: Prepared, speed: float, requested: str | Model, *, native: 
 def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, native: bool) -> Choice:
     """Return the solution of the cheapest of ``models`` that is good enough.
 
-    From the cheapest on, a solution answers if it suffices (`SampleSolution.sufficient`), if f means nothing anyway
-    (a severe warning), or if the next model declines (`Model.declines`) or does not converge. The strips of the first
+    From the cheapest on, a solution answers if it suffices (`SampleSolution.why_sufficient`), if f means nothing anyway
+    (a severe warning), or if the next model declines (`Model.why_declined`) or does not converge. The strips of the first
     are the control of those that take one.
     """
     with limited_work(max(work_left(), LEAST_WORK_OF_CHEAPEST)):
@@ -65,10 +65,10 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, native: 
     choice = Choice(model=models[0], solution=first)
     for model in models[1:]:
         solution = choice.solution
-        why = solution.sufficient()
+        why = solution.why_sufficient()
         if why or any(entry.severe for entry in solution.warnings()):
             return Choice(model=choice.model, solution=solution, why=why)
-        if why := model.declines(prepared, speed, solution):
+        if why := model.why_declined(prepared, speed, solution):
             return Choice(model=choice.model, solution=solution, why=why)
         if (adopted := model.adopt(solution)) is not None:
             choice = Choice(model=model, solution=adopted)

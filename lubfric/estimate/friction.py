@@ -14,7 +14,7 @@ from ..errors import InputError
 from ..models import Model
 from ..models.shared import Prepared, at_speed, at_tolerance, refused, unmodelled_effects
 from ..scene import FASTEST, Scene, warn_unusual_values
-from .answer import result_of
+from .build_result import result_of
 from .choice import choose
 from .full_load import full_load_numbers
 from .methods import with_methods

@@ -21,7 +21,7 @@ from ..errors import Report
 from ..samples import Sample
 from ..scene import Scene
 from ..surface import Surface
-from .shared import BlockError, ControlVariate, Decision, Heat, Prepared, Validity, required_strips
+from .shared import ControlVariate, Decision, Heat, Prepared, StandardError, Validity, required_strips
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -109,7 +109,7 @@ class ModelAnswer:
 
     numbers: dict[str, float]
     numerical: float
-    sampling: BlockError
+    sampling: StandardError
     model_error: tuple[float, float]
     report: Report
     decision: Decision
@@ -172,7 +172,7 @@ class SampleSolution(ABC):
 
     @property
     @abstractmethod
-    def sampling_error(self) -> BlockError:
+    def sampling_error(self) -> StandardError:
         """The relative standard error of f because the sample is finite."""
 
     @abstractmethod
@@ -200,7 +200,7 @@ class SampleSolution(ABC):
         """Return what is known of the strips for a more expensive model; None if nothing is."""
         return None
 
-    def sufficient(self) -> str:
+    def why_sufficient(self) -> str:
         """Return why numerics.model = "auto" needs no more expensive model, as text; "" if it does."""
         return ""
 
@@ -252,7 +252,7 @@ class Model(ABC):
         """
         return WorkEstimate(strips=self.first_strips(sample), seconds=0.0)
 
-    def unable(self, prepared: Prepared, speed: float) -> str:
+    def why_unable(self, prepared: Prepared, speed: float) -> str:
         """Return why the model has no answer at ``speed`` [m/s], as text; "" if it has one."""
         return ""
 
@@ -264,6 +264,6 @@ class Model(ABC):
         """Return the solution of this model on what ``cheaper`` has solved; None if it needs a solve of its own."""
         return None
 
-    def declines(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
+    def why_declined(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
         """Return why numerics.model = "auto" keeps the ``cheaper`` solution, as text; "" if it takes this model."""
         return ""

@@ -54,7 +54,7 @@ def measured(scene: Scene) -> bool:
 
 
 def extended(scene: Scene) -> bool:
-    """The map continued by its mirror image, if it is too short."""
+    """Return whether a map that is too short is continued by its mirror image."""
     return any(rough.extension == "mirror" for rough, _ in rough_bodies(scene))
 
 

@@ -19,13 +19,13 @@ from ..models.shared import (
     Heat,
     Validity,
     inlet_at,
-    of_deflection,
-    of_ends,
-    of_film,
-    of_motion,
-    of_typical_heat,
     point_heat,
     typical_heat,
+    warn_deflection,
+    warn_ends,
+    warn_film,
+    warn_motion,
+    warn_typical_heat,
 )
 from ..oil import shear_stress
 from ..scene import Scene
@@ -115,7 +115,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
     }
     peclet = heat.peclet if heat.heated else math.inf
     heat = replace(heat, inlet=inlet, used=film_factor < 1.0, heated=None, peclet=peclet)
-    return row, tuple([*_violated(model, scene, row, shear, heat), *of_typical_heat(scene, heat.typical)])
+    return row, tuple([*_violated(model, scene, row, shear, heat), *warn_typical_heat(scene, heat.typical)])
 
 
 def _violated(
@@ -127,9 +127,9 @@ def _violated(
     force = abs(row["friction_force"])
     prepared = model.prepared
     yield from prepared.known
-    yield from of_ends(row["edge_load"], prepared.surface.size[0])
-    yield from of_motion(scene, speed, film)
-    yield from of_film(scene, film, row["max_pressure"], shear, row["film_load"], force, heat)
+    yield from warn_ends(row["edge_load"], prepared.surface.size[0])
+    yield from warn_motion(scene, speed, film)
+    yield from warn_film(scene, film, row["max_pressure"], shear, row["film_load"], force, heat)
     if row["shear_error"] > scene.numerics.tolerance:
         yield Validity(
             what="estimated error of f by the sum of the film's shear stress",
@@ -140,7 +140,7 @@ def _violated(
             remedy="a tighter numerics.film_tolerance; the steady f at the same speed (lubfric.friction) resolves the spike",
         )
     if row["contact_load"] > 0:
-        yield from of_deflection(scene, row["mean_gap"], STEADY_ONLY)
+        yield from warn_deflection(scene, row["mean_gap"], STEADY_ONLY)
 
 
 def _mass(model: LoadSharingSolver, solution: Step) -> dict[str, float]:

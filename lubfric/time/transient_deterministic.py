@@ -47,9 +47,9 @@ from ..models.shared import (
     Prepared,
     Validity,
     block_error,
-    of_motion,
-    of_thickness,
     prepare,
+    warn_motion,
+    warn_thickness,
 )
 from ..quantities import OF_MOMENT
 from ..scene import Constant, Scene, moving_bodies
@@ -357,7 +357,7 @@ def deterministic_moment(
     }
     film = result.central_gap
     heat = strip_heat(scene, result)
-    entries = [*solver.prepared.known, *of_motion(scene, speed, film), *of_thickness(scene, film)]
+    entries = [*solver.prepared.known, *warn_motion(scene, speed, film), *warn_thickness(scene, film)]
     lost = max(heat.change, 1 - heat.inlet.factor if heat.inlet else 0.0)
     if lost > scene.numerics.tolerance:
         remedy = "numerics.model = 'load-sharing', which has the heat in time; heat = 'off' states that this is meant"

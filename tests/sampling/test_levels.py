@@ -27,7 +27,7 @@ from lubfric.models.deterministic import (
 from lubfric.models.deterministic.strip_on_two_grids import solve_pair
 from lubfric.models.load_sharing import solve_balance
 from lubfric.models.load_sharing.control_variate import control_variate_of
-from lubfric.models.shared import BlockError, ControlVariate, on_strip
+from lubfric.models.shared import ControlVariate, StandardError, on_strip
 
 FINE = lubfric.load_scene("paper").with_(numerics={"film_deflection": "scaled"})
 SCENE = FINE.with_(  # its cells are those of the second level; the limit of the oil is given, so that its range does not count
@@ -296,7 +296,7 @@ def synthetic(rng, strips, places=40, between=0.0):
         pairs.append(StripOnTwoGrids(strip, strip))
     differences = common - common.mean()
     of_strips = differences.mean(axis=1)
-    error = BlockError(np.std(of_strips, ddof=1) / math.sqrt(strips), strips - 1)
+    error = StandardError(np.std(of_strips, ddof=1) / math.sqrt(strips), strips - 1)
     return pairs, ControlVariate(differences, {"coefficient": of_strips}, error)
 
 

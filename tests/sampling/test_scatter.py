@@ -7,7 +7,7 @@ import pytest
 from scipy import stats
 
 from lubfric.models.load_sharing import effective_spots
-from lubfric.models.shared import BlockError, block_error
+from lubfric.models.shared import StandardError, block_error
 
 
 def correlated(rng, count, length):
@@ -52,7 +52,7 @@ def test_what_blocks_scatter_by_with_a_quantity_known_exactly_is_no_error():
 
 
 def test_a_line_too_short_for_five_blocks_tells_nothing():
-    assert block_error(np.arange(240.0), 1.0, 10.0) == BlockError(math.inf, 0)
+    assert block_error(np.arange(240.0), 1.0, 10.0) == StandardError(math.inf, 0)
     lengths = (250.0, 300.0, 400.0, 800.0, 900.0, 1e4)
     assert [block_error(np.arange(n), 1.0, 10.0).freedom for n in lengths] == [4, 5, 7, 7, 9, 31]
 

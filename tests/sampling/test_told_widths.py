@@ -11,7 +11,7 @@ from scene_text import paper_scene
 import lubfric
 from lubfric.estimate import Uncertainty, interval
 from lubfric.models.load_sharing import load_sharing_error, summit_radius, undetected_load
-from lubfric.models.shared import BlockError, add_errors
+from lubfric.models.shared import StandardError, add_errors
 
 E_PRIME = 2.3e11
 WIDTH = 6e-3
@@ -87,7 +87,7 @@ def test_an_interval_has_two_sides_and_the_farther_one_lies_away_from_0():
 
 def test_freedom_of_a_sum_is_no_more_than_that_of_its_largest_part():
     """Welch and Satterthwaite: 9²/(8.1²/5 + .9²/50) = 6.2, cut to 6."""
-    found = add_errors(BlockError(3 * math.sqrt(0.9), 5), BlockError(math.sqrt(0.9), 50))
+    found = add_errors(StandardError(3 * math.sqrt(0.9), 5), StandardError(math.sqrt(0.9), 50))
     assert found.error == pytest.approx(3.0) and found.freedom == 6
 
 

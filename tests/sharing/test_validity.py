@@ -10,13 +10,13 @@ from scene_text import paper_scene
 import lubfric
 from lubfric.film import ShearForce
 from lubfric.models.shared import (
-    of_bodies,
-    of_deflection,
-    of_map,
-    of_motion,
-    of_pressure,
-    of_shear,
-    of_thickness,
+    warn_bodies,
+    warn_deflection,
+    warn_map,
+    warn_motion,
+    warn_pressure,
+    warn_shear,
+    warn_thickness,
 )
 
 PAPER = paper_scene(contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling": "patch"})
@@ -31,13 +31,13 @@ def test_the_paper_scene_needs_none():
 @pytest.mark.parametrize(
     "words, entries",
     [
-        ("extrapolation", of_pressure(PAPER, 2e9)),
-        ("eyring_stress", of_shear(PAPER, ShearForce(couette=5.0, rolling=0.0), PAPER.bodies.load, FRICTION)),
-        ("does not tend to f_b", of_deflection(PAPER.with_(bodies={"load": 550.0}), 3e-7)),
-        ("not thin", of_thickness(PAPER.with_(bodies={"radius": 1e-6}), 3e-7)),
-        ("against one another", of_motion(PAPER.with_(motion={"slide_roll_ratio": 3.0}), 0.003, 3e-7)),
-        ("wider than long", of_bodies(PAPER.with_(bodies={"width": 4e-6, "load": 0.01}).bodies)),
-        ("steel yields", of_bodies(PAPER.with_(bodies={"hardness": None, "hertz_pressure": 6e9}).bodies)),
+        ("extrapolation", warn_pressure(PAPER, 2e9)),
+        ("eyring_stress", warn_shear(PAPER, ShearForce(couette=5.0, rolling=0.0), PAPER.bodies.load, FRICTION)),
+        ("does not tend to f_b", warn_deflection(PAPER.with_(bodies={"load": 550.0}), 3e-7)),
+        ("not thin", warn_thickness(PAPER.with_(bodies={"radius": 1e-6}), 3e-7)),
+        ("against one another", warn_motion(PAPER.with_(motion={"slide_roll_ratio": 3.0}), 0.003, 3e-7)),
+        ("wider than long", warn_bodies(PAPER.with_(bodies={"width": 4e-6, "load": 0.01}).bodies)),
+        ("steel yields", warn_bodies(PAPER.with_(bodies={"hardness": None, "hertz_pressure": 6e9}).bodies)),
     ],
 )
 def test_each_limit_is_told(words, entries):
@@ -49,16 +49,16 @@ def test_each_limit_is_told(words, entries):
 @pytest.mark.parametrize("share, severe", [(0.005, None), (0.05, False), (0.5, True)])
 def test_stress_that_no_oil_carries_by_its_share_of_f(share, severe):
     shear = ShearForce(couette=0.0, rolling=0.0, excess=share * FRICTION, stress_ratio=3.0)
-    entries = list(of_shear(PAPER, shear, PAPER.bodies.load, FRICTION))
+    entries = list(warn_shear(PAPER, shear, PAPER.bodies.load, FRICTION))
     assert [entry.severe for entry in entries] == ([] if severe is None else [severe])
     assert all("Newtonian" in entry.text for entry in entries)
 
 
 def test_bodies_and_maps_are_judged_before_anything_is_solved():
     wide = PAPER.with_(bodies={"radius": 0.01, "load": 3e5, "e_prime": 1e8, "width": 0.1, "hardness": None})
-    assert [e.severe for e in of_bodies(wide.bodies) if "no half-space" in e.text] == [True]
-    assert [[e.severe for e in of_map(slope, 20)] for slope in (0.3, 0.7, 2.0)] == [[], [False], [True]]
-    assert "Few asperities" in next(of_map(0.1, 3)).text
+    assert [e.severe for e in warn_bodies(wide.bodies) if "no half-space" in e.text] == [True]
+    assert [[e.severe for e in warn_map(slope, 20)] for slope in (0.3, 0.7, 2.0)] == [[], [False], [True]]
+    assert "Few asperities" in next(warn_map(0.1, 3)).text
 
 
 @pytest.mark.parametrize("axis", [0, 1])
@@ -78,9 +78,9 @@ def test_a_map_that_is_noise_along_an_axis_is_refused_with_what_to_do(axis):
 
 def test_the_reynolds_number_is_that_of_the_film():
     scene = PAPER.with_(lubricant={"viscosity": 1e-4, "viscosity_law": "constant"})
-    entry = next(of_motion(scene, 100.0, 30e-6))
+    entry = next(warn_motion(scene, 100.0, 30e-6))
     assert entry.value == pytest.approx(870 * 100 * 30e-6 / 1e-4) and entry.severe
-    assert not list(of_motion(PAPER, 1.0, 1e-6))
+    assert not list(warn_motion(PAPER, 1.0, 1e-6))
 
 
 def heavy(**lubricant):

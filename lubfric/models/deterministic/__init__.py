@@ -23,7 +23,14 @@ from .moving_strip import (
 )
 from .newton import Work, march, newton
 from .pictures import animate_moments, plot_moments, plot_passing
-from .point import (
+from .problem import BOUNDARY_FILM, Problem, lay_out, reach, shifted
+from .result import DeterministicResult, assemble
+from .rheology import mean_fluidity, thinning
+from .rough_bodies import HARDNESS, MOST_WORK, bodies_of, maps_of, moving_point_work, too_costly
+from .shorter_cells import SHORT
+from .solve import dry_contact, solve_point
+from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, residuals
+from .strip import (
     Strip,
     change_by_flow,
     change_of,
@@ -34,13 +41,6 @@ from .point import (
     work_of,
     work_of_steps,
 )
-from .problem import BOUNDARY_FILM, Problem, lay_out, reach, shifted
-from .result import DeterministicResult, assemble
-from .rheology import mean_fluidity, thinning
-from .rough_bodies import HARDNESS, MOST_WORK, bodies_of, maps_of, moving_point_work, too_costly
-from .shorter_cells import SHORT
-from .solve import dry_contact, solve_point
-from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, residuals
 from .strip_on_two_grids import StripOnTwoGrids, cells_of, numbers_of, strip_of
 from .summits import SummitControl, attenuated, control_of
 from .time_and_place import TimeAndPlace, mean_over_blocks

@@ -13,30 +13,30 @@ from ...scene import Scene, moves, value_of
 from ..contract import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
     TOO_SHORT,
-    BlockError,
     Decision,
     Heat,
     Prepared,
+    StandardError,
     Validity,
     error_by_heat,
     limit_bounds,
     limit_in_words,
-    of_heat,
-    of_inlet,
-    of_motion,
-    of_pressure,
-    of_thickness,
     on_piece,
     peak_hertz_pressure,
     percent,
     student,
+    warn_heat,
+    warn_inlet,
+    warn_motion,
+    warn_pressure,
+    warn_thickness,
 )
 from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, too_hot, warmed
 from .levels import Levels, mean
 from .moving_strip import MovingStrip, continued_strip
-from .point import Strip, solve_strip
 from .result import DeterministicResult
 from .rough_bodies import HARDNESS, bodies_of, map_of
+from .strip import Strip, solve_strip
 from .strip_on_two_grids import strip_of
 
 # Half-widths of the Hertz strip along y that are solved again for a picture.
@@ -94,7 +94,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     return ModelAnswer(
         numbers=numbers,
         numerical=levels.numerical,
-        sampling=BlockError(sampling, levels.sampling.freedom),
+        sampling=StandardError(sampling, levels.sampling.freedom),
         model_error=(math.hypot(model, by_limit[0]), math.hypot(model, by_limit[1])),
         by_limit=max(by_limit),
         largest_in_model=max(parts_of_model, key=lambda part: parts_of_model[part]),
@@ -255,9 +255,9 @@ def _words_of_levels(levels: Levels) -> str:
         strips += f", the effect of cells {times} times as short on {len(pieces)} piece{'s' if len(pieces) > 1 else ''}"
     if levels.shortest:
         strips += f", of cells {2 * times} times as short on a shorter one"
-    if not levels.line:
+    if not levels.line_strips:
         return f"one pressure with the contact on {strips}"
-    return f"one pressure with the contact: its difference from Eq. (8) on {strips}, of a line of {levels.line}"
+    return f"one pressure with the contact: its difference from Eq. (8) on {strips}, of a line of {levels.line_strips}"
 
 
 def _division(results: Sequence[DeterministicResult]) -> str:
@@ -279,13 +279,13 @@ def _entries(
     speed = numbers["speed"]
     film = numbers["central_film"]
     yield from prepared.known
-    yield from of_motion(scene, speed, film)
+    yield from warn_motion(scene, speed, film)
     flow = mean(result.flow_film for result in results)
     friction = abs(numbers["coefficient"]) * scene.bodies.load
-    yield from of_inlet(scene, scene.line_contact(abs(speed)), flow, friction)
-    for entry in of_pressure(scene, max(peak_hertz_pressure(scene), *(result.top_pressure for result in results))):
+    yield from warn_inlet(scene, scene.line_contact(abs(speed)), flow, friction)
+    for entry in warn_pressure(scene, max(peak_hertz_pressure(scene), *(result.top_pressure for result in results))):
         yield replace(entry, severe=False)  # of one cell: no stress there is above the limit, whatever the pressure
-    yield from of_thickness(scene, film)
+    yield from warn_thickness(scene, film)
     cut = mean(result.split.capped / result.load for result in results)
     if cut > CUT:
         consequence = "a Newtonian film would be sheared above f_b p there; its stress was limited to that"
@@ -310,7 +310,7 @@ def _entries(
             consequence=consequence,
             remedy=remedy,
         )
-    yield from of_heat(scene, heat)
+    yield from warn_heat(scene, heat)
     if why := too_hot(heat):
         parts = (1 - heat.film_factor) / (1 - LEAST_FILM), heat.change / MOST_CHANGE
         yield Validity(

@@ -20,25 +20,25 @@ from ..._base.jobs import map_parts
 from ...samples import Sample
 from ...scene import Numerics, Scene
 from ..shared import (
-    BlockError,
     ControlVariate,
     Prepared,
+    StandardError,
     add_errors,
     block_error,
     required_strips,
     student,
 )
 from .moving_strip import MovingStrip
-from .point import (
-    Strip,
-    change_by_flow,
-    thinned_less,
-)
 from .result import DeterministicResult
 from .rough_bodies import summit_control
 from .shorter_cells import (
     changed,
     on_shorter_cells,
+)
+from .strip import (
+    Strip,
+    change_by_flow,
+    thinned_less,
 )
 from .strip_on_two_grids import (
     StripOnTwoGrids,
@@ -68,7 +68,7 @@ class Levels:
     - ``numbers``: of the deterministic model on an infinite line contact, by name; ``errors``: their relative standard
       errors. ``by_film``: relative change of f by half and by twice the boundary film; ``by_flow``: by another law of
       the flow; ``by_inlet``: without the heat of the inlet.
-    - ``line``: number of strips of the first level (0: it was omitted); ``pairs``: the strips of the second;
+    - ``line_strips``: number of strips of the first level (0: it was omitted); ``pairs``: the strips of the second;
       ``pieces``: of the third, each on shorter and shorter cells; ``shortest``: that of the fourth (empty: none).
     - relative errors of f: ``sampling``, standard, by the number of strips; ``difference``, standard, by that between
       the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips; ``has_unsolved_cells``:
@@ -81,12 +81,12 @@ class Levels:
     by_film: tuple[float, ...]
     by_flow: float
     by_inlet: float
-    line: int
+    line_strips: int
     pairs: tuple[StripOnTwoGrids, ...]
     pieces: tuple[tuple[Strip, ...], ...]
     shortest: tuple[Strip, ...]
-    sampling: BlockError
-    difference: BlockError
+    sampling: StandardError
+    difference: StandardError
     numerical: float
     length: float
     has_unsolved_cells: bool = False
@@ -95,14 +95,14 @@ class Levels:
 
 @dataclass(frozen=True, kw_only=True)
 class TwoLevelEstimate:
-    """The first two levels: ``line``, ``numbers`` as in `Levels`; standard errors of f: ``whole``, and the part of it
+    """The first two levels: ``line_strips``, ``numbers`` as in `Levels`; standard errors of f: ``whole``, and the part of it
     that is the ``difference`` between the models; ``between``: standard deviation of f between strips;
     ``note``: what the control of moving roughness changed."""
 
-    line: int
+    line_strips: int
     numbers: dict[str, float]
-    whole: BlockError
-    difference: BlockError
+    whole: StandardError
+    difference: StandardError
     between: float
     note: str = ""
 
@@ -110,7 +110,7 @@ class TwoLevelEstimate:
         """Number of strips of the second level, at most ``most``, that the tolerances need; there are ``count``."""
         f = abs(self.numbers["coefficient"])
         tolerance = numerics.sampling_tolerance
-        if not self.line:
+        if not self.line_strips:
             return required_strips(count, 1, most, self.whole, f * tolerance, growth=GROWTH, spare=SPARE)
         allowed = f * DIFFERENCE * numerics.model_tolerance / student(self.difference.freedom)
         errors = (self.whole, math.hypot(f * tolerance, allowed)), (self.difference, allowed)
@@ -144,9 +144,11 @@ def two_levels(
         estimate = _of_moving(prepared, pairs, moving)
         return estimate, max(estimate.wanted(numerics, len(pairs), most), len(pairs))
     estimates = [_sum(prepared, pairs, line) for line in (control, None) if line is None or len(pairs) <= line.count]
-    estimates = [each for each in estimates if not each.line or 0 <= each.numbers["contact_load"] <= load]
+    estimates = [each for each in estimates if not each.line_strips or 0 <= each.numbers["contact_load"] <= load]
     counts = [each.wanted(numerics, len(pairs), most) for each in estimates]
-    chosen = next(k for k, each in enumerate(estimates) if not each.line or counts[k] <= min(counts[-1], each.line))
+    chosen = next(
+        k for k, each in enumerate(estimates) if not each.line_strips or counts[k] <= min(counts[-1], each.line_strips)
+    )
     return estimates[chosen], max(counts[chosen], len(pairs))
 
 
@@ -160,13 +162,13 @@ def levels_of(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]
     numbers = with_divided_contact_load(prepared.scene, numbers, results)
     f = abs(numbers["coefficient"])
     of_strips = add_errors(estimate.whole, replace(by_cells, error=by_cells.error * f))
-    difference = BlockError(min(estimate.difference.error, of_strips.error) / f, estimate.difference.freedom)
+    difference = StandardError(min(estimate.difference.error, of_strips.error) / f, estimate.difference.freedom)
     by_chance = math.sqrt((of_strips.error / f) ** 2 - difference.error**2)
     sampling = replace(of_strips, error=math.hypot(by_chance, BALANCED * (estimate.between / f) ** 2))
     films = tuple(mean(getattr(result, name) - result.coefficient for result in results) / f for name in OTHER_FILMS)
     errors = _errors(prepared, pairs, numbers)
     errors["coefficient"] = math.hypot(*(e for e in (sampling.error, difference.error, numerical) if math.isfinite(e)))
-    length = prepared.sample.strip_length * max(estimate.line, len(pairs))
+    length = prepared.sample.strip_length * max(estimate.line_strips, len(pairs))
     first = pairs[0].resolved
     at_rest = first.rest if isinstance(first, MovingStrip) else first
     oil = prepared.scene.lubricant
@@ -177,7 +179,7 @@ def levels_of(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]
         by_film=films,
         by_flow=flow,
         by_inlet=inlet,
-        line=estimate.line,
+        line_strips=estimate.line_strips,
         pairs=tuple(pairs),
         pieces=pieces,
         has_unsolved_cells=has_unsolved_cells,
@@ -220,7 +222,11 @@ def _sum(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], line: ControlVari
     if line is None:
         whole = _scatter(pairs, prepared.sample)
         return TwoLevelEstimate(
-            line=0, numbers=numbers, whole=whole, difference=BlockError(0.0, 1), between=whole.error * math.sqrt(count)
+            line_strips=0,
+            numbers=numbers,
+            whole=whole,
+            difference=StandardError(0.0, 1),
+            between=whole.error * math.sqrt(count),
         )
     for name, differences in line.numbers.items():
         numbers[name] -= mean(differences[:count])
@@ -229,7 +235,7 @@ def _sum(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], line: ControlVari
     whole = add_errors(_scatter(pairs, prepared.sample, line, unsolved), others)
     between = float(np.std(line.numbers["coefficient"]))
     return TwoLevelEstimate(
-        line=line.count,
+        line_strips=line.count,
         numbers=numbers,
         whole=whole,
         difference=_scatter(pairs, prepared.sample, line, 1.0),
@@ -260,7 +266,12 @@ def _of_moving(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], strips: Seq
     between = friction.plain.error * math.sqrt(len(strips))
     note = SUMMITS.format(100 * friction.correction / friction.value) if friction.correction else ""
     return TwoLevelEstimate(
-        line=0, numbers=numbers, whole=friction.error, difference=BlockError(0.0, 1), between=between, note=note
+        line_strips=0,
+        numbers=numbers,
+        whole=friction.error,
+        difference=StandardError(0.0, 1),
+        between=between,
+        note=note,
     )
 
 
@@ -280,7 +291,7 @@ def _errors(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], numbers: dict[
 
 def _scatter(
     pairs: Sequence[StripOnTwoGrids], sample: Sample, line: ControlVariate | None = None, share: float = 0.0
-) -> BlockError:
+) -> StandardError:
     """Standard error of the mean over ``pairs`` of f by the deterministic model less ``share`` times the differences of
     these strips from the ``line``. (On a line of N strips, of which n are pairs, all of the sum scatters as with 1 -
     n/N: Eq. (8) on the pairs is part of the line.)
@@ -298,17 +309,17 @@ def _scatter(
     within = _block_error(places, sample, pairs[0])
     by_blocks = count * (within.error * (LINED if line else ALONE)) ** 2
     if count == 1:
-        return BlockError(math.sqrt(by_blocks), min(within.freedom, FREEDOM))
+        return StandardError(math.sqrt(by_blocks), min(within.freedom, FREEDOM))
     by_strips = float(np.var(f, ddof=1))
     if not math.isfinite(by_blocks):  # a short strip has no blocks
-        return BlockError(math.sqrt(by_strips / count), count - 1)
+        return StandardError(math.sqrt(by_strips / count), count - 1)
     pooled = (PRIOR * by_blocks + (count - 1) * by_strips) / (PRIOR + count - 1)
     if sample.windows and count >= FEWEST and by_strips > pooled:
-        return BlockError(math.sqrt(by_strips / count), count - 1)
-    return BlockError(math.sqrt(pooled / count), FREEDOM + count - 1)
+        return StandardError(math.sqrt(by_strips / count), count - 1)
+    return StandardError(math.sqrt(pooled / count), FREEDOM + count - 1)
 
 
-def _block_error(values: Sequence[np.ndarray], sample: Sample, pair: StripOnTwoGrids) -> BlockError:
+def _block_error(values: Sequence[np.ndarray], sample: Sample, pair: StripOnTwoGrids) -> StandardError:
     """Standard error of the mean of ``values`` along strips such as ``pair``; of a mirrored map only half counts."""
     kept = values[0].size // (2 if pair.mirrored else 1)
     places = np.concatenate([one[:kept] for one in values])

@@ -9,7 +9,7 @@ from ...samples import Sample
 from ...scene import Scene, gap_not_resolved
 from ...surface import Surface
 from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
-from ..shared import BlockError, ControlVariate, Prepared, no_rough_film
+from ..shared import ControlVariate, Prepared, StandardError, no_rough_film
 from .answer import answer_of
 from .estimated_work import estimated_work
 from .heat import too_hot
@@ -35,9 +35,9 @@ class DeterministicSolution(SampleSolution):
         return len(self.strips)
 
     @property
-    def sampling_error(self) -> BlockError:
+    def sampling_error(self) -> StandardError:
         whole = self.estimate.whole
-        return BlockError(whole.error / abs(self.estimate.numbers["coefficient"]), whole.freedom)
+        return StandardError(whole.error / abs(self.estimate.numbers["coefficient"]), whole.freedom)
 
     def required_strips(self) -> int:
         return self.wanted
@@ -90,10 +90,10 @@ class DeterministicModel(Model):
             prepared=prepared, sample=sample, speed=speed, strips=strips, estimate=estimate, wanted=wanted
         )
 
-    def unable(self, prepared: Prepared, speed: float) -> str:
+    def why_unable(self, prepared: Prepared, speed: float) -> str:
         return no_rough_film(prepared, speed)
 
-    def declines(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
+    def why_declined(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
         heat = cheaper.heat()
         why = gap_not_resolved(prepared.scene, prepared.given) or ("" if heat is None else too_hot(heat))
         if why:

@@ -15,10 +15,10 @@ from ...scene import Scene
 from ...surface import Surface
 from .linear import ACCURACY
 from .moving import Moment, RoughBody, half_width, moments, travelling
-from .point import Strip, problem_of, solve_strip, work_of_steps
 from .problem import HERTZ_INLET, HERTZ_OUTLET, Problem, reach
 from .result import DeterministicResult, LoadSplit
 from .state import RUPTURED, State
+from .strip import Strip, problem_of, solve_strip, work_of_steps
 from .summits import SummitControl, summits_over_time
 from .time_and_place import TimeAndPlace, mean_over_blocks
 

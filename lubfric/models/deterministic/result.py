@@ -201,7 +201,7 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
     capped = spots & ~sheared.thin
     saturated = capped | (sheared.wet & at_its_limit(problem.sheared or problem.lubricant, p, law))
     loads = (float(p[where].sum()) * dx / p.shape[1] for where in (touching, sheared.thin, capped, saturated))
-    strip = np.abs(problem.x) <= max(problem.contact.half_width, 0.5001 * problem.spacing[0])
+    in_hertz = np.abs(problem.x) <= max(problem.contact.half_width, 0.5001 * problem.spacing[0])
     return DeterministicResult(
         x=problem.x,
         spacing=problem.spacing,
@@ -229,12 +229,12 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
         speed=problem.speed,
         flow_film=float(inlet.flow.mean()) / problem.speed,
         min_gap=float(h.min()),
-        mean_gap=float(h[strip].mean()),
-        spot_fraction=float(spots[strip].mean()),
+        mean_gap=float(h[in_hertz].mean()),
+        spot_fraction=float(spots[in_hertz].mean()),
         spot_length=float(spots.sum()) * dx / p.shape[1],
         top_pressure=float(p[fluid & ~sheared.thin].max(initial=0.0)),
-        plastic_fraction=float((state.yielded & (state.dent > 0))[strip].mean()),
-        given=float(np.where(touching, np.maximum(at.residual, 0.0), 0.0)[strip].sum())
+        plastic_fraction=float((state.yielded & (state.dent > 0))[in_hertz].mean()),
+        given=float(np.where(touching, np.maximum(at.residual, 0.0), 0.0)[in_hertz].sum())
         * dx
         / (p.shape[1] * problem.speed),
         central_gap=float(np.interp(0.0, problem.x, h.mean(axis=1))),

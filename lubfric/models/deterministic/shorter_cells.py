@@ -16,23 +16,23 @@ from ...errors import ConvergenceError, LubfricError
 from ...samples import Sample
 from ...scene import moves
 from ..shared import (
-    BlockError,
     Prepared,
     ReferenceKey,
+    StandardError,
     block_error,
     on_piece,
     smooth_over_cells,
     speed_of,
 )
-from .point import (
+from .rough_bodies import (
+    MOST_WORK,
+    map_of,
+)
+from .strip import (
     Strip,
     changes_of,
     estimate,
     solve_strip,
-)
-from .rough_bodies import (
-    MOST_WORK,
-    map_of,
 )
 from .strip_on_two_grids import (
     StripOnTwoGrids,
@@ -81,7 +81,7 @@ Piece = tuple[Strip, ...]  # on shorter and shorter cells
 
 def on_shorter_cells(
     prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]
-) -> tuple[tuple[Piece, ...], Piece, BlockError, float, bool]:
+) -> tuple[tuple[Piece, ...], Piece, StandardError, float, bool]:
     """Solve the third and fourth level for ``pairs``, as far as needed, if the roughness rests: the pieces of both,
     the standard error of the mean relative change of f on those of the third, and the relative error that the last
     cells leave. Where pieces do not converge, or take too much work, there are none, that error is `UNSOLVED` times
@@ -101,10 +101,10 @@ def on_shorter_cells(
     enough = enough and (sample.refines_in_place or smooth_over_cells(sample.strip(0).heights))
     own = sample.cells.is_native and cells_of(scene, sample) == (1, 1)
     if enough or own or moves(scene):
-        return (), (), BlockError(0.0, 1), left, False
+        return (), (), StandardError(0.0, 1), left, False
     if sample.refines_in_place:
         patch = _refined(prepared, speed, 0, pairs[0])
-        return (patch,), (), BlockError(0.0, 1), max(estimate(changes_of(patch)), SOLVED), False
+        return (patch,), (), StandardError(0.0, 1), max(estimate(changes_of(patch)), SOLVED), False
     try:
         with limited_work(PIECES_SHARE * work_left()):
             if sample.strip_length < SHORT * sample.correlation_lengths[1] and strip_of(prepared, 0)[1] != (1, 1):
@@ -112,7 +112,7 @@ def on_shorter_cells(
             else:
                 pieces, error = _at_fixed_speed(prepared, speed)
     except ConvergenceError:
-        return (), (), BlockError(0.0, 1), UNSOLVED * left, True
+        return (), (), StandardError(0.0, 1), UNSOLVED * left, True
     changes = [piece[-1].result.coefficient / piece[1].result.coefficient - 1 for piece in pieces]
     change = abs(float(np.mean(changes)))  # its error is reported
     left = max(estimate((by_longer, change), max(halvings - 1, 1)), SOLVED)
@@ -172,7 +172,7 @@ def changed(prepared: Prepared, numbers: dict[str, float], pieces: Sequence[Sequ
     return new
 
 
-def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...], BlockError]:
+def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...], StandardError]:
     """The pieces at the nearest fixed speed; at ``speed`` itself where a given film arrives at any speed, or where they
     cannot be solved there."""
     scene = prepared.scene
@@ -182,14 +182,14 @@ def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...]
         return _pieces(prepared, speed, None)
     step = round(math.log(scene.line_contact(abs(speed)).expected_film / sq, FIXED))
 
-    def make() -> tuple[tuple[Piece, ...], BlockError] | None:
+    def make() -> tuple[tuple[Piece, ...], StandardError] | None:
         there = math.copysign(speed_of(scene, sq * FIXED**step), speed)
         try:
             return _pieces(prepared, there, None)
         except LubfricError:  # at that speed: heat may leave no film there
             return None
 
-    def cells(made: tuple[tuple[tuple[Strip, Strip, Strip], ...], BlockError] | None) -> int:
+    def cells(made: tuple[tuple[tuple[Strip, Strip, Strip], ...], StandardError] | None) -> int:
         return sum(one.problem.heights.size for piece in made[0] for one in piece) if made else 0
 
     pieces = prepared.memo.get(
@@ -198,13 +198,13 @@ def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...]
     return pieces or _pieces(prepared, speed, None)
 
 
-def _pieces(prepared: Prepared, speed: float, first: StripOnTwoGrids | None) -> tuple[tuple[Piece, ...], BlockError]:
+def _pieces(prepared: Prepared, speed: float, first: StripOnTwoGrids | None) -> tuple[tuple[Piece, ...], StandardError]:
     """Pieces at ``speed`` [m/s] until the standard error of their mean relative change of f is small; ``first``: the
     strip that is the first of them (None: all are pieces)."""
     sample = prepared.sample
     tolerance = CELLS * prepared.scene.numerics.sampling_tolerance
     pieces: list[Piece] = []
-    error = BlockError(math.inf, 0)
+    error = StandardError(math.inf, 0)
     spent = 0.0
     while len(pieces) < min(sample.pieces, MOST_PIECES) and not (error.error <= tolerance or spent > PIECES_WORK):
         slope = pieces[0][1].slope if pieces else None
@@ -251,7 +251,7 @@ def _refined(
     return tuple(replace(one, slope=slope) for one in ladder)
 
 
-def _error(pieces: Sequence[Piece], sample: Sample) -> BlockError:
+def _error(pieces: Sequence[Piece], sample: Sample) -> StandardError:
     """Standard error of the mean relative change of f from the cells of the second level to the last ones, from place
     to place."""
     changes = []

@@ -11,9 +11,9 @@ from ...scene import Scene, moves
 from ...surface import Surface
 from ..shared import Prepared
 from .moving_strip import MovingStrip, SampleTarget, continued_strip, solve_moving_strip, strip_at_rest
-from .point import Strip, change_of, solve_strip
 from .result import DeterministicResult
 from .rough_bodies import bodies_of, strip_surface, summit_control
+from .strip import Strip, change_of, solve_strip
 
 # Cells in a correlation length, at least.
 PER_LENGTH = 2.0

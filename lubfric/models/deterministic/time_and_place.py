@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..shared import BlockError
+from ..shared import StandardError
 from .summits import SummitControl
 
 # Half-widths that roughness and film travel in a block, at least. At one place friction has a correlation over time of
@@ -82,8 +82,8 @@ class MeanOverBlocks:
     ``plain``: without them; standard errors of both; ``correction``: what the control changed."""
 
     value: float
-    error: BlockError
-    plain: BlockError
+    error: StandardError
+    plain: StandardError
     correction: float
 
 
@@ -115,7 +115,7 @@ def mean_over_blocks(
     excess = sum(float(sample.summits.sum()) for sample in samples) / places - control.mean
     correction = -slope * excess / control.threshold
     of_mean = slope * control.error / control.threshold
-    error = BlockError(math.hypot(rest.error, of_mean), rest.freedom)
+    error = StandardError(math.hypot(rest.error, of_mean), rest.freedom)
     return MeanOverBlocks(mean + correction, error, plain, correction)
 
 
@@ -133,10 +133,10 @@ def _fitted(values: np.ndarray, columns: Sequence[np.ndarray]) -> np.ndarray:
     return factors
 
 
-def _residual(values: np.ndarray, columns: Sequence[np.ndarray], independence: float) -> BlockError:
+def _residual(values: np.ndarray, columns: Sequence[np.ndarray], independence: float) -> StandardError:
     """Return the standard error of the mean of ``values`` that a linear function of ``columns`` leaves."""
     freedom = values.size - len(columns)
     if freedom < LEAST_FREEDOM:
-        return BlockError(math.inf, 0)
+        return StandardError(math.inf, 0)
     left = values - np.stack(columns, axis=1) @ _fitted(values, columns)
-    return BlockError(math.sqrt(float(left @ left) / (freedom * values.size * independence)), freedom)
+    return StandardError(math.sqrt(float(left @ left) / (freedom * values.size * independence)), freedom)

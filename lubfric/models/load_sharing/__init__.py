@@ -4,24 +4,24 @@
   agree; `balanced_sample` solves it on the first strips of a sample; `cell_effect` corrects it for their cells,
   `scatter` and `undetected` give its sampling error, and `response` shows how strongly all that depends on an error of
   the gap.
-- `paper_model`, ``"paper"``: `forces` gives the friction by Eq. (9), `model_error` its error, `limits` the assumptions
+- `paper_model`, ``"paper"``: `forces` gives the friction by Eq. (9), `error_of_eq8` its error, `limits` the assumptions
   that a balance violates; `answer` and `errors_of` make the answer.
 - `load_sharing_model`, ``"load-sharing"``: `rough_film` gives the friction of the film between flattened roughness,
-  `calibrated` corrects it, with the error that a campaign of solved cases gives it (`error_model`, calibration.toml).
+  `calibrated` corrects it, with the error that a campaign of solved cases gives it (`calibrated_error`, calibration.toml).
 - `control_variate` hands what is known of the strips to the deterministic model; `estimated_work` estimates the cost.
 """
 
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
 from .calibrated import CalibratedFriction, calibrated_friction
+from .calibrated_error import ErrorModel, error_models, features, least_half_width, rms_slopes, widening
 from .control_variate import control_for
 from .decision import decided
-from .error_model import ErrorModel, error_models, features, least_half_width, rms_slopes, widening
+from .error_of_eq8 import least_error, load_sharing_error, starved_error
 from .errors_of import moment_model_error
 from .forces import Forces, forces
 from .limits import limits_exceeded
 from .load_sharing_model import LoadSharingModel, LoadSharingSolution
-from .model_error import least_error, load_sharing_error, starved_error
 from .paper_model import PaperModel, PaperSolution
 from .point import Point
 from .response import Response, Slopes, loads_at, quantities, touched_length, with_contact_area_scaled

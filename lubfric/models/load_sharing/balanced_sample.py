@@ -20,9 +20,9 @@ from ...scene import budget
 from ..shared import (
     FEW,
     MATTERS,
-    BlockError,
     Prepared,
     ReferenceKey,
+    StandardError,
     add_errors,
     contact_on,
     on_piece,
@@ -108,7 +108,7 @@ class BalancedSample:
         return self.solved.response
 
     @property
-    def gap_error(self) -> BlockError:
+    def gap_error(self) -> StandardError:
         """Standard error of the mean gap [m] at given load: from place to place, and of the effect of the cells."""
         return add_errors(self.scatter.gap, self.effect.error)
 
@@ -124,12 +124,12 @@ class BalancedSample:
         return self.friction_error.error * (whole / to_first_order if to_first_order else 1.0)
 
     @property
-    def friction_error(self) -> BlockError:
+    def friction_error(self) -> StandardError:
         """Relative standard error of f, to first order: from place to place, and of the effect of the cells."""
         cells = self.effect.error
         response = self.response
         per_gap = response.per_gap("coefficient") if response is not None else 0.0
-        return add_errors(self.scatter.friction, BlockError(per_gap * cells.error, cells.freedom))
+        return add_errors(self.scatter.friction, StandardError(per_gap * cells.error, cells.freedom))
 
     @property
     def corrected_gap(self) -> float:
@@ -155,9 +155,9 @@ class BalancedSample:
         return 0.0 if self.response is None else self.response.relative("coefficient", getattr(self.effect, name))
 
     @property
-    def sampling_error(self) -> BlockError:
+    def sampling_error(self) -> StandardError:
         """The relative standard error of f because the sample is finite."""
-        return BlockError(self.sampling, self.friction_error.freedom if self.response is not None else 0)
+        return StandardError(self.sampling, self.friction_error.freedom if self.response is not None else 0)
 
     @property
     def point(self) -> Point:

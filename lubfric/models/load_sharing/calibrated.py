@@ -1,5 +1,5 @@
 """Calibrated load sharing: the friction of a rough film (`rough_film`), without its bias, and with the error that a
-campaign of solved cases leaves (`error_model`)."""
+campaign of solved cases leaves (`calibrated_error`)."""
 
 import math
 from dataclasses import asdict, dataclass, replace
@@ -8,9 +8,9 @@ import numpy as np
 
 from ...samples import Sample
 from ...scene import Scene, moves, moving_bodies
-from ..shared import BlockError, Prepared, error_by_heat, limit_bounds, on_strip
+from ..shared import Prepared, StandardError, error_by_heat, limit_bounds, on_strip
 from .balance import Balance, solve_balance
-from .error_model import error_model_of, error_models, features, out_of_range, rms_slopes, weight_of, widening
+from .calibrated_error import error_model_of, error_models, features, out_of_range, rms_slopes, weight_of, widening
 from .rough_film import RoughFilm, RoughMap, rough_film
 
 STRIPS = 4  # of the rough film: f of one scatters by some 7 % about their mean (scene "paper", .03 m/s)
@@ -39,7 +39,7 @@ class CalibratedFriction:
     bounds: tuple[float, float]
     least_bounds: tuple[float, float]
     bias: float
-    of_strips: BlockError
+    of_strips: StandardError
     by_film: tuple[float, float]
     by_heat: float
     by_limit: tuple[float, float]
@@ -92,7 +92,9 @@ def calibrated_friction(prepared: Prepared, sample: Sample, speed: float, line: 
         bias=bias,
         by_film=(0.0, 0.0) if scene.bodies.boundary_film is not None else _changes(film),
         by_heat=_by_heat(line),
-        by_limit=limit_bounds(scene, film.saturated_film, film.coefficient, (film.at_least_limit, film.at_most_limit)),
+        by_limit=limit_bounds(
+            scene, film.saturated_film_share, film.coefficient, (film.at_least_limit, film.at_most_limit)
+        ),
         weight=weight_of(scene, sq, speed, model.range["lambda"][0]),
         cases=model.cases,
         outside=tuple(outside),
@@ -136,11 +138,11 @@ def _mean_film(films: list[RoughFilm]) -> RoughFilm:
     return RoughFilm(**{name: float(np.mean([row[name] for row in rows])) for name in rows[0]})
 
 
-def _scatter(values: np.ndarray) -> BlockError:
+def _scatter(values: np.ndarray) -> StandardError:
     """Return the relative standard error of the mean of ``values`` of independent strips; of one it is not known here."""
     if values.size < 2 or values.mean() == 0:
-        return BlockError(0.0, 0)
-    return BlockError(float(values.std(ddof=1) / math.sqrt(values.size) / abs(values.mean())), values.size - 1)
+        return StandardError(0.0, 0)
+    return StandardError(float(values.std(ddof=1) / math.sqrt(values.size) / abs(values.mean())), values.size - 1)
 
 
 def rough_maps(prepared: Prepared, sample: Sample, heights: np.ndarray, speed: float, index: int = 0) -> list[RoughMap]:

@@ -19,8 +19,8 @@ from ...contact import (
 from ...samples import Sample
 from ...scene import budget
 from ..shared import (
-    BlockError,
     Prepared,
+    StandardError,
     add_errors,
     block_error,
     on_piece,
@@ -36,8 +36,8 @@ from .response import (
 )
 from .scatter import (
     gap_influence,
+    hertz_mean_gap,
     line_load,
-    strip_gap,
 )
 
 # Largest ratio of successive changes with which a series of halvings is continued. Not measured: heights of an
@@ -80,7 +80,7 @@ class CellStep:
     """
 
     gap: float
-    error: BlockError
+    error: StandardError
     remaining_change: float
     finer_grid_change: float
     film: float
@@ -96,7 +96,7 @@ class CellEffect:
     """The mean `CellStep` of several pieces, which were solved at ``contact_load`` [N]."""
 
     gap: float = 0.0
-    error: BlockError = BlockError(0.0, 1)
+    error: StandardError = StandardError(0.0, 1)
     remaining_change: float = 0.0
     finer_grid_change: float = math.nan
     film: float = 0.0
@@ -128,7 +128,7 @@ def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, sample: 
     steps: list[CellStep] = []
     while not _settled(steps, min(MOST_PIECES, sample.pieces), scatter):
         steps.append(_step(prepared, point, balance, sample, len(steps), enough))
-    error = BlockError(0.0, 1) if sample.refines_in_place else mean_error(steps)
+    error = StandardError(0.0, 1) if sample.refines_in_place else mean_error(steps)
 
     def mean(name: str) -> float:
         return sum(getattr(step, name) for step in steps) / len(steps)
@@ -204,7 +204,7 @@ def _along_y(contact: HalfSpaceContact, state: ContactState, slope: float, rows:
     """Influence on the mean gap beyond the mean film [m], and share of A in contact, means over ``rows`` cells along
     y."""
     assert state.fields is not None
-    gap = gap_influence(strip_gap(contact, state), line_load(contact, state), slope) - state.mean_film
+    gap = gap_influence(hertz_mean_gap(contact, state), line_load(contact, state), slope) - state.mean_film
     touching = contact.weight @ (state.fields.pressure > 0) / contact.weight.sum()
     return gap.reshape(-1, rows).mean(axis=1), touching.reshape(-1, rows).mean(axis=1)
 
@@ -217,7 +217,7 @@ def _ratio(fine: np.ndarray, coarse: np.ndarray, step: float, correlation: float
     return ratio, block_error(fine - ratio * coarse, step, correlation).error / float(fine.mean())
 
 
-def mean_error(steps: Sequence[CellStep]) -> BlockError:
+def mean_error(steps: Sequence[CellStep]) -> StandardError:
     """Error [m] of the mean change of the gap over several pieces.
 
     If the pieces are too short for blocks, it follows from the differences between them. Fewer than three of these have
@@ -225,11 +225,11 @@ def mean_error(steps: Sequence[CellStep]) -> BlockError:
     """
     if all(math.isfinite(step.error.error) for step in steps):
         within = add_errors(*(step.error for step in steps))
-        return BlockError(within.error / len(steps), within.freedom)
+        return StandardError(within.error / len(steps), within.freedom)
     gaps = np.array([step.gap for step in steps])
     few = gaps.size < FEWEST
     scatter = float(np.sqrt(np.mean(gaps**2))) if few else float(np.std(gaps, ddof=1))
-    return BlockError(scatter / math.sqrt(gaps.size), gaps.size if few else gaps.size - 1)
+    return StandardError(scatter / math.sqrt(gaps.size), gaps.size if few else gaps.size - 1)
 
 
 def remaining(changes: Sequence[float]) -> float:

@@ -14,17 +14,17 @@ import numpy as np
 
 from ..shared import (
     ORDER,
-    BlockError,
     ControlVariate,
     Prepared,
+    StandardError,
     on_strip,
 )
 from .balanced_sample import BalancedSample
 from .scatter import (
     friction_influence,
     gap_influence,
+    hertz_mean_gap,
     line_load,
-    strip_gap,
 )
 
 
@@ -54,8 +54,8 @@ def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlV
     places = of_strips(solved.forces.coefficient * friction_influence(prepared.scene, contact, solved))
     numbers = {"coefficient": places.mean(axis=1)}
     if response is None or response.rates is None:
-        return ControlVariate(places, numbers, BlockError(balanced.sampling, ORDER))
-    gap, loads = (of(contact, solved.contact) for of in (strip_gap, line_load))
+        return ControlVariate(places, numbers, StandardError(balanced.sampling, ORDER))
+    gap, loads = (of(contact, solved.contact) for of in (hertz_mean_gap, line_load))
     influence = gap_influence(gap, loads, response.slopes.gap)
     moved = response.log_load_ratio_per_gap * of_strips(influence).mean(axis=1)  # of ln(F_H/F_C)
     for name, value in (
@@ -69,4 +69,4 @@ def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlV
         numbers[name] = value * response.rates[name] * moved
     numbers["shear_force"] = load * numbers["coefficient"] - numbers["boundary_force"]
     numbers["couette_force"] = numbers["shear_force"] - numbers["rolling_force"]
-    return ControlVariate(places, numbers, BlockError(balanced.sampling, balanced.friction_error.freedom))
+    return ControlVariate(places, numbers, StandardError(balanced.sampling, balanced.friction_error.freedom))

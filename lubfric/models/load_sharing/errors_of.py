@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 from ...quantities import depending_on
 from ...scene import Scene, budget, gap_not_resolved, moves
-from ..shared import FEW, ORDER, TOO_SHORT, BlockError, error_by_heat, percent, too_few
+from ..shared import FEW, ORDER, TOO_SHORT, StandardError, error_by_heat, percent, too_few
 from .balance import Balance
 from .balanced_sample import BalancedSample
+from .error_of_eq8 import least_error, load_sharing_error, starved_error
 from .forces import Forces
-from .model_error import least_error, load_sharing_error, starved_error
 from .scatter import Scatter
 
 # Relative change of the plastic part over that of the load or the area, at most about. Not measured.
@@ -34,7 +34,7 @@ class PointErrors:
     """
 
     numerical: float
-    sampling: BlockError
+    sampling: StandardError
     model: tuple[float, float]
     errors: dict[str, float]
     why_not: str
@@ -51,7 +51,7 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
     forces = balance.forces
     scatter = balanced.scatter
     sampling = balanced.sampling
-    error = BlockError(0.0, ORDER)
+    error = StandardError(0.0, ORDER)
     why = "there was none, or too little to estimate it"
     if balance.film is None:
         # only areas scatter
@@ -72,7 +72,7 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
     notes = _notes(balanced, scene, sampling)
     if not math.isfinite(sampling):
         sampling = math.nan
-    of_model, unknown = model_error(balanced)
+    of_model, unknown = model_error_of_eq8(balanced)
     film_sensitivity = (
         response.per_film(forces, balance.contact.mean_film) if response is not None else forces.film_sensitivity
     )
@@ -82,7 +82,7 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
     left_out = dict.fromkeys(depending_on("heat"), forces.heat.reason(scene)) if balance.film is not None else {}
     return PointErrors(
         numerical=relative,
-        sampling=BlockError(sampling, error.freedom),
+        sampling=StandardError(sampling, error.freedom),
         model=of_model,
         errors=errors | {"coefficient": both},
         why_not=why,
@@ -180,7 +180,7 @@ def _shear_errors(friction: Forces, film: float) -> dict[str, float]:
     return {n: (error + shear.quadrature) / abs(value) if value else 0.0 for n, (value, error) in parts.items()}
 
 
-def model_error(balanced: BalancedSample) -> tuple[tuple[float, float], tuple[str, ...]]:
+def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], tuple[str, ...]]:
     """Relative error of f by load sharing itself, at 95 %, below and above f; where it is not known NaN, and why."""
     balance = balanced.balance
     scene = balanced.prepared.scene

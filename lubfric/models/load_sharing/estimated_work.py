@@ -10,7 +10,7 @@ from ...scene import Scene, moves
 from ...surface import Surface
 from ..contract import WorkEstimate
 from ..shared import SAFETY, smooth_over_cells
-from .model_error import load_sharing_error
+from .error_of_eq8 import load_sharing_error
 
 # Processor time [s] of a cell of the strips in balance: a fit to 33 points of `python -m
 # verification.campaigns.estimates`, as the two constants below.

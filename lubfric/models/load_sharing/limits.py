@@ -5,14 +5,14 @@ import math
 from ..shared import (
     Prepared,
     Validity,
-    of_deflection,
-    of_ends,
-    of_film,
-    of_inlet,
-    of_motion,
-    of_patches,
-    of_typical_heat,
     typical_heat,
+    warn_deflection,
+    warn_ends,
+    warn_film,
+    warn_inlet,
+    warn_motion,
+    warn_patches,
+    warn_typical_heat,
 )
 from .balance import Balance
 
@@ -23,16 +23,16 @@ def limits_exceeded(prepared: Prepared, speed: float, balance: Balance, ends: fl
     scene = prepared.scene
     film = balance.film
     thickness = film.central_film if film is not None else math.nan
-    entries = [*prepared.known, *of_motion(scene, speed, thickness), *of_ends(ends, prepared.surface.size[0])]
-    entries += of_patches(scene, prepared.surface.heights, balance.contact.real_contact_area_fraction)
+    entries = [*prepared.known, *warn_motion(scene, speed, thickness), *warn_ends(ends, prepared.surface.size[0])]
+    entries += warn_patches(scene, prepared.surface.heights, balance.contact.real_contact_area_fraction)
     if film is not None:
         peak = float(film.pressure.max())
         friction = balance.forces
         force = abs(friction.coefficient) * scene.bodies.load
-        entries += of_inlet(scene, film.contact, film.flow_film, force)
-        entries += of_film(scene, thickness, peak, friction.shear, balance.film_load, force, friction.heat)
+        entries += warn_inlet(scene, film.contact, film.flow_film, force)
+        entries += warn_film(scene, thickness, peak, friction.shear, balance.film_load, force, friction.heat)
         typical = typical_heat(scene, film, balance.contact, balance.contact_load, force, friction.shear)
-        entries += of_typical_heat(scene, typical)
+        entries += warn_typical_heat(scene, typical)
         if scene.numerics.film_deflection == "hydrodynamic" and balance.contact_load > 0:
-            entries += of_deflection(scene, balance.contact.mean_gap)
+            entries += warn_deflection(scene, balance.contact.mean_gap)
     return tuple(entries)

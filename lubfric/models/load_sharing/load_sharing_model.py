@@ -16,7 +16,7 @@ from ..contract import AtInputs, Model, ModelAnswer, SampleSolution, WorkEstimat
 from ..shared import ControlVariate, Prepared, add_errors, limit_in_words, no_rough_film, percent
 from .answer import answer_of
 from .calibrated import CalibratedFriction, calibrated_friction, film_on_strip
-from .error_model import error_model_of, least_half_width
+from .calibrated_error import error_model_of, least_half_width
 from .estimated_work import estimated_work
 from .paper_model import PaperModel, PaperSolution
 
@@ -51,7 +51,7 @@ class LoadSharingSolution(PaperSolution):
     def corrected(self) -> LoadSharingSolution:
         return LoadSharingSolution(self.balanced.corrected())
 
-    def sufficient(self) -> str:
+    def why_sufficient(self) -> str:
         tolerance = self.prepared.scene.numerics.model_tolerance
         if tolerance < least_half_width() or not self.applies or self.friction.error > tolerance:
             return ""
@@ -91,7 +91,7 @@ class LoadSharingModel(Model):
         alone = estimated_work(scene, sample, surface, speed)
         return alone if cheaper is None else replace(alone, seconds=0.0)
 
-    def unable(self, prepared: Prepared, speed: float) -> str:
+    def why_unable(self, prepared: Prepared, speed: float) -> str:
         return no_rough_film(prepared, speed) or gap_not_resolved(prepared.scene, prepared.given)
 
     def adopt(self, cheaper: SampleSolution) -> LoadSharingSolution | None:
@@ -122,8 +122,8 @@ def calibrated_answer(prepared: Prepared, answer: ModelAnswer, friction: Calibra
         friction.coefficient / film.coefficient if film.coefficient > 0 else 1.0
     )  # so that both parts of f keep their sign
     force = friction.coefficient * load
-    thin = min(film.boundary_film * scale, 1.0) * load
-    saturated = min(film.saturated_film * scale, 1.0 - thin / load) * load
+    thin = min(film.boundary_film_share * scale, 1.0) * load
+    saturated = min(film.saturated_film_share * scale, 1.0 - thin / load) * load
     boundary = scene.bodies.boundary_friction_coefficient * thin * (scene.motion.slide_roll_ratio != 0)
     calibrated = {
         "coefficient": friction.coefficient,
@@ -208,7 +208,7 @@ def in_words(friction: CalibratedFriction, *, is_moving: bool) -> str:
         parts.append(f"f by half the boundary film {100 * half:+.2g} %, by twice {100 * twice:+.2g} %")
     film = friction.film
     parts.append(
-        f"asperity load: boundary film {percent(film.boundary_film)}, saturated film {percent(film.saturated_film)}"
+        f"asperity load: boundary film {percent(film.boundary_film_share)}, saturated film {percent(film.saturated_film_share)}"
     )
     parts.append(NARROWER["moving" if is_moving else "at rest"])
     return "; ".join(parts)

@@ -8,11 +8,11 @@ from ...samples import Sample
 from ...scene import Scene
 from ...surface import Surface
 from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
-from ..shared import BlockError, ControlVariate, Heat, Prepared, Validity
+from ..shared import ControlVariate, Heat, Prepared, StandardError, Validity
 from .answer import answer_of, limits_of
 from .balanced_sample import BalancedSample, solve_sample
 from .control_variate import control_for
-from .errors_of import model_error
+from .errors_of import model_error_of_eq8
 from .estimated_work import estimated_work
 
 
@@ -43,7 +43,7 @@ class PaperSolution(SampleSolution):
         return self.balanced.speed
 
     @property
-    def sampling_error(self) -> BlockError:
+    def sampling_error(self) -> StandardError:
         return self.balanced.sampling_error
 
     def required_strips(self) -> int:
@@ -61,9 +61,9 @@ class PaperSolution(SampleSolution):
     def control(self) -> ControlVariate | None:
         return control_for(self.balanced)
 
-    def sufficient(self) -> str:
+    def why_sufficient(self) -> str:
         tolerance = self.prepared.scene.numerics.model_tolerance
-        if self.balanced.response is None and max(model_error(self.balanced)[0]) <= tolerance:
+        if self.balanced.response is None and max(model_error_of_eq8(self.balanced)[0]) <= tolerance:
             return "load sharing alone: the film is so thick that the roughness changes f by less than the tolerance"
         return ""
 

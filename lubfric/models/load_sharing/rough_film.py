@@ -67,7 +67,7 @@ class RoughFilm:
     coefficient : f; at_half_film, at_twice_film: with half and with twice the boundary film; at_least_limit,
         at_most_limit: with the limiting stress of a Newtonian lubricant at the ends of `LIMIT_RANGE` instead of f_b p
     asperity : share of the load on cells closer than the boundary film, dry contact among them
-    boundary_film, saturated_film : share of the load on the boundary film, and on thicker films whose stress is at a
+    boundary_film_share, saturated_film_share : share of the load on the boundary film, and on thicker films whose stress is at a
         limit. Dry contact does not distinguish them; the part of ``asperity`` that is film is an estimate
         (`HALF_SATURATED`)
     kept : Sq of the flattened roughness over that of the roughness
@@ -81,8 +81,8 @@ class RoughFilm:
     at_least_limit: float
     at_most_limit: float
     asperity: float
-    boundary_film: float
-    saturated_film: float
+    boundary_film_share: float
+    saturated_film_share: float
     kept: float
     gap: float
     contact: float
@@ -99,8 +99,8 @@ def rough_film(
     assert film is not None
     sq = float(contact.heights.std())
     step = contact.x[1] - contact.x[0]
-    strip = np.abs(contact.x) <= max(scene.bodies.half_width, 0.5001 * step)
-    thickness = float(film.film_at(contact.x)[strip].mean())
+    in_hertz = np.abs(contact.x) <= max(scene.bodies.half_width, 0.5001 * step)
+    thickness = float(film.film_at(contact.x)[in_hertz].mean())
     pressure = pressure_at(film, contact.x)
     if balance.contact.fields is not None:
         pressure = pressure + balance.contact.fields.pressure.mean(axis=1)
@@ -315,8 +315,8 @@ def summed(
         at_least_limit=friction(thickness, LIMIT_RANGE[0]),
         at_most_limit=friction(thickness, LIMIT_RANGE[1]),
         asperity=asperity,
-        boundary_film=(1 - shared) * asperity,
-        saturated_film=shared * asperity + films,
+        boundary_film_share=(1 - shared) * asperity,
+        saturated_film_share=shared * asperity + films,
         kept=kept,
         gap=balance.contact.mean_gap,
         contact=balance.contact_load / bodies.load,

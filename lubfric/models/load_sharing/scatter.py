@@ -19,7 +19,7 @@ from ...film import EHLResult
 from ...oil import shear_stress
 from ...samples import Sample
 from ...scene import Scene
-from ..shared import BlockError, block_error, means_of_blocks
+from ..shared import StandardError, block_error, means_of_blocks
 from .balance import (
     Balance,
 )
@@ -32,7 +32,7 @@ FEWEST_WINDOWS = 3
 SPOT = 1.75
 
 
-def strip_gap(contact: Any, state: Any) -> np.ndarray:
+def hertz_mean_gap(contact: Any, state: Any) -> np.ndarray:
     """G(y) [m] (ny,): the gap at every place along the line, averaged over the strip A. ``state``: a `ContactState`
     with fields."""
     return contact.weight @ np.maximum(state.fields.gap, 0.0) / contact.weight.sum()
@@ -43,9 +43,9 @@ def line_load(contact: Any, state: Any) -> np.ndarray:
     return state.fields.pressure.sum(axis=0) * contact.spacing[0]
 
 
-def gap_influence(strip_gap: FloatArray, line_load: FloatArray, slope: float) -> np.ndarray:
-    """I(y) [m] (ny,): strip_gap G(y) [m], line_load P(y) [N/m], slope dG/dP [m²/N] at a given film."""
-    return strip_gap - slope * (line_load - line_load.mean())
+def gap_influence(hertz_mean_gap: FloatArray, line_load: FloatArray, slope: float) -> np.ndarray:
+    """I(y) [m] (ny,): hertz_mean_gap G(y) [m], line_load P(y) [N/m], slope dG/dP [m²/N] at a given film."""
+    return hertz_mean_gap - slope * (line_load - line_load.mean())
 
 
 def effective_spots(line_load: FloatArray, step: float, correlation_length: float) -> float:
@@ -65,10 +65,10 @@ class Scatter:
     """
 
     length: float
-    gap: BlockError = BlockError(math.inf, 0)
-    area: BlockError = BlockError(math.inf, 0)
-    touched: BlockError = BlockError(math.inf, 0)
-    friction: BlockError = BlockError(math.inf, 0)
+    gap: StandardError = StandardError(math.inf, 0)
+    area: StandardError = StandardError(math.inf, 0)
+    touched: StandardError = StandardError(math.inf, 0)
+    friction: StandardError = StandardError(math.inf, 0)
     spots: float = 0.0
 
 
@@ -85,18 +85,18 @@ def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, sample
     touching = state.fields.pressure[:, rows] > 0
     squares = np.square(contact.heights[:, rows]).mean(axis=0) if sample.exact_sq else None
 
-    def error(influence: FloatArray) -> BlockError:
+    def error(influence: FloatArray) -> StandardError:
         return place_error(influence, step, sample, count, squares)
 
-    def at_given_load(values: FloatArray, slope: float) -> BlockError:
+    def at_given_load(values: FloatArray, slope: float) -> StandardError:
         return error(gap_influence(values, by_place, slope))
 
-    of_friction = BlockError(0.0, 1)
+    of_friction = StandardError(0.0, 1)
     if balance.film is not None and response.rates and balance.forces.total:
         of_friction = error(friction_influence(scene, contact, balance)[rows])
     return Scatter(
         length=by_place.size * step,
-        gap=at_given_load(strip_gap(contact, state)[rows], slopes.gap),
+        gap=at_given_load(hertz_mean_gap(contact, state)[rows], slopes.gap),
         area=at_given_load(contact.weight @ touching / contact.weight.sum(), slopes.area),
         touched=at_given_load(touching.sum(axis=0) * contact.spacing[0], slopes.touched),
         friction=of_friction,
@@ -118,13 +118,13 @@ def friction_influence(scene: Scene, contact: HalfSpaceContact, balance: Balance
     by_load = response.rates["coefficient"] * response.log_load_ratio_per_gap
     force = balance.forces.total / scene.bodies.width
     slope = by_load * response.slopes.gap - response.slopes.touched * float(lost.mean()) / touched / force
-    values = by_load * strip_gap(contact, state) - lost / force
+    values = by_load * hertz_mean_gap(contact, state) - lost / force
     return gap_influence(values, line_load(contact, state), slope)
 
 
 def place_error(
     influence: FloatArray, step: float, sample: Sample, count: int, exact: FloatArray | None = None
-) -> BlockError:
+) -> StandardError:
     """Standard error of the mean of the ``influence`` of places along ``count`` strips, on cells of ``step`` [m]: from
     blocks (`block_error`). If there are three windows of a measured map or more, it is the larger of that and the one
     from windows, which show whether a surface differs from place to place."""
@@ -132,7 +132,7 @@ def place_error(
     if not sample.windows or count < FEWEST_WINDOWS:
         return blocks
     means = means_of_blocks(influence, count)
-    windows = BlockError(float(means.std(ddof=1)) / math.sqrt(count), count - 1)
+    windows = StandardError(float(means.std(ddof=1)) / math.sqrt(count), count - 1)
     return max((e for e in (blocks, windows) if math.isfinite(e.error)), key=lambda e: e.error)
 
 
@@ -171,7 +171,7 @@ def moment_error(
     if state.fields is None or not math.isfinite(correlation_length):
         return math.nan
     slope = -softness / (contact_load / width)
-    values = gap_influence(strip_gap(contact, state), line_load(contact, state), slope)
+    values = gap_influence(hertz_mean_gap(contact, state), line_load(contact, state), slope)
     influence_error = block_error(values, contact.spacing[1], correlation_length)
     shares = contact_load / total, film_load / total
     split = influence_error.error / (softness * shares[1] + thinning * state.mean_film * shares[0])

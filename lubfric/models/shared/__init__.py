@@ -7,21 +7,21 @@ this one.
 
 from .checks import (
     meaningless,
-    of_deflection,
-    of_ends,
-    of_error,
-    of_film,
-    of_heat,
-    of_inlet,
-    of_motion,
-    of_patches,
-    of_pressure,
-    of_shear,
-    of_thickness,
-    of_typical_heat,
     peak_hertz_pressure,
+    warn_deflection,
+    warn_ends,
+    warn_error,
+    warn_film,
+    warn_heat,
+    warn_inlet,
+    warn_motion,
+    warn_patches,
+    warn_pressure,
+    warn_shear,
+    warn_thickness,
+    warn_typical_heat,
 )
-from .checks_before import expected, of_bodies, of_map
+from .checks_before import expected, warn_bodies, warn_map
 from .control_variate import ControlVariate
 from .decision import Decision
 from .film_speed import exponents, speed_of
@@ -47,7 +47,7 @@ from .statistics import (
     ORDER,
     SAFETY,
     TOO_SHORT,
-    BlockError,
+    StandardError,
     add_errors,
     block_error,
     means_of_blocks,

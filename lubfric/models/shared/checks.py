@@ -59,7 +59,7 @@ SHARE = 0.2
 FRICTION = 0.2
 
 
-def of_motion(scene: Scene, speed: float, film: float) -> Iterator[Validity]:
+def warn_motion(scene: Scene, speed: float, film: float) -> Iterator[Validity]:
     """Entries for sliding, inertia and turbulence at ``speed`` [m/s] and a film thickness [m] (NaN: no film)."""
     ratio = abs(scene.motion.slide_roll_ratio)
     if ratio > OPPOSED * (1 + 1e-12):
@@ -99,14 +99,14 @@ def of_motion(scene: Scene, speed: float, film: float) -> Iterator[Validity]:
             )
 
 
-def of_film(
+def warn_film(
     scene: Scene, thickness: float, peak: float, shear: ShearForce, film_load: float, force: float, heat: Heat
 ) -> Iterator[Validity]:
-    """Entries for a film of central ``thickness`` [m] and ``peak`` pressure [Pa]; the rest: `of_shear`, `of_heat`."""
-    yield from of_pressure(scene, max(peak, peak_hertz_pressure(scene)))
-    yield from of_thickness(scene, thickness)
-    yield from of_shear(scene, shear, film_load, force)
-    yield from of_heat(scene, heat)
+    """Entries for a film of central ``thickness`` [m] and ``peak`` pressure [Pa]; the rest: `warn_shear`, `warn_heat`."""
+    yield from warn_pressure(scene, max(peak, peak_hertz_pressure(scene)))
+    yield from warn_thickness(scene, thickness)
+    yield from warn_shear(scene, shear, film_load, force)
+    yield from warn_heat(scene, heat)
 
 
 def peak_hertz_pressure(scene: Scene) -> float:
@@ -115,7 +115,7 @@ def peak_hertz_pressure(scene: Scene) -> float:
     return 4 / math.pi * scene.bodies.mean_hertz_pressure
 
 
-def of_pressure(scene: Scene, peak: float) -> Iterator[Validity]:
+def warn_pressure(scene: Scene, peak: float) -> Iterator[Validity]:
     """Entries for the highest film pressure ``peak`` [Pa]."""
     law = scene.lubricant.viscosity_law
     hertz_peak = peak_hertz_pressure(scene)
@@ -143,7 +143,7 @@ def of_pressure(scene: Scene, peak: float) -> Iterator[Validity]:
     )
 
 
-def of_thickness(scene: Scene, film: float) -> Iterator[Validity]:
+def warn_thickness(scene: Scene, film: float) -> Iterator[Validity]:
     """Entries for the central film thickness ``film`` [m]."""
     radius = scene.bodies.radius
     if not film > THICK * radius:
@@ -159,7 +159,7 @@ def of_thickness(scene: Scene, film: float) -> Iterator[Validity]:
     )
 
 
-def of_inlet(scene: Scene, line: LineContact, flow: float, friction: float) -> Iterator[Validity]:
+def warn_inlet(scene: Scene, line: LineContact, flow: float, friction: float) -> Iterator[Validity]:
     """Entries for a film of ``line``, a `LineContact`, that a given inlet changes: its ``flow`` film [m] over that of a
     full one, by Moes; or what the lubricant farther out would add to ``friction`` |f| F_T [N] by rolling, 12 eta U R/x
     a width from x on: ∫ h/2 dp/dx dx, where the film is far thicker than where it rolls in."""
@@ -187,7 +187,7 @@ def of_inlet(scene: Scene, line: LineContact, flow: float, friction: float) -> I
         )
 
 
-def of_deflection(scene: Scene, mean_gap: float, remedy: str = ANOTHER) -> Iterator[Validity]:
+def warn_deflection(scene: Scene, mean_gap: float, remedy: str = ANOTHER) -> Iterator[Validity]:
     """Entries for a film that only its own pressure deflects, over a contact with that ``mean_gap`` [m]: the possible
     error of its share of the load."""
     change = scene.bodies.strip_rise / max(mean_gap, 1e-300)
@@ -198,7 +198,7 @@ def of_deflection(scene: Scene, mean_gap: float, remedy: str = ANOTHER) -> Itera
     yield Validity(what=what, value=change, limit=STRIP_SHARE, unit="", consequence=why, remedy=remedy)
 
 
-def of_ends(share: float, length: float) -> Iterator[Validity]:
+def warn_ends(share: float, length: float) -> Iterator[Validity]:
     """Entries for the ``share`` of the contact's load on the edge columns of a patch of ``length`` [m] along x."""
     if share > ON_ENDS:
         why = f"its ends, {worded(length, 'm')} apart, cut the contact off"
@@ -208,7 +208,7 @@ def of_ends(share: float, length: float) -> Iterator[Validity]:
         )
 
 
-def of_patches(scene: Scene, heights: FloatArray, area: float) -> Iterator[Validity]:
+def warn_patches(scene: Scene, heights: FloatArray, area: float) -> Iterator[Validity]:
     """Entries for asperities that are patches of ``heights`` [m] (nx, ny), whose contact area is the fraction ``area``:
     half of their base area, since they are paraboloids."""
     if scene.contact.model != "patches" or area == 0:
@@ -232,7 +232,7 @@ def meaningless(shear: ShearForce) -> bool:
     return not shear.excess <= 0.5 * abs(shear.couette)
 
 
-def of_shear(scene: Scene, shear: ShearForce, film_load: float, friction_force: float) -> Iterator[Validity]:
+def warn_shear(scene: Scene, shear: ShearForce, film_load: float, friction_force: float) -> Iterator[Validity]:
     """Entries for the ``shear`` (`ShearForce`) of a film that carries ``film_load``; ``friction_force``: f F_T; both in
     N, or both per width.
 
@@ -264,7 +264,7 @@ def of_shear(scene: Scene, shear: ShearForce, film_load: float, friction_force: 
         yield Validity(what=what, value=friction, limit=FRICTION, unit="", consequence=why, remedy=remedy)
 
 
-def of_heat(scene: Scene, heat: Heat) -> Iterator[Validity]:
+def warn_heat(scene: Scene, heat: Heat) -> Iterator[Validity]:
     """``heat``: `lubfric.models.shared.Heat` of a point."""
     tolerance = scene.numerics.tolerance
     if heat.used and heat.inlet is not None:
@@ -292,7 +292,7 @@ def of_heat(scene: Scene, heat: Heat) -> Iterator[Validity]:
         )
 
 
-def of_typical_heat(scene: Scene, change: float) -> Iterator[Validity]:
+def warn_typical_heat(scene: Scene, change: float) -> Iterator[Validity]:
     """Entries for heat that is omitted because the lubricant does not say how its viscosity falls with the
     temperature. ``change``: the share of f that a typical oil would lose by it (`typical_heat`)."""
     if change > scene.numerics.tolerance:
@@ -309,7 +309,7 @@ def of_typical_heat(scene: Scene, change: float) -> Iterator[Validity]:
         )
 
 
-def of_error(error: float | None, tolerance: float, remedy: str) -> Iterator[Validity]:
+def warn_error(error: float | None, tolerance: float, remedy: str) -> Iterator[Validity]:
     """A warning if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known)."""
     if error is not None and error > tolerance:
         why = "the error of the solve is above the requested tolerance"

@@ -11,7 +11,7 @@ from ...film import ShearForce, hertz
 from ...oil import carried_stress, shear_stress
 from ...scene import Bodies, Scene, unusual_values
 from ...surface import Surface, correlation_length, rms_slope
-from .checks import of_motion, of_pressure, of_shear, peak_hertz_pressure
+from .checks import peak_hertz_pressure, warn_motion, warn_pressure, warn_shear
 from .validity import Validity
 
 # Nodes across the Hertz strip of the estimate of the shear: their sum is off by 6e-5 with an Eyring stress.
@@ -58,7 +58,7 @@ def beforehand(scene: Scene, surface: Surface) -> tuple[Validity, ...]:
         for name, value, limit, unit, meant in unusual_values(scene)
     ]
     cells = [_cells_of_length(surface, axis) for axis in (0, 1)]
-    return (*unusual, *of_bodies(scene.bodies), *of_map(rms_slope(surface)[2], surface.shape[1] / cells[1], cells))
+    return (*unusual, *warn_bodies(scene.bodies), *warn_map(rms_slope(surface)[2], surface.shape[1] / cells[1], cells))
 
 
 def _cells_of_length(surface: Surface, axis: int) -> float:
@@ -72,7 +72,7 @@ def _cells_of_length(surface: Surface, axis: int) -> float:
         return math.nan
 
 
-def of_bodies(bodies: Bodies) -> Iterator[Validity]:
+def warn_bodies(bodies: Bodies) -> Iterator[Validity]:
     """Half-space and elasticity of the Hertz contact."""
     wide = bodies.half_width / bodies.radius
     if wide > WIDE:
@@ -113,7 +113,7 @@ def of_bodies(bodies: Bodies) -> Iterator[Validity]:
         )
 
 
-def of_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterator[Validity]:
+def warn_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterator[Validity]:
     """Entries for the map. ``slope``: its rms slope [-]; ``lengths``: its width over its correlation length across the
     motion; ``cells``: in its correlation length along x and y. NaN: not known."""
     if slope > STEEP:
@@ -159,18 +159,18 @@ def expected(scene: Scene, surface: Surface, speeds: list[float]) -> tuple[tuple
     under the total load."""
     entries_by_speed: list[tuple[float | None, Validity]] = [(None, entry) for entry in beforehand(scene, surface)]
     if scene.numerics.model == "deterministic":
-        in_all = [replace(entry, severe=False) for entry in of_pressure(scene, peak_hertz_pressure(scene))]
+        in_all = [replace(entry, severe=False) for entry in warn_pressure(scene, peak_hertz_pressure(scene))]
         return (*entries_by_speed, *((None, entry) for entry in in_all))
     for speed in speeds:
         if speed == 0:
             continue
         film = scene.line_contact(speed).expected_film
-        entries = [*of_motion(scene, speed, film), *_of_film(scene, speed, film)]
+        entries = [*warn_motion(scene, speed, film), *_warn_film(scene, speed, film)]
         entries_by_speed += [(speed, entry) for entry in entries]
     return tuple(entries_by_speed)
 
 
-def _of_film(scene: Scene, speed: float, film: float) -> list[Validity]:
+def _warn_film(scene: Scene, speed: float, film: float) -> list[Validity]:
     """Entries for a ``film`` [m] of even thickness under the Hertz pressure."""
     bodies = scene.bodies
     lubricant = scene.lubricant
@@ -186,4 +186,4 @@ def _of_film(scene: Scene, speed: float, film: float) -> list[Validity]:
         couette=force, rolling=0.0, excess=excess, stress_ratio=float(np.max(stress / carried_stress(pressure)))
     )
     total = max(force, bodies.boundary_friction_coefficient * bodies.load)
-    return [*of_pressure(scene, peak_hertz_pressure(scene)), *of_shear(scene, shear, bodies.load, total)]
+    return [*warn_pressure(scene, peak_hertz_pressure(scene)), *warn_shear(scene, shear, bodies.load, total)]

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .statistics import BlockError
+from .statistics import StandardError
 
 
 @dataclass(frozen=True)
@@ -14,7 +14,7 @@ class ControlVariate:
 
     by_place: np.ndarray
     numbers: dict[str, np.ndarray]
-    sampling: BlockError
+    sampling: StandardError
 
     @property
     def count(self) -> int:

@@ -77,13 +77,13 @@ class OperatorKey(Key[HalfSpace]):
 class ReferenceKey(Key[Any]):
     """A solution at a fixed speed, from which others start or take a correction.
 
-    ``what``: of it; ``film``: what the fixed speed is found by; ``forward``: whether that speed is positive.
+    ``what``: of it; ``at``: film or step that the fixed speed is found by, or that speed [m/s]; ``forward``: whether that speed is positive.
     """
 
     of_surface_alone = False
     coarsening: tuple[int, int]
     what: str
-    film: float
+    at: float
     forward: bool
 
 

@@ -39,7 +39,7 @@ class Prepared(FieldsOnly, Shown):
     contact : the rough contact on it
     known : assumptions of the model that bodies and map violate
     sample : what represents the infinite rough line contact
-    given : True: the map was given to `prepare`, and there is no more of it
+    given : whether a map or a contact was given to `prepare`, so that there is no more of it
     """
 
     scene: Scene

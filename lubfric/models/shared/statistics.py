@@ -61,7 +61,7 @@ TOO_SHORT = (
 
 
 @dataclass(frozen=True)
-class BlockError:
+class StandardError:
     """Standard error of a mean over blocks, in the unit of the values, and its degrees of freedom."""
 
     error: float
@@ -70,7 +70,7 @@ class BlockError:
 
 def block_error(
     values: np.ndarray, step: float, correlation_length: float, exact: FloatArray | None = None
-) -> BlockError:
+) -> StandardError:
     """Standard error of the mean of ``values`` (ny,), on cells of ``step`` [m], from block means.
 
     It is s/sqrt(n (1 - 0.56/b)) with n = 8 to 32 blocks, each at least b = 9 correlation lengths [m] long. If the line
@@ -88,7 +88,7 @@ def block_error(
     count = max(count, min(ENOUGH_BLOCKS, int(values.size * step / (BLOCK * correlation_length))))
     count = min(count, values.size)
     if count < LEAST_BLOCKS:
-        return BlockError(math.inf, 0)
+        return StandardError(math.inf, 0)
     means = means_of_blocks(values, count)
     freedom = count - 1
     if exact is not None:
@@ -98,7 +98,7 @@ def block_error(
             means, freedom = means - known * (float(known @ means) / square), count - 2
     square = float(np.sum((means - means.mean()) ** 2))
     length = values.size // count * step / correlation_length
-    return BlockError(math.sqrt(square / (freedom * count * (1 - ENDS / length))), freedom)
+    return StandardError(math.sqrt(square / (freedom * count * (1 - ENDS / length))), freedom)
 
 
 def means_of_blocks(values: np.ndarray, count: int) -> np.ndarray:
@@ -107,21 +107,21 @@ def means_of_blocks(values: np.ndarray, count: int) -> np.ndarray:
     return values[: size * count].reshape(count, size).mean(axis=1)
 
 
-def add_errors(*parts: BlockError) -> BlockError:
+def add_errors(*parts: StandardError) -> StandardError:
     """Error of a sum of independent quantities. The degrees of freedom are by Welch and Satterthwaite
     (F. E. Satterthwaite, Biometrics Bull. 2 (1946) 110-114, doi:10.2307/3002019)."""
     terms = [(part.error**2, part.freedom) for part in parts]
     variance = sum(v for v, _ in terms)
     if variance == 0 or not math.isfinite(variance):
-        return BlockError(math.sqrt(variance), sum(f for _, f in terms))
-    return BlockError(math.sqrt(variance), int(variance**2 / sum(v**2 / max(f, 1) for v, f in terms)))
+        return StandardError(math.sqrt(variance), sum(f for _, f in terms))
+    return StandardError(math.sqrt(variance), int(variance**2 / sum(v**2 / max(f, 1) for v, f in terms)))
 
 
 def required_strips(
     count: int,
     first: int,
     available: int,
-    error: BlockError,
+    error: StandardError,
     target: float,
     enough: float = 0.0,
     *,

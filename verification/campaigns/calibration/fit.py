@@ -265,7 +265,7 @@ def ranges(solved: Sequence[Solved]) -> dict[str, np.ndarray]:
 HEAD = """# The error of calibrated load sharing, fitted to the tables of verification/campaigns/calibration by
 # python -m verification.campaigns.calibration fit: ln(f deterministic/f) has the mean `bias` times features, whose
 # coefficients have the `covariance`, and the standard deviation exp(`spread` times features); `quantile` times both
-# together is the half-width of 95 % (lubfric/models/load_sharing/error_model.py). Do not edit by hand.
+# together is the half-width of 95 % (lubfric/models/load_sharing/calibrated_error.py). Do not edit by hand.
 """
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..errors import ConvergenceError
 from ..models import ContactFields, ModelAnswer
-from ..models.shared import Prepared, of_error
+from ..models.shared import Prepared, warn_error
 from ..quantities import NUMBERS
 from ..scene import Scene
 from .choice import Choice
@@ -39,7 +39,7 @@ def result_of(prepared: Prepared, choice: Choice, begun: float, *, fine: bool = 
     decision = answer.decision
     if choice.why:
         decision = replace(decision, notes=(*decision.notes, choice.why))
-    validity = (*answer.warnings, *of_error(answer.numerical, scene.numerics.tolerance, answer.recommendation))
+    validity = (*answer.warnings, *warn_error(answer.numerical, scene.numerics.tolerance, answer.recommendation))
     notes = (*answer.report.notes, decision.text, *(entry.text for entry in validity), uncertainty.text)
     numbers: dict[str, Any] = dict.fromkeys(NUMBERS, math.nan) | answer.numbers
     numbers["seconds"] = time.perf_counter() - begun
