@@ -323,7 +323,7 @@ def covered(folder: Path = FOLDER) -> Iterator[dict[str, Any]]:
             continue
         truth = float(np.mean([float(row["f"]) for row in strips])) * float(np.mean(cells))
         error = math.sqrt(sum(float(row["error"]) ** 2 for row in strips)) / len(strips) / truth
-        deviations = np.array([float(row["f"]) / truth - 1 for row in answers])
+        deviations = np.array([1 - truth / float(row["f"]) for row in answers])  # over f, as its half-width is
         widths = np.array([_half_width(row) for row in answers])
         yield {
             "contact": contact.name,
