@@ -21,8 +21,8 @@ from ..surface import Surface
 from .cells import Cells
 from .contacts import half_space_contact_of
 
-# Correlation lengths along y of a piece on native cells: eight blocks of five lengths (models/shared/statistics.py), so that a
-# piece states its own error.
+# Correlation lengths along y of a piece on native cells: eight blocks of five lengths (models/shared/statistics.py), so
+# that a piece states its own error.
 PIECE = 42.0
 
 

@@ -95,8 +95,8 @@ class Levels:
 
 @dataclass(frozen=True, kw_only=True)
 class TwoLevelEstimate:
-    """The first two levels: ``line_strips``, ``numbers`` as in `Levels`; standard errors of f: ``whole``, and the part of it
-    that is the ``difference`` between the models; ``between``: standard deviation of f between strips;
+    """The first two levels: ``line_strips``, ``numbers`` as in `Levels`; standard errors of f: ``whole``, and the part
+    of it that is the ``difference`` between the models; ``between``: standard deviation of f between strips;
     ``note``: what the control of moving roughness changed."""
 
     line_strips: int

@@ -83,6 +83,11 @@ class DeterministicModel(Model):
         start: SampleSolution | None = None,
         control: ControlVariate | None = None,
     ) -> DeterministicSolution:
+        """Solve the first ``count`` strips.
+
+        The strips are those of ``prepared.sample``, whatever cells ``sample`` has, because this model chooses its own
+        (`cells_of`).
+        """
         solved = start.strips if isinstance(start, DeterministicSolution) else ()
         strips = solve_strips(prepared, speed, count, solved)
         estimate, wanted = two_levels(prepared, strips, control)

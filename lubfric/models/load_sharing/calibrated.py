@@ -15,7 +15,7 @@ from .rough_film import RoughFilm, RoughMap, rough_film
 
 STRIPS = 4  # of the rough film: f of one scatters by some 7 % about their mean (scene "paper", .03 m/s)
 ROLLING = 8.0  # of the rolling part of f: what pressure on the flanks of moving roughness may add (docs/uncertainty.md)
-FLANKS = 1.5  # lambda ratio from which on that falls, with the square of it
+FLANKS = 1.5  # Moes' film over Sq from which on that falls, with the square of it
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +30,7 @@ class CalibratedFriction:
     by_heat : relative error of f by what heat does to it (`lubfric.models.shared.error_by_heat`)
     by_limit : how much lower and higher f is with the limiting stress of a Newtonian oil at the ends of what oils
         have; zeros where that does not matter
-    weight : of this f in the answer; below 1 where the lambda ratio is below that of the campaign (`weight_of`)
+    weight : of this f in the answer; below 1 where Moes' film over Sq is below that of the campaign (`weight_of`)
     cases : number of solved cases behind the bounds; outside : what is outside of their range, as text
     """
 
@@ -168,8 +168,8 @@ def _by_flanks(scene: Scene, film: RoughFilm, sq: float, speed: float) -> float:
     known = error_models()["rolling"].range["slip"][0]
     if not moves(scene) or abs(scene.motion.slide_roll_ratio) >= known or film.coefficient == 0:
         return 0.0
-    ratio = scene.line_contact(abs(speed)).moes_film / sq
-    return ROLLING * min(1.0, (FLANKS / ratio) ** 2) * abs(film.rolling / film.coefficient)
+    moes_ratio = scene.line_contact(abs(speed)).moes_film / sq
+    return ROLLING * min(1.0, (FLANKS / moes_ratio) ** 2) * abs(film.rolling / film.coefficient)
 
 
 def _changes(film: RoughFilm) -> tuple[float, float]:

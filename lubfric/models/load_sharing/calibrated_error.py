@@ -40,7 +40,7 @@ class ErrorModel:
 
     cases : number of solved cases; bias : coefficient of each feature; covariance : of these coefficients
     spread : coefficient of each feature in ln σ; quantile : k; least_spread : σ that one case in a hundred is below
-    range : least and largest pressure [Pa], lambda ratio [-], load [N/m] and slide-roll ratio [-] of the cases
+    range : least and largest pressure [Pa], Moes' film over Sq [-], load [N/m] and slide-roll ratio [-] of the cases
     """
 
     cases: int
@@ -91,8 +91,8 @@ def features(
     - "one"; "film": t (1 - a)/f; "unthinned": the same for a fluid whose flow no shear thins, else 0
     - "asperity": S = a (1 - a) (f_b - t)/f, by which f changes with the logit of a; and S times
       "thickness", ln of Moes' film over the boundary film; "contact", the share of the load on the flattened roughness; "width",
-      ln of the wavelength along y over the Hertz half-width; "length", the same along x; "lay" times ln of the lambda
-      ratio; "thinness", the square of that; "no thinning", 1 for a fluid as above
+      ln of the wavelength along y over the Hertz half-width; "length", the same along x; "lay" times ln of Moes'
+      film over Sq; "thinness", the square of that; "no thinning", 1 for a fluid as above
     - of σ only: "sensitivity" |S|; "contrast"; "viscous", ln of the viscosity at the mean Hertz pressure;
       "rolling", the part of f; "slope" along y and "wavelength" along x, both as ln.
     """
@@ -110,7 +110,7 @@ def features(
     along, across = (max(slope, 1e-9) for slope in slopes)
     lay = math.log(across / along) / RIDGES
     wavelength, width = (math.log(math.sqrt(2) * sq / slope / bodies.half_width) for slope in (along, across))
-    log_lambda = math.log(line.moes_film / sq)
+    log_moes_ratio = math.log(line.moes_film / sq)
     contrast = abs(friction - f) / f * math.sqrt(share / (1 - share))
     return {
         "one": 1.0,
@@ -121,8 +121,8 @@ def features(
         "asperity contact": sensitivity * film["contact"],
         "asperity width": sensitivity * width,
         "asperity length": sensitivity * wavelength,
-        "asperity lay": sensitivity * lay * log_lambda,
-        "asperity thinness": sensitivity * log_lambda**2,
+        "asperity lay": sensitivity * lay * log_moes_ratio,
+        "asperity thinness": sensitivity * log_moes_ratio**2,
         "asperity no thinning": sensitivity * thins_not,
         "sensitivity": min(abs(sensitivity), 1.0),
         "contrast": min(contrast, MOST_CONTRAST),
@@ -143,9 +143,10 @@ def out_of_range(scene: Scene, sq: float, speed: float, known: Mapping[str, tupl
     """Return how far ``scene`` is outside the range of the campaign, in ln, by a description as text."""
     line = scene.line_contact(abs(speed))
     ratio = abs(scene.motion.slide_roll_ratio)
+    moes_ratio = line.moes_film / sq
     values = {
         "pressure": ("Hertz pressure of {:.3g} Pa", peak_hertz_pressure(scene)),
-        "lambda": ("lambda ratio of {:.3g}", line.moes_film / sq),
+        "lambda": ("Moes' film over Sq of {:.3g}", moes_ratio),
         "load": ("load of {:.3g} N/m", scene.bodies.load / scene.bodies.width),
         "slip": ("slide-roll ratio of {:.3g}", ratio),
     }
@@ -164,11 +165,11 @@ def weight_of(scene: Scene, sq: float, speed: float, least: float) -> float:
     """Return the weight of calibrated friction compared with Eq. (9), which is right where asperities carry the total
     load.
 
-    It is 1 from the ``least`` lambda ratio of the campaign on, falls linearly in its logarithm, and is 0 below half of
-    it.
+    It is 1 from the ``least`` ratio of Moes' film to Sq of the campaign on, falls linearly in its logarithm, and is 0
+    below half of it.
     """
-    ratio = scene.line_contact(abs(speed)).moes_film / sq
-    return min(max(1.0 + math.log(ratio / least) / math.log(2.0), 0.0), 1.0)
+    moes_ratio = scene.line_contact(abs(speed)).moes_film / sq
+    return min(max(1.0 + math.log(moes_ratio / least) / math.log(2.0), 0.0), 1.0)
 
 
 def widening(distances: Iterable[float]) -> float:

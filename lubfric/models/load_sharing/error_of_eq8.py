@@ -10,7 +10,8 @@ OF_SHARE = 0.7
 # Error of f in contact over sqrt(1 - s).
 IN_CONTACT = 0.25
 
-# Error of the shear force of the film times Λ², over that force.
+# Error of the shear force of the film times the square of the film-to-roughness ratio (central film over Sq), over
+# that force.
 OF_FILM = 3.2
 
 # Error of the shear force of the film over that force, at most.
@@ -23,10 +24,11 @@ OF_ROLLING = 8.0
 # Error of f below and above, over the filled part of the gap, where a given film arrives (`starved_error`).
 STARVED = (0.5, 0.1)
 
-# Least error of f over Λ, up to 1, where there is a film between rough surfaces.
+# Least error of f over the film-to-roughness ratio, up to 1, where there is a film between rough surfaces.
 LEAST_WITH_FILM = 0.1
 
-# Λ from which the flanks add less, with the square of it: 2.4 times the rolling force were seen at 2.
+# Film-to-roughness ratio from which the flanks add less, with the square of it: 2.4 times the rolling force were seen
+# at 2.
 FLANKS = 1.5
 
 
@@ -35,12 +37,12 @@ def load_sharing_error(
 ) -> tuple[float, float]:
     """Relative error of f by Eq. (8), at 95 % (docs/uncertainty.md): by how much f may be lower, and higher.
 
-    ``share``: s = F_C/F_T; ``boundary``, ``shear``: the two parts of f, of asperities and film; ``rolling``: the part
-    of rolling in the latter, if roughness moves. Four things may be off: the load that asperities carry, by up to 0.7
+    ``film_to_roughness_ratio``: r, the central film over Sq; ``share``: s = F_C/F_T; ``boundary``, ``shear``: the two
+    parts of f, of asperities and film; ``rolling``: the part of rolling in the latter, if roughness moves. Four things may be off: the load that asperities carry, by up to 0.7
     sqrt(s (1 - s)) of the whole, but never below 0 or above the whole, which exchanges the friction of one part for
-    that of the other; the shear of the film, which is that of smooth surfaces, by 3.2/λ² of it, at most 30 %; in
+    that of the other; the shear of the film, which is that of smooth surfaces, by 3.2/r² of it, at most 30 %; in
     contact all of f by 0.25 sqrt(1 - s): below, of what the others leave; and the pressure on the flanks of moving
-    roughness, which is omitted, by up to 8 times the rolling force, and 18/λ² times for thick films. 0 without
+    roughness, which is omitted, by up to 8 times the rolling force, and 18/r² times for thick films. 0 without
     roughness.
     """
     f = abs(boundary + shear)

@@ -21,7 +21,7 @@ from .estimated_work import estimated_work
 from .paper_model import PaperModel, PaperSolution
 
 IN_WORDS = "load sharing, calibrated"
-BOUNDARY = "the lambda ratio is below that of the solved cases behind the calibration: f of Eq. (9), the paper{}"
+BOUNDARY = "Moes' film over Sq is below that of the solved cases behind the calibration: f of Eq. (9), the paper{}"
 ELASTIC = "elastic shear (lubricant.shear_modulus) is not calibrated: friction by Eq. (9)"
 # what narrows the bounds; at rest long cells cost as much as this model and err less (docs/models.md, chart)
 NARROWER = {

@@ -67,7 +67,7 @@ class RoughFilm:
     coefficient : f; at_half_film, at_twice_film: with half and with twice the boundary film; at_least_limit,
         at_most_limit: with the limiting stress of a Newtonian lubricant at the ends of `LIMIT_RANGE` instead of f_b p
     asperity : share of the load on cells closer than the boundary film, dry contact among them
-    boundary_film_share, saturated_film_share : share of the load on the boundary film, and on thicker films whose stress is at a
+    boundary_film_share, saturated_film_share : of the load on the boundary film, and on thicker films whose stress is at a
         limit. Dry contact does not distinguish them; the part of ``asperity`` that is film is an estimate
         (`HALF_SATURATED`)
     kept : Sq of the flattened roughness over that of the roughness
