@@ -261,7 +261,7 @@ def test_the_asperity_load_does_not_jump_with_the_law_of_the_oil(newtonian):
     for result in (newtonian, lubfric.friction(PAPER, 0.01)):  # whatever control and shorter cells change
         parts = result.boundary_film_load + result.saturated_film_load
         assert parts == pytest.approx(result.contact_load, rel=1e-12)
-    assert limited.boundary_film_load == limited.contact_load
+    assert limited.boundary_film_load == limited.contact_load  # films at the limit of an oil are films
     assert math.isnan(lubfric.friction(PAPER, 0.03, model="paper").saturated_film_load)
 
 
@@ -323,3 +323,30 @@ def test_the_pressure_that_info_warns_of_is_warned_of_by_every_model(model):
     assert "film pressure is 1.47 GPa" in describe_scene(scene, [0.03])
     pressures = [entry.value for entry in lubfric.friction(scene, 0.03).validity if entry.what == "film pressure"]
     assert pressures and min(pressures) > 1.4699
+
+
+def test_the_film_of_a_calibrated_answer_carries_no_more_stress_than_its_oil():
+    """Friction above the oil's limit is that of asperities. The forces add up to f."""
+    oil = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.06, "limiting_stress_offset": 1e6}
+    scene = PAPER.with_(lubricant=oil, bodies={"load": 60.0}, numerics={"model": "load-sharing"})
+    for speed in (0.01, 0.03, 0.1):
+        result = lubfric.friction(scene, speed)
+        width = scene.bodies.width
+        area = 2 * scene.bodies.half_width * width
+        largest = oil["limiting_stress_coefficient"] * result.film_load + 1.5 * oil["limiting_stress_offset"] * area
+        assert result.shear_force - result.rolling_force <= largest
+        rubbed = scene.bodies.boundary_friction_coefficient * result.contact_load
+        assert result.boundary_force == pytest.approx(rubbed, rel=1e-12)
+        assert result.boundary_force + result.shear_force == pytest.approx(
+            result.coefficient * scene.bodies.load, rel=1e-12
+        )
+        assert result.contact_load + result.film_load == pytest.approx(scene.bodies.load, rel=1e-12)
+
+
+@pytest.mark.parametrize("speed, least", [(0.003, 0.85), (0.01, 0.6), (0.03, 0.2)])
+def test_the_asperity_load_of_a_calibrated_answer_is_that_of_the_deterministic_model(speed, least):
+    """Two models that share no solver: the load where the stress is f_b p, within a twentieth of the total load."""
+    answers = [lubfric.friction(PAPER, speed, model=model) for model in ("load-sharing", "deterministic")]
+    shares = [answer.contact_load / PAPER.bodies.load for answer in answers]
+    assert shares[0] == pytest.approx(shares[1], abs=0.05)
+    assert min(shares) > least

@@ -110,27 +110,56 @@ class LoadSharingModel(Model):
         return LoadSharingSolution(PaperModel().solve(prepared, sample, count, speed, start=start).balanced)
 
 
+@dataclass(frozen=True, kw_only=True)
+class LoadSplit:
+    """Loads [N] on what rubs: ``contact``, where the stress is f_b p; ``boundary_film``, on gaps below the boundary film;
+    ``saturated_film``, on thicker films at their limit, which of a Newtonian oil is f_b p too."""
+
+    contact: float
+    boundary_film: float
+    saturated_film: float
+
+
+def load_split(scene: Scene, friction: CalibratedFriction) -> LoadSplit:
+    """Return how the load divides so that the forces add up to the calibrated f.
+
+    With the share a of the load where the stress is f_b p, and the mean stress t of the film over its pressure, f =
+    f_b a + t (1 - a) + rolling. The bias of f is one of a: t stays as the rough film has it, and a follows from f, from 0
+    to 1. What f has beyond a = 1 remains in the shear of the film.
+    """
+    film = friction.film
+    load = scene.bodies.load
+    rubs = scene.bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0)
+    thicker = film.boundary_film_share + film.saturated_film_share - film.asperity
+    at_limit = film.asperity + thicker * scene.lubricant.newtonian
+    share = at_limit
+    if at_limit < 1.0:
+        stress = max(film.coefficient - film.rolling - rubs * at_limit, 0.0) / (1.0 - at_limit)
+        if rubs > stress:
+            share = min(max((friction.coefficient - film.rolling - stress) / (rubs - stress), 0.0), 1.0)
+    if not scene.lubricant.newtonian:
+        left = (1.0 - share) / (1.0 - at_limit) if at_limit < 1.0 else 0.0
+        return LoadSplit(contact=share * load, boundary_film=share * load, saturated_film=left * thicker * load)
+    part = film.boundary_film_share / at_limit if at_limit > 0 else 0.0
+    return LoadSplit(contact=share * load, boundary_film=part * share * load, saturated_film=(1 - part) * share * load)
+
+
 def calibrated_answer(prepared: Prepared, answer: ModelAnswer, friction: CalibratedFriction) -> ModelAnswer:
     """Return ``answer``, of Eqs. (8) and (9), with f, the forces and the error of calibrated load sharing."""
     scene = prepared.scene
     load = scene.bodies.load
-    film = friction.film
     weight = friction.weight
     if weight == 0.0:
         return replace(answer, notes=(*answer.notes, BOUNDARY.format("")))
-    scale = (
-        friction.coefficient / film.coefficient if film.coefficient > 0 else 1.0
-    )  # so that both parts of f keep their sign
     force = friction.coefficient * load
-    thin = min(film.boundary_film_share * scale, 1.0) * load
-    saturated = min(film.saturated_film_share * scale, 1.0 - thin / load) * load
-    boundary = scene.bodies.boundary_friction_coefficient * thin * (scene.motion.slide_roll_ratio != 0)
+    split = load_split(scene, friction)
+    boundary = scene.bodies.boundary_friction_coefficient * split.contact * (scene.motion.slide_roll_ratio != 0)
     calibrated = {
         "coefficient": friction.coefficient,
-        "contact_load": thin,
-        "film_load": load - thin,
-        "boundary_film_load": thin,
-        "saturated_film_load": saturated,
+        "contact_load": split.contact,
+        "film_load": load - split.contact,
+        "boundary_film_load": split.boundary_film,
+        "saturated_film_load": split.saturated_film,
         "boundary_force": boundary,
         "shear_force": force - boundary,
         "couette_force": force - boundary - answer.numbers["rolling_force"],
@@ -139,6 +168,7 @@ def calibrated_answer(prepared: Prepared, answer: ModelAnswer, friction: Calibra
     by_equation = {name: answer.numbers.get(name, 0.0) for name in calibrated}
     by_equation |= {"boundary_film_load": by_equation["contact_load"], "saturated_film_load": 0.0}
     numbers = {name: weight * value + (1 - weight) * by_equation[name] for name, value in calibrated.items()}
+    shares = (numbers["boundary_film_load"] / load, numbers["saturated_film_load"] / load)
     f = numbers["coefficient"]
     both = ((friction.coefficient, friction.sides), (by_equation["coefficient"], answer.model_error))
     below, above = (
@@ -173,7 +203,7 @@ def calibrated_answer(prepared: Prepared, answer: ModelAnswer, friction: Calibra
             answer.decision,
             model=IN_WORDS,
             basis=basis_of(friction),
-            notes=(in_words(friction, is_moving=moves(scene)), *answer.decision.notes),
+            notes=(in_words(friction, shares, is_moving=moves(scene)), *answer.decision.notes),
         ),
     )
 
@@ -200,15 +230,12 @@ def basis_of(friction: CalibratedFriction) -> str:
     return f"load sharing, calibrated on {friction.cases} solved cases: model-form -{percent(low)} / +{percent(high)}"
 
 
-def in_words(friction: CalibratedFriction, *, is_moving: bool) -> str:
-    """Return what makes f up, and what narrows it, as text."""
+def in_words(friction: CalibratedFriction, shares: tuple[float, float], *, is_moving: bool) -> str:
+    """Return what makes f up, and what narrows it, as text; ``shares`` of the load: on boundary and saturated films."""
     parts = []
     if any(friction.by_film):
         half, twice = friction.by_film
         parts.append(f"f by half the boundary film {100 * half:+.2g} %, by twice {100 * twice:+.2g} %")
-    film = friction.film
-    parts.append(
-        f"asperity load: boundary film {percent(film.boundary_film_share)}, saturated film {percent(film.saturated_film_share)}"
-    )
+    parts.append(f"asperity load: boundary film {percent(shares[0])}, saturated film {percent(shares[1])}")
     parts.append(NARROWER["moving" if is_moving else "at rest"])
     return "; ".join(parts)
