@@ -162,7 +162,8 @@ class Highest(SampleSolution):
         f = float(self.values.mean())
         numbers = {"coefficient": f, "speed": self.speed, "contact_load": load, "film_load": 0.0}
         return ModelAnswer(
-            numbers=numbers | {"boundary_force": f * load, "rolling_resistance": 0.0},
+            numbers=numbers | {"boundary_force": f * load, "rolling_resistance": 1.0},
+            errors={"rolling_resistance": 0.0},
             numerical=0.0,
             sampling=self.sampling_error,
             model_error=(0.5, 0.5),
@@ -194,6 +195,22 @@ def test_a_third_model_answers_through_the_same_contract():
         assert high - low >= result.coefficient and math.isnan(result.min_film)
         assert "highest summit" in result.decision.text or result.decision.model == "highest summit"
     assert len(values) > prepared.sample.first
+
+
+def test_a_third_model_has_no_paper_and_no_error_of_another(monkeypatch):
+    """Its rolling resistance, whose model-form error nobody stated, is as uncertain as f; alone it has no papers."""
+    scene = PAPER.with_(numerics={"sampling_tolerance": 0.05}, motion={"slide_roll_ratio": 0.5})
+    result = lubfric.friction(scene, 0.03, model=HighestSummit())
+    assert set(result.methods) == {"interval", "generated map"}
+    half_widths = [abs(end / result.coefficient - 1) for end in result.uncertainty.interval]
+    parts = [(width * result.coefficient * scene.bodies.load * 0.015, width * (0.03 - 0.0075)) for width in half_widths]
+    loss = result.power_loss
+    expected = (loss - math.hypot(*parts[0]), loss + math.hypot(*parts[1]))
+    assert result.power_loss_interval == pytest.approx(expected, rel=1e-12)
+    monkeypatch.setattr(HighestSummit, "rolling_error", lambda self, lambda_ratio: 0.25)
+    result = lubfric.friction(scene, 0.03, model=HighestSummit())
+    by_rolling = math.sqrt((result.power_loss_interval[1] - result.power_loss) ** 2 - parts[1][0] ** 2)
+    assert by_rolling == pytest.approx(0.25 * (0.03 - 0.0075), rel=1e-9)
 
 
 def test_fields_of_other_cells_are_refused():

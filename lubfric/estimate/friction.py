@@ -90,7 +90,7 @@ def friction(
             choice = choose(prepared, speed, requested, native=bool(fields))
             with unlimited_work() if choice.gave_up else nullcontext():
                 result = result_of(prepared, choice, begun, fine=fine)
-        result = with_methods(prepared, result)
+        result = with_methods(prepared, result, choice.model)
     if not math.isfinite(result.coefficient):
         raise InputError(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; give speeds, viscosities and "
@@ -99,7 +99,7 @@ def friction(
     known = result.boundary_force / prepared.scene.bodies.load, result.coefficient
     film = full_load_numbers(prepared.scene, speed, prepared.surface.sq, result.inlet_film_factor)
     result = replace(result, full_load_film=film["full_load_film"], lambda_ratio=film["lambda_ratio"])
-    result = with_power_loss(prepared.scene, result)
+    result = with_power_loss(prepared.scene, result, choice.model)
     result = replace(result, unmodelled_effects=unmodelled_effects(prepared.scene, prepared.surface.sq, speed, known))
     if raise_on_failure:
         result.report.raise_if_failed(result)

@@ -3,15 +3,11 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
+from ..models import Model
 from ..models.shared import Prepared
 from .result import FrictionResult
 
 LAWS = {"roelands": "Roelands", "barus": "Barus"}
-OWN = {  # names of lubfric's own rough contacts; another may have been given
-    "half-space": ("semi-periodic", "flat periodic curve"),
-    "summits": ("independent summits", "flat periodic curve"),
-    "patches": ("independent patches", "flat periodic curve"),
-}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,14 +16,14 @@ class MethodUse:
 
     Attributes
     ----------
-    is_deterministic : whether the deterministic model gives it
+    model : that gives it
     contact, film : whether asperities, or a film, carry load
     sliding : whether the surfaces slide
     sampled : whether its sampling error is known and not 0
     inlet_heat, film_heat, flash : whether the heat of inlet, film or surfaces changes it
     """
 
-    is_deterministic: bool
+    model: Model
     contact: bool
     film: bool
     sliding: bool
@@ -37,10 +33,10 @@ class MethodUse:
     flash: bool
 
 
-def with_methods(prepared: Prepared, result: FrictionResult) -> FrictionResult:
-    """``result`` with the names of the methods that it uses (`lubfric.FrictionResult.methods`)."""
+def with_methods(prepared: Prepared, result: FrictionResult, model: Model) -> FrictionResult:
+    """Return ``result`` of ``model`` with the names of the methods that it uses (`lubfric.FrictionResult.methods`)."""
     use = MethodUse(
-        is_deterministic=result.deterministic is not None,
+        model=model,
         contact=result.contact_load > 0,
         film=result.film_load > 0,
         sliding=prepared.scene.motion.slide_roll_ratio != 0,
@@ -54,27 +50,15 @@ def with_methods(prepared: Prepared, result: FrictionResult) -> FrictionResult:
 
 def methods_of(prepared: Prepared, use: MethodUse) -> tuple[str, ...]:
     """Return the names of the methods that a result with this ``use`` rests on."""
-    used = _model(prepared, use) | _surface(prepared)
+    of_model = use.model.methods(prepared, contact=use.contact, film=use.film)
+    used = dict.fromkeys(of_model, True) | {"interval": use.sampled} | _surface(prepared)
     if use.film:
-        used |= _film(prepared, use) | _lubricant(prepared, use) | _heat(prepared, use)
+        used |= _lubricant(prepared, use) | _heat(prepared, use)
     return tuple(_names(used.items()))
 
 
 def _names(used: Iterable[tuple[str, bool]]) -> list[str]:
     return [name for name, is_used in used if is_used]
-
-
-def _model(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
-    model = prepared.scene.contact.model
-    own = use.contact and not use.is_deterministic and prepared.contact.name in OWN[model]
-    return {
-        "load sharing": not use.is_deterministic,
-        "deterministic model": use.is_deterministic,
-        "half-space contact": own and model == "half-space",
-        "summits": own and model == "summits",
-        "patches": own and model == "patches",
-        "interval": use.sampled,
-    }
 
 
 def _surface(prepared: Prepared) -> dict[str, bool]:
@@ -87,16 +71,6 @@ def _surface(prepared: Prepared) -> dict[str, bool]:
     }
 
 
-def _film(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
-    scene = prepared.scene
-    scaled = scene.numerics.film_deflection == "scaled" and scene.transient is None
-    return {
-        "scaled modulus": scaled and use.contact and not use.is_deterministic,
-        "kept mass": use.is_deterministic,
-        "sheared flow": scene.lubricant.flow_law is not None,
-    }
-
-
 def _lubricant(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
     lubricant = prepared.scene.lubricant
     oil = lubricant.oil
@@ -104,6 +78,7 @@ def _lubricant(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
     if oil is not None and lubricant.temperature is not None:
         estimate = oil.pressure_viscosity_coefficient(lubricant.temperature).method
     return {name: lubricant.viscosity_law == law for law, name in LAWS.items()} | {
+        "sheared flow": lubricant.flow_law is not None,
         "Dowson-Higginson": lubricant.density_law == "dowson-higginson",
         "Eyring stress": lubricant.eyring_stress is not None and use.sliding,
         "Carreau": lubricant.carreau is not None,

@@ -3,30 +3,9 @@
 import math
 from dataclasses import replace
 
+from ..models import Model
 from ..scene import Scene
 from .result import FrictionResult
-
-# Relative model-form error of the rolling resistance of rough surfaces by load sharing, at 95 %: OF_ROLLING/Λ², between
-# these bounds. Load sharing has that of the smooth film. Compared with the deterministic model on moving roughness, it
-# is off by -6.5 and +5.5 % at Λ of 0.70 and 0.31, and by at most 0.9 % from 1.7 to 15 (built-in contact and the bearing of
-# docs/start.md in pure rolling).
-OF_ROLLING = 0.08
-
-# Least of these errors.
-LEAST_OF_ROLLING = 0.02
-
-# Largest of these errors.
-MOST_OF_ROLLING = 0.15
-
-
-def rolling_model_error(lambda_ratio: float) -> float:
-    """Return the relative model-form error of the rolling resistance by load sharing at a lambda ratio; 0 for smooth
-    surfaces."""
-    if lambda_ratio == math.inf:
-        return 0.0
-    if not lambda_ratio > 0:
-        return MOST_OF_ROLLING
-    return min(max(OF_ROLLING / lambda_ratio**2, LEAST_OF_ROLLING), MOST_OF_ROLLING)
 
 
 def power_of_forces(force: float, resistance: float, entrainment: float, sliding: float) -> float:
@@ -47,13 +26,13 @@ def power_of_forces(force: float, resistance: float, entrainment: float, sliding
     return force * sliding + resistance * (entrainment - 0.5 * sliding)
 
 
-def with_power_loss(scene: Scene, result: FrictionResult) -> FrictionResult:
-    """Return ``result`` with its power loss, and the 95 % interval and the relative error of that.
+def with_power_loss(scene: Scene, result: FrictionResult, model: Model) -> FrictionResult:
+    """Return ``result`` of ``model`` with its power loss, and the 95 % interval and the relative error of that.
 
-    The sliding part has the interval of f. The rolling part has twice the estimated error of the rolling resistance,
-    and by load sharing its model-form error (`rolling_model_error`); where the first is not known, the relative width of
-    the interval of f. What the pressure on the flanks of moving
-    roughness adds to the force on one surface, it takes from that on the other.
+    The sliding part has the interval of f. The rolling part has twice the estimated error of the rolling resistance
+    and its model-form error (`Model.rolling_error`); where one of these is not known, the relative width of the
+    interval of f. What the pressure on the flanks of moving roughness adds to the force on one surface, it takes from
+    that on the other.
     """
     speed = abs(result.speed)
     ratio = scene.motion.slide_roll_ratio
@@ -67,12 +46,13 @@ def with_power_loss(scene: Scene, result: FrictionResult) -> FrictionResult:
     resistance = result.rolling_resistance
     loss = power(result.coefficient, resistance)
     known = result.errors.rolling_resistance
-    of_model = 0.0 if result.decision.model == "deterministic" else rolling_model_error(result.lambda_ratio)
+    of_model = model.rolling_error(result.lambda_ratio)
     rolling = resistance * (speed - 0.5 * sliding)
+    is_known = math.isfinite(known + of_model)
     ends = []
     for end in result.uncertainty.interval:
         by_sliding = (end - result.coefficient) * load * abs(sliding)
-        of_rolling = math.hypot(2.0 * known, of_model) if math.isfinite(known) else abs(end / result.coefficient - 1.0)
+        of_rolling = math.hypot(2.0 * known, of_model) if is_known else abs(end / result.coefficient - 1.0)
         ends.append(math.hypot(by_sliding, of_rolling * rolling if rolling else 0.0))
     errors = result.errors
     of_resistance = math.hypot(known, 0.5 * of_model)

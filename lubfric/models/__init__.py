@@ -10,4 +10,4 @@ have in common: the scene made ready, heat, limits of validity, statistics.
 from .contract import ContactFields, Model, ModelAnswer, ModelDetails, SampleSolution, WorkEstimate
 from .deterministic import DeterministicModel, DeterministicResult
 from .load_sharing import Balance, LoadSharingModel, PaperModel
-from .registry import AUTO, MODELS, models_up_to
+from .registry import AUTO, MODELS, model_named, models_up_to

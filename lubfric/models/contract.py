@@ -256,6 +256,18 @@ class Model(ABC):
         """Return why the model has no answer at ``speed`` [m/s], as text; "" if it has one."""
         return ""
 
+    def methods(self, prepared: Prepared, *, contact: bool, film: bool) -> tuple[str, ...]:
+        """Return the names of the methods of this model that have a paper behind them (estimate/papers.toml).
+
+        ``contact``, ``film``: whether asperities, or a film, carry load. What surface, lubricant and heat rest on is
+        added for every model.
+        """
+        return ()
+
+    def rolling_error(self, lambda_ratio: float) -> float:
+        """Return the relative model-form error of the rolling resistance, at 95 %; NaN: not known."""
+        return math.nan
+
     def takes_control(self, sample: Sample) -> bool:
         """Return whether a `ControlVariate` of a cheaper model spares strips of ``sample``."""
         return False

@@ -11,6 +11,11 @@ MODELS: tuple[Model, ...] = (PaperModel(), LoadSharingModel(), DeterministicMode
 AUTO = "auto"
 
 
+def model_named(name: str) -> Model:
+    """Return the model of this ``name``."""
+    return next(model for model in MODELS if model.name == name)
+
+
 def models_up_to(name: str) -> tuple[Model, ...]:
     """Return the model of this ``name`` and the cheaper ones, the cheapest first; all of them for `AUTO`."""
     if name == AUTO:

@@ -18,6 +18,7 @@ from .._base import Shown, validate, with_default_errors
 from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import InputError
 from ..estimate import MethodUse, cited, methods_of
+from ..models import AUTO, MODELS, Model, model_named
 from ..models.shared import prepare
 from ..quantities import NUMBERS
 from ..scene import Scene
@@ -198,19 +199,19 @@ class StudyResult(Shown):
         "bibtex" as BibTeX entries."""
         prepared = prepare(next(iter(scenes_of(self.plan.scene, self.plan.axes))))
         model = prepared.scene.numerics.model
-        answers = {"deterministic": (True,), "auto": (False, True)}.get(model, (False,))
-        names = dict.fromkeys(name for answer in answers for name in methods_of(prepared, self._use(answer)))
+        models = MODELS if model == AUTO else (model_named(model),)
+        names = dict.fromkeys(name for answers in models for name in methods_of(prepared, self._use(answers)))
         return cited(names, format)
 
-    def _use(self, is_deterministic: bool) -> MethodUse:
-        """Return what the columns show of the methods that the study uses."""
+    def _use(self, model: Model) -> MethodUse:
+        """Return what the columns show of the methods that the study uses, where ``model`` answers."""
 
         def above(name: str, limit: float = 0.0) -> bool:
             return bool((self.columns.get(name, np.zeros(1)) > limit).any())
 
         factor = self.columns.get("inlet_film_factor", np.ones(1))
         return MethodUse(
-            is_deterministic=is_deterministic,
+            model=model,
             contact=above("contact_load"),
             film=above("film_load"),
             sliding=bool((self.columns.get("couette_force", np.zeros(1)) != 0).any()),

@@ -70,6 +70,12 @@ class DeterministicModel(Model):
     ) -> WorkEstimate:
         return estimated_work(scene, sample, surface, speed, cheaper)
 
+    def methods(self, prepared: Prepared, *, contact: bool, film: bool) -> tuple[str, ...]:
+        return ("deterministic model", "kept mass") if film else ("deterministic model",)
+
+    def rolling_error(self, lambda_ratio: float) -> float:
+        return 0.0  # it has the pressure on the flanks of the roughness
+
     def takes_control(self, sample: Sample) -> bool:
         return not sample.refines_in_place
 

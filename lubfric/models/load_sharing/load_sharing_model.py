@@ -17,7 +17,9 @@ from ..shared import ControlVariate, Prepared, add_errors, limit_in_words, no_ro
 from .answer import answer_of
 from .calibrated import CalibratedFriction, calibrated_friction, film_on_strip
 from .calibrated_error import error_model_of, least_half_width
+from .error_of_eq8 import rolling_model_error
 from .estimated_work import estimated_work
+from .methods import methods_of_load_sharing
 from .paper_model import PaperModel, PaperSolution
 
 IN_WORDS = "load sharing, calibrated"
@@ -90,6 +92,12 @@ class LoadSharingModel(Model):
     ) -> WorkEstimate:
         alone = estimated_work(scene, sample, surface, speed)
         return alone if cheaper is None else replace(alone, seconds=0.0)
+
+    def methods(self, prepared: Prepared, *, contact: bool, film: bool) -> tuple[str, ...]:
+        return methods_of_load_sharing(prepared, contact=contact, film=film)
+
+    def rolling_error(self, lambda_ratio: float) -> float:
+        return rolling_model_error(lambda_ratio)
 
     def why_unable(self, prepared: Prepared, speed: float) -> str:
         return no_rough_film(prepared, speed) or gap_not_resolved(prepared.scene, prepared.given)

@@ -12,8 +12,10 @@ from ..shared import ControlVariate, Heat, Prepared, StandardError, Validity
 from .answer import answer_of, limits_of
 from .balanced_sample import BalancedSample, solve_sample
 from .control_variate import control_for
+from .error_of_eq8 import rolling_model_error
 from .errors_of import model_error_of_eq8
 from .estimated_work import estimated_work
+from .methods import methods_of_load_sharing
 
 
 @dataclass(frozen=True)
@@ -89,6 +91,12 @@ class PaperModel(Model):
         self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
     ) -> WorkEstimate:
         return estimated_work(scene, sample, surface, speed)
+
+    def methods(self, prepared: Prepared, *, contact: bool, film: bool) -> tuple[str, ...]:
+        return methods_of_load_sharing(prepared, contact=contact, film=film)
+
+    def rolling_error(self, lambda_ratio: float) -> float:
+        return rolling_model_error(lambda_ratio)
 
     def solve(
         self,

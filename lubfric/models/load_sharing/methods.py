@@ -1,0 +1,23 @@
+"""The methods behind load sharing that have a paper behind them (estimate/papers.toml)."""
+
+from ..shared import Prepared
+
+OWN = {  # names of lubfric's own rough contacts; another may have been given
+    "half-space": ("semi-periodic", "flat periodic curve"),
+    "summits": ("independent summits", "flat periodic curve"),
+    "patches": ("independent patches", "flat periodic curve"),
+}
+
+# The method of each value of contact.model.
+CONTACTS = {"half-space": "half-space contact", "summits": "summits", "patches": "patches"}
+
+
+def methods_of_load_sharing(prepared: Prepared, *, contact: bool, film: bool) -> tuple[str, ...]:
+    """Return the names of the methods; ``contact``, ``film``: whether asperities, or a film, carry load."""
+    scene = prepared.scene
+    names = ["load sharing"]
+    if contact and prepared.contact.name in OWN[scene.contact.model]:
+        names.append(CONTACTS[scene.contact.model])
+    if contact and film and scene.numerics.film_deflection == "scaled" and scene.transient is None:
+        names.append("scaled modulus")
+    return tuple(names)
