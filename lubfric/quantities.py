@@ -71,8 +71,10 @@ class Quantities(Generic[T]):
         error="all",
         note="(f_b F_C + F_sh)/F_T (Akchurin et al. 2015, Eq. 9), of surface 2 against its sliding",
     )
-    contact_load: T = quantity(  # "load-sharing": on the boundary film alone; "deterministic": on saturated film too
-        "N", "load carried by the rough contact", "F_C", error="split"
+    contact_load: T = (
+        quantity(  # not by "paper": where the stress is f_b p, so on saturated films of a Newtonian oil too
+            "N", "load carried by the rough contact", "F_C", error="split"
+        )
     )
     film_load: T = quantity("N", "load carried by the film", "F_H", error="split")
     shear_force: T = quantity("N", "shear force of the film", "F_sh", error="shear", note="of both parts")

@@ -350,3 +350,17 @@ def test_the_asperity_load_of_a_calibrated_answer_is_that_of_the_deterministic_m
     shares = [answer.contact_load / PAPER.bodies.load for answer in answers]
     assert shares[0] == pytest.approx(shares[1], abs=0.05)
     assert min(shares) > least
+
+
+def test_next_to_pure_rolling_the_interval_of_a_small_difference_is_of_its_parts():
+    """f is rolling and sliding, of opposite signs on one side of pure rolling: its interval is no wider than a few times
+    both, however near to 0 their sum is."""
+    scene = PAPER.with_(numerics={"model": "load-sharing"}, lubricant={"eyring_stress": 5e6})
+    load = scene.bodies.load
+    for ratio in (1e-4, 0.0, -1e-6, -1e-5, -1e-4, -3e-4, -1e-3):
+        result = lubfric.friction(scene.with_(motion={"slide_roll_ratio": ratio}), 0.3)
+        parts = (abs(result.rolling_force) + abs(result.shear_force - result.rolling_force)) / load
+        low, high = result.uncertainty.interval
+        assert low <= result.coefficient <= high
+        assert high - low <= 8 * parts
+        assert result.boundary_force + result.shear_force == pytest.approx(result.coefficient * load, rel=1e-9)

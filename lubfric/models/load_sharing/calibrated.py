@@ -13,6 +13,12 @@ from .balance import Balance, solve_balance
 from .calibrated_error import error_model_of, error_models, features, out_of_range, rms_slopes, weight_of, widening
 from .rough_film import RoughFilm, RoughMap, rough_film
 
+# Share of the rolling part in |f| [-] between which the calibration passes over from f to its sliding part: where
+# rolling is most of f, f may be a small difference, whose relative error means nothing. Not measured: the campaign has few
+# such cases.
+OF_SLIDING = (0.25, 0.5)
+# Friction coefficient [-] below which a relative error means nothing.
+LEAST_FRICTION = 1e-9
 STRIPS = 4  # of the rough film: f of one scatters by some 7 % about their mean (scene "paper", .03 m/s)
 ROLLING = 8.0  # of the rolling part of f: what pressure on the flanks of moving roughness may add (docs/uncertainty.md)
 FLANKS = 1.5  # Moes' film over Sq from which on that falls, with the square of it
@@ -72,42 +78,71 @@ def calibrated_friction(prepared: Prepared, sample: Sample, speed: float, line: 
     count = min(STRIPS, sample.available)
     strips = [film_on_strip(prepared, sample, scene, speed, start, k) for k in range(count)]
     film = _mean_film([strip.film for strip in strips])
-    x = {name: float(np.mean([strip.features[name] for strip in strips])) for name in strips[0].features}
-    values = np.array([strip.film.coefficient * _of_line(strip.balance, line) for strip in strips])
-    heat = line.forces.heat.change if line.forces.heat.heated else 0.0
+    heat = 1 - (line.forces.heat.change if line.forces.heat.heated else 0.0)
     model = error_model_of(scene)
     sq = prepared.surface.sq
-    bias = model.bias_at(x)
     outside = out_of_range(scene, sq, speed, model.range)
+    x = _mean_features([strip.features for strip in strips])
+    bias = model.bias_at(x)
     in_range = model.half_width(x)
     width = in_range * widening(outside.values())
-    flanks = _by_flanks(scene, film, sq, speed)
-    bounds = (math.hypot(-math.expm1(-width), flanks), math.hypot(math.expm1(width), flanks))
+    values = np.array([strip.film.coefficient * _of_line(strip.balance, line) for strip in strips])
+    values *= math.exp(bias) * heat
+    downwards = -math.expm1(-width)
+    upwards = math.expm1(width)
+    relative = 1.0
+    if (part := _part_of_sliding(film)) > 0:
+        x = _mean_features([strip.sliding_features for strip in strips])
+        factor = math.exp(model.bias_at(x)) * heat
+        sliding = np.array([strip.film.coefficient - strip.film.rolling for strip in strips]) * factor
+        values = (1 - part) * values + part * (film.rolling + sliding)
+        size = max(abs(float(values.mean())), LEAST_FRICTION)
+        share = abs(float(sliding.mean())) / size
+        width = model.half_width(x) * widening(outside.values())
+        downwards = (1 - part) * downwards + part * share * -math.expm1(-width)
+        upwards = (1 - part) * upwards + part * share * math.expm1(width)
+        relative = (1 - part) + part * abs(film.coefficient) / size
+    flanks = _by_flanks(scene, film, sq, speed) * relative
+    half, twice = (0.0, 0.0) if scene.bodies.boundary_film is not None else _changes(film)
+    limits = (film.at_least_limit, film.at_most_limit)
+    lower, higher = limit_bounds(scene, film.saturated_film_share, film.coefficient, limits)
     return CalibratedFriction(
-        coefficient=float(values.mean()) * math.exp(bias) * (1 - heat),
+        coefficient=float(values.mean()),
         film=film,
         of_strips=_scatter(values),
-        bounds=bounds,
+        bounds=(math.hypot(downwards, flanks), math.hypot(upwards, flanks)),
         least_bounds=(-math.expm1(-in_range), math.expm1(in_range)),
         bias=bias,
-        by_film=(0.0, 0.0) if scene.bodies.boundary_film is not None else _changes(film),
+        by_film=(half * relative, twice * relative),
         by_heat=_by_heat(line),
-        by_limit=limit_bounds(
-            scene, film.saturated_film_share, film.coefficient, (film.at_least_limit, film.at_most_limit)
-        ),
+        by_limit=(lower * relative, higher * relative),
         weight=weight_of(scene, sq, speed, model.range["lambda"][0]),
         cases=model.cases,
         outside=tuple(outside),
     )
 
 
+def _part_of_sliding(film: RoughFilm) -> float:
+    """Return the part of the answer, 0 to 1, that takes bias and bounds of the sliding part of f (`OF_SLIDING`)."""
+    low, high = OF_SLIDING
+    share = abs(film.rolling) / max(abs(film.coefficient), LEAST_FRICTION)
+    return min(max((share - low) / (high - low), 0.0), 1.0)
+
+
+def _mean_features(rows: list[dict[str, float]]) -> dict[str, float]:
+    """Return the mean of every feature of the strips."""
+    return {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
+
+
 @dataclass(frozen=True, kw_only=True)
 class StripFilm:
-    """The balance of load sharing on one strip, its rough film, and the `features` of both."""
+    """The balance of load sharing on one strip, its rough film, and the `features` of both; ``sliding_features``: those
+    of the film without the rolling part of its friction."""
 
     balance: Balance
     film: RoughFilm
     features: dict[str, float]
+    sliding_features: dict[str, float]
 
 
 def film_on_strip(
@@ -122,7 +157,13 @@ def film_on_strip(
     balance = solve_balance(scene, speed, contact, sq, start)
     film = rough_film(scene, speed, contact, balance, rough_maps(prepared, sample, contact.heights, speed, index))
     slopes = rms_slopes(contact.heights, contact.spacing)
-    return StripFilm(balance=balance, film=film, features=features(scene, speed, sq, slopes, asdict(film)))
+    sliding = asdict(film) | {"coefficient": film.coefficient - film.rolling, "rolling": 0.0}
+    return StripFilm(
+        balance=balance,
+        film=film,
+        features=features(scene, speed, sq, slopes, asdict(film)),
+        sliding_features=features(scene, speed, sq, slopes, sliding),
+    )
 
 
 def _of_line(strip: Balance, line: Balance) -> float:
