@@ -71,11 +71,8 @@ class Quantities(Generic[T]):
         error="all",
         note="(f_b F_C + F_sh)/F_T (Akchurin et al. 2015, Eq. 9), of surface 2 against its sliding",
     )
-    contact_load: T = (
-        quantity(  # not by "paper": where the stress is f_b p, so on saturated films of a Newtonian oil too
-            "N", "load carried by the rough contact", "F_C", error="split"
-        )
-    )
+    # By "deterministic" and "load-sharing" the load where the stress is f_b p, on saturated films of a Newtonian oil too.
+    contact_load: T = quantity("N", "load carried by the rough contact", "F_C", error="split")
     film_load: T = quantity("N", "load carried by the film", "F_H", error="split")
     shear_force: T = quantity("N", "shear force of the film", "F_sh", error="shear", note="of both parts")
     couette_force: T = quantity("N", "sliding part of the shear force", error="shear")

@@ -119,7 +119,7 @@ class LoadSharingModel(Model):
 
 
 @dataclass(frozen=True, kw_only=True)
-class LoadSplit:
+class CalibratedLoads:
     """Loads [N] on what rubs: ``contact``, where the stress is f_b p; ``boundary_film``, on gaps below the boundary film;
     ``saturated_film``, on thicker films at their limit, which of a Newtonian oil is f_b p too."""
 
@@ -128,7 +128,7 @@ class LoadSplit:
     saturated_film: float
 
 
-def load_split(scene: Scene, friction: CalibratedFriction) -> LoadSplit:
+def calibrated_loads(scene: Scene, friction: CalibratedFriction) -> CalibratedLoads:
     """Return how the load divides so that the forces add up to the calibrated f.
 
     With the share a of the load where the stress is f_b p, and the mean stress t of the film over its pressure, f =
@@ -147,9 +147,11 @@ def load_split(scene: Scene, friction: CalibratedFriction) -> LoadSplit:
             share = min(max((friction.coefficient - film.rolling - stress) / (rubs - stress), 0.0), 1.0)
     if not scene.lubricant.newtonian:
         left = (1.0 - share) / (1.0 - at_limit) if at_limit < 1.0 else 0.0
-        return LoadSplit(contact=share * load, boundary_film=share * load, saturated_film=left * thicker * load)
+        return CalibratedLoads(contact=share * load, boundary_film=share * load, saturated_film=left * thicker * load)
     part = film.boundary_film_share / at_limit if at_limit > 0 else 0.0
-    return LoadSplit(contact=share * load, boundary_film=part * share * load, saturated_film=(1 - part) * share * load)
+    return CalibratedLoads(
+        contact=share * load, boundary_film=part * share * load, saturated_film=(1 - part) * share * load
+    )
 
 
 def calibrated_answer(prepared: Prepared, answer: ModelAnswer, friction: CalibratedFriction) -> ModelAnswer:
@@ -160,14 +162,14 @@ def calibrated_answer(prepared: Prepared, answer: ModelAnswer, friction: Calibra
     if weight == 0.0:
         return replace(answer, notes=(*answer.notes, BOUNDARY.format("")))
     force = friction.coefficient * load
-    split = load_split(scene, friction)
-    boundary = scene.bodies.boundary_friction_coefficient * split.contact * (scene.motion.slide_roll_ratio != 0)
+    loads = calibrated_loads(scene, friction)
+    boundary = scene.bodies.boundary_friction_coefficient * loads.contact * (scene.motion.slide_roll_ratio != 0)
     calibrated = {
         "coefficient": friction.coefficient,
-        "contact_load": split.contact,
-        "film_load": load - split.contact,
-        "boundary_film_load": split.boundary_film,
-        "saturated_film_load": split.saturated_film,
+        "contact_load": loads.contact,
+        "film_load": load - loads.contact,
+        "boundary_film_load": loads.boundary_film,
+        "saturated_film_load": loads.saturated_film,
         "boundary_force": boundary,
         "shear_force": force - boundary,
         "couette_force": force - boundary - answer.numbers["rolling_force"],
