@@ -34,8 +34,7 @@ class Oil(Shown):
     estimate : "so-klaus" (mineral oils) or "gold" (None: So and Klaus for mineral oils, Gold for the others)
     conductivity : thermal, of the film [W/(m K)] (None: typical of the base)
     name : as text
-    measured : pressure-viscosity coefficients of this oil over the temperature (None: estimated); ``alpha`` comes
-        first
+    measured : pressure-viscosity coefficients over the temperature (None: estimated); ``alpha`` comes first
 
     Raises `InputError` for a value out of range, and for So and Klaus's regression with a base that is not mineral.
     """
