@@ -336,6 +336,7 @@ class RunFolder:
         self.add("report.html", page, prepared, result)
         with self.reporting(f"{RESULT} does not list its files"):
             self.contents[RESULT] = _as_json({"files": sorted(self.contents)} | record)
+        self.contents[RESULT] = self.contents.pop(RESULT)  # last: it appears when all files that it names are there
         self.put(OUTPUTS, (*record.get("validity", ()), *unusual_values))
         if is_complete:  # else what was saved is all that has everything
             Store(self.unfinished).clear()

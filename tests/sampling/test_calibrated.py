@@ -9,6 +9,7 @@ import pytest
 import lubfric
 from lubfric.models.deterministic import lay_out, solve_point
 from lubfric.models.load_sharing import (
+    LoadSharingModel,
     RoughMap,
     error_models,
     features,
@@ -364,3 +365,19 @@ def test_next_to_pure_rolling_the_interval_of_a_small_difference_is_of_its_parts
         assert low <= result.coefficient <= high
         assert high - low <= 8 * parts
         assert result.boundary_force + result.shear_force == pytest.approx(result.coefficient * load, rel=1e-9)
+
+
+def test_outside_the_campaign_the_bounds_are_wider_and_an_unknown_limit_counts():
+    """The scene "paper" has less load per width than any case: with e times less, the half-width of ln f doubles."""
+    prepared = lubfric.prepare(PAPER)
+    friction = LoadSharingModel().solve(prepared, prepared.sample, prepared.sample.first, 0.03).friction
+    least = error_models()["rest"].range["load"][0]
+    distance = math.log(least * PAPER.bodies.width / PAPER.bodies.load)
+    width, inside = (math.log1p(sides[1]) for sides in (friction.bounds, friction.least_bounds))
+    assert len(friction.outside) == 1
+    assert width / inside == pytest.approx(1 + distance, rel=1e-6)
+    down, up = friction.by_limit
+    assert down > 0.1 and up > 0.02
+    assert lubfric.friction(prepared, 0.03, model="load-sharing").uncertainty.fluid == pytest.approx(
+        max(down, up), rel=1e-3
+    )

@@ -169,7 +169,7 @@ def test_a_forecast_is_right_to_a_factor_of_four():
         told = forecast(PAPER, prepared.sample, prepared.surface, speed)
         found = lubfric.friction(prepared, speed).uncertainty
         assert 0.25 < told.length / found.length < 4
-        assert speed > 0.02 or 0.3 < told.error / found.sampling < 3
+        assert speed > 0.02 or 0.25 < told.error / found.sampling < 4
     assert " 1.4 " in describe_scene(PAPER)  # mm
     for ratio, speed in ((0.02, 0.3), (0.02, 0.7), (1.0, 0.3), (1.0, 0.5), (2.0, 0.15), (2.0, 0.2)):
         scene = PAPER.with_(motion={"slide_roll_ratio": ratio}, numerics={"model": "auto"})

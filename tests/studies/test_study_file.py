@@ -30,10 +30,10 @@ def test_a_study_file_takes_units_as_a_scene_does(tmp_path):
     words, plain = (
         read(
             tmp_path,
-            f"speed_range = [{slow}, 0.1, 3]\n[vary]\nbodies.width = [{width}, 0.007]\n[sample]\ncount = 2\n"
+            f"speed_range = [{slow}, 0.1, 3]\n[vary]\nbodies.width = [{width}]\n[sample]\ncount = 2\n"
             f"bodies.load = {{ low = {low}, high = 4.0 }}\n",
         )
-        for slow, width, low in (("'1 cm/s'", "'6 mm'", "'2 N'"), (0.01, 0.006, 2.0))
+        for slow, width, low in (("'1 cm/s'", "'6 mm', '7 mm'", "'2 N'"), (0.01, "0.006, 0.007", 2.0))
     )
     assert words == plain
     with pytest.raises(lubfric.InputError, match="low = '2 K' is in K, a unit of another kind"):

@@ -76,7 +76,7 @@ def test_a_refused_ratio_is_marked_and_the_others_kept():
     assert np.isfinite(curve.coefficient[0]) and np.isnan(curve.coefficient[1])
     assert isinstance(curve.errors[1], lubfric.ValidityError) and any("not valid" in v for v in curve.validity)
     assert curve.report.notes[0].startswith("slide-roll ratio 1: ")
-    assert "2 ratios" in repr(curve) and "failed 1" in repr(curve)
+    assert "2 slide-roll ratios" in repr(curve) and "failed 1" in repr(curve)
 
 
 def full_disk(path, *_):

@@ -158,7 +158,7 @@ def test_a_balance_that_is_lost_after_a_reversal_is_named_with_its_output(monkey
         run(swing, times)
     found = caught.value.result
     index = int(found.mass_residual.argmax())
-    words = f"the balance of the lubricant is {found.mass_residual[index] / 1e-15:.3g} times its tolerance at output"
+    words = f"the balance of the lubricant is {found.mass_residual[index] / 1e-15:.0f} times its tolerance at output"
     assert words in str(caught.value) and f"output {index + 1}, t = {1e3 * times[index]:.4g} ms" in str(caught.value)
     assert ("after the motion has reversed" in str(caught.value)) == (index > 2)
     assert "all 9 outputs are solved, but" in found.status and "max_iterations" not in str(caught.value)
