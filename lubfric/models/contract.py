@@ -238,6 +238,11 @@ class Model(ABC):
         `ConvergenceError`.
         """
 
+    @property
+    def moves_roughness(self) -> bool:
+        """Whether it solves moving roughness moment by moment, so that a point takes long."""
+        return False
+
     def first_strips(self, sample: Sample) -> int:
         """Return the number of strips that are solved first."""
         return sample.first

@@ -20,6 +20,7 @@ from .._base.jobs import parts_on
 from .._base.progress import progress_to
 from ..errors import ConvergenceError, InputError, ValidityError
 from ..estimate import FrictionResult
+from ..models import models_up_to
 from ..models.shared import (
     Prepared,
     Validity,
@@ -28,7 +29,7 @@ from ..models.shared import (
 )
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..samples import takes_strips
-from ..scene import BY_LOAD_SHARING, FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene, given_tables, moves
+from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene, given_tables, moves
 from ..units import number_of, numbers_of
 from .commands import RunFolder, check_outputs, made, read_record, run_begun, say
 from .describe import SceneEstimate
@@ -106,7 +107,7 @@ def _default_workers(scene: Scene, speeds: str | list[float]) -> int:
     """Return the number of processes of a curve: all processors but one, and two at least, where that pays. The numbers do
     not depend on it."""
     several_speeds = speeds != studies.AUTO and len(speeds) >= WORTH and takes_strips(scene)
-    long_points = moves(scene) and scene.numerics.model not in BY_LOAD_SHARING
+    long_points = moves(scene) and any(model.moves_roughness for model in models_up_to(scene.numerics.model))
     if not (several_speeds or long_points) or studies.processors() == 1:
         return 1
     return max(2, studies.processors() - 1)

@@ -10,10 +10,6 @@ from . import budget
 MOST_THREADS = 1024
 
 
-# Values of numerics.model that solve no deterministic strips.
-BY_LOAD_SHARING = ("load-sharing", "paper")
-
-
 @dataclass(frozen=True, repr=False)
 class Numerics(Shown):
     """How exactly a scene is solved, and what is modelled. Tolerances are relative.

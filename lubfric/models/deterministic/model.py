@@ -62,6 +62,10 @@ class DeterministicModel(Model):
     def name(self) -> str:
         return "deterministic"
 
+    @property
+    def moves_roughness(self) -> bool:
+        return True
+
     def first_strips(self, sample: Sample) -> int:
         return 1
 
