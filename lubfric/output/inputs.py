@@ -12,6 +12,9 @@ from ..units import worded
 # Keys that mean nothing where a history of this name is given.
 REPLACED = {"motion.slide_roll_ratio": "sliding"}
 
+# Key of the limiting stress at ambient pressure: without a limiting_stress_coefficient it is not used.
+LIMIT_OFFSET = "lubricant.limiting_stress_offset"
+
 SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "transient", "numerics")
 
 
@@ -24,7 +27,13 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
             continue
         alike = {word: ends for word, (middle, *ends) in typical(key).items() if middle == value}
         ends = " to ".join(worded(end, quantity.unit) for end in next(iter(alike.values()), ()))
-        note = f", typical of {' or '.join(alike)}: {ends}" if alike else ""
+        note = (
+            f", taken as exact (typical of {' or '.join(alike)}: {ends}; the name in its place is that range)"
+            if alike
+            else ""
+        )
+        if key == LIMIT_OFFSET and scene.lubricant.limit is None:
+            continue
         if key in REPLACED and getattr(scene.transient, REPLACED[key], None) is not None:
             continue
         changing = [name for name, of in HISTORIES.items() if of == key and getattr(scene.transient, name, None)]

@@ -15,7 +15,7 @@ from ..estimate import FrictionResult
 from ..models.shared import ExpectedEffect, Prepared, UnmodelledEffect, change_in_words, percent, sentence, student
 from ..quantities import COLUMNS, counted
 from ..scene import Scene, short_keys
-from ..studies import KNOWN, CurveResult, Law, StribeckResult
+from ..studies import KNOWN, CurveResult, Law, StribeckResult, TractionResult
 from ..time import MANY, TransientResult, in_motion
 from ..units import converted, interval_in_words, plain_number, printed, unit_for, with_interval, worded
 from .describe import TABLE_CAPTION, SceneEstimate
@@ -55,6 +55,8 @@ BUDGET = {
 }
 # A number smaller than this times the largest of its column is 0 in a table.
 ROUNDING = 1e-9
+# Part of the power loss from which the report names the rolling resistance in it.
+SMALL_PART = 0.01
 
 # Columns of a table that a narrow screen shows as they are.
 NARROW_COLUMNS = 3
@@ -137,7 +139,7 @@ def _curve_parts(scene: Scene, curve: CurveResult, law: Law | str, estimate: Sce
         "kind": "failed" if failed else "",
         "status": escape(curve_status(curve)),
         "answer": _paragraphs(answer),
-        "budget": "" if nearest is None else _point_budget(*nearest),
+        "budget": "" if nearest is None else _point_budget(*nearest[:2]),
         "table": _operating_table(curve),
         "effects": _effects(effects, "before the solve" if nearest is None else nearest[1]),
         "details": _details(curve) + _law(law, curve),
@@ -158,15 +160,20 @@ def curve_status(curve: CurveResult) -> str:
     )
 
 
-def _curve_answer(curve: CurveResult, point: FrictionResult, place: str) -> list[str]:
-    """Return the answer of a curve in sentences: at the point nearest to the scene's own, and over all."""
+def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding_speed: float) -> list[str]:
+    """Return the answer of a curve in sentences: at the point nearest to the scene's own, whose surfaces slide at
+    ``sliding_speed`` [m/s], and over all."""
     low, high = point.uncertainty.interval
     unknown = "" if not math.isnan(point.uncertainty.model) else " The model-form error is not known and not included."
     sentences = [f"f = {with_interval(point.coefficient, low, high)} {place}.{unknown}"]
     if point.decision.basis:
         sentences.append(sentence(point.decision.basis))
     low, high = point.power_loss_interval
-    sentences.append(f"The power loss is {with_interval(point.power_loss, low, high, unit='W')}.")
+    loss = f"The power loss is {with_interval(point.power_loss, low, high, unit='W')}"
+    rolling = point.power_loss - abs(sliding_speed) * point.coefficient * (point.contact_load + point.film_load)
+    if rolling > SMALL_PART * abs(point.power_loss):
+        loss += f", of which {worded(rolling, 'W')} is rolling resistance"
+    sentences.append(f"{loss}.")
     if math.isfinite(point.lambda_ratio):
         sentences[-1] += (
             f" The full-load film is {worded(point.full_load_film, 'm')} thick, a lambda ratio of "
@@ -320,14 +327,18 @@ def _law(law: Law | str, curve: CurveResult) -> str:
     return f"<details><summary>The curve as a formula</summary>{text}</details>"
 
 
-def _nearest(scene: Scene, curve: CurveResult) -> tuple[FrictionResult, str] | None:
-    """Return the solved point nearest to the scene's own, and its place as text; None if no point has an answer."""
+def _nearest(scene: Scene, curve: CurveResult) -> tuple[FrictionResult, str, float] | None:
+    """Return the solved point nearest to the scene's own, its place as text, and its sliding speed [m/s]; None if no point
+    has an answer."""
     name = curve.SWEPT[0]
     own = scene.motion.entrainment_speed if name == "speed" else scene.motion.slide_roll_ratio
     away = np.where(np.isfinite(curve["coefficient"]), np.abs(getattr(curve, name) - own), np.inf)
     index = int(away.argmin())
     point = curve.points[index]
-    return None if point is None else (point, _place(curve, index))
+    if point is None:
+        return None
+    ratio = float(curve.ratio[index]) if isinstance(curve, TractionResult) else scene.motion.slide_roll_ratio
+    return point, _place(curve, index), ratio * point.speed
 
 
 def _place(curve: CurveResult, index: int) -> str:

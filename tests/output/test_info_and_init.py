@@ -1,5 +1,8 @@
 """`lubfric info` names every input with its unit and tells what will be refused; `lubfric init` writes what runs."""
 
+import csv
+import re
+
 import numpy as np
 import pytest
 from instrument_files import write_x3p
@@ -241,3 +244,27 @@ def test_a_sentence_begins_with_a_capital_letter_unless_a_key_does():
 
     assert sentence("give a map") == "Give a map." and sentence("which?") == "Which?"
     assert sentence("numerics.model = 'auto' helps") == "numerics.model = 'auto' helps."
+
+
+def test_a_value_that_equals_a_typical_one_is_taken_as_exact():
+    plain = lubfric.load_scene("paper").with_(bodies={"boundary_friction_coefficient": 0.12})
+    assert "taken as exact (typical of anti-wear: 0.09 to 0.15" in describe_scene(plain)
+    named = plain.with_(bodies={"boundary_friction_coefficient": "anti-wear"})
+    assert "taken as exact" not in describe_scene(named)
+
+
+def test_the_report_divides_the_power_loss_of_a_rolling_contact(tmp_path, undrawn):
+    """What rolling resistance adds to f F_T times the sliding speed, by the numbers of the table."""
+    file = tmp_path / "s.toml"
+    thick = {
+        "motion": {"slide_roll_ratio": 0.02, "speeds": (), "entrainment_speed": 0.5},
+        "numerics": {"model": "paper"},
+    }
+    file.write_text(lubfric.load_scene("paper").with_(**thick).to_toml())
+    assert main(["run", str(file), "--speeds", "0.5", "--out", str(tmp_path / "out")]) == 0
+    row = next(csv.DictReader((tmp_path / "out" / "stribeck.csv").read_text().splitlines()))
+    load = float(row["contact_load [N]"]) + float(row["film_load [N]"])
+    rolling = float(row["power_loss [W]"]) - float(row["coefficient [-]"]) * load * 0.02 * 0.5
+    page = (tmp_path / "out" / "report.html").read_text()
+    stated = re.search(r"of which ([\d.]+) mW is rolling resistance", page)
+    assert stated and float(stated[1]) == pytest.approx(1e3 * rolling, rel=1e-3) and rolling > 0
