@@ -71,7 +71,7 @@ def test_the_report_stands_alone_and_holds_the_numbers(run):
 
 
 def test_the_page_tells_lift_off_the_formula_and_what_is_left_out(tmp_path, undrawn):
-    (tmp_path / "s.toml").write_text(SCENE)
+    (tmp_path / "s.toml").write_text(SCENE.replace("'load-sharing'", "'paper'"))
     out = tmp_path / "o"
     scene = lubfric.load_scene(tmp_path / "s.toml")
     for speeds in (np.geomspace(0.01, 1.0, 9).tolist(), [0.01, 0.02, 0.03], [0.01, 0.3]):

@@ -181,9 +181,11 @@ def test_a_forecast_is_right_to_a_factor_of_four():
 def test_the_work_of_the_deterministic_model_is_forecast_to_a_factor_of_two(sampling, speeds):
     """Of all points together, counted by the cells and steps of what they solve."""
     prepared = lubfric.prepare(PAPER.with_(numerics={"sampling": sampling, "model": "auto"}))
+    cheaper = prepared.scene.with_(numerics={"model": "load-sharing"})
     told = counted = 0.0
     for speed in speeds:
         one = forecast(prepared.scene, prepared.sample, prepared.surface, speed)
+        told -= forecast(cheaper, prepared.sample, prepared.surface, speed).seconds
         control = sampled(prepared, speed, PaperModel()).control()
         levels = sampled(prepared, speed, DeterministicModel(), control=control).levels
         solved = [*(pair.resolved for pair in levels.pairs), *levels.shortest]

@@ -70,6 +70,7 @@ def test_running_in_ends_with_the_passes_so_far():
     assert np.array_equal(part.surface.heights, lubfric.run_in(SOFT, passes=passes).surface.heights)
 
 
+@pytest.mark.slow
 def test_wear_ends_with_the_distance_so_far():
     keys = {"distance": 1e3, "wear_coefficient": 1e-6}
     scene = SOFT.with_(motion={"entrainment_speed": 0.003}, numerics={"accept": True})

@@ -187,6 +187,7 @@ def test_the_coefficient_of_the_oil_follows_its_temperature():
     assert moved.temperature_coefficient == lubricant(temperature_celsius=60).temperature_coefficient
 
 
+@pytest.mark.slow
 def test_a_given_temperature_coefficient_reaches_the_friction_of_a_hot_film():
     base = PAPER.with_(**HOT)
     beside = base.with_(lubricant=GIVEN_OIL | {"temperature_coefficient": 0.01})

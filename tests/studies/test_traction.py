@@ -28,6 +28,7 @@ def model():
     return lubfric.prepare(SCENE)
 
 
+@pytest.mark.slow
 def test_traction_rises_peaks_and_falls_with_heat_and_rises_without(model):
     ratios = np.geomspace(1e-3, 2, 12)
     f = lubfric.traction(model, ratios).coefficient
