@@ -234,6 +234,7 @@ def test_truth_values_are_no_range():
             lubfric.load_scene("paper").with_(bodies={"boundary_friction_coefficient": value})
 
 
+@pytest.mark.slow
 def test_optimised_python_computes_the_same(tmp_path):
     """``python -O`` leaves out what stands in an assert."""
     (tmp_path / "in_time.toml").write_text(

@@ -183,6 +183,7 @@ def test_shorter_steps_change_the_depth_by_less_than_is_stated(worn, monkeypatch
     assert abs(finer.depth[-1] / worn.wear.depth[-1] - 1) < worn.wear.volume_error
 
 
+@pytest.mark.slow
 def test_it_stops_where_the_asperity_load_has_vanished(monkeypatch):
     monkeypatch.setattr(steps, "RECORDS", 4)
     fast = ROUGH.with_(motion={"entrainment_speed": 0.2})

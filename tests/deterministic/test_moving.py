@@ -228,6 +228,7 @@ def test_a_step_that_newtons_method_does_not_solve_is_taken_in_parts(monkeypatch
     assert np.abs(last - end).max() < 1e-15 < 1e-10 < np.abs(first - end).max()
 
 
+@pytest.mark.slow
 def test_a_continuation_with_another_oil_is_that_of_the_same_moments():
     """Followed from the start with the other oil, the same roughness changes f as much in the same moments. (On so few
     cells, one that changes its kind moves f by up to a per cent.)"""

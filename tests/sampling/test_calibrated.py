@@ -298,7 +298,7 @@ def test_every_model_of_the_scene_has_an_estimate_and_a_run_in_time():
     for model in ("paper", "load-sharing", "deterministic"):
         prepared = lubfric.prepare(PAPER.with_(numerics={"model": model}))
         seconds[model] = forecast(prepared.scene, prepared.sample, prepared.surface, 0.03).seconds
-    assert seconds["load-sharing"] == seconds["paper"] < seconds["deterministic"]
+    assert seconds["paper"] < seconds["load-sharing"] < seconds["deterministic"]
 
 
 def test_friction_tends_to_that_of_the_boundary_as_the_film_vanishes():

@@ -153,6 +153,7 @@ def looked_at(found, folder):
     return repr(found), found["coefficient"], found.lift_off, found.at(0.1), found.coords, found.failures
 
 
+@pytest.mark.slow
 def test_damaged_studies_are_told_of_and_stop_nothing(stores, tmp_path, imports):
     rng = np.random.default_rng(7)
     told = {"error": 0, "warning": 0, "none": 0}

@@ -50,6 +50,7 @@ def fitted(timed):
     return timed[0]
 
 
+@pytest.mark.slow
 def test_the_time_of_a_fit_is_estimated_within_a_factor_of_three(timed):
     words = lubfric.explain_fit(SCENE, timed[0].measured, BOUNDS)
     number, unit = words.split("time: about ")[1].split()[:2]
@@ -184,6 +185,7 @@ def test_covariance_is_that_of_the_slopes(fitted):
     assert found == pytest.approx(expected[0, 1] / np.sqrt(expected[0, 0] * expected[1, 1]), abs=0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("noise", [0.0, 1e-9])
 def test_data_that_fit_exactly_tell_nothing_of_a_parameter_without_effect(noise):
     """No film of this scene comes near such a limiting stress. What is left of the scatter is no measure of that."""

@@ -21,6 +21,7 @@ def resident():
     return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="needs /proc to read the memory of the process")
 def test_a_point_of_a_large_study_costs_little_time_and_memory(monkeypatch, tmp_path):
     prepared = lubfric.prepare(SCENE)

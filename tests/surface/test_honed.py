@@ -83,6 +83,7 @@ def test_every_key_moves_the_number(key, value):
     assert abs(new / old - 1) > 1e-3
 
 
+@pytest.mark.slow
 def test_plateaus_rub_less_than_a_gaussian_surface_of_the_same_sq():
     strips = lubfric.friction(SCENE)
     gaussian = SCENE.with_(surface={"sk": None, "spk": None, "svk": None, "honing_angle": None})
