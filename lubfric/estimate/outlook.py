@@ -3,7 +3,7 @@ solved."""
 
 from dataclasses import dataclass
 
-from ..models import MODELS, models_up_to
+from ..models import AUTO, MODELS, models_up_to
 from ..samples import Sample
 from ..scene import Scene
 from ..surface import Surface
@@ -45,14 +45,16 @@ def forecast(scene: Scene, sample: Sample, surface: Surface, speed: float) -> Fo
         cheaper = model.estimate(scene, sample, surface, speed, cheaper)
         estimates.append(cheaper)
     cheapest = estimates[0]
-    asked = estimates[: len(models_up_to(scene.numerics.model))]
+    last = len(models_up_to(scene.numerics.model)) - 1
+    # a model named in the scene has the cheapest one beside it as its control; AUTO tries one after the other
+    solved = range(last + 1) if scene.numerics.model == AUTO else {0, last}
     return Forecast(
         speed=speed,
         touching=cheapest.touching,
         error=cheapest.sampling,
         strips=cheapest.strips,
         length=cheapest.length,
-        resolved=estimates[-1].strips if len(asked) == len(MODELS) else 0,
-        seconds=sum(estimate.seconds for estimate in asked),
+        resolved=estimates[-1].strips if last == len(MODELS) - 1 else 0,
+        seconds=sum(estimates[k].seconds for k in solved),
         moving=estimates[-1].strip_seconds,
     )

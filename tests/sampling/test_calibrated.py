@@ -295,10 +295,12 @@ def test_every_model_of_the_scene_has_an_estimate_and_a_run_in_time():
 
     assert {*CHOICES["numerics.model"]} == {*MODELS}
     seconds = {}
-    for model in ("paper", "load-sharing", "deterministic"):
+    for model in ("paper", "load-sharing", "deterministic", "auto"):
         prepared = lubfric.prepare(PAPER.with_(numerics={"model": model}))
         seconds[model] = forecast(prepared.scene, prepared.sample, prepared.surface, 0.03).seconds
     assert seconds["paper"] < seconds["load-sharing"] < seconds["deterministic"]
+    rough_film = seconds["load-sharing"] - seconds["paper"]  # "deterministic" does not solve it, "auto" does
+    assert seconds["auto"] == pytest.approx(seconds["deterministic"] + rough_film)
 
 
 def test_friction_tends_to_that_of_the_boundary_as_the_film_vanishes():
