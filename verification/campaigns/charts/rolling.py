@@ -11,7 +11,8 @@ import numpy as np
 
 import lubfric
 
-from ..moving_coverage.table import ANSWERS, FOLDER, REFERENCES, RollingContact, contacts, covered, rows, with_seed
+from .. import table_file
+from ..moving_coverage.table import ANSWERS, FOLDER, REFERENCES, RollingContact, contacts, covered, with_seed
 from .measure import point, quartiles
 
 SEEDS = {True: (1,), False: (1, 2, 3)}
@@ -43,13 +44,17 @@ def measured(case: tuple[RollingContact, float, bool]) -> list[dict]:
             values.append(lubfric.friction(with_seed(contact, seed), contact.speed, model=model).coefficient)
             seconds.append(time.process_time() - begun)
         add(name, "default tolerances", values, seconds)
-    solved = [row for row in rows(FOLDER / REFERENCES) if row["contact"] == contact.name and not row["failure"]]
+    solved = [
+        row for row in table_file.rows(FOLDER / REFERENCES) if row["contact"] == contact.name and not row["failure"]
+    ]
     for kind, name in WAYS.items():
         strips = [row for row in solved if row["kind"] == kind]
         if strips:
             f = [float(row["plain"] or row["f"]) for row in strips]
             add(name, f"{len(strips)} surfaces", f, [float(row["seconds"]) for row in strips])
-    answers = [row for row in rows(FOLDER / ANSWERS) if row["contact"] == contact.name and not row["failure"]]
+    answers = [
+        row for row in table_file.rows(FOLDER / ANSWERS) if row["contact"] == contact.name and not row["failure"]
+    ]
     f = [float(row["f"]) for row in answers]
     add("default", f"{len(answers)} surfaces", f, [float(row["seconds"]) for row in answers], default=True)
     return points

@@ -1,6 +1,5 @@
 """The table of runs: what each was estimated to take, the counted work, and the processor time that it took."""
 
-import csv
 import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -11,6 +10,7 @@ import numpy as np
 import lubfric
 from lubfric._base import limited_work
 
+from .. import table_file
 from .jobs import KINDS, MOST_WORK, drawn, seconds
 
 TABLE = Path(__file__).parent / "table.csv"
@@ -50,10 +50,7 @@ def timed(seed: int) -> dict[str, Any]:
 
 def rows(file: Path = TABLE) -> list[dict[str, str]]:
     """Return the rows of the table as text."""
-    if not file.is_file():
-        return []
-    with file.open(newline="") as stream:
-        return list(csv.DictReader(stream))
+    return table_file.rows(file)
 
 
 def extend(
@@ -68,12 +65,7 @@ def extend(
         if seconds() > budget:
             return
         row = timed(seed)
-        new = not file.is_file()
-        with file.open("a", newline="") as stream:
-            writer = csv.DictWriter(stream, COLUMNS)
-            if new:
-                writer.writeheader()
-            writer.writerow({name: _as_text(row.get(name, "")) for name in COLUMNS})
+        table_file.append(file, COLUMNS, row, DIGITS)
         yield row
 
 
@@ -98,8 +90,3 @@ def summary(file: Path = TABLE) -> str:
         numbers = [f"{value:.2g}" for value in (np.median(values), values.min(), values.max())]
         lines.append(f"| {' | '.join([kind, str(values.size), *within, *numbers])} |")
     return "\n".join(lines)
-
-
-def _as_text(value: Any) -> Any:
-    """Return a number with `DIGITS` digits."""
-    return f"{value:.{DIGITS}g}" if isinstance(value, float) else value

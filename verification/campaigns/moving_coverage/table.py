@@ -6,7 +6,6 @@ strips, each followed over a whole pass after a longer discard, times the change
 axes. That change is found on a narrower strip, over the same way.
 """
 
-import csv
 import math
 import time
 from collections.abc import Iterator
@@ -33,6 +32,8 @@ from lubfric.models.deterministic.strip_on_two_grids import strip_of
 from lubfric.models.shared import prepare, student
 from lubfric.scene import Scene, moving_bodies
 from lubfric.surface import generate_surface
+
+from .. import table_file
 
 FOLDER = Path(__file__).parent
 ANSWERS = "answers.csv"
@@ -255,8 +256,8 @@ KINDS = {"strip": reference_strip, "cells": change_by_cells, "tight": tight_stri
 def extend(seeds: int, budget: float, folder: Path = FOLDER) -> Iterator[dict[str, Any]]:
     """Solve what the tables have not, as long as the processor time of this process is below ``budget`` [s], and append
     each row as it is solved. References come after the first three answers of each contact."""
-    known = {(row["contact"], row["seed"]) for row in rows(folder / ANSWERS)}
-    kept = {(row["contact"], row["kind"], row["seed"]) for row in rows(folder / REFERENCES)}
+    known = {(row["contact"], row["seed"]) for row in table_file.rows(folder / ANSWERS)}
+    kept = {(row["contact"], row["kind"], row["seed"]) for row in table_file.rows(folder / REFERENCES)}
     for seed in range(seeds):
         for contact in contacts():
             if time.process_time() > budget:
@@ -289,36 +290,23 @@ def _timed(solve, contact: RollingContact, seed: int) -> dict[str, Any]:
     return row | {"seconds": time.process_time() - begun}
 
 
-def rows(file: Path) -> list[dict[str, str]]:
-    """Return the rows of a table as text."""
-    if not file.is_file():
-        return []
-    with file.open(newline="") as stream:
-        return list(csv.DictReader(stream))
-
-
 def _appended(file: Path, columns: tuple[str, ...], row: dict[str, Any]) -> dict[str, Any]:
-    new = not file.is_file()
-    with file.open("a", newline="") as stream:
-        writer = csv.DictWriter(stream, columns)
-        if new:
-            writer.writeheader()
-        writer.writerow({name: _as_text(row.get(name, "")) for name in columns})
+    table_file.append(file, columns, row, DIGITS)
     return row
-
-
-def _as_text(value: Any) -> str:
-    return f"{value:.{DIGITS}g}" if isinstance(value, (float, np.floating)) else str(value)
 
 
 def covered(folder: Path = FOLDER) -> Iterator[dict[str, Any]]:
     """Yield of each contact how many answers hold the reference within their half-width, and within it and
     `OF_REFERENCE` standard errors of the reference."""
     for contact in contacts():
-        of_contact = [row for row in rows(folder / REFERENCES) if row["contact"] == contact.name and not row["failure"]]
+        of_contact = [
+            row for row in table_file.rows(folder / REFERENCES) if row["contact"] == contact.name and not row["failure"]
+        ]
         strips = [row for row in of_contact if row["kind"] == "strip"]
         cells = [float(row["f"]) for row in of_contact if row["kind"] == "cells"]
-        answers = [row for row in rows(folder / ANSWERS) if row["contact"] == contact.name and not row["failure"]]
+        answers = [
+            row for row in table_file.rows(folder / ANSWERS) if row["contact"] == contact.name and not row["failure"]
+        ]
         if not strips or not cells or not answers:
             continue
         truth = float(np.mean([float(row["f"]) for row in strips])) * float(np.mean(cells))

@@ -4,7 +4,6 @@ One change of the economical effort at a time, then all of them; and these on ce
 the same roughness at the same times, so that differences are by the effort alone.
 """
 
-import csv
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -14,6 +13,7 @@ from typing import Any
 import lubfric
 from lubfric.models.deterministic import ECONOMICAL, TIGHT, MovingEffort, solve_moving_strip
 
+from .. import table_file
 from ..calibration.case import Case, drawn
 from ..calibration.solve import limited
 
@@ -84,10 +84,7 @@ def followed(seed: int, variant: str) -> dict[str, Any]:
 
 def rows(file: Path = TABLE) -> list[dict[str, str]]:
     """Return the rows of the table as text."""
-    if not file.is_file():
-        return []
-    with file.open(newline="") as stream:
-        return list(csv.DictReader(stream))
+    return table_file.rows(file)
 
 
 def extend(
@@ -103,12 +100,7 @@ def extend(
             if time.process_time() > budget:
                 return
             row = followed(seed, variant)
-            new = not file.is_file()
-            with file.open("a", newline="") as stream:
-                writer = csv.DictWriter(stream, COLUMNS)
-                if new:
-                    writer.writeheader()
-                writer.writerow({name: _as_text(row.get(name, "")) for name in COLUMNS})
+            table_file.append(file, COLUMNS, row, DIGITS)
             yield row
 
 
@@ -126,10 +118,3 @@ def differences(file: Path = TABLE) -> Iterator[dict[str, Any]]:
             "share": float(row["share"]) - float(tight["share"]),
             "faster": float(tight["seconds"]) / float(row["seconds"]),
         }
-
-
-def _as_text(value: Any) -> Any:
-    """Return a number with `DIGITS` digits; None as an empty cell."""
-    if isinstance(value, float):
-        return f"{value:.{DIGITS}g}"
-    return "" if value is None else value
