@@ -92,12 +92,16 @@ def test_the_estimate_knows_the_contract_of_a_model_and_no_model():
     assert offenders("lubfric/estimate", models) == []
     contract = {
         "AUTO",
-        "MODELS",
+        "prepare",
         "ContactFields",
         "Model",
         "ModelAnswer",
         "ModelDetails",
         "SampleSolution",
+        "WorkEstimate",
+        "at_speed",
+        "at_tolerance",
+        "candidates",
         "models_up_to",
     }
     names = set()

@@ -5,11 +5,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
+from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
 from lubfric.errors import CONVERGED, Report
 from lubfric.models import MODELS, DeterministicModel, Model, ModelAnswer, PaperModel, SampleSolution
 from lubfric.models.shared import Decision, StandardError
+from lubfric.output import describe_scene, main
+from lubfric.quantities import CHOICES
 from lubfric.samples import Sample
 
 PAPER = lubfric.load_scene("paper")
@@ -195,6 +198,61 @@ def test_a_third_model_answers_through_the_same_contract():
         assert high - low >= result.coefficient and math.isnan(result.min_film)
         assert "highest summit" in result.decision.text or result.decision.model == "highest summit"
     assert len(values) > prepared.sample.first
+
+
+@pytest.fixture
+def named(monkeypatch) -> lubfric.Scene:
+    """A scene that names the third model, which is registered as the most expensive one."""
+    monkeypatch.setattr("lubfric.models.registry.MODELS", (*MODELS, HighestSummit()))
+    monkeypatch.setitem(CHOICES, "numerics.model", (*CHOICES["numerics.model"], HighestSummit.name))
+    return PAPER.with_(
+        numerics={"model": HighestSummit.name, "sampling_tolerance": 0.05}, motion={"slide_roll_ratio": 0.5}
+    )
+
+
+def test_a_registered_model_answers_wherever_a_scene_names_it(named, tmp_path):
+    """Point, curve, traction and study have its f, and what they say of it is not another model's."""
+    result = lubfric.friction(named, 0.03)
+    assert result.coefficient == lubfric.friction(named, 0.03, model=HighestSummit()).coefficient
+    assert result.balance is None and result.deterministic is None
+    assert "motion of the roughness" in str(result.unmodelled_effects)
+    curve = lubfric.stribeck(named, [0.01, 0.03], store=tmp_path / "store")
+    again = lubfric.stribeck(named, [0.01, 0.03], store=tmp_path / "store")
+    traction = lubfric.traction(named, [0.1, 0.5], speed=0.03)
+    for swept in (curve, again, traction):
+        assert swept.coefficient == pytest.approx([result.coefficient] * 2, rel=1e-12)
+    study = lubfric.study(named, {"motion.slide_roll_ratio": [0.1, 0.5]}, speeds=[0.03])
+    assert study["coefficient"].ravel() == pytest.approx([result.coefficient] * 2, rel=1e-12)
+    assert curve.cite() == study.cite() == result.cite()
+
+
+def test_a_registered_model_is_described_and_reported(named, tmp_path):
+    """By the command line: what it is before the solve, and a report of its answer."""
+    text = describe_scene(named)
+    assert "highest summit model (numerics.model)" in text and "'deterministic' models it" in text
+    scene = BODIES_AND_OIL + SMALL_PATCH.replace('"paper"', '"highest summit"\nsampling_tolerance = 0.05')
+    (tmp_path / "scene.toml").write_text(scene + "[motion]\nslide_roll_ratio = 0.5\nentrainment_speed = 0.03\n")
+    assert main(["info", str(tmp_path / "scene.toml")]) == 0
+    assert main(["run", str(tmp_path / "scene.toml"), "--out", str(tmp_path / "run"), "--speeds", "0.01,0.03"]) == 0
+    report = (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
+    assert (
+        "The asperities carry 100 % of the load" in report
+        and "Motion of the roughness" in report
+        and "nan" not in report
+    )
+
+
+def test_a_registered_model_without_a_run_in_time_says_so(named):
+    for run in (
+        lambda: lubfric.transient(named, [0.0, 1e-3]),
+        lambda: describe_scene(named.with_(transient=lubfric.Transient(1e-3))),
+    ):
+        with pytest.raises(
+            lubfric.InputError, match="numerics.model = 'highest summit': this model has no run in time"
+        ):
+            run()
+    with pytest.raises(lubfric.InputError, match="numerics.model = 'highest summit': wear takes"):
+        lubfric.run_in(named.with_(bodies={"hardness": 8e9}), distance=1.0, wear_coefficient=1e-4)
 
 
 def test_a_third_model_has_no_paper_and_no_error_of_another(monkeypatch):

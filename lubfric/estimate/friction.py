@@ -11,8 +11,8 @@ from .._base import limited_work, releasing_memory, unlimited_work, validate, wi
 from .._base.jobs import current_executor, parts_on
 from .._base.processes import MOST_WORKERS, pool
 from ..errors import InputError
-from ..models import Model
-from ..models.shared import Prepared, at_speed, at_tolerance, refused, unmodelled_effects
+from ..models import Model, at_speed, at_tolerance, candidates
+from ..models.shared import Prepared, refused, unmodelled_effects
 from ..scene import FASTEST, Scene, warn_unusual_values
 from .build_result import result_of
 from .choice import choose
@@ -100,7 +100,15 @@ def friction(
     film = full_load_numbers(prepared.scene, speed, prepared.surface.sq, result.inlet_film_factor)
     result = replace(result, full_load_film=film["full_load_film"], lambda_ratio=film["lambda_ratio"])
     result = with_power_loss(prepared.scene, result, choice.model)
-    result = replace(result, unmodelled_effects=unmodelled_effects(prepared.scene, prepared.surface.sq, speed, known))
+    possible = (model,) if isinstance(model, Model) else candidates(numerics.model)
+    effects = unmodelled_effects(
+        prepared.scene,
+        prepared.surface.sq,
+        speed,
+        known,
+        includes_motion=any(candidate.includes_motion for candidate in possible),
+    )
+    result = replace(result, unmodelled_effects=effects)
     if raise_on_failure:
         result.report.raise_if_failed(result)
         refused(result.validity, numerics.accept, result)

@@ -3,7 +3,7 @@ solved."""
 
 from dataclasses import dataclass
 
-from ..models import AUTO, MODELS, models_up_to
+from ..models import AUTO, WorkEstimate, models_up_to
 from ..samples import Sample
 from ..scene import Scene
 from ..surface import Surface
@@ -20,10 +20,11 @@ class Forecast:
     error : relative standard error of f after the first strips of the cheapest model
     strips : number of its strips that ``numerics.sampling_tolerance`` needs
     length : of these strips [m]
-    resolved : number of strips by the most expensive model; 0: it is not asked
+    resolved : number of strips by the model that moves roughness (`lubfric.models.Model.moves_roughness`); 0: it is
+        not asked
     seconds : processor time [s]
-    moving : processor time [s] of one strip by the most expensive model if its roughness moves; 0 where it does not,
-        or has little effect
+    moving : processor time [s] of one strip by that model if its roughness moves; 0 where it does not, or has little
+        effect
     """
 
     speed: float
@@ -39,22 +40,22 @@ class Forecast:
 def forecast(scene: Scene, sample: Sample, surface: Surface, speed: float) -> Forecast:
     """Return what a point of ``scene`` at ``speed`` [m/s] will take on ``sample``; ``surface``: the map that is solved
     first."""
-    estimates = []
-    cheaper = None
-    for model in MODELS:
-        cheaper = model.estimate(scene, sample, surface, speed, cheaper)
-        estimates.append(cheaper)
+    models = models_up_to(AUTO)
+    estimates: list[WorkEstimate] = []
+    for model in models:
+        estimates.append(model.estimate(scene, sample, surface, speed, estimates[-1] if estimates else None))
     cheapest = estimates[0]
     last = len(models_up_to(scene.numerics.model)) - 1
     # a model named in the scene has the cheapest one beside it as its control; AUTO tries one after the other
     solved = range(last + 1) if scene.numerics.model == AUTO else {0, last}
+    moving = [k for k, model in enumerate(models) if model.moves_roughness]
     return Forecast(
         speed=speed,
         touching=cheapest.touching,
         error=cheapest.sampling,
         strips=cheapest.strips,
         length=cheapest.length,
-        resolved=estimates[-1].strips if last == len(MODELS) - 1 else 0,
+        resolved=max((estimates[k].strips for k in moving if k in solved), default=0),
         seconds=sum(estimates[k].seconds for k in solved),
-        moving=estimates[-1].strip_seconds,
+        moving=max((estimates[k].strip_seconds for k in moving), default=0.0),
     )

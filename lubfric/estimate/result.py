@@ -83,12 +83,16 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     @property
     def balance(self) -> Balance | None:
         """The balance of film and contact by load sharing, if there is one."""
-        return cast("Balance | None", self.details.get("paper", self.details.get("load-sharing")))
+        return cast("Balance | None", self._kept("balance"))
 
     @property
     def deterministic(self) -> DeterministicResult | None:
         """What the deterministic model solved, if it gives the answer."""
-        return cast("DeterministicResult | None", self.details.get("deterministic"))
+        return cast("DeterministicResult | None", self._kept("deterministic"))
+
+    def _kept(self, kind: str) -> ModelDetails | None:
+        """Return the details of this kind that a model keeps, if there are any."""
+        return next((kept for kept in self.details.values() if kept is not None and kept.kind == kind), None)
 
     @property
     def shows_contact(self) -> bool:

@@ -4,10 +4,11 @@
 ``"paper"``, film and contact that share one load, with the friction of Eq. (9) (`load_sharing.paper_model`);
 ``"load-sharing"``, the same balance with a calibrated friction and error (`load_sharing.load_sharing_model`); and
 ``"deterministic"``, the film between the rough surfaces in its own gap (`deterministic.model`). `shared` is what they
-have in common: the scene made ready, heat, limits of validity, statistics.
+have in common: the scene made ready, heat, limits of validity, statistics. `prepare` makes a scene ready.
 """
 
 from .contract import ContactFields, Model, ModelAnswer, ModelDetails, SampleSolution, WorkEstimate
 from .deterministic import DeterministicModel, DeterministicResult
 from .load_sharing import Balance, LoadSharingModel, PaperModel
-from .registry import AUTO, MODELS, model_named, models_up_to
+from .prepare import at_speed, at_tolerance, prepare, prepare_on_maps
+from .registry import AUTO, MODELS, candidates, model_named, models_up_to

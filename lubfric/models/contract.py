@@ -14,6 +14,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from ..errors import Report
 from ..samples import Sample
 from ..scene import Scene
 from ..surface import Surface
-from .shared import ControlVariate, Decision, Heat, Prepared, StandardError, Validity, required_strips
+from .shared import ControlVariate, Decision, ExpectedWarnings, Heat, Prepared, StandardError, Validity, required_strips
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,7 +66,12 @@ class ContactFields:
 
 
 class ModelDetails:
-    """What a model keeps of its solve, for those who know it: a frozen dataclass, which a store of results can hold."""
+    """What a model keeps of its solve, for those who know it: a frozen dataclass, which a store of results can hold.
+
+    ``kind``: what it is, for those who look for it among the details of a result.
+    """
+
+    kind: ClassVar[str] = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -237,6 +243,26 @@ class Model(ABC):
         ``start``: the solution of fewer of the same strips; ``control``: what a cheaper model knows of them. Raises
         `ConvergenceError`.
         """
+
+    def check(self, scene: Scene, *, is_joint: bool) -> None:
+        """Raise `InputError` for a ``scene`` that names this model and has keys it does not take. Nothing is solved.
+
+        ``is_joint``: one map was given to `lubfric.prepare`, for all its bodies.
+        """
+
+    def described(self, scene: Scene) -> str:
+        """Return what the model is, and how wide its interval, as text for a ``scene`` that names it."""
+        return f"{self.name} model (numerics.model)"
+
+    def expected_warnings(self, scene: Scene, speeds: list[float]) -> ExpectedWarnings:
+        """Return the limits of the model that will be exceeded at ``speeds`` [m/s], by closed forms before the solve,
+        each with its speed (None: at all speeds)."""
+        return ()
+
+    @property
+    def includes_motion(self) -> bool:
+        """Whether f, or its model-form error, includes that roughness moves through the contact."""
+        return self.moves_roughness
 
     @property
     def moves_roughness(self) -> bool:

@@ -1,5 +1,10 @@
-"""The models that ``numerics.model`` names. A further one is added to `MODELS`, and its name to scene/keys.toml."""
+"""The models that ``numerics.model`` names. A further one is added to `MODELS`, and its name to keys.toml.
 
+Whoever needs the models asks the functions here, so that `MODELS` is the one place that lists them.
+"""
+
+from ..errors import InputError
+from ..scene import Scene
 from .contract import Model
 from .deterministic import DeterministicModel
 from .load_sharing import LoadSharingModel, PaperModel
@@ -12,13 +17,27 @@ AUTO = "auto"
 
 
 def model_named(name: str) -> Model:
-    """Return the model of this ``name``."""
-    return next(model for model in MODELS if model.name == name)
+    """Return the model of this ``name``; `InputError` if there is none."""
+    for model in MODELS:
+        if model.name == name:
+            return model
+    names = ", ".join(repr(model.name) for model in MODELS)
+    raise InputError(f" = {name!r} names no model", "numerics.model", names)
 
 
 def models_up_to(name: str) -> tuple[Model, ...]:
     """Return the model of this ``name`` and the cheaper ones, the cheapest first; all of them for `AUTO`."""
     if name == AUTO:
         return MODELS
-    names = [model.name for model in MODELS]
-    return MODELS[: names.index(name) + 1]
+    return MODELS[: MODELS.index(model_named(name)) + 1]
+
+
+def candidates(name: str) -> tuple[Model, ...]:
+    """Return the models whose answer the value ``name`` of ``numerics.model`` may give, the cheapest first."""
+    return MODELS if name == AUTO else (model_named(name),)
+
+
+def check_by_model(scene: Scene, *, is_joint: bool) -> None:
+    """Raise `InputError` for a ``scene`` that the model it names refuses (`Model.check`)."""
+    if scene.numerics.model != AUTO:
+        model_named(scene.numerics.model).check(scene, is_joint=is_joint)

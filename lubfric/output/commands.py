@@ -25,11 +25,8 @@ import numpy as np
 
 from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, figures, plain, read_json, validate
 from ..errors import InputError, OutputError
-from ..models.shared import (
-    Prepared,
-    Validity,
-    prepare,
-)
+from ..models import prepare
+from ..models.shared import Prepared, Validity
 from ..quantities import KEYS, Quantity, described
 from ..scene import Scene
 from ..studies import Law, Store, fingerprint_without_files, fits

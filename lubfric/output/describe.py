@@ -9,12 +9,13 @@ import numpy as np
 
 from ..errors import InputError
 from ..estimate import forecast
+from ..models import AUTO, candidates, model_named
 from ..models.deterministic import MOST_WORK
 from ..models.shared import (
     ExpectedEffect,
     Validity,
+    beforehand,
     effect_in_words,
-    expected,
     expected_effects,
     gathered,
 )
@@ -28,7 +29,7 @@ from ..samples import (
 from ..scene import CHANGING, Scene, gap_not_resolved, moves, warn_unusual_values
 from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
-from ..time import check_run, estimated_run, periods, sampled_times, scene_at, speeds_of_run
+from ..time import check_run, estimated_run, periods, run_model_of, sampled_times, scene_at, speeds_of_run
 from ..units import worded
 from .inputs import FACTS, input_rows
 
@@ -108,11 +109,20 @@ def estimate_scene(
         changing = [*_histories(scene), cost, *lines]
     elif cost:
         model.append(f"cost: {cost}; 'lubfric run' takes {COMMAND_SECONDS:g} s more for start, pictures and files")
-    at = expected(scene, surface, sorted(set(speeds)))
+    model_asked_first = candidates(scene.numerics.model)[0]
+    at = [
+        *((None, entry) for entry in beforehand(scene, surface)),
+        *model_asked_first.expected_warnings(scene, sorted(set(speeds))),
+    ]
     refusals = _doubts([(speed, entry) for speed, entry in at if entry.severe])
     whole = sample.map
     notes = [note for note in whole.notes if "nm as measured" in note]
-    effects = expected_effects(_fastest_moment(scene), whole.sq, own)
+    effects = expected_effects(
+        _fastest_moment(scene),
+        whole.sq,
+        own,
+        includes_motion=any(model.includes_motion for model in candidates(scene.numerics.model)),
+    )
     changes = [
         f"likely changes of f at {own:g} m/s, estimated by closed forms before the solve; the report has those of the "
         "result:",
@@ -145,7 +155,7 @@ def _fastest_moment(scene: Scene) -> Scene:
     return max(moments, key=lambda moment: abs(moment.motion.entrainment_speed))
 
 
-def _doubts(at: list[tuple[float | None, Validity]] | tuple[tuple[float | None, Validity], ...]) -> list[str]:
+def _doubts(at: list[tuple[float | None, Validity]]) -> list[str]:
     """Entries as text; ``at``: pairs of a speed [m/s], None for what is of bodies and map, and an entry."""
     fixed = [entry.text for speed, entry in at if speed is None]
     return [*fixed, *gathered([(speed, (entry,)) for speed, entry in at if speed is not None])]
@@ -153,8 +163,6 @@ def _doubts(at: list[tuple[float | None, Validity]] | tuple[tuple[float | None, 
 
 def _plan(scene: Scene, surface: Surface) -> str:
     what = {"flat": "a periodic contact", "cylinder": "a semi-periodic contact"}[scene.contact.geometry]
-    if scene.numerics.model == "deterministic":
-        what = "the deterministic model"
     on = "strips of the roughness" if takes_strips(scene) else "{} x {} cells".format(*surface.shape)
     return f"{what} on {on}; numerical error of f at most {100 * scene.numerics.tolerance:g} %"
 
@@ -164,14 +172,12 @@ def _model(
 ) -> tuple[list[str], float]:
     """Return which model will answer at the ``speeds`` [m/s] and ``ratios``, and why; and the processor seconds of all
     of them (`lubfric.estimate.friction`; 0: not known here)."""
-    model = scene.numerics.model
+    name = scene.numerics.model
     why = gap_not_resolved(scene)
-    unknown = "its model-form error is not known and not in the interval"
-    if scene.transient is not None and model == "deterministic":
-        return ["deterministic model at all times (numerics.model)"], 0.0
     if scene.transient is not None:
-        rows = [f"load-sharing model at all times; {unknown}"]
-        if moves(scene):
+        run = run_model_of(scene)
+        rows = [run.described]
+        if moves(scene) and not run.moves_roughness:
             rows.append("moving roughness is treated as stationary; numerics.model = 'deterministic' moves it")
         return rows, 0.0
     moving = sorted({abs(u) for u in speeds if u != 0})
@@ -181,16 +187,10 @@ def _model(
     forecasts = [forecast(at, sample, surface, speed) for at, speed in points]
     resolved = [one.speed for one in forecasts if one.resolved]
     strip = max((one.moving for one in forecasts), default=0.0)
-    if model == "deterministic":
-        rows = ["deterministic model (numerics.model)"]
-    elif model == "paper":
-        rows = [f"load-sharing model of the paper (numerics.model): fast; {unknown if why else 'its interval is wide'}"]
-    elif model == "load-sharing":
-        rows = [
-            f"load-sharing model, calibrated (numerics.model): fast, with the error of solved cases{why and f'; {unknown}'}"
-        ]
+    if name != AUTO:
+        rows = [model_named(name).described(scene)]
     elif why:
-        rows = [f"load-sharing model alone: {why}; {unknown}"]
+        rows = [f"load-sharing model alone: {why}; its model-form error is not known and not in the interval"]
     elif not resolved and strip > MOST_WORK:
         rows = ["load-sharing model alone, with a wide interval: the deterministic model would take too long"]
     elif not resolved:
@@ -204,9 +204,9 @@ def _model(
         ]
     if strip:
         takes = f"one strip of moving roughness takes about {in_words(strip)} by the deterministic model"
-        if model == "paper":
+        if not any(model.includes_motion for model in candidates(name)):
             takes = f"moving roughness is treated as stationary; {takes}"
-        if model == "auto":
+        if name == AUTO:
             takes += f"; where it takes more than {MOST_WORK:g} s, the load-sharing model answers alone"
         rows.append(takes)
     many = len(ratios) or len(moving)

@@ -180,16 +180,10 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding
             f"{point.lambda_ratio:.3g}."
         )
     share = point.contact_load / (point.contact_load + point.film_load)
-    if point.decision.model == "deterministic":
-        sentences.append(
-            f"{100 * share:.3g} % of the load rubs at boundary friction (gaps below the boundary film, and film at its "
-            f"limiting stress); the mean separation of the surfaces is {worded(point.mean_gap, 'm')}."
-        )
-    else:
-        sentences.append(
-            f"The asperities carry {100 * share:.3g} % of the load; the mean separation of the surfaces is "
-            f"{worded(point.mean_gap, 'm')}."
-        )
+    rubbing = point.decision.rubbing.format(part=f"{100 * share:.3g} %")
+    if math.isfinite(point.mean_gap):
+        rubbing += f"; the mean separation of the surfaces is {worded(point.mean_gap, 'm')}"
+    sentences.append(f"{rubbing}.")
     f = curve["coefficient"]
     solved = np.flatnonzero(np.isfinite(f))
     if solved.size > 1:

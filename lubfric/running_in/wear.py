@@ -31,8 +31,8 @@ from ..contact import (
 )
 from ..errors import ConvergenceError, InputError, WorkLimitError
 from ..estimate import friction
+from ..models import prepare
 from ..models.load_sharing import Balance, solve_balance
-from ..models.shared import prepare
 from ..samples import cylinder_of, flat_contact_of, half_space_contact_of
 from ..scene import Scene
 from ..surface import Surface

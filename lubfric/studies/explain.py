@@ -10,10 +10,8 @@ from typing import Any
 
 from ..errors import InputError
 from ..estimate import forecast
-from ..models.shared import (
-    Prepared,
-    prepare,
-)
+from ..models import prepare
+from ..models.shared import Prepared
 from ..quantities import counted, worded_value
 from .choose import CHOSEN, first_speeds
 from .operating_points import POINT

@@ -11,7 +11,8 @@ import numpy as np
 from .._base.processes import spread
 from ..errors import LubfricError
 from ..estimate import FrictionResult
-from ..models.shared import Prepared, prepare
+from ..models import prepare
+from ..models.shared import Prepared
 from ..scene import Scene
 from .curve import without_rolling
 from .explain import curve_seconds

@@ -9,12 +9,8 @@ from typing import Any
 
 from ..errors import InputError, LubfricError, ValidityError
 from ..estimate import FrictionResult, friction
-from ..models.shared import (
-    Prepared,
-    in_a_cell,
-    prepare,
-    prepare_on_maps,
-)
+from ..models import prepare, prepare_on_maps
+from ..models.shared import Prepared, in_a_cell
 from ..quantities import NUMBERS
 from ..samples import measured, whole_maps
 from ..scene import Scene

@@ -14,11 +14,8 @@ from .._base.jobs import parts_on
 from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import ITERATION_LIMIT, InputError, Report
 from ..estimate import FrictionResult
-from ..models.shared import (
-    Prepared,
-    at_tolerance,
-    scene_of,
-)
+from ..models import at_tolerance
+from ..models.shared import Prepared, scene_of
 from ..quantities import PointQuantities, described_in_doc
 from ..scene import FASTEST, LARGEST_RATIO, Scene
 from .choose import GRID, alike, between, each_once, requested_speeds, span, tolerance_between

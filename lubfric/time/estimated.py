@@ -37,16 +37,19 @@ class RunEstimate:
     widest: Forecast | None = None
 
 
-def estimated_run(scene: Scene, sample: Sample, surface: Surface) -> RunEstimate:
-    """Return the estimate of the run of ``scene``; ``sample`` and ``surface`` as `lubfric.prepare` makes them.
+def estimated_deterministic(scene: Scene, sample: Sample, surface: Surface) -> RunEstimate:
+    """Return the estimate of a deterministic run, which has one strip; arguments as of `estimated_run`."""
+    steps, seconds = work_of_run(scene)
+    return RunEstimate(steps=steps, seconds=seconds)
 
-    A load-sharing run first solves steady friction at some of its speeds, for its strips. The number of steps follows
+
+def estimated_load_sharing(scene: Scene, sample: Sample, surface: Surface) -> RunEstimate:
+    """Return the estimate of a run by load sharing; arguments as of `estimated_run`.
+
+    The run first solves steady friction at some of its speeds, for its strips. The number of steps follows
     from the tolerance of a step with the order of the march, 2.
     """
     plan = transient_of(scene)
-    if scene.numerics.model == "deterministic":
-        steps, seconds = work_of_run(scene)
-        return RunEstimate(steps=steps, seconds=seconds)
     forecasts = [forecast(scene, sample, surface, speed) for speed in speeds_of_run(scene) or [0.0]]
     widest = None
     cells = surface.heights.size

@@ -9,7 +9,7 @@ import numpy as np
 from .._base import FloatArray, Shown, figures, validate
 from ..errors import Report
 from ..estimate import MethodUse, UncertaintyCurve, cited, methods_of
-from ..models import AUTO, MODELS, model_named
+from ..models import candidates
 from ..models.shared import (
     Prepared,
     Validity,
@@ -325,9 +325,8 @@ def collect(
 
 def _use(prepared: Prepared, columns: dict[str, np.ndarray]) -> MethodUse:
     """Return what the ``columns`` of a run show of the methods that it uses."""
-    name = prepared.scene.numerics.model
     return MethodUse(
-        model=MODELS[0] if name == AUTO else model_named(name),
+        model=candidates(prepared.scene.numerics.model)[0],
         contact=bool((columns["contact_load"] > 0).any()),
         film=bool((columns["film_load"] > 0).any()),
         sliding=bool((columns["sliding_speed"] != 0).any()),

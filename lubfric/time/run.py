@@ -23,29 +23,13 @@ from ..models.shared import (
 )
 from ..scene import Scene, Transient
 from ..studies import Store, classes_of, digest, fingerprint_without_files, opened
-from .estimated import estimated_run
 from .load_sharing_solver import Contact
 from .march import Plan, Progress, Step, checked_times, initial_progress, plan_of, steps
-from .model import Output, Start, TimeModel
+from .model import Output, TimeModel
+from .registry import estimated_run, run_model_of
 from .result import TransientResult, collect
 from .scene_in_time import transient_of
-from .start import check_load_sharing, start_load_sharing
-from .transient_deterministic import check_deterministic, start_deterministic
 
-# each makes a scene ready, by the value of numerics.model
-MODELS: dict[str, Callable[[Scene | Prepared], Start]] = {
-    "auto": start_load_sharing,
-    "load-sharing": start_load_sharing,
-    "paper": start_load_sharing,
-    "deterministic": start_deterministic,
-}
-# each raises InputError for a scene that its model does not take, and solves nothing
-CHECKS: dict[str, Callable[[Scene], None]] = {
-    "auto": check_load_sharing,
-    "load-sharing": check_load_sharing,
-    "paper": check_load_sharing,
-    "deterministic": check_deterministic,
-}
 CLASSES = classes_of(Progress, Output, Contact, Validity, State)  # that a state or an output may hold
 STATE = tuple[int, Progress]  # what is kept of a run: how many outputs there are, and its progress
 
@@ -106,7 +90,7 @@ def transient(
     scene, times = _with_plan(scene, times)
     limit = scene_of(scene).numerics.max_work or math.inf
     with limited_work(limit) as begun:
-        start = MODELS[scene_of(scene).numerics.model](scene)
+        start = run_model_of(scene_of(scene)).start(scene)
     model = start.model
     plan = transient_of(model.scene)
     tolerance = plan.tolerance or model.time_error
@@ -129,11 +113,6 @@ def transient(
     if result.report.converged:
         store.clear([key, *_output_keys(key, len(outputs))])
     return result
-
-
-def check_run(scene: Scene) -> None:
-    """Raise `InputError` for a ``scene`` with a ``transient`` that its model refuses. Nothing is solved."""
-    CHECKS[scene.numerics.model](scene)
 
 
 def _output_keys(key: str, count: int) -> list[str]:

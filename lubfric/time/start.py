@@ -9,13 +9,9 @@ import numpy as np
 
 from ..errors import CONVERGED, ConvergenceError, InputError, LubfricError, WorkLimitError
 from ..estimate import sampled
+from ..models import prepare
 from ..models.load_sharing import BalancedSample, PaperModel, PaperSolution, solve_balance
-from ..models.shared import (
-    Prepared,
-    on_stack,
-    prepare,
-    scene_of,
-)
+from ..models.shared import Prepared, on_stack, scene_of
 from ..samples import (
     Sample,
 )
@@ -30,7 +26,6 @@ from .transient_load_sharing import TransientLoadSharing, make_load_sharing
 SPEEDS = 4  # looked at between the fastest and the slowest of a run
 SLOWEST = 1e-3  # of the fastest: slower ones are boundary lubrication
 SUPPORTED = {  # what a run does of the steady options; the film is deflected by its own pressure, whatever the default says
-    "model": ("auto", "load-sharing", "paper"),
     "film_deflection": ("scaled", "hydrodynamic"),
     "cavitated_shear": ("none",),
 }

@@ -17,6 +17,7 @@ from ..estimate import (
     full_load_numbers,
     power_of_forces,
 )
+from ..models import prepare
 from ..models.deterministic import (
     BOUNDARY_FILM,
     KRYLOV,
@@ -43,14 +44,7 @@ from ..models.deterministic import (
     strip_of,
     work_of_steps,
 )
-from ..models.shared import (
-    Prepared,
-    Validity,
-    block_error,
-    prepare,
-    warn_motion,
-    warn_thickness,
-)
+from ..models.shared import Prepared, Validity, block_error, warn_motion, warn_thickness
 from ..quantities import OF_MOMENT
 from ..scene import Constant, Scene, moving_bodies
 from .film_setting import WET

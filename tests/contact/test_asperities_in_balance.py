@@ -7,7 +7,7 @@ from scipy.optimize import brentq
 
 import lubfric
 from lubfric.contact import asperity_contact, asperity_curve, find_asperities
-from lubfric.models.shared import prepare
+from lubfric.models import prepare
 
 CYLINDER = paper_scene(
     contact={"shape": (96, 96), "spacing": 0.6e-6},

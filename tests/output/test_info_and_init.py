@@ -94,7 +94,7 @@ def test_info_tells_of_rest_of_one_gap_and_of_one_patch():
     assert "no entrainment: all load" in still
     assert "semi-periodic contact on 128 x 64 cells" in describe_scene(HEAVY.with_(numerics={"sampling": "patch"}))
     one = HEAVY.with_(numerics={"model": "deterministic"})
-    assert "the deterministic model" in describe_scene(one.with_(motion={"slide_roll_ratio": 2.0}))
+    assert "deterministic model (numerics.model)" in describe_scene(one.with_(motion={"slide_roll_ratio": 2.0}))
 
 
 TRANSIENT = lubfric.load_scene("paper").with_(transient=lubfric.Transient(duration=1e-3))

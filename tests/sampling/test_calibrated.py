@@ -291,11 +291,11 @@ def test_f_is_not_negative_where_one_surface_stands_still():
 def test_every_model_of_the_scene_has_an_estimate_and_a_run_in_time():
     from lubfric.estimate import forecast
     from lubfric.quantities import CHOICES
-    from lubfric.time.run import MODELS
+    from lubfric.time import run_model_of
 
-    assert {*CHOICES["numerics.model"]} == {*MODELS}
     seconds = {}
-    for model in ("paper", "load-sharing", "deterministic", "auto"):
+    for model in CHOICES["numerics.model"]:
+        assert run_model_of(PAPER.with_(numerics={"model": model})).described
         prepared = lubfric.prepare(PAPER.with_(numerics={"model": model}))
         seconds[model] = forecast(prepared.scene, prepared.sample, prepared.surface, 0.03).seconds
     assert seconds["paper"] < seconds["load-sharing"] < seconds["deterministic"]

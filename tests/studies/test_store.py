@@ -19,10 +19,8 @@ from scene_text import paper_scene
 import lubfric
 from lubfric._base import FolderLock, read_checked, write_checked, write_whole
 from lubfric.errors import Report
-from lubfric.models.shared import (
-    Validity,
-    prepare,
-)
+from lubfric.models import prepare
+from lubfric.models.shared import Validity
 from lubfric.output import command_line as cli
 from lubfric.studies import Store, classes_of, decode, digest, encode, fingerprint, opened
 

@@ -10,7 +10,7 @@ from scene_text import paper_scene
 from small_study import slowness
 
 import lubfric
-from lubfric.models.shared import prepare
+from lubfric.models import prepare
 from lubfric.output import main
 from lubfric.scene import Harmonic, Ramp, Table, Transient
 from lubfric.time import TransientLoadSharing

@@ -209,6 +209,8 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     known = heat.text(tolerance)
     return Decision(
         model="deterministic",
+        rubbing="{part} of the load rubs at boundary friction (gaps below the boundary film, and film at its limiting "
+        "stress)",
         film=words,
         contact="boundary film",
         tolerance=tolerance,

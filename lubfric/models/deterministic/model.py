@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ...samples import Sample
-from ...scene import Scene, gap_not_resolved
+from ...scene import Scene, check_resolved_gap, gap_not_resolved
 from ...surface import Surface
 from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
-from ..shared import ControlVariate, Prepared, StandardError, no_rough_film
+from ..shared import ControlVariate, ExpectedWarnings, Prepared, StandardError, expected_on_hertz, no_rough_film
 from .answer import answer_of
 from .estimated_work import estimated_work
 from .heat import too_hot
@@ -65,6 +65,12 @@ class DeterministicModel(Model):
     @property
     def moves_roughness(self) -> bool:
         return True
+
+    def check(self, scene: Scene, *, is_joint: bool) -> None:
+        check_resolved_gap(scene, is_joint)
+
+    def expected_warnings(self, scene: Scene, speeds: list[float]) -> ExpectedWarnings:
+        return expected_on_hertz(scene)
 
     def first_strips(self, sample: Sample) -> int:
         return 1

@@ -67,6 +67,8 @@ class DeterministicResult(ModelDetails):
     - approach [m]: h0. inlet_load [N/m]: carried upstream of the grid. ``state`` starts a neighbouring solve.
     """
 
+    kind = "deterministic"
+
     x: np.ndarray
     spacing: tuple[float, float]
     pressure: np.ndarray

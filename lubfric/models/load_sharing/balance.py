@@ -57,6 +57,8 @@ class Balance(ModelDetails):
     """One operating point, loads in N. ``film`` is None without entrainment; ``response`` is None if the film carries
     everything. ``notes``: choices that a reader should know."""
 
+    kind = "balance"
+
     film_load: float
     contact_load: float
     film: EHLResult | None

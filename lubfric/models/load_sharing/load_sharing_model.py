@@ -13,7 +13,16 @@ from ...samples import Sample
 from ...scene import Scene, gap_not_resolved, moves
 from ...surface import Surface
 from ..contract import AtInputs, Model, ModelAnswer, SampleSolution, WorkEstimate
-from ..shared import ControlVariate, Prepared, add_errors, limit_in_words, no_rough_film, percent
+from ..shared import (
+    ControlVariate,
+    ExpectedWarnings,
+    Prepared,
+    add_errors,
+    expected_in_film,
+    limit_in_words,
+    no_rough_film,
+    percent,
+)
 from .answer import answer_of
 from .calibrated import CalibratedFriction, calibrated_friction, film_on_strip
 from .calibrated_error import error_model_of, least_half_width
@@ -90,6 +99,17 @@ class LoadSharingModel(Model):
     @property
     def name(self) -> str:
         return "load-sharing"
+
+    @property
+    def includes_motion(self) -> bool:
+        return True  # cases of moving roughness are among those behind the calibration
+
+    def described(self, scene: Scene) -> str:
+        unknown = "; its model-form error is not known and not in the interval" if gap_not_resolved(scene) else ""
+        return f"load-sharing model, calibrated (numerics.model): fast, with the error of solved cases{unknown}"
+
+    def expected_warnings(self, scene: Scene, speeds: list[float]) -> ExpectedWarnings:
+        return expected_in_film(scene, speeds)
 
     def estimate(
         self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...samples import Sample
-from ...scene import Scene
+from ...scene import Scene, gap_not_resolved
 from ...surface import Surface
 from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
-from ..shared import ControlVariate, Heat, Prepared, StandardError, Validity
+from ..shared import ControlVariate, ExpectedWarnings, Heat, Prepared, StandardError, Validity, expected_in_film
 from .answer import answer_of, limits_of
 from .balanced_sample import BalancedSample, solve_sample
 from .control_variate import control_for
@@ -86,6 +86,17 @@ class PaperModel(Model):
     @property
     def name(self) -> str:
         return "paper"
+
+    @property
+    def includes_motion(self) -> bool:
+        return False  # roughness is treated as stationary
+
+    def described(self, scene: Scene) -> str:
+        width = "its model-form error is not known and not in the interval"
+        return f"load-sharing model of the paper (numerics.model): fast; {width if gap_not_resolved(scene) else 'its interval is wide'}"
+
+    def expected_warnings(self, scene: Scene, speeds: list[float]) -> ExpectedWarnings:
+        return expected_in_film(scene, speeds)
 
     def estimate(
         self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None

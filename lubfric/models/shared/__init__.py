@@ -1,6 +1,6 @@
 """What the models have in common: the scene made ready, heat, limits of validity, effects that are not modelled.
 
-`prepared` makes a scene ready and finds the contact on strips and pieces, with `memo`; `statistics` has the standard
+`prepared` has a scene made ready, and the contact on its strips and pieces, with `memo`; `statistics` has the standard
 errors of means along a line and the number of strips that they need. No room of a model imports the other; both import
 this one.
 """
@@ -21,24 +21,22 @@ from .checks import (
     warn_thickness,
     warn_typical_heat,
 )
-from .checks_before import expected, warn_bodies, warn_map
+from .checks_before import ExpectedWarnings, beforehand, expected_in_film, expected_on_hertz, warn_bodies, warn_map
 from .control_variate import ControlVariate
 from .decision import Decision
 from .film_speed import exponents, speed_of
 from .heat import Heat, error_by_heat, film_lubricant, inlet_at, peclet_at, point_heat, surroundings, typical_heat
-from .memo import Key, Memo, ReferenceKey
+from .memo import Key, Memo, ReferenceKey, StackKey
 from .prepared import (
     Prepared,
-    at_speed,
-    at_tolerance,
+    cells_of_contact,
     contact_of,
     contact_on,
     no_rough_film,
     on_piece,
     on_stack,
     on_strip,
-    prepare,
-    prepare_on_maps,
+    operator_on,
     scene_of,
 )
 from .statistics import (

@@ -154,20 +154,24 @@ def warn_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Itera
             )
 
 
-def expected(scene: Scene, surface: Surface, speeds: list[float]) -> tuple[tuple[float | None, Validity], ...]:
-    """Pairs (speed [m/s], entry). The speed is None if the entry is about bodies or map. Films are those expected
-    under the total load."""
-    entries_by_speed: list[tuple[float | None, Validity]] = [(None, entry) for entry in beforehand(scene, surface)]
-    if scene.numerics.model == "deterministic":
-        in_all = [replace(entry, severe=False) for entry in warn_pressure(scene, peak_hertz_pressure(scene))]
-        return (*entries_by_speed, *((None, entry) for entry in in_all))
+# Limits that will be exceeded, each with the speed [m/s] at which it is; None: at all speeds.
+ExpectedWarnings = tuple[tuple[float | None, Validity], ...]
+
+
+def expected_on_hertz(scene: Scene) -> ExpectedWarnings:
+    """Return the limits of the oil that the peak Hertz pressure exceeds at all speeds, none of them severe."""
+    return tuple((None, replace(entry, severe=False)) for entry in warn_pressure(scene, peak_hertz_pressure(scene)))
+
+
+def expected_in_film(scene: Scene, speeds: list[float]) -> ExpectedWarnings:
+    """Return the limits that the film expected under the total load exceeds at ``speeds`` [m/s]."""
+    entries: list[tuple[float | None, Validity]] = []
     for speed in speeds:
-        if speed == 0:
-            continue
-        film = scene.line_contact(speed).expected_film
-        entries = [*warn_motion(scene, speed, film), *_warn_film(scene, speed, film)]
-        entries_by_speed += [(speed, entry) for entry in entries]
-    return tuple(entries_by_speed)
+        if speed != 0:
+            film = scene.line_contact(speed).expected_film
+            entries += [(speed, entry) for entry in warn_motion(scene, speed, film)]
+            entries += [(speed, entry) for entry in _warn_film(scene, speed, film)]
+    return tuple(entries)
 
 
 def _warn_film(scene: Scene, speed: float, film: float) -> list[Validity]:

@@ -16,6 +16,7 @@ class Decision:
     - ``change_by_cells``: relative change of f by the scene's own cells, for which it is corrected.
     - ``heat``: which heat was modelled, as text ("": none can be).
     - ``basis``: what the model-form error rests on, as text; first in ``text`` ("": the error formulas of the model).
+    - ``rubbing``: what the ``contact_load`` of this model is, as text with a place for its part of the load.
     """
 
     model: str
@@ -30,6 +31,7 @@ class Decision:
     heat: str = ""
     notes: tuple[str, ...] = ()
     basis: str = ""
+    rubbing: str = "The asperities carry {part} of the load"
 
     @property
     def text(self) -> str:

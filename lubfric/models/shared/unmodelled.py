@@ -73,23 +73,27 @@ ExpectedEffect = tuple[str, float, float, str]  # the effect; lowest and highest
 
 
 def unmodelled_effects(
-    scene: Scene, sq: float, speed: float, known: tuple[float, float] | None = None
+    scene: Scene, sq: float, speed: float, known: tuple[float, float] | None = None, *, includes_motion: bool = True
 ) -> tuple[UnmodelledEffect, ...]:
     """Return the effects that are not modelled for ``scene``, whose surface has the standard deviation ``sq`` [m], at
     ``speed`` [m/s]: the largest change of f first, what is not known last. What would change f by less than
     ``numerics.tolerance`` is not reported.
 
-    ``known``: the friction [-] of asperities alone and of all, of a result there, if there is one.
+    ``known``: the friction [-] of asperities alone and of all, of a result there, if there is one; ``includes_motion``:
+    whether the model has the motion of the roughness (`lubfric.models.Model.includes_motion`).
     """
     tolerance = scene.numerics.tolerance
-    kept = [effect for effect in _all_effects(scene, sq, speed, known) if not abs(effect[1]) <= tolerance]
+    effects = _all_effects(scene, sq, speed, known, includes_motion=includes_motion)
+    kept = [effect for effect in effects if not abs(effect[1]) <= tolerance]
     return tuple(sorted(kept, key=lambda effect: -abs(effect[1]) if math.isfinite(effect[1]) else 0.0))
 
 
-def expected_effects(scene: Scene, sq: float, speed: float) -> tuple[ExpectedEffect, ...]:
+def expected_effects(
+    scene: Scene, sq: float, speed: float, *, includes_motion: bool = True
+) -> tuple[ExpectedEffect, ...]:
     """Return the effects that are not modelled at ``speed`` [m/s], before f is known there, each with the range of its
     change of f: that of any result with the asperity load ratio and the shear of `POWERS` and `SHEARS`. The largest is
-    first."""
+    first. ``includes_motion``: as in `unmodelled_effects`."""
     rubs, friction = _parts(scene, sq, speed)
     f_b = scene.bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0)
     share = rubs / f_b if f_b else 0.0
@@ -99,7 +103,8 @@ def expected_effects(scene: Scene, sq: float, speed: float) -> tuple[ExpectedEff
         of_load = share**power
         for more in SHEARS if f_b and speed else (1.0,):
             known = f_b * of_load, f_b * of_load + more * shear * (1.0 - of_load)
-            for what, change, advice in _all_effects(scene, sq, speed, known if known[1] > 0 else None):
+            effects = _all_effects(scene, sq, speed, known if known[1] > 0 else None, includes_motion=includes_motion)
+            for what, change, advice in effects:
                 low, high, _ = ranges.get(what, (change, change, advice))
                 ranges[what] = float(np.fmin(low, change)), float(np.fmax(high, change)), advice
     tolerance = scene.numerics.tolerance
@@ -109,12 +114,14 @@ def expected_effects(scene: Scene, sq: float, speed: float) -> tuple[ExpectedEff
 
 
 def _all_effects(
-    scene: Scene, sq: float, speed: float, known: tuple[float, float] | None = None
+    scene: Scene, sq: float, speed: float, known: tuple[float, float] | None = None, *, includes_motion: bool
 ) -> list[UnmodelledEffect]:
     """Return all effects, however small."""
     bodies = scene.bodies
     rubbing, friction = known or _parts(scene, sq, speed)
-    effects = [] if speed == 0 or not friction > 0 else _of_film(scene, sq, speed, known)
+    effects = (
+        [] if speed == 0 or not friction > 0 else _of_film(scene, sq, speed, known, includes_motion=includes_motion)
+    )
     is_stated = (
         any("boundary_friction" in name for name, *_ in scene.ranges) or bodies.boundary_friction_table is not None
     )
@@ -134,7 +141,9 @@ def _all_effects(
     return effects
 
 
-def _of_film(scene: Scene, sq: float, speed: float, known: tuple[float, float] | None) -> list[UnmodelledEffect]:
+def _of_film(
+    scene: Scene, sq: float, speed: float, known: tuple[float, float] | None, *, includes_motion: bool
+) -> list[UnmodelledEffect]:
     """What needs a film."""
     line = scene.line_contact(speed)
     lubricant = scene.lubricant
@@ -164,8 +173,7 @@ def _of_film(scene: Scene, sq: float, speed: float, known: tuple[float, float] |
         effects.append(
             (words, change(scene, WORN * sq), "give a height map measured after running-in, or use lubfric.run_in")
         )
-        at_rest = scene.numerics.model == "paper" and moves(scene)  # the other model moves it
-        if at_rest and line.expected_film < THICK * sq:
+        if moves(scene) and not includes_motion and line.expected_film < THICK * sq:
             effects.append(
                 ("motion of the roughness through the contact", math.nan, "numerics.model = 'deterministic' models it")
             )

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.models.shared import prepare
+from lubfric.models import prepare
 
 PAPER: dict[str, Any] = dict(
     load_per_width=5.5 / 6e-3, radius=2e-3, e_prime=231e9, viscosity=0.36, pressure_viscosity_coefficient=25e-9

@@ -8,9 +8,8 @@ import numpy as np
 
 import lubfric
 from lubfric.estimate import sampled
-from lubfric.models import PaperModel
+from lubfric.models import PaperModel, prepare
 from lubfric.models.load_sharing import RoughMap, rough_film
-from lubfric.models.shared import prepare
 
 from .case import Case
 

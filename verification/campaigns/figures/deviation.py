@@ -9,10 +9,8 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.models.shared import (
-    Prepared,
-    prepare,
-)
+from lubfric.models import prepare
+from lubfric.models.shared import Prepared
 
 from ...check import AT_LEAST, Check, Item, Table, bound
 from ...kept import Run

@@ -17,7 +17,7 @@ import numpy as np
 
 import lubfric
 from lubfric.estimate import sampled
-from lubfric.models import DeterministicModel
+from lubfric.models import DeterministicModel, prepare
 from lubfric.models.deterministic import (
     TIGHT,
     DeterministicSolution,
@@ -29,7 +29,7 @@ from lubfric.models.deterministic import (
 )
 from lubfric.models.deterministic.rough_bodies import bodies_of, summit_control
 from lubfric.models.deterministic.strip_on_two_grids import strip_of
-from lubfric.models.shared import prepare, student
+from lubfric.models.shared import student
 from lubfric.scene import Scene, moving_bodies
 from lubfric.surface import generate_surface
 

@@ -6,7 +6,7 @@ import numpy as np
 
 import lubfric
 from lubfric.contact import ContactState
-from lubfric.models.shared import prepare
+from lubfric.models import prepare
 
 from ...check import AT_LEAST, Check, Item, compared
 from ...fem import parts

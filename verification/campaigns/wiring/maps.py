@@ -10,7 +10,7 @@ import numpy as np
 
 import lubfric
 from lubfric.contact import HalfSpaceContact
-from lubfric.models.shared import prepare
+from lubfric.models import prepare
 from lubfric.scene.roughness import Roughness
 
 from ...check import ABSOLUTE, AT_LEAST, AT_MOST, Check, Item

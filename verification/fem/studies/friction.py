@@ -7,10 +7,8 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.models.shared import (
-    Prepared,
-    prepare,
-)
+from lubfric.models import prepare
+from lubfric.models.shared import Prepared
 
 from ... import plotting
 from ...check import AT_LEAST, AT_MOST, Check, Item, Table, bound, compared

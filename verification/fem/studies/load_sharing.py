@@ -10,10 +10,8 @@ import numpy as np
 
 import lubfric
 from lubfric.contact import HalfSpace
-from lubfric.models.shared import (
-    Prepared,
-    prepare,
-)
+from lubfric.models import prepare
+from lubfric.models.shared import Prepared
 
 from ... import plotting
 from ...check import AT_LEAST, Field, Figure, Item, Table, compared

@@ -8,10 +8,8 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.models.shared import (
-    Prepared,
-    prepare,
-)
+from lubfric.models import prepare
+from lubfric.models.shared import Prepared
 from lubfric.scene.roughness import Roughness
 
 from ...campaigns.wiring.maps import planed

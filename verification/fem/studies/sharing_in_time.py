@@ -7,7 +7,7 @@ from itertools import islice
 import numpy as np
 
 import lubfric
-from lubfric.models.shared import prepare
+from lubfric.models import prepare
 from lubfric.scene import Table as History
 from lubfric.scene import Transient
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 import lubfric
-from lubfric.models.shared import prepare
+from lubfric.models import prepare
 from lubfric.scene import Harmonic, Ramp, Transient
 from lubfric.scene import Table as History
 

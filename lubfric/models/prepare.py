@@ -1,0 +1,137 @@
+"""A scene is made ready for its speeds: `prepare` checks it, chooses its sample and makes the first contact."""
+
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+from .._base import validate, with_default_errors
+from ..contact import RoughContact
+from ..errors import InputError
+from ..samples import Sample, sample_of, together
+from ..samples import check_grid as check_map
+from ..scene import Bodies, Scene, warn_unusual_values
+from ..surface import Surface
+from .registry import check_by_model
+from .shared import Memo, Prepared, StackKey, beforehand, cells_of_contact, operator_on, scene_of
+
+
+@with_default_errors
+def prepare(
+    scene: Scene,
+    surface: Surface | None = None,
+    *,
+    counterface: Surface | None = None,
+    like: Prepared | None = None,
+    contact: RoughContact | None = None,
+) -> Prepared:
+    """Prepare a scene: its height map and its rough contact, which all speeds share.
+
+    Parameters
+    ----------
+    scene : from `lubfric.load_scene`
+    surface : a height map to use unchanged, with its grid, instead of the scene's own. Under a cylinder it is taken as
+        periodic along y, for a flat contact along x and y (`Surface.periodic` makes it so). Without one, a scene with
+        ``numerics.sampling = "strips"`` gets strips of its roughness (docs/uncertainty.md)
+    counterface : the map of the other body, measured out of it, for a scene whose [counterface] is rough
+        (`Surface.combined`). Without it, ``surface`` is what the roughness of both bodies makes up
+    like : another prepared scene with the same surface, contact and E', whose map is used again
+    contact : a rough contact other than lubfric's own (`lubfric.contact.RoughContact`)
+
+    Returns
+    -------
+    Prepared : accepted wherever a scene is
+
+    Raises
+    ------
+    InputError : the map does not fit the scene, or ``like`` does not
+    """
+    validate.instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
+    maps = _given(scene, surface, counterface)
+    check_by_model(scene, is_joint=len(maps) == 1 or isinstance(like, Prepared) and like.joint)
+    if like is not None:
+        validate.instance("like", like, Prepared, "what lubfric.prepare returned")
+        _check_likeness(scene, like.scene, maps, contact)
+        if _same_contact(scene, like.scene):
+            prepared = replace(like, scene=scene, known=beforehand(scene, like.surface))
+            prepared.memo.keep_surface_of(like.memo)
+            return prepared
+        maps = (like.surface, *like.sample.bodies) if like.given else ()
+        contact = None if like.own else like.contact
+    with warn_unusual_values(scene):
+        sample = sample_of(scene, maps, contact=contact)
+        return _on_sample(scene, sample, is_given=bool(maps) or contact is not None)
+
+
+def prepare_on_maps(scene: Scene, read: tuple[Surface, ...]) -> Prepared:
+    """Return ``scene`` made ready on the maps that `lubfric.samples.whole_maps` ``read`` for it, which are not read
+    again."""
+    check_by_model(scene, is_joint=False)
+    with warn_unusual_values(scene):
+        return _on_sample(scene, sample_of(scene, read=read), is_given=False)
+
+
+def _on_sample(scene: Scene, sample: Sample, *, is_given: bool) -> Prepared:
+    """Return ``scene`` made ready on ``sample``, with the contact on its first strips."""
+    surface = sample.first_map()
+    check_map(scene, surface)
+    memo = Memo()
+    contact = sample.contact(scene, sample.first, partial(operator_on, memo, scene))
+    memo.put(StackKey(sample.cells.coarsening, sample.first), contact, cells_of_contact(contact))
+    prepared = Prepared(
+        scene=scene, surface=surface, contact=contact, sample=sample, known=beforehand(scene, surface), given=is_given
+    )
+    prepared.memo.keep_surface_of(memo)
+    return prepared
+
+
+def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -> tuple[Surface, ...]:
+    """The maps that were given to `prepare`, `together`."""
+    for name, one in (("surface", surface), ("counterface", counterface)):
+        if one is not None:
+            validate.instance(name, one, Surface, "a lubfric.Surface")
+    if counterface is None:
+        return () if surface is None else (surface,)
+    if surface is None or scene.counterface is None or scene.counterface.sq == 0:
+        raise InputError("counterface needs a surface beside it, the maps of both bodies, and a rough [counterface]")
+    return together(surface, counterface)
+
+
+def at_tolerance(scene: Scene | Prepared, tolerance: float | None, model: str | None) -> Prepared:
+    """``scene`` made ready, with another tolerance on f and another model if they are given."""
+    changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
+    if not changed and isinstance(scene, Prepared):
+        return scene
+    requested = scene_of(scene).with_(numerics=changed)
+    ready = scene if isinstance(scene, Prepared) else None
+    return ready if ready is not None and requested == ready.scene else prepare(requested, like=ready)
+
+
+def at_speed(prepared: Prepared, speed: float) -> Prepared:
+    """``prepared`` with the f_b that it has at ``speed`` [m/s]."""
+    scene = prepared.scene.at_speed(speed)
+    return prepared if scene == prepared.scene else prepare(scene, like=prepared)
+
+
+def _same_contact(scene: Scene, old: Scene) -> bool:
+    """Whether contact and cells of both scenes are the same to the bit."""
+    names = "tolerance", "contact_tolerance", "workers", "sampling", "grid", "model"
+    same = all(getattr(scene.numerics, name) == getattr(old.numerics, name) for name in names)
+    return same and _without_friction(scene.bodies) == _without_friction(old.bodies)
+
+
+def _without_friction(bodies: Bodies) -> Bodies:
+    return replace(bodies, boundary_friction_coefficient=0.0, boundary_friction_table=None)
+
+
+def _check_likeness(scene: Scene, old: Scene, maps: tuple[Any, ...], contact: RoughContact | None) -> None:
+    if maps or contact is not None:
+        raise InputError("like brings its own surface and contact; give like, or surface and contact, not both")
+    for name, a, b in (
+        ("surface", scene.surface, old.surface),
+        ("counterface", scene.counterface, old.counterface),
+        ("contact", scene.contact, old.contact),
+        ("bodies.e_prime", scene.bodies.e_prime, old.bodies.e_prime),
+        ("bodies.hardness", scene.bodies.hardness, old.bodies.hardness),
+    ):
+        if a != b:
+            raise InputError(f"{name} = {a!r} is not that of the prepared scene to be used again; allowed: {b!r}")

@@ -1,0 +1,73 @@
+"""The models that have a run in time, by their names in ``numerics.model``. A further one is added to `RUNS`."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from ..errors import InputError
+from ..models import AUTO, candidates
+from ..models.shared import Prepared
+from ..samples import Sample
+from ..scene import Scene
+from ..surface import Surface
+from .estimated import RunEstimate, estimated_deterministic, estimated_load_sharing
+from .model import Start
+from .start import check_load_sharing, start_load_sharing
+from .transient_deterministic import check_deterministic, start_deterministic
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunModel:
+    """How a model runs in time.
+
+    Attributes
+    ----------
+    start : makes a scene ready, and returns the `TimeModel` with its state at t = 0
+    check : raises `InputError` for a scene that the run does not take, and solves nothing
+    estimate : steps and processor time of a run, with its sample and the map that is solved first
+    described : what computes the run, as text
+    moves_roughness : whether the roughness moves through the film
+    """
+
+    start: Callable[[Scene | Prepared], Start]
+    check: Callable[[Scene], None]
+    estimate: Callable[[Scene, Sample, Surface], RunEstimate]
+    described: str
+    moves_roughness: bool
+
+
+LOAD_SHARING = RunModel(
+    start=start_load_sharing,
+    check=check_load_sharing,
+    estimate=estimated_load_sharing,
+    described="load-sharing model at all times; its model-form error is not known and not in the interval",
+    moves_roughness=False,
+)
+DETERMINISTIC = RunModel(
+    start=start_deterministic,
+    check=check_deterministic,
+    estimate=estimated_deterministic,
+    described="deterministic model at all times (numerics.model)",
+    moves_roughness=True,
+)
+RUNS = {"paper": LOAD_SHARING, "load-sharing": LOAD_SHARING, "deterministic": DETERMINISTIC}
+
+
+def run_model_of(scene: Scene) -> RunModel:
+    """Return how the model of ``scene`` runs in time; for "auto" the cheapest that does. `InputError` if it has no run."""
+    name = scene.numerics.model
+    for model in candidates(name):
+        if model.name in RUNS:
+            return RUNS[model.name]
+    raise InputError(
+        f" = {name!r}: this model has no run in time", "numerics.model", ", ".join(map(repr, [AUTO, *RUNS]))
+    )
+
+
+def check_run(scene: Scene) -> None:
+    """Raise `InputError` for a ``scene`` with a ``transient`` that its model refuses. Nothing is solved."""
+    run_model_of(scene).check(scene)
+
+
+def estimated_run(scene: Scene, sample: Sample, surface: Surface) -> RunEstimate:
+    """Return the estimate of the run of ``scene``; ``sample`` and ``surface`` as `lubfric.prepare` makes them."""
+    return run_model_of(scene).estimate(scene, sample, surface)
