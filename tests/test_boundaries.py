@@ -99,7 +99,7 @@ def test_the_estimate_knows_the_contract_of_a_model_and_no_model():
         "ModelDetails",
         "SampleSolution",
         "WorkEstimate",
-        "at_speed",
+        "with_friction_at",
         "at_tolerance",
         "candidates",
         "models_up_to",

@@ -271,6 +271,34 @@ def test_a_third_model_has_no_paper_and_no_error_of_another(monkeypatch):
     assert by_rolling == pytest.approx(0.25 * (0.03 - 0.0075), rel=1e-9)
 
 
+@pytest.mark.parametrize("requested, speed, scene", [("deterministic", 0.0, "paper"), ("load-sharing", 0.01, "flat")])
+def test_the_model_in_place_of_one_that_has_no_answer_is_named(requested, speed, scene):
+    """Nothing is entrained, or nothing is rough: the answer is that of the paper's model, and says why."""
+    result = lubfric.friction(lubfric.load_scene(scene), speed, model=requested)
+    assert result.decision.model == "paper"
+    assert f"the paper model in place of the {requested} model: " in result.decision.text
+    assert result.coefficient == lubfric.friction(lubfric.load_scene(scene), speed, model="paper").coefficient
+
+
+@pytest.mark.parametrize("slide_roll_ratio, controls", [(2.0, 1), (1.0, 0)])
+def test_the_cheapest_model_is_solved_beside_roughness_at_rest_alone(monkeypatch, slide_roll_ratio, controls):
+    """What moves has the control of its own summits, so nothing else is solved for it."""
+    solves = []
+
+    class Refused(Exception):
+        pass
+
+    def solve(self, *args, **kwargs):
+        raise Refused
+
+    original = PaperModel.solve
+    monkeypatch.setattr(PaperModel, "solve", lambda *args, **kwargs: solves.append(1) or original(*args, **kwargs))
+    monkeypatch.setattr(DeterministicModel, "solve", solve)
+    with pytest.raises(Refused):
+        lubfric.friction(PAPER.with_(motion={"slide_roll_ratio": slide_roll_ratio}), 0.03, model="deterministic")
+    assert bool(solves) == bool(controls)
+
+
 def test_fields_of_other_cells_are_refused():
     fields = lubfric.friction(PAPER, 0.03, model="paper").fields
     with pytest.raises(ValueError, match=r"gap .* is not on the cells"):

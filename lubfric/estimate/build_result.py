@@ -1,4 +1,4 @@
-"""The result of a point from what a model answers: its uncertainty budget, warnings, and words."""
+"""The result of a point from what a model answers: its numbers, uncertainty budget, warnings, and words."""
 
 import math
 import time
@@ -6,13 +6,16 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from ..errors import ConvergenceError
-from ..models import ContactFields, ModelAnswer
-from ..models.shared import Prepared, warn_error
+from ..errors import ConvergenceError, InputError, Report
+from ..models import ContactFields, Model, ModelAnswer
+from ..models.shared import Prepared, unmodelled_effects, warn_error
 from ..quantities import NUMBERS
 from ..scene import Scene
 from .choice import Choice
-from .ranges import with_ranges
+from .full_load import full_load_numbers
+from .methods import MethodUse, methods_of
+from .power import PowerLoss, power_loss_of
+from .ranges import changes_by_ranges, widened
 from .result import FrictionResult
 from .uncertainty import Uncertainty, field_errors_of, interval
 
@@ -20,51 +23,68 @@ from .uncertainty import Uncertainty, field_errors_of, interval
 ONE_STANDS_STILL = 2.0
 
 
-def result_of(prepared: Prepared, choice: Choice, begun: float, *, fine: bool = False) -> FrictionResult:
-    """Return the result of the solution that was chosen.
+def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *, fine: bool = False) -> FrictionResult:
+    """Return the result of the solution that was chosen at ``speed`` [m/s].
 
     ``begun``: the starting time, by `time.perf_counter`; ``fine``: whether its fields are solved again on cells fine
-    enough to look at.
+    enough to look at. Raises `InputError` where f is not finite.
     """
     scene = prepared.scene
     answer = choice.solution.answer()
+    numbers: dict[str, Any] = dict.fromkeys(NUMBERS, math.nan) | answer.numbers
+    f = numbers["coefficient"]
+    if not math.isfinite(f):
+        raise InputError(
+            f"f = {f} at a speed of {speed:g} m/s: numbers overflow; give speeds, viscosities and stresses of a "
+            "lubricated contact"
+        )
+    numbers |= full_load_numbers(scene, speed, prepared.surface.sq, numbers["inlet_film_factor"])
+    uncertainty = uncertainty_of(prepared, answer)
+    loss = _power_loss(scene, speed, choice.model, answer, numbers, uncertainty)
+    numbers["power_loss"] = loss.value
+    errors = answer.errors | {"power_loss": loss.error}
+    warnings = (*answer.warnings, *warn_error(answer.numerical, scene.numerics.tolerance, answer.recommendation))
+    decision = answer.decision
+    if choice.why:
+        decision = replace(decision, notes=(*decision.notes, choice.why))
+    known = numbers["boundary_force"] / scene.bodies.load, f
+    details = {choice.model.name: answer.details}
     compared_fields = None
-    details = {}
     if choice.compared is not None:
         model, solution = choice.compared
         compared = solution.answer()
         compared_fields = compared.fields
-        details[model.name] = compared.details
-    uncertainty = uncertainty_of(scene, answer)
-    decision = answer.decision
-    if choice.why:
-        decision = replace(decision, notes=(*decision.notes, choice.why))
-    validity = (*answer.warnings, *warn_error(answer.numerical, scene.numerics.tolerance, answer.recommendation))
-    notes = (*answer.report.notes, decision.text, *(entry.text for entry in validity), uncertainty.text)
-    numbers: dict[str, Any] = dict.fromkeys(NUMBERS, math.nan) | answer.numbers
-    numbers["seconds"] = time.perf_counter() - begun
-    result = FrictionResult(
-        **numbers,
-        report=replace(answer.report, notes=notes),
-        uncertainty=uncertainty,
-        errors=field_errors_of(answer.errors, answer.why_no_error, answer.reasons),
-        decision=decision,
-        validity=validity,
-        fields=answer.fields,
-        compared_fields=compared_fields,
-        details=details | {choice.model.name: answer.details},
-    )
-    result = not_negative(scene, with_ranges(prepared, result, answer))
+        details = {model.name: compared.details} | details
+    fields = answer.fields
+    report = answer.report
     if fine and answer.fine_fields is not None:  # last: work that is spent here is none that the interval needs
-        return with_fine_fields(result, answer.fine_fields)
-    return result
+        fields, report = _fine_fields(answer.fine_fields, fields, report)
+    notes = (*report.notes, decision.text, *(entry.text for entry in warnings), uncertainty.text)
+    numbers["seconds"] = time.perf_counter() - begun
+    return FrictionResult(
+        **numbers,
+        report=replace(report, notes=notes),
+        uncertainty=uncertainty,
+        errors=field_errors_of(errors, answer.why_no_error, answer.reasons),
+        decision=decision,
+        power_loss_interval=loss.interval,
+        validity=warnings,
+        unmodelled_effects=unmodelled_effects(
+            scene, prepared.surface.sq, speed, known, includes_motion=choice.model.includes_motion
+        ),
+        methods=methods_of(prepared, _use(scene, choice.model, numbers, uncertainty)),
+        fields=fields,
+        compared_fields=compared_fields,
+        details=details,
+    )
 
 
-def uncertainty_of(scene: Scene, answer: ModelAnswer) -> Uncertainty:
-    """Return the uncertainty budget of f of an ``answer``, without the ranges of inputs."""
+def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
+    """Return the uncertainty budget of f of an ``answer``, the ranges of inputs included."""
+    scene = prepared.scene
     f = answer.numbers["coefficient"]
     sampling = answer.sampling.error
-    return Uncertainty(
+    of_solve = Uncertainty(
         numerical=answer.numerical,
         sampling=sampling,
         interval=interval(f, answer.numerical, sampling, answer.sampling.freedom, *answer.model_error),
@@ -79,25 +99,57 @@ def uncertainty_of(scene: Scene, answer: ModelAnswer) -> Uncertainty:
         largest_in_model=answer.largest_in_model,
         notes=answer.notes,
     )
+    with_inputs = widened(of_solve, f, changes_by_ranges(prepared, answer)) if scene.ranges else of_solve
+    return _not_negative(scene, f, with_inputs)
 
 
-def with_fine_fields(result: FrictionResult, solve: Callable[[], ContactFields]) -> FrictionResult:
-    """Return ``result`` with the fields that ``solve`` gives; where it does not converge, with a note that says so."""
-    try:
-        return replace(result, fields=solve())
-    except ConvergenceError as error:
-        note = f"the fields are on the cells that f was solved on, as finer ones were not solved: {error}"
-        return replace(result, report=replace(result.report, notes=(*result.report.notes, note)))
-
-
-def not_negative(scene: Scene, result: FrictionResult) -> FrictionResult:
-    """Return ``result`` with an interval of f that is not below 0 where one surface is at rest.
+def _not_negative(scene: Scene, f: float, uncertainty: Uncertainty) -> Uncertainty:
+    """Return ``uncertainty`` with an interval of ``f`` that is not below 0 where one surface is at rest.
 
     There the power of the contact is f F_T times the sliding speed, and no contact delivers power.
     """
-    low, high = result.uncertainty.interval
-    if abs(scene.motion.slide_roll_ratio) != ONE_STANDS_STILL or not low < 0 <= result.coefficient:
-        return result
-    uncertainty = replace(result.uncertainty, interval=(0.0, high))
-    notes = tuple(uncertainty.text if note == result.uncertainty.text else note for note in result.report.notes)
-    return replace(result, uncertainty=uncertainty, report=replace(result.report, notes=notes))
+    low, high = uncertainty.interval
+    if abs(scene.motion.slide_roll_ratio) != ONE_STANDS_STILL or not low < 0 <= f:
+        return uncertainty
+    return replace(uncertainty, interval=(0.0, high))
+
+
+def _power_loss(
+    scene: Scene, speed: float, model: Model, answer: ModelAnswer, numbers: dict[str, Any], uncertainty: Uncertainty
+) -> PowerLoss:
+    """Return the power loss of the ``answer`` of ``model`` at ``speed`` [m/s]; its ``numbers`` have the lambda ratio."""
+    return power_loss_of(
+        scene,
+        speed=speed,
+        coefficient=numbers["coefficient"],
+        interval=uncertainty.interval,
+        coefficient_error=answer.errors.get("coefficient", math.nan),
+        resistance=numbers["rolling_resistance"],
+        resistance_error=answer.errors.get("rolling_resistance", math.nan),
+        resistance_model_error=model.rolling_error(numbers["lambda_ratio"]),
+    )
+
+
+def _use(scene: Scene, model: Model, numbers: dict[str, Any], uncertainty: Uncertainty) -> MethodUse:
+    """Return what the ``numbers`` of ``model`` show of the methods behind them."""
+    return MethodUse(
+        model=model,
+        contact=numbers["contact_load"] > 0,
+        film=numbers["film_load"] > 0,
+        sliding=scene.motion.slide_roll_ratio != 0,
+        sampled=uncertainty.sampling > 0,
+        inlet_heat=numbers["inlet_film_factor"] < 1.0,
+        film_heat=numbers["film_temperature_rise"] > 0,
+        flash=numbers["flash_temperature_rise"] > 0,
+    )
+
+
+def _fine_fields(
+    solve: Callable[[], ContactFields], fields: ContactFields | None, report: Report
+) -> tuple[ContactFields | None, Report]:
+    """Return the fields that ``solve`` gives, and the report; where it does not converge, ``fields`` and a note."""
+    try:
+        return solve(), report
+    except ConvergenceError as error:
+        note = f"the fields are on the cells that f was solved on, as finer ones were not solved: {error}"
+        return fields, replace(report, notes=(*report.notes, note))

@@ -23,7 +23,7 @@ class Choice:
     ----------
     model, solution : the model that answers, and its solution
     why : the reason for this model, as text; "" where it was requested, or is the most expensive
-    compared : the cheaper model whose strips were its control, and its solution, if there is one
+    compared : the cheapest model on the same strips, and its solution, where it was solved beside the answer
     gave_up : whether a more expensive model was tried in vain, so that the work of the point may be spent
     """
 
@@ -34,26 +34,32 @@ class Choice:
     gave_up: bool = False
 
 
-def choose(prepared: Prepared, speed: float, requested: str | Model, *, native: bool = False) -> Choice:
+def choose(prepared: Prepared, speed: float, requested: str | Model, *, for_fields: bool = False) -> Choice:
     """Solve ``prepared`` at ``speed`` [m/s] by the ``requested`` model, or by the cheapest that is good enough.
 
     Where the requested model has no answer (`Model.why_unable`), the most expensive of the cheaper ones that has one
-    answers in its place. ``native``: a single patch is solved on its own cells. Raises `ConvergenceError`.
+    answers in its place, and `Choice.why` says so. ``for_fields``: on the cells on which a sample shows its fields
+    (`Sample.for_fields`). Raises `ConvergenceError`.
     """
     if isinstance(requested, Model):
-        return Choice(model=requested, solution=sampled(prepared, speed, requested, native=native))
-    able = [model for model in models_up_to(requested) if not model.why_unable(prepared, speed)]
+        return Choice(model=requested, solution=sampled(prepared, speed, requested, for_fields=for_fields))
+    candidates = models_up_to(requested)
+    able = [model for model in candidates if not model.why_unable(prepared, speed)]
     if requested == AUTO:
-        return _cheapest(prepared, speed, able, native=native)
+        return _cheapest(prepared, speed, able, for_fields=for_fields)
     *cheaper, model = able
-    if not cheaper or not model.takes_control(prepared.sample):
-        return Choice(model=model, solution=sampled(prepared, speed, model, native=native))
-    beside = sampled(prepared, speed, cheaper[0], native=native)
-    solution = sampled(prepared, speed, model, native=native, control=beside.control())
-    return Choice(model=model, solution=solution, compared=(cheaper[0], beside))
+    why = ""
+    if model is not candidates[-1]:
+        why = f"the {model.name} model in place of the {requested} model: {candidates[-1].why_unable(prepared, speed)}"
+    if not cheaper or not model.takes_control(prepared):
+        return Choice(model=model, solution=sampled(prepared, speed, model, for_fields=for_fields), why=why)
+    compared = (cheaper[0], sampled(prepared, speed, cheaper[0], for_fields=for_fields))
+    control = compared[1].control()
+    solution = sampled(prepared, speed, model, for_fields=for_fields, control=control)
+    return Choice(model=model, solution=solution, why=why, compared=None if control is None else compared)
 
 
-def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, native: bool) -> Choice:
+def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fields: bool) -> Choice:
     """Return the solution of the cheapest of ``models`` that is good enough.
 
     From the cheapest on, a solution answers if it suffices (`SampleSolution.why_sufficient`), if f means nothing anyway
@@ -61,7 +67,8 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, native: 
     are the control of those that take one.
     """
     with limited_work(max(work_left(), LEAST_WORK_OF_CHEAPEST)):
-        first = sampled(prepared, speed, models[0], native=native)
+        first = sampled(prepared, speed, models[0], for_fields=for_fields)
+    control = first.control()
     choice = Choice(model=models[0], solution=first)
     for model in models[1:]:
         solution = choice.solution
@@ -74,10 +81,9 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, native: 
             choice = Choice(model=model, solution=adopted)
             continue
         try:
-            solution = sampled(prepared, speed, model, native=native, control=first.control())
+            solution = sampled(prepared, speed, model, for_fields=for_fields, control=control)
         except ConvergenceError as error:
             why = f"the {model.name} model was not solved ({error})"
             return Choice(model=choice.model, solution=choice.solution, why=why, gave_up=True)
-        compared = (models[0], first) if model.takes_control(prepared.sample) else None
-        choice = Choice(model=model, solution=solution, compared=compared)
+        choice = Choice(model=model, solution=solution, compared=None if control is None else (models[0], first))
     return choice

@@ -1,25 +1,19 @@
 """The friction coefficient of one operating point: scene -> sample -> model -> estimate -> result."""
 
-import math
 import time
 from contextlib import nullcontext
-from dataclasses import replace
 
 import numpy as np
 
 from .._base import limited_work, releasing_memory, unlimited_work, validate, with_default_errors
 from .._base.jobs import current_executor, parts_on
 from .._base.processes import MOST_WORKERS, pool
-from ..errors import InputError
-from ..models import Model, at_speed, at_tolerance, candidates
-from ..models.shared import Prepared, refused, unmodelled_effects
+from ..models import Model, at_tolerance, with_friction_at
+from ..models.shared import Prepared, refused
 from ..scene import FASTEST, Scene, warn_unusual_values
 from .build_result import result_of
 from .choice import choose
-from .full_load import full_load_numbers
-from .methods import with_methods
 from .outlook import forecast
-from .power import with_power_loss
 from .result import FrictionResult
 
 # Times the estimate of a point: the counted work that it may take where numerics.max_work does not say.
@@ -57,8 +51,8 @@ def friction(
     tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need (docs/levels.md)
     model : "paper", Eqs. (8) and (9); "load-sharing", Eq. (8) with a calibrated friction and error; "deterministic"; or
         "auto": the cheapest that is good enough; None: the scene's. Or a `lubfric.models.Model` of your own
-    fields : True: a single patch is solved on its own cells, so that ``result.fields`` are on them (on strips: on
-        theirs); "fine": a part of the surface is solved once more, on some 40 cells across the Hertz strip, for
+    fields : True: by load sharing, a single patch is solved on its own cells, so that ``result.fields`` are on them.
+        Strips, and the deterministic model, keep the cells that the tolerance needs; "fine": a part of the surface is solved once more, on some 40 cells across the Hertz strip, for
         ``result.fields``
     raise_on_failure : False: return a result even if unbalanced or refused. A failed film or contact still raises
     workers : processes that solve strips of the surface and ends of input ranges side by side, where there are
@@ -77,7 +71,7 @@ def friction(
     prepared = at_tolerance(scene, tolerance, None if isinstance(model, Model) else model)
     speed = prepared.scene.motion.entrainment_speed if speed is None else speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
-    prepared = at_speed(prepared, speed)
+    prepared = with_friction_at(prepared, speed)
     fine = isinstance(fields, str) and fields == "fine"
     if not fine:
         validate.instance("fields", fields, (bool, np.bool_), "True, False or 'fine'")
@@ -87,28 +81,9 @@ def friction(
     with warn_unusual_values(prepared.scene), pool(workers) as executor, parts_on(executor or current_executor()):
         with limited_work(limit):
             requested = model if isinstance(model, Model) else numerics.model
-            choice = choose(prepared, speed, requested, native=bool(fields))
+            choice = choose(prepared, speed, requested, for_fields=bool(fields))
             with unlimited_work() if choice.gave_up else nullcontext():
-                result = result_of(prepared, choice, begun, fine=fine)
-        result = with_methods(prepared, result, choice.model)
-    if not math.isfinite(result.coefficient):
-        raise InputError(
-            f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; give speeds, viscosities and "
-            "stresses of a lubricated contact"
-        )
-    known = result.boundary_force / prepared.scene.bodies.load, result.coefficient
-    film = full_load_numbers(prepared.scene, speed, prepared.surface.sq, result.inlet_film_factor)
-    result = replace(result, full_load_film=film["full_load_film"], lambda_ratio=film["lambda_ratio"])
-    result = with_power_loss(prepared.scene, result, choice.model)
-    possible = (model,) if isinstance(model, Model) else candidates(numerics.model)
-    effects = unmodelled_effects(
-        prepared.scene,
-        prepared.surface.sq,
-        speed,
-        known,
-        includes_motion=any(candidate.includes_motion for candidate in possible),
-    )
-    result = replace(result, unmodelled_effects=effects)
+                result = result_of(prepared, speed, choice, begun, fine=fine)
     if raise_on_failure:
         result.report.raise_if_failed(result)
         refused(result.validity, numerics.accept, result)

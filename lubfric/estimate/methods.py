@@ -1,11 +1,10 @@
 """The methods behind a result that have a paper behind them (papers.toml)."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from ..models import Model
 from ..models.shared import Prepared
-from .result import FrictionResult
 
 LAWS = {"roelands": "Roelands", "barus": "Barus"}
 
@@ -31,21 +30,6 @@ class MethodUse:
     inlet_heat: bool
     film_heat: bool
     flash: bool
-
-
-def with_methods(prepared: Prepared, result: FrictionResult, model: Model) -> FrictionResult:
-    """Return ``result`` of ``model`` with the names of the methods that it uses (`lubfric.FrictionResult.methods`)."""
-    use = MethodUse(
-        model=model,
-        contact=result.contact_load > 0,
-        film=result.film_load > 0,
-        sliding=prepared.scene.motion.slide_roll_ratio != 0,
-        sampled=result.uncertainty.sampling > 0,
-        inlet_heat=result.inlet_film_factor < 1.0,
-        film_heat=result.film_temperature_rise > 0,
-        flash=result.flash_temperature_rise > 0,
-    )
-    return replace(result, methods=methods_of(prepared, use))
 
 
 def methods_of(prepared: Prepared, use: MethodUse) -> tuple[str, ...]:

@@ -1,11 +1,9 @@
 """The power that a point takes: the friction forces on both surfaces times their speeds."""
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass
 
-from ..models import Model
 from ..scene import Scene
-from .result import FrictionResult
 
 
 def power_of_forces(force: float, resistance: float, entrainment: float, sliding: float) -> float:
@@ -26,41 +24,58 @@ def power_of_forces(force: float, resistance: float, entrainment: float, sliding
     return force * sliding + resistance * (entrainment - 0.5 * sliding)
 
 
-def with_power_loss(scene: Scene, result: FrictionResult, model: Model) -> FrictionResult:
-    """Return ``result`` of ``model`` with its power loss, and the 95 % interval and the relative error of that.
+@dataclass(frozen=True, kw_only=True)
+class PowerLoss:
+    """The power loss of a point [W], its 95 % ``interval`` [W] and its relative ``error``."""
+
+    value: float
+    interval: tuple[float, float]
+    error: float
+
+
+def power_loss_of(
+    scene: Scene,
+    *,
+    speed: float,
+    coefficient: float,
+    interval: tuple[float, float],
+    coefficient_error: float,
+    resistance: float,
+    resistance_error: float,
+    resistance_model_error: float,
+) -> PowerLoss:
+    """Return the power loss at an entrainment ``speed`` [m/s], with its interval and its error.
 
     The sliding part has the interval of f. The rolling part has twice the estimated error of the rolling resistance
     and its model-form error (`Model.rolling_error`); where one of these is not known, the relative width of the
     interval of f. What the pressure on the flanks of moving roughness adds to the force on one surface, it takes from
     that on the other.
+
+    Parameters
+    ----------
+    coefficient : f [-], with its 95 % ``interval`` and its relative standard error ``coefficient_error``
+    resistance : rolling resistance [N], with its relative standard error ``resistance_error`` and its relative
+        model-form error at 95 %, ``resistance_model_error``; NaN: not known
     """
-    speed = abs(result.speed)
+    speed = abs(speed)
     ratio = scene.motion.slide_roll_ratio
     sense = -1.0 if ratio < 0 else 1.0
     sliding = ratio * speed
     load = scene.bodies.load
-
-    def power(coefficient: float, resistance: float) -> float:
-        return power_of_forces(sense * coefficient * load, resistance, speed, sliding)
-
-    resistance = result.rolling_resistance
-    loss = power(result.coefficient, resistance)
-    known = result.errors.rolling_resistance
-    of_model = model.rolling_error(result.lambda_ratio)
+    loss = power_of_forces(sense * coefficient * load, resistance, speed, sliding)
     rolling = resistance * (speed - 0.5 * sliding)
-    is_known = math.isfinite(known + of_model)
-    ends = []
-    for end in result.uncertainty.interval:
-        by_sliding = (end - result.coefficient) * load * abs(sliding)
-        of_rolling = math.hypot(2.0 * known, of_model) if is_known else abs(end / result.coefficient - 1.0)
-        ends.append(math.hypot(by_sliding, of_rolling * rolling if rolling else 0.0))
-    errors = result.errors
-    of_resistance = math.hypot(known, 0.5 * of_model)
-    parts = (errors.coefficient * abs(result.coefficient * load * sliding), of_resistance * rolling if rolling else 0.0)
-    relative = math.hypot(*parts) / abs(loss) if loss else 0.0
-    return replace(
-        result,
-        power_loss=loss,
-        power_loss_interval=(loss - ends[0], loss + ends[1]),
-        errors=replace(errors, power_loss=relative),
+    is_known = math.isfinite(resistance_error + resistance_model_error)
+    distances = []
+    for end in interval:
+        by_sliding = (end - coefficient) * load * abs(sliding)
+        of_rolling = (
+            math.hypot(2.0 * resistance_error, resistance_model_error) if is_known else abs(end / coefficient - 1.0)
+        )
+        distances.append(math.hypot(by_sliding, of_rolling * rolling if rolling else 0.0))
+    of_resistance = math.hypot(resistance_error, 0.5 * resistance_model_error)
+    parts = (coefficient_error * abs(coefficient * load * sliding), of_resistance * rolling if rolling else 0.0)
+    return PowerLoss(
+        value=loss,
+        interval=(loss - distances[0], loss + distances[1]),
+        error=math.hypot(*parts) / abs(loss) if loss else 0.0,
     )

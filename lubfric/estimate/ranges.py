@@ -9,7 +9,6 @@ from ..errors import ConvergenceError
 from ..models import ModelAnswer
 from ..models.shared import Prepared
 from ..scene import FRICTION, Scene, value_of
-from .result import FrictionResult
 from .uncertainty import Uncertainty
 
 HARDNESS = "bodies.hardness"
@@ -18,23 +17,21 @@ HARDNESS = "bodies.hardness"
 LEAST = 5e-4
 
 
-def with_ranges(prepared: Prepared, result: FrictionResult, answer: ModelAnswer) -> FrictionResult:
-    """Return ``result`` with the `Scene.ranges` of its inputs in its interval.
+def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tuple[float, ...] | str]:
+    """Return the changes of f [-] by the two ends of each of the `Scene.ranges`, by name; text: why it is not known.
 
     f is linear in f_b at a given division of the load. At both ends of every other range it is solved again, by the
-    model of the ``answer`` (`ModelAnswer.at_inputs`). The changes are relative to the middle on the same cells. Those of
-    several inputs add up as squares, up and down for themselves. An end that cannot be solved, and the hardness of a
-    contact that is not lubfric's own, leave ``inputs`` NaN, and a note. An input that the model knows to change nothing
-    is not solved (`ModelAnswer.ends_without_change`).
+    model of the ``answer`` (`ModelAnswer.at_inputs`). The changes are relative to the middle on the same cells. An end
+    that cannot be solved, and the hardness of a contact that is not lubfric's own, are not known. An input that the
+    model knows to change nothing is not solved (`ModelAnswer.ends_without_change`).
     """
     scene = prepared.scene
-    if not scene.ranges:
-        return result
     changes: dict[str, tuple[float, ...] | str] = {}
     solved: dict[str, list[Scene]] = {}
     for name, *ends in scene.at_ends():
         if name == FRICTION:
-            slope = result.contact_load / scene.bodies.load * (scene.motion.slide_roll_ratio != 0)
+            load_ratio = answer.numbers["contact_load"] / scene.bodies.load
+            slope = load_ratio * (scene.motion.slide_roll_ratio != 0)
             changes[name] = tuple(slope * (value_of(end, name) - value_of(scene, name)) for end in ends)
         elif name == HARDNESS and not prepared.own:
             changes[name] = "the contact is not lubfric's own"
@@ -47,11 +44,8 @@ def with_ranges(prepared: Prepared, result: FrictionResult, answer: ModelAnswer)
             solved[name] = ends
     for name, relative in _changes_at(answer, solved).items():
         if all(map(math.isfinite, relative)):
-            changes[name] = tuple(result.coefficient * change for change in relative)
-    old = result.uncertainty
-    known = widened(old, result.coefficient, changes)
-    notes = tuple(known.text if note == old.text else note for note in result.report.notes)
-    return replace(result, uncertainty=known, report=replace(result.report, notes=notes))
+            changes[name] = tuple(answer.numbers["coefficient"] * change for change in relative)
+    return changes
 
 
 def _changes_at(answer: ModelAnswer, ends: dict[str, list[Scene]]) -> dict[str, list[float]]:
@@ -80,7 +74,11 @@ def _or_nan(coefficient: Callable[[Scene], float], scene: Scene) -> float:
 
 
 def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, ...] | str]) -> Uncertainty:
-    """``old`` of ``f`` with the ``changes`` of f by the two ends of inputs, by name; words: why they are not known."""
+    """Return ``old`` of ``f`` with the ``changes`` of f by the two ends of inputs, by name (`changes_by_ranges`).
+
+    Those of several inputs add up as squares, up and down for themselves. One that is not known leaves ``inputs`` NaN,
+    and a note.
+    """
     moved = {name: ends for name, ends in changes.items() if not isinstance(ends, str)}
     down, up = (math.hypot(*(side(0.0, *ends) for ends in moved.values())) for side in (min, max))
     low, high = old.interval

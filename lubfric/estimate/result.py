@@ -46,7 +46,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         (`lubfric.models.shared.unmodelled_effects`)
     methods : names of the methods that it rests on, where a paper is behind them. ``cite()`` gives the papers
     fields : the fields of one solve (`lubfric.models.ContactFields`); None where there are none
-    compared_fields : those of the cheaper model on whose strips the answer is based, if there is one
+    compared_fields : those of the cheapest model on the same strips, where it was solved beside the answer
     details : what each model keeps of its solve, by its name
     """
 
@@ -82,7 +82,8 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
 
     @property
     def balance(self) -> Balance | None:
-        """The balance of film and contact by load sharing, if there is one."""
+        """The balance of film and contact by Eq. (8), if there is one: of "load-sharing" before its calibration, so that
+        its loads and friction are those of "paper"."""
         return cast("Balance | None", self._kept("balance"))
 
     @property

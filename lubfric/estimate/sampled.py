@@ -12,16 +12,16 @@ def sampled(
     speed: float,
     model: Model,
     *,
-    native: bool = False,
+    for_fields: bool = False,
     control: ControlVariate | None = None,
 ) -> SampleSolution:
     """Solve ``prepared`` by ``model`` at ``speed`` [m/s] on as many strips, of cells as short, as its tolerances need.
 
     More strips follow until the standard error of f is within ``numerics.sampling_tolerance``; shorter cells, each
-    time half as long, until their effect can be corrected for. ``native``: a single patch is solved on its own cells;
-    ``control``: what a cheaper model knows of these strips. Raises `ConvergenceError`.
+    time half as long, until their effect can be corrected for. ``for_fields``: on the cells on which a sample shows its
+    fields (`Sample.for_fields`); ``control``: what a cheaper model knows of these strips. Raises `ConvergenceError`.
     """
-    sample = prepared.sample.for_fields() if native else prepared.sample
+    sample = prepared.sample.for_fields() if for_fields else prepared.sample
     while True:
         solution = _on_enough_strips(prepared, sample, speed, model, control)
         if sample.cells.is_native or not solution.is_too_coarse():

@@ -10,5 +10,5 @@ have in common: the scene made ready, heat, limits of validity, statistics. `pre
 from .contract import ContactFields, Model, ModelAnswer, ModelDetails, SampleSolution, WorkEstimate
 from .deterministic import DeterministicModel, DeterministicResult
 from .load_sharing import Balance, LoadSharingModel, PaperModel
-from .prepare import at_speed, at_tolerance, prepare, prepare_on_maps
+from .prepare import at_tolerance, prepare, prepare_on_maps, with_friction_at
 from .registry import AUTO, MODELS, candidates, model_named, models_up_to

@@ -299,8 +299,8 @@ class Model(ABC):
         """Return the relative model-form error of the rolling resistance, at 95 %; NaN: not known."""
         return math.nan
 
-    def takes_control(self, sample: Sample) -> bool:
-        """Return whether a `ControlVariate` of a cheaper model spares strips of ``sample``."""
+    def takes_control(self, prepared: Prepared) -> bool:
+        """Return whether a `ControlVariate` of a cheaper model spares strips of ``prepared``."""
         return False
 
     def adopt(self, cheaper: SampleSolution) -> SampleSolution | None:

@@ -106,8 +106,8 @@ def at_tolerance(scene: Scene | Prepared, tolerance: float | None, model: str | 
     return ready if ready is not None and requested == ready.scene else prepare(requested, like=ready)
 
 
-def at_speed(prepared: Prepared, speed: float) -> Prepared:
-    """``prepared`` with the f_b that it has at ``speed`` [m/s]."""
+def with_friction_at(prepared: Prepared, speed: float) -> Prepared:
+    """Return ``prepared`` with the f_b that it has at ``speed`` [m/s]; itself where f_b does not depend on the speed."""
     scene = prepared.scene.at_speed(speed)
     return prepared if scene == prepared.scene else prepare(scene, like=prepared)
 

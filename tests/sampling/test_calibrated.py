@@ -74,7 +74,7 @@ def test_calibrated_answer_holds_the_deterministic_one_and_is_narrower_than_load
     assert high - low < wide[1] - wide[0]
     parts = results["load-sharing"].boundary_force + results["load-sharing"].shear_force
     assert parts / HEAVIER.bodies.load == pytest.approx(results["load-sharing"].coefficient, rel=1e-12)
-    assert results["load-sharing"].decision.model == "load sharing, calibrated"
+    assert results["load-sharing"].decision.model == "load-sharing"
     basis = f"load sharing, calibrated on {error_models()['rest'].cases} solved cases: model-form -"
     assert results["load-sharing"].decision.text.startswith(basis)
     assert results["paper"].decision.basis == ""
@@ -117,7 +117,7 @@ def test_the_ends_of_an_input_are_those_of_the_calibrated_model():
 
 def test_a_loose_model_tolerance_lets_auto_answer_by_calibrated_load_sharing():
     loose = HEAVIER.with_(bodies={"boundary_film": 2e-8}, numerics={"model_tolerance": "90 %"})
-    assert lubfric.friction(loose, 0.1).decision.model == "load sharing, calibrated"
+    assert lubfric.friction(loose, 0.1).decision.model == "load-sharing"
     tight = loose.with_(numerics={"model_tolerance": 0.05})
     assert lubfric.friction(tight, 0.1).decision.model == "deterministic"
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ...samples import Sample
-from ...scene import Scene, check_resolved_gap, gap_not_resolved
+from ...scene import Scene, check_resolved_gap, gap_not_resolved, moves
 from ...surface import Surface
 from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
 from ..shared import ControlVariate, ExpectedWarnings, Prepared, StandardError, expected_on_hertz, no_rough_film
@@ -86,8 +86,8 @@ class DeterministicModel(Model):
     def rolling_error(self, lambda_ratio: float) -> float:
         return 0.0  # it has the pressure on the flanks of the roughness
 
-    def takes_control(self, sample: Sample) -> bool:
-        return not sample.refines_in_place
+    def takes_control(self, prepared: Prepared) -> bool:
+        return not prepared.sample.refines_in_place and not moves(prepared.scene)  # its summits control what moves
 
     def solve(
         self,

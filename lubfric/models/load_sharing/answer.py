@@ -39,7 +39,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         sampling=errors.sampling,
         model_error=errors.model,
         report=replace(report, notes=(*report.notes, *estimated)),
-        decision=decided(scene, balanced.contact, balanced.balance, numbers["clearance"], "", **sample),
+        decision=decided(scene, balanced.contact, balanced.balance, numbers["clearance"], **sample),
         errors=errors.errors,
         why_no_error=errors.why_not,
         reasons=errors.reasons,

@@ -9,16 +9,17 @@ from ..shared import Decision
 from .balance import Balance
 
 
-def decided(
-    scene: Scene, contact: RoughContact, balance: Balance, clearance: float, why: str, **sample: Any
-) -> Decision:
-    """The decision behind ``balance`` on ``contact``. ``clearance`` [Sq]: between the film and the highest summits, NaN
-    in contact; ``why``: the reason for this model; ``sample``: further fields of `Decision`."""
+def decided(scene: Scene, contact: RoughContact, balance: Balance, clearance: float, **sample: Any) -> Decision:
+    """Return the decision of the paper's model behind ``balance`` on ``contact``.
+
+    ``clearance`` [Sq]: between the film and the highest summits, NaN in contact; ``sample``: further fields of
+    `Decision`.
+    """
     tolerance = scene.numerics.tolerance
     film = balance.film
     grid = contact.grid
     touching = math.isnan(clearance)
-    notes = (*balance.notes, *filter(None, [why]))
+    notes = balance.notes
     heat = ""
     if film is not None:
         heat = balance.forces.heat.text(tolerance)
@@ -26,7 +27,7 @@ def decided(
             text = f"the film's friction is not resolved (a pressure spike?): estimated error {100 * error:.1g} % of f"
             notes = (*notes, text)
     return Decision(
-        model="load sharing",
+        model="paper",
         film="none, no entrainment" if film is None else "full EHL",
         contact=contact.name if touching else f"none, clearance {clearance:.2g} Sq",
         tolerance=tolerance,

@@ -35,7 +35,6 @@ from .paper_model import PaperModel, PaperSolution
 # needle roller and a gear flank whose inputs have three and four ranges (`lubfric.friction` by this model and by "paper").
 ROUGH_FILM = 0.2
 
-IN_WORDS = "load sharing, calibrated"
 BOUNDARY = "Moes' film over Sq is below that of the solved cases behind the calibration: f of Eq. (9), the paper{}"
 ELASTIC = "elastic shear (lubricant.shear_modulus) is not calibrated: friction by Eq. (9)"
 # what narrows the bounds; at rest long cells cost as much as this model and err less (docs/models.md, chart)
@@ -236,7 +235,7 @@ def calibrated_answer(prepared: Prepared, answer: ModelAnswer, friction: Calibra
         notes=tuple(notes),
         decision=replace(
             answer.decision,
-            model=IN_WORDS,
+            model="load-sharing",
             basis=basis_of(friction),
             notes=(in_words(friction, shares, is_moving=moves(scene)), *answer.decision.notes),
         ),

@@ -9,7 +9,7 @@ from .statistics import percent
 class Decision:
     """The models of film and contact, and the sample, of one operating point.
 
-    - ``model``: "load sharing", "load sharing, calibrated" or "deterministic"; ``film``, ``contact``: as text.
+    - ``model``: its name in ``numerics.model``; ``film``, ``contact``: as text.
     - ``tolerance``: the requested one, on f; ``film_tolerance``: of the film (0: no film).
     - ``cells``: (nx, ny) of the contact (None: none was solved on cells); ``coarsening``: length of its cells in cells
       of the scene's map, along each axis; ``strips``: number of strips of the surface that were solved.
