@@ -45,8 +45,9 @@ def solve_point(
     - from the dry contact, lifted by Moes' film;
     - for a Newtonian lubricant, from the solution with a limiting shear stress;
     - from the state that implicit steps in time reach from ``start``;
-    - from higher speeds, step by step;
-    - without ``start``, from the state that implicit steps in time reach from the dry contact.
+    - from a higher speed, as long as each step down leads there;
+    - without ``start``, from the state that implicit steps in time reach from the dry contact;
+    - from that higher speed in steps as short as needed.
 
     Together they take at most ``most`` factorisations. ``report.notes`` says which one it was. Converged when the
     largest of `lubfric.models.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and
@@ -99,14 +100,20 @@ def _attempts(
             yield "from a fluid with a limiting stress", result
     if start is not None:
         yield "in time from a neighbouring state", _in_time(problem, start, tolerance, work)
+    faster: list[tuple[float, State]] = []
     for times in FASTER:
         fast = problem.at_speed(times * problem.speed)
         helped = newton(fast, dry_start(fast, dry), work, tolerance=LOOSE, most=DIRECT)
         if helped.residual <= LOOSE:
-            result = _from_faster(problem, helped.at.state, times, tolerance, work)
+            faster.append((times, helped.at.state))
+            result = _from_faster(problem, helped.at.state, times, tolerance, work, failures=0)
             yield "step by step from a faster speed", result
+            break
     if start is None:
         yield "in time from the dry contact", _in_time(problem, cold, tolerance, work)
+    for times, state in faster:
+        result = _from_faster(problem, state, times, tolerance, work, failures=MOST)
+        yield "step by step from a faster speed", result
 
 
 def dry_contact(problem: Problem, tolerance: float = DRY_TOLERANCE) -> ContactResult:
@@ -141,10 +148,14 @@ def dry_start(problem: Problem, dry: ContactResult) -> State:
     )
 
 
-def _from_faster(problem: Problem, state: State, times: float, tolerance: float, work: Work) -> NewtonResult:
-    """Follow the solution from so many ``times`` the speed of ``problem`` to it, through speeds in between."""
+def _from_faster(
+    problem: Problem, state: State, times: float, tolerance: float, work: Work, *, failures: int
+) -> NewtonResult:
+    """Follow the solution from so many ``times`` the speed of ``problem`` to it, through speeds in between, until more
+    than so many ``failures`` of steps."""
     left = math.log(times)
     step = left / 2
+    failed = 0
     while True:
         to = max(left - step, 0.0)
         goal = tolerance if to == 0 else max(tolerance, LOOSE)
@@ -155,12 +166,13 @@ def _from_faster(problem: Problem, state: State, times: float, tolerance: float,
             step *= LONGER
         else:
             step = (left - to) / 2
-        if left == 0 or step < SHORTEST:
+            failed += 1
+        if left == 0 or step < SHORTEST or failed > failures:
             return result
 
 
 def _in_time(problem: Problem, state: State, tolerance: float, work: Work) -> NewtonResult:
-    marched = march(problem, state, work, most=MARCHED)
+    marched = march(problem, state, work, tolerance=tolerance, most=MARCHED)
     return newton(problem, marched, work, tolerance=tolerance, most=DIRECT)
 
 
