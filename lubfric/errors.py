@@ -10,18 +10,18 @@ T = TypeVar("T", bound=Any)  # a result with a report
 class LubfricError(Exception):
     """Base class: catch this to catch everything that lubfric raises on purpose.
 
-    ``hints`` say what else may be the cause. They are added on the way up, and end the message.
+    ``hints`` say what the likely cause is, each in a sentence. They are added on the way up, and begin the message.
     """
 
     hints: tuple[str, ...] = ()
 
     def hint(self, text: str) -> None:
-        """Add a possible cause, once; nothing if the text is empty."""
+        """Add a likely cause, a sentence, once; nothing if the text is empty."""
         if text and text not in self.hints:
             self.hints += (text,)
 
     def __str__(self) -> str:
-        return "; ".join((self.worded(), *self.hints))
+        return " ".join((*self.hints, self.worded()))
 
     def worded(self) -> str:
         """The message without the hints."""

@@ -242,13 +242,18 @@ OF_CYCLE = {  # of operating points: where they lie
     "angle": Quantity("rad", "angle"),
     "duration": Quantity("s", "duration"),
 }
+OF_SURFACES = {  # speeds of both surfaces in a table of operating points
+    "u1": Quantity("m/s", "speed of surface 1"),
+    "u2": Quantity("m/s", "speed of surface 2"),
+    "sliding_speed": OF_MOMENT["sliding_speed"],
+}
 _ROWS = tomllib.loads((files(__package__) / "keys.toml").read_text(encoding="utf-8")).items()
 _ROW = {f"{section}.{key}": row for section, rows in _ROWS for key, row in rows.items()}
 CHOICES = {key: row["one_of"] for key, row in _ROW.items() if "one_of" in row}  # keys of a scene that are words
 KEYS = {key: Quantity(**row) for key, row in _ROW.items() if key not in CHOICES}  # those that are numbers: section.key
 KEYS["speed"] = _OF_POINT["speed"]
 KEYS |= {
-    key.replace("surface.", "counterface."): Quantity(q.unit, f"{q.label}, of the other body")
+    key.replace("surface.", "counterface."): q._replace(label=f"{q.label}, of the other body")
     for key, q in KEYS.items()
     if key.startswith("surface.")
 }
@@ -261,6 +266,7 @@ OF_STUDY = {f"uncertainty_{name}": q for name, q in OF_UNCERTAINTY.items()} | { 
 COLUMNS = (
     OF_MOMENT
     | OF_CYCLE
+    | OF_SURFACES
     | KEYS
     | QUANTITIES
     | INTERVAL

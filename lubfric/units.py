@@ -108,6 +108,13 @@ def unit_for(values: Any, unit: str) -> str:
     return next(large, units[0])
 
 
+def unit_of_largest(values: Any, unit: str) -> str:
+    """Return the unit of people in which the largest of the numbers in the SI ``unit`` is 1 or more: for a column of a
+    table or an axis, whose largest number has to read well."""
+    sizes = [abs(value) for value in values if abs(value) < math.inf]
+    return unit_for([max(sizes, default=0.0)], unit)
+
+
 def printed(unit: str) -> str:
     """``unit`` as printed: "µm", "m²"; "" for "-"."""
     raised = re.sub(r"(?<=[A-Za-z])[23]", lambda digit: digit[0].translate(RAISED), unit)

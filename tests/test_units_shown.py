@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lubfric.units import interval_in_words, plain_number, unit_for, with_interval, worded
+from lubfric.units import interval_in_words, plain_number, unit_for, unit_of_largest, with_interval, worded
 
 SIZES = st.floats(1e-9, 1e6) | st.floats(-1e6, -1e-9)
 
@@ -47,3 +47,8 @@ def test_a_plain_number_is_the_number(value):
 def test_zero_is_in_the_si_unit():
     assert worded(0.0, "m") == "0 m" and unit_for([], "m") == "m" and plain_number(0.0, "W") == "0 W"
     assert interval_in_words(math.nan, math.nan) == "not known"
+
+
+def test_a_column_is_in_the_unit_in_which_its_largest_number_reads_well():
+    assert unit_of_largest([0.002, 0.003, 39.284], "W") == "W" and unit_of_largest([2e-3, 0.5], "W") == "mW"
+    assert unit_of_largest([math.nan, math.inf, -4e-3, 1e-6], "m") == "mm" and unit_of_largest([], "m") == "m"

@@ -100,13 +100,13 @@ def read_table(path: Path, content: bytes | None = None) -> Columns:
 def read_columns(
     path: Path, names: Sequence[str], units: Sequence[str | None], must_say: Sequence[str] = ()
 ) -> list[list[float]]:
-    """Return columns in SI units, found by the ``names``, which are headings with or without their units, in the first
+    """Return columns in ``units``, found by the ``names``, which are headings with or without their units, in the first
     row that has most of them: a preamble of up to `TITLES` lines may precede the table.
 
     A heading may carry its unit in brackets: ``time [ms]``, ``load (kN)``, and so may the name of one that does not. A
     line of units may follow the headings (``s;mm/s;-``). Without a unit a column is in SI, unless its unit is among
-    those that ``must_say`` it; a heading that ends with another unit without brackets is refused. ``units``: the SI
-    unit to which each column must be convertible (None: any of `UNITS`). Comma, semicolon, tab or two blanks separate;
+    those that ``must_say`` it; a heading that ends with another unit without brackets is refused. ``units``: to which
+    each column is converted (None: from any of `UNITS`, to SI). Comma, semicolon, tab or two blanks separate;
     with one of the others, a comma is the decimal mark. UTF-8 (with or without a byte-order mark), UTF-16 with one, or
     Windows-1252.
 
@@ -139,13 +139,13 @@ def read_columns(
         if given is None:
             _refuse_bare_unit(path, heading, unit)
         word = spelled(given or "")
-        tables = [table for si, table in UNITS.items() if unit in (None, si)]
+        tables = [table for table in UNITS.values() if unit is None or unit in table]
         if word and not any(word in table for table in tables):
             listed = ", ".join(other for table in tables for other in table)
             said = f"file {path.name}, column {name!r}: unit {given!r} is not known here"
             raise InputError(said, allowed=f"{listed}, or no unit for SI")
         numbers = [_number(path, line, row, places[0]) for line, row in rows[1:]]
-        columns.append([converted(number, word, kind_of(word)) for number in numbers] if word else numbers)
+        columns.append([converted(number, word, unit or kind_of(word)) for number in numbers] if word else numbers)
     return columns
 
 

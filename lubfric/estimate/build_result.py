@@ -95,6 +95,7 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
         tolerance=scene.numerics.sampling_tolerance,
         area_needed=answer.area_needed,
         model=max(answer.model_error),
+        model_sides=answer.model_error,
         fluid=answer.by_limit,
         largest_in_model=answer.largest_in_model,
         notes=answer.notes,

@@ -93,9 +93,12 @@ def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, ...] | s
             percents = [100 * end / f for end in ends]
             notes.append(f"{begin}f {' to '.join(f'{end:+.{2 + (abs(end) >= 99.5)}g}' for end in percents)} %")
     relative = max(down, up) / abs(f) if f else math.inf if max(down, up) else 0.0
+    complete = len(moved) == len(changes)
+    towards, away = (down, up) if f >= 0 else (up, down)
     return replace(
         old,
-        inputs=relative if len(moved) == len(changes) else math.nan,
+        inputs=relative if complete else math.nan,
+        input_sides=(towards / abs(f), away / abs(f)) if f and complete else (math.nan, math.nan),
         interval=(f - math.hypot(f - low, down), f + math.hypot(high - f, up)),
         notes=(*old.notes, *notes),
         largest_input=max(moved, key=lambda name: max(map(abs, moved[name])), default=""),

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..models.shared import percent, student, too_few
+from ..models.shared import percent, percent_of_sides, student, too_few
 from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuantities, described_in_doc
 from ..units import interval_in_words, with_interval
 
@@ -27,6 +27,7 @@ class Uncertainty(UncertaintyQuantities[float]):
         Student's t with ``freedom`` degrees of freedom
     tolerance : relative requested standard error
     notes : what a reader should know of these errors
+    model_sides, input_sides : ``model`` and ``inputs`` towards 0 and away from it; NaN where only the larger is known
     largest_in_model : what the largest part of ``model`` is, and what narrows it; "" where it has one part
     largest_input : the input whose range changes f most
     """
@@ -35,6 +36,8 @@ class Uncertainty(UncertaintyQuantities[float]):
     freedom: float = 0.0
     tolerance: float = math.nan
     notes: tuple[str, ...] = ()
+    model_sides: tuple[float, float] = (math.nan, math.nan)
+    input_sides: tuple[float, float] = (math.nan, math.nan)
     largest_in_model: str = ""
     largest_input: str = ""
 
@@ -53,6 +56,14 @@ class Uncertainty(UncertaintyQuantities[float]):
         }
 
     @property
+    def budget_in_words(self) -> dict[str, str]:
+        """The `budget` as text, by the same names: "42 %", and "-29 to +42 %" where the two sides differ."""
+        sides = {"model-form": self.model_sides, "input": self.input_sides}
+        return {
+            name: percent_of_sides(*sides.get(name, (math.nan, math.nan)), value) for name, value in self.budget.items()
+        }
+
+    @property
     def largest_part(self) -> str:
         """What the largest part of the budget is, and what narrows it; "" where that is not known."""
         recommendations = {
@@ -65,7 +76,7 @@ class Uncertainty(UncertaintyQuantities[float]):
         if not known or not math.isfinite(self.sampling):
             return ""
         name = max(known, key=lambda name: known[name])
-        return f"largest part: {name} {percent(known[name])}, {recommendations[name]}"
+        return f"largest part: {name} {self.budget_in_words[name]}, {recommendations[name]}"
 
     @property
     def few_spots(self) -> bool:
@@ -87,8 +98,9 @@ class Uncertainty(UncertaintyQuantities[float]):
 
     def _in_words(self, sampling: str) -> str:
         unknown = " (not included)" * math.isnan(self.model)
-        inputs = f", input {percent(self.inputs)}" if self.inputs != 0 else ""
-        return f"numerical {percent(self.numerical)}, sampling {sampling}, model-form {percent(self.model)}{unknown}{inputs}"
+        words = self.budget_in_words
+        inputs = f", input {words['input']}" if self.inputs != 0 else ""
+        return f"numerical {words['numerical']}, sampling {sampling}, model-form {words['model-form']}{unknown}{inputs}"
 
 
 @described_in_doc

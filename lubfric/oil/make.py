@@ -102,8 +102,9 @@ def _viscosity(name: str, value: float) -> float:
     """Return a checked kinematic viscosity [m²/s]. The error says so if mm²/s were likely meant."""
     nu = validate.positive(name, value, "m²/s")
     if nu > 0.5:
-        meant = f"mm²/s were meant? {nu:g} mm²/s = {nu * 1e-6:g}"
-        raise InputError(f" = {nu:g} m²/s is out of range", name, f"up to 0.5 m²/s ({meant})")
+        error = InputError(f" = {nu:g} m²/s is out of range", name, "up to 0.5 m²/s")
+        error.hint(f"{name} = {nu:g} is read as {nu:g} m²/s; did you mean {nu:g} mm²/s ({nu * 1e-6:g} m²/s)?")
+        raise error
     return nu
 
 

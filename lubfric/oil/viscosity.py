@@ -31,7 +31,9 @@ def checked_temperature(temperature: float, name: str = "temperature") -> float:
         return validate.number(name, temperature, "K", minimum=RANGE[0], maximum=RANGE[1])
     except InputError as error:
         if isinstance(temperature, (int, float)) and -60 <= temperature < RANGE[0]:
-            error.hint(f"°C were meant? {temperature:g} °C = {temperature + CELSIUS:g} K")
+            error.hint(
+                f"{name} = {temperature:g} is read as {temperature:g} K; did you mean {temperature:g} °C ({temperature + CELSIUS:g} K)?"
+            )
         raise
 
 
@@ -137,12 +139,17 @@ def viscosity_index(nu40: float, nu100: float) -> float:
         said = f" = {nu40:g} m²/s is not above nu100 = {nu100:g} m²/s"
         raise InputError(said, "nu40", "nu40 > nu100 (swapped?)", also=("nu100",))
     if nu100 > 1e-2:
-        raise InputError(f" = {nu100:g} m²/s is out of range", "nu100", f"up to 0.01 m²/s{_millimetres(nu40, nu100)}")
+        error = InputError(f" = {nu100:g} m²/s is out of range", "nu100", "up to 0.01 m²/s")
+        error.hint(_millimetres(nu40, nu100))
+        raise error
     return _index(nu40 * 1e6, nu100 * 1e6)
 
 
 def _millimetres(nu40: float, nu100: float) -> str:
-    return "; mm²/s were meant? 1 mm²/s = 1e-6 m²/s" if min(nu40, nu100) > 1e-2 else ""
+    """Return the question whether mm²/s were meant; "" where that is not likely."""
+    if min(nu40, nu100) <= 1e-2:
+        return ""
+    return f"nu40 = {nu40:g} and nu100 = {nu100:g} are read in m²/s; did you mean mm²/s (1 mm²/s = 1e-6 m²/s)?"
 
 
 def _index(at_40: float, at_100: float) -> float:

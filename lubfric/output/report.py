@@ -17,7 +17,7 @@ from ..quantities import COLUMNS, counted
 from ..scene import Scene, short_keys
 from ..studies import KNOWN, CurveResult, Law, StribeckResult, TractionResult
 from ..time import MANY, TransientResult, in_motion
-from ..units import converted, interval_in_words, plain_number, printed, unit_for, with_interval, worded
+from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval, worded
 from .describe import TABLE_CAPTION, SceneEstimate
 from .inputs import FACTS, SECTIONS, inputs
 
@@ -242,7 +242,7 @@ def _operating_table(curve: CurveResult) -> str:
     swept = curve.SWEPT[0]
     names = (swept, *OF_POINT)
     values = {swept: getattr(curve, swept)} | {name: curve[name] for name in OF_POINT}
-    units = {name: unit_for(values[name].tolist(), COLUMNS[name].unit) for name in names}
+    units = {name: unit_of_largest(values[name].tolist(), COLUMNS[name].unit) for name in names}
     shown = {name: converted(values[name], COLUMNS[name].unit, units[name]) for name in names}
     heads = [_heading(swept, units[swept]), "f", "95 % interval of f", *(_heading(n, units[n]) for n in OF_POINT)]
     heads.append("asperity load ratio F_C/F_T")
@@ -280,7 +280,7 @@ def _rounded(values: np.ndarray, index: int) -> float:
 def _details(curve: CurveResult) -> str:
     """Return the uncertainty budget of every point and the model that solved it, folded."""
     swept = curve.SWEPT[0]
-    unit = unit_for(getattr(curve, swept).tolist(), COLUMNS[swept].unit)
+    unit = unit_of_largest(getattr(curve, swept).tolist(), COLUMNS[swept].unit)
     rows = []
     for value, point in zip(converted(getattr(curve, swept), COLUMNS[swept].unit, unit), curve.points):
         if point is not None:
@@ -435,7 +435,7 @@ def _history_table(result: TransientResult) -> str:
         chosen |= {int(np.nanargmax(c["power_loss"]))}
     rows_at = sorted(chosen)
     moving = in_motion(c)
-    units = {name: unit_for(c[name].tolist(), COLUMNS[name].unit) for name in OF_OUTPUT}
+    units = {name: unit_of_largest(c[name].tolist(), COLUMNS[name].unit) for name in OF_OUTPUT}
     shown = {name: converted(c[name], COLUMNS[name].unit, unit) for name, unit in units.items()}
     before = [name for name in OF_OUTPUT if OF_OUTPUT[name] == "before"]
     after = [name for name in OF_OUTPUT if OF_OUTPUT[name] == "after"]

@@ -151,7 +151,7 @@ def _write(
         with folder.reporting(f"{name}.png was not drawn"):
             columns = read_table(folder.path / table, contents[table])
             if _drawable(columns).any():
-                folder.draw(f"{name}.png", _plot, columns, _title(prepared.scene, curve), numbers)
+                folder.draw(f"{name}.png", _plot, columns, _title(prepared.scene.name, numbers), numbers)
     with folder.reporting("the fields were not written"):
         _write_fields(folder, prepared, curve, chosen, vtk=arguments.vtk)
     law: studies.Law | str = ""
@@ -187,15 +187,15 @@ def _write_fields(
             say("no .vtk file: none of the speeds of --fields has a contact with fields")
 
 
-def _title(scene: Scene, curve: studies.CurveResult) -> str:
-    """Return the title of the picture of ``curve``: the name of the scene, and what the model-form error of its points rests
-    on, where a point states it. The band of the picture shows how large it is."""
-    stated = [p for p in curve.points if p is not None and p.decision.basis]
+def _title(name: str, points: list[dict[str, Any]]) -> str:
+    """Return the title of the picture of a curve: the ``name`` of the scene, and what the model-form error of its ``points``
+    (of its record) rests on, where a point states it. The band of the picture shows how large it is."""
+    solved = [point for point in points if "error" not in point]
+    stated = [point["basis"] for point in solved if point.get("basis")]
     if not stated:
-        return scene.name
-    solved = [p for p in curve.points if p is not None]
-    of = "" if len(stated) == len(solved) else f" ({len(stated)} of {counted(len(solved), curve.SWEPT[3])})"
-    return f"{scene.name}\n{stated[0].decision.basis.partition(':')[0]}{of}"
+        return name
+    some = "" if len(stated) == len(solved) else f" ({len(stated)} of {counted(len(solved), 'points')})"
+    return f"{name}\n{stated[0].partition(':')[0]}{some}"
 
 
 def _law(curve: studies.CurveResult) -> studies.Law | str:
@@ -228,6 +228,7 @@ def _point(curve: studies.CurveResult, index: int) -> dict[str, Any]:
         "errors": asdict(point.errors),
         "report": point.report.as_dict(),
         "unmodelled_effects": [effect_in_words(effect) for effect in point.unmodelled_effects],
+        "basis": point.decision.basis,
     }
     return {number: getattr(point, number) for number in NUMBERS} | swept | more
 
@@ -254,7 +255,7 @@ def plot_again(arguments: Namespace) -> None:
         )
     else:
         points = _points_of(folder / f"{name}.csv", columns, record)
-        again = partial(_plot, columns=columns, title=title, points=points, options=options)
+        again = partial(_plot, columns=columns, title=_title(title, points), points=points, options=options)
     if given:
         if len(given) < 3:
             raise InputError("--measured needs --speed and --coefficient, the headings of its columns")

@@ -2,7 +2,6 @@
 
 import time
 from collections import Counter
-from collections.abc import Iterable
 from html import escape
 from importlib.resources import files
 from string import Template
@@ -10,9 +9,10 @@ from string import Template
 import numpy as np
 
 from .._base import __version__
+from ..models.shared import gathered_texts, sentence
 from ..quantities import COLUMNS, counted, worded_value
-from ..studies import ENDS, StudyResult, columns_of_study, label
-from ..units import CELSIUS, converted, plain_number, printed, unit_for, with_interval
+from ..studies import DURATION, ENDS, StudyResult, columns_of_study, label, mean_over_cycle
+from ..units import CELSIUS, converted, plain_number, printed, unit_of_largest, with_interval
 from .inputs import SECTIONS, inputs
 from .report import picture, style_sheet, table
 
@@ -27,6 +27,9 @@ SHOWN: dict[str, tuple[str, str] | None] = {
     "contact_load": None,
 }
 
+# Where an operating point lies.
+COORDINATE = ("position", "angle", "time")
+
 # Combinations of what is varied beside operating points whose means are reported, at most.
 MOST_MEANS = 6
 CAPTION = "The results of the study"
@@ -36,7 +39,8 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     """Return the page of a study. ``contents``: pictures by the name of their file; ``answer``: lines of text."""
     import scipy
 
-    cells = [cell.split(" | ") for cell in result.validity.flat if cell]
+    cells = [str(cell) for cell in columns_of_study(result)["validity"]]
+    warnings = [*(sentence(note) for note in result.plan.notes), *gathered_texts(cells)]
     rows = min(MOST_ROWS, result.status.size)
     size = result.status.size
     about = "study.csv has all numbers." if rows == size else f"{rows} of {size} points; study.csv has all of them."
@@ -57,7 +61,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         status=escape(study_status(result)),
         answer="".join(f'<p class="{"answer" if i == 0 else ""}">{escape(line)}</p>' for i, line in enumerate(answer)),
         pictures="".join(picture(content, CAPTION) for name, content in contents.items() if name.endswith(".png")),
-        warnings=_list(gathered_warnings(cells)) if cells else "<p>Every assumption that is checked holds.</p>",
+        warnings=_list(warnings) if warnings else "<p>Every assumption that is checked holds.</p>",
         about=about,
         table=_table(result, rows),
         varied=_list([_range(key, values) for key, (_, values) in result.coords.items()]),
@@ -92,27 +96,13 @@ def study_status(result: StudyResult) -> str:
     return f"Not complete: {result.solved - result.failed} of {total} solved. Failures: {reasons}"
 
 
-def gathered_warnings(cells: Iterable[list[str]]) -> list[str]:
-    """Return one sentence for each kind of warning in the ``cells`` of a table: at how many points, and the first text."""
-    kinds: dict[str, list[str]] = {}
-    for cell in cells:
-        for entry in cell:
-            kinds.setdefault(entry.partition(" is ")[0], []).append(entry)
-    lines = []
-    for texts in sorted(kinds.values(), key=len, reverse=True):
-        text = texts[0].removeprefix("warning: ")
-        several = "" if len(texts) == 1 else ", for example"
-        lines.append(f"At {counted(len(texts), 'points')}{several}: {text}")
-    return lines
-
-
 def _range(key: str, values: np.ndarray) -> str:
     """The values of a key in a line: all if they are few, else their range."""
     label = COLUMNS[key].label if key in COLUMNS else key
     if values.dtype.kind == "f" and values.size > 6:
-        ends = " to ".join(worded_value(key, float(value)) for value in (values.min(), values.max()))
-        return f"{label}: {values.size} values, {ends}"
-    shown = (worded_value(key, v.item()) if values.dtype.kind == "f" else str(v) for v in values[:6])
+        ends = " to ".join(dict.fromkeys(worded_value(key, float(value)) for value in (values.min(), values.max())))
+        return f"{label}: {ends}" if " to " not in ends else f"{label}: {values.size} values, {ends}"
+    shown = dict.fromkeys(worded_value(key, v.item()) if values.dtype.kind == "f" else str(v) for v in values[:6])
     return f"{label}: {', '.join(shown)}{', ...' if values.size > 6 else ''}"
 
 
@@ -121,8 +111,8 @@ def _table(result: StudyResult, rows: int) -> str:
     columns = columns_of_study(result)
     count = len(next(iter(columns.values())))
     picked = np.unique(np.linspace(0, count - 1, rows).round().astype(int))
-    heads = []
-    cells: list[list[str]] = []
+    heads = ["no."]
+    cells: list[list[str]] = [[f"{row + 1}" for row in picked]]
     for name in (*result.coords, *SHOWN):
         values = columns[name][picked] if name in columns else np.full(picked.size, np.nan)
         quantity = COLUMNS.get(name)
@@ -134,7 +124,7 @@ def _table(result: StudyResult, rows: int) -> str:
         if name == "lubricant.temperature":
             values = values - float(CELSIUS)
             si = "°C"
-        unit = si if si == "°C" else unit_for(values.tolist(), si)
+        unit = si if si == "°C" else unit_of_largest(values.tolist(), si)
         heads[-1] += f" [{printed(unit)}]" if printed(unit) else ""
         pair = SHOWN.get(name)
         low, high = (columns[end][picked] if pair else np.full(values.size, np.nan) for end in pair or ("", ""))
@@ -180,8 +170,18 @@ def answer_lines(result: StudyResult) -> list[str]:
             low, high = (float(result[end][index]) for end in (low_name, high_name))
             shown = with_interval(float(values[index]), low, high, unit=COLUMNS[name].unit)
             unknown = "" if np.isfinite(low) else " (interval not known)"
-            rows.append(f"The {word} {what} is {shown}{unknown}, at {result.place(index)}.")
+            rows.append(f"The {word} {what} is {shown}{unknown}, at {_point_in_words(result, index)}.")
     return rows
+
+
+def _point_in_words(result: StudyResult, index: tuple[int, ...]) -> str:
+    """Return where a point lies, as text; an operating point by its number in the tables and its coordinate alone."""
+    if not result.paired:
+        return result.place(index)
+    number = int(np.ravel_multi_index(index, result.status.shape)) + 1
+    known = (name for name in COORDINATE if name in result.coords)
+    place = "".join(f" ({name} {worded_value(name, float(result.coords[name][1][index[-1]]))})" for name in known)
+    return f"point {number}{place}"
 
 
 def _mean_lines(result: StudyResult) -> list[str]:
@@ -193,6 +193,28 @@ def _mean_lines(result: StudyResult) -> list[str]:
         where = f" for {place}" if (place := label(result, (*index, slice(None)))) else ""
         low, high = (float(np.asarray(end)[index]) for end in result.mean_interval("power_loss"))
         mean = float(np.asarray(result.mean("power_loss"))[index])
-        text = with_interval(mean, low, high, unit="W") if np.isfinite(mean) else "not known, as points failed"
+        text = _mean_in_words(mean, low, high, "W")
         rows.append(f"The mean power loss of the operating points, {weighed}, is {text}{where}.")
+        rows.append(_mean_friction(result, index, where))
     return rows
+
+
+def _mean_in_words(mean: float, low: float, high: float, unit: str) -> str:
+    """Return a mean in the SI ``unit`` with its interval, or why it is not known."""
+    if not np.isfinite(mean):
+        return "not known, as points failed"
+    return with_interval(mean, low, high, unit=unit) + ("" if np.isfinite(low) else " (interval not known)")
+
+
+def _mean_friction(result: StudyResult, index: tuple[int, ...], where: str) -> str:
+    """Return the mean magnitude of f over the operating points in a sentence. Where f changes its sign, as at the pitch
+    point of a gear, a mean with the sign would say nothing."""
+    f = result["coefficient"][index]
+    ends = np.abs([result[name][index] for name in ENDS["coefficient"]])
+    crosses = result["uncertainty_low"][index] * result["uncertainty_high"][index] < 0
+    low = np.where(crosses, 0.0, ends.min(axis=0))
+    durations = np.array(result.plan.coordinates.get(DURATION, np.ones(f.shape[-1])))
+    mean, least, most = (mean_over_cycle(values, durations) for values in (np.abs(f), low, ends.max(axis=0)))
+    what = "mean friction coefficient" if not (f < 0).any() else "mean magnitude of the friction coefficient"
+    text = _mean_in_words(mean, least, most, "-")
+    return f"The {what} is {text}{where}."

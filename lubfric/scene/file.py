@@ -12,6 +12,7 @@ from typing import Any
 from .._base import validate, with_default_errors, write_whole
 from ..errors import InputError
 from ..surface import PER_SQ
+from .plausible import doubtful_values
 from .roughness import GENERATED, check_fields, named
 from .scene import Scene, as_ranges
 from .sections import ROUGH, SECTIONS, check_complete, check_keys, made_section, meant, ranges_of
@@ -140,7 +141,13 @@ def scene_from_table(table: dict[str, Any], folder: Path, name: str) -> Scene:
         if section != "transient" and (section in table or section != "counterface"):
             parts[section] = made_section(section, given)
     ranges = {k: ends for s in SECTIONS if s in table for k, ends in ranges_of(s, table[s]).items()}
-    return Scene(**parts, name=table.get("name", name), transient=plan, ranges=as_ranges(ranges))
+    return Scene(
+        **parts,
+        name=table.get("name", name),
+        transient=plan,
+        ranges=as_ranges(ranges),
+        doubtful=doubtful_values("motion", table["motion"]),
+    )
 
 
 def _plan(table: dict[str, Any], folder: Path) -> tuple[dict[str, Any], Transient | None]:

@@ -4,15 +4,17 @@ A value outside the usual range (keys.toml) is no error: it gets a sentence that
 usual.
 """
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
 from .._base import packaged
 from ..errors import ConvergenceError, InputError
 from ..quantities import KEYS
-from ..units import converted, without_unit
+from ..units import converted, printed, without_unit
 
 
 @cache
@@ -32,9 +34,39 @@ def _rows(name: str) -> dict[str, list[Any]]:
     return packaged(__package__, "typical.toml").get(section, {}).get(key, {})
 
 
+# A plain number in percent below this, or a plain ratio from `LARGE_RATIO` to `MOST_RATIO`, is as likely of the other
+# convention of sliding: slips are 0.1 to 200 %, ratios 0.001 to 2. Not measured: a convention.
+SMALL_PERCENT = 0.1
+LARGE_RATIO = 1.0
+MOST_RATIO = 2.0  # simple sliding, which is usual
+SLIP = "motion.slip_percent"
+RATIO = "motion.slide_roll_ratio"
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnusualValue:
+    """A value of a scene that is likely a slip.
+
+    Attributes
+    ----------
+    key : section.key
+    value, limit : the value, and the bound of the usual range that it exceeds (NaN: of a doubtful convention), in
+        ``unit``
+    question : what may have been meant, as a question; "" if nothing fits
+    advice : what to write
+    """
+
+    key: str
+    value: float
+    limit: float
+    unit: str
+    question: str
+    advice: str
+
+
 def slip(name: str, value: Any) -> str | None:
-    """What ``value`` of the key ``name`` (section.key) may have been meant to be. None: the value is usual; "": nothing
-    fits."""
+    """Return the question what ``value`` of the key ``name`` (section.key) was meant to be. None: the value is usual; "":
+    nothing fits."""
     q = KEYS.get(name)
     if q is None or not q.usual:
         return None
@@ -47,22 +79,68 @@ def slip(name: str, value: Any) -> str | None:
     for unit, *advice in ([other] if isinstance(other, str) else other for other in q.meant):
         meant = converted(v, unit, q.unit)
         if low <= abs(meant) <= high:
-            return "; ".join((f"{unit} meant? {v:g} {unit} = {meant:g} {q.unit}", *advice))
+            in_si = f"{meant:.4g} {printed(q.unit)}".rstrip()
+            text = "".join(f" {words[0].upper()}{words[1:]}." for words in advice)
+            return f"did you mean {v:g} {printed(unit)} ({in_si})?{text}"
     return ""
 
 
-def unusual_values(scene: Any) -> tuple[tuple[str, float, float, str, str], ...]:
-    """Return the values of a scene that are outside their usual range: key, value, the bound that it exceeds, their unit, and
-    what the value may have been meant to be, or ""."""
-    unusual = []
+def unusual_values(scene: Any) -> tuple[UnusualValue, ...]:
+    """Return the values of a scene that are outside their usual range, or of a doubtful convention."""
+    unusual = [
+        UnusualValue(
+            key=key,
+            value=value,
+            limit=math.nan,
+            unit=KEYS[key].unit,
+            question=other_convention(key, [value]),
+            advice="",
+        )
+        for key, value in scene.doubtful
+    ]
     for name, q in KEYS.items():
         section, _, key = name.rpartition(".")
         value = _index(scene) if key == "viscosity_index" else getattr(getattr(scene, section, None), key, None)
-        for one in value if isinstance(value, (list, tuple)) else (value,):
-            meant = None if one is None else slip(name, one)
-            if meant is not None:
-                unusual.append((name, float(one), q.usual[abs(one) > q.usual[1]], q.unit, meant))
+        for number in value if isinstance(value, (list, tuple)) else (value,):
+            question = None if number is None else slip(name, number)
+            if question is not None:
+                unusual.append(
+                    UnusualValue(
+                        key=name,
+                        value=float(number),
+                        limit=q.usual[abs(number) > q.usual[1]],
+                        unit=q.unit,
+                        question=question,
+                        advice="check the value and its unit",
+                    )
+                )
     return tuple(unusual)
+
+
+def other_convention(key: str, values: Iterable[Any]) -> str:
+    """Return the question whether plain ``values`` of the ``key`` of sliding, as the user wrote them, are in the other of
+    its two conventions, percent or ratio; "" if they are not doubtful."""
+    sizes = [abs(v) for v in values if isinstance(v, (int, float)) and not isinstance(v, bool) and v != 0]
+    if not sizes or not math.isfinite(max(sizes)):
+        return ""
+    if key == SLIP and max(sizes) < SMALL_PERCENT:
+        most = max(sizes)
+        return (
+            f"did you mean slide_roll_ratio = {most:g}, which is {100 * most:g} %? "
+            f'If not, write slip_percent = "{most:g} %"'
+        )
+    if key == RATIO and min(sizes) >= LARGE_RATIO and max(sizes) < MOST_RATIO:
+        least = min(sizes)
+        return f'did you mean slip_percent = {least:g}? If not, write slide_roll_ratio = "{100 * least:g} %"'
+    return ""
+
+
+def doubtful_values(section: str, given: Any) -> tuple[tuple[str, float], ...]:
+    """Return (section.key, value) of the plain numbers ``given`` for a section that are of a doubtful convention."""
+    if section != "motion" or not isinstance(given, dict):
+        return ()
+    names = {key: f"{section}.{key}" for key in given}
+    return tuple((names[key], float(value)) for key, value in given.items() if other_convention(names[key], [value]))
 
 
 def _index(scene: Any) -> float | None:
@@ -81,7 +159,10 @@ def naming_slips(section: str, values: dict[str, Any]) -> Iterator[None]:
     except InputError as error:
         for name in (error.quantity, *error.also):
             key = name.rpartition(".")[2].partition("[")[0]
-            error.hint(slip(f"{section}.{key}", values.get(key)) or "")
+            question = slip(f"{section}.{key}", values.get(key))
+            if question:
+                unit = KEYS[f"{section}.{key}"].unit
+                error.hint(f"{section}.{key} = {_read_as(values[key], unit)}; {question}")
         raise
 
 
@@ -91,6 +172,15 @@ def warn_unusual_values(scene: Any) -> Iterator[None]:
     try:
         yield
     except (InputError, ConvergenceError) as error:
-        for name, value, _, unit, meant in unusual_values(scene):
-            error.hint(f"{name} = {value:g} {unit} is unusual{meant and '; ' + meant}")
+        for slipped in unusual_values(scene):
+            if slipped.question:
+                error.hint(f"{slipped.key} = {_read_as(slipped.value, slipped.unit)}; {slipped.question}")
+            else:
+                error.hint(f"{slipped.key} = {slipped.value:g} {printed(slipped.unit)}".rstrip() + " is unusual.")
         raise
+
+
+def _read_as(value: Any, unit: str) -> str:
+    """Return a value as given, and how it is read: "12 is read as 12 m"."""
+    shown = value if isinstance(value, str) else f"{value:g}" if isinstance(value, (int, float)) else f"{value}"
+    return shown if unit == "-" else f"{shown} is read as {shown} {printed(unit)}"

@@ -15,11 +15,14 @@ from ..oil import Lubricant
 from .bodies import Bodies, ContactDomain, Motion
 from .history import History
 from .numerics import Numerics
+from .plausible import doubtful_values
 from .roughness import Roughness
 from .sections import ROUGH, SECTIONS, changed_section, ranges_of
 from .short_forms import fields_of
 from .transient import KINDS, Transient
 
+# Keys of [motion] that state the sliding.
+SLIDING = {"slide_roll_ratio", "slip_percent", "surface_speeds"}
 LONGEST_NAME = 500  # characters of the name of a scene
 RESOLVED = (  # key, the values that the deterministic model takes, why no other
     ("contact.geometry", ("cylinder",), ""),
@@ -45,6 +48,8 @@ class Scene(Shown):
     transient : what changes in time, a `lubfric.Transient`, or None
     name : for titles
     ranges : (section.key, lowest, highest) of the values that are known to a range only; f is reported for both ends
+    doubtful : (section.key, plain number as given) of a sliding that may be of the other convention, percent or ratio.
+        It changes no number
     """
 
     bodies: Bodies
@@ -57,6 +62,7 @@ class Scene(Shown):
     transient: Transient | None = None
     counterface: Roughness | None = None
     ranges: tuple[tuple[str, float, float], ...] = ()
+    doubtful: tuple[tuple[str, float], ...] = field(default=(), compare=False)
 
     def __post_init__(self) -> None:
         if not isinstance(self.name, str) or _halved(self.name) or len(self.name) > LONGEST_NAME:
@@ -110,6 +116,14 @@ class Scene(Shown):
             new[section] = changed_section(section, getattr(self, section), values)
             if section in SECTIONS:
                 ranges |= ranges_of(section, values)
+        if isinstance(motion := sections.get("motion"), Motion) or motion and not SLIDING.isdisjoint(motion):
+            # a ratio is set by traction curves too, a slip in percent by users alone
+            slipped = (
+                {key: value for key, value in motion.items() if key == "slip_percent"}
+                if isinstance(motion, dict)
+                else {}
+            )
+            new["doubtful"] = doubtful_values("motion", slipped)
         made = replace(self, **new, ranges=())
         kept = {name: ends for name, *ends in self.ranges if value_of(made, name) == value_of(self, name)}
         return replace(made, ranges=as_ranges(kept | ranges))

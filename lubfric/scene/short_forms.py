@@ -218,8 +218,11 @@ def of_celsius(celsius: float, *_: Any) -> dict[str, Any]:
     """The temperature [K] of ``lubricant.temperature_celsius``."""
     degrees = validate.number("lubricant.temperature_celsius", celsius, "°C")
     if degrees > 250:
-        allowed = "up to 250 °C (K were meant? temperature)"
-        raise InputError(f" = {degrees:g} °C", "lubricant.temperature_celsius", allowed)
+        error = InputError(f" = {degrees:g} °C", "lubricant.temperature_celsius", "up to 250 °C")
+        error.hint(
+            f"lubricant.temperature_celsius = {degrees:g} is read as {degrees:g} °C; did you mean temperature = {degrees:g} K?"
+        )
+        raise error
     return {"temperature": degrees + CELSIUS}
 
 

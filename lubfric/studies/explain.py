@@ -10,8 +10,8 @@ from typing import Any
 
 from ..errors import InputError
 from ..estimate import forecast
-from ..models import prepare
-from ..models.shared import Prepared
+from ..models import candidates, prepare
+from ..models.shared import Prepared, Validity, beforehand, sentence, warn_unusual
 from ..quantities import counted, worded_value
 from .choose import CHOSEN, first_speeds
 from .operating_points import POINT
@@ -44,20 +44,58 @@ def estimated_study(plan: Any, store: str | Path | None = None) -> float:
     return _seconds_left(plan, table)[0]
 
 
-def _seconds_left(plan: Any, table: StudyTable) -> tuple[float, list[str]]:
-    """Return the estimated seconds of what is left of a study, from some of its scenes, and why some cannot be solved."""
+def warnings_of(plan: Any) -> list[str]:
+    """Return what is known before the solve to be doubtful of a `StudyPlan`, in sentences: how plain numbers were read,
+    and unusual values of its scenes. Nothing is made or solved."""
+    entries = [warn_unusual(scene) for scene in plan.scenes]
+    return [*(f"warning: {sentence(note)}" for note in plan.notes), *_in_sentences(entries, "scenes")]
+
+
+def _in_sentences(entries: Sequence[Sequence[Validity]], plural: str) -> list[str]:
+    """Return a sentence for each assumption that fails in ``entries`` (of each scene), with its smallest and largest
+    value; ``plural``: the name of what there is one of for each of ``entries``."""
+    groups: dict[tuple[str, bool], dict[int, Validity]] = {}
+    for place, of_scene in enumerate(entries):
+        for entry in of_scene:
+            groups.setdefault((entry.what, entry.severe), {})[place] = entry
+    lines = []
+    for group in groups.values():
+        ordered = sorted(group.values(), key=lambda entry: entry.value)
+        values = dict.fromkeys(f"{entry.value:.3g}" for entry in (ordered[0], ordered[-1]))
+        some = f"{len(group)} of {len(entries)} {plural}: " if len(group) < len(entries) else ""
+        lines.append(f"{some}{ordered[-1].text_of(' to '.join(values))}")
+    return lines
+
+
+def _seconds_left(plan: Any, table: StudyTable) -> tuple[float, list[str], list[str]]:
+    """Return the estimated seconds of what is left of a study, from some of its scenes; why some cannot be solved; and
+    what is expected not to hold there, but the unusual values (`warnings_of`), in sentences."""
     left = [(plan.scenes[curve], speeds) for curve, _, speeds in table.left()]
     some = left[:: -(-len(left) // SAMPLED)] if left else []
     seconds = 0.0
     failed = []
+    entries: list[tuple[Validity, ...]] = []
     for scene, speeds in some:
         try:
             begun = time.process_time()  # of the map, which takes its time as well
-            one = curve_seconds(prepare(scene), speeds) + time.process_time() - begun
+            prepared = prepare(scene)
+            one = curve_seconds(prepared, speeds) + time.process_time() - begun
             seconds += one * len(left) / len(some)
+            entries.append(_expected(prepared, speeds))
         except InputError as error:
             failed.append(f"  cannot be solved: {error}")
-    return seconds, failed
+    return seconds, failed, _in_sentences(entries, "scenes checked")
+
+
+def _expected(prepared: Prepared, speeds: Sequence[float]) -> tuple[Validity, ...]:
+    """Return what is expected not to hold of a scene at ``speeds`` [m/s] (none: at those that it chooses), but its unusual
+    values."""
+    scene = prepared.scene
+    at = list(speeds) or list(first_speeds(scene, prepared.surface.sq))
+    expected = candidates(scene.numerics.model)[0].expected_warnings(scene, at)
+    unusual = {entry.what for entry in warn_unusual(scene)}
+    known = (*beforehand(scene, prepared.surface), *(entry for _, entry in expected))
+    return tuple(entry for entry in known if entry.what not in unusual)
 
 
 def in_words(seconds: float) -> str:
@@ -92,8 +130,10 @@ def explain(plan: Any, store: Path | None = None) -> str:
         what = "curves" if plan.chooses_speeds else "points"
         lines.append(f"  kept     {held} of {total} {what} are in {store} already")
     if not any(True for _ in table.left()):
+        lines += [f"  {text}" for text in warnings_of(plan)]
         return "\n".join([*lines, "  time     nothing is left to solve"])
-    seconds, failed = _seconds_left(plan, table)
+    seconds, failed, expected_warnings = _seconds_left(plan, table)
+    lines += [f"  {text}" for text in (*warnings_of(plan), *expected_warnings)]
     lines.append(f"  time     about {in_words(seconds)} on one core (within a factor of about {WITHIN:g})")
     return "\n".join([*lines, *dict.fromkeys(failed)])
 
@@ -102,6 +142,6 @@ def _range(key: str, values: tuple[Any, ...]) -> str:
     """The values of a key: all of them if they are few, else the smallest and the largest, or first and last."""
     if len(values) > LISTED:
         ends = (min(values), max(values)) if all(isinstance(v, Real) for v in values) else (values[0], values[-1])
-        return " to ".join(_range(key, (end,)) for end in ends)
-    words = (worded_value(key, value) if isinstance(value, float) else str(value) for value in values)
+        return " to ".join(dict.fromkeys(_range(key, (end,)) for end in ends))
+    words = dict.fromkeys(worded_value(key, value) if isinstance(value, float) else str(value) for value in values)
     return ", ".join(shorten(text, 50, placeholder="...") for text in words)

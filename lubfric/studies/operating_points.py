@@ -2,7 +2,7 @@
 as along the path of contact of a gear, over the turn of a cam, or of a duty cycle."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,9 +11,9 @@ import numpy as np
 
 from .._base import name_and_unit, read_columns, table_headings, validate
 from ..errors import InputError
-from ..quantities import KEYS, OF_CYCLE, Quantity
-from ..scene import Scene
-from ..units import check_all_have_units, converted, in_si, kind_of, spelled
+from ..quantities import KEYS, OF_CYCLE, OF_SURFACES, Quantity
+from ..scene import Scene, other_convention
+from ..units import UNITS, check_all_have_units, converted, in_si, kind_of, spelled
 from .vary import MOST_POINTS, SECTIONS, Axis, check_key
 
 POINT = "point"  # name of the dimension of a table of operating points
@@ -21,6 +21,8 @@ U1 = "u1"
 U2 = "u2"
 SLIDING = "sliding_speed"
 DURATION = "duration"
+POSITION = "position"
+ANGLE = "angle"
 
 # Names of columns in place of the keys of a scene.
 NAMES = {
@@ -28,6 +30,7 @@ NAMES = {
     "entrainment_speed": "motion.entrainment_speed",
     "slide_roll_ratio": "motion.slide_roll_ratio",
     "srr": "motion.slide_roll_ratio",
+    "slip_percent": "motion.slip_percent",
     "radius": "bodies.radius",
     "load": "bodies.load",
     "width": "bodies.width",
@@ -36,17 +39,14 @@ NAMES = {
 }
 
 # Speeds of both surfaces, of which speed and slide-roll ratio follow.
-SPEEDS = {
-    U1: Quantity("m/s", "speed of surface 1"),
-    U2: Quantity("m/s", "speed of surface 2"),
-    SLIDING: Quantity("m/s", "sliding speed u2 - u1"),
-}
+SPEEDS = OF_SURFACES
 
 # Columns that say where a point lies. They change no number; means over a cycle weigh by the duration.
 COORDINATES = OF_CYCLE | {"time": Quantity("s", "time")}
 
 ENTRAINMENT = "motion.entrainment_speed"
 RATIO = "motion.slide_roll_ratio"
+SLIP = "motion.slip_percent"
 TEMPERATURE = "temperature"
 CELSIUS = "lubricant.temperature_celsius"
 KELVIN = "lubricant.temperature"
@@ -55,11 +55,13 @@ KELVIN = "lubricant.temperature"
 @dataclass(frozen=True, kw_only=True)
 class OperatingPoints:
     """A table of operating points: ``axis`` with a row of values [SI] for each point, by the keys of a scene;
-    ``speeds`` [m/s] of entrainment; ``coordinates`` (n,) [SI] by name, which change no number."""
+    ``speeds`` [m/s] of entrainment; ``coordinates`` (n,) [SI] by name, which change no number, among them u1, u2 and
+    sliding_speed as they were given; ``notes``: how columns without a unit were read, in sentences."""
 
     axis: Axis
     speeds: tuple[float, ...]
     coordinates: dict[str, tuple[float, ...]]
+    notes: tuple[str, ...] = ()
 
 
 def operating_points(scene: Scene, table: Any) -> OperatingPoints:
@@ -70,14 +72,14 @@ def operating_points(scene: Scene, table: Any) -> OperatingPoints:
     scene : gives what the table does not
     table : a path of a text file with headings, a list of rows (dicts), a dict of columns, or a pandas DataFrame. A
         column is a key of a scene ("bodies.load"), or one of radius, width, load, hertz_pressure, speed, u1, u2,
-        sliding_speed, slide_roll_ratio, temperature, viscosity; or position, angle, time, duration, which change no
+        sliding_speed, slide_roll_ratio, slip_percent, temperature, viscosity; or position, angle, time, duration, which change no
         number. A unit may be in the heading, "load [kN]", or with a value, "2 kN"; that of a temperature has to
 
     Raises
     ------
     InputError : a column or a value is none of a scene, or two columns say the same
     """
-    columns = _columns(table)
+    columns, notes = _columns(table)
     lengths = {len(values) for values in columns.values()}
     if len(lengths) != 1 or lengths == {0}:
         lengths_in_words = ", ".join(f"{name}: {len(values)}" for name, values in columns.items()) or "no columns"
@@ -87,6 +89,7 @@ def operating_points(scene: Scene, table: Any) -> OperatingPoints:
     coordinates = {name: tuple(columns.pop(name)) for name in COORDINATES if name in columns}
     if any(value < 0 for value in coordinates.get(DURATION, ())):
         raise InputError("points: duration holds a negative value; give durations in s")
+    coordinates |= {name: tuple(columns[name]) for name in SPEEDS if name in columns}
     columns = _with_speeds(columns)
     seen: set[str] = set()
     for key in columns:
@@ -104,36 +107,57 @@ def operating_points(scene: Scene, table: Any) -> OperatingPoints:
             scene.with_keys(axis.at(row))
         except InputError as error:
             raise InputError(f"points, row {row + 1}: {error}") from None
-    return OperatingPoints(axis=axis, speeds=tuple(map(float, speeds)), coordinates=coordinates)
+    return OperatingPoints(axis=axis, speeds=tuple(map(float, speeds)), coordinates=coordinates, notes=notes)
 
 
-def _columns(table: Any) -> dict[str, list[Any]]:
-    """Return the columns of ``table`` in SI units, by the keys of a scene or the names of `COORDINATES`, `SPEEDS`."""
+def _columns(table: Any) -> tuple[dict[str, list[Any]], tuple[str, ...]]:
+    """Return the columns of ``table`` in SI units, by the keys of a scene or the names of `COORDINATES`, `SPEEDS`; and how
+    those without a unit were read, in sentences."""
     if isinstance(table, (str, Path)):
         path = validate.folder("points", table)
         headings = table_headings(path, (*NAMES, TEMPERATURE, *COORDINATES, *SPEEDS, *KEYS))
         quantities = [_quantity(*name_and_unit(heading))[1] for heading in headings]
-        units = ["K" if quantity.unit == "°C" else quantity.unit for quantity in quantities]
+        units = [quantity.unit for quantity in quantities]
         given: dict[str, list[Any]] = dict(zip(headings, read_columns(path, headings, units)))
         in_file = True
     else:
         given = _as_columns(table)
         in_file = False
     columns: dict[str, list[Any]] = {}
+    notes: list[str] = []
     for heading, values in given.items():
         name, unit = name_and_unit(str(heading))
         key, quantity = _quantity(name, unit)
         if key in columns:
             raise InputError(f"points: two columns give {key}; leave one of them out")
         if in_file:
-            celsius = key == CELSIUS and unit  # read in K
-            columns[key] = [converted(value, "K", "°C") for value in values] if celsius else list(values)
+            columns[key] = list(values)
         else:
             if not unit:
                 plain = [validate.python_value(value) for value in values]
                 check_all_have_units(f"points: {heading}", plain, [quantity.unit] * len(plain))
             columns[key] = [_value(heading, key, value, unit, quantity) for value in values]
-    return columns
+        if not unit:
+            notes += _notes_without_unit(name, key, quantity, values)
+    return columns, tuple(notes)
+
+
+def _notes_without_unit(name: str, key: str, quantity: Quantity, values: Any) -> Iterator[str]:
+    """Yield how the plain numbers of the column ``name`` without a unit were read, where that may be a mistake."""
+    plain = [validate.python_value(value) for value in values]
+    numbers = [v for v in plain if isinstance(v, (int, float)) and not isinstance(v, bool) and v != 0]
+    if not numbers:
+        return
+    if name in (POSITION, ANGLE):
+        other = {POSITION: "position [mm]", ANGLE: "angle [deg]"}[name]
+        largest = max(numbers, key=abs)
+        yield (
+            f"the column {name} has no unit: {largest:g} is read as {largest:g} {quantity.unit}; "
+            f"head the column {other} for another unit"
+        )
+    question = other_convention(key, numbers)
+    if question:
+        yield f"the column {name} has no unit; {question}"
 
 
 def _as_columns(table: Any) -> dict[str, list[Any]]:
@@ -182,9 +206,9 @@ def _value(heading: str, key: str, value: Any, unit: str | None, quantity: Quant
     value = validate.python_value(value)
     if isinstance(value, str) and key in {*KEYS, *COORDINATES, *SPEEDS}:
         value, given = in_si(f"points: {heading}", value)
-        if given != quantity.unit and not (key == CELSIUS and given == "K"):
+        if given != _row(quantity.unit):
             raise InputError(f"points: {heading} = {value!r} is in {given}", allowed=f"a number in {quantity.unit}")
-        return converted(value, "K", "°C") if key == CELSIUS else value
+        return converted(value, given, quantity.unit) if given != quantity.unit else value
     if not unit or isinstance(value, str):
         return value
     word = spelled(unit)
@@ -193,25 +217,34 @@ def _value(heading: str, key: str, value: Any, unit: str | None, quantity: Quant
         row = kind_of(word)
     except KeyError:
         raise InputError(f"points: the unit of {heading!r} is not known", allowed=quantity.unit) from None
-    if key == CELSIUS:
-        return converted(number, word, "°C")
-    if row != quantity.unit:
+    if row != _row(quantity.unit):
         raise InputError(f"points: {heading!r} is in {row}", allowed=f"a unit of {quantity.unit}")
-    return converted(number, word, row)
+    return converted(number, word, quantity.unit)
+
+
+def _row(unit: str) -> str:
+    """Return the SI unit of the row that holds ``unit``; ``unit`` itself where it names several or none."""
+    return next((si for si, units in UNITS.items() if unit in units), unit)
 
 
 def _with_speeds(columns: dict[str, list[Any]]) -> dict[str, list[Any]]:
     """Return the columns with speed and slide-roll ratio in place of the speeds of the surfaces."""
     columns = dict(columns)
+    if SLIP in columns and RATIO in columns:
+        raise InputError("points: slip_percent and slide_roll_ratio both give the sliding; leave one of them out")
     pair = [columns.pop(name, None) for name in (U1, U2)]
     sliding = columns.pop(SLIDING, None)
     if (pair[0] is None) != (pair[1] is None):
-        raise InputError("points: give both u1 and u2, or speed and slide_roll_ratio")
-    twice = [key for key in (ENTRAINMENT, RATIO, "motion.slip_percent") if key in columns]
+        raise InputError("points: give both u1 and u2, or speed and slide_roll_ratio or slip_percent")
+    twice = [key for key in (ENTRAINMENT, RATIO, SLIP) if key in columns]
     if pair[0] is not None and (twice or sliding is not None):
         raise InputError(f"points: u1 and u2 give the speed and the ratio; leave {', '.join(twice) or SLIDING} out")
-    if sliding is not None and (RATIO in columns or ENTRAINMENT not in columns):
-        raise InputError("points: sliding_speed goes with speed, and takes the place of slide_roll_ratio")
+    if sliding is not None and (RATIO in columns or SLIP in columns or ENTRAINMENT not in columns):
+        raise InputError(
+            "points: sliding_speed goes with speed, and takes the place of slide_roll_ratio and slip_percent"
+        )
+    if SLIP in columns:
+        columns[RATIO] = [in_percent / 100 for in_percent in columns.pop(SLIP)]
     if pair[0] is not None:
         columns[ENTRAINMENT] = [0.5 * (u1 + u2) for u1, u2 in zip(*pair)]
         sliding = [u2 - u1 for u1, u2 in zip(*pair)]

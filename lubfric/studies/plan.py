@@ -16,11 +16,11 @@ from ..errors import InputError
 from ..samples import measured, whole_maps
 from ..scene import Scene, load_scene, read_toml, speeds_of_range
 from .choose import CHOSEN, MOST, requested_speeds
-from .explain import explain
+from .explain import explain, warnings_of
 from .operating_points import operating_points
 from .points import scene_key
 from .store import digest
-from .vary import Axis, Between, axes_of, sample, unit_of
+from .vary import SLIDING, Axis, Between, axes_of, notes_of_sliding, sample, unit_of
 
 KEYS = ("scene", "speeds", "speed_range", "points", "vary", "together", "sample")
 SAMPLE_KEYS = ("count", "sampler", "seed")
@@ -38,6 +38,7 @@ class StudyPlan(FieldsOnly):
     speeds : of all curves [m/s]; none if every curve chooses its own, or of operating points
     point_speeds : of the operating points [m/s], one for each value of the last axis; none of curves
     coordinates : of the operating points, by name: numbers that say where they lie, such as the position or the time
+    notes : how columns of the table without a unit were read, and doubts about plain numbers, in sentences
     keys : of the curves, the last axis fastest: hashes of all that their points depend on in addition to the speed
     """
 
@@ -47,6 +48,7 @@ class StudyPlan(FieldsOnly):
     keys: tuple[str, ...]
     point_speeds: tuple[float, ...] = ()
     coordinates: dict[str, tuple[float, ...]] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
     @cached_property
     def scenes(self) -> tuple[Scene, ...]:
@@ -95,13 +97,16 @@ class StudyPlan(FieldsOnly):
         return {key: tuple(speeds) for key, speeds in speeds_of.items()}
 
     explain = explain
+    warnings = warnings_of
 
 
 def scenes_of(scene: Scene, axes: tuple[Axis, ...]) -> Iterator[Scene]:
     """Yield the scenes of all combinations of the values of ``axes``, the last one fastest."""
     for row in product(*(range(len(axis.values)) for axis in axes)):
         values = {key: value for axis, i in zip(axes, row) for key, value in axis.at(i).items()}
-        yield replace(scene.with_keys(values), transient=None)
+        varied = replace(scene.with_keys(values), transient=None)
+        # whether a varied sliding is doubtful is known of the values as they were given (`StudyPlan.notes`)
+        yield varied if SLIDING.isdisjoint(values) else replace(varied, doubtful=())
 
 
 @with_default_errors
@@ -127,9 +132,14 @@ def plan_study(
     """
     validate.instance("scene", scene, Scene, "a scene to vary: what lubfric.load_scene returned, not lubfric.prepare")
     axes = axes_of(scene, {} if vary is None else vary)
+    notes = tuple(notes_of_sliding({} if vary is None else vary))
     if points is None:
         return StudyPlan(
-            scene=scene, axes=axes, speeds=requested_speeds(scene, speeds), keys=tuple(_scene_keys(scene, axes))
+            scene=scene,
+            axes=axes,
+            speeds=requested_speeds(scene, speeds),
+            keys=tuple(_scene_keys(scene, axes)),
+            notes=notes,
         )
     if speeds is not None:
         raise InputError("points and speeds both give speeds; leave speeds out, and give a column speed in points")
@@ -147,6 +157,7 @@ def plan_study(
         speeds=(),
         point_speeds=table.speeds,
         coordinates=table.coordinates,
+        notes=(*notes, *table.notes),
         keys=tuple(_scene_keys(scene, axes)),
     )
 

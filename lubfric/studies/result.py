@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 
 PLAN = "plan"  # its key in the store
-PLAN_FIELDS = ("scene", "axes", "speeds", "keys", "point_speeds", "coordinates")  # what is stored of it
+PLAN_FIELDS = ("scene", "axes", "speeds", "keys", "point_speeds", "coordinates", "notes")  # what is stored of it
 # Points that a process of an executor receives at once.
 TOGETHER = 8
 

@@ -39,9 +39,16 @@ class Failure:
 CLASSES = classes_of(FrictionResult, EHLResult, Failure, Scene, Axis)
 ERRORS = {kind.__name__: kind for kind in (InputError, ConvergenceError, ValidityError)}
 OUTCOME = FrictionResult | Failure  # what is stored of a point
-# What is stored of the plan of a study: scene, axes, speeds [m/s], keys, and speeds and coordinates of operating points.
+# What is stored of the plan of a study: scene, axes, speeds [m/s], keys, and speeds, coordinates and notes of operating
+# points.
 PLANNED = tuple[
-    Scene, tuple[Axis, ...], tuple[float, ...], tuple[str, ...], tuple[float, ...], dict[str, tuple[float, ...]]
+    Scene,
+    tuple[Axis, ...],
+    tuple[float, ...],
+    tuple[str, ...],
+    tuple[float, ...],
+    dict[str, tuple[float, ...]],
+    tuple[str, ...],
 ]
 CHOSEN = tuple[tuple[float, ...], bool]  # the same of a curve: its speeds [m/s] so far, and whether these are all
 

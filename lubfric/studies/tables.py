@@ -13,11 +13,11 @@ from scipy.interpolate import PchipInterpolator
 from .._base import FloatArray, __version__, figures, files, table_bytes, validate, write_whole
 from ..errors import InputError
 from ..quantities import COLUMNS, Quantity, axis_label, described, heading, worded_value
-from ..units import converted, unit_for
+from ..units import converted, unit_of_largest
 from .choose import between
 from .curve import numbers_of
 from .interpolate import through
-from .operating_points import ENDS
+from .operating_points import ENDS, RATIO
 from .points import SPEED, STATUS, UNUSED, VALIDITY
 
 if TYPE_CHECKING:
@@ -142,34 +142,58 @@ def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
 
 def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = None, **style: Any) -> Axes:
     """Draw a number of the operating points of a study with its 95 % interval over their position, angle or time, or
-    over their number; one line for each combination of what else is varied. Returns the axes."""
+    over their number; one line for each combination of what else is varied. Returns the axes.
+
+    The line of f is broken where the direction of sliding changes, as at the pitch point of a gear: f jumps there.
+    """
     axes = figures.axes_or_new(ax)
     coordinate = next((name for name in ("position", "angle", "time") if name in result.coords), None)
     count = result.status.shape[-1]
     over = np.arange(1, count + 1) if coordinate is None else result.coords[coordinate][1]
     over, label_over = _in_people_units(over, coordinate) if coordinate else (over, "operating point")
     order = np.argsort(over, kind="stable")
-    unit = unit_for(result[quantity][np.isfinite(result[quantity])].tolist(), COLUMNS[quantity].unit)
+    unit = unit_of_largest(result[quantity].ravel().tolist(), COLUMNS[quantity].unit)
     times = converted(1.0, COLUMNS[quantity].unit, unit)
     indices = list(np.ndindex(*result.status.shape[:-1]))[:NAMED]
     for index in indices:
         values = times * result[quantity][index][order]
+        breaks = _changes_of_direction(result, index)[order] if quantity == "coefficient" else np.zeros(0)
+        ends = np.flatnonzero(np.diff(breaks)) + 1  # before these points a line ends
         named = figures.plain_words(label(result, (*index, slice(None)))) if len(indices) > 1 else None
         own: dict[str, Any] = {"marker": "o", "ms": 3, "lw": 1.2, "label": named or COLUMNS[quantity].label}
         own |= {"color": figures.BLUE} if len(indices) == 1 else {}
-        (line,) = axes.plot(over[order], values, **own | style)
+        (line,) = axes.plot(np.insert(over[order], ends, np.nan), np.insert(values, ends, np.nan), **own | style)
         if quantity in ENDS:
             low, high = (times * result[name][index][order] for name in ENDS[quantity])
             known: dict[str, Any] = {"label": BAND} if index == indices[-1] and np.isfinite(low).any() else {}
-            axes.fill_between(over[order], low, high, color=line.get_color(), alpha=0.2, lw=0, **known)
+            along, *sides = [np.insert(array, ends, np.nan) for array in (over[order], low, high)]
+            axes.fill_between(along, sides[0], sides[1], color=line.get_color(), alpha=0.2, lw=0, **known)
+            for alone in _lone(ends, order.size):  # no line or band shows the interval of such a point
+                axes.vlines(over[order][alone], low[alone], high[alone], color=line.get_color(), alpha=0.4, lw=3)
     axes.set(xlabel=label_over, ylabel=axis_label(quantity, unit))
     figures.key_above(axes, 2)
     return axes
 
 
+def _changes_of_direction(result: Any, index: tuple[int, ...]) -> np.ndarray:
+    """Return the direction of sliding (-1, 0, 1) of the operating points at the position ``index`` along the other axes."""
+    if RATIO in result.coords:
+        dim, ratios = result.coords[RATIO]
+        if dim == result.dims[-1]:
+            return np.sign(ratios)
+        return np.full(result.status.shape[-1], np.sign(ratios[index[result.dims.index(dim)]]))
+    return np.zeros(result.status.shape[-1])
+
+
+def _lone(ends: np.ndarray, count: int) -> list[int]:
+    """Return the places of ``count`` points that are alone between the breaks before ``ends``."""
+    first = [0, *ends.tolist()]
+    return [a for a, b in zip(first, [*first[1:], count]) if b - a == 1 and count > 1]
+
+
 def _in_people_units(values: np.ndarray, name: str) -> tuple[np.ndarray, str]:
     """Return the values of the column ``name`` in a common unit, and the label of their axis."""
-    unit = unit_for(values.tolist(), COLUMNS[name].unit)
+    unit = unit_of_largest(values.tolist(), COLUMNS[name].unit)
     return values * converted(1.0, COLUMNS[name].unit, unit), axis_label(name, unit)
 
 

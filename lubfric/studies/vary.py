@@ -1,7 +1,7 @@
 """What a study varies: lists of values, lists that go together, and ranges from which samples are drawn."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
@@ -12,7 +12,7 @@ import numpy as np
 from .._base import FloatArray, validate, with_default_errors
 from ..errors import InputError
 from ..quantities import KEYS
-from ..scene import SOURCES, Roughness, Scene, short_keys, typical
+from ..scene import SOURCES, Roughness, Scene, other_convention, short_keys, typical
 from ..units import check_all_have_units, in_si, without_unit
 
 SAMPLERS = ("sobol", "random")
@@ -23,6 +23,7 @@ TEMPERATURES = {"lubricant.temperature", "lubricant.temperature_celsius"}
 VISCOSITIES = {f"lubricant.{key}" for key in (*SOURCES, "viscosity")} | {"lubricant"}
 FITTED = ("bodies", "lubricant", "motion", "surface")  # sections that have what a measurement may tell
 SECTIONS = (*FITTED, "counterface", "contact", "numerics")
+SLIDING = {"motion", "motion.slide_roll_ratio", "motion.slip_percent"}  # keys of the sliding
 CASE = "case"  # name of the dimension of keys that go together
 
 
@@ -194,6 +195,17 @@ def _refuse_key(what: str, scene: Scene, key: Any, sections: Iterable[str]) -> N
         way_out="write a key as 'section.key', such as 'bodies.load'; keys that change together are a tuple of such "
         "names, ('bodies.load', 'bodies.radius'), with a tuple of values for each point",
     )
+
+
+def notes_of_sliding(vary: Mapping[Any, Any]) -> Iterator[str]:
+    """Yield where plain numbers of a varied sliding may be of the other convention, percent or ratio, in a sentence."""
+    for key, values in vary.items():
+        keys = key if isinstance(key, tuple) else (key,)
+        rows = [row if isinstance(key, tuple) else (row,) for row in values]
+        for name, column in zip(keys, zip(*rows)):
+            question = other_convention(name, map(validate.python_value, column))
+            if question:
+                yield f"the values of {name} have no unit; {question}"
 
 
 def check_temperature(what: str, scene: Scene, keys: set[str]) -> None:

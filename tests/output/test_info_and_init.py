@@ -45,7 +45,7 @@ def test_info_foretells_what_friction_refuses():
     mended = HEAVY.with_(lubricant={"eyring_stress": 5e6, "limiting_stress_coefficient": 0.07})
     assert "not valid" not in describe_scene(mended)
     assert "no assumption of the model fails" in describe_scene(lubfric.load_scene("paper"))
-    assert "mm meant? 8 mm = 0.008 m" in describe_scene(HEAVY.with_(bodies={"radius": 8.0, "load": 1.0}))
+    assert "Did you mean 8 mm (0.008 m)?" in describe_scene(HEAVY.with_(bodies={"radius": 8.0, "load": 1.0}))
 
 
 def test_info_looks_at_what_is_solved():

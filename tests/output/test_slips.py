@@ -26,7 +26,7 @@ OIL = ("grade", "viscosity_index", "temperature_celsius", "density")
 MEASURED = ("sq", "correlation_length", "acf")
 
 SLIPS = {  # name: (changes to GOOD by section; None removes a key, words of the answer)
-    "radius in mm": ({"bodies": {"radius": "8.0"}}, "8 mm = 0.008 m"),
+    "radius in mm": ({"bodies": {"radius": "8.0"}}, "8 mm .0.008 m."),
     "modulus in GPa": ({"bodies": {"material": None, "e_prime": "226"}}, "226 GPa"),
     "modulus twice": ({"bodies": {"e_prime": "2.2e11"}}, "one of e_prime, material"),
     "only Young's modulus": ({"bodies": {"material": None, "young_modulus": "[2e11, 2e11]"}}, "poisson_ratio"),
@@ -35,11 +35,11 @@ SLIPS = {  # name: (changes to GOOD by section; None removes a key, words of the
     "no load": ({"bodies": {"load": None}}, "hertz_pressure"),
     "viscosity in mm²/s": (
         {"lubricant": dict.fromkeys(OIL) | NUMBERS | {"viscosity": "68"}},
-        "mm²/s give grade, or nu40 and nu100",
+        "For mm²/s give grade, or nu40 and nu100",
     ),
     "alpha in 1/GPa": (
         {"lubricant": dict.fromkeys(OIL) | NUMBERS | {"pressure_viscosity_coefficient": "20"}},
-        "20 1/GPa = 2e-08 1/Pa",
+        "20 1/GPa .2e-08 1/Pa.",
     ),
     "no alpha": (
         {"lubricant": dict.fromkeys(OIL) | NUMBERS | {"pressure_viscosity_coefficient": None}},
@@ -49,7 +49,7 @@ SLIPS = {  # name: (changes to GOOD by section; None removes a key, words of the
     "grade without index": ({"lubricant": {"viscosity_index": None}}, "viscosity_index"),
     "no temperature": ({"lubricant": {"temperature_celsius": None}}, "temperature"),
     "temperature in °C as K": ({"lubricant": {"temperature_celsius": None, "temperature": "70"}}, "343.15 K"),
-    "temperature in K as °C": ({"lubricant": {"temperature_celsius": "343.15"}}, "K were meant"),
+    "temperature in K as °C": ({"lubricant": {"temperature_celsius": "343.15"}}, "did you mean temperature = 343.15 K"),
     "no shear law": (
         {
             "bodies": {"load": None, "hertz_pressure": "1e9"},
@@ -59,14 +59,14 @@ SLIPS = {  # name: (changes to GOOD by section; None removes a key, words of the
         "eyring_stress",
     ),
     "slip in percent as a ratio": ({"motion": {"slip_percent": None, "slide_roll_ratio": "5"}}, "slip_percent"),
-    "speed in mm/s": ({"motion": {"entrainment_speed": "150.0"}}, "150 mm/s = 0.15 m/s"),
+    "speed in mm/s": ({"motion": {"entrainment_speed": "150.0"}}, "150 mm/s .0.15 m/s."),
     "misspelt key": ({"motion": {"entrainment_speed": None, "entrainement_speed": "1.0"}}, "entrainment_speed"),
     "misspelt section": ({"lubrikant": {"viscosity": "0.1"}}, "lubricant"),
-    "Sq in micrometres": ({"surface": {"sq": "0.1"}}, "0.1 um = 1e-07 m"),
+    "Sq in micrometres": ({"surface": {"sq": "0.1"}}, "0.1 µm .1e-07 m."),
     "no such file": ({"surface": dict.fromkeys(MEASURED) | {"file": '"map.x3p"'}}, "did you mean.*'map.npy'"),
     "speeds in mm/s": (
         {"motion": {"speeds": "[1, 1000]"}},
-        "motion.speeds is 1e\\+03 m/s, above 100 m/s. The value is unusual. Recommendation: .*; mm/s meant. 1000 mm/s = 1 m/s",
+        "motion.speeds is 1e\\+03 m/s, above 100 m/s. Did you mean 1000 mm/s .1 m/s.. Recommendation: check the value",
     ),
     "size of the patch for its cells": ({"contact": {"shape": "[300e-6, 150e-6]"}}, "cells of contact.spacing"),
     "no boundary friction": ({"bodies": {"boundary_friction_coefficient": None}}, "some 0.1"),

@@ -75,7 +75,7 @@ def test_calibrated_answer_holds_the_deterministic_one_and_is_narrower_than_load
     parts = results["load-sharing"].boundary_force + results["load-sharing"].shear_force
     assert parts / HEAVIER.bodies.load == pytest.approx(results["load-sharing"].coefficient, rel=1e-12)
     assert results["load-sharing"].decision.model == "load-sharing"
-    basis = f"load sharing, calibrated on {error_models()['rest'].cases} solved cases: model-form -"
+    basis = f"load-sharing model, calibrated on {error_models()['rest'].cases} solved cases: error there -"
     assert results["load-sharing"].decision.text.startswith(basis)
     assert results["paper"].decision.basis == ""
 
@@ -89,7 +89,7 @@ def test_report_says_first_what_the_answer_rests_on(tmp_path):
     file.write_text(scene.to_toml())
     assert main(["run", str(file), "--speeds", "0.1", "--out", str(tmp_path / "out")]) == 0
     page = (tmp_path / "out/report.html").read_text()
-    basis = f"Load sharing, calibrated on {error_models()['rest'].cases} solved cases: model-form -"
+    basis = f"Load-sharing model, calibrated on {error_models()['rest'].cases} solved cases: error there -"
     assert page.index("f = ") < page.index(basis) < page.index("Uncertainty budget")
 
 
@@ -324,7 +324,7 @@ def test_the_pressure_that_info_warns_of_is_warned_of_by_every_model(model):
         numerics={"model": model, "sampling_tolerance": 0.5, "tolerance": 0.1},
     )
     assert "film pressure is 1.47 GPa" in describe_scene(scene, [0.03])
-    pressures = [entry.value for entry in lubfric.friction(scene, 0.03).validity if entry.what == "film pressure"]
+    pressures = [entry.value for entry in lubfric.friction(scene, 0.03).validity if "film pressure" in entry.what]
     assert pressures and min(pressures) > 1.4699
 
 

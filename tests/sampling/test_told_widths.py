@@ -123,6 +123,11 @@ CASES = [
         (0.035, 0.054),
         "f = 0.0500 (0.0350 to 0.0540 at 95 %); numerical 0.1 %, sampling 2 %, model-form 5 %, input 30 %",
     ),
+    (
+        KNOWN | {"model": 0.41, "model_sides": (0.29, 0.41), "inputs": 0.3, "input_sides": (0.3, 0.3)},
+        (0.035, 0.071),
+        "numerical 0.1 %, sampling 2 %, model-form -29 to +41 %, input 30 %",
+    ),
     (KNOWN | {"inputs": math.nan}, (0.045, 0.055), "model-form 5 %, input not known"),
     (
         KNOWN | {"model": math.nan},

@@ -9,7 +9,7 @@ import lubfric
 from lubfric.quantities import KEYS
 from lubfric.scene import unusual_values
 from lubfric.scene.plausible import slip
-from lubfric.units import converted
+from lubfric.units import converted, printed
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": 343.15}
 
@@ -29,13 +29,14 @@ def test_a_usual_value_in_each_mistaken_unit_is_found_out(name):
         given = converted(middle, unit, other if isinstance(other, str) else other[0])
         if not low <= given <= high:
             meant = slip(name, given)
-            assert meant and unit in meant
+            assert meant and meant.startswith("did you mean ") and printed(unit) in meant
     assert slip(name, [middle, middle]) is None
 
 
 def test_a_value_that_no_unit_explains_is_still_told():
-    ((name, value, limit, unit, _),) = unusual_values(lubfric.load_scene("paper").with_(bodies={"radius": 900.0}))
-    assert (name, value, limit, unit) == ("bodies.radius", 900.0, 1.0, "m")
+    (found,) = unusual_values(lubfric.load_scene("paper").with_(bodies={"radius": 900.0}))
+    assert (found.key, found.value, found.limit, found.unit) == ("bodies.radius", 900.0, 1.0, "m")
+    assert "900 mm (0.9 m)" in found.question
 
 
 def test_an_error_carries_what_it_says():
@@ -43,7 +44,47 @@ def test_an_error_carries_what_it_says():
     with pytest.raises(lubfric.InputError) as caught:
         lubfric.load_scene("paper").with_(counterface={"sq": 5.0, "correlation_length": 1e-5})
     error = pickle.loads(pickle.dumps(caught.value))
-    assert error.quantity == "counterface.sq" and error.allowed == "a finite number in [0, 1] m" and not error.hints
-    error.hint("um meant?")
-    error.hint("um meant?")
-    assert str(error) == f"{error.quantity}{error.said}; allowed: {error.allowed}; um meant?"
+    assert error.quantity == "counterface.sq" and error.allowed == "a finite number in [0, 1] m"
+    assert error.hints == ("counterface.sq = 5 is read as 5 m; did you mean 5 µm (5e-06 m)?",)
+    error.hint("another")
+    error.hint("another")
+    worded = f"{error.quantity}{error.said}; allowed: {error.allowed}"
+    assert str(error) == f"{error.hints[0]} another {worded}"
+
+
+@pytest.mark.parametrize(
+    "motion, question",
+    [
+        ({"slip_percent": 0.01}, "Did you mean slide_roll_ratio = 0.01, which is 1 %?"),
+        ({"slip_percent": "0.01 %"}, ""),
+        ({"slip_percent": 0.5}, ""),
+        ({"slip_percent": 0}, ""),
+        ({"slide_roll_ratio": 1}, "Did you mean slip_percent = 1?"),
+        ({"slide_roll_ratio": "100 %"}, ""),
+        ({"slide_roll_ratio": 2}, ""),
+        ({"slide_roll_ratio": 0.01}, ""),
+    ],
+)
+def test_a_sliding_that_looks_like_the_other_convention_is_questioned(motion, question, tmp_path):
+    """In a file and in the result; a ratio that a call sets, as traction curves do, is what it is."""
+    text = lubfric.load_scene("paper").to_toml()
+    lines = [line for line in text.splitlines() if not line.startswith("slide_roll_ratio")]
+    ((key, value),) = motion.items()
+    at = lines.index("[motion]") + 1
+    lines.insert(at, f"{key} = {value!r}".replace("'", '"'))
+    (tmp_path / "scene.toml").write_text("\n".join(lines))
+    scene = lubfric.load_scene(tmp_path / "scene.toml").with_(numerics={"model": "paper", "sampling": "patch"})
+    texts = [entry.text for entry in lubfric.friction(scene, 0.1).validity if entry.what.startswith("motion.")]
+    assert [question in text for text in texts] == [True] * bool(question)
+    assert scene.with_(motion={"slide_roll_ratio": 1.0}).doubtful == ()
+    ratio = scene.motion.slide_roll_ratio
+    assert scene == scene.with_(motion={"slide_roll_ratio": ratio})  # the doubt is no part of the problem
+
+
+def test_the_likely_cause_begins_a_message():
+    """A load that its own unit makes heavy is refused for the Hertz area; the unit comes first."""
+    with pytest.raises(lubfric.InputError) as caught:
+        lubfric.load_scene("paper").with_(bodies={"hardness": 700})
+    assert str(caught.value).startswith(
+        "bodies.hardness = 700 is read as 700 Pa; did you mean 700 HV (7.404e+09 Pa)? Give hardness_hv. bodies.load"
+    )

@@ -10,6 +10,10 @@ from scene_text import paper_scene
 import lubfric
 from lubfric.film import ShearForce
 from lubfric.models.shared import (
+    Validity,
+    gathered,
+    gathered_texts,
+    in_a_cell,
     warn_bodies,
     warn_deflection,
     warn_map,
@@ -165,3 +169,41 @@ def test_cells_too_long_for_the_roughness_are_a_warning():
     found = [lubfric.friction(rough.with_(numerics={"tolerance": t}), 0.03) for t in (0.01, 0.05)]
     told = [[e.value for e in p.validity if "cells half as long" in e.what] for p in found]
     assert len(told[0]) == 1 and 1 < told[0][0] < 5 and told[1] == []
+
+
+def entry(value, what="slip", severe=False):
+    return Validity(what=what, value=value, limit=5.0, unit="%", consequence="it slides", remedy="less", severe=severe)
+
+
+def test_a_warning_of_several_speeds_gives_the_smallest_and_the_largest_value_with_their_speeds():
+    points = [(0.1, (entry(8.69),)), (0.3, (entry(6.0),)), (3.0, (entry(5.2),)), (4.0, ())]
+    (text,) = gathered(points)
+    assert text == (
+        "at 3 speeds, 0.1 to 3 m/s: warning: slip is 5.2 (at 3 m/s) to 8.69 (at 0.1 m/s) %, above 5 %. It slides. "
+        "Recommendation: less."
+    )
+    (alike,) = gathered([(0.1, (entry(8.0),)), (0.3, (entry(8.0),))])
+    assert "slip is 8 %, above" in alike
+
+
+@pytest.mark.parametrize(
+    "places, words",
+    [
+        ((1,), "At point 1: slip is 6 %"),
+        ((1, 2, 3, 4, 5), "At all 5 points: slip is 6 to 10 %"),
+        ((1, 3), "At points 1 and 3: slip is 6 to 8 %"),
+        ((1, 2, 3, 5), "At points 1 to 3 and 5: slip is 6 to 10 %"),
+    ],
+)
+def test_warnings_of_a_table_name_their_points(places, words):
+    cells = [in_a_cell([entry(5.0 + n)] if n in places else []) for n in range(1, 6)]
+    (text,) = gathered_texts(cells)
+    assert text.startswith(f"{words}, above 5 %. It slides.")
+
+
+def test_a_local_film_peak_is_told_from_the_hertz_pressure():
+    heavy = PAPER.with_(bodies={"hertz_pressure": 1.2e9, "hardness": None})
+    (at_hertz,) = warn_pressure(heavy, 1.2e9)
+    (local,) = warn_pressure(heavy, 3e9)
+    assert "peak film pressure is 1.2 GPa" in at_hertz.text and "local" not in at_hertz.text
+    assert "highest local film pressure is 3 GPa" in local.text and "the peak Hertz pressure is 1.2 GPa" in local.text

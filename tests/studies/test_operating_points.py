@@ -1,6 +1,7 @@
 """Operating points in pairs: each row of a table is the point of its own scene, whatever the table is made of."""
 
 import csv
+import re
 
 import numpy as np
 import pytest
@@ -8,7 +9,8 @@ from small_study import SCENE, same
 
 import lubfric
 from lubfric.output import main
-from lubfric.studies import load_study
+from lubfric.output.study_report import answer_lines
+from lubfric.studies import load_study, plot_points
 from lubfric.units import with_interval
 
 ROWS = [  # radius m, load N, u1, u2 m/s, duration s
@@ -170,7 +172,7 @@ def test_the_command_takes_a_scene_with_a_table_and_writes_a_report(tmp_path, ca
     mean = sum(p.power_loss * row[-1] for p, row in zip(points, ROWS)) / 4
     ends = [float(sum(p.power_loss_interval[i] * row[-1] for p, row in zip(points, ROWS)) / 4) for i in (0, 1)]
     mean_text = with_interval(mean, *ends, unit="W")
-    assert f"The mean power loss of the operating points, weighed by the duration, is {mean_text}." in said
+    assert f"The mean power loss of the operating points, weighed by the duration, is {mean_text}" in said
     largest = max(points, key=lambda point: point.power_loss)
     largest_text = with_interval(largest.power_loss, *largest.power_loss_interval, unit="W")
     assert f"The largest power loss is {largest_text}" in said
@@ -179,3 +181,64 @@ def test_the_command_takes_a_scene_with_a_table_and_writes_a_report(tmp_path, ca
     common = page.partition("Inputs common to all points")[2].partition("Method and sources")[0]
     assert "total load" not in common and "length of the line contact" in common  # the load is varied
     assert "data:image/png;base64" in page and (out / "study.png").stat().st_size > 10_000
+
+
+def test_plain_numbers_that_may_be_in_another_unit_are_questioned_at_the_plan():
+    plan = lubfric.plan_study(
+        SCENE, points={"speed": [0.1, 0.2], "position": [-2.0, 2.0], "slip_percent": [0.01, 0.02]}
+    )
+    (position, slip) = plan.warnings()
+    assert "-2 is read as -2 m" in position and "position [mm]" in position
+    assert "did you mean slide_roll_ratio = 0.02, which is 2 %?" in slip
+    assert all(text in plan.explain() for text in (position, slip))
+    stated = {"speed": [0.1, 0.2], "position [mm]": [-2.0, 2.0], "slip_percent [%]": [0.01, 0.02]}
+    assert lubfric.plan_study(SCENE, points=stated).warnings() == []
+    ratios = lubfric.plan_study(SCENE, points={"speed": [0.1, 0.2], "slide_roll_ratio": [1, 1.5]})
+    assert "did you mean slip_percent = 1?" in ratios.explain()
+    varied = lubfric.plan_study(SCENE, {"motion.slip_percent": [0.01, 0.05]}, [0.1])
+    assert "slide_roll_ratio = 0.05" in varied.explain()
+
+
+def test_radii_in_mm_are_questioned_at_the_plan_before_any_solve(monkeypatch):
+    monkeypatch.setattr("lubfric.studies.points.outcome_of", None)
+    table = {"speed": [0.1, 0.1, 0.1], "radius": [4.0, 5.0, 5e-3]}
+    words = "2 of 3 scenes: warning: bodies.radius is 4 to 5 m, above 1 m. Did you mean 5 mm (0.005 m)?"
+    assert words in lubfric.plan_study(SCENE, points=table).explain()
+    strips = lubfric.load_scene("paper").with_(bodies={"hardness": None}, numerics={"model": "paper"})
+    heavy = lubfric.plan_study(strips, {"bodies.hertz_pressure": [5e8, 2e9]}, [0.1])
+    assert "peak film pressure is 2 GPa, above 1 GPa" in heavy.explain()
+
+
+def test_a_column_of_slip_in_percent_is_that_of_the_ratio(tmp_path):
+    ratio = lubfric.plan_study(SCENE, points={"speed": [0.1, 0.2], "slide_roll_ratio": [0.02, -0.05]})
+    (tmp_path / "t.csv").write_text("speed [m/s],slip_percent [%]\n0.1,2\n0.2,-5\n")
+    for table in (
+        {"speed": [0.1, 0.2], "slip_percent": [2, -5]},
+        {"speed": [0.1, 0.2], "slip_percent": ["2 %", "-5 %"]},
+        tmp_path / "t.csv",
+    ):
+        percent = lubfric.plan_study(SCENE, points=table)
+        assert ratio.axes == percent.axes and ratio.keys == percent.keys
+
+
+def test_surface_speeds_of_a_table_are_in_its_result(result):
+    np.testing.assert_array_equal(result.coords["u1"][1], [row[2] for row in ROWS])
+    np.testing.assert_array_equal(result.coords["u2"][1], [row[3] for row in ROWS])
+
+
+def test_the_mean_friction_is_that_of_its_magnitude(points):
+    durations = [row[-1] for row in ROWS]
+    magnitude = np.average([abs(point.coefficient) for point in points], weights=durations)
+    columns = dict(zip(("radius", "load", "u1", "u2", "duration"), zip(*ROWS)))
+    result = lubfric.study(SCENE, points=columns)
+    (text,) = [line for line in answer_lines(result) if "mean" in line and "friction" in line]
+    assert float(re.search(r"is ([0-9.]*[0-9])", text)[1]) == pytest.approx(magnitude, rel=0.02)
+
+
+def test_the_line_of_f_ends_where_the_sliding_changes_its_direction(result):
+    """Point 2 of 3 rolls without slip: no line joins it to the others."""
+    axes = plot_points(result, "coefficient")
+    drawn = axes.lines[0].get_ydata()
+    np.testing.assert_array_equal(np.isnan(drawn), [False, True, False, True, False])
+    power = plot_points(result, "power_loss").lines[0].get_ydata()
+    assert np.isfinite(power).all() and power.size == 3

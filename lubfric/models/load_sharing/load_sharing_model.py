@@ -22,6 +22,7 @@ from ..shared import (
     limit_in_words,
     no_rough_film,
     percent,
+    percent_of_sides,
 )
 from .answer import answer_of
 from .calibrated import CalibratedFriction, calibrated_friction, film_on_strip
@@ -260,8 +261,8 @@ def _largest(friction: CalibratedFriction) -> str:
 
 def basis_of(friction: CalibratedFriction) -> str:
     """Return what the answer rests on, as text."""
-    low, high = friction.bounds
-    return f"load sharing, calibrated on {friction.cases} solved cases: model-form -{percent(low)} / +{percent(high)}"
+    bounds = percent_of_sides(*friction.bounds, max(friction.bounds))
+    return f"load-sharing model, calibrated on {friction.cases} solved cases: error there {bounds}"
 
 
 def in_words(friction: CalibratedFriction, shares: tuple[float, float], *, is_moving: bool) -> str:

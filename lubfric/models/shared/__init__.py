@@ -21,7 +21,15 @@ from .checks import (
     warn_thickness,
     warn_typical_heat,
 )
-from .checks_before import ExpectedWarnings, beforehand, expected_in_film, expected_on_hertz, warn_bodies, warn_map
+from .checks_before import (
+    ExpectedWarnings,
+    beforehand,
+    expected_in_film,
+    expected_on_hertz,
+    warn_bodies,
+    warn_map,
+    warn_unusual,
+)
 from .control_variate import ControlVariate
 from .decision import Decision
 from .film_speed import exponents, speed_of
@@ -50,6 +58,7 @@ from .statistics import (
     block_error,
     means_of_blocks,
     percent,
+    percent_of_sides,
     required_strips,
     smooth_over_cells,
     student,
@@ -64,4 +73,4 @@ from .unmodelled import (
     expected_effects,
     unmodelled_effects,
 )
-from .validity import Validity, at_value, entries_of, gathered, in_a_cell, refused, sentence
+from .validity import Validity, at_value, entries_of, gathered, gathered_texts, in_a_cell, refused, sentence

@@ -46,6 +46,9 @@ THICK = 0.1
 
 # Part of the mean gap that the undeformed cylinder may rise over the Hertz strip. Not measured.
 STRIP_SHARE = 0.2
+# Film pressure over the peak Hertz pressure from which it is a local peak, of roughness or of the spike. Not measured: a
+# convention.
+SPIKE = 1.05
 ANOTHER = "numerics.film_deflection = 'scaled'"
 
 # Share of the contact load on the two edge columns of a patch from which its ends cut off the contact. Not measured.
@@ -121,6 +124,7 @@ def warn_pressure(scene: Scene, peak: float) -> Iterator[Validity]:
     hertz_peak = peak_hertz_pressure(scene)
     limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(law, math.inf)
     consequence = f"the {law} viscosity law is an extrapolation there"
+    is_local = peak > SPIKE * hertz_peak
     remedy = "the film's friction rests on it: a measured limiting stress is safer"
     severe = peak > NO_LIQUID
     if severe:
@@ -129,11 +133,13 @@ def warn_pressure(scene: Scene, peak: float) -> Iterator[Validity]:
         remedy = "check bodies.load"
     if not peak > limit:
         return
+    if is_local:
+        consequence += f"; it is a local peak, and the peak Hertz pressure is {hertz_peak / 1e9:.3g} GPa"
     if scene.lubricant.density_law == "constant" and hertz_peak < limit:
-        consequence += f"; it is a spike over the {hertz_peak / 1e9:.2g} GPa of Hertz, of an oil that is not compressed"
+        consequence += "; an oil that is not compressed has such a spike"
         remedy = f"give lubricant.density_law = 'dowson-higginson', which lowers it; {remedy}"
     yield Validity(
-        what="film pressure",
+        what="highest local film pressure" if is_local else "peak film pressure",
         value=peak / 1e9,
         limit=limit / 1e9,
         unit="GPa",

@@ -34,7 +34,6 @@ STEEPEST = 1.5
 # Cells in a correlation length below which a map is noise: independent cells have 0.63.
 NOISE = 0.8
 FILTERED = "lines in the right order, or surface.s_filter"
-CHECK = "check the value and its unit"
 
 # Correlation lengths that a patch should be wide: the fewest for two blocks (statistics.py).
 FEW = 10
@@ -45,20 +44,25 @@ YIELDED = 4.5e9
 
 
 def beforehand(scene: Scene, surface: Surface) -> tuple[Validity, ...]:
-    """Entries for values far from the usual, for the bodies and for the map."""
-    unusual = [
-        Validity(
-            what=name,
-            value=value,
-            limit=limit,
-            unit=unit,
-            consequence="the value is unusual",
-            remedy="; ".join(filter(None, (CHECK, meant))),
-        )
-        for name, value, limit, unit, meant in unusual_values(scene)
-    ]
+    """Return the entries for values far from the usual, for the bodies and for the map."""
     cells = [_cells_of_length(surface, axis) for axis in (0, 1)]
-    return (*unusual, *warn_bodies(scene.bodies), *warn_map(rms_slope(surface)[2], surface.shape[1] / cells[1], cells))
+    map_entries = warn_map(rms_slope(surface)[2], surface.shape[1] / cells[1], cells)
+    return (*warn_unusual(scene), *warn_bodies(scene.bodies), *map_entries)
+
+
+def warn_unusual(scene: Scene) -> tuple[Validity, ...]:
+    """Return the entries for values far from the usual."""
+    return tuple(
+        Validity(
+            what=value.key,
+            value=value.value,
+            limit=value.limit,
+            unit=value.unit,
+            consequence=value.question or "the value is unusual",
+            remedy=value.advice,
+        )
+        for value in unusual_values(scene)
+    )
 
 
 def _cells_of_length(surface: Surface, axis: int) -> float:

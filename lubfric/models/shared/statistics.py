@@ -167,6 +167,14 @@ def percent(value: float) -> str:
     return "< 0.001 %" if 0 < value < 1e-5 else f"{100 * value:.2g} %"
 
 
+def percent_of_sides(below: float, above: float, largest: float) -> str:
+    """Return a relative error with different sides as "-29 to +42 %", with equal ones as "42 %"; ``largest``: of both
+    sides, which is alone known where ``below`` and ``above`` are NaN."""
+    if not (math.isfinite(below) and math.isfinite(above)) or percent(below) == percent(above):
+        return percent(largest)
+    return f"-{percent(below).removesuffix(' %')} to +{percent(above)}"
+
+
 def smooth_over_cells(heights: FloatArray) -> bool:
     """Return whether ``heights`` (nx, ny) are smooth over a cell along y: over two cells they change twice as much as over
     one. Of an exponential autocorrelation it is sqrt(2), and one change of f by shorter cells says nothing of the next."""

@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from ...errors import ValidityError
+
+# The value in the text of an entry.
+_NUMBER = re.compile(r" is (-?[0-9.]+(?:e[-+]?[0-9]+)?)")
+# What is between the texts of a cell.
+BETWEEN = " | "
+# Runs of points that are named in one sentence, at most.
+MOST_PLACES = 12
 
 
 @dataclass(frozen=True)
@@ -39,12 +47,17 @@ class Validity:
     def text(self) -> str:
         """Three sentences: the violated assumption, what that does, what to do. The first begins with "warning: " or
         "not valid: "."""
+        return self.text_of(f"{self.value:.3g}")
+
+    def text_of(self, values: str) -> str:
+        """Return the `text` with ``values`` in place of the value, such as "5.2 (at 0.1 m/s) to 8.69 (at 3 m/s)"."""
         head = "not valid" if self.severe else "warning"
         unit = f" {self.unit}" if self.unit not in ("", "-") else ""
         side = "above" if self.value > self.limit else "below"
         limit = f", {side} {self.limit:.3g}{unit}" if math.isfinite(self.limit) else ""
-        numbers = f"{self.value:.3g}{unit}{limit}"
-        return f"{head}: {self.what} is {numbers}. {sentence(self.consequence)} Recommendation: {self.remedy}."
+        numbers = f"{values}{unit}{limit}"
+        remedy = f" Recommendation: {self.remedy}." if self.remedy else ""
+        return f"{head}: {self.what} is {numbers}. {sentence(self.consequence)}{remedy}"
 
 
 def sentence(text: str) -> str:
@@ -73,14 +86,14 @@ def entries_of(point: Any, error: Exception | None) -> tuple[Validity, ...]:
 
 def in_a_cell(entries: Iterable[Validity]) -> str:
     """The texts of ``entries`` in one cell of a table."""
-    return " | ".join(entry.text for entry in entries)
+    return BETWEEN.join(entry.text for entry in entries)
 
 
 def gathered(
     points: list[tuple[float, tuple[Validity, ...]]], unit: str = "m/s", name: str = "speeds"
 ) -> tuple[str, ...]:
-    """One sentence for each assumption that is violated anywhere: at how many points, from where to where, and the
-    worst value.
+    """Return one sentence for each assumption that is violated anywhere: at how many points, from where to where, and
+    the smallest and the largest value with their places; what it does and what to do: of the worst value.
 
     ``points``: pairs (value of the swept quantity, entries of that point).
     """
@@ -95,9 +108,59 @@ def gathered(
         if len(group) == 1:
             lines.append(f"{at_value(values[0], unit, name)}: {worst.text}")
         else:
-            ends = f"{values[0]:g} to {values[-1]:g} {unit}".rstrip()
-            lines.append(f"at {len(group)} {name}, {ends}: {worst.text}")
+            ends = f"{values[0]:.4g} to {values[-1]:.4g} {unit}".rstrip()
+            lines.append(f"at {len(group)} {name}, {ends}: {worst.text_of(_from_to(group, unit))}")
     return tuple(lines)
+
+
+def _from_to(group: list[tuple[float, Validity]], unit: str) -> str:
+    """Return the smallest and the largest value of a ``group`` with their places, or the one value of all."""
+    least, most = (find(group, key=lambda pair: pair[1].value) for find in (min, max))
+    ends = [f"{entry.value:.3g}" for _, entry in (least, most)]
+    if ends[0] == ends[1]:
+        return ends[0]
+    places = [f"at {place:.4g} {unit}".rstrip() for place, _ in (least, most)]
+    return f"{ends[0]} ({places[0]}) to {ends[1]} ({places[1]})"
+
+
+def gathered_texts(cells: Sequence[str]) -> list[str]:
+    """Return one sentence for each assumption that is violated anywhere, as `gathered`, from the ``cells`` of a table, one
+    of each point (`in_a_cell`). Points are named by their number, from 1."""
+    groups: dict[str, dict[int, str]] = {}
+    for number, cell in enumerate(cells, 1):
+        for text in cell.split(BETWEEN) if cell else ():
+            groups.setdefault(text.partition(" is ")[0], {})[number] = text
+    lines = []
+    for group in sorted(groups.values(), key=len, reverse=True):
+        matches = [(match, text) for text in group.values() if (match := _NUMBER.search(text))]
+        values = sorted((float(match[1]), match[1], text) for match, text in matches)
+        text = next(iter(group.values()))
+        if len(values) == len(group):
+            least = values[0][1]
+            (_, most, text) = values[-1]
+            if least != most:
+                text = text.replace(f" is {most}", f" is {least} to {most}", 1)
+        lines.append(f"{_numbers_in_words(sorted(group), len(cells))}: {text.removeprefix('warning: ')}")
+    return lines
+
+
+def _numbers_in_words(numbers: list[int], count: int) -> str:
+    """Return which of ``count`` points ``numbers`` are, as text: "At points 1, 3 to 5 and 9"."""
+    if len(numbers) == count:
+        return f"At all {count} points" if count > 1 else "At the point"
+    if len(numbers) == 1:
+        return f"At point {numbers[0]}"
+    runs: list[list[int]] = []
+    for number in numbers:
+        if runs and number == runs[-1][-1] + 1:
+            runs[-1].append(number)
+        else:
+            runs.append([number])
+    shown = [f"{run[0]} to {run[-1]}" if len(run) > 2 else ", ".join(map(str, run)) for run in runs]
+    if len(shown) > MOST_PLACES:
+        return f"At {len(numbers)} points from {numbers[0]} to {numbers[-1]}"
+    *before, last = ", ".join(shown).rsplit(", ", 1)
+    return f"At points {' and '.join((*before, last))}"
 
 
 def at_value(value: float, unit: str, name: str) -> str:
