@@ -1,7 +1,7 @@
 """What a solver says about its own work, and every exception that the library raises on purpose."""
 
 import math
-from dataclasses import asdict, dataclass, field
+from dataclasses import KW_ONLY, asdict, dataclass, field
 from typing import Any, TypeVar
 
 T = TypeVar("T", bound=Any)  # a result with a report
@@ -148,6 +148,7 @@ class Report:
 
     solver: str
     status: str
+    _: KW_ONLY
     iterations: int
     residual: float
     tolerance: float

@@ -6,7 +6,7 @@ docstring is the text of its section in the report. To add one, put the function
 `verification.fem.studies` and add a line below.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 
 from .check import LEVELS, file_name
 
@@ -24,6 +24,7 @@ class Study:
     name: str
     target: str
     title: str
+    _: KW_ONLY
     levels: tuple[str, ...] = LEVELS
     options: dict = field(default_factory=dict)
     grade: str = "C"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import KW_ONLY, asdict, dataclass, field, fields
 from typing import Any
 
 import numpy as np
@@ -58,6 +58,7 @@ class Check:
     measured: float
     expected: float
     tolerance: float
+    _: KW_ONLY
     source: str
     kind: str = RELATIVE
     unit: str = "1"
@@ -175,6 +176,7 @@ class Field:
 
     name: str
     caption: str
+    _: KW_ONLY
     points: np.ndarray
     cells: dict[str, np.ndarray]
     point_data: dict[str, np.ndarray] = field(default_factory=dict)

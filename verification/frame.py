@@ -10,7 +10,7 @@ import difflib
 import sys
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -40,6 +40,7 @@ class Command:
 
     name: str
     summary: str
+    _: KW_ONLY
     studies: tuple[Study, ...]
     out: str
     levels: tuple[str, ...] = LEVELS
@@ -152,8 +153,8 @@ def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Name
     begun = time.perf_counter()
     now = time.strftime("%Y-%m-%d %H:%M:%S %z")
     so_far = reports.Report(
-        level,
-        tuple(s.name for s in studies),
+        level=level,
+        selected=tuple(s.name for s in studies),
         outcomes=(),
         complete=False,
         started=now,

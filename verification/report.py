@@ -19,7 +19,7 @@ FORMAT = "lubfric-verification-1"
 PACKAGES = ("lubfric", "numpy", "scipy", "scikit-fem", "meshio", "pyamg", "matplotlib")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Report:
     """All results of a run.
 

@@ -54,7 +54,7 @@ COLUMNS = 2
 APPROACHES = np.concatenate([np.geomspace(1e-4, 0.2, 80), np.linspace(0.2, 1.0, 81)[1:]])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ContactCurve(FieldsOnly):
     """Nodes of the curve, heaviest first: mean_pressure [Pa], mean_gap [m], area fractions [-].
 
@@ -158,8 +158,16 @@ def contact_curve(
         if not wide.any():
             break
     nodes, gap, area, plastic, work = _table(solved)
-    errors = errors_between(nodes, gap), errors_between(nodes, area) + CELLS / gap0.size
-    return ContactCurve(nodes, gap, area, plastic, touching_gap, int(work.sum()), *errors)
+    return ContactCurve(
+        mean_pressure=nodes,
+        mean_gap=gap,
+        contact_area_fraction=area,
+        plastic_area_fraction=plastic,
+        touching_gap=touching_gap,
+        evaluations=int(work.sum()),
+        gap_error=errors_between(nodes, gap),
+        area_error=errors_between(nodes, area) + CELLS / gap0.size,
+    )
 
 
 def _table(solved: dict[float, ContactResult]) -> np.ndarray:
@@ -251,8 +259,16 @@ def asperity_curve(
             "a map with points above all of their neighbours, or contact.model = 'half-space'"
         )
     pressure, gap, area, plastic = np.array(nodes[::-1]).T
-    errors = errors_between(pressure, gap), errors_between(pressure, area)
-    return ContactCurve(pressure, gap, area, plastic, _curve_gap(heights, top, reading), 0, *errors)
+    return ContactCurve(
+        mean_pressure=pressure,
+        mean_gap=gap,
+        contact_area_fraction=area,
+        plastic_area_fraction=plastic,
+        touching_gap=_curve_gap(heights, top, reading),
+        evaluations=0,
+        gap_error=errors_between(pressure, gap),
+        area_error=errors_between(pressure, area),
+    )
 
 
 def _curve_gap(heights: FloatArray, separation: float, reading: str) -> float:

@@ -234,9 +234,17 @@ def contact_result(
     pressure = state.pressure
     residual = worst(residuals)
     status = CONVERGED if residual <= problem.tolerance else failed if search.status == CONVERGED else search.status
-    cost = (tuple(search.history), search.convolutions)
-    notes = tuple(search.notes)
-    report = Report(search.solver, status, search.iterations, residual, problem.tolerance, residuals, *cost, notes)
+    report = Report(
+        search.solver,
+        status,
+        iterations=search.iterations,
+        residual=residual,
+        tolerance=problem.tolerance,
+        residuals=residuals,
+        history=tuple(search.history),
+        evaluations=search.convolutions,
+        notes=tuple(search.notes),
+    )
     return ContactResult(
         pressure=pressure,
         gap=state.gap,

@@ -80,8 +80,16 @@ def solve_ehl(
     InputError : a value out of range, before any work
     ConvergenceError : residuals above tolerance; carries report and result
     """
-    fluid = viscosity, pressure_viscosity_coefficient, viscosity_law, density_law, eyring_stress
-    lubricant = Lubricant(*fluid, inlet_length=inlet_length, inlet_film=inlet_film, carreau=carreau)
+    lubricant = Lubricant(
+        viscosity,
+        pressure_viscosity_coefficient,
+        viscosity_law=viscosity_law,
+        density_law=density_law,
+        eyring_stress=eyring_stress,
+        inlet_length=inlet_length,
+        inlet_film=inlet_film,
+        carreau=carreau,
+    )
     contact = LineContact(
         load_per_width=load_per_width,
         radius=radius,

@@ -61,7 +61,7 @@ def line_gap(x: ArrayLike, load_per_width: float, radius: float, e_prime: float)
     return b**2 / (2 * radius) * (big * np.sqrt(big**2 - 1) - np.arccosh(big))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class LineContact:
     """A cylinder of radius R on a plane, pressed and lubricated; checked when made.
 

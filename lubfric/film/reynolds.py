@@ -44,7 +44,7 @@ def count_film_step(cells: int) -> None:
     count_work(STEP_WORK + MATRIX_WORK * cells**2)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ReynoldsTerms:
     """The part of an evaluation of the residual that the Jacobian needs."""
 
@@ -110,9 +110,22 @@ def residual(grid: Grid, problem: FilmProblem, z: np.ndarray, H: np.ndarray) -> 
         R[n + 1] = grid.weights @ P / problem.M - 1.0
     R[n + 2] = rho[-1] * H[-1] / q - 1.0
     film, by_rupture, by_stretch = elastic_film(grid, z)
-    moved = film - H, by_rupture, by_stretch
     return R, ReynoldsTerms(
-        P, H, X, *moved, q, slope, (rho, rho_slope), face_rho, face_H, fluidity, gradient, thin, flux
+        P=P,
+        H=H,
+        X=X,
+        defect=film - H,
+        by_rupture=by_rupture,
+        by_stretch=by_stretch,
+        q=q,
+        slope=slope,
+        density=(rho, rho_slope),
+        face_density=face_rho,
+        face_H=face_H,
+        fluidity=fluidity,
+        gradient=gradient,
+        thin=thin,
+        flux=flux,
     )
 
 

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from .ehl_result import EHLResult
 from .elastic_shear import ElasticContact, elastic_shear
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ShearForce:
     """Forces [N] on the upper surface, in the direction in which it slides over the lower one.
 
@@ -122,8 +122,16 @@ def shear_force(
         share = 0.5 * (h_rupture / h[1:] + h_rupture / h[:-1])
         couette += np.sum((face_tau * share)[~full])
     sense = math.copysign(1.0, slide_roll_ratio)
-    forces = [float(width * each) for each in (sense * couette, sense * resistance, quadrature, parts, excess)]
-    return replace(ShearForce(*forces), stress_ratio=ratio, sense=sense, asperity_share=asperity_share)
+    return ShearForce(
+        couette=float(width * (sense * couette)),
+        rolling=float(width * (sense * resistance)),
+        quadrature=float(width * quadrature),
+        rolling_parts=float(width * parts),
+        excess=float(width * excess),
+        stress_ratio=ratio,
+        sense=sense,
+        asperity_share=asperity_share,
+    )
 
 
 def above_carried(pressure: np.ndarray, tau: np.ndarray, lengths: np.ndarray) -> tuple[float, float]:

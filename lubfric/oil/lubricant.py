@@ -5,7 +5,7 @@ converged film has p >= 0) continues each law by its tangent at p = 0.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -76,6 +76,7 @@ class Lubricant(Shown):
 
     viscosity: float
     pressure_viscosity_coefficient: float = 0.0
+    _: KW_ONLY
     viscosity_law: str = "roelands"
     density_law: str = "constant"
     eyring_stress: float | None = None

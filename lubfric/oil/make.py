@@ -51,7 +51,7 @@ def from_grade(grade: str, viscosity_index: float, **properties: Any) -> Oil:
 
 def _through(nu40: float, nu100: float, said: dict[str, Any], properties: dict[str, Any]) -> Oil:
     """Return an `Oil` by D341 through two viscosities [m²/s], which follow from what was ``said``."""
-    return Oil(walther((AT_40, nu40), (AT_100, nu100), **said), **properties)
+    return Oil(viscosity_law=walther((AT_40, nu40), (AT_100, nu100), **said), **properties)
 
 
 def from_table(temperatures: Sequence[float], viscosities: Sequence[float], **properties: Any) -> Oil:
@@ -59,7 +59,7 @@ def from_table(temperatures: Sequence[float], viscosities: Sequence[float], **pr
     neighbours."""
     rising = validate.array("temperatures", temperatures, "K", ndim=1).tolist()
     table = ViscosityTable(tuple(rising), tuple(_viscosity("viscosities", v) for v in viscosities))
-    return Oil(table, **properties)
+    return Oil(viscosity_law=table, **properties)
 
 
 def named_oil(name: str, **properties: Any) -> Oil:
@@ -79,7 +79,7 @@ def named_oil(name: str, **properties: Any) -> Oil:
             coefficients=tuple(alpha * 1e-9 for alpha in row["alpha"]),
             source=row["alpha_source"],
         )
-    return Oil(law, **fields | properties)
+    return Oil(viscosity_law=law, **fields | properties)
 
 
 def _letters(name: Any) -> str:

@@ -23,7 +23,7 @@ ESTIMATES = ("so-klaus", "gold")
 STEP = 0.05
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Oil(Shown):
     """An oil at ambient pressure; temperatures in K, kinematic viscosity in m²/s, density in kg/m³.
 

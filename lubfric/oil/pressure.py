@@ -71,7 +71,7 @@ class MeasuredCoefficients:
         )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Estimate:
     """A pressure-viscosity coefficient [1/Pa]: value, the bounds [1/Pa] within which measured oils lie, its source as
     text, and the name of the method, "gold", "so-klaus" or "measured" ("": given, not estimated)."""
@@ -104,7 +104,7 @@ def gold(nu: float, base: str) -> Estimate:
     s, t = BASES[base]["gold"]
     value = s * (nu * 1e6) ** t * 1e-9
     low, high = BASES[base]["measured"]
-    return Estimate(value, low * value, high=high * value, source="Gold et al. (2001)", method="gold")
+    return Estimate(value=value, low=low * value, high=high * value, source="Gold et al. (2001)", method="gold")
 
 
 def so_klaus(nu: float, slope: float, density: float) -> Estimate:
@@ -123,8 +123,8 @@ def so_klaus(nu: float, slope: float, density: float) -> Estimate:
     fitted = 1.216 + 4.143 * l**3.0627 + 2.848e-4 * slope**5.1903 * l**1.5976 - 3.999 * l**3.0975 * rho**0.1162
     value = fitted * 1e-8
     return Estimate(
-        value,
-        SO_KLAUS_RANGE[0] * value,
+        value=value,
+        low=SO_KLAUS_RANGE[0] * value,
         high=SO_KLAUS_RANGE[1] * value,
         source="So and Klaus (1980)",
         method="so-klaus",

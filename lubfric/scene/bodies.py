@@ -1,7 +1,7 @@
 """The line contact: two bodies, how they move, and the part of their contact that is resolved."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
 import numpy as np
@@ -94,6 +94,7 @@ class Bodies(Shown):
     width: float
     load: float
     e_prime: float
+    _: KW_ONLY
     boundary_friction_coefficient: float
     hardness: float | None = None
     boundary_film: float | None = None
@@ -193,6 +194,7 @@ class ContactDomain(Shown):
     """
 
     geometry: str = "cylinder"
+    _: KW_ONLY
     region: str = "hertz"
     shape: tuple[int, int] | None = None
     spacing: float | tuple[float, float] | None = None

@@ -1,6 +1,6 @@
 """How exactly a scene is solved, and by which methods."""
 
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from typing import Any, Self
 
 from .._base import Shown, packaged, validate
@@ -41,6 +41,7 @@ class Numerics(Shown):
     """
 
     tolerance: float = 0.01
+    _: KW_ONLY
     film_tolerance: float | None = None
     contact_tolerance: float | None = None
     balance_tolerance: float | None = None

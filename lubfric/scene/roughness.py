@@ -4,7 +4,7 @@ import math
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from functools import partial
 from typing import Any
 
@@ -60,6 +60,7 @@ class Roughness(Shown):
     """
 
     file: str | None = None
+    _: KW_ONLY
     sq: float | None = None
     correlation_length: float | tuple[float, float] | None = None
     acf: str = "exponential"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import KW_ONLY, dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -55,6 +55,7 @@ class Scene(Shown):
     bodies: Bodies
     lubricant: Lubricant
     motion: Motion
+    _: KW_ONLY
     surface: Roughness
     contact: ContactDomain = field(default_factory=ContactDomain)
     numerics: Numerics = field(default_factory=Numerics)

@@ -1,6 +1,6 @@
 """`Transient`: what changes in time in a scene, and for how long; histories from what a user gives."""
 
-from dataclasses import dataclass, fields
+from dataclasses import KW_ONLY, dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -49,6 +49,7 @@ class Transient:
 
     duration: float
     outputs: int = 200
+    _: KW_ONLY
     speed: History | None = None
     sliding: History | None = None
     load: History | None = None

@@ -1,7 +1,7 @@
 """What a fit is given: a measured curve of friction with its units, and the numbers of a scene that are sought."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -42,6 +42,7 @@ class Measured:
     x: np.ndarray
     coefficient: np.ndarray
     deviation: np.ndarray | None = None
+    _: KW_ONLY
     over: str = SPEED
     source: str = "measured"
     rolling: bool = True

@@ -54,7 +54,7 @@ LEAST = 2e-3
 NOTHING = 1e-9
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Samples:
     """The solved points of a curve: arrays (n,) by ascending entrainment speed [m/s].
 
@@ -78,7 +78,7 @@ class Samples:
 
     def without(self, index: int) -> Samples:
         """All samples but one."""
-        return Samples(*(np.delete(getattr(self, part.name), index) for part in fields(self)))
+        return Samples(**{part.name: np.delete(getattr(self, part.name), index) for part in fields(self)})
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -42,6 +42,7 @@ class Surface(FrozenArrays, Shown):
 
     heights: np.ndarray
     spacing: tuple[float, float]
+    _: KW_ONLY
     mask: np.ndarray | None = None
     periodic_axes: tuple[bool, bool] = (False, False)
     source: str = ""

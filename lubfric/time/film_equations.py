@@ -103,7 +103,7 @@ def _nodes(a: float, film: float, curvature: float) -> tuple[np.ndarray, np.ndar
     return s, film + 0.5 * curvature * (s * s - a * a), _WEIGHTS * s * s / a
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class StepTerms:
     """One evaluation at P: what a solution is read from, and what the Jacobian needs. A pair (rho, H) is given at the
     faces, for the Couette flow (``up``) and for the Poiseuille flow (``centre``)."""
@@ -187,9 +187,24 @@ class StepEquations:
             ends.append((pressure, load))  # type: ignore[arg-type]
         r[dry] = P[dry]
         shared = self.spring.at(H) if self.spring else (0.0, 0.0)
-        flows = (up_rho, up_H), (mid_rho, mid_H), fluidity, gradient, thin, flux, stored
-        balance = carried + shared[0] - self.load
-        return StepTerms(P, H, rho, log_slope, *flows, r, tuple(ends), carried, shared, balance)
+        return StepTerms(
+            P=P,
+            H=H,
+            rho=rho,
+            log_slope=log_slope,
+            up=(up_rho, up_H),
+            centre=(mid_rho, mid_H),
+            fluidity=fluidity,
+            gradient=gradient,
+            thin=thin,
+            flux=flux,
+            stored=stored,
+            r=r,
+            ends=tuple(ends),
+            carried=carried,
+            spring=shared,
+            balance=carried + shared[0] - self.load,
+        )
 
     def jacobian(self, t: StepTerms) -> np.ndarray:
         """Derivatives (n + 2, n + 2) of (r, balance) by z."""

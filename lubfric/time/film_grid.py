@@ -22,7 +22,7 @@ CORE = 12.0  # cells spread evenly over the contact, which fronts of the film tr
 FAR = 40.0  # reach in units of sqrt(2 R h), beyond three half-widths
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class FixedGrid:
     """The grid with its operators.
 
@@ -73,11 +73,20 @@ def make_fixed_grid(x: np.ndarray) -> FixedGrid:
     """The grid and its operators on increasing nodes ``x``."""
     cells = np.diff(x)
     kernel = hat_kernel(x, x)
-    faces = []
-    for stencil in (UPWIND, (0, 1, 2), (-1, 0, 1, 2)):
+
+    def faces(stencil: tuple[int, ...]) -> Faces:
         columns, values = face_weights(x, stencil)
-        faces.append(Faces(columns, values, np.einsum("fk,fkj->fj", values, kernel[columns])))
-    return FixedGrid(x, cells, trapezoidal(cells), kernel, *faces)
+        return Faces(columns, values, np.einsum("fk,fkj->fj", values, kernel[columns]))
+
+    return FixedGrid(
+        x=x,
+        cells=cells,
+        weights=trapezoidal(cells),
+        kernel=kernel,
+        forward=faces(UPWIND),
+        backward=faces((0, 1, 2)),
+        centred=faces((-1, 0, 1, 2)),
+    )
 
 
 def symmetric_nodes(

@@ -19,7 +19,7 @@ from verification.fem.solvers.thinned_film import Law, solve_thinned
 def contact(M: float, L: float) -> LineContact:
     """A contact with Moes' numbers M and L; L = 0 is isoviscous."""
     c = case_of(M, L)
-    fluid = Fluid(c["viscosity"], c["viscosity_law"], pressure_viscosity_coefficient=ALPHA)
+    fluid = Fluid(c["viscosity"], viscosity_law=c["viscosity_law"], pressure_viscosity_coefficient=ALPHA)
     return LineContact(
         load_per_width=c["load_per_width"],
         radius=c["radius"],
@@ -42,7 +42,7 @@ def test_tangent_is_the_derivative(seed, upwind, density):
     rng = np.random.default_rng(seed)
     film = FilmEquations(
         line=line,
-        fluid=Fluid(VISCOSITY, "roelands", pressure_viscosity_coefficient=ALPHA, density_law=density),
+        fluid=Fluid(VISCOSITY, viscosity_law="roelands", pressure_viscosity_coefficient=ALPHA, density_law=density),
         hertz_pressure=3e8,
         speed_parameter=0.01,
         upwind=upwind,

@@ -65,7 +65,10 @@ def test_slopes_are_derivatives():
     d = 1e3
     compressible = Fluid(0.04, density_law="dowson-higginson")
     linear = Fluid(0.04, density_law="linear")
-    viscous = (Fluid(0.04, law, pressure_viscosity_coefficient=2e-8).log_viscosity for law in ("barus", "roelands"))
+    viscous = (
+        Fluid(0.04, viscosity_law=law, pressure_viscosity_coefficient=2e-8).log_viscosity
+        for law in ("barus", "roelands")
+    )
     for law in (*viscous, compressible.rho, linear.rho):
         assert np.allclose(slope(law, p), (law(p + d) - law(p - d)) / (2 * d), rtol=1e-5, atol=1e-18)
     assert STEP < 1e-30
@@ -77,7 +80,7 @@ def test_a_runaway_oil_is_not_solved():
     problem = ReynoldsProblem(
         mesh=parabola_mesh(100, -10.0),
         film=PARABOLA.film,
-        fluid=Fluid(0.1, "barus", pressure_viscosity_coefficient=1.2 / q),
+        fluid=Fluid(0.1, viscosity_law="barus", pressure_viscosity_coefficient=1.2 / q),
         speed=1.0,
         cavitation=True,
     )
@@ -89,10 +92,10 @@ def test_laws_at_one_gigapascal():
     """Numbers worked out by hand from the published formulas."""
     assert np.isclose(Fluid(0.1, density_law="dowson-higginson").rho(1e9), (0.59 + 1.34) / 1.59)
     assert np.isclose(Fluid(0.1, density_law="linear", bulk_modulus=2e9).rho(1e9), 1.5)
-    assert np.isclose(Fluid(0.1, "barus", pressure_viscosity_coefficient=1e-8).eta(1e9), 0.1 * np.exp(10))
+    assert np.isclose(Fluid(0.1, viscosity_law="barus", pressure_viscosity_coefficient=1e-8).eta(1e9), 0.1 * np.exp(10))
     thick = 9.67 + np.log(0.1)  # Roelands: ln eta + 9.67 grows like (1 + p/p0)^z
     z = 2e-8 * 1.96e8 / thick
     assert np.isclose(
-        Fluid(0.1, "roelands", pressure_viscosity_coefficient=2e-8).eta(1e9),
+        Fluid(0.1, viscosity_law="roelands", pressure_viscosity_coefficient=2e-8).eta(1e9),
         np.exp(-9.67 + thick * (1 + 1e9 / 1.96e8) ** z),
     )

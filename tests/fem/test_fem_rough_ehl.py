@@ -17,7 +17,7 @@ STEEL = LineContact(
     radius=1e-2,
     e_prime=2.3e11,
     entrainment_speed=0.5,
-    fluid=Fluid(0.04, "roelands", pressure_viscosity_coefficient=18e-9, density_law="dowson-higginson"),
+    fluid=Fluid(0.04, viscosity_law="roelands", pressure_viscosity_coefficient=18e-9, density_law="dowson-higginson"),
 )
 B = STEEL.half_width
 

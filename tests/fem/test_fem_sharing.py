@@ -121,7 +121,7 @@ def test_flat_balance_of_the_finite_elements():
         radius=2e-3,
         e_prime=E_PRIME,
         entrainment_speed=0.02,
-        fluid=Fluid(0.36, "roelands", pressure_viscosity_coefficient=25e-9),
+        fluid=Fluid(0.36, viscosity_law="roelands", pressure_viscosity_coefficient=25e-9),
     )
     found = [
         share_load(

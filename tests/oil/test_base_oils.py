@@ -24,7 +24,7 @@ TYPICAL = {
 def test_what_is_typical_of_a_base_oil(base):
     density, slope, conductivity, alpha, most = TYPICAL[base]
     law = oil.walther((313.15, 400 * MM2), (343.15, 100 * MM2))
-    made = oil.Oil(law, base=base, estimate="gold")
+    made = oil.Oil(viscosity_law=law, base=base, estimate="gold")
     assert made.density_at(288.15) == density
     assert made.density_at(388.15) == pytest.approx(density - 100 * slope, rel=1e-12)
     assert made.thermal_conductivity == conductivity
@@ -42,7 +42,7 @@ def test_the_viscosity_falls_with_the_law_and_with_the_density():
     """D341 in closed form: d ln(Z)/dT = -n ln(Z)/T, Z = nu + 0.7; and the density falls by its slope."""
     law = oil.walther((313.15, 400 * MM2), (343.15, 100 * MM2))
     t = 333.15
-    made = oil.Oil(law, base="polyglycol")
+    made = oil.Oil(viscosity_law=law, base="polyglycol")
     nu = made.kinematic_viscosity(t) / MM2
     of_nu = law.n * math.log(nu + 0.7) / t * (nu + 0.7) / nu
     of_density = 0.78 / (1030 - 45 * 0.78)

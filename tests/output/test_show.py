@@ -162,7 +162,7 @@ def test_histories_come_back_from_their_text():
         {"nu40": 68e-6, "nu100": 8.7e-6, "pressure_viscosity_coefficient": 21e-9, "conductivity": 0.14},
         {"oil": "pao-220", "temperature_coefficient": 0.04, "eyring_stress": 5e6},
         {"viscosity_table": [[300.0, 1e-4], [340.0, 3e-5], [380.0, 9e-6]], "alpha_estimate": "gold"},
-        {"oil": lubfric.oil.Oil(lubfric.oil.Walther(9.2479, 3.5849))},
+        {"oil": lubfric.oil.Oil(viscosity_law=lubfric.oil.Walther(9.2479, 3.5849))},
     ],
 )
 def test_an_oil_is_written_as_it_was_given(keys):

@@ -34,7 +34,16 @@ class Made:
         film = 3.0 * (speeds / self.lift_off) ** 0.65
         share = self.share(speeds)
         clearance = np.where(share > 0, np.nan, film - 3.0)
-        return Samples(speeds, share, *self.at(speeds), film, clearance, self.steepness(speeds))
+        boundary, of_film = self.at(speeds)
+        return Samples(
+            speed=speeds,
+            share=share,
+            boundary=boundary,
+            film=of_film,
+            thickness=film,
+            clearance=clearance,
+            steepness=self.steepness(speeds),
+        )
 
     def through(self, speeds):
         """The interpolated curve through points at ``speeds``."""

@@ -74,7 +74,7 @@ def trials(stated=0.02, scatter=0.02, bias=0.0, few=False, seed=3):
 
 
 def verdicts(**options):
-    result = coverage.Result(coverage.CoverageCase("made up"), trials(**options), F, 1e-4)
+    result = coverage.Result(coverage.CoverageCase(name="made up"), trials(**options), F, 1e-4)
     return {c.name.split(": ")[1]: c for c in coverage.checks(result)}
 
 

@@ -16,7 +16,7 @@ from verification.campaigns.stability.contact_check import contact_deviations, d
 from verification.campaigns.stability.film_check import film_deviations
 from verification.fem.parts import case_of
 
-HERE = Cell("contact: load and surface", "", x=1.0, y=1.0)
+HERE = Cell(map="contact: load and surface", panel="", x=1.0, y=1.0)
 
 
 def ended(solve, found=None, cell=HERE):
@@ -88,7 +88,12 @@ def test_quick_contact_map_has_no_wrong_cell_and_no_warning():
 def test_films_at_the_corners_of_the_promise():
     for M, L in product((1e-3, 1000), (0, 20)):
         cell = Cell(
-            "film: load and material", "", x=M, y=L, problem=film_map.FilmCell(case_of(M, L)), method="solve_ehl"
+            map="film: load and material",
+            panel="",
+            x=M,
+            y=L,
+            problem=film_map.FilmCell(case_of(M, L)),
+            method="solve_ehl",
         )
         assert verdict(check_cell(cell, film_map.solve, film_map.deviations)) == RIGHT, cell
 
@@ -96,7 +101,11 @@ def test_films_at_the_corners_of_the_promise():
 @pytest.mark.parametrize("speed", [0.0, 1e-3])
 def test_the_judge_of_load_sharing_sees_a_wrong_answer(speed):
     cell = Cell(
-        "sharing: flat", "", x=1.0, y=1.0, problem=sharing_map.SharingCell("flat", 100e-9, shape=32, speed=speed)
+        map="sharing: flat",
+        panel="",
+        x=1.0,
+        y=1.0,
+        problem=sharing_map.SharingCell(scene="flat", sq=100e-9, shape=32, speed=speed),
     )
     model, result = sharing_map.solve(cell)
     assert max(sharing_map.deviations(cell, (model, result)).values()) <= 1

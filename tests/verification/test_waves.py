@@ -20,12 +20,18 @@ def smooth():
     case = case_of(100, 11)
     fluid = Fluid(
         case["viscosity"],
-        "roelands",
+        viscosity_law="roelands",
         pressure_viscosity_coefficient=case["pressure_viscosity_coefficient"],
         density_law="dowson-higginson",
     )
-    sizes = case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"]
-    return solve_ehl(LineContact(*sizes, fluid), refinements=0, fineness=1.0, between=0.06)[-1]
+    contact = LineContact(
+        load_per_width=case["load_per_width"],
+        radius=case["radius"],
+        e_prime=case["e_prime"],
+        entrainment_speed=case["entrainment_speed"],
+        fluid=fluid,
+    )
+    return solve_ehl(contact, refinements=0, fineness=1.0, between=0.06)[-1]
 
 
 def test_in_pure_rolling_the_published_part_of_a_wave_is_left(smooth):

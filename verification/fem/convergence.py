@@ -1,7 +1,7 @@
 """Observed orders of convergence: measured, checked and drawn."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
 import numpy as np
@@ -37,6 +37,7 @@ class Series:
     label: str
     sizes: Sequence[float] | np.ndarray
     errors: Sequence[float] | np.ndarray
+    _: KW_ONLY
     order: float | None = None
     check: str = ""
     tolerance: float = 0.0

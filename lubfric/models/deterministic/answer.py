@@ -54,10 +54,6 @@ BIASED = "a short patch, which balances the load by itself, is biased too: about
 BY_FILM = "f by half the boundary film {:+.2g} %, by twice {:+.2g} %"
 BY_INLET = "f without the heat of the inlet {:+.2g} %"
 BY_FLOW = "f by a flow that is thinned half as much at the limiting stress {:+.2g} %"
-OF_MODEL = (
-    "the boundary film, the law of the flow, heat, or the scatter between the models leaves that",
-    "give bodies.boundary_film if you know it, or a longer map",
-)
 OF_LIMIT = "the limiting stress of the oil, which is not given: lubricant.limiting_stress_coefficient narrows it"
 LIMITED = ("coefficient", "at_least_limit", "at_most_limit")
 LOOSER = "a larger numerics.tolerance"
@@ -223,7 +219,14 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
 def _of_model(model: float, tolerance: float) -> Iterator[Validity]:
     """A warning where the error of the model, relative, is above ``tolerance``."""
     if model > tolerance:
-        yield Validity("error of f by the model", 100 * model, 100 * tolerance, "%", *OF_MODEL)
+        yield Validity(
+            what="error of f by the model",
+            value=100 * model,
+            limit=100 * tolerance,
+            unit="%",
+            consequence="the boundary film, the law of the flow, heat, or the scatter between the models leaves that",
+            remedy="give bodies.boundary_film if you know it, or a longer map",
+        )
 
 
 def _recommendation(prepared: Prepared) -> str:

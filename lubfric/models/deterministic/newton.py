@@ -2,7 +2,7 @@
 from which it does not converge."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 
 import numpy as np
 
@@ -48,6 +48,7 @@ class Work:
     the largest residual before every Newton step."""
 
     most: int
+    _: KW_ONLY
     factorisations: int = 0
     krylov: int = 0
     steps: int = 0

@@ -52,7 +52,7 @@ ROUNDS = 6
 SETTLED = 0.3
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Balance(ModelDetails):
     """One operating point, loads in N. ``film`` is None without entrainment; ``response`` is None if the film carries
     everything. ``notes``: choices that a reader should know."""
@@ -317,8 +317,16 @@ def _balance(point: Point, root: Root, response: Response) -> Balance:
     scene = point.scene
     report = _report(scene, root.status, root.history, trial.contact, trial.film, (), point.settings.balance_tolerance)
     friction = forces(scene, trial.film, trial.contact, trial.contact_load)
-    loads = trial.film_load, trial.contact_load
-    return Balance(*loads, trial.film, trial.contact, friction, report, response, point.settings)
+    return Balance(
+        film_load=trial.film_load,
+        contact_load=trial.contact_load,
+        film=trial.film,
+        contact=trial.contact,
+        forces=friction,
+        report=report,
+        response=response,
+        settings=point.settings,
+    )
 
 
 def _first_settings(scene: Scene, alone: bool = False) -> Settings:

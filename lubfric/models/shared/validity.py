@@ -18,7 +18,7 @@ BETWEEN = " | "
 MOST_PLACES = 12
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Validity:
     """An assumption of the model that is violated.
 

@@ -23,7 +23,9 @@ ASKED = {True: ((0.02, 0.05),), False: ((0.05, 0.1), (0.02, 0.05), (0.01, 0.03))
 
 def cases(quick: bool) -> dict[str, tuple[AnswerCase, str, bool]]:
     """A panel for each surface, under the light load at a smooth film of 0.8 Sq, with a curve for each way."""
-    surfaces = [AnswerCase(name, "5.5 N", over=2.0, ratio=0.8) for name in SURFACES[: 1 if quick else None]]
+    surfaces = [
+        AnswerCase(surface=name, contact="5.5 N", over=2.0, ratio=0.8) for name in SURFACES[: 1 if quick else None]
+    ]
     return {f"{case.surface}, {way}": (case, way, quick) for case in surfaces for way in WAYS}
 
 

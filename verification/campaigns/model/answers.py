@@ -60,7 +60,7 @@ COLUMNS = ("", "answers", "error", "interval", "inside", "paper: error", "interv
 WAYS = {"default": {}, "load sharing": {"model": "paper"}}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class AnswerCase:
     """A kind of surface under a contact with ``over`` = f_b over the limit of the oil, at a film/Sq and a slide-roll
     ratio (2: the roughness rests); ``longer``: times the lengths of the surface."""
@@ -127,7 +127,11 @@ def cases(level: str, rollers: bool) -> dict[str, AnswerCase]:
     contacts = [name for name in CONTACTS if (name == ROLLER) == rollers]
     kinds = list(itertools.product((*GENERATED, *MEASURED), contacts, (1.0, 2.0)))
     order = np.random.default_rng(SEED).permutation(len(kinds))[: max(1, DRAWN[level] // (3 if rollers else 1))]
-    every = [AnswerCase(*kinds[int(index)], ratio) for index in order for ratio in RATIOS.get(level, RATIOS["default"])]
+    every = [
+        AnswerCase(surface=kinds[index][0], contact=kinds[index][1], over=kinds[index][2], ratio=ratio)
+        for index in order.tolist()
+        for ratio in RATIOS.get(level, RATIOS["default"])
+    ]
     return {f"{c.surface}; {c.contact}; {c.over:g}; {c.ratio:g}": c for c in every}
 
 

@@ -32,7 +32,7 @@ def cases(level: str) -> list[AnswerCase]:
     """The cases of ``level``."""
     every = itertools.product(CONTACTS.items(), RATIOS, SLIPS)
     values = [
-        AnswerCase("Gaussian", contact, over=1.0, ratio=ratio, slip=slip, longer=times)
+        AnswerCase(surface="Gaussian", contact=contact, over=1.0, ratio=ratio, slip=slip, longer=times)
         for (contact, times), ratio, slip in every
     ]
     return values[-1:] if level == "quick" else values

@@ -44,7 +44,7 @@ SHARED = lubfric.load_scene("paper").with_(numerics={"model": "paper"})
 COLUMNS = ("case", "trials", "coverage", "bias")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class CoverageCase:
     """A scene, its speed [m/s], the target of the relative standard error, and the bounds of the coverage."""
 
@@ -61,14 +61,14 @@ class CoverageCase:
 
 
 def _other(name: str, **changes: dict[str, float | str | tuple[float, float]]) -> CoverageCase:
-    return CoverageCase(name, bounds=(0.88, 0.99), changes=changes)
+    return CoverageCase(name=name, bounds=(0.88, 0.99), changes=changes)
 
 
 SPEEDS = (
-    CoverageCase("0.003 m/s", 0.003),
-    CoverageCase("0.01 m/s", 0.01, target=0.01),
-    CoverageCase("0.03 m/s", 0.03),
-    CoverageCase("0.046 m/s", 0.046),
+    CoverageCase(name="0.003 m/s", speed=0.003),
+    CoverageCase(name="0.01 m/s", speed=0.01, target=0.01),
+    CoverageCase(name="0.03 m/s", speed=0.03),
+    CoverageCase(name="0.046 m/s", speed=0.046),
 )
 CASES = (
     *SPEEDS,

@@ -16,7 +16,7 @@ WRONG = "silently wrong"
 VERDICTS = (RIGHT, FAILED, WRONG)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Cell:
     """The ``problem`` of a map, and where it is drawn: the map and panel, and x and y on their axes.
 

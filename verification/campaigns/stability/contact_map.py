@@ -33,7 +33,7 @@ POWER: dict[str, Callable] = {  # spectral density of a field, by the wave numbe
 SURFACES = (*POWER, "sine", "sphere")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Pressed:
     """A rough map on a flat: kind, shape and rms [m] of the map, and the arguments of the solver, in SI units."""
 
@@ -143,9 +143,9 @@ def loads(quick: bool) -> Iterator[Cell]:
             flat = full_contact(surface(kind, n, n))
             for share in (1e-9, 1e-2, 1.5) if quick else many:
                 asked = Pressed(
-                    kind, (n, n), boundary=boundary, mean_pressure=share * flat, second=boundary == PERIODIC
+                    kind=kind, shape=(n, n), boundary=boundary, mean_pressure=share * flat, second=boundary == PERIODIC
                 )
-                yield Cell("contact: load and surface", label, x=share, y=row, problem=asked)
+                yield Cell(map="contact: load and surface", panel=label, x=share, y=row, problem=asked)
 
 
 def hardnesses(quick: bool) -> Iterator[Cell]:
@@ -157,8 +157,10 @@ def hardnesses(quick: bool) -> Iterator[Cell]:
             for hardness in np.geomspace(1e-5, 1, 3 if quick else 6).tolist():
                 for share in (1e-4, 0.5, 1.0) if quick else many:
                     limit = hardness * E_PRIME
-                    asked = Pressed(kind, (n, n), boundary=boundary, mean_pressure=share * limit, hardness=limit)
-                    yield Cell("contact: hardness", f"{kind}, {label}", x=hardness, y=share, problem=asked)
+                    asked = Pressed(
+                        kind=kind, shape=(n, n), boundary=boundary, mean_pressure=share * limit, hardness=limit
+                    )
+                    yield Cell(map="contact: hardness", panel=f"{kind}, {label}", x=hardness, y=share, problem=asked)
 
 
 def sizes(quick: bool) -> Iterator[Cell]:
@@ -169,9 +171,11 @@ def sizes(quick: bool) -> Iterator[Cell]:
         for aspect in (1.0, 50.0) if quick else (0.02, 0.1, 1.0, 10.0, 50.0):
             for label, boundary in BOUNDARIES.items():
                 for pressure in (1e8,) if quick else (1e6, 1e9, 3e10):
-                    asked = Pressed("exponential", shape, boundary=boundary, mean_pressure=pressure, aspect=aspect)
+                    asked = Pressed(
+                        kind="exponential", shape=shape, boundary=boundary, mean_pressure=pressure, aspect=aspect
+                    )
                     panel = f"{label}, {pressure / 1e6:g} MPa"
-                    yield Cell("contact: size and aspect ratio", panel, x=aspect, y=row, problem=asked)
+                    yield Cell(map="contact: size and aspect ratio", panel=panel, x=aspect, y=row, problem=asked)
 
 
 def gaps(quick: bool) -> Iterator[Cell]:
@@ -184,8 +188,10 @@ def gaps(quick: bool) -> Iterator[Cell]:
             hardness = None if row % 2 else 0.05 * E_PRIME
             for share in (1e-3, 0.5, 0.99) if quick else (1e-6, 1e-4, 1e-2, 0.1, 0.3, 0.6, 0.9, 0.999):
                 if hardness is None or share >= 1e-2:
-                    asked = Pressed(kind, (n, n), boundary=boundary, mean_gap=share * touching, hardness=hardness)
-                    yield Cell("contact: mean gap", label, x=share, y=row, problem=asked)
+                    asked = Pressed(
+                        kind=kind, shape=(n, n), boundary=boundary, mean_gap=share * touching, hardness=hardness
+                    )
+                    yield Cell(map="contact: mean gap", panel=label, x=share, y=row, problem=asked)
 
 
 def heights(quick: bool) -> Iterator[Cell]:
@@ -193,8 +199,8 @@ def heights(quick: bool) -> Iterator[Cell]:
     for kind in ("exponential",) if quick else ("exponential", "noise", "gaussian"):
         for sigma in np.geomspace(1e-12, 1e-3, 4 if quick else 10).tolist():
             for pressure in (1e6, 1e9) if quick else (1e3, 1e6, 1e8, 1e10):
-                asked = Pressed(kind, (40, 40), mean_pressure=pressure, sigma=sigma, second=True)
-                yield Cell("contact: roughness height", kind, x=sigma, y=pressure, problem=asked)
+                asked = Pressed(kind=kind, shape=(40, 40), mean_pressure=pressure, sigma=sigma, second=True)
+                yield Cell(map="contact: roughness height", panel=kind, x=sigma, y=pressure, problem=asked)
 
 
 def tilts(quick: bool) -> Iterator[Cell]:
@@ -205,10 +211,15 @@ def tilts(quick: bool) -> Iterator[Cell]:
             for offset in (0.0, 1e-3) if quick else (0.0, 1e-3, 1.0):
                 for pressure in (1e8,) if quick else (1e6, 1e8, 1e10):
                     asked = Pressed(
-                        "exponential", (n, n), boundary=boundary, mean_pressure=pressure, tilt=tilt, offset=offset
+                        kind="exponential",
+                        shape=(n, n),
+                        boundary=boundary,
+                        mean_pressure=pressure,
+                        tilt=tilt,
+                        offset=offset,
                     )
                     panel = f"{label}, {pressure / 1e6:g} MPa"
-                    yield Cell("contact: tilt and offset", panel, x=tilt, y=offset, problem=asked)
+                    yield Cell(map="contact: tilt and offset", panel=panel, x=tilt, y=offset, problem=asked)
 
 
 def precisions(quick: bool) -> Iterator[Cell]:
@@ -217,7 +228,12 @@ def precisions(quick: bool) -> Iterator[Cell]:
         for tolerance in (1e-2, 1e-8) if quick else (0.1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12):
             for pressure in (2e8,) if quick else (1e5, 2e8, 5e9):
                 asked = Pressed(
-                    "exponential", (48, 48), mean_pressure=pressure, tolerance=tolerance, single=single, start=start
+                    kind="exponential",
+                    shape=(48, 48),
+                    mean_pressure=pressure,
+                    tolerance=tolerance,
+                    single=single,
+                    start=start,
                 )
                 panel = f"{pressure / 1e6:g} MPa"
-                yield Cell("contact: precision, tolerance, start", panel, x=tolerance, y=row, problem=asked)
+                yield Cell(map="contact: precision, tolerance, start", panel=panel, x=tolerance, y=row, problem=asked)

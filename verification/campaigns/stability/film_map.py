@@ -101,9 +101,16 @@ def load_and_material(quick: bool) -> Iterator[Cell]:
         for M in loads.tolist():
             for L in (0.0, 5.0, 20.0) if quick else (0.0, 1.0, 2.5, 5.0, 10.0, 15.0, 20.0, 25.0):
                 for method in ("solve_ehl", DIFFERENTIAL, MOES) if (law, density) == LAWS[0] else ("solve_ehl",):
-                    where = ("film: load and material", f"{law}, density {density}", M, L)
-                    film = FilmCell(case_of(M, L, law, density))
-                    yield Cell(*where, film, method, method == "solve_ehl", promised(M, L))
+                    yield Cell(
+                        map="film: load and material",
+                        panel=f"{law}, density {density}",
+                        x=M,
+                        y=L,
+                        problem=FilmCell(case_of(M, L, law, density)),
+                        method=method,
+                        default=method == "solve_ehl",
+                        inside=promised(M, L),
+                    )
 
 
 def speeds(quick: bool) -> Iterator[Cell]:
@@ -115,8 +122,15 @@ def speeds(quick: bool) -> Iterator[Cell]:
             M = load / (231e9 * 2e-3) / math.sqrt(u1)
             L = 25e-9 * 231e9 * u1**0.25
             film = FilmCell(PAPER | {"load_per_width": load, "entrainment_speed": sign * speed})
-            where = ("film: speed and load", "steel cylinder, R = 2 mm", speed, load)
-            yield Cell(*where, film, "solve_ehl", inside=promised(M, L))
+            yield Cell(
+                map="film: speed and load",
+                panel="steel cylinder, R = 2 mm",
+                x=speed,
+                y=load,
+                problem=film,
+                method="solve_ehl",
+                inside=promised(M, L),
+            )
 
 
 def tolerances(quick: bool) -> Iterator[Cell]:
@@ -127,7 +141,9 @@ def tolerances(quick: bool) -> Iterator[Cell]:
     for row, (M, L) in enumerate(few if quick else many):
         for tolerance in (0.1, 1e-2, 1e-3) if quick else (0.1, 0.05, 0.03, 0.01, 3e-3, 1e-3, 3e-4):
             film = FilmCell(case_of(M, L), tolerance)
-            yield Cell("film: tolerance", "cases by M, L", x=row, y=tolerance, problem=film, method="solve_ehl")
+            yield Cell(
+                map="film: tolerance", panel="cases by M, L", x=row, y=tolerance, problem=film, method="solve_ehl"
+            )
 
 
 def starts(quick: bool) -> Iterator[Cell]:
@@ -137,7 +153,7 @@ def starts(quick: bool) -> Iterator[Cell]:
     for column, start in enumerate(few if quick else many):
         for row, (M, L) in enumerate(few if quick else many):
             film = FilmCell(case_of(M, L), start=start)
-            yield Cell("film: poor start", "cases by M, L", x=column, y=row, problem=film, method="solve_ehl")
+            yield Cell(map="film: poor start", panel="cases by M, L", x=column, y=row, problem=film, method="solve_ehl")
 
 
 def starved(quick: bool) -> Iterator[Cell]:
@@ -149,4 +165,6 @@ def starved(quick: bool) -> Iterator[Cell]:
             case["inlet_length"] = half_width + share * math.sqrt(
                 2 * RADIUS * moes_film(M, 10) * moes_unit(case["entrainment_speed"])
             )
-            yield Cell("film: starved inlet", "L = 10", x=M, y=share, problem=FilmCell(case), method="solve_ehl")
+            yield Cell(
+                map="film: starved inlet", panel="L = 10", x=M, y=share, problem=FilmCell(case), method="solve_ehl"
+            )

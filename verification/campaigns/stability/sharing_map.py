@@ -18,7 +18,7 @@ from ..hostile.soak_judge import verdict
 from .cell import Cell
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class SharingCell:
     """A built-in scene with roughness [m] on a small grid, at one speed [m/s]: the given one, that of a smooth film
     [m], or that at which the contact carries a share of the load (by so many halvings)."""
@@ -76,8 +76,8 @@ def cells(quick: bool) -> Iterator[Cell]:
         shape = 32 if quick else 64 if name == "flat" else 48
         for sq in [1e-7] if quick else np.geomspace(1e-9, 2e-6, 5).tolist():
             for ratio in np.geomspace(0.01, 10, 3 if quick else 10).tolist():
-                problem = SharingCell(name, sq, shape=shape, film=ratio * sq)
-                yield Cell(f"sharing: {name}", "lambda by roughness", x=ratio, y=sq, problem=problem)
+                problem = SharingCell(scene=name, sq=sq, shape=shape, film=ratio * sq)
+                yield Cell(map=f"sharing: {name}", panel="lambda by roughness", x=ratio, y=sq, problem=problem)
     some = np.geomspace(1e-10, 30, 12).tolist()
     tiny = (1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
     shares = (0.5,) if quick else (*tiny, 0.1, 0.5, 0.9, *(1 - t for t in reversed(tiny)))
@@ -85,12 +85,12 @@ def cells(quick: bool) -> Iterator[Cell]:
         shape = 32 if quick else 64
         for speed in (0.0, -0.01, 0.01) if quick else (0.0, *some, *(-u for u in some)):
             yield Cell(
-                "sharing: speed, either sign",
-                name,
+                map="sharing: speed, either sign",
+                panel=name,
                 x=speed,
                 y=column,
-                problem=SharingCell(name, 1e-7, shape=shape, speed=speed),
+                problem=SharingCell(scene=name, sq=1e-7, shape=shape, speed=speed),
             )
         for share in shares:
-            problem = SharingCell(name, 1e-7, shape=shape, share=share, halvings=16 if quick else 40)
-            yield Cell("sharing: share of the contact", name, x=share, y=0.0, problem=problem)
+            problem = SharingCell(scene=name, sq=1e-7, shape=shape, share=share, halvings=16 if quick else 40)
+            yield Cell(map="sharing: share of the contact", panel=name, x=share, y=0.0, problem=problem)

@@ -44,7 +44,13 @@ def cells(quick: bool) -> Iterator[Cell]:
                 name = f"whole: Sq {1e9 * sq:g} nm"
                 problem = (sq, load, speed)
                 yield Cell(
-                    name, "load by speed", x=load, y=speed, problem=problem, method="deterministic", inside=False
+                    map=name,
+                    panel="load by speed",
+                    x=load,
+                    y=speed,
+                    problem=problem,
+                    method="deterministic",
+                    inside=False,
                 )
 
 

@@ -41,7 +41,7 @@ def oils(level: str) -> Iterator[Item]:
             "roelands", f"viscosity {at}", viscosity(oily, p)[0], references.roelands(0.1, 2e-8, pressure), 0, "Pa s"
         )
         yield against("density", f"density {at}", density_ratio(oily, p)[0][0], references.density(pressure), 0)
-    finite = Fluid(0.1, "roelands", pressure_viscosity_coefficient=2e-8, density_law="dowson-higginson")
+    finite = Fluid(0.1, viscosity_law="roelands", pressure_viscosity_coefficient=2e-8, density_law="dowson-higginson")
     theirs = references.roelands(0.1, 2e-8, 1e9)
     yield against("roelands", "viscosity at 1 GPa, finite elements", finite.eta(1e9), theirs, 0, "Pa s")
     yield against("density", "density at 1 GPa, finite elements", finite.rho(1e9), references.density(1e9), 0)

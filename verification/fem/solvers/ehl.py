@@ -25,7 +25,7 @@ ROUGH = 1e-2  # tolerance of the first guess
 RAISING = (0.25, 0.5, 0.75, 1.0)  # shares of ln(eta/eta0)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class LineContact:
     """What is solved, in SI units.
 
@@ -100,7 +100,7 @@ class LineContact:
         return math.pi / (8 * self.load_number) * self.film_unit
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class EHLSolution:
     """A film and the report of its solve. Arrays on the line have the order of its degrees of freedom ``body.x``,
     which is not ascending.
@@ -197,16 +197,32 @@ def solve_ehl(
         if level and not report.converged:
             start, _, _ = newton(body, replace(film, upwind=1.0), start, ROUGH, max_iterations)
             end, flow, report = newton(body, film, start, tolerance, max_iterations)
-        fields = (end.u, end.P, film_thickness(body, end), end.H0)
-        solution = EHLSolution(contact, layout, body, film, *fields, flow * contact.film_unit, report)
+        solution = EHLSolution(
+            contact=contact,
+            layout=layout,
+            body=body,
+            film=film,
+            displacement=end.u,
+            P=end.P,
+            H=film_thickness(body, end),
+            approach=end.H0,
+            flow_film=flow * contact.film_unit,
+            report=report,
+        )
         solutions.append(report.checked(solution))
     return solutions
 
 
 def film_of(contact: LineContact, line: Basis, penalty: float = PENALTY) -> FilmEquations:
     """The flow of a contact on a line."""
-    scales = contact.hertz_pressure, contact.speed_parameter
-    return FilmEquations(line, contact.fluid, *scales, penalty, shear=contact.shear)
+    return FilmEquations(
+        line=line,
+        fluid=contact.fluid,
+        hertz_pressure=contact.hertz_pressure,
+        speed_parameter=contact.speed_parameter,
+        penalty=penalty,
+        shear=contact.shear,
+    )
 
 
 def make_layout(contact: LineContact, fineness: float, side: float) -> Layout:

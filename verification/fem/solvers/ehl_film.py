@@ -36,7 +36,7 @@ NEAR = 1e-5  # of p_h, for a slope that a complex step can pass through
 PENALTY = 0.03
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class FilmEquations:
     """The flow on a line.
 

@@ -7,7 +7,7 @@ derivative.
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
 import numpy as np
@@ -38,6 +38,7 @@ class Fluid:
     """
 
     viscosity: float
+    _: KW_ONLY
     viscosity_law: str = "constant"
     pressure_viscosity_coefficient: float = 0.0
     roelands_index: float | None = None
@@ -64,7 +65,7 @@ class Fluid:
         limit = oil.get("limiting_stress_coefficient")
         return cls(
             oil["viscosity"],
-            oil.get("viscosity_law", "roelands") if alpha else "constant",
+            viscosity_law=oil.get("viscosity_law", "roelands") if alpha else "constant",
             pressure_viscosity_coefficient=alpha,
             density_law=oil.get("density_law", "constant"),
             eyring_stress=oil.get("eyring_stress") or math.inf,

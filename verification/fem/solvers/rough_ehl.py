@@ -106,7 +106,7 @@ class RoughLine:
         return np.arange(self.cells[1] // 2 + 1) * self.spacing[1]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class RoughStripFilm:
     """A film at a moment: pressure [Pa] and gap [m] at the nodes (nx, ny/2 + 1), approach h0 [m], flow [m²/s] per width
     that enters, time [s], the report of the solve, and whether the bodies touch at each node."""
@@ -416,8 +416,18 @@ def film_of(
     nodal = grid.shape(time)[1]
     gap = nodal + approach + grid.stiff @ p
     flow = float(at.lost[grid.first].sum()) / (grid.problem.period / 2)
-    fields = grid.field(p), grid.field(gap)
-    return report.checked(RoughStripFilm(grid.problem, *fields, approach, flow, time, report, grid.field(touching)))
+    return report.checked(
+        RoughStripFilm(
+            problem=grid.problem,
+            pressure=grid.field(p),
+            gap=grid.field(gap),
+            approach=approach,
+            flow=flow,
+            time=time,
+            report=report,
+            touching=grid.field(touching),
+        )
+    )
 
 
 def solve_rough(

@@ -26,7 +26,7 @@ PARTS = 10  # of a cell of the film, to integrate shear on
 WIDEST = 30.0  # largest |ln(F_H/F_C)| looked at
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Bodies:
     """A rough strip under a cylinder.
 

@@ -108,6 +108,16 @@ def solve_thinned(
         )
         end, flow, report = newton(body, film, end, 1e-7, 40)
         report.checked(None)
-    fields = (end.u, end.P, film_thickness(body, end), end.H0)
-    thinned = EHLSolution(contact, newtonian.layout, body, film, *fields, flow * contact.film_unit, report)
+    thinned = EHLSolution(
+        contact=contact,
+        layout=newtonian.layout,
+        body=body,
+        film=film,
+        displacement=end.u,
+        P=end.P,
+        H=film_thickness(body, end),
+        approach=end.H0,
+        flow_film=flow * contact.film_unit,
+        report=report,
+    )
     return newtonian, thinned

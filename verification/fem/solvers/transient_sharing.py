@@ -25,7 +25,7 @@ REST = (0.0, 0.0, 0.0)
 SMALLEST_SPEED = 1e-3  # of U0: below it the film has no inlet in these variables
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class SharedMoment:
     """The division of the load at a time [s]: loads [N], mean gap [m] and share of the strip in contact."""
 
@@ -200,5 +200,11 @@ def moment_of(
     shape = cell_means(film, bodies.edges)
     under = bodies.under(shape, bodies.load - film_load)
     weight = bodies.weight / bodies.weight.sum()
-    means = (float(weight @ values) for values in (under.gap, shape, under.touching))
-    return SharedMoment(time, film_load, bodies.load - film_load, *means)
+    return SharedMoment(
+        time=time,
+        film_load=film_load,
+        contact_load=bodies.load - film_load,
+        mean_gap=float(weight @ under.gap),
+        mean_film=float(weight @ shape),
+        area=float(weight @ under.touching),
+    )

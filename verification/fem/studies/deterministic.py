@@ -123,7 +123,9 @@ def same_gap(cells: int, speed: float):
     given = GivenGap(
         x=solution.x, dy=case.spacing[1], gap=gap, pressure=pressure, contact=spots, radius=RADIUS, log=case.edge_log
     )
-    judge = rough_film(given, Fluid(VISCOSITY, "roelands", pressure_viscosity_coefficient=ALPHA), speed, cells=cells)
+    judge = rough_film(
+        given, Fluid(VISCOSITY, viscosity_law="roelands", pressure_viscosity_coefficient=ALPHA), speed, cells=cells
+    )
     half = pressure.shape[1] // 2
     free = ~spots[:, :half]
     cell = case.spacing[0] / half

@@ -142,8 +142,8 @@ def cylinder(s: lubfric.Scene, speed: float, body: Compliance, heights: np.ndarr
     sliding = s.motion.slide_roll_ratio * speed
     hardness = b.hardness or math.inf
     return Bodies(
-        whole(s, speed),
-        b.width,
+        contact=whole(s, speed),
+        width=b.width,
         compliance=body,
         heights=heights,
         hardness=hardness,

@@ -159,14 +159,14 @@ def piezoviscous(refinements: int) -> Iterator[Item]:
     alpha = 0.99 / base.pressure(np.linspace(-2, 1, 200_001)[None] * base.scale).max()
 
     def roelands(coefficient: float) -> tuple[Fluid, Callable[..., Any]]:
-        law = Fluid(0.04, "roelands", pressure_viscosity_coefficient=coefficient, roelands_index=index)
+        law = Fluid(0.04, viscosity_law="roelands", pressure_viscosity_coefficient=coefficient, roelands_index=index)
         return law, lambda q: exact.roelands_to_true(q, coefficient * 1.96e8 / index, index)
 
     cases = (
         (
             "Barus",
             base,
-            Fluid(0.04, "barus", pressure_viscosity_coefficient=alpha),
+            Fluid(0.04, viscosity_law="barus", pressure_viscosity_coefficient=alpha),
             lambda q: exact.reduced_to_true(q, alpha),
         ),
         ("Roelands, low pressure", base, *roelands(alpha)),

@@ -49,7 +49,11 @@ class Manufactured:
     """``P sin(pi x/L) sin(pi y/B)`` (a line has no second factor), in an oil that thickens and compresses."""
 
     fluid = Fluid(
-        VISCOSITY, "roelands", pressure_viscosity_coefficient=2e-8, roelands_index=0.65, density_law="dowson-higginson"
+        VISCOSITY,
+        viscosity_law="roelands",
+        pressure_viscosity_coefficient=2e-8,
+        roelands_index=0.65,
+        density_law="dowson-higginson",
     )
     peak = 1.5e8
 
