@@ -90,7 +90,8 @@ def test_the_film_to_expect_is_that_of_the_solution_to_a_quarter(fluid):
     arguments, _ = contact(100, 10)
     oil = Lubricant(arguments["viscosity"], arguments["pressure_viscosity_coefficient"], **fluid)
     names = ("load_per_width", "radius", "e_prime", "entrainment_speed")
-    line = LineContact(*(arguments[name] for name in names), oil, arguments["entrainment_speed"])
+    sizes = {name: arguments[name] for name in names}
+    line = LineContact(**sizes, lubricant=oil, sliding=arguments["entrainment_speed"])
     film = solve_ehl(**arguments, **fluid, sliding=line.sliding)
     assert film.flow_film < 0.85 * solve_ehl(**arguments).flow_film
     assert line.expected_film == pytest.approx(film.flow_film, rel=0.25)
