@@ -1,5 +1,8 @@
 """Strips: generated, and windows of a measured map, stacked to one line; their cells and seams."""
 
+import json
+import re
+
 import numpy as np
 import pytest
 from scene_text import paper_scene
@@ -83,3 +86,21 @@ def test_a_patch_from_a_file_answers_as_the_same_map_from_memory(tmp_path):
     for model in ("paper", "deterministic"):
         f = [lubfric.friction(one, 0.01, model=model).coefficient for one in (file, memory, rolled)]
         assert f[0] == pytest.approx(f[1], rel=1e-6) and f[0] == pytest.approx(f[2], rel=0.02)
+
+
+@pytest.mark.parametrize("lengths", [3e-6, (8e-6, 40e-6)])
+def test_a_scene_without_cells_is_told_cells_that_work(lengths):
+    """As many as contain the contact and all of the surface's longest wavelengths, each a tenth of the shortest."""
+    scene = lubfric.load_scene("paper").with_(
+        contact={"shape": None, "spacing": None}, surface={"correlation_length": lengths}
+    )
+    with pytest.raises(lubfric.InputError, match=r"contact.shape .* for example shape = \[") as refused:
+        lubfric.friction(scene, 0.03)
+    example = re.search(r'shape = (\[.*?\]) and spacing = "(.*?)"', str(refused.value))
+    suggested = scene.with_(contact={"shape": json.loads(example[1]), "spacing": example[2]})
+    shortest = np.min(lengths)
+    assert 0.5 * shortest / 10 < suggested.contact.spacing < 1.5 * shortest / 10
+    assert suggested.contact.shape[0] * suggested.contact.spacing > max(
+        8 * np.max(lengths), 2 * scene.bodies.half_width
+    )
+    assert lubfric.prepare(suggested).surface.sq > 0
