@@ -184,7 +184,9 @@ def field_image(
     aspect: Literal["auto", "equal"] = "auto" if slender else "equal"
     image = axes.imshow(values.T, origin="lower", aspect=aspect, cmap=colours, extent=extent, **options)
     axes.grid(visible=False)
-    axes.figure.colorbar(image, ax=axes, label=label, extend=extend)
+    bar = axes.figure.colorbar(image, ax=axes, label=label, extend=extend)
+    if bar.ax.get_yscale() == "log":
+        bar.ax.yaxis.set_major_formatter("{x:g}")
     axes.set(xlabel="x (µm), along the motion")
     axes.set(ylabel=f"y (µm), along the line{' (not to scale)' if slender else ''}")
     return image

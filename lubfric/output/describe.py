@@ -37,6 +37,11 @@ from .inputs import FACTS, input_rows
 SOME = 25
 SHOWN = 6
 TABLE_CAPTION = "estimate with closed forms: full-load film, asperity contact, and cost"
+# How the deterministic model takes part where the roughness is at rest, and where it moves.
+DETERMINISTIC = (
+    "load-sharing model, corrected by the deterministic model on some strips,",
+    "deterministic model with moving roughness",
+)
 # How well times are estimated: 41 of 52 runs of verification.campaigns.estimates are within that.
 WITHIN_WORDS = "within a factor of 3 in four of five cases"
 # Processor seconds of ``lubfric run`` beside its solves: 1.0 to start, the others for pictures and files.
@@ -164,7 +169,7 @@ def _doubts(at: list[tuple[float | None, Validity]]) -> list[str]:
 def _plan(scene: Scene, surface: Surface) -> str:
     what = {"flat": "a periodic contact", "cylinder": "a semi-periodic contact"}[scene.contact.geometry]
     on = "strips of the roughness" if takes_strips(scene) else "{} x {} cells".format(*surface.shape)
-    return f"{what} on {on}; numerical error of f at most {100 * scene.numerics.tolerance:g} %"
+    return f"{what} on {on}; requested numerical error of f: at most {100 * scene.numerics.tolerance:g} %"
 
 
 def _model(
@@ -199,8 +204,8 @@ def _model(
         ends = dict.fromkeys(f"{speed:.3g}" for speed in (resolved[0], resolved[-1]))
         to = f"to {100 * scene.numerics.model_tolerance:g} % of f"
         rows = [
-            f"load-sharing model; at {' to '.join(ends)} m/s corrected by the deterministic model on some strips, {to} "
-            "(not where heat changes f by more than a fifth, or the film by more than three tenths)"
+            f"{DETERMINISTIC[bool(strip)]} at {' to '.join(ends)} m/s, {to}; the load-sharing model alone elsewhere, and where "
+            "heat changes f by more than a fifth or the film by more than three tenths"
         ]
     if strip:
         takes = f"one strip of moving roughness takes about {in_words(strip)} by the deterministic model"

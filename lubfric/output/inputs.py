@@ -28,7 +28,7 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
         alike = {word: ends for word, (middle, *ends) in typical(key).items() if middle == value}
         ends = " to ".join(worded(end, quantity.unit) for end in next(iter(alike.values()), ()))
         note = (
-            f", taken as exact (typical of {' or '.join(alike)}: {ends}; the name in its place is that range)"
+            f", taken as exact (the name {' or '.join(map(repr, alike))} in its place gives the typical range, {ends})"
             if alike
             else ""
         )

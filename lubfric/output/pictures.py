@@ -317,7 +317,7 @@ def _two_pressures(prepared: Prepared, point: FrictionResult, fields: Any) -> Fi
         _section(axes[-1], fields, row, touching=touching)
         _hertz_strip(axes[-1], half_width)
         if touching:
-            axes[-1].set_xlabel(f"x (µm) at y = {fields.y[row] * 1e6:.1f} µm (dotted)")
+            axes[-1].set_xlabel(f"x (µm) at y = {fields.y[row] * 1e6:.4g} µm (dotted)")
     return figure
 
 

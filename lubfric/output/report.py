@@ -12,8 +12,17 @@ import numpy as np
 
 from ..errors import InputError
 from ..estimate import FrictionResult
-from ..models.shared import ExpectedEffect, Prepared, UnmodelledEffect, change_in_words, percent, sentence, student
-from ..quantities import COLUMNS, counted
+from ..models.shared import (
+    ExpectedEffect,
+    Prepared,
+    UnmodelledEffect,
+    change_in_words,
+    percent,
+    percent_of_sides,
+    sentence,
+    student,
+)
+from ..quantities import COLUMNS, KEYS, counted
 from ..scene import Scene, short_keys
 from ..studies import KNOWN, CurveResult, Law, StribeckResult, TractionResult
 from ..time import MANY, TransientResult, in_motion
@@ -103,7 +112,7 @@ def report_page(
             "inputs": "".join(_inputs(scene, section, given.get(section, {})) for section in SECTIONS),
             "pictures": "".join(picture(contents[name], text) for name, text in PICTURES.items() if name in contents)
             or "<p>There is no contact or rough surface to show.</p>",
-            "method": _method(prepared, estimate),
+            "method": _method(prepared, result, estimate),
             "made": _made(record),
         }
     )
@@ -172,17 +181,17 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding
     loss = f"The power loss is {with_interval(point.power_loss, low, high, unit='W')}"
     rolling = point.power_loss - abs(sliding_speed) * point.coefficient * (point.contact_load + point.film_load)
     if rolling > SMALL_PART * abs(point.power_loss):
-        loss += f", of which {worded(rolling, 'W')} is rolling resistance"
+        loss += f", of which {plain_number(rolling, 'W')} is rolling resistance"
     sentences.append(f"{loss}.")
     if math.isfinite(point.lambda_ratio):
         sentences[-1] += (
-            f" The full-load film is {worded(point.full_load_film, 'm')} thick, a lambda ratio of "
+            f" The full-load film is {plain_number(point.full_load_film, 'm')} thick, a lambda ratio of "
             f"{point.lambda_ratio:.3g}."
         )
     share = point.contact_load / (point.contact_load + point.film_load)
     rubbing = point.decision.rubbing.format(part=f"{100 * share:.3g} %")
     if math.isfinite(point.mean_gap):
-        rubbing += f"; the mean separation of the surfaces is {worded(point.mean_gap, 'm')}"
+        rubbing += f"; the mean separation of the surfaces is {plain_number(point.mean_gap, 'm')}"
     sentences.append(f"{rubbing}.")
     f = curve["coefficient"]
     solved = np.flatnonzero(np.isfinite(f))
@@ -215,12 +224,13 @@ def _lift_off(curve: CurveResult) -> list[str]:
     ]
 
 
-def _budget(values: dict[str, float], place: str, notes: Iterable[str]) -> str:
-    """Return an uncertainty budget (`lubfric.estimate.Uncertainty.budget`) as bars of its parts, relative to f."""
+def _budget(values: dict[str, float], words: dict[str, str], place: str, notes: Iterable[str]) -> str:
+    """Return an uncertainty budget (`lubfric.estimate.Uncertainty.budget`) as bars of its parts, relative to f; ``words``:
+    the parts as text."""
     longest = max([value for value in values.values() if math.isfinite(value)], default=0.0) or 1.0
     rows = "".join(
         f'<span>{label}</span><span><i style="width:{100 * min(values[name] / longest, 1.0):.1f}%"></i></span>'
-        f"<span>{escape(percent(values[name]))}</span>"
+        f"<span>{escape(words[name])}</span>"
         if math.isfinite(values[name])
         else f"<span>{label}</span><span></span><span>not known</span>"
         for name, label in BUDGET.items()
@@ -234,7 +244,7 @@ def _budget(values: dict[str, float], place: str, notes: Iterable[str]) -> str:
 
 def _point_budget(point: FrictionResult, place: str) -> str:
     known = point.uncertainty
-    return _budget(known.budget, place, (known.largest_part, *known.notes))
+    return _budget(known.budget, known.budget_in_words, place, (known.largest_part, *known.notes))
 
 
 def _operating_table(curve: CurveResult) -> str:
@@ -284,7 +294,7 @@ def _details(curve: CurveResult) -> str:
     rows = []
     for value, point in zip(converted(getattr(curve, swept), COLUMNS[swept].unit, unit), curve.points):
         if point is not None:
-            parts = [percent(part) for part in point.uncertainty.budget.values()]
+            parts = point.uncertainty.budget_in_words.values()
             forces = [point.contact_load, point.film_load, point.boundary_force, point.shear_force]
             lengths = [converted(getattr(point, name), "m", "nm") for name in ("mean_gap", "central_film", "min_film")]
             numbers = [_number(number) for number in (*forces, *lengths)]
@@ -420,7 +430,14 @@ def _history_budget(result: TransientResult) -> str:
     ]
     if math.isfinite(values["model-form"]):
         notes.insert(1, "Model-form: as in steady motion at the same film and the same asperity load ratio")
-    return _budget(values, f"at t = {worded(float(result.time[at]), 's')}, where f is largest", notes)
+    words = {name: percent(part) for name, part in values.items()}
+    c = result.columns
+    if {"model_error_low", "model_error_high"} <= c.keys():
+        towards = float(c["model_error_low"][at])
+        away = float(c["model_error_high"][at])
+        words["model-form"] = percent_of_sides(towards, away, values["model-form"])
+    words["input"] = percent_of_sides(abs(low) / value, abs(high) / value, values["input"])
+    return _budget(values, words, f"at t = {worded(float(result.time[at]), 's')}, where f is largest", notes)
 
 
 def _history_table(result: TransientResult) -> str:
@@ -494,7 +511,7 @@ def _inputs(scene: Scene, section: str, given: dict[str, Any]) -> str:
         cells = f'<td>{escape(label)}</td><td>{escape(text)}{escape(note)}</td><td class="key">{escape(source)}</td>'
         rows.append(cells)
     for name, value in shown.items():
-        label = name.replace("_", " ")
+        label = KEYS[f"{section}.{name}"].label if f"{section}.{name}" in KEYS else name.replace("_", " ")
         rows.append(f'<td>{escape(label)}</td><td></td><td class="key">{escape(_given(name, value))}</td>')
     facts = _list([sentence(text) for text in FACTS[section](scene)]) if section in FACTS else ""
     heads = ["quantity", "value used", "given as"]
@@ -510,15 +527,26 @@ def _given(name: str, value: Any) -> str:
     return text if len(text) <= MOST_GIVEN else f"{text[: MOST_GIVEN - 4]} ..."
 
 
-def _method(prepared: Prepared, estimate: SceneEstimate) -> str:
-    lines = [text for name in ("transient", "contact", "model") for text in estimate.sections[name]]
+def _method(prepared: Prepared, result: CurveResult | TransientResult, estimate: SceneEstimate) -> str:
+    """Return what was solved and on which surface; and, folded, what was estimated before."""
+    planned = [text for name in ("contact", "model") for text in estimate.sections[name]]
+    lines = estimate.sections["transient"]
+    nearest = _nearest(prepared.scene, result) if isinstance(result, CurveResult) else None
+    if nearest is not None:
+        (point, place, _) = nearest
+        lines = [f"{place}: {part}" for part in point.decision.parts]
+    elif isinstance(result, TransientResult):
+        lines = [*lines, *planned]
+        planned = []
     surface = [*estimate.sections["surface"], *prepared.surface.notes]
     heads = estimate.table[0]
     rows = [_cells(row) for row in estimate.table[1:]]
     return (
         _list([sentence(line) for line in lines])
         + _list([sentence(line) for line in surface])
-        + f"<details><summary>Estimate before the solve</summary><p>{escape(sentence(TABLE_CAPTION))}</p>"
+        + "<details><summary>Estimate before the solve</summary>"
+        + _list([sentence(line) for line in planned])
+        + f"<p>{escape(sentence(TABLE_CAPTION))}</p>"
         + table(heads, rows)
         + "</details>"
     )
@@ -529,7 +557,11 @@ def _made(record: dict[str, Any]) -> str:
     rows = [
         *record["versions"].items(),
         ("scene", record["hash"]),
-        ("seed of the surface", record["seed"]),
+        *(
+            []
+            if record["seed"] is None
+            else [("seed of the scene (surface.seed), from which those of the strips follow", record["seed"])]
+        ),
         ("wall-clock time of the run", f"{record['seconds']:.3g} s"),
         ("solver", record["report"]["solver"]),
     ]

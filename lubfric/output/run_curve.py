@@ -195,7 +195,7 @@ def _title(name: str, points: list[dict[str, Any]]) -> str:
     if not stated:
         return name
     some = "" if len(stated) == len(solved) else f" ({len(stated)} of {counted(len(solved), 'points')})"
-    return f"{name}\n{stated[0].partition(':')[0]}{some}"
+    return f"{name}\n{stated[0]}{some}"
 
 
 def _law(curve: studies.CurveResult) -> studies.Law | str:
@@ -465,8 +465,6 @@ def _progress(place: str) -> Callable[..., Any]:
         words = ", ".join(f"{symbol} = {load}" for symbol, load in loads.items())
         known = outcome.uncertainty
         largest = f"; {known.largest_part}" if known.largest_part else ""
-        say(
-            f"{head}: {known.short(outcome.coefficient):<59} {words} (wall-clock time {outcome.seconds:.2f} s){largest}"
-        )
+        say(f"{head}: {known.short(outcome.coefficient)}; {words} (wall-clock time {outcome.seconds:.2f} s){largest}")
 
     return on_point

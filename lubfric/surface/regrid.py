@@ -136,8 +136,9 @@ def combined(first: Surface, second: Surface) -> Surface:
     mask = np.logical_and(*(np.ones(shape, bool) if part.mask is None else part.mask for part in parts))
     sources = list(dict.fromkeys(surface.source or "a map" for surface in (first, second)))
     source = " and ".join(sources) if len(sources) > 1 else f"both {sources[0]}"
-    notes = [f"{name}: {note}" for name, part in zip(("first", "second"), parts) for note in part.notes]
-    notes.append(f"combined: Sq {worded(first.sq, 'm')} and {worded(second.sq, 'm')}, the second turned over about x")
+    notes = [f"{name}: {note}" for name, part in zip(("surface", "counterface"), parts) for note in part.notes]
+    both = f"Sq {worded(first.sq, 'm')} and {worded(second.sq, 'm')}"
+    notes.append(f"sum of surface and counterface, {both}, the counterface turned over about x")
     return replace(parts[0], heights=heights, mask=mask, periodic_axes=closed, source=source, notes=tuple(notes))
 
 

@@ -248,7 +248,9 @@ def test_a_sentence_begins_with_a_capital_letter_unless_a_key_does():
 
 def test_a_value_that_equals_a_typical_one_is_taken_as_exact():
     plain = lubfric.load_scene("paper").with_(bodies={"boundary_friction_coefficient": 0.12})
-    assert "taken as exact (typical of anti-wear: 0.09 to 0.15" in describe_scene(plain)
+    assert "taken as exact (the name 'anti-wear' in its place gives the typical range, 0.09 to 0.15)" in describe_scene(
+        plain
+    )
     named = plain.with_(bodies={"boundary_friction_coefficient": "anti-wear"})
     assert "taken as exact" not in describe_scene(named)
 
@@ -267,4 +269,4 @@ def test_the_report_divides_the_power_loss_of_a_rolling_contact(tmp_path, undraw
     rolling = float(row["power_loss [W]"]) - float(row["coefficient [-]"]) * load * 0.02 * 0.5
     page = (tmp_path / "out" / "report.html").read_text()
     stated = re.search(r"of which ([\d.]+) mW is rolling resistance", page)
-    assert stated and float(stated[1]) == pytest.approx(1e3 * rolling, rel=1e-3) and rolling > 0
+    assert stated and float(stated[1]) == pytest.approx(1e3 * rolling, rel=5e-3) and rolling > 0

@@ -75,12 +75,12 @@ def test_calibrated_answer_holds_the_deterministic_one_and_is_narrower_than_load
     parts = results["load-sharing"].boundary_force + results["load-sharing"].shear_force
     assert parts / HEAVIER.bodies.load == pytest.approx(results["load-sharing"].coefficient, rel=1e-12)
     assert results["load-sharing"].decision.model == "load-sharing"
-    basis = f"load-sharing model, calibrated on {error_models()['rest'].cases} solved cases: error there -"
+    basis = f"load-sharing model, calibrated on {error_models()['rest'].cases} solved cases"
     assert results["load-sharing"].decision.text.startswith(basis)
     assert results["paper"].decision.basis == ""
 
 
-def test_report_says_first_what_the_answer_rests_on(tmp_path):
+def test_report_says_first_what_the_answer_rests_on(tmp_path, monkeypatch):
     scene = HEAVIER.with_(
         motion={"entrainment_speed": 0.1},
         numerics={"model": "load-sharing", "sampling_tolerance": 0.5, "tolerance": 0.1},
@@ -89,8 +89,13 @@ def test_report_says_first_what_the_answer_rests_on(tmp_path):
     file.write_text(scene.to_toml())
     assert main(["run", str(file), "--speeds", "0.1", "--out", str(tmp_path / "out")]) == 0
     page = (tmp_path / "out/report.html").read_text()
-    basis = f"Load-sharing model, calibrated on {error_models()['rest'].cases} solved cases: error there -"
+    basis = f"Load-sharing model, calibrated on {error_models()['rest'].cases} solved cases"
     assert page.index("f = ") < page.index(basis) < page.index("Uncertainty budget")
+    titles: list[str] = []
+    monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", lambda path, columns, title, *_: titles.append(title))
+    monkeypatch.setattr("lubfric.output.run_curve.made", lambda name, make: make(tmp_path / name) or b"")
+    assert main(["plot", str(tmp_path / "out")]) == 0
+    assert [title.splitlines() for title in titles] == [[scene.name, basis.lower()]]
 
 
 def test_the_sampling_error_holds_the_scatter_of_other_samples():

@@ -220,11 +220,11 @@ def _of_model(model: float, tolerance: float) -> Iterator[Validity]:
     """A warning where the error of the model, relative, is above ``tolerance``."""
     if model > tolerance:
         yield Validity(
-            what="error of f by the model",
+            what="model-form error of f",
             value=100 * model,
             limit=100 * tolerance,
             unit="%",
-            consequence="the boundary film, the law of the flow, heat, or the scatter between the models leaves that",
+            consequence="it comes from the boundary film, the law of the flow, heat, or the scatter between the models",
             remedy="give bodies.boundary_film if you know it, or a longer map",
         )
 

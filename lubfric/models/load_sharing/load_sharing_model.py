@@ -22,7 +22,6 @@ from ..shared import (
     limit_in_words,
     no_rough_film,
     percent,
-    percent_of_sides,
 )
 from .answer import answer_of
 from .calibrated import CalibratedFriction, calibrated_friction, film_on_strip
@@ -261,8 +260,7 @@ def _largest(friction: CalibratedFriction) -> str:
 
 def basis_of(friction: CalibratedFriction) -> str:
     """Return what the answer rests on, as text."""
-    bounds = percent_of_sides(*friction.bounds, max(friction.bounds))
-    return f"load-sharing model, calibrated on {friction.cases} solved cases: error there {bounds}"
+    return f"load-sharing model, calibrated on {friction.cases} solved cases"
 
 
 def in_words(friction: CalibratedFriction, shares: tuple[float, float], *, is_moving: bool) -> str:

@@ -36,9 +36,14 @@ class Decision:
     @property
     def text(self) -> str:
         """The decision as text."""
+        return "; ".join(self.parts)
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """The parts of the ``text``: what the error rests on, film, contact, sample, heat and notes."""
         film = f"film: {self.film}" + (f", tolerance {percent(self.film_tolerance)}" if self.film_tolerance else "")
         parts = self.basis, film, f"contact: {self.contact}", self._cells(), self.heat, *self.notes
-        return "; ".join(part for part in parts if part)
+        return tuple(part for part in parts if part)
 
     def _cells(self) -> str:
         if self.cells is None:
