@@ -189,7 +189,7 @@ class Report:
         return asdict(self) | {"converged": self.converged}
 
 
-def returned(result: T, raise_on_failure: bool = True) -> T:
+def returned(result: T, *, raise_on_failure: bool = True) -> T:
     """``result``, which has a ``report``; where that failed and an exception is requested, the `ConvergenceError` that carries
     both."""
     if raise_on_failure:

@@ -55,7 +55,7 @@ def overview(report: Report) -> str:
         rows.append(
             (
                 f'<a href="#{escape(name)}">{escape(o.study.title)}</a>',
-                mark(o.passed),
+                mark(passed=o.passed),
                 f"{ok} of {len(decisive)}",
                 by_grade(o.checks),
                 seconds(o.seconds),
@@ -97,7 +97,7 @@ def checks_table(checks: list[Check] | tuple[Check, ...]) -> str:
         return note
     rows = [
         (
-            mark(c.passed) if c.decisive else "shown",
+            mark(passed=c.passed) if c.decisive else "shown",
             escape(c.grade),
             escape(c.name),
             escape(number(c.measured) + ("" if c.unit == "1" else f" {c.unit}")),
@@ -121,7 +121,7 @@ def beside_table(checks: list[Check]) -> str:
         source = c.source + (f". {c.note}" if c.note else "")
         rows.append(
             (
-                mark(c.passed),
+                mark(passed=c.passed),
                 escape(c.name),
                 escape(published),
                 escape(value),
@@ -167,6 +167,6 @@ def figure(item: Figure) -> str:
     )
 
 
-def mark(passed: bool) -> str:
+def mark(*, passed: bool) -> str:
     """The verdict as a word, not by colour alone."""
     return '<strong class="good">pass</strong>' if passed else '<strong class="bad">FAIL</strong>'

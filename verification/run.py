@@ -52,7 +52,7 @@ class Outcome:
         return not self.error and bool(self.checks) and not any(c.failed for c in self.checks)
 
 
-def collected(items: Iterable[Item], timed: bool, results: dict[type, list], progress: Progress) -> None:
+def collected(items: Iterable[Item], *, timed: bool, results: dict[type, list], progress: Progress) -> None:
     """Put every item of a study with its kind in ``results``; a check has the time since the item before it."""
     last = time.perf_counter()
     for item in items:
@@ -113,7 +113,7 @@ def run_one(
         function = load(study)
         description = inspect.getdoc(function) or ""
         produced = function(level, **study.options)
-        collected(produced, inspect.isgenerator(produced), results, progress)
+        collected(produced, timed=inspect.isgenerator(produced), results=results, progress=progress)
         results[Check] = [c if c.grade else replace(c, grade=study.grade) for c in results[Check]]
         if not results[Check]:
             raise RuntimeError("the study ended without a single check")

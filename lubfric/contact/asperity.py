@@ -199,7 +199,7 @@ def separation_for_load(
         evaluations=evaluations,
         advice=advice,
     )
-    return returned(replace(best, report=report), raise_on_failure)
+    return returned(replace(best, report=report), raise_on_failure=raise_on_failure)
 
 
 def _closest(

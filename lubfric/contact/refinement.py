@@ -194,7 +194,7 @@ def refine(
         goal = max(MARGIN * problem.tolerance, FALL * min(state.residual, 1.0))
         pressure = state.pressure
         if state.residual > goal and iterations < problem.max_iterations:
-            search = _begun(problem, state, load, pace, wasted > 0)
+            search = _begun(problem, state, load, pace, exact=wasted > 0)
             del state  # the search holds what it needs
             search.run(goal, problem.max_iterations - iterations)
             iterations, pace = iterations + search.iterations, pace if wasted else search.pace
@@ -260,7 +260,7 @@ def contact_result(
 
 
 def _begun(
-    problem: ContactProblem, state: TrialContact, load: float | None, pace: float, exact: bool
+    problem: ContactProblem, state: TrialContact, load: float | None, pace: float, *, exact: bool
 ) -> CandidateSearch:
     """Return a search from ``state`` on the cells that are loaded, or may come into touch."""
     operator = problem.operator.single
@@ -271,7 +271,7 @@ def _begun(
     flags = state.gap < REACH * overlap
     flags |= state.pressure > 0
     rigid = problem.hardness * min(operator.spacing) / operator.e_prime < RIGID * problem.roughness
-    return CandidateSearch(problem, CandidateCells.flagged(operator, flags), state, load, pace, exact or rigid)
+    return CandidateSearch(problem, CandidateCells.flagged(operator, flags), state, load, pace, exact=exact or rigid)
 
 
 def _carrying(new_pressure: np.ndarray, old_pressure: np.ndarray, load: float | None, hardness: float) -> np.ndarray:

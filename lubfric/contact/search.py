@@ -74,6 +74,7 @@ class CandidateSearch:
         state: TrialContact,
         load: float | None,
         pace: float,
+        *,
         exact: bool,
     ):
         operator = problem.operator

@@ -75,7 +75,7 @@ def solve_contact(
         assert mean_gap is not None  # one of both is given
         search = _gap_controlled(problem, mean_gap, start)
     result = contact_result(problem, search, _control(search.state, mean_pressure, mean_gap), ITERATION_LIMIT)
-    return returned(result, raise_on_failure)
+    return returned(result, raise_on_failure=raise_on_failure)
 
 
 def _control(state: TrialContact, mean_pressure: float | None, mean_gap: float | None) -> dict[str, float]:

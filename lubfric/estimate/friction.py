@@ -86,7 +86,7 @@ def friction(
                 result = result_of(prepared, speed, choice, begun, fine=fine)
     if raise_on_failure:
         result.report.raise_if_failed(result)
-        refused(result.validity, numerics.accept, result)
+        refused(result.validity, accept=numerics.accept, result=result)
     return result
 
 

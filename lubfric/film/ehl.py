@@ -115,7 +115,7 @@ def solve_line_contact(
         solutions = solved(problem, effort, state)
     else:
         solutions = _fed(problem, arriving / contact.film_unit, effort, state)
-    return returned(assemble(*solutions, effort.tolerance), raise_on_failure)
+    return returned(assemble(*solutions, effort.tolerance), raise_on_failure=raise_on_failure)
 
 
 def _fed(full: FilmProblem, flow: float, effort: Effort, state: FilmState | None) -> NestedSolutions:

@@ -208,7 +208,7 @@ def heated_film(
     )
     wall = np.interp(x, at, lubricant.temperature + rise)
     stress, film_rise = heated_stress(lubricant, pressure, film, around.sliding, wall)
-    return returned(FilmHeat(stress, wall, film_rise, report), raise_on_failure)
+    return returned(FilmHeat(stress, wall, film_rise, report), raise_on_failure=raise_on_failure)
 
 
 def _nodes(count: int) -> np.ndarray:

@@ -81,7 +81,7 @@ class ShearLaw:
         """Return the Newtonian stress [Pa] at the ``stress`` that there is."""
         return critical * self.inverse(stress / critical)
 
-    def thinning(self, s: float | np.ndarray, along: bool) -> tuple[Any, Any]:
+    def thinning(self, s: float | np.ndarray, *, along: bool) -> tuple[Any, Any]:
         """Φ and s dΦ/ds of a small pressure flow in addition to the sliding: by the tangent 1/f' along it, by the
         secant s/f across (perturbation of a Couette flow: T. F. Conry, S. Wang, C. Cusano, J. Tribol. 109 (1987)
         648-654, doi:10.1115/1.3261526)."""
@@ -176,7 +176,7 @@ class LimitingStress(ShearLaw):
         """Return the Newtonian stress [Pa] at the ``stress`` >= 0 that there is; infinite above what it bears."""
         return np.where(stress > critical, np.inf, stress)
 
-    def thinning(self, s: float | np.ndarray, along: bool) -> tuple[Any, Any]:
+    def thinning(self, s: float | np.ndarray, *, along: bool) -> tuple[Any, Any]:
         """Φ and s dΦ/ds by the secant of ``1/eta_eff = 1/eta + Δu/(h tau_c)``, 1 + s, in both directions. (The tangent
         of a fluid at its limit is infinite.)"""
         return 1.0 + s, s

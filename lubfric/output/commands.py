@@ -87,11 +87,11 @@ def printable(text: str, encoding: str | None) -> str:
     return shown.encode(code, "backslashreplace").decode(code)
 
 
-def paced() -> Callable[[bool], bool]:
-    """Says whether progress is to be reported now: a second after the last time, and at the end (``True``)."""
+def paced() -> Callable[..., bool]:
+    """Return what says whether progress is to be reported now: a second after the last time, and at the ``end``."""
     last_report = time.perf_counter()
 
-    def due(end: bool) -> bool:
+    def due(*, end: bool) -> bool:
         nonlocal last_report
         now = time.perf_counter()
         if not end and now - last_report < SAY_EVERY:

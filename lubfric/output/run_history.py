@@ -31,7 +31,7 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
         nonlocal reached
         reached = now
         shown.update(now, duration)
-        if row is not None and due(now >= duration):
+        if row is not None and due(end=now >= duration):
             commands.say(
                 f"t = {now:<8.5g} of {duration:g} s: U = {row['entrainment_speed']:<9.4g} m/s, f = "
                 f"{row['coefficient']:<z8.5f}, F_C = {row['contact_load']:<9.4g} N, F_H = {row['film_load']:<9.4g} N, "
@@ -52,13 +52,13 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
                 raise
             result = error.result
             failure = error
-        _write(folder, scene, result, arguments.animation)
+        _write(folder, scene, result, animation=arguments.animation)
         folder.complete(prepared, estimate, given_tables(arguments.scene), result, OF_MOMENT)
     if failure:
         raise failure
 
 
-def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, animation: bool) -> None:
+def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, *, animation: bool) -> None:
     """The table, the fields and the pictures of the run alone."""
     folder.add("history.csv", _table, result)
     fields = {"time": result.time, "x": result.x, "pressure": result.pressure, "film_thickness": result.film_thickness}

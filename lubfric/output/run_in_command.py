@@ -128,7 +128,7 @@ def _progress(shown: ProgressLine) -> Callable[[str, int, int], None]:
 
     def on_progress(what: str, done: int, total: int) -> None:
         shown.update(done, total)
-        if due(done == total):
+        if due(end=done == total):
             say(f"{what}: {done} of {'at most ' * (what == 'pass')}{total}")
 
     return on_progress

@@ -37,7 +37,7 @@ def run_study(arguments: Namespace) -> None:
     if arguments.explain:
         answer(plan.explain(arguments.out) + "\n")
         return
-    studies.check_tools(arguments.netcdf, arguments.parquet)
+    studies.check_tools(netcdf=arguments.netcdf, parquet=arguments.parquet)
     wanted = {"csv": True, "nc": arguments.netcdf, "parquet": arguments.parquet}
     names = [f"study.{kind}" for kind, given in wanted.items() if given]
     check_outputs(arguments, arguments.out, [*names, "study.png", "report.html"])
@@ -189,7 +189,7 @@ def _progress(begun: float, shown: ProgressLine) -> Callable[[int, int], None]:
         nonlocal first
         first = done if first < 0 else first  # what the store held already took no time
         shown.update(done, total)
-        if due(done == total):
+        if due(end=done == total):
             passed = time.perf_counter() - begun
             line = f"[{done:>{len(str(total))}}/{total}] {passed:.0f} s"
             if first < done < total:
@@ -216,7 +216,7 @@ def run_fit(arguments: Namespace) -> None:
     say(studies.explain_fit(scene, measured, bounds, starts=arguments.starts))
 
     def on_progress(done: int, total: int, left: float, misfit: float, values: dict[str, float]) -> None:
-        if due(done == 1):
+        if due(end=done == 1):
             off = f"{100 * misfit:.2g} % of f" if measured.deviation is None else f"{misfit:.3g} deviations"
             place = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
             passed = f"{time.perf_counter() - begun:.0f} s, about {studies.in_words(left)} left"

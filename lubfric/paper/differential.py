@@ -107,7 +107,7 @@ def solve_differential_deflection(
     cells = _cells(problem, ends, nodes, most_nodes)
     levels = _ascend(problem, ends, cells, tolerance, max_iterations, doubled=nodes is None)
     result = assemble(problem, levels, tolerance)
-    return returned(result, raise_on_failure)
+    return returned(result, raise_on_failure=raise_on_failure)
 
 
 def domain_ends(problem: FilmProblem, domain: tuple[float, float] | None) -> tuple[float, float]:
@@ -148,12 +148,13 @@ def _ascend(
     cells: list[int],
     tolerance: float,
     max_iterations: int,
+    *,
     doubled: bool,
 ) -> list[DifferentialSolution]:
     """Solutions on grids of as many ``cells``; if these are ``doubled``, until two grids agree to the tolerance."""
     levels: list[DifferentialSolution] = []
     for n in cells:
-        mesh = make_mesh(*ends, n + 1, problem.inlet is None)
+        mesh = make_mesh(*ends, n + 1, flooded=problem.inlet is None)
         P, H = cold_start(mesh, problem)
         if levels:  # pressure (linear) and film (cubic) of the mesh before
             X = levels[-1].mesh.X

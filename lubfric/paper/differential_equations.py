@@ -65,7 +65,7 @@ class Mesh:
         return self.X.size
 
 
-def make_mesh(first: float, last: float, nodes: int, flooded: bool) -> Mesh:
+def make_mesh(first: float, last: float, nodes: int, *, flooded: bool) -> Mesh:
     """Return ``nodes`` positions from ``first`` to ``last`` with the kernels between them."""
     X, step = np.linspace(first, last, nodes, retstep=True)
     second = _second_difference(nodes + 1)

@@ -102,7 +102,7 @@ class ImposedFilm:
         )
 
     def solved(
-        self, iterate: Callable[[np.ndarray], SearchResult], solver: str, raise_on_failure: bool
+        self, iterate: Callable[[np.ndarray], SearchResult], solver: str, *, raise_on_failure: bool
     ) -> ContactResult:
         """Return the contact by ``iterate`` from a first pressure."""
         if self.separated:
@@ -117,7 +117,7 @@ class ImposedFilm:
             search = iterate(first)
         control = {"volume": abs(self.surplus(search.state))}
         result = contact_result(self.problem, replace(search, solver=solver), control, STAGNATED)
-        return returned(result, raise_on_failure)
+        return returned(result, raise_on_failure=raise_on_failure)
 
 
 def impose(
@@ -170,7 +170,9 @@ def alternating(
     """
     validate.choice("update", update, UPDATES)
     contact = impose(heights, film, spacing, e_prime, max_iterations=max_iterations, **problem)
-    return contact.solved(lambda first: _alternated(contact, first, update), f"alternating, {update}", raise_on_failure)
+    return contact.solved(
+        lambda first: _alternated(contact, first, update), f"alternating, {update}", raise_on_failure=raise_on_failure
+    )
 
 
 def _alternated(contact: ImposedFilm, pressure: FloatArray, update: str) -> SearchResult:

@@ -77,7 +77,7 @@ def single_loop(
             return _ended(contact, FORMS[form](contact, pressure), stop, separation_tolerance)
 
     contact = impose(heights, film, spacing, e_prime, max_iterations=max_iterations, **problem)
-    return contact.solved(iterate, f"single loop, {form}", raise_on_failure)
+    return contact.solved(iterate, f"single loop, {form}", raise_on_failure=raise_on_failure)
 
 
 Iterate = tuple[np.ndarray, np.ndarray, float, int]  # pressure, its displacement, epsilon, convolutions so far

@@ -246,18 +246,18 @@ def as_ranges(ends: dict[str, Any]) -> tuple[tuple[str, float, float], ...]:
     return tuple((name, *ends[name]) for name in sorted(ends) if ends[name] is not None)
 
 
-def gap_not_resolved(scene: Scene, given: bool = False) -> str:
+def gap_not_resolved(scene: Scene, *, given: bool = False) -> str:
     """The first key of ``scene`` that the deterministic model does not take, and what it takes, as text; "" if it
     takes all. ``given``: one map was given to `lubfric.prepare`, for all its bodies."""
-    refusals = _not_taken(scene, given)
+    refusals = _not_taken(scene, given=given)
     return next(
         (f"{name} = {value!r} (the deterministic model has {instead})" for name, value, instead in refusals), ""
     )
 
 
-def check_resolved_gap(scene: Scene, given: bool = False) -> None:
+def check_resolved_gap(scene: Scene, *, given: bool = False) -> None:
     """Raise `InputError` for keys that the deterministic model does not take. ``given``: as in `gap_not_resolved`."""
-    for name, value, instead in _not_taken(scene, given):
+    for name, value, instead in _not_taken(scene, given=given):
         said = f" = {value!r} does not go with numerics.model = 'deterministic'"
         raise InputError(said, name, f"{instead}, or numerics.model = 'load-sharing'")
 
@@ -275,7 +275,7 @@ def moves(scene: Scene) -> bool:
     return any(speed != 0 for _, speed in moving_bodies(scene))
 
 
-def _not_taken(scene: Scene, given: bool) -> Iterator[tuple[str, Any, str]]:
+def _not_taken(scene: Scene, *, given: bool) -> Iterator[tuple[str, Any, str]]:
     for name, allowed, why in RESOLVED:
         section, _, key = name.partition(".")
         value = getattr(getattr(scene, section), key)

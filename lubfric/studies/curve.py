@@ -129,7 +129,7 @@ def report_of(
 R = TypeVar("R", bound=CurveResult)
 
 
-def checked_curve(result: R, raise_on_failure: bool) -> R:
+def checked_curve(result: R, *, raise_on_failure: bool) -> R:
     """``result``, or the exception that says what failed: `ValidityError` if all that failed was refused as invalid."""
     if not raise_on_failure:
         return result

@@ -118,10 +118,10 @@ class Interpolant:
         least = min(NEAR * s.speed[s.contacts - 1], knee)  # not where contact is known
         return float(max(knee / away, least)), float(knee * away)
 
-    def at(self, speed: FloatArray, smooth: bool = True) -> np.ndarray:
+    def at(self, speed: FloatArray, *, smooth: bool = True) -> np.ndarray:
         """f at speeds [m/s] within the range. ``smooth=False``: by the other cubics."""
         speed = np.asarray(speed, dtype=float)
-        return self.boundary(speed, smooth) + self.film(speed, smooth)
+        return self.boundary(speed, smooth=smooth) + self.film(speed, smooth=smooth)
 
     def error(self, speed: FloatArray) -> np.ndarray:
         """Estimated relative error at speeds [m/s]. It is the largest of three: the difference between the two kinds of
@@ -148,20 +148,20 @@ class Interpolant:
         beside = CLOSER * between * np.maximum(change_without[right - 1], change_without[right])
         return np.maximum(spread / np.maximum(np.abs(value), 1e-300), beside)
 
-    def boundary(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
+    def boundary(self, speed: np.ndarray, *, smooth: bool = True) -> np.ndarray:
         """Return the part of f from the asperity contacts."""
         s = self.samples
         k = self.samples.contacts
         if k == 0:
             return np.zeros(speed.shape)
         of_share = _cubic(np.log(s.speed[:k]), s.boundary[:k] / s.share[:k], np.log(speed), smooth=False)
-        return of_share * self.share(speed, smooth)
+        return of_share * self.share(speed, smooth=smooth)
 
-    def film(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
+    def film(self, speed: np.ndarray, *, smooth: bool = True) -> np.ndarray:
         """Return the part of f from the film."""
-        return self.traction(speed, smooth) * (1.0 - self.share(speed, smooth))
+        return self.traction(speed, smooth=smooth) * (1.0 - self.share(speed, smooth=smooth))
 
-    def share(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
+    def share(self, speed: np.ndarray, *, smooth: bool = True) -> np.ndarray:
         """Return the asperity load ratio F_C/F_T."""
         s = self.samples
         known = np.flatnonzero((s.share > min(LEAST, 0.5 * s.share.max())) & (s.share < 1 - NOTHING))
@@ -171,18 +171,18 @@ class Interpolant:
         at = np.zeros(speed.shape)
         end = self.lift_off
         if end is None:
-            return 1 / (1 + np.exp(_cubic(np.log(s.speed[known]), log_load_ratio, np.log(speed), smooth)))
+            return 1 / (1 + np.exp(_cubic(np.log(s.speed[known]), log_load_ratio, np.log(speed), smooth=smooth)))
         below = speed < end
         y = s.speed[known] / end
         there = speed[below] / end
         rate = (s.steepness[known] - 1 - self.end * y / (1 - y)) / (EXPONENT * y**EXPONENT)
         left = _steered(
-            y**EXPONENT, log_load_ratio - np.log(y) + self.end * np.log1p(-y), rate, there**EXPONENT, smooth
+            y**EXPONENT, log_load_ratio - np.log(y) + self.end * np.log1p(-y), rate, there**EXPONENT, smooth=smooth
         )
         at[below] = 1 / (1 + np.exp(left) * there / (1 - there) ** self.end)
         return at
 
-    def traction(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
+    def traction(self, speed: np.ndarray, *, smooth: bool = True) -> np.ndarray:
         """Return the traction coefficient of the film."""
         s = self.samples
         k = self.samples.contacts
@@ -194,10 +194,10 @@ class Interpolant:
         touching = known < k
         at = np.maximum(speed, y[0])
         if k == 0:
-            return _film_alone(y, t, at, smooth)
+            return _film_alone(y, t, at, smooth=smooth)
         if knee is None or np.count_nonzero(~touching) < 2:
-            return _of_logarithms(np.log(y), t, np.log(at), smooth)
-        alone = _film_alone(y[~touching], t[~touching], np.append(at, knee), smooth)
+            return _of_logarithms(np.log(y), t, np.log(at), smooth=smooth)
+        alone = _film_alone(y[~touching], t[~touching], np.append(at, knee), smooth=smooth)
         slow = _of_logarithms(np.append(y[touching], knee), np.append(t[touching], alone[-1]), at, smooth=False)
         return np.where(at < knee, slow, alone[:-1])
 
@@ -250,28 +250,28 @@ def knee_of(samples: Samples) -> float | None:
     return float(min(lift_off, high))
 
 
-def _film_alone(speed: FloatArray, traction: FloatArray, at: FloatArray, smooth: bool) -> FloatArray:
+def _film_alone(speed: FloatArray, traction: FloatArray, at: FloatArray, *, smooth: bool) -> FloatArray:
     """Interpolation where nothing touches, by cubics of t/sqrt(U) over 1/sqrt(U): a sqrt(U) + b + c/sqrt(U) + .... The
     friction of a Newtonian film between rigid bodies is proportional to sqrt(U), and that of a film at its limiting
     stress is constant."""
     root = np.sqrt(speed)
-    return np.sqrt(at) * _cubic(-1 / root, traction / root, -1 / np.sqrt(at), smooth)
+    return np.sqrt(at) * _cubic(-1 / root, traction / root, -1 / np.sqrt(at), smooth=smooth)
 
 
-def _of_logarithms(x: FloatArray, values: FloatArray, at: FloatArray, smooth: bool) -> FloatArray:
+def _of_logarithms(x: FloatArray, values: FloatArray, at: FloatArray, *, smooth: bool) -> FloatArray:
     """`_cubic` of ln ``values`` if all are positive, else of the values."""
     if not np.all(values > 0.0):
-        return _cubic(x, values, at, smooth)
-    return np.exp(_cubic(x, np.log(values), at, smooth))
+        return _cubic(x, values, at, smooth=smooth)
+    return np.exp(_cubic(x, np.log(values), at, smooth=smooth))
 
 
-def _steered(x: FloatArray, values: FloatArray, slopes: FloatArray, at: FloatArray, smooth: bool) -> FloatArray:
+def _steered(x: FloatArray, values: FloatArray, slopes: FloatArray, at: FloatArray, *, smooth: bool) -> FloatArray:
     """The mean of the spline through the points and of cubics with the ``slopes`` known there; beyond the points a
     straight line. ``smooth=False``: these cubics alone."""
     from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
     if x.size < 2 or not np.isfinite(slopes).any():
-        return _cubic(x, values, at, smooth)
+        return _cubic(x, values, at, smooth=smooth)
     spline = CubicSpline(x, values)
     own = spline(x, 1)
     weight = 0.5 if smooth else 1.0
@@ -280,7 +280,7 @@ def _steered(x: FloatArray, values: FloatArray, slopes: FloatArray, at: FloatArr
     return cubics(inside) + cubics(inside, 1) * (at - inside)
 
 
-def _cubic(x: FloatArray, values: FloatArray, at: FloatArray, smooth: bool) -> FloatArray:
+def _cubic(x: FloatArray, values: FloatArray, at: FloatArray, *, smooth: bool) -> FloatArray:
     """A cubic between the points ``x``; beyond them a straight line or, for the shape-preserving kind, the last
     secant."""
     from scipy.interpolate import CubicSpline, PchipInterpolator

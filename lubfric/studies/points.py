@@ -58,10 +58,10 @@ def solved(
 
     def solve(speed: float) -> Outcome:
         fields: bool | str = ("fine" if fine_fields else True) if speed in kept else False
-        own = point_key(key, speed, fields)
+        own = point_key(key, speed, fields=fields)
         outcome = store.get(own, OUTCOME)
         if outcome is None:
-            outcome = model if isinstance(model, LubfricError) else outcome_of(model, speed, fields)
+            outcome = model if isinstance(model, LubfricError) else outcome_of(model, speed, fields=fields)
             if not isinstance(outcome, MapError):  # its file may be there again, next time
                 store.add(own, outcome)
         return outcome
@@ -86,7 +86,7 @@ def solved_together(
         yield from solved(scene, key, speeds, folder=folder)
 
 
-def outcome_of(prepared: Prepared, speed: float, fields: bool | str = False) -> Outcome:
+def outcome_of(prepared: Prepared, speed: float, *, fields: bool | str = False) -> Outcome:
     """Return the result of `lubfric.friction`, or the `LubfricError` that it raised; without ``fields`` unless they are
     requested."""
     try:

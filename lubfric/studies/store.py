@@ -67,7 +67,7 @@ class Store:
         self.classes = classes
         self.folder = None if root is None else Path(root) / POINTS
 
-    def add(self, key: str, outcome: Any, sync: bool = False) -> None:
+    def add(self, key: str, outcome: Any, *, sync: bool = False) -> None:
         """Keep a dataclass of the ``classes``, a `LubfricError`, or a tuple of these and of numbers; ``sync``: it also
         outlives a loss of power. Raises `OutputError` when that fails."""
         if self.folder is not None:
@@ -132,7 +132,7 @@ def shared(folder: str | Path | None) -> bool:
     return folder is not None and os.path.exists(os.path.join(folder, LOCK))
 
 
-def point_key(scene_key: str, speed: float, fields: bool | str = False) -> str:
+def point_key(scene_key: str, speed: float, *, fields: bool | str = False) -> str:
     """Return the key of a point: of its scene (`fingerprint`), its speed [m/s], and the fields that are kept, as
     `lubfric.friction` takes them."""
     return digest([scene_key, float(speed), fields])

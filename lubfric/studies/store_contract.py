@@ -13,7 +13,7 @@ class RecordStore(Protocol):
     - A record that is damaged, or was written by another version, counts as absent.
     """
 
-    def add(self, key: str, outcome: Any, sync: bool = False) -> None:
+    def add(self, key: str, outcome: Any, *, sync: bool = False) -> None:
         """Keep ``outcome`` under ``key``; ``sync``: it also outlives a loss of power. Raises `OutputError`."""
 
     def get(self, key: str, kind: Any = Any) -> Any:

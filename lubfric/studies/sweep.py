@@ -192,7 +192,7 @@ def stribeck(
     except BaseException as fault:
         fault.result = _collected(requested, outcomes, prepared)  # type: ignore[attr-defined]  # beside what it holds
         raise
-    return checked_curve(_collected(requested, outcomes, prepared), raise_on_failure)
+    return checked_curve(_collected(requested, outcomes, prepared), raise_on_failure=raise_on_failure)
 
 
 def _asked(speeds: str | ArrayLike | None, fields: Any, scene: Scene) -> tuple[list[float], list[float]]:
@@ -314,5 +314,6 @@ def traction(
     points, errors = parted(outcomes)
     report = report_of("traction", [f"slide-roll ratio {ratio:g}" for ratio in ratios], "ratios", points, errors)
     return checked_curve(
-        TractionResult(ratio=ratios, speed=float(speed), points=points, errors=errors, report=report), raise_on_failure
+        TractionResult(ratio=ratios, speed=float(speed), points=points, errors=errors, report=report),
+        raise_on_failure=raise_on_failure,
     )

@@ -209,7 +209,7 @@ def label(result: Any, index: tuple[Any, ...]) -> str:
     return ", ".join(f"{kind.label} {worded_value(key, along[key].item())}" for key, kind in kinds.items())
 
 
-def check_tools(netcdf: bool, parquet: bool) -> None:
+def check_tools(*, netcdf: bool, parquet: bool) -> None:
     """Raise `InputError` if a package that these tables need is missing."""
     for name in (*(("xarray", "netCDF4") if netcdf else ()), *(("pandas", "pyarrow") if parquet else ())):
         validate.installed(name, "study")

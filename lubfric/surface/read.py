@@ -94,7 +94,7 @@ def read_surface(
     try:
         with np.errstate(all="ignore"):
             surface = _read(path, head, spacing, unit, decimal, missing_value)
-            return _prepared(replace(surface, source=path.name), level, fill, form)
+            return _prepared(replace(surface, source=path.name), level=level, fill=fill, form=form)
     except MemoryError:
         size = path.stat().st_size
         said = f"path = {str(path)!r} with {size:.3g} bytes does not fit into the memory that this process may use"
@@ -201,7 +201,7 @@ def _masked(
     return Surface(np.where(measured, heights * scale, np.nan), spacing, mask=measured, notes=notes)
 
 
-def _prepared(surface: Surface, level: bool, fill: bool, form: str) -> Surface:
+def _prepared(surface: Surface, *, level: bool, fill: bool, form: str) -> Surface:
     """Return the map without its ``form``, noted with what the other forms would leave, and filled."""
     if not level:
         flat = surface

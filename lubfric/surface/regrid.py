@@ -84,7 +84,7 @@ def resampled(surface: Surface, axis: int, count: int | None, step: float | None
     points(f"points along {'xy'[axis]} and the other axis", (count, surface.shape[1 - axis]))
     if count == n and abs(step / old - 1) < 1e-9:
         return surface
-    heights = resample_axis(surface.heights, axis, count, step / old, closed)
+    heights = resample_axis(surface.heights, axis, count, step / old, periodic=closed)
     note = f"resampled along {'xy'[axis]} from {n} points at {old:.4e} m to {count} at {step:.4e} m"
     if surface.mask is not None:
         note += f" (mask dropped, {100 * surface.missing_fraction:.3g} % was unmeasured)"
@@ -153,7 +153,7 @@ def _common(axis: int, first: Surface, second: Surface) -> tuple[int, bool]:
     return int(min(open_lengths or lengths) / first.spacing[axis] * (1 + SAME)), False
 
 
-def resample_axis(heights: np.ndarray, axis: int, count: int, ratio: float, periodic: bool) -> np.ndarray:
+def resample_axis(heights: np.ndarray, axis: int, count: int, ratio: float, *, periodic: bool) -> np.ndarray:
     """``count`` cells of ``ratio`` old cells each along ``axis``, from the start of the map.
 
     Periodic: the Fourier series at the new cell centres. Open: heights are taken as cell averages;

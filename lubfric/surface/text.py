@@ -131,7 +131,9 @@ def _matrix(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
     if grid.steps is not None and table.own_spacing is not None:
         _same_spacing(path, table.own_spacing, grid.steps, either=grid.either)
     if border is not None:
-        numbers, coordinates, said = _coordinates(path, table, border, numbers, grid.across, spacing, steps)
+        numbers, coordinates, said = _coordinates(
+            path, table, border, numbers, across=grid.across, spacing=spacing, steps=steps
+        )
         steps = coordinates if steps is None else steps
         notes += said
     notes += (*table.notes, *grid.notes)
@@ -155,7 +157,7 @@ def _matrix(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
 
 
 def _coordinates(
-    path: Path, table: NumberTable, border: Border, numbers: np.ndarray, across: bool, spacing: Pair, steps: Pair
+    path: Path, table: NumberTable, border: Border, numbers: np.ndarray, *, across: bool, spacing: Pair, steps: Pair
 ) -> tuple[FloatArray, tuple[float, float] | None, tuple[str]]:
     """Return the heights, the steps [m] of the coordinates beside them where these are known, and notes."""
     along, down = border.steps

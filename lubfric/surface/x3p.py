@@ -213,7 +213,7 @@ def _count(root: ElementTree.Element, where: str) -> int:
     return int(text)
 
 
-def _text(root: ElementTree.Element, where: str, required: bool = True) -> str:
+def _text(root: ElementTree.Element, where: str, *, required: bool = True) -> str:
     element = root.find(where)
     text = "" if element is None else (element.text or "").strip()
     if required and not text:

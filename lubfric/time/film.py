@@ -100,7 +100,7 @@ def solve_transient_ehl(
     changing = contact.speed, contact.load, contact.radius, contact.viscosity
     plan = plan_of(times, changing, first_step or setting.first_step, time_tolerance)
     result = _marched(setting, start, plan, residuals)
-    return returned(result, raise_on_failure)
+    return returned(result, raise_on_failure=raise_on_failure)
 
 
 def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, Step, dict[str, Residual]]:

@@ -109,7 +109,7 @@ def transient(
         result.report.raise_if_failed(result)
         severe = sorted((e for entries in result.entries for e in entries if e.severe), key=lambda e: e.value)
         worst = {entry.what: entry for entry in severe}  # of each kind
-        refused(tuple(worst.values()), model.scene.numerics.accept, result)
+        refused(tuple(worst.values()), accept=model.scene.numerics.accept, result=result)
     if result.report.converged:
         store.clear([key, *_output_keys(key, len(outputs))])
     return result

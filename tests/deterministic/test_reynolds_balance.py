@@ -271,7 +271,7 @@ def test_sliding_thins_by_eyrings_law_and_by_the_limit(s):
     """Conry et al. (1987): the tangent √(1 + s²) along the sliding, the secant s/asinh(s) across; a limit adds s."""
     oil = Lubricant(ETA, 1e-8, eyring_stress=5e6)
     tau = np.array([s * 5e6])
-    along, across = (float(thinning(oil, tau, [5e6], way)[0][0]) for way in (True, False))
+    along, across = (float(thinning(oil, tau, [5e6], along=way)[0][0]) for way in (True, False))
     assert along == pytest.approx(math.sqrt(1 + s * s)) and across == pytest.approx(s / math.asinh(s))
     limited = Lubricant(ETA, 1e-8, limiting_stress_coefficient=0.05)
     assert float(thinning(limited, tau, [2e7], along=True)[0][0]) == pytest.approx(1 + s * 5e6 / 2e7)

@@ -45,8 +45,8 @@ def test_the_parts_of_a_law_agree(key):
     assert law.newtonian(stress, critical(p))[borne] == pytest.approx(s[borne] * critical(p), rel=1e-9)
     assert np.isinf(law.newtonian(1.01 * stress, critical(p))[~borne]).all()
     for along in (True, False):
-        factor, slope = law.thinning(s, along)
-        assert slope == pytest.approx(s * differences(lambda s: law.thinning(s, along)[0], s, 1e-5 * s), rel=1e-5)
+        factor, slope = law.thinning(s, along=along)
+        assert slope == pytest.approx(s * differences(lambda s: law.thinning(s, along=along)[0], s, 1e-5 * s), rel=1e-5)
     if oil.limit:
         assert replace(oil, **law.twice()).limit.critical(p)[0] == pytest.approx(2 * critical(p))
     else:
@@ -121,7 +121,7 @@ def test_heat_and_the_deterministic_flow_follow_a_law_of_ones_own(monkeypatch):
     assert rise > 2 and np.arcsinh(np.sqrt(a - 1)) ** 2 == pytest.approx(a * 0.035 * tau * rate * h**2 / (8 * 0.15))
     x = np.array([0.0, 0.3, 4.0])
     for along, power in ((True, 3), (False, 1)):
-        factor, exponent, _ = thinning(oil, 2e5 * (x + x**3), [2e5], along)
+        factor, exponent, _ = thinning(oil, 2e5 * (x + x**3), [2e5], along=along)
         assert factor == pytest.approx(1 + power * x**2, rel=1e-9)
 
 

@@ -70,7 +70,7 @@ def oblique(seed, degrees, count=128, step=1e-6):
     return z / z.std() * 80e-9
 
 
-def pair_and_turned(folder, turned, holes=False):
+def pair_and_turned(folder, turned, *, holes=False):
     """Scenes of two bodies with ridges: as they lie, and with the files of some ``turned`` by a right angle.
 
     Point (x, y) of the body comes to (-y, x) of the file, in which its x lies along y: turned, not mirrored.
@@ -89,7 +89,7 @@ def pair_and_turned(folder, turned, holes=False):
 
 @pytest.mark.parametrize("turned", [("counterface",), ("surface", "counterface")])
 def test_a_sample_that_was_measured_turned_by_a_right_angle_slides_the_same(tmp_path, turned):
-    as_it_lies, after = (lubfric.friction(scene, 0.03) for scene in pair_and_turned(tmp_path, turned))
+    as_it_lies, after = (lubfric.friction(scene, 0.03) for scene in pair_and_turned(tmp_path, turned=turned))
     assert 0.1 < as_it_lies.contact_load / as_it_lies.film_load < 10
     assert after.coefficient == pytest.approx(as_it_lies.coefficient, rel=1e-5)
 
@@ -97,7 +97,7 @@ def test_a_sample_that_was_measured_turned_by_a_right_angle_slides_the_same(tmp_
 @pytest.mark.parametrize("turned", [("counterface",), ("surface",), ("surface", "counterface")])
 def test_unmeasured_points_of_a_turned_sample_lie_where_they_lie_on_the_body(tmp_path, turned):
     """The pair turned is the pair itself or its mirror image in y, heights and unmeasured points alike."""
-    as_it_lies, after = (whole_maps(scene)[0] for scene in pair_and_turned(tmp_path, turned, holes=True))
+    as_it_lies, after = (whole_maps(scene)[0] for scene in pair_and_turned(tmp_path, turned=turned, holes=True))
     sides = slice(None), slice(None, None, -1)
     (side,) = [y for y in sides if np.allclose(after.heights, as_it_lies.heights[:, y], rtol=0, atol=1e-10)]
     assert np.count_nonzero(~as_it_lies.mask) == 60

@@ -171,7 +171,7 @@ def test_cells_too_long_for_the_roughness_are_a_warning():
     assert len(told[0]) == 1 and 1 < told[0][0] < 5 and told[1] == []
 
 
-def entry(value, what="slip", severe=False):
+def entry(value, what="slip", *, severe=False):
     return Validity(what=what, value=value, limit=5.0, unit="%", consequence="it slides", remedy="less", severe=severe)
 
 

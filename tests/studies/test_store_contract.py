@@ -17,7 +17,7 @@ class InMemory:
     def __init__(self, _):
         self.records = {}
 
-    def add(self, key, outcome, sync=False):
+    def add(self, key, outcome, *, sync=False):
         self.records[key] = pickle.dumps(outcome)
 
     def get(self, key, kind=object):

@@ -66,7 +66,7 @@ def test_a_campaign_judges_what_lies_in_the_folder_and_puts_its_table(tmp_path):
 F = 0.05
 
 
-def trials(stated=0.02, scatter=0.02, bias=0.0, few=False, seed=3):
+def trials(stated=0.02, scatter=0.02, bias=0.0, *, few=False, seed=3):
     """Rows of 400 trials whose f is normal about (1 + bias) times the truth."""
     drawn = F * (1 + bias + scatter * np.random.default_rng(seed).standard_normal(400))
     shared = {"sampling": stated, "length": 1e-3, "seconds": 0.1, "few": few}

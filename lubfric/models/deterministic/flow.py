@@ -113,6 +113,7 @@ def mass_balance(
     pressure: FloatArray,
     gap: FloatArray,
     fill: float | FloatArray = 1.0,
+    *,
     follows_lubricant: bool = False,
 ) -> MassBalance:
     """Steady mass balance of the cells at pressure [Pa], gap [m] and filled part [-] (nx, ny); ``follows_lubricant``: without the

@@ -58,14 +58,14 @@ def mean_fluidity(left: FloatArray, right: FloatArray) -> tuple[np.ndarray, np.n
 
 
 def thinning(
-    lubricant: Lubricant, newtonian_stress: FloatArray, critical: Sequence[FloatArray | float], along: bool
+    lubricant: Lubricant, newtonian_stress: FloatArray, critical: Sequence[FloatArray | float], *, along: bool
 ) -> tuple[Any, Any, list[FloatArray]]:
     """Φ [-] at the Newtonian stress eta Δu/h [Pa] on faces, with the ``critical`` stress [Pa] of each law there; its
     derivative d ln Φ/d ln s; and the parts of the derivative that belong to the laws."""
     factor = 1.0
     slopes = []
     for law, tau_c in zip(lubricant.shear_laws, critical):
-        own, slope = law.thinning(newtonian_stress / tau_c, along)
+        own, slope = law.thinning(newtonian_stress / tau_c, along=along)
         factor = own + (factor - 1.0)
         slopes.append(slope)
     parts = [slope / factor for slope in slopes]

@@ -106,7 +106,7 @@ def evaluated(problem: Problem, state: State, history: TimeHistory | None = None
     """Return gap and mass balance of ``state``, steady or (with a ``history``) of an implicit step in time."""
     gap = problem.rigid_gap + problem.operator.apply(state.pressure) + state.dent + state.approach
     follows = history is not None and history.follows_lubricant
-    flows = mass_balance(problem, state.pressure, gap, state.fill, follows)
+    flows = mass_balance(problem, state.pressure, gap, state.fill, follows_lubricant=follows)
     at = Iterate(problem=problem, state=state, gap=gap, balance=flows, history=history, residual=flows.residual)
     return at if history is None else replace(at, residual=flows.residual + stored(at.mass, history)[0])
 

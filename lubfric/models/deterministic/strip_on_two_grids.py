@@ -72,7 +72,7 @@ def strip_of(prepared: Prepared, index: int) -> tuple[Surface, tuple[int, int]]:
     return strip_surface(prepared, index), (fx * ux, fy * uy)
 
 
-def longer_than(surface: Surface, factors: tuple[int, int], moving: bool = False) -> tuple[int, int]:
+def longer_than(surface: Surface, factors: tuple[int, int], *, moving: bool = False) -> tuple[int, int]:
     """Cells of ``surface`` twice as long as ``factors``; as long along y where twice that does not divide the map, and
     along x where roughness is ``moving``."""
     along = factors[0] if moving else 2 * factors[0]
@@ -88,7 +88,7 @@ def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int
     scene = prepared.scene
     surface, factors = strip_of(prepared, index)
     find_slope = slope is None
-    longer_cells = longer_than(surface, factors, moves(scene))
+    longer_cells = longer_than(surface, factors, moving=moves(scene))
     longer: Strip
     strip: Strip
     early_on_longer: DeterministicResult | None = None

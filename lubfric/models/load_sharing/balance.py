@@ -329,7 +329,7 @@ def _balance(point: Point, root: Root, response: Response) -> Balance:
     )
 
 
-def _first_settings(scene: Scene, alone: bool = False) -> Settings:
+def _first_settings(scene: Scene, *, alone: bool = False) -> Settings:
     numerics = scene.numerics
     film = numerics.film_tolerance or min(budget.FILM_ALONE * numerics.tolerance, budget.LOOSEST_FILM)
     if not alone and numerics.film_tolerance is None:

@@ -124,7 +124,7 @@ class LoadSharingModel(Model):
         return rolling_model_error(lambda_ratio)
 
     def why_unable(self, prepared: Prepared, speed: float) -> str:
-        return no_rough_film(prepared, speed) or gap_not_resolved(prepared.scene, prepared.given)
+        return no_rough_film(prepared, speed) or gap_not_resolved(prepared.scene, given=prepared.given)
 
     def adopt(self, cheaper: SampleSolution) -> LoadSharingSolution | None:
         return LoadSharingSolution(cheaper.balanced) if isinstance(cheaper, PaperSolution) else None

@@ -68,7 +68,7 @@ def sentence(text: str) -> str:
     return f"{first}{text[1:]}{'' if text.endswith(('.', '?')) else '.'}"
 
 
-def refused(entries: tuple[Validity, ...], accept: bool, result: object = None) -> None:
+def refused(entries: tuple[Validity, ...], *, accept: bool, result: object = None) -> None:
     """Raise `ValidityError` with ``result`` if one of ``entries`` is severe, unless ``accept``."""
     severe = [entry for entry in entries if entry.severe]
     if severe and not accept:

@@ -26,7 +26,7 @@ from . import page
 COLUMNS = ("scene", "speeds", "stated error", "largest error", "of 25 even speeds", "time over that of 25")
 
 
-def scenes(count: int, strips: bool, sequence: int):
+def scenes(count: int, *, strips: bool, sequence: int):
     """``count`` scenes of the Sobol ``sequence`` of that number."""
     base = lubfric.load_scene("paper")
     numerics = {"sampling_tolerance": 0.05} if strips else {"sampling": "patch"}
@@ -70,7 +70,7 @@ def main() -> None:
     arguments = parser.parse_args()
     print(" | ".join(COLUMNS))
     rows = []
-    for number, scene in enumerate(scenes(arguments.scenes, arguments.strips, arguments.seed), start=1):
+    for number, scene in enumerate(scenes(arguments.scenes, strips=arguments.strips, sequence=arguments.seed), start=1):
         prepared = lubfric.prepare(scene)
         lubfric.stribeck(prepared, [0.1])  # whatever is imported at first is
         auto, spent = timed(lambda: lubfric.stribeck(prepared, "auto", raise_on_failure=False))

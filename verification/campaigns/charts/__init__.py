@@ -28,7 +28,7 @@ def chart(level: str, name: str, run: Run = Run()) -> Iterator[Item]:
 
     module = importlib.import_module(f"verification.campaigns.charts.{name}")
     ((_, where),) = run.solved({"machine": None}, measure.machine, f"{name}-machine")
-    rows = run.solved(module.cases(level == "quick"), module.measured)
+    rows = run.solved(module.cases(quick=level == "quick"), module.measured)
     points = [Check.from_dict(values) for _, row in rows for values in row]
     yield from points
     yield Table(f"{name}_machine", "Where and when the points were measured", ("machine",), ((where,),))

@@ -38,7 +38,7 @@ def _finest(acf: str, finest: int = 2048) -> np.ndarray:
     return (z - z.mean()) * (SIGMA / z.std())
 
 
-def cases(quick: bool) -> dict[str, tuple]:
+def cases(*, quick: bool) -> dict[str, tuple]:
     """Panels for surfaces and loads of a periodic contact, for the other boundaries at one load, and for grids."""
     n, loads = (64, (200e6,)) if quick else (256, (50e6, 200e6, 1000e6))
     tolerances = (1e-2, 1e-4, 1e-6) if quick else (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10)

@@ -21,7 +21,7 @@ FINER = 50  # M up to which finite elements are refined once: beyond, that takes
 SHEARED = (20, 5)  # below 1 GPa, where a Newtonian shear force still means something
 
 
-def cases(quick: bool) -> dict[str, tuple]:
+def cases(*, quick: bool) -> dict[str, tuple]:
     """One panel for each (M, L)."""
     return {f"M = {M:g}, L = {L:g}": (M, L, quick) for M, L in (POINTS[1:2] if quick else POINTS)}
 
@@ -33,7 +33,7 @@ def measured(case: tuple) -> list[dict]:
     panel = f"M = {M:g}, L = {L:g}"
     values = []
     exact = quantities(solve_ehl(**arguments, tolerance=2e-5, raise_on_failure=False))
-    for name, setting, films, seconds, size in runs(arguments, M, L, quick):
+    for name, setting, films, seconds, size in runs(arguments, M, L, quick=quick):
         off = np.abs(np.array(films) / exact[: len(films)] - 1)
         at = {"default": name.startswith("default") and setting == f"tolerance {DEFAULT:g}", "size": size}
         values.append(point(panel, name, setting, float(np.nanmax(off[:2])), seconds, **at))
@@ -51,7 +51,7 @@ def quantities(film) -> np.ndarray:
     return np.array([film.min_film, film.flow_film, np.trapezoid((eta / h)[wet], x[wet])])
 
 
-def runs(case: dict, M: float, L: float, quick: bool) -> Iterator[tuple]:
+def runs(case: dict, M: float, L: float, *, quick: bool) -> Iterator[tuple]:
     """(method, setting, quantities, quartiles of seconds, unknowns) of every method and setting."""
     near = case | {"load_per_width": 0.97 * case["load_per_width"]}
     calls: dict[tuple[str, float], Callable[[], EHLResult]] = {}
@@ -70,12 +70,12 @@ def runs(case: dict, M: float, L: float, quick: bool) -> Iterator[tuple]:
         if plain.converged:
             yield "dense Newton", f"{nodes} nodes", (plain.min_film, plain.flow_film), seconds, nodes
     if M <= 100:  # beyond, its meshes cost minutes
-        yield from finite_elements(case, quick)
+        yield from finite_elements(case, quick=quick)
     value, seconds = interleaved({"": partial(moes_film, M, L)}, 21)[""]
     yield "Moes formula (flow film)", "", (math.nan, value * moes_unit(case["entrainment_speed"])), seconds, 1
 
 
-def finite_elements(case: dict, quick: bool) -> Iterator[tuple]:
+def finite_elements(case: dict, *, quick: bool) -> Iterator[tuple]:
     """The full system by finite elements on its nested meshes. The time of each includes that of the coarser ones."""
     contact = fem.LineContact.of(case)
     for refinements in (0,) if quick or contact.load_number > FINER else (0, 1):

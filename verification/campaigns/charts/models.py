@@ -21,7 +21,7 @@ WAYS: dict[str, dict] = {
 ASKED = {True: ((0.02, 0.05),), False: ((0.05, 0.1), (0.02, 0.05), (0.01, 0.03))}  # of surface and model
 
 
-def cases(quick: bool) -> dict[str, tuple[AnswerCase, str, bool]]:
+def cases(*, quick: bool) -> dict[str, tuple[AnswerCase, str, bool]]:
     """A panel for each surface, under the light load at a smooth film of 0.8 Sq, with a curve for each way."""
     surfaces = [
         AnswerCase(surface=name, contact="5.5 N", over=2.0, ratio=0.8) for name in SURFACES[: 1 if quick else None]

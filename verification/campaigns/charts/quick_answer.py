@@ -37,7 +37,7 @@ SOLVED = {True: 1, False: 5}  # contacts of a kind at rest that are solved for t
 LEAST = 1e-4  # error that is drawn, at least
 
 
-def cases(quick: bool) -> dict[str, tuple[str, str, bool]]:
+def cases(*, quick: bool) -> dict[str, tuple[str, str, bool]]:
     """Return a panel for each kind and motion."""
     return {f"{kind}, {words}": (kind, motion, quick) for motion, words in MOTIONS.items() for kind in KINDS}
 

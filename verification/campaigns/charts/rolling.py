@@ -20,7 +20,7 @@ WAYS = {"strip": "whole pass, economical steps", "tight": "whole pass, tight ste
 MODELS = {"load-sharing": "load sharing, calibrated", "paper": "load sharing, Eqs. (8), (9)"}
 
 
-def cases(quick: bool) -> dict[str, tuple[RollingContact, float, bool]]:
+def cases(*, quick: bool) -> dict[str, tuple[RollingContact, float, bool]]:
     """The contacts of the campaign that have a reference so far, with it."""
     known = {row["contact"]: row["reference"] for row in covered()}
     chosen = [contact for contact in contacts() if contact.name in known]

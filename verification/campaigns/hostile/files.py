@@ -112,7 +112,7 @@ def _by_hand() -> Iterator[HostileCase]:
         yield _case("map.x3p", what, content)
 
 
-def _case(name: str, what: str, content: bytes | None, may_pass: bool = False) -> HostileCase:
+def _case(name: str, what: str, content: bytes | None, *, may_pass: bool = False) -> HostileCase:
     def run(folder: Path) -> object:
         path = folder / name
         if content is not None:

@@ -44,7 +44,7 @@ def rough_map(draw: Draw) -> np.ndarray:
     return np.asarray(4e-8 * z)
 
 
-def lines_of(table: np.ndarray, separator: str, mark: str = "nan", comma: bool = False) -> str:
+def lines_of(table: np.ndarray, separator: str, mark: str = "nan", *, comma: bool = False) -> str:
     """Return a table as text; NaN as ``mark``."""
     rows = [separator.join(mark if np.isnan(value) else f"{value:.9e}" for value in row) for row in table]
     text = "\n".join(rows) + "\n"

@@ -89,6 +89,7 @@ def _couette(
     free: FloatArray,
     contact_load: float,
     speed: float,
+    *,
     hot: bool = True,
 ) -> float:
     """Couette force over the film per width [N/m], and upstream of it, where a film is as much thinned by its own heat

@@ -212,7 +212,7 @@ def verdict(prepared: Prepared, result) -> dict[str, float]:
             stated += BY_PIECES * result.uncertainty.sampling
             of_share = max(of_share, BY_PIECES * result.errors.contact_load * share)
         for closely in (False, True):  # cells that touch one by one: a secant of two balances may miss
-            (coefficient, open_), split = closed_again(judge, share, closely)
+            (coefficient, open_), split = closed_again(judge, share, closely=closely)
             allowed = stated * abs(result.coefficient) + open_ / ALLOWED["friction"]
             results["friction"] = abs(result.coefficient - coefficient) / allowed
             results["contact share"] = abs(share - split) / of_share
@@ -221,7 +221,7 @@ def verdict(prepared: Prepared, result) -> dict[str, float]:
     return {name: value / ALLOWED[name] for name, value in results.items()}
 
 
-def closed_again(judge: Judge, share: float, closely: bool = False) -> tuple[tuple[float, float], float]:
+def closed_again(judge: Judge, share: float, *, closely: bool = False) -> tuple[tuple[float, float], float]:
     """((f, its error), F_C/F_T) of the balance nearest to a contact that carries ``share`` of the load: from two
     divisions of the load or, ``closely``, by a bracketed root."""
     if share == 0:

@@ -29,7 +29,7 @@ STRIPS = 0.2  # of the scenes under a cylinder: strips cost as much as ten patch
 WARM = {"temperature": 350.0, "temperature_coefficient": 0.035}
 
 
-def random_scene(rng: np.random.Generator, any_material: bool = False) -> lubfric.Scene:
+def random_scene(rng: np.random.Generator, *, any_material: bool = False) -> lubfric.Scene:
     """A random scene; of steel bodies of one width or, with ``any_material``, of soft to hard ones, with steeper
     roughness and other tolerances.
 
@@ -67,7 +67,7 @@ def random_scene(rng: np.random.Generator, any_material: bool = False) -> lubfri
         of_body = body["e_prime"] * float(rng.uniform(0.005, 0.05)) if any_material else float(rng.uniform(1.5e9, 8e9))
         hardness = max(of_body, 1.6 * scene.bodies.mean_hertz_pressure)
         scene = scene.with_(bodies={"hardness": hardness})
-    return _rough(rng, scene, v["sq"], 0.2 if any_material else 0.05, flat)
+    return _rough(rng, scene, v["sq"], 0.2 if any_material else 0.05, flat=flat)
 
 
 def _drawn(rng: np.random.Generator, ranges) -> dict[str, float]:
@@ -90,7 +90,7 @@ def _lubricant(rng: np.random.Generator, v: dict[str, float]) -> dict[str, Any]:
     return common | numbers | law | (WARM if rng.random() < 0.3 else {})
 
 
-def _rough(rng: np.random.Generator, scene: lubfric.Scene, sq: float, steepest: float, flat: bool) -> lubfric.Scene:
+def _rough(rng: np.random.Generator, scene: lubfric.Scene, sq: float, steepest: float, *, flat: bool) -> lubfric.Scene:
     """``scene`` with a random map of ``sq`` [m], but at most ``steepest`` cells."""
     half_width = scene.bodies.half_width
     nx = int(rng.choice((28, 36, 48)))

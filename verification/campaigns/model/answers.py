@@ -122,7 +122,7 @@ def heights(kind: str, seed: int) -> np.ndarray:
     return z if kind == "plateau" else -z
 
 
-def cases(level: str, rollers: bool) -> dict[str, AnswerCase]:
+def cases(level: str, *, rollers: bool) -> dict[str, AnswerCase]:
     """The combinations of ``level`` by name, the same first ones at every level: the lighter contacts, or rollers."""
     contacts = [name for name in CONTACTS if (name == ROLLER) == rollers]
     kinds = list(itertools.product((*GENERATED, *MEASURED), contacts, (1.0, 2.0)))
@@ -161,11 +161,11 @@ def solved(case: AnswerCase, seed: int, numerics: dict) -> dict:
     return row | {"error": math.hypot(known.numerical, known.sampling), "seconds": time.process_time() - begun}
 
 
-def answers(level: str, run: Run = Run(), rollers: bool = False) -> Iterator[Item]:
+def answers(level: str, run: Run = Run(), *, rollers: bool = False) -> Iterator[Item]:
     """Every case by default, by load sharing alone, and by the reference: errors, intervals and coverage."""
     values = []
     failed = 0
-    for case, truth in run.solved(cases(level, rollers), reference, "references"):
+    for case, truth in run.solved(cases(level, rollers=rollers), reference, "references"):
         seeds = range(1, 2 if case.surface in MEASURED else 1 + SEEDS[level])
         for _, row in run.solved({f"{case}, {seed}": (case, seed) for seed in seeds}, answer, "answers"):
             failed += "failure" in row["default"]

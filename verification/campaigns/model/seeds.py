@@ -65,7 +65,9 @@ def seeds(level: str, run: Run = Run()) -> Iterator[Item]:
         name = f"{speed:g} m/s"
         stated = float(np.sqrt(np.mean((half / 1.96) ** 2)))
         needed = each.mean() * (one.std(ddof=1) / f.std(ddof=1)) ** 2
-        yield within(f"{name}: coverage", covered, f.size, (0.9, 1.0), "strips one by one", f.size > STRIPS["quick"])
+        yield within(
+            f"{name}: coverage", covered, f.size, (0.9, 1.0), "strips one by one", decides=f.size > STRIPS["quick"]
+        )
         open_ = np.hypot(error, f.std(ddof=1) / truth / np.sqrt(f.size))
         slack = BIAS + 2 * open_ + SECOND_ORDER * scatter**2
         cheaper = needed / seconds.mean()

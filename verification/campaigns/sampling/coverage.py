@@ -229,7 +229,7 @@ def checks(result: Result) -> Iterator[Item]:
     case = result.case
     n = len(result.rows)
     decides = float(result.column("few").mean()) <= 0.5
-    yield within(f"{case.name}: coverage", float(result.covered.mean()), n, case.bounds, ENDLESS, decides)
+    yield within(f"{case.name}: coverage", float(result.covered.mean()), n, case.bounds, ENDLESS, decides=decides)
     slack = RATIO + CHANCE / math.sqrt(2 * n)
     yield Check(
         f"{case.name}: reported over scatter",
@@ -244,7 +244,7 @@ def checks(result: Result) -> Iterator[Item]:
 
 
 def within(
-    name: str, measured: float, trials: int, bounds: tuple[float, float], source: str, decides: bool = True
+    name: str, measured: float, trials: int, bounds: tuple[float, float], source: str, *, decides: bool = True
 ) -> Check:
     """A check of a share of trials between two bounds, with what chance does to it."""
     low, high = bounds

@@ -26,7 +26,7 @@ def stability_map(level: str, name: str, run: Run = Run()) -> Iterator[Item]:
     """Check every cell of one map independently of the solver; then count and draw them."""
     from .draw import draw, table
 
-    cells = _map(name).cells(level == "quick")
+    cells = _map(name).cells(quick=level == "quick")
     values = []
     for _, row in run.solved({cell.name: cell for cell in cells}, partial(check_cell, name)):
         values.append(Check.from_dict(row))

@@ -87,13 +87,13 @@ def promised(M: float, L: float) -> bool:
     return 0.99e-3 <= M <= 1001 and L <= 20.01
 
 
-def cells(quick: bool) -> Iterator[Cell]:
+def cells(*, quick: bool) -> Iterator[Cell]:
     """All film cells."""
     for part in (load_and_material, speeds, tolerances, starts, starved):
-        yield from part(quick)
+        yield from part(quick=quick)
 
 
-def load_and_material(quick: bool) -> Iterator[Cell]:
+def load_and_material(*, quick: bool) -> Iterator[Cell]:
     """M by L for each law. Where the law is Roelands' at constant density, the paper's discretisation and Moes'
     formula are also tried; their reference is the default method with a tight tolerance."""
     loads = np.geomspace(1e-3, 1e3, 3) if quick else np.append(np.geomspace(1e-3, 1e3, 9), (3e3, 1e4))
@@ -113,7 +113,7 @@ def load_and_material(quick: bool) -> Iterator[Cell]:
                     )
 
 
-def speeds(quick: bool) -> Iterator[Cell]:
+def speeds(*, quick: bool) -> Iterator[Cell]:
     """The paper's steel cylinder at speeds from 1e-8 m/s, either way, by load."""
     for speed in np.geomspace(1e-8, 10, 3 if quick else 10).tolist():
         for load in np.geomspace(1e-2, 1e4, 2 if quick else 7).tolist():
@@ -133,7 +133,7 @@ def speeds(quick: bool) -> Iterator[Cell]:
             )
 
 
-def tolerances(quick: bool) -> Iterator[Cell]:
+def tolerances(*, quick: bool) -> Iterator[Cell]:
     """Tolerances from one tenth, where grids are far too coarse, to 1e-4. The error has to be within the tolerance."""
     few = ((1e-2, 5), (10, 10), (100, 20), (1000, 5))
     many: tuple[tuple[float, float], ...] = ((1e-3, 5), (1e-2, 5), (0.1, 10), (1, 0), (1, 10), (5, 5), (10, 10))
@@ -146,7 +146,7 @@ def tolerances(quick: bool) -> Iterator[Cell]:
             )
 
 
-def starts(quick: bool) -> Iterator[Cell]:
+def starts(*, quick: bool) -> Iterator[Cell]:
     """Solves that start from the solution of a contact that may be a million times lighter, or of another lubricant."""
     few = ((1e-2, 5), (10, 5), (1000, 20))
     many = ((1e-3, 0.5), (1e-2, 5), (0.1, 20), (1, 5), (5, 15), (20, 5), (100, 1), (100, 20), (1000, 5), (1000, 20))
@@ -156,7 +156,7 @@ def starts(quick: bool) -> Iterator[Cell]:
             yield Cell(map="film: poor start", panel="cases by M, L", x=column, y=row, problem=film, method="solve_ehl")
 
 
-def starved(quick: bool) -> Iterator[Cell]:
+def starved(*, quick: bool) -> Iterator[Cell]:
     """Lubricant that begins at a distance of the dry contact (in half-widths plus inlet lengths)."""
     for M in (0.1, 10, 1000) if quick else (1e-3, 1e-2, 0.1, 1, 3, 10, 30, 100, 300, 1000):
         for share in (0.5, 5) if quick else (0.3, 0.5, 1, 2, 5, 20):

@@ -69,7 +69,7 @@ def deviations(cell: Cell, solved: tuple) -> dict[str, float]:
     return verdict(*solved)
 
 
-def cells(quick: bool) -> Iterator[Cell]:
+def cells(*, quick: bool) -> Iterator[Cell]:
     """All load-sharing cells: film over roughness from 0.01 to 10 by roughness; nearly all film, nearly all contact, no
     entrainment and reversed entrainment; F_C/F_T from 1e-6 to 1 - 1e-6."""
     for name in ("flat", "paper"):

@@ -36,7 +36,7 @@ ALLOWED = {"load": 1e-3, "gap": 1e-3, "signs": 1e-6, "flow": 0.03}
 ACROSS = 48  # cells; on 24 the quadratures of the judge differ by 4 % from sums over cells at 1e5 N/m
 
 
-def cells(quick: bool) -> Iterator[Cell]:
+def cells(*, quick: bool) -> Iterator[Cell]:
     """All cells. Where the solver fails is shown: the model promises no range."""
     for sq in (1e-7,) if quick else (2.5e-8, 5e-8, 1e-7, 2e-7):
         for load in (1e4, 1e5) if quick else (1e3, 1e4, 1e5, 2e5, 3e5):

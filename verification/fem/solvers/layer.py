@@ -121,7 +121,7 @@ def make_layer(
     near = NEAR * (top - bottom)
     require(abs(top) <= near, f"the surface lies at z = {top}", "0")
     basis = Basis(mesh, ElementVector(ELEMENTS[degree]()), intorder=2 * degree)
-    spread = spread_matrix(basis, sides == "periodic")
+    spread = spread_matrix(basis, periodic=sides == "periodic")
     facets = mesh.facets_satisfying(lambda x: np.abs(x[1]) < near, boundaries_only=True)
     weights = LinearForm(lambda v, w: v[1]).assemble(basis.boundary(facets))
     vertical = basis.get_dofs(facets).all("u^2")
@@ -141,7 +141,7 @@ def make_layer(
     )
 
 
-def spread_matrix(basis: Basis, periodic: bool) -> sp.csc_matrix:
+def spread_matrix(basis: Basis, *, periodic: bool) -> sp.csc_matrix:
     """(dofs, unknowns) with a 1 where a degree of freedom follows an unknown; rows of the base are empty."""
     x, z = basis.doflocs
     near = NEAR * np.ptp(z)

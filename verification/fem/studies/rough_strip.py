@@ -108,7 +108,7 @@ def rough_strip(level: str) -> Iterator[Item]:
             name = f"{load:g} N/m, {'moving' if moving else 'at rest'}"
             cells = MOVING_CELLS[level] if moving else CELLS[level]
             grids = tuple(dict.fromkeys(GRIDS[level]))[: 1 if moving and level == "default" and load != LOADS[0] else 2]
-            ours, elements = both_programs(case, cells, grids, moving, bodies)
+            ours, elements = both_programs(case, cells, grids, moving=moving, bodies=bodies)
             yield from judged_films(name, case, ours[-1], elements[-1], ALLOWED)
             rows += rows_of(name, case, cells, ours, grids, elements)
             if not moving:
@@ -125,15 +125,16 @@ def both_programs(
     case: StripCase,
     cells: tuple[int, ...],
     grids: tuple[tuple[int, int], ...],
+    *,
     moving: bool,
     bodies: dict[tuple[int, int], Discretisation],
 ) -> tuple[list[list[Fields]], list[list[Fields]]]:
     """The films of lubfric with each number of ``cells`` in a half-width, and those of finite elements on each of the
     ``grids``. ``bodies`` keeps the elastic body of each grid."""
-    ours = [own_films(case, count, moving) for count in cells]
+    ours = [own_films(case, count, moving=moving) for count in cells]
     elements = []
     for grid in grids:
-        films, bodies[grid] = element_films(case, grid, moving, bodies.get(grid))
+        films, bodies[grid] = element_films(case, grid, moving=moving, like=bodies.get(grid))
         elements.append(films)
     return ours, elements
 
@@ -178,7 +179,7 @@ def surface_of(b: float, pace: float = 0.0, sq: float = SQ) -> Heights:
 
 
 def element_films(
-    case: StripCase, cells: tuple[int, int], moving: bool, like: Discretisation | None
+    case: StripCase, cells: tuple[int, int], *, moving: bool, like: Discretisation | None
 ) -> tuple[list[Fields], Discretisation]:
     """The films by finite elements: one at rest, or the `MOMENTS` of a period."""
     contact = case.contact
@@ -219,7 +220,7 @@ def fields_of(film: RoughStripFilm) -> Fields:
     return Fields(x=film.problem.x, y=film.problem.y, pressure=film.pressure, gap=film.gap, flow=film.flow)
 
 
-def own_films(case: StripCase, cells: int, moving: bool) -> list[Fields]:
+def own_films(case: StripCase, cells: int, *, moving: bool) -> list[Fields]:
     """The films of the deterministic model with so many ``cells`` in a half-width."""
     line = line_contact(case.given)
     b = line.half_width

@@ -44,7 +44,7 @@ def touching_strip(level: str) -> Iterator[Item]:
             name = f"{case.load:g} N/m, {'moving' if moving else 'at rest'}"
             cells = MOVING_CELLS[level] if moving else CELLS[level]
             grids = MOVING_GRIDS[level] if moving else GRIDS[level]
-            ours, elements = both_programs(case, cells, grids, moving, bodies)
+            ours, elements = both_programs(case, cells, grids, moving=moving, bodies=bodies)
             yield from judged_films(name, case, ours[-1], elements[-1], ALLOWED)
             rows += rows_of(name, case, cells, ours, grids, elements)
             if not moving:
