@@ -25,6 +25,35 @@ GRADES = {
 }
 
 
+@dataclass(frozen=True, kw_only=True)
+class ListedDeviation:
+    """A deviation that is known: its check does not pass, and the run does not fail by it.
+
+    cause : who deviates, one of `CAUSES`
+    reason : why, as a sentence for the report
+    low, high : band of the measured value, in the unit of its check; outside it the check fails
+    """
+
+    cause: str
+    reason: str
+    low: float
+    high: float
+
+    def __post_init__(self) -> None:
+        if self.cause not in CAUSES:
+            raise ValueError(f"cause = {self.cause!r}; allowed: {', '.join(CAUSES)}")
+        if not self.reason.strip() or not (math.isfinite(self.low) and math.isfinite(self.high)):
+            raise ValueError(f"a listed deviation needs a reason and a finite band: {self}")
+        if not self.low <= self.high:
+            raise ValueError(f"low = {self.low}, high = {self.high}; allowed: low <= high")
+
+
+def listed_near(value: float, cause: str, reason: str, within: float = 0.01) -> ListedDeviation:
+    """Return the listed deviation whose measured value is ``value`` within a fraction ``within`` of it."""
+    half = abs(within * value)
+    return ListedDeviation(cause=cause, reason=reason, low=value - half, high=value + half)
+
+
 @dataclass(frozen=True)
 class Check:
     """One measured number and the number that it is compared with. All commands use this record.
@@ -44,9 +73,9 @@ class Check:
     decisive : False for a check that is only shown; it may fail without the run failing
     refused : message of the method where it gave no number; the number is NaN then
     at : where it was measured (axes of a map, setting and cost of a method, seed of a scene), by name
-    grade : origin of the expected value, one of `GRADES`; "": that of its study errors : compared with a publication,
-        the 95 % bounds of the measured and of the published value, in ``unit`` cause : compared with a publication,
-        the cause where both differ by more than the errors, one of `CAUSES`
+    grade : origin of the expected value, one of `GRADES`; "": that of its study
+    errors : compared with a publication, the 95 % bounds of the measured and of the published value, in ``unit``
+    listed : the deviation that is known here, with its reason; the run does not fail while it stays in its band
 
     Raises
     ------
@@ -69,7 +98,7 @@ class Check:
     at: Mapping[str, Any] = field(default_factory=dict)
     grade: str = ""
     errors: Sequence[float] = ()
-    cause: str = ""
+    listed: ListedDeviation | None = None
 
     def __post_init__(self) -> None:
         for key in ("measured", "expected", "tolerance"):
@@ -79,8 +108,6 @@ class Check:
             wrong = f"kind = {self.kind!r}; allowed: {', '.join(KINDS)}"
         elif self.grade and self.grade not in GRADES:
             wrong = f"grade = {self.grade!r}; allowed: {', '.join(GRADES)}"
-        elif self.cause and self.cause not in CAUSES:
-            wrong = f"cause = {self.cause!r}; allowed: {', '.join(CAUSES)}"
         elif not self.name.strip() or not self.source.strip():
             wrong = "a name and a source are needed"
         elif not (math.isfinite(self.expected) and math.isfinite(self.tolerance) and self.tolerance >= 0):
@@ -113,13 +140,28 @@ class Check:
         return self.deviation / self.tolerance if self.tolerance else (math.inf if self.deviation else 0.0)
 
     @property
+    def deviates_as_listed(self) -> bool:
+        """Whether the check does not pass, and its value is in the band of the deviation that is listed for it."""
+        listed = self.listed
+        return listed is not None and not self.passed and listed.low <= self.measured <= listed.high
+
+    @property
+    def no_longer_deviates(self) -> bool:
+        """Whether the check passes although a deviation is listed for it: the list is out of date."""
+        return self.listed is not None and self.passed
+
+    @property
     def failed(self) -> bool:
         """Whether the run fails by this check."""
-        return self.decisive and not self.passed
+        return self.decisive and not self.passed and not self.deviates_as_listed
 
     def as_dict(self) -> dict:
         """Plain types only, with the verdict."""
-        return asdict(self) | {"deviation": self.deviation, "passed": self.passed}
+        return asdict(self) | {
+            "deviation": self.deviation,
+            "passed": self.passed,
+            "deviates_as_listed": self.deviates_as_listed,
+        }
 
     @classmethod
     def from_dict(cls, values: dict) -> Check:
@@ -127,6 +169,8 @@ class Check:
         known = {f.name: values[f.name] for f in fields(cls) if f.name in values}
         for name in ("measured", "expected", "tolerance"):
             known[name] = math.nan if known[name] is None else known[name]
+        if known.get("listed"):
+            known["listed"] = ListedDeviation(**known["listed"])
         return cls(**known)
 
 
@@ -216,7 +260,7 @@ def beside(
     source: str,
     unit: str = "1",
     note: str = "",
-    cause: str = "",
+    listed: ListedDeviation | None = None,
 ) -> Check:
     """Compare a value of lubfric with a published one. The check passes when they differ by no more than the root of
     the sum of the squares of both ``errors`` (lubfric, published; 95 % bounds in ``unit``). Its grade is A."""
@@ -232,7 +276,7 @@ def beside(
         note=note,
         grade="A",
         errors=errors,
-        cause=cause,
+        listed=listed,
     )
 
 

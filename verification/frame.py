@@ -201,4 +201,5 @@ def tell_study(study: Study, names: tuple[str, ...]) -> None:
 
 def tell_check(check: Check) -> None:
     """Say on stderr how a check ended, as it comes in."""
-    print(f"    {'FAIL' if check.failed else 'ok  '} {check.name}", file=sys.stderr, flush=True)
+    word = "FAIL" if check.failed else "list" if check.deviates_as_listed else "ok  "
+    print(f"    {word} {check.name}", file=sys.stderr, flush=True)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from .check import Check, Figure, Table
 from .run import Outcome
-from .wording import allowed, by_grade, listed, number, seconds
+from .wording import allowed, by_grade, listed, number, remark, seconds
 
 if TYPE_CHECKING:
     from .report import Report
@@ -37,6 +37,9 @@ def render(report: Report) -> str:
     ]
     if failed:
         parts.append("<h2>What failed</h2>" + checks_table([c for _, c in failed]))
+    deviating = [c for c in report.checks if c.listed]
+    if deviating:
+        parts.append("<h2>Listed deviations</h2>" + deviations_table(deviating))
     parts += [section(o) for o in report.outcomes]
     return "\n".join([*parts, "</body></html>\n"])
 
@@ -52,11 +55,12 @@ def overview(report: Report) -> str:
         o = done[name]
         decisive = [c for c in o.checks if c.decisive]
         ok = sum(c.passed for c in decisive)
+        listed_ones = sum(c.deviates_as_listed for c in decisive)
         rows.append(
             (
                 f'<a href="#{escape(name)}">{escape(o.study.title)}</a>',
                 mark(passed=o.passed),
-                f"{ok} of {len(decisive)}",
+                f"{ok} of {len(decisive)}" + (f", {listed_ones} listed" if listed_ones else ""),
                 by_grade(o.checks),
                 seconds(o.seconds),
             )
@@ -97,7 +101,7 @@ def checks_table(checks: list[Check] | tuple[Check, ...]) -> str:
         return note
     rows = [
         (
-            mark(passed=c.passed) if c.decisive else "shown",
+            verdict_of(c) if c.decisive else "shown",
             escape(c.grade),
             escape(c.name),
             escape(number(c.measured) + ("" if c.unit == "1" else f" {c.unit}")),
@@ -108,6 +112,15 @@ def checks_table(checks: list[Check] | tuple[Check, ...]) -> str:
         for c in others
     ]
     return note + html_table(("Verdict", "Grade", "Check", "Measured", "Allowed", "Source", "Time"), rows)
+
+
+def deviations_table(checks: list[Check]) -> str:
+    """Return the table of the checks for which a deviation is listed, with cause and reason."""
+    rows = [
+        (verdict_of(c), escape(c.name), escape(number(c.measured)), escape(allowed(c)), escape(remark(c)))
+        for c in checks
+    ]
+    return html_table(("Verdict", "Check", "Measured", "Allowed", "Reason"), rows)
 
 
 def beside_table(checks: list[Check]) -> str:
@@ -121,7 +134,7 @@ def beside_table(checks: list[Check]) -> str:
         source = c.source + (f". {c.note}" if c.note else "")
         rows.append(
             (
-                mark(passed=c.passed),
+                verdict_of(c),
                 escape(c.name),
                 escape(published),
                 escape(value),
@@ -165,6 +178,11 @@ def figure(item: Figure) -> str:
         f'<figure><img alt="{escape(item.caption)}" src="data:{kind};base64,{data}">'
         f"<figcaption>{escape(item.caption)}</figcaption></figure>"
     )
+
+
+def verdict_of(check: Check) -> str:
+    """The verdict of a check as a word."""
+    return "listed" if check.deviates_as_listed else mark(passed=check.passed)
 
 
 def mark(*, passed: bool) -> str:

@@ -13,7 +13,7 @@ from . import page
 from .check import Check, Table
 from .meshes import write_vtu
 from .run import Outcome, explain, raised
-from .wording import allowed, by_grade, listed, mark, number, seconds
+from .wording import allowed, by_grade, listed, mark, number, remark, seconds
 
 FORMAT = "lubfric-verification-1"
 PACKAGES = ("lubfric", "numpy", "scipy", "scikit-fem", "meshio", "pyamg", "matplotlib")
@@ -51,11 +51,14 @@ class Report:
 
     @property
     def verdict(self) -> str:
-        """PASSED, FAILED or UNFINISHED, and the count."""
+        """PASSED, FAILED or UNFINISHED, and the counts."""
         decisive = [c for c in self.checks if c.decisive]
         failed = sum(c.failed for c in decisive)
+        deviating = sum(c.deviates_as_listed for c in decisive)
         word = "PASSED" if self.passed else "FAILED" if failed or self.complete else "UNFINISHED"
-        text = f"{word}: {len(decisive) - failed} of {len(decisive)} checks passed"
+        text = f"{word}: {len(decisive) - failed - deviating} of {len(decisive)} checks passed"
+        if deviating:
+            text += f", {failed} failed, {deviating} listed deviation{'s' if deviating > 1 else ''}"
         if not self.complete:
             text += f"; only {len(self.outcomes)} of {len(self.selected)} studies finished"
         return f"{text}; by grade: {by_grade(self.checks)}" if decisive else text
@@ -147,7 +150,9 @@ def save(report: Report, out: Path) -> Path:
 
 
 def terminal_table(report: Report) -> str:
-    """The checks as text, one line each, with the reason below those that failed. Of very many only the failed ones."""
+    """The checks as text, one line each, with the reason below those that failed or deviate. Of very many only these.
+
+    Those that failed or deviate stand once more at the end, where a person looks first."""
     lines = []
     for outcome in report.outcomes:
         lines += [f"{outcome.study.name}: {outcome.study.title} ({seconds(outcome.seconds)})"]
@@ -161,5 +166,20 @@ def terminal_table(report: Report) -> str:
                 f"  {mark(c)} {c.name:<{min(width, 60)}}  "
                 f"{number(c.measured):>12}{unit}  ({allowed(c)})  {seconds(c.seconds)}".rstrip()
             ]
-            lines += [] if not c.failed else [f"       source: {c.source}{'; ' + c.note if c.note else ''}"]
-    return "\n".join([*lines, "", report.verdict])
+            lines += [f"       {remark(c)}"] if remark(c) else []
+    return "\n".join([*lines, "", *remarkable(report), report.verdict])
+
+
+def remarkable(report: Report) -> list[str]:
+    """Return the lines that repeat the checks that failed or have a listed deviation, with the reasons."""
+    groups = {
+        "Failed": [c for c in report.checks if c.failed],
+        "Listed deviations": [c for c in report.checks if c.deviates_as_listed],
+        "Listed deviations that no longer exist": [c for c in report.checks if c.no_longer_deviates],
+    }
+    lines = []
+    for title, checks in groups.items():
+        if checks:
+            lines += [f"{title}:"]
+            lines += [f"  {c.name}: {number(c.measured)} ({allowed(c)}). {remark(c)}" for c in checks]
+    return lines

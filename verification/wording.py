@@ -19,12 +19,27 @@ def mark(check: Check) -> str:
     """The verdict in four letters: what decides nothing, or has nothing to be, is neither right nor wrong."""
     if check.failed:
         return "FAIL"
+    if check.deviates_as_listed:
+        return "list"
     return "ok  " if check.decisive and check.kind != REPORTED else "-   "
 
 
 def listed(checks: tuple[Check, ...]) -> tuple[Check, ...]:
-    """Return the checks that a person reads: all of a few; of very many those that failed (report.json has them all)."""
-    return checks if len(checks) <= MANY else tuple(c for c in checks if c.failed)
+    """Return the checks that a person reads: all of a few; of very many those that failed or deviate (report.json has
+    them all)."""
+    return checks if len(checks) <= MANY else tuple(c for c in checks if c.failed or c.listed)
+
+
+def remark(check: Check) -> str:
+    """Return what a person has to know of a check that fails, or that has a listed deviation; else an empty text."""
+    listed = check.listed
+    if listed is None:
+        return f"source: {check.source}{'; ' + check.note if check.note else ''}" if check.failed else ""
+    band = f"{number(listed.low)} to {number(listed.high)}"
+    if check.no_longer_deviates:
+        return f"agrees now; the list has a deviation of {band} ({listed.cause}): remove it from the list"
+    words = f"{listed.reason} (cause: {listed.cause}; listed for values of {band})"
+    return words if check.deviates_as_listed else f"outside the band of its listed deviation: {words}"
 
 
 def allowed(check: Check) -> str:

@@ -7,7 +7,7 @@ import pytest
 
 from verification.__main__ import main
 from verification.catalogue import PUBLISHED, STUDIES, Study
-from verification.check import Check, beside
+from verification.check import Check, beside, listed_near
 from verification.fem import references
 from verification.fem.published import against
 from verification.fem.published.cavitation import Pad
@@ -19,9 +19,9 @@ def test_both_errors_are_summed_by_squares_and_the_deviation_is_told_in_them():
     assert one.grade == "A" and one.units == pytest.approx(1.0) and one.tolerance == pytest.approx(0.1)
     assert not beside("f", 1.11, 1.00, (0.06, 0.08), "somebody").passed
     with pytest.raises(ValueError, match="cause = 'mine'"):
-        beside("f", 1.0, 1.0, (0.1, 0.1), "somebody", cause="mine")
-    named = against("grubin", "film", 2.0, 2.5, 0.01, cause="theirs")
-    assert named.cause == "theirs"
+        listed_near(1.0, "mine", "a reason")
+    named = against("grubin", "film", 2.0, 2.5, 0.01, listed=listed_near(2.0, "theirs", "a dry inlet"))
+    assert named.deviates_as_listed and not named.failed
     assert named.errors == pytest.approx((0.02, 0.125)) and "A. N. Grubin" in named.source
 
 
@@ -53,9 +53,18 @@ def test_one_that_differs_ends_with_1_and_is_listed(tmp_path, monkeypatch, capsy
     monkeypatch.setattr(references, "FLASH_HERTZ", 1.2)
     assert main(["published", "--only", "heat", "--out", str(tmp_path)]) == 1
     out = capsys.readouterr().out
-    assert "1 of 12 differ by more than both errors; cause: unknown 1." in out
     assert "0 of 12 have bounds wider than 25%" in out
-    assert "flash temperature, Hertz band: lubfric 1.111, published 1.2" in out
+    assert "Failed:\n  flash temperature, Hertz band: 1.11" in out and "1.2 ± " in out
+
+
+def test_the_patch_of_xu_et_al_has_their_elastic_energy():
+    """Full contact is linear, so a wave stores E* q |h|²/4; another size of patch has another energy."""
+    solved = {patch: references.self_affine_full_contact(patch) for patch in (4, 8, 16, 32)}
+    assert min(solved, key=lambda patch: abs(solved[patch][1] - references.SELF_AFFINE_ENERGY)) == 16
+    slope, energy = solved[references.SELF_AFFINE_PATCH]
+    assert slope == pytest.approx(0.27513, abs=1e-5) and energy == pytest.approx(
+        references.SELF_AFFINE_ENERGY, rel=5e-5
+    )
 
 
 def test_what_the_plain_command_has_of_the_publications_is_a_part_of_them():

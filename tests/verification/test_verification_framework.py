@@ -4,6 +4,7 @@ import json
 import math
 import sys
 import types
+from dataclasses import replace
 from html.parser import HTMLParser
 
 import numpy as np
@@ -12,7 +13,7 @@ import pytest
 from verification import __main__ as command
 from verification import plotting
 from verification.catalogue import STUDIES, Study
-from verification.check import ABSOLUTE, AT_LEAST, AT_MOST, KINDS, RELATIVE, Check, Field, Table
+from verification.check import ABSOLUTE, AT_LEAST, AT_MOST, KINDS, RELATIVE, Check, Field, ListedDeviation, Table
 from verification.fem.convergence import fitted_order
 from verification.fem.solvers.report import SolveError
 
@@ -139,6 +140,50 @@ def test_a_failing_check_is_exit_code_1(run):
     assert code == 1 and not data["passed"]
     assert "FAILED: 1 of 2 checks passed" in out and "What failed" in html
     assert [s["passed"] for s in data["studies"]] == [True, False]
+
+
+BAND = ListedDeviation(cause="theirs", reason="their inlet is dry", low=1.9, high=2.1)
+
+
+@pytest.mark.parametrize(
+    ("measured", "code", "verdict", "words"),
+    [
+        (
+            2.0,
+            0,
+            "PASSED: 1 of 2 checks passed, 0 failed, 1 listed deviation;",
+            "their inlet is dry (cause: theirs; listed",
+        ),
+        (2.2, 1, "FAILED: 1 of 2 checks passed", "outside the band of its listed deviation: their inlet is dry"),
+        (math.nan, 1, "FAILED: 1 of 2 checks passed", "outside the band of its listed deviation"),
+        (1.0, 0, "PASSED: 2 of 2 checks passed", "remove it from the list"),
+    ],
+)
+def test_a_listed_deviation_is_shown_and_counted_and_fails_outside_its_band(run, measured, code, verdict, words):
+    def deviating(level):
+        yield Check("film", measured, expected=1.0, tolerance=0.1, source="a book", listed=BAND)
+
+    ended, data, html, out, _ = run(good, deviating)
+    assert ended == code and data["passed"] == (code == 0)
+    assert verdict in out and words in out and words in " ".join(Page(html).words)
+    assert "Listed deviations" in html and ("What failed" in html) == (code == 1)
+    (stored,) = data["studies"][1]["checks"]
+    again = Check.from_dict(stored)
+    assert again.listed == BAND and again.deviates_as_listed == (measured == 2.0) == stored["deviates_as_listed"]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"cause": "nobody"}, "cause = 'nobody'"),
+        ({"reason": " "}, "a reason"),
+        ({"low": math.nan}, "finite"),
+        ({"low": 3}, "low <= high"),
+    ],
+)
+def test_a_deviation_without_cause_reason_or_band_is_refused(wrong, message):
+    with pytest.raises(ValueError, match=message):
+        replace(BAND, **wrong)
 
 
 @pytest.mark.parametrize(

@@ -137,7 +137,14 @@ def differing() -> Cells:
             ours, theirs = check.errors
             name = check.name if check.unit == "1" else f"{check.name}, in {check.unit}"
             values = (f"{check.expected:.4g} ± {theirs:.2g}", f"{check.measured:.4g} ± {ours:.2g}")
-            rows.append([name, *values, check.cause or "unknown", f"{authors(sources[source])}: {len(checks)}"])
+            rows.append(
+                [
+                    name,
+                    *values,
+                    check.listed.cause if check.listed else "unknown",
+                    f"{authors(sources[source])}: {len(checks)}",
+                ]
+            )
     return ["quantity", "published", "lubfric", "cause", "publication: values that differ"], rows
 
 

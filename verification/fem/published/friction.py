@@ -11,7 +11,7 @@ from lubfric.film import ShearForce, shear_force
 from lubfric.oil import Lubricant
 
 from ... import plotting
-from ...check import Check, Figure, Item
+from ...check import Check, Figure, Item, listed_near
 from .. import references
 from ..parts import ALPHA, E_PRIME, RADIUS, VISCOSITY
 from . import against
@@ -33,6 +33,20 @@ FVA_3: dict[str, Any] = {  # at 50 °C: 0.0525 Pa s and 20 /GPa of Wingertszahn 
 WIDE = (
     "the published fit neglects a dependence on M and L ('few per cents'); finite elements confirm lubfric (study ehl)"
 )
+# rolling torque of lubfric [p_h b²/M^1.5] where it differs from the fit, by M and L
+TORQUES_DIFFER: dict[tuple[float, float], float] = {
+    (2, 4): 1.596,
+    (5, 4): 1.706,
+    (10, 4): 1.722,
+    (30, 4): 1.676,
+    (100, 4): 1.571,
+    (5, 8): 1.593,
+    (10, 8): 1.603,
+    (30, 8): 1.568,
+    (5, 12): 1.530,
+    (10, 12): 1.547,
+    (30, 12): 1.523,
+}
 
 
 def friction(level: str) -> Iterator[Item]:
@@ -45,7 +59,8 @@ def friction(level: str) -> Iterator[Item]:
     rolled: dict[tuple[float, float], tuple[float, float]] = {(m, l): rolling(m, l) for l in OILS for m in LOADS}
     for (m, l), (ours, error) in rolled.items():
         name = f"rolling torque, M = {m}, L = {l}"
-        yield against("biboulet", name, ours, references.rolling_torque(m), error, "p_h b²/M^1.5", WIDE, cause="theirs")
+        listed = listed_near(TORQUES_DIFFER[m, l], "theirs", WIDE) if (m, l) in TORQUES_DIFFER else None
+        yield against("biboulet", name, ours, references.rolling_torque(m), error, "p_h b²/M^1.5", WIDE, listed=listed)
     for m, l, where in STARVED:
         ours, s, error = starved(m, l, where)
         name = f"rolling torque over the flooded one, M = {m}, L = {l}, inlet at {s:.0f} smallest films"
@@ -88,7 +103,7 @@ def bearing() -> Iterator[Item]:
         middle = (short + long) / 2
         name = f"torque of bearing 32216, {rpm} rpm"
         note = "inlets of 0.2 to 0.3 mm; flooded ones give two to three times the torque"
-        yield against("bearing", name, middle, theirs, abs(long - short) / 2 / middle, "N m", note, cause="both")
+        yield against("bearing", name, middle, theirs, abs(long - short) / 2 / middle, "N m", note)
 
 
 def force(solution: lubfric.EHLResult, oil: Lubricant, ratio: float) -> ShearForce:
