@@ -1,11 +1,14 @@
 """Observed orders of convergence: measured, checked and drawn."""
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq
 
+from ..arrays import FloatArray
 from ..check import ABSOLUTE, Check, Figure, Item
 from ..plotting import axes, finish
 
@@ -20,6 +23,24 @@ def fitted_order(sizes: Any, errors: Any) -> float:
         if a.ndim != 1 or a.size < 2 or not np.all(np.isfinite(a) & (a > 0)):
             raise ValueError(f"{name} = {a}; an order needs at least two finite values > 0")
     return float(np.polyfit(np.log(sizes), np.log(errors), 1)[0])
+
+
+def order_of_three(sizes: Sequence[float], values: Sequence[float]) -> float:
+    """Return the order p of values v + c h^p on three meshes of ever smaller cells h; NaN unless .2 < p < 6."""
+    (coarse, middle, fine) = (float(value) for value in values)
+
+    def mismatch(order: float) -> float:
+        ratio = (sizes[0] ** order - sizes[1] ** order) / (sizes[1] ** order - sizes[2] ** order)
+        return ratio - (coarse - middle) / (middle - fine)
+
+    low = 0.2
+    high = 6.0
+    return brentq(mismatch, low, high) if mismatch(low) * mismatch(high) < 0 else math.nan
+
+
+def extrapolated_by(order: float, sizes: Sequence[float], values: Sequence[FloatArray | float]) -> Any:
+    """Return the value at no cell size of the last two ``values``, whose error falls with ``order`` of the cell."""
+    return values[-1] + (values[-1] - values[-2]) / ((sizes[-2] / sizes[-1]) ** order - 1)
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 The strip is a steel roller with Roelands' oil whose inlet begins at a stated place, under a surface of a few waves
 each way, 2 by 1 Hertz half-widths in period. `lubfric.models.deterministic` solves it on cells (finite volumes,
 half-space by Fourier transforms), `solvers.rough_ehl` on bilinear elements over an elastic body of finite elements.
-They have only the case in common. Both are solved on two grids; the change between the grids is the error of each.
+They have only the case in common. Both are solved on two or three grids; the change between them is the error of each.
 """
 
 import math
@@ -19,6 +19,7 @@ from lubfric.models.deterministic import Problem, lay_out, moments, solve_point
 from lubfric.surface import Surface
 
 from ...check import ABSOLUTE, Check, Field, Item, Table
+from ..convergence import extrapolated_by, order_of_three
 from ..parts import line_contact
 from ..solvers.ehl import LineContact
 from ..solvers.rough_ehl import Discretisation, RoughLine, RoughStripFilm, march, solve_rough
@@ -42,6 +43,12 @@ GRIDS = {"quick": ((64, 8), (96, 12)), "default": ((64, 8), (96, 12)), "full": (
 # cells of lubfric in a half-width: at rest (a fraction of a second), and moving
 CELLS = {"quick": (32, 64), "default": (32, 64), "full": (48, 96)}
 MOVING_CELLS = {"default": (24, 36), "full": (32, 48)}
+# three grids of each program for the mesh study: the first load at rest
+STUDY_GRIDS = ((64, 8), (96, 12), (128, 16))
+STUDY_CELLS = (32, 64, 128)
+ORDER = 2.0  # of bilinear elements, and of the cells of lubfric
+ALLOWED_ORDER = 0.4
+ALLOWED_LIMIT = 0.002  # of the flow, both extrapolated to no cells: they differ by 1e-4
 SWEEP = 3.0  # half-widths that the film travels before a moving surface counts
 MOMENTS = 8  # of a period that are compared
 NEAR = 0.8  # half-widths: where fields are compared
@@ -96,7 +103,8 @@ def rough_strip(level: str) -> Iterator[Item]:
 
     Two loads, roughness of two waves each way (Sq 50 nm) at rest, then moving at 0.75 U (slide-roll ratio 0.5), where
     the gap and pressure of eight moments of a period are compared. Each program is solved on two grids, and the check
-    takes the finer of both; the table has all.
+    takes the finer of both; the table has all. The first load at rest is solved on three, with the order of the flow of
+    each program, and both flows extrapolated to no cells.
     """
     rows: list[tuple] = []
     bodies: dict[tuple[int, int], Discretisation] = {}
@@ -106,16 +114,51 @@ def rough_strip(level: str) -> Iterator[Item]:
             if level == "quick" and (moving or load != LOADS[0]):
                 continue
             name = f"{load:g} N/m, {'moving' if moving else 'at rest'}"
-            cells = MOVING_CELLS[level] if moving else CELLS[level]
-            grids = tuple(dict.fromkeys(GRIDS[level]))[: 1 if moving and level == "default" and load != LOADS[0] else 2]
+            study = level != "quick" and not moving and load == LOADS[0]
+            cells = MOVING_CELLS[level] if moving else STUDY_CELLS if study else CELLS[level]
+            grids: tuple[tuple[int, int], ...] = STUDY_GRIDS if study else GRIDS[level]
+            if moving and level == "default" and load != LOADS[0]:
+                grids = grids[:1]
             ours, elements = both_programs(case, cells, grids, moving=moving, bodies=bodies)
             yield from judged_films(name, case, ours[-1], elements[-1], ALLOWED)
+            if study:
+                yield from mesh_study(name, cells, ours, grids, elements)
             rows += rows_of(name, case, cells, ours, grids, elements)
             if not moving:
                 picture = f"rough_strip_{load:.0f}"
                 yield picture_field(picture, f"the rough strip at {load:g} N/m", case, ours[-1][0], elements[-1][0])
     caption = "One strip by both programs and on two grids each: means over |x| < 0.8 b, and over the moments compared"
     yield Table("rough-strip", caption, ("case", "by", "cells in b", *QUANTITIES), rows)
+
+
+def mesh_study(
+    name: str,
+    cells: tuple[int, ...],
+    ours: list[list[Fields]],
+    grids: tuple[tuple[int, int], ...],
+    elements: list[list[Fields]],
+) -> Iterator[Item]:
+    """The order in which the flow of each program converges, and both flows extrapolated to no cells."""
+    limits = []
+    for by, sizes, solutions in (
+        ("lubfric", [1 / count for count in cells], ours),
+        ("elements", [1 / (grid[0] - 1) for grid in grids], elements),
+    ):
+        flows = [films[0].flow for films in solutions]
+        order = order_of_three(sizes, flows)
+        source = "second order of cells and bilinear elements"
+        yield Check(
+            f"{name}: order of the flow by {by}",
+            order,
+            expected=ORDER,
+            tolerance=ALLOWED_ORDER,
+            source=source,
+            kind=ABSOLUTE,
+            grade="B",
+        )
+        limits.append(extrapolated_by(ORDER, sizes, flows))
+    mine, theirs = limits
+    yield Check(f"{name}: flow without cells", mine, expected=theirs, tolerance=ALLOWED_LIMIT, source=SOURCE)
 
 
 QUANTITIES = ("mean gap (m)", "smallest gap (m)", "flow (m²/s)", "viscous force (N/m per m/s)")

@@ -14,6 +14,7 @@ from scipy.optimize import brentq
 import lubfric
 
 from ...check import AT_LEAST, Check, Item, Table
+from ..convergence import extrapolated_by, order_of_three
 from ..solvers.ehl import LineContact
 from ..solvers.rough_ehl import Discretisation, RoughLine, RoughStripFilm, solve_rough
 
@@ -123,9 +124,7 @@ def films_of(film: RoughStripFilm) -> np.ndarray:
 
 def extrapolated(films: list[RoughStripFilm], grids: tuple[int, ...]) -> np.ndarray:
     """The three films [m] of the finest two grids, extrapolated."""
-    coarse, fine = (films_of(film) for film in films[-2:])
-    ratio = (grids[-1] - 1) / (grids[-2] - 1)
-    return fine + (fine - coarse) / (ratio**ORDER - 1)
+    return extrapolated_by(ORDER, [1 / (n - 1) for n in grids], [films_of(film) for film in films])
 
 
 def compared(
@@ -142,14 +141,7 @@ def compared(
 
 def order_of(films: list[RoughStripFilm], grids: tuple[int, ...]) -> Check:
     """The order in which the flow of three grids converges."""
-    flows = [film.flow for film in films]
-    sizes = [1 / (n - 1) for n in grids]
-
-    def mismatch(order: float) -> float:
-        ratio = (sizes[0] ** order - sizes[1] ** order) / (sizes[1] ** order - sizes[2] ** order)
-        return ratio - (flows[0] - flows[1]) / (flows[1] - flows[2])
-
-    order = brentq(mismatch, 0.2, 6.0) if mismatch(0.2) * mismatch(6.0) < 0 else float("nan")
+    order = order_of_three([1 / (n - 1) for n in grids], [film.flow for film in films])
     source = "bilinear elements: second order"
     return Check(
         "order of the flow in the cell of the elements",
