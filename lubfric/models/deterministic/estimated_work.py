@@ -7,7 +7,7 @@ from ...samples import Sample
 from ...scene import FRICTION, Scene, gap_not_resolved, moves
 from ...surface import Surface
 from ..contract import WorkEstimate
-from ..shared import ORDER, SAFETY, smooth_over_cells, student
+from ..shared import ORDER, SAFETY, peak_hertz_pressure, smooth_over_cells, student
 from .counted_work import work_of_steps
 from .levels import DIFFERENCE
 from .problem import reach
@@ -31,6 +31,15 @@ AGAIN = 4
 # Factor on the work at rest where the heights are not smooth over a cell: cells a quarter as long, and more steps on all
 # (3 to 5 in four of five points of `python -m verification.campaigns.estimates`).
 ROUGH = 3.5
+
+# Factor on the work at rest where the bodies are soft (`_is_soft`): Newton's method does not converge from the dry contact,
+# and steps in time take 60 to 500 factorisations, where a steel contact takes 5 to 20 (28 strips of E' 0.1 to 200 GPa;
+# points of 0.26 and 19 GPa took 33 and 36 times what they would otherwise be estimated to).
+SOFT = 30.0
+
+# Pressure-viscosity coefficient times Hertz pressure below which pressure hardly thickens the lubricant: no strip above 0.6
+# took so long.
+ISOVISCOUS = 0.6
 
 # Processor time of moving roughness over its counted work, which is that of the systems alone.
 IN_MOTION = 1.1
@@ -90,4 +99,15 @@ def _work_at_rest(
     short = sample.strip_length < SHORT * sample.correlation_lengths[1] and fx * ux >= 4 <= fy * uy
     shorter = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if short else 0.0
     seconds = count * work_of_steps(cells, STEPS) + work_of_steps(finer, FINER_STEPS) + again
+    if _is_soft(scene, sq):
+        return SOFT * seconds + shorter
     return seconds + shorter if is_smooth or short else ROUGH * seconds
+
+
+def _is_soft(scene: Scene, sq: float) -> bool:
+    """Return whether pressure hardly thickens the lubricant and the bodies flatten by more than their roughness of ``sq``
+    [m]."""
+    bodies = scene.bodies
+    flattened = bodies.half_width**2 / (2 * bodies.radius)
+    thickened = scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene)
+    return thickened < ISOVISCOUS and sq < flattened
