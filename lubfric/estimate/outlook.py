@@ -46,8 +46,10 @@ def forecast(scene: Scene, sample: Sample, surface: Surface, speed: float) -> Fo
         estimates.append(model.estimate(scene, sample, surface, speed, estimates[-1] if estimates else None))
     cheapest = estimates[0]
     last = len(models_up_to(scene.numerics.model)) - 1
-    # a model named in the scene has the cheapest one beside it as its control; AUTO tries one after the other
-    solved = range(last + 1) if scene.numerics.model == AUTO else {0, last}
+    # a model named in the scene has the cheapest one beside it as its control; AUTO tries one after the other until one
+    # is good enough
+    enough = [k for k in range(last) if estimates[k].model_error <= scene.numerics.model_tolerance]
+    solved = range(min(enough, default=last) + 1) if scene.numerics.model == AUTO else {0, last}
     moving = [k for k, model in enumerate(models) if model.moves_roughness]
     return Forecast(
         speed=speed,

@@ -22,7 +22,7 @@ CELLS_PER_LENGTH = 4.0
 
 # Cells in the Hertz half-width along x, at least. Half as many change f of the scene "paper" by nothing, where the
 # correlation length decides (the command in models/shared/statistics.py).
-CELLS_PER_HALF_WIDTH = 4.0
+CELLS_PER_HALF_WIDTH = 2.0
 
 # Cells along x come in multiples of this number, so that their transforms are fast and pieces can be thinned.
 EVEN = 4

@@ -237,3 +237,24 @@ def test_too_many_cells_are_refused_before_any_work():
     flat = Surface(np.zeros((8, 4096)), (1e-8, 1e-8), periodic_axes=(True, True))
     with pytest.raises(lubfric.InputError, match="cells"):
         lay_out(flat, contact(917.0, 0.01), sliding=0.02, boundary_friction=0.09)
+
+
+def test_a_film_between_soft_rollers_is_solved_from_a_cold_start():
+    """E' 19 GPa at 60 MPa, where pressure hardly thickens the oil: Newton's method leads nowhere from the dry contact, and
+    the way down from a faster speed took 500 factorisations or failed. To the film that it reaches from half the speed,
+    by another way."""
+    oil = Lubricant(0.0475, 1.16e-8, eyring_stress=5e6)
+    surface = lubfric.generate_surface((64, 48), 12e-6, sq=276e-9, correlation_length=48e-6, acf="gaussian", seed=2)
+
+    def at(speed):
+        line = LineContact(
+            load_per_width=11200.0, radius=9.4e-3, e_prime=19.2e9, entrainment_speed=speed, lubricant=oil
+        )
+        return lay_out(surface, line, sliding=2 * speed, boundary_friction=0.1, hardness=1.8e8, factors=(2, 2))
+
+    found = solve_point(at(2.6e-3))
+    assert "in time from the dry contact" in found.report.notes[0] and found.report.iterations <= 250
+    slower = solve_point(at(2.0e-3), tolerance=1e-4)
+    again = solve_point(at(2.6e-3), start=slower.state, tolerance=1e-4)
+    assert "from a neighbouring state" in again.report.notes[0]
+    assert again.coefficient == pytest.approx(found.coefficient, rel=3e-3)

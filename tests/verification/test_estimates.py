@@ -80,3 +80,12 @@ def test_the_table_of_runs_holds_what_the_words_promise():
     apart = np.concatenate([np.abs(np.log(values)) for values in ratios().values()])
     assert apart.size >= 30 and np.mean(apart <= math.log(3)) >= 0.75
     assert summary().count("\n") == 1 + len(ratios())
+
+
+def test_a_film_far_above_the_summits_is_estimated_and_solved_without_a_contact():
+    """Under a light load, and between bodies of 10 MPa, whose contact took 30 s."""
+    for bodies, speed in (({"load": 1.0}, 1.0), ({"e_prime": 1e7}, 0.03)):
+        scene = lubfric.load_scene("paper").with_(bodies=bodies, numerics={"accept": True})
+        with limited_work(math.inf) as meter:
+            result = lubfric.friction(scene, speed)
+        assert result.contact_load == 0 and meter.spent < 0.1 and of_scene(scene, [speed]) < 0.1

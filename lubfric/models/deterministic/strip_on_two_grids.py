@@ -18,10 +18,8 @@ from .strip import Strip, change_of, solve_strip
 # Cells in a correlation length, at least.
 PER_LENGTH = 2.0
 
-# Cells in the Hertz half-width along x, at least: on 1.5 of them f of a film between soft bodies (E' 0.26 GPa, correlation
-# length 1.3 half-widths) was 0.0039, on 3 and 6 it is 0.0029 and 0.0037.
-PER_HALF_WIDTH = 4.0
-
+# Cells in the Hertz half-width along x, at least.
+PER_HALF_WIDTH = 1.0
 # Part of numerics.sampling_tolerance: standard error of f at which a strip of moving roughness ends.
 MOVING_SAMPLE = 0.6
 

@@ -72,6 +72,10 @@ CLOSE = 1.0
 # Expected films of the total load over Sq at the speeds of reference points: contact, mixed, and about lift-off.
 REFERENCES = (0.05, 0.4, 1.6)
 
+# Film of the total load [Sq] from which it clears the summits (4.5 Sq) whatever heat takes of it: a point there begins
+# nowhere.
+CLEAR_OF_SUMMITS = 10.0
+
 # Distance in ln F_C from a reference point up to which its effect of the cells may serve.
 NEAR_LOAD = 0.25
 
@@ -290,13 +294,15 @@ def solve_sample(
 
 def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | None:
     """A balance on the first strips to start from: that of the nearest of three fixed speeds (None where a given film
-    arrives, at any speed). It depends on scene and cells alone, so that no result depends on which speeds were solved
-    before."""
+    arrives, at any speed, and where no contact is expected). It depends on scene and cells alone, so that no result
+    depends on which speeds were solved before."""
     scene = prepared.scene
     sq = prepared.surface.sq
     if speed == 0 or sample.refines_in_place or sq == 0 or scene.lubricant.inlet_film is not None:
         return None
     film = scene.line_contact(speed).expected_film / sq
+    if film > CLEAR_OF_SUMMITS:
+        return None
     nearest = min(REFERENCES, key=lambda reference: abs(math.log(film / reference)))
 
     def make() -> Balance | None:
