@@ -325,15 +325,14 @@ class RunFolder:
         record: dict[str, Any] = {"scene": {"name": prepared.scene.name}, "points": [], **numbers}
         with self.reporting(f"{RESULT} has the numbers alone"):
             record = self._record(prepared, result, units, **numbers)
-            self.contents[RESULT] = _as_json({"files": sorted([*self.contents, RESULT])} | record)
-        is_complete = RESULT in self.contents
-        if not is_complete:
-            self.contents[RESULT] = json.dumps(record, indent=1, default=str).encode()
         page = partial(report_page, record=record, contents=self.contents, estimate=estimate, given=given, law=law)
         self.add("report.html", page, prepared, result)
-        with self.reporting(f"{RESULT} does not list its files"):
-            self.contents[RESULT] = _as_json({"files": sorted(self.contents)} | record)
-        self.contents[RESULT] = self.contents.pop(RESULT)  # last: it appears when all files that it names are there
+        record = {"files": sorted([*self.contents, RESULT])} | record
+        with self.reporting(f"{RESULT} has the numbers alone"):
+            self.contents[RESULT] = _as_json(record)  # last: it appears when all files that it names are there
+        is_complete = RESULT in self.contents and "date" in record
+        if RESULT not in self.contents:
+            self.contents[RESULT] = json.dumps(record, indent=1, default=str).encode()
         self.put(OUTPUTS, (*record.get("validity", ()), *unusual_values))
         if is_complete:  # else what was saved is all that has everything
             Store(self.unfinished).clear()

@@ -118,14 +118,17 @@ class BalancedSample:
 
     @property
     def sampling(self) -> float:
-        """Relative standard error of f because the sample is finite."""
+        """Relative standard error of f because the sample is finite; NaN where it is not known."""
         if self.solved.film is None:
             return 0.0
         if self.response is None:
             return self.undetected
-        whole = self.response.relative("coefficient", self.gap_error.error)
-        to_first_order = self.response.per_gap("coefficient") * self.gap_error.error
-        return self.friction_error.error * (whole / to_first_order if to_first_order else 1.0)
+        of_gap = self.gap_error.error
+        if not math.isfinite(of_gap):  # a contact without places, or of too few blocks
+            return math.nan
+        to_first_order = self.response.per_gap("coefficient") * of_gap
+        beyond_first_order = self.response.relative("coefficient", of_gap) / to_first_order if to_first_order else 1.0
+        return self.friction_error.error * beyond_first_order
 
     @property
     def friction_error(self) -> StandardError:
