@@ -9,8 +9,6 @@ from typing import TypeVar
 
 import numpy as np
 
-import lubfric
-
 from ...check import REPORTED, Check
 from ...report import environment
 from ..opponents import version
@@ -57,7 +55,7 @@ def quartiles(seconds: list[float]) -> Quartiles:
 
 def machine(_: None = None) -> str:
     """One line for the head of a chart: processor, threads, how busy the machine is, versions, date."""
-    values = environment() | {"lubfric": lubfric.__version__}  # an editable installation has older metadata
+    values = environment()
     parts = [f"{name} {values[name]}" for name in ("python", "numpy", "scipy", "lubfric")]
     parts += [f"{name} {version(name)}" for name in ("tamaas", "aspher") if version(name)]
     try:

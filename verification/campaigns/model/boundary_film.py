@@ -76,8 +76,8 @@ def drawn(names: list[str], values: np.ndarray) -> Figure:
         ax.fill_between(dense, *load_share_band(dense), color="0.8", label="four published laws")
         for k, (name, one) in enumerate(zip(names, values[:, :, FILMS.index(film)])):
             ax.plot(RATIOS, one, "osD"[k // len(PRESSURES)] + ("-", "--", ":")[k % len(PRESSURES)], label=name)
-        ax.set(xscale="log", xlabel="film/Sq", title=f"h < {film * 1e9:g} nm")
-    grid[0].set_ylabel("share of the load")
+        ax.set(xscale="log", xlabel="lambda ratio (film/Sq)", title=f"h < {film * 1e9:g} nm")
+    grid[0].set_ylabel("asperity load ratio")
     canvas.legend(*grid[-1].get_legend_handles_labels(), loc="outside right upper", fontsize=8, frameon=False)
     caption = "Load on gaps thinner than three candidates of the boundary film, roughness at rest"
     return plotting.finish("boundary-film", canvas, caption)

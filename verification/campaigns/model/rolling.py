@@ -179,10 +179,10 @@ def drawn(rows: list) -> Figure:
         dense = np.geomspace(min(RATIOS), max(RATIOS), 60)
         column[1].fill_between(dense, *load_share_band(dense), color="0.85")
         column[0].set(title=name, xscale="log", ylabel="f")
-        column[1].set(xlabel="film/Sq", ylabel="load ratio at 20 nm")
+        column[1].set(xlabel="lambda ratio (film/Sq)", ylabel="asperity load ratio (h < 20 nm)")
     grid[1, 1].legend(title="slide-roll ratio", fontsize=8, loc="upper right")
     return plotting.finish(
         "rolling",
         canvas,
-        "Moving roughness (lines), load-sharing model of the paper (dashed), four published laws (grey)",
+        "Moving roughness (lines), load-sharing model of the paper (dashed), four published laws of the asperity load ratio (grey)",
     )
