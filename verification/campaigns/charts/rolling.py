@@ -1,11 +1,14 @@
-"""The chart of rolling contacts: error of f against time for load sharing, for a strip of moving roughness over a whole
-pass, in tight steps as in version 0.2.0 and in economical ones, and for the default, with the control of its summits.
+"""The chart of rolling contacts: error of f against time of one point, by version 0.2.0, by the default of today, by a
+strip of moving roughness over a whole pass, and by load sharing.
 
-Load sharing is solved here. The others are the rows of the campaign ``moving_coverage``, with its reference. An error is
-the root mean square over surfaces of other seeds; a time is that of one strip, without ranges of inputs.
+Load sharing is solved here. The default and the whole pass are the rows of the campaign ``moving_coverage``, with its
+reference, which has cells half as long. The answers of version 0.2.0 (commit 28b80684, `BEFORE`) were solved by
+`levels_of` of that version on the same scenes with ``numerics.model = "deterministic"``. An error is the root mean
+square over surfaces of other seeds; a time is that of one answer, without ranges of inputs.
 """
 
 import time
+from pathlib import Path
 
 import numpy as np
 
@@ -16,7 +19,7 @@ from ..moving_coverage.table import ANSWERS, FOLDER, REFERENCES, RollingContact,
 from .measure import point, quartiles
 
 SEEDS = {True: (1,), False: (1, 2, 3)}
-WAYS = {"strip": "whole pass, economical steps", "tight": "whole pass, tight steps (0.2.0)"}
+BEFORE = Path(__file__).with_name("version_0_2_0.csv")
 MODELS = {"load-sharing": "load sharing, calibrated", "paper": "load sharing, Eqs. (8), (9)"}
 
 
@@ -44,17 +47,20 @@ def measured(case: tuple[RollingContact, float, bool]) -> list[dict]:
             values.append(lubfric.friction(with_seed(contact, seed), contact.speed, model=model).coefficient)
             seconds.append(time.process_time() - begun)
         add(name, "default tolerances", values, seconds)
-    solved = [
-        row for row in table_file.rows(FOLDER / REFERENCES) if row["contact"] == contact.name and not row["failure"]
-    ]
-    for kind, name in WAYS.items():
-        strips = [row for row in solved if row["kind"] == kind]
-        if strips:
-            f = [float(row["plain"] or row["f"]) for row in strips]
-            add(name, f"{len(strips)} surfaces", f, [float(row["seconds"]) for row in strips])
-    answers = [
-        row for row in table_file.rows(FOLDER / ANSWERS) if row["contact"] == contact.name and not row["failure"]
-    ]
+    rows = _rows_of(FOLDER / REFERENCES, contact)
+    strips = [row for row in rows if row["kind"] == "strip"]
+    f = [float(row["plain"] or row["f"]) for row in strips]
+    add("whole pass of one strip", f"{len(strips)} surfaces", f, [float(row["seconds"]) for row in strips])
+    before = _rows_of(BEFORE, contact)
+    if before:
+        f = [float(row["f"]) for row in before]
+        add("default of version 0.2.0", f"{len(f)} surfaces", f, [float(row["seconds"]) for row in before])
+    answers = _rows_of(FOLDER / ANSWERS, contact)
     f = [float(row["f"]) for row in answers]
     add("default", f"{len(answers)} surfaces", f, [float(row["seconds"]) for row in answers], default=True)
     return points
+
+
+def _rows_of(file: Path, contact: RollingContact) -> list[dict[str, str]]:
+    """Return the rows of ``contact`` in a table, without those that have no answer."""
+    return [row for row in table_file.rows(file) if row["contact"] == contact.name and not row["failure"]]
