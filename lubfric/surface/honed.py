@@ -1,9 +1,9 @@
 """Plateau-honed surfaces, made by two processes: grooves of a coarse stone that cross, and a fine stone that cuts their
 tops to plateaus.
 
-The height at a point is the lower of both processes, as in a plateau that was honed in two steps (M. C. Malburg, J. Raja,
-D. J. Whitehouse, CIRP Annals 42 (1993) 637-639, doi:10.1016/S0007-8506(07)62529-4). Then core, peaks and dales are scaled
-each by a factor of its own, so that Sk, Spk and Svk are met in every map.
+The height at a point is the lower of both processes, as in a plateau that was honed in two steps. The model is attributed
+to M. C. Malburg, J. Raja, D. J. Whitehouse, CIRP Annals 42 (1993) 637-639; their text was not available here. Then core,
+peaks and dales are scaled each by a factor of its own, so that Sk, Spk and Svk are met in every map.
 """
 
 from __future__ import annotations
