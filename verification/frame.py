@@ -159,7 +159,7 @@ def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Name
         complete=False,
         started=now,
         seconds=0.0,
-        environment=reports.environment(),
+        environment=environment(),
     )
 
     def save(report: reports.Report) -> reports.Report:
@@ -183,6 +183,15 @@ def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Name
         print(words)
     print(f"report: {out / 'report.html'}")
     return 130 if interrupted else 0 if result.passed else 1
+
+
+def environment() -> dict[str, str]:
+    """Return the version of the lubfric that runs, then `report.environment`.
+
+    The metadata of an editable installation may be older than the code, or missing."""
+    import lubfric  # not needed to list the studies
+
+    return {"lubfric": lubfric.__version__} | reports.environment()
 
 
 def put_tables(command: Command, outcome: Outcome, options: argparse.Namespace) -> None:

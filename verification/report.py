@@ -9,8 +9,6 @@ import platform
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
-import lubfric
-
 from . import page
 from .check import Check, Table
 from .meshes import write_vtu
@@ -101,9 +99,8 @@ def finite(value):
 
 
 def environment() -> dict[str, str]:
-    """Versions and machine, for a reader who wants to repeat the numbers."""
-    # the version of the code that runs; the metadata of an editable installation may be older, or missing
-    results = {"python": platform.python_version(), "lubfric": lubfric.__version__}
+    """Versions of the packages and the machine, for a reader who wants to repeat the numbers."""
+    results = {"python": platform.python_version()}
     for package in PACKAGES:
         try:
             results[package] = importlib.metadata.version(package)

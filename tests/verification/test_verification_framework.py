@@ -1,5 +1,6 @@
 """``python -m verification``: a failure must never look like a success, nor cost other results."""
 
+import importlib.metadata
 import json
 import math
 import sys
@@ -10,6 +11,7 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
+import lubfric
 from verification import __main__ as command
 from verification import plotting
 from verification.catalogue import STUDIES, Study
@@ -133,6 +135,16 @@ def test_all_right_is_exit_code_0_and_a_whole_page(run, tmp_path):
     assert (tmp_path / "good_line.svg").read_bytes().startswith(b"<?xml")
     assert (tmp_path / "good_mesh.vtu").is_file()
     assert data["studies"][0]["checks"][0]["seconds"] >= 0
+
+
+def test_the_page_names_the_version_of_the_code_that_runs(run, monkeypatch):
+    def missing(package):
+        raise importlib.metadata.PackageNotFoundError(package)
+
+    monkeypatch.setattr(importlib.metadata, "version", missing)
+    _, data, html, _, _ = run(good)
+    assert data["environment"]["lubfric"] == lubfric.__version__ and f"lubfric {lubfric.__version__}" in html
+    assert data["environment"]["numpy"] == "not installed"
 
 
 def test_a_failing_check_is_exit_code_1(run):

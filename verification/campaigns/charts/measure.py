@@ -10,7 +10,7 @@ from typing import TypeVar
 import numpy as np
 
 from ...check import REPORTED, Check
-from ...report import environment
+from ...frame import environment
 from ..opponents import version
 
 K = TypeVar("K")

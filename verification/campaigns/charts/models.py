@@ -6,6 +6,8 @@ An error is the root mean square over surfaces of other seeds. A map has one sam
 uses, with errors as small as those of the last setting, so the last setting is not drawn for a map.
 """
 
+from functools import cache
+
 import numpy as np
 
 from ..model.answers import MEASURED, AnswerCase, reference, solved
@@ -22,6 +24,9 @@ WAYS: dict[str, dict] = {
 ASKED = {True: ((0.02, 0.05),), False: ((0.05, 0.1), (0.02, 0.05), (0.01, 0.03))}  # of surface and model
 
 
+reference_once = cache(reference)
+
+
 def cases(*, quick: bool) -> dict[str, tuple[AnswerCase, str, bool]]:
     """A panel for each surface, under the light load at a smooth film of 0.8 Sq, with a curve for each way."""
     surfaces = [
@@ -34,7 +39,7 @@ def measured(chosen: tuple[AnswerCase, str, bool]) -> list[dict]:
     """One way at every setting, against the deterministic model on another surface, or on all of the map."""
     (case, way, quick) = chosen
     values = []
-    truth = reference(case)["f"]
+    truth = reference_once(case)["f"]
     one_map = case.surface in MEASURED
     seeds, settings = ((1,), ASKED[quick][:2]) if one_map else (SEEDS[quick], ASKED[quick])
     for sampling, model in settings:
