@@ -39,8 +39,8 @@ def friction(
 
     A sample of the rough surface represents the infinite line contact: strips of it, solved by a model until the sampling error
     is within its tolerance. The models are the load-sharing model, in which film and rough contact share one load by
-    Eq. (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z), with the friction of the paper or a calibrated one,
-    and the deterministic model, which solves the film between the rough surfaces. By default the cheapest one answers
+    Eq. (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z), with the friction of the paper, and the deterministic
+    model, which solves the film between the rough surfaces, on long cells with a calibrated error or on short ones. By default the cheapest one answers
     whose model-form error is within ``numerics.model_tolerance`` (docs/models.md). Without entrainment the contact
     carries the total load. Where the film is thicker than the highest asperities, no contact is solved.
 
@@ -49,8 +49,8 @@ def friction(
     scene : from `lubfric.load_scene`, or from `lubfric.prepare` for many speeds
     speed : entrainment speed U [m/s]; None: the scene's own
     tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need (docs/levels.md)
-    model : "paper", Eqs. (8) and (9); "load-sharing", Eq. (8) with a calibrated friction and error; "deterministic"; or
-        "auto": the cheapest that is good enough; None: the scene's. Or a `lubfric.models.Model` of your own
+    model : "paper", Eqs. (8) and (9); "load-sharing", the deterministic model on long cells with a calibrated error;
+        "deterministic"; or "auto": the cheapest that is good enough; None: the scene's. Or a `lubfric.models.Model` of your own
     fields : True: by load sharing, a single patch is solved on its own cells, so that ``result.fields`` are on them.
         Strips, and the deterministic model, keep the cells that the tolerance needs; "fine": a part of the surface is solved once more, on some 40 cells across the Hertz strip, for
         ``result.fields``

@@ -197,7 +197,7 @@ def _model(
     elif why:
         rows = [f"load-sharing model alone: {why}; its model-form error is not known and not in the interval"]
     elif not resolved and strip > MOST_WORK:
-        rows = ["load-sharing model alone, with a wide interval: the deterministic model would take too long"]
+        rows = ["deterministic model on long cells, calibrated: on its usual cells it would take too long"]
     elif not resolved:
         rows = ["load-sharing model alone: the film is thick or the surfaces are smooth, and both models agree"]
     else:
@@ -212,7 +212,7 @@ def _model(
         if not any(model.includes_motion for model in candidates(name)):
             takes = f"moving roughness is treated as stationary; {takes}"
         if name == AUTO:
-            takes += f"; where it takes more than {MOST_WORK:g} s, the load-sharing model answers alone"
+            takes += f"; where it takes more than {MOST_WORK:g} s, the quick answer on long cells replaces it"
         rows.append(takes)
     many = len(ratios) or len(moving)
     return rows, sum(one.seconds for one in forecasts) * many / len(forecasts) if forecasts else 0.0

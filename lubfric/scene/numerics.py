@@ -25,8 +25,9 @@ class Numerics(Shown):
     model_tolerance : relative error of f that the model may leave, at 95 %
     film_deflection : which pressure deforms the film: the total load, by Johnson's scaled modulus E' F_H/F_T
         ("scaled"); its own ("hydrodynamic", the paper)
-    model : "load-sharing": film and contact share the load, Eq. (8), with a calibrated error; "paper": the same with
-        the friction of Eq. (9) on a smooth film; "deterministic": the deterministic model (docs/deterministic.md);
+    model : "paper": film and contact share the load, Eq. (8), with the friction of Eq. (9) on a smooth film;
+        "deterministic": the deterministic model (docs/deterministic.md); "load-sharing": that model on a few strips of
+        long cells, with a calibrated error, beside the line of Eq. (8);
         "auto": the cheapest that is within ``model_tolerance`` (docs/uncertainty.md)
     grid : "auto": cells of the contact as long as the tolerance allows; "given": the scene's own
     heat : whether the heat of inlet, film and surfaces is modelled: "auto" (if it matters, and the lubricant says how

@@ -227,7 +227,7 @@ def test_a_page_that_cannot_be_made_costs_no_numbers(tmp_path, monkeypatch, undr
 @pytest.mark.parametrize("options, table", [([], "stribeck"), (["--ratios", "0.5,2"], "traction")])
 def test_a_run_without_an_answer_says_that_there_is_nothing_to_draw(tmp_path, capsys, options, table):
     heavy = SCENE.replace("load = 5.5", "load = 2000.0").replace("spacing = [1.1e-6, 0.9e-6]", "spacing = [4e-6, 4e-6]")
-    heavy = heavy.replace("4e-6\n[contact]", "16e-6\n[contact]")
+    heavy = heavy.replace("4e-6\n[contact]", "16e-6\n[contact]").replace("'load-sharing'", "'paper'")
     (tmp_path / "s.toml").write_text(heavy)
     out = tmp_path / "o"
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(out), *options]) == 1

@@ -180,8 +180,8 @@ def test_the_map_that_was_given_comes_before_its_strips(tmp_path):
     assert "mine.x3p: 60 x 40 points, 120 x 80 µm" in told and "solved first: " in told
 
 
-def test_info_of_a_model_that_takes_too_long_says_that_the_interval_is_wide():
-    """As the answer has it: the error of load sharing alone is large there, and known."""
+def test_info_of_a_model_that_takes_too_long_says_what_answers():
+    """As the answer has it: the error of long cells is larger than requested, and known."""
     moving = HEAVY.with_(
         motion={"slide_roll_ratio": 0.03},
         contact={"shape": (640, 512), "spacing": 0.8e-6},
@@ -189,9 +189,9 @@ def test_info_of_a_model_that_takes_too_long_says_that_the_interval_is_wide():
         lubricant={"eyring_stress": 5e6},
     )
     text = describe_scene(moving)
-    assert "with a wide interval: the deterministic model would take too long" in text
+    assert "on its usual cells it would take too long" in text
     found = lubfric.friction(moving.with_(numerics={"sampling_tolerance": 0.2})).uncertainty
-    assert found.model > 0.2 and np.isfinite(found.interval).all()
+    assert found.model > 0.05 and np.isfinite(found.interval).all()
 
 
 def test_the_peak_pressure_of_a_run_in_time_is_that_of_its_cycle():

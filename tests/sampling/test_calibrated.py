@@ -1,23 +1,27 @@
-"""Calibrated load sharing, and the limit of an oil that nobody gave."""
+"""The quick answer on long cells, its calibrated error, and the limit of an oil that nobody gave."""
 
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import lubfric
-from lubfric.models.deterministic import lay_out, solve_point
-from lubfric.models.load_sharing import (
-    LoadSharingModel,
-    RoughMap,
+from lubfric.models.calibrated import (
+    CalibratedModel,
     error_models,
     features,
-    flattened,
-    least_error,
-    starved_error,
+    long_cells,
+    numbers_of_strip,
+    solve_at_rest,
+    solve_moving,
     widening,
 )
+from lubfric.models.deterministic import RoughBody, lay_out, solve_point, solve_strip
+from lubfric.models.load_sharing import least_error, starved_error
+from lubfric.models.shared import speed_of
 from lubfric.output import describe_scene, main
 from verification.campaigns.calibration import fit
 from verification.campaigns.calibration.case import drawn
@@ -29,37 +33,49 @@ HEAVIER = PAPER.with_(
     lubricant={"viscosity": 0.1, "eyring_stress": 5e6, "limiting_stress_coefficient": 0.06},
     numerics={"sampling_tolerance": 0.1, "tolerance": 0.03},
 )
-ROUGH = np.sin(2 * np.pi * np.arange(32) / 32)[:, None] * np.ones(8) * 1e-7
+BASIS = "deterministic model on long cells, calibrated"
 
 
-def line(speed=0.03, **lubricant):
-    return PAPER.with_(lubricant=lubricant).line_contact(speed)
+def patch(shape=(96, 64), spacing=(0.9e-6, 1.2e-6), seed=3):
+    made = lubfric.generate_surface(shape, spacing, sq=100e-9, correlation_length=8e-6, acf="gaussian", seed=seed)
+    return replace(made, periodic_axes=(True, True))
 
 
-def test_a_film_without_viscosity_leaves_roughness_as_it_is():
-    thin = line(viscosity_law="constant", viscosity=1e-9, pressure_viscosity_coefficient=0.0)
-    left = flattened(thin, RoughMap(ROUGH, 0.0), (1e-6, 1e-6), np.full(32, 1e8), 1e-7, 0.06, 1.0)
-    assert np.allclose(left.heights, ROUGH, rtol=1e-3, atol=1e-12)
-    assert np.abs(left.pressure).max() < 1e-2 * PAPER.bodies.e_prime * np.pi / 32e-6 * 1e-7
+@given(
+    st.floats(0.05, 3.0), st.floats(0.05, 3.0), st.integers(1, 400), st.floats(1.0, 50.0), st.sampled_from([2.0, 0.5])
+)
+def test_long_cells_divide_the_map_and_resolve_roughness_and_contact(dx, dy, rows, length, slip):
+    """On a map that resolves both; the cells of another are its own. Cells one longer would be too long."""
+    scene = PAPER.with_(motion={"slide_roll_ratio": slip})
+    half_width = scene.bodies.half_width
+    (fx, fy) = long_cells(scene, (dx * 1e-6, dy * 1e-6), rows, (length * 1e-6, length * 1e-6))
+    assert fx >= 1 <= fy and rows % fy == 0
+    longest = min(length * 1e-6 / (2.5 if slip == 2 else 2.0), half_width / 2)
+    assert fx == 1 or fx * dx * 1e-6 <= longest * (1 + 1e-6)
+    assert (fx + 1) * dx * 1e-6 > longest * (1 - 1e-6)
+    assert fy == 1 or fy * dy * 1e-6 <= length * 1e-6 / (2.0 if slip == 2 else 1.25) * (1 + 1e-6)
 
 
-def test_a_stiff_film_presses_roughness_flat_by_the_pressure_of_the_half_space():
-    """A wave of amplitude r needs E' k r/4; the film gives by its own bulk modulus, some 1e-7 E' k/12 GPa of it."""
-    left = flattened(line(), RoughMap(ROUGH, 0.0), (1e-6, 1e-6), np.full(32, 2e9), 1e-8, 0.06, 1.0)
-    wave = 2 * np.pi / 32e-6
-    assert left.heights.std() < 0.1 * ROUGH.std()
-    assert left.pressure.max() == pytest.approx(PAPER.bodies.e_prime * wave / 4 * ROUGH.max(), rel=0.1)
+def test_a_strip_on_long_cells_is_the_strip_of_the_heights_that_they_take():
+    surface = patch()
+    taken = replace(surface, heights=surface.heights[1::2, 1::2], spacing=(1.8e-6, 2.4e-6), mask=None)
+    pair = solve_at_rest(HEAVIER, surface, 0.1, (2, 2))
+    alone = solve_strip(HEAVIER, taken, 0.1)
+    assert pair.resolved.result.coefficient == pytest.approx(alone.result.coefficient, rel=0.03)
+    change = numbers_of_strip(pair)["by_cells"]
+    sliding = [s.result.coefficient - s.result.rolling / s.result.load for s in (pair.resolved, pair.longer)]
+    assert change == pytest.approx(math.log(sliding[0] / sliding[1]), rel=1e-12)
+    assert pair.longer.problem.spacing == pytest.approx((3.6e-6, 4.8e-6))
 
 
-def test_waves_that_move_with_the_lubricant_keep_what_passes_the_inlet():
-    """In pure rolling nothing changes between inlet and outlet: one amplitude, whatever the pressure."""
-    contact = line(0.03)
-    left = [
-        flattened(contact, RoughMap(ROUGH, 0.03), (1e-6, 1e-6), np.full(32, p), 1e-7, 0.0, 1.0).heights
-        for p in (1e7, 1e9)
-    ]
-    assert np.allclose(*left, rtol=1e-6, atol=1e-15)
-    assert 0 < left[0].std() < ROUGH.std()
+def test_a_strip_that_moves_on_long_cells_starts_at_rest():
+    scene = HEAVIER.with_(motion={"slide_roll_ratio": 0.5})
+    pair = solve_moving(scene, [RoughBody(patch((48, 16), (1.8e-6, 2.4e-6)), 0.075)], 0.1, (2, 2))
+    numbers = numbers_of_strip(pair)
+    assert math.isnan(numbers["by_cells"]) and math.isfinite(numbers["by_motion"])
+    at_rest = pair.longer.result
+    before = at_rest.coefficient - at_rest.rolling / at_rest.load
+    assert (numbers["coefficient"] - numbers["rolling"]) == pytest.approx(before * math.exp(numbers["by_motion"]))
 
 
 def test_calibrated_answer_holds_the_deterministic_one_and_is_narrower_than_load_sharing():
@@ -75,7 +91,7 @@ def test_calibrated_answer_holds_the_deterministic_one_and_is_narrower_than_load
     parts = results["load-sharing"].boundary_force + results["load-sharing"].shear_force
     assert parts / HEAVIER.bodies.load == pytest.approx(results["load-sharing"].coefficient, rel=1e-12)
     assert results["load-sharing"].decision.model == "load-sharing"
-    basis = f"load-sharing model, calibrated on {error_models()['rest'].cases} solved cases"
+    basis = f"{BASIS} on {error_models()['rest'].cases} solved cases"
     assert results["load-sharing"].decision.text.startswith(basis)
     assert results["paper"].decision.basis == ""
 
@@ -89,7 +105,7 @@ def test_report_says_first_what_the_answer_rests_on(tmp_path, monkeypatch):
     file.write_text(scene.to_toml())
     assert main(["run", str(file), "--speeds", "0.1", "--out", str(tmp_path / "out")]) == 0
     page = (tmp_path / "out/report.html").read_text()
-    basis = f"Load-sharing model, calibrated on {error_models()['rest'].cases} solved cases"
+    basis = f"{BASIS.capitalize()} on {error_models()['rest'].cases} solved cases"
     assert page.index("f = ") < page.index(basis) < page.index("Uncertainty budget")
     titles: list[str] = []
     monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", lambda path, columns, title, *_: titles.append(title))
@@ -99,7 +115,7 @@ def test_report_says_first_what_the_answer_rests_on(tmp_path, monkeypatch):
 
 
 def test_the_sampling_error_holds_the_scatter_of_other_samples():
-    """The rough film is solved on some strips of the line: other seeds differ by what the sampling error states."""
+    """Some strips of the line are solved: other seeds differ by what the sampling error states."""
     results = [
         lubfric.friction(PAPER.with_(surface={"seed": seed}, numerics={"model": "load-sharing"}), 0.03)
         for seed in range(1, 5)
@@ -107,11 +123,11 @@ def test_the_sampling_error_holds_the_scatter_of_other_samples():
     values = np.array([result.coefficient for result in results])
     stated = math.sqrt(np.mean([result.uncertainty.sampling**2 for result in results]))
     assert values.std(ddof=1) / values.mean() < 2.3 * stated  # chi square, 3 degrees of freedom: 99.9 %
-    assert stated < 0.04
+    assert stated < 0.06
 
 
 def test_the_ends_of_an_input_are_those_of_the_calibrated_model():
-    """A range of the Eyring stress moves f by as much as a solve at its ends does, not as Eq. (9) would be moved."""
+    """A range of the Eyring stress moves f by as much as a solve at its ends does."""
     scene = HEAVIER.with_(numerics={"model": "load-sharing", "sampling_tolerance": 0.5, "tolerance": 0.1})
     ends = (3e6, 1e7)
     ranged = lubfric.friction(scene.with_(lubricant={"eyring_stress": [*ends]}), 0.3)
@@ -120,40 +136,44 @@ def test_the_ends_of_an_input_are_those_of_the_calibrated_model():
     assert ranged.uncertainty.inputs == pytest.approx(spread, rel=0.1)
 
 
-def test_a_loose_model_tolerance_lets_auto_answer_by_calibrated_load_sharing():
-    loose = HEAVIER.with_(bodies={"boundary_film": 2e-8}, numerics={"model_tolerance": "90 %"})
+def test_a_loose_model_tolerance_lets_auto_answer_on_long_cells():
+    loose = HEAVIER.with_(bodies={"boundary_film": 2e-8}, numerics={"model_tolerance": "30 %"})
     assert lubfric.friction(loose, 0.1).decision.model == "load-sharing"
     tight = loose.with_(numerics={"model_tolerance": 0.05})
     assert lubfric.friction(tight, 0.1).decision.model == "deterministic"
 
 
 def test_bounds_widen_outside_the_campaign_and_the_result_says_so():
-    light = lubfric.friction(PAPER.with_(numerics={"model": "load-sharing"}), 0.1)
-    assert "outside the range of the solved cases" in light.uncertainty.text
+    faster = lubfric.friction(PAPER.with_(numerics={"model": "load-sharing"}), 0.5)
+    assert "outside the range of the solved cases" in faster.uncertainty.text
+    inside = lubfric.friction(PAPER.with_(numerics={"model": "load-sharing"}), 0.03)
+    assert "outside the range" not in inside.uncertainty.text
     assert widening([]) == 1.0 < widening([0.5]) < widening([1.0]) <= widening([9.0])
 
 
-FILM = {"coefficient": 0.05, "asperity": 0.1, "contact": 0.1, "rolling": 0.001}
+STRIP = {
+    "coefficient": 0.05, "rolling": 0.001, "at_half_film": 0.048, "at_twice_film": 0.053, "by_cells": 0.02,
+    "by_motion": math.nan,
+}  # fmt: skip
 
 
-def half_width(**film):
-    x = features(HEAVIER, 0.1, 1e-7, (0.02, 0.02), FILM | film)
-    return error_models()["rest"].half_width(x)
+def half_width(motion="rest", **numbers):
+    return error_models()[motion].half_width(features(STRIP | numbers, 0.09, 2.0))
 
 
-def test_the_bounds_grow_with_what_an_error_of_the_asperity_load_exchanges():
-    """f_b is .09: the more f differs from it, and the more of the load asperities carry, the less is f known."""
-    assert half_width(asperity=1e-3) < half_width(asperity=0.1) < half_width(asperity=0.3)
-    assert half_width(coefficient=0.085, asperity=0.3) < half_width(coefficient=0.04, asperity=0.3)
-    assert half_width(rolling=0.001) < half_width(rolling=0.02)
+def test_the_bounds_grow_with_what_cells_and_boundary_film_change():
+    assert half_width(by_cells=0.0) < half_width(by_cells=-0.05) < half_width(by_cells=0.2)
+    assert half_width(by_cells=math.nan) == pytest.approx(half_width(by_cells=0.6), rel=0.1)
+    for motion in ("rest", "rolling"):
+        assert half_width(motion, at_twice_film=0.051) < half_width(motion, at_twice_film=0.06)
+    assert 0 < half_width(coefficient=0.0905) < half_width(coefficient=0.089) < half_width(coefficient=0.05)
 
 
 def test_the_bounds_grow_where_no_case_is_alike():
-    """x C x of the coefficients: at a hundred times the film of any case it is no longer small."""
+    """x C x of the coefficients: at a hundred times the change by cells of any case it is no longer small."""
     model = error_models()["rest"]
-    x = features(HEAVIER, 0.1, 1e-7, (0.02, 0.02), FILM)
-    far = x | {"asperity thickness": x["asperity thickness"] + 10.0}
-    assert model.half_width(far) > 1.5 * model.half_width(x)
+    x = features(STRIP, 0.09, 2.0)
+    assert model.half_width(x | {"cells": 10.0}) > 1.5 * model.half_width(x)
 
 
 def test_the_fit_finds_a_known_bias_and_spread():
@@ -185,11 +205,11 @@ def test_calibration_is_the_fit_to_its_tables():
 
 
 @pytest.mark.parametrize("motion, seed", [("rest", 5), ("rest", 118), ("rolling", 12)])
-def test_numbers_of_the_cases_are_those_of_todays_load_sharing(motion, seed):
+def test_numbers_of_the_cases_are_those_of_todays_model(motion, seed):
     known = next(case for case in fit.cases(motion) if case.row["seed"] == str(seed)).numbers
     solved = quick(drawn(motion, seed))
-    for name in solved.keys() - {"seconds", "seconds_balance"}:
-        assert solved[name] == pytest.approx(known[name], rel=1e-5, abs=1e-9)
+    for name in solved.keys() - {"seconds"}:
+        assert solved[name] == pytest.approx(known[name], rel=1e-5, abs=1e-9, nan_ok=True)
 
 
 def test_bounds_of_kinds_that_were_left_out_hold_nine_cases_in_ten():
@@ -304,8 +324,8 @@ def test_every_model_of_the_scene_has_an_estimate_and_a_run_in_time():
         prepared = lubfric.prepare(PAPER.with_(numerics={"model": model}))
         seconds[model] = forecast(prepared.scene, prepared.sample, prepared.surface, 0.03).seconds
     assert seconds["paper"] < seconds["load-sharing"] < seconds["deterministic"]
-    rough_film = seconds["load-sharing"] - seconds["paper"]  # "deterministic" does not solve it, "auto" does
-    assert seconds["auto"] == pytest.approx(seconds["deterministic"] + rough_film)
+    long_cells = seconds["load-sharing"] - seconds["paper"]  # "deterministic" does not solve it, "auto" does
+    assert seconds["auto"] == pytest.approx(seconds["deterministic"] + long_cells)
 
 
 def test_friction_tends_to_that_of_the_boundary_as_the_film_vanishes():
@@ -360,31 +380,33 @@ def test_the_asperity_load_of_a_calibrated_answer_is_that_of_the_deterministic_m
     assert min(shares) > least
 
 
-def test_next_to_pure_rolling_the_interval_of_a_small_difference_is_of_its_parts():
-    """f is rolling and sliding, of opposite signs on one side of pure rolling: its interval is no wider than a few times
-    both, however near to 0 their sum is."""
-    scene = PAPER.with_(numerics={"model": "load-sharing"}, lubricant={"eyring_stress": 5e6})
+def test_next_to_pure_rolling_the_error_of_a_small_difference_is_of_its_parts():
+    """f is rolling and sliding, of opposite signs on one side of pure rolling: its error is no larger than a few times both,
+    however near to 0 their sum is."""
+    scene = HEAVIER.with_(numerics={"model": "load-sharing"})
+    surface = patch((28, 24), (3.6e-6, 4e-6))
     load = scene.bodies.load
-    for ratio in (1e-4, 0.0, -1e-6, -1e-5, -1e-4, -3e-4, -1e-3):
-        result = lubfric.friction(scene.with_(motion={"slide_roll_ratio": ratio}), 0.3)
-        parts = (abs(result.rolling_force) + abs(result.shear_force - result.rolling_force)) / load
-        low, high = result.uncertainty.interval
-        assert low <= result.coefficient <= high
-        assert high - low <= 8 * parts
+    for ratio in (0.0, -1e-4):
+        prepared = lubfric.prepare(scene.with_(motion={"slide_roll_ratio": ratio}), surface)
+        result = lubfric.friction(prepared, 0.1)
+        rolling = result.rolling_force / load
+        parts = abs(rolling) + abs(result.coefficient - rolling)
+        assert 0 < result.uncertainty.model * abs(result.coefficient) <= 4 * parts
         assert result.boundary_force + result.shear_force == pytest.approx(result.coefficient * load, rel=1e-9)
 
 
-def test_outside_the_campaign_the_bounds_are_wider_and_an_unknown_limit_counts():
-    """The scene "paper" has less load per width than any case: with e times less, the half-width of ln f doubles."""
+def test_outside_the_campaign_the_half_width_grows_with_the_distance():
+    """With e times the largest lambda ratio it doubles."""
     prepared = lubfric.prepare(PAPER)
-    friction = LoadSharingModel().solve(prepared, prepared.sample, prepared.sample.first, 0.03).friction
-    least = error_models()["rest"].range["load"][0]
-    distance = math.log(least * PAPER.bodies.width / PAPER.bodies.load)
-    width, inside = (math.log1p(sides[1]) for sides in (friction.bounds, friction.least_bounds))
-    assert len(friction.outside) == 1
-    assert width / inside == pytest.approx(1 + distance, rel=1e-6)
-    down, up = friction.by_limit
-    assert down > 0.1 and up > 0.02
-    assert lubfric.friction(prepared, 0.03, model="load-sharing").uncertainty.fluid == pytest.approx(
-        max(down, up), rel=1e-3
-    )
+    sq = PAPER.surface.sq
+    largest = error_models()["rest"].range["lambda"][1]
+    speeds = [speed_of(PAPER, sq * largest * factor) for factor in (0.99, 1.5)]
+    strips = [CalibratedModel().solve(prepared, prepared.sample, prepared.sample.first, u).strips for u in speeds]
+    assert strips[0].outside == () and strips[0].widening == 1.0
+    assert len(strips[1].outside) == 1
+    assert strips[1].widening == pytest.approx(1 + math.log(1.5), rel=0.02)
+
+
+def test_the_unknown_limit_of_a_newtonian_oil_counts():
+    result = lubfric.friction(PAPER, 0.03, model="load-sharing")
+    assert 0.1 < result.uncertainty.fluid <= result.uncertainty.model

@@ -1,8 +1,10 @@
 """The deterministic mixed-lubrication model: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
+from .answer import answer_of
+from .estimated_work import work_on_strips
 from .flow import derivatives, mass_balance
 from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, too_hot, warmed
-from .levels import DIFFERENCE, mean
+from .levels import DIFFERENCE, Levels, levels_of, mean, two_levels
 from .linear import gmres
 from .model import DeterministicModel, DeterministicSolution
 from .moving import Moment, RoughBody, moments, travelling
@@ -26,7 +28,16 @@ from .pictures import animate_moments, plot_moments, plot_passing
 from .problem import BOUNDARY_FILM, Problem, lay_out, reach, shifted
 from .result import DeterministicResult, assemble
 from .rheology import mean_fluidity, thinning
-from .rough_bodies import HARDNESS, MOST_WORK, bodies_of, maps_of, moving_point_work, too_costly
+from .rough_bodies import (
+    HARDNESS,
+    MOST_WORK,
+    bodies_of,
+    maps_of,
+    moving_point_work,
+    strip_surface,
+    summit_control,
+    too_costly,
+)
 from .shorter_cells import SHORT
 from .solve import dry_contact, solve_point
 from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, residuals

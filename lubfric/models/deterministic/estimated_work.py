@@ -111,3 +111,19 @@ def _is_soft(scene: Scene, sq: float) -> bool:
     flattened = bodies.half_width**2 / (2 * bodies.radius)
     thickened = scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene)
     return thickened < ISOVISCOUS and sq < flattened
+
+
+def work_on_strips(
+    scene: Scene, sample: Sample, sq: float, speed: float, factors: tuple[int, int], count: int
+) -> float:
+    """Return the counted work [s] of ``count`` strips on cells ``factors`` times as long as those of ``sample``, and of the
+    ends of input ranges; ``sq`` [m]: of the surface."""
+    if moves(scene):
+        return IN_MOTION * count * moving_point_work(scene, sample, sq, speed, factors)
+    (fx, fy) = factors
+    (dx, dy) = sample.cells.spacing
+    (ux, uy) = sample.cells.coarsening if sample.refines_in_place else (1, 1)
+    length = sum(reach(scene.line_contact(abs(speed)), sq))
+    cells = length / (fx * dx / ux) * sample.strip_length / (fy * dy / uy)
+    ends = 2 * sum(name != FRICTION for name, *_ in scene.ranges)
+    return count * work_of_steps(cells, STEPS) + work_of_steps(cells, AGAIN) * (ends + (ends > 0))

@@ -32,6 +32,7 @@ from .moving_strip import MovingStrip
 from .result import DeterministicResult
 from .rough_bodies import summit_control
 from .shorter_cells import (
+    NO_SHORTER_CELLS,
     changed,
     on_shorter_cells,
 )
@@ -127,16 +128,19 @@ def solve_strips(
 
 
 def two_levels(
-    prepared: Prepared, pairs: Sequence[StripOnTwoGrids], control: ControlVariate | None
+    prepared: Prepared,
+    pairs: Sequence[StripOnTwoGrids],
+    control: ControlVariate | None,
+    numerics: Numerics | None = None,
 ) -> tuple[TwoLevelEstimate, int]:
     """Return the estimate from these strips that needs fewer of them in all, and how many: with a ``control``, or as
     the mean of the strips alone.
 
     Strips are needed until the standard error of f is within ``numerics.sampling_tolerance``. With the first level, the
     difference of the models may leave a half-width of `DIFFERENCE` times ``numerics.model_tolerance`` beside it. No
-    more are wanted than `MOST_WORK` allows.
+    more are wanted than `MOST_WORK` allows. ``numerics``: whose tolerances count (None: those of the scene).
     """
-    numerics = prepared.scene.numerics
+    numerics = prepared.scene.numerics if numerics is None else numerics
     load = prepared.scene.bodies.load
     most = max(1, min(prepared.sample.available, int(MOST_WORK / pairs[0].resolved.work)))
     moving = [pair.resolved for pair in pairs if isinstance(pair.resolved, MovingStrip)]
@@ -152,10 +156,19 @@ def two_levels(
     return estimates[chosen], max(counts[chosen], len(pairs))
 
 
-def levels_of(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids], estimate: TwoLevelEstimate) -> Levels:
+def levels_of(
+    prepared: Prepared,
+    speed: float,
+    pairs: Sequence[StripOnTwoGrids],
+    estimate: TwoLevelEstimate,
+    *,
+    with_shorter_cells: bool = True,
+) -> Levels:
     """Return the sum over levels at ``speed`` [m/s]: the ``estimate`` from these strips, changed by shorter cells if the
-    change of f from longer ones is not within ``numerics.tolerance``. Raises `ConvergenceError`."""
-    pieces, shortest, by_cells, numerical, has_unsolved_cells = on_shorter_cells(prepared, speed, pairs)
+    change of f from longer ones is not within ``numerics.tolerance``; without ``with_shorter_cells`` the error by the cells
+    is for others to state. Raises `ConvergenceError`."""
+    shorter = on_shorter_cells(prepared, speed, pairs) if with_shorter_cells else NO_SHORTER_CELLS
+    pieces, shortest, by_cells, numerical, has_unsolved_cells = shorter
     numbers = changed(prepared, estimate.numbers, [(piece[1], piece[-1]) for piece in pieces])
     numbers = changed(prepared, numbers, [shortest[-2:]] if shortest else [])
     results = [pair.resolved.result for pair in pairs]

@@ -83,11 +83,13 @@ PIECES_SHARE = 0.6
 UNSOLVED = 2.0
 
 Piece = tuple[Strip, ...]  # on shorter and shorter cells
+ShorterCells = tuple[tuple[Piece, ...], Piece, StandardError, float, bool]
+
+# What `on_shorter_cells` returns where none are solved, and another model states the error by the cells.
+NO_SHORTER_CELLS: ShorterCells = ((), (), StandardError(0.0, 1), SOLVED, False)
 
 
-def on_shorter_cells(
-    prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]
-) -> tuple[tuple[Piece, ...], Piece, StandardError, float, bool]:
+def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]) -> ShorterCells:
     """Solve the third and fourth level for ``pairs``, as far as needed, if the roughness rests: the pieces of both,
     the standard error of the mean relative change of f on those of the third, and the relative error that the last
     cells leave. Where pieces do not converge, or take too much work, there are none, that error is `UNSOLVED` times

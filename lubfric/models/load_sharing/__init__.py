@@ -1,4 +1,4 @@
-"""Load sharing, Eq. (8) of the paper: film and contact carry one load. Two models share its balance.
+"""Load sharing, Eq. (8) of the paper: film and contact carry one load.
 
 - The balance: `point` solves film and contact, each at its share of the load; `balance` finds the division at which they
   agree; `balanced_sample` solves it on the first strips of a sample; `cell_effect` corrects it for their cells,
@@ -6,25 +6,21 @@
   the gap.
 - `paper_model`, ``"paper"``: `forces` gives the friction by Eq. (9), `error_of_eq8` its error, `limits` the assumptions
   that a balance violates; `answer` and `errors_of` make the answer.
-- `load_sharing_model`, ``"load-sharing"``: `rough_film` gives the friction of the film between flattened roughness,
-  `calibrated` corrects it, with the error that a campaign of solved cases gives it (`calibrated_error`, calibration.toml).
 - `control_variate` hands what is known of the strips to the deterministic model; `estimated_work` estimates the cost.
 """
 
+from .answer import answer_of
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
-from .calibrated import CalibratedFriction, calibrated_friction
-from .calibrated_error import ErrorModel, error_models, features, least_half_width, rms_slopes, widening
 from .control_variate import control_for
 from .decision import decided
-from .error_of_eq8 import least_error, load_sharing_error, starved_error
+from .error_of_eq8 import least_error, load_sharing_error, rolling_model_error, starved_error
 from .errors_of import moment_model_error
 from .forces import Forces, forces
 from .limits import limits_exceeded
-from .load_sharing_model import LoadSharingModel, LoadSharingSolution
+from .methods import methods_of_load_sharing
 from .paper_model import PaperModel, PaperSolution
 from .point import Point
 from .response import Response, Slopes, loads_at, quantities, touched_length, with_contact_area_scaled
-from .rough_film import RoughFilm, RoughMap, flattened, rough_film
 from .scatter import Scatter, effective_spots, moment_error
 from .undetected import summit_radius, undetected_load

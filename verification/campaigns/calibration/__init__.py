@@ -1,8 +1,8 @@
-"""``python -m verification calibration``: the error of calibrated load sharing on kinds of contacts that the fit
+"""``python -m verification calibration``: the error of the quick answer on kinds of contacts that the fit
 excluded.
 
-Random contacts are solved by load sharing and by the deterministic model. ``python -m verification.campaigns.calibration
-MOTION COUNT`` extends the table of solved cases; ``... fit --solve`` solves them again by load sharing, and writes the error
+Random contacts are solved by load sharing, and by the deterministic model on long and on short cells. ``python -m verification.campaigns.calibration
+MOTION COUNT`` extends the table of solved cases; ``... fit --solve all`` solves them again on long cells, and writes the error
 model of lubfric anew.
 """
 

@@ -1,16 +1,17 @@
 """``python -m verification.campaigns.calibration rest|rolling COUNT [--budget S]``: extend a table of solved cases.
-``... fit [--solve]``: write calibration.toml of lubfric anew; with ``--solve`` the numbers of load sharing too."""
+``... fit [--solve all|missing]``: write calibration.toml of lubfric anew; with ``--solve`` the numbers on long cells too."""
 
 import argparse
 import os
 import sys
+from collections.abc import Sequence
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # isort: split
 from . import fit
-from .table import extend
+from .table import extend, to_repeat
 
 
 def main() -> int:
@@ -19,15 +20,21 @@ def main() -> int:
     p.add_argument("motion", choices=("rest", "rolling", "fit"))
     p.add_argument("count", type=int, nargs="?", default=0, help="number of cases that the table shall have")
     p.add_argument("--budget", type=float, default=7200.0, help="processor time [s] (default: %(default)s)")
+    p.add_argument("--repeat", type=int, default=0, help="solve the known cases on the map of this repeat (1, 2, ...)")
     p.add_argument("--first", type=int, default=0, help="number of the first case (default: %(default)s)")
-    p.add_argument("--solve", action="store_true", help="solve all cases by today's load sharing before the fit")
+    p.add_argument(
+        "--solve", choices=("all", "missing"), help="solve cases on long cells by today's model before the fit"
+    )
     options = p.parse_args()
     if options.motion == "fit":
         for motion in fit.MOTIONS if options.solve else ():
-            fit.solve_numbers(motion)
+            fit.solve_numbers(motion, again=options.solve == "all")
         fit.write()
         return 0
-    for row in extend(options.motion, options.count, options.budget, first=options.first):
+    seeds: Sequence[int] = range(options.first, options.count)
+    if options.repeat:
+        seeds = to_repeat(options.motion)
+    for row in extend(options.motion, seeds, options.budget, repeat=options.repeat):
         end = row["failure"] or f"{row['ls_f']:.4f} {row['det_f']:.4f}"
         print(f"{row['motion']} {row['seed']} {row['fluid']} {row['lay']} {row['seconds']:.1f} s: {end}", flush=True)
     return 0

@@ -66,6 +66,22 @@ SLIGHT_FROM = 1000
 # Slide-roll ratios of these cases [-].
 SLIGHT = (0.003, 0.3)
 
+# Number of the first case with a light contact, at rest and rolling; of the rolling ones, every second run of 16 slides
+# slightly.
+LIGHT_FROM = 2000
+
+# Loads of light contacts [N/m]. The scene "paper" has 917 N/m.
+LIGHT_LOADS = (500.0, 5000.0)
+
+# Hertz pressures of light contacts [Pa]. The scene "paper" has 130 MPa.
+LIGHT_PRESSURES = (40e6, 140e6)
+
+# Cylinder radii of light contacts [m]: that of the scene "paper" and somewhat less, up to that of a large gear.
+LIGHT_RADII = (1.5e-3, 50e-3)
+
+# Difference of the seeds of the maps of one case, repeated.
+REPEAT_STEP = 104_729
+
 
 def contact_reach(scene: lubfric.Scene, sq: float) -> float:
     """Return the length [m] along x that contains the contact: where an undeformed cylinder, resting on the ends of the
@@ -74,23 +90,29 @@ def contact_reach(scene: lubfric.Scene, sq: float) -> float:
     return 2 * math.sqrt(bodies.half_width**2 + 2 * bodies.radius * SUMMITS * sq)
 
 
-def drawn(motion: str, seed: int) -> Case:
-    """Return the random case number ``seed`` of a ``motion`` ("rest" or "rolling").
+def drawn(motion: str, seed: int, repeat: int = 0) -> Case:
+    """Return the random case number ``seed`` of a ``motion`` ("rest" or "rolling"); its ``repeat`` 1, 2, ... differs
+    from it by the seed of the map alone.
 
     Fluid and lay follow from the number, so that any run of 16 numbers has every pair once.
     """
     rng = np.random.default_rng([46, MOTIONS.index(motion), seed])
     fluid = FLUIDS[seed % 4]
     lay = LAYS[(seed // 4) % 4]
+    light = seed >= LIGHT_FROM
+    slight = motion == "rolling" and (seed // 16 % 2 == 1 if light else seed >= SLIGHT_FROM)
     for _ in range(DRAWS):
-        case = _drawn(rng, motion, fluid, lay, slight=motion == "rolling" and seed >= SLIGHT_FROM)
+        case = _drawn(rng, motion, fluid, lay, slight=slight, light=light, repeat=repeat)
         if case is not None:
-            return replace(case, facts={"motion": motion, "seed": seed} | case.facts)
+            return replace(case, facts={"motion": motion, "seed": seed, "repeat": repeat} | case.facts)
     raise RuntimeError(f"no case of {motion}, {fluid}, {lay} is small enough")
 
 
-def _drawn(rng: np.random.Generator, motion: str, fluid: str, lay: str, *, slight: bool) -> Case | None:
-    """Return one draw, of ``slight`` sliding as in a bearing; None where its grid has too many columns."""
+def _drawn(
+    rng: np.random.Generator, motion: str, fluid: str, lay: str, *, slight: bool, light: bool, repeat: int
+) -> Case | None:
+    """Return one draw, of ``slight`` sliding as in a bearing and under a ``light`` load; None where its grid has too
+    many columns."""
 
     def between(low: float, high: float) -> float:
         return float(math.exp(rng.uniform(math.log(low), math.log(high))))
@@ -99,6 +121,10 @@ def _drawn(rng: np.random.Generator, motion: str, fluid: str, lay: str, *, sligh
     e_prime = between(1.1e11, 2.4e11)
     lightest = math.sqrt(LIGHTEST * e_prime / (2 * math.pi * radius))
     pressure = between(lightest, HEAVIEST)
+    if light:
+        load = between(*LIGHT_LOADS)
+        pressure = between(*LIGHT_PRESSURES)
+        radius = load * e_prime / (2 * math.pi * pressure**2)
     sq = between(50e-9, 400e-9)
     length = between(5e-6, 25e-6)
     friction = rng.uniform(0.08, 0.15)
@@ -111,7 +137,9 @@ def _drawn(rng: np.random.Generator, motion: str, fluid: str, lay: str, *, sligh
     rough = ("lower", "upper", "both")[int(rng.integers(3))] if motion == "rolling" else "lower"
     hardness = None if rng.random() < 0.5 else between(3e9, 9e9)
     acf = "exponential" if lay == "isotropic" and rng.random() < 0.4 else "gaussian"
-    map_seed = int(rng.integers(2**31))
+    map_seed = int(rng.integers(2**31)) + REPEAT_STEP * repeat
+    if light and not LIGHT_RADII[0] <= radius <= LIGHT_RADII[1]:
+        return None
     scene = lubfric.load_scene("paper").with_(
         bodies={
             "radius": radius, "e_prime": e_prime, "hertz_pressure": pressure, "hardness": hardness,

@@ -15,7 +15,7 @@ WORDS = {"rest": "at rest", "rolling": "rolling"}
 
 
 def coverage(level: str, motion: str, run: Run = Run()) -> Iterator[Item]:
-    """Yield bounds of ln(f deterministic/f) fitted without a kind of case, beside the errors of that kind."""
+    """Yield bounds of ln f, without its rolling part, fitted without a kind of case, beside the errors of that kind."""
     solved = cases(motion)
     known = design(solved)
     parts = held_out(solved, known)
@@ -52,7 +52,7 @@ def coverage(level: str, motion: str, run: Run = Run()) -> Iterator[Item]:
         for part in parts
     ]
     columns = ("kind left out", "cases", "within the bounds", "half-width, median")
-    yield Table(f"calibration-{motion}", f"Calibrated load sharing, {motion}: kinds left out in turn", columns, rows)
+    yield Table(f"calibration-{motion}", f"The quick answer, {motion}: kinds left out in turn", columns, rows)
     yield drawn(motion, solved, plain, errors)
 
 
@@ -84,7 +84,7 @@ def summary(level: str, run: Run = Run()) -> Iterator[Item]:
         *("roughness", "cases", "rms error, Eq. (9)", "rms error", "median error"),
         *("median half-width", "within (by kind)"),
     )
-    yield Table("calibration", "Calibrated load sharing: ln(f deterministic/f), and kinds left out", columns, rows)
+    yield Table("calibration", "The quick answer: its error of ln f, and kinds left out", columns, rows)
 
 
 def _inside(parts: list[HeldOut], quantile: float) -> list[np.ndarray]:
@@ -101,7 +101,7 @@ def _without_bias(known: Design) -> np.ndarray:
 
 def _by_equation(solved: list[Solved]) -> np.ndarray:
     """Return ln(f deterministic/f by Eq. (9)), of cases in which that f is positive."""
-    ratios = np.array([float(case.row["det_f"]) / case.numbers["ls_f"] for case in solved])
+    ratios = np.array([float(case.row["det_f"]) / float(case.row["ls_f"]) for case in solved])
     return np.log(np.where(ratios > 0, ratios, np.nan))
 
 
@@ -110,10 +110,10 @@ def _rms(values: np.ndarray) -> float:
 
 
 def drawn(motion: str, solved: list[Solved], plain: np.ndarray, errors: np.ndarray) -> Figure:
-    """Return the errors of both kinds of load sharing over the lambda ratio."""
+    """Return the errors of load sharing and of the quick answer over the lambda ratio."""
     canvas, grid = plotting.axes(1, 2, 8.5, 3.6, sharey=True)
     ratios = [float(case.row["ratio"]) for case in solved]
-    for ax, values, title in zip(grid, (plain, errors), ("load sharing, Eq. (9)", "calibrated load sharing")):
+    for ax, values, title in zip(grid, (plain, errors), ("load sharing, Eq. (9)", "long cells, calibrated")):
         ax.plot(ratios, values, "o", ms=3, alpha=0.6)
         ax.axhline(0.0, color="0.5", lw=0.8)
         ax.set(xscale="log", xlabel="lambda ratio", title=title, ylim=(-1.5, 1.5))

@@ -1,11 +1,13 @@
-"""The table of solved cases: parts in CSV, which a run extends."""
+"""The table of solved cases in CSV, which a run extends."""
 
-import csv
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from .. import table_file
 from .case import MOTIONS, drawn
 from .solve import solved
 
@@ -14,47 +16,44 @@ DIGITS = 6  # of a number in the table
 SECONDS = {"rest": 25.0, "rolling": 25.0}  # processor time of a case, at most
 
 
-def rows(motion: str, folder: Path = TABLES) -> Iterator[dict[str, str]]:
-    """The rows of a ``motion`` as text, failed ones among them."""
-    file = folder / f"{motion}.csv"
-    if file.is_file():
-        with file.open(newline="") as stream:
-            yield from csv.DictReader(stream)
+def table_of(motion: str, folder: Path = TABLES) -> Path:
+    """Return the file with the solved cases of a ``motion``."""
+    return folder / f"{motion}.csv"
 
 
-def extend(motion: str, count: int, budget: float, folder: Path = TABLES, first: int = 0) -> Iterator[dict[str, Any]]:
-    """Solve the cases from ``first`` to below number ``count`` that are missing in the table of ``motion``, as long as
+def rows(motion: str, folder: Path = TABLES) -> list[dict[str, str]]:
+    """Return the rows of a ``motion`` as text, failed ones among them."""
+    return table_file.rows(table_of(motion, folder))
+
+
+def to_repeat(motion: str, folder: Path = TABLES) -> list[int]:
+    """Return the numbers of the solved cases of ``motion``, in a random order that is always the same: any first part
+    of it is a random sample."""
+    seeds = sorted(int(row["seed"]) for row in rows(motion, folder) if not row["failure"] and row["repeat"] == "0")
+    return [int(seed) for seed in np.random.default_rng(46).permutation(seeds)]
+
+
+def extend(
+    motion: str, seeds: Sequence[int], budget: float, folder: Path = TABLES, repeat: int = 0
+) -> Iterator[dict[str, Any]]:
+    """Solve the cases of these ``seeds``, or their ``repeat``, that are missing in the table of ``motion``, as long as
     the time of this process is below ``budget`` [s], and append each when it is solved."""
     assert motion in MOTIONS
     folder.mkdir(parents=True, exist_ok=True)
-    file = folder / f"{motion}.csv"
-    known = {int(row["seed"]) for row in rows(motion, folder)}
-    names = list(COLUMNS)
-    for seed in range(first, count):
-        if seed in known:
+    known = {(int(row["seed"]), int(row["repeat"])) for row in rows(motion, folder)}
+    for seed in seeds:
+        if (seed, repeat) in known:
             continue
         if time.process_time() > budget:
             return
-        row = solved(drawn(motion, seed), SECONDS[motion])
-        new = not file.is_file()
-        with file.open("a", newline="") as stream:
-            writer = csv.DictWriter(stream, names)
-            if new:
-                writer.writeheader()
-            writer.writerow({name: as_text(row.get(name, "")) for name in names})
+        row = solved(drawn(motion, seed, repeat), SECONDS[motion])
+        table_file.append(table_of(motion, folder), COLUMNS, row, DIGITS)
         yield row
 
 
-def as_text(value: Any) -> Any:
-    """A number with `DIGITS` digits; None as an empty cell."""
-    if isinstance(value, float):
-        return f"{value:.{DIGITS}g}"
-    return "" if value is None else value
-
-
 COLUMNS = (
-    *("motion", "seed", "fluid", "lay", "acf", "radius", "e_prime", "pressure", "sq", "length_x", "length_y"),
-    *("friction", "ratio", "slip", "rough", "hardness", "viscosity", "alpha", "eyring", "limit", "speed"),
+    *("motion", "seed", "repeat", "fluid", "lay", "acf", "radius", "e_prime", "pressure", "sq", "length_x"),
+    *("length_y", "friction", "ratio", "slip", "rough", "hardness", "viscosity", "alpha", "eyring", "limit", "speed"),
     *("dx", "dy", "nx", "ny", "map_seed", "map_skewness", "map_kurtosis", "map_slope_x", "map_slope_y"),
     *("ls_f", "ls_contact", "ls_boundary", "ls_couette", "ls_rolling", "ls_lambda", "ls_film", "ls_min_film"),
     *("ls_gap", "ls_area", "ls_plastic", "ls_steepness", "ls_clearance", "ls_sampling", "ls_numerical", "ls_model"),

@@ -1,45 +1,33 @@
 """The chart of the quick answer: error of f against time on the random contacts of the campaign "calibration".
 
-Five kinds of contact, with the roughness at rest and moving. Errors are |ln(f/f of the reference)|, their median and the
-range of the middle half of the contacts. Calibrated load sharing is without the bias of a fit to other lays or loads. The
-reference at rest is the deterministic model on the cells of the map, and in rolling the same with tight settings for the
-march in time. Times are processor seconds on one strip.
+Five kinds of contact, with the roughness at rest and moving. Errors are |ln| of f over the reference, their median and the
+range of the middle half of the contacts. The quick answer is without the bias of a fit to other lays or loads. The
+deterministic model on long cells is the same without that bias, and on short ones it is the reference before the
+correction for its own cells. Times are processor seconds on one strip. All numbers are those of the campaign's tables.
 """
 
-import math
-import time
-from collections.abc import Iterator
-
 import numpy as np
-
-import lubfric
-from lubfric.models.deterministic import solve_strip
 
 from ... import plotting
 from ...check import Check, Figure
 from ..calibration import fit
-from ..calibration.case import drawn as drawn_case
-from ..moving_effort.table import differences
 from .draw import COLOURS
 from .measure import point, quartiles
 
 HEAVY = 7e8  # Pa: peak Hertz pressure from which on a contact is a heavy one
 KINDS = ("isotropic", "across", "along", "plateau", "heavy")
 MOTIONS = {"rest": "at rest", "rolling": "rolling"}
-BY_EQUATION = "Eq. (9), paper"
-CALIBRATED = "load sharing, calibrated"
+BY_EQUATION = "load sharing, Eq. (9)"
+QUICK = "quick answer: long cells, calibrated"
 LONG = "deterministic, long cells"
-USUAL = "deterministic, usual"
-METHODS = (BY_EQUATION, CALIBRATED, LONG, USUAL)
-LONGER = {LONG: (4, 4), USUAL: (2, 2)}  # cells at rest over those of the map, along x and y
-VARIANTS = {LONG: "longer", USUAL: "economical"}  # of the march in time
-SOLVED = {True: 1, False: 5}  # contacts of a kind at rest that are solved for the chart
+SHORT = "deterministic, cells half as long"
+METHODS = (BY_EQUATION, QUICK, LONG, SHORT)
 LEAST = 1e-4  # error that is drawn, at least
 
 
-def cases(*, quick: bool) -> dict[str, tuple[str, str, bool]]:
+def cases(*, quick: bool) -> dict[str, tuple[str, str]]:
     """Return a panel for each kind and motion."""
-    return {f"{kind}, {words}": (kind, motion, quick) for motion, words in MOTIONS.items() for kind in KINDS}
+    return {f"{kind}, {words}": (kind, motion) for motion, words in MOTIONS.items() for kind in KINDS}
 
 
 def of_kind(row: dict[str, str], kind: str) -> bool:
@@ -47,56 +35,37 @@ def of_kind(row: dict[str, str], kind: str) -> bool:
     return float(row["pressure"]) > HEAVY if kind == "heavy" else row["lay"] == kind
 
 
-def measured(chosen: tuple[str, str, bool]) -> list[dict]:
+def measured(chosen: tuple[str, str]) -> list[dict]:
     """Return the points of one panel."""
-    kind, motion, quick = chosen
+    kind, motion = chosen
     solved = fit.cases(motion)
     known = fit.design(solved)
-    of = np.array([of_kind(case.row, kind) for case in solved])
-    own = [case for case, is_own in zip(solved, of) if is_own]
-    bias = known.of_bias[of] @ known.fit(~of).bias
-    plain = [abs(math.log(f)) for f in (float(c.row["det_f"]) / c.numbers["ls_f"] for c in own) if f > 0]
-    seconds = {name: [case.numbers[name] for case in own] for name in ("seconds_balance", "seconds")}
+    is_of_kind = np.array([of_kind(case.row, kind) for case in solved])
+    of_kind_alone = [case for case, chosen in zip(solved, is_of_kind) if chosen]
+    errors = known.errors[is_of_kind]
+    bias = known.of_bias[is_of_kind] @ known.fit(~is_of_kind).bias
+    remaining = fit.REMAINING[motion] / (1 + fit.REMAINING[motion])
+    by_equation = np.array([float(case.row["det_f"]) / float(case.row["ls_f"]) for case in of_kind_alone])
+    known_logarithm = by_equation > 0
+    seconds = {
+        BY_EQUATION: [float(case.row["ls_seconds"]) for case in of_kind_alone],
+        QUICK: [case.numbers["seconds"] for case in of_kind_alone],
+        LONG: [case.numbers["seconds"] for case in of_kind_alone],
+        SHORT: [float(case.row["seconds"]) - float(case.row["ls_seconds"]) for case in of_kind_alone],
+    }
+    sizes = {
+        BY_EQUATION: np.abs(np.log(by_equation[known_logarithm])),
+        QUICK: np.abs(errors - bias),
+        LONG: np.abs(errors),
+        SHORT: remaining * np.abs(errors),
+    }
     panel = f"{kind}, {MOTIONS[motion]}"
-    points = [
-        _point(panel, BY_EQUATION, plain, seconds["seconds_balance"]),
-        _point(panel, CALIBRATED, np.abs(known.errors[of] - bias).tolist(), seconds["seconds"]),
-    ]
-    deterministic = _at_rest(own[: SOLVED[quick]]) if motion == "rest" else _rolling(own)
-    points += [_point(panel, method, errors, times) for method, errors, times in deterministic if errors]
-    return points
+    return [_point(panel, method, sizes[method], seconds[method]) for method in METHODS]
 
 
-def _point(panel: str, method: str, errors: list[float], seconds: list[float]) -> dict:
+def _point(panel: str, method: str, errors: np.ndarray, seconds: list[float]) -> dict:
     low, median, high = (float(value) for value in np.quantile(errors, (0.25, 0.5, 0.75)))
     return point(panel, method, "", median, quartiles(seconds), least=low, most=high, cases=len(errors))
-
-
-def _at_rest(own: list[fit.Solved]) -> Iterator[tuple[str, list[float], list[float]]]:
-    for method, factors in LONGER.items():
-        errors = []
-        times = []
-        for case in own:
-            drawn = drawn_case("rest", int(case.row["seed"]))
-            begun = time.process_time()
-            try:
-                strip = solve_strip(drawn.scene, drawn.surface, drawn.speed, factors=factors)
-            except lubfric.LubfricError:
-                continue
-            times.append(time.process_time() - begun)
-            errors.append(abs(math.log(float(case.row["det_f"]) / strip.result.coefficient)))
-        yield method, errors, times
-
-
-def _rolling(own: list[fit.Solved]) -> Iterator[tuple[str, list[float], list[float]]]:
-    rows = {case.row["seed"]: float(case.row["seconds"]) for case in own}
-    table = [row for row in differences() if row["seed"] in rows and row["starved"] == "0"]
-    usual = {row["seed"]: row["faster"] for row in table if row["variant"] == VARIANTS[USUAL]}
-    for method, variant in VARIANTS.items():
-        part = [row for row in table if row["variant"] == variant and row["seed"] in usual]
-        errors = [abs(math.log1p(row["f"])) for row in part]
-        times = [rows[row["seed"]] * usual[row["seed"]] / row["faster"] for row in part]
-        yield method, errors, times
 
 
 def drawn(name: str, points: list[Check], machine: str) -> Figure:

@@ -1,0 +1,384 @@
+"""The quick answer as a `lubfric.models.Model`: a few strips of the deterministic model on long cells, with the bias and
+the error that solved cases give them.
+
+It answers for ``numerics.model = "load-sharing"``. The balance of Eq. (8) on the line is the control of strips whose
+roughness rests, and answers alone, with the friction of Eq. (9), where the campaign has no such contacts.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from ...errors import ConvergenceError
+from ...samples import Sample
+from ...scene import Numerics, Scene, gap_not_resolved, moves
+from ...surface import Surface
+from ..contract import AtInputs, Model, ModelAnswer, SampleSolution, WorkEstimate
+from ..deterministic import (
+    Levels,
+    SampleTarget,
+    StripOnTwoGrids,
+    bodies_of,
+    levels_of,
+    strip_at_rest,
+    strip_surface,
+    summit_control,
+    two_levels,
+    work_on_strips,
+)
+from ..deterministic import answer_of as deterministic_answer
+from ..load_sharing import PaperModel, PaperSolution, methods_of_load_sharing, rolling_model_error
+from ..shared import (
+    ControlVariate,
+    ExpectedWarnings,
+    Heat,
+    Prepared,
+    StandardError,
+    Validity,
+    expected_on_hertz,
+    no_rough_film,
+    percent,
+)
+from .calibrated_error import ErrorModel, error_model_of, out_of_range, widening
+from .long_strips import features, long_cells, numbers_of_strip, solve_at_rest, solve_moving
+
+# Strips at rest, at most: each adds .2 s.
+MOST_STRIPS = 4
+
+# The same, about, on which an estimate of the work rests.
+EXPECTED_STRIPS = 2
+
+# Standard error of f by the sample that strips are solved for, relative, at least: a smaller one takes more time than the
+# error by the cells is worth.
+SAMPLING = 0.03
+
+# numerics.model_tolerance below which "auto" does not try this model: the bounds are those of kinds of contacts, and a
+# point would be solved twice for the few whose bounds are narrower.
+LEAST_TOLERANCE = 0.1
+
+# Part of f_b by which the stress of asperities exceeds that of the film, at least, where a bias of f is one of the
+# asperity load. Where both are alike, it is one of the film.
+LEAST_CONTRAST = 0.05
+
+ELASTIC = "elastic shear (lubricant.shear_modulus) is not calibrated: friction by Eq. (9)"
+NOT_FLOODED = (
+    "f of Eq. (9) with the error of load sharing: the campaign behind the calibration has flooded contacts only"
+)
+UNSOLVED = "f of Eq. (9) with the error of load sharing: the strips on long cells were not solved ({})"
+OUTSIDE = "outside the range of the solved cases behind the model-form error, which is widened: {}"
+NARROWER = "numerics.model = 'deterministic' narrows f, at the cost that `lubfric info` estimates"
+OF_CELLS = "the error of long cells on {} solved cases: numerics.model = 'deterministic' narrows it"
+
+
+@dataclass(frozen=True, kw_only=True)
+class LongStrips:
+    """The strips on long cells.
+
+    levels : their estimate; model : the error model of such contacts
+    bias : of ln of the sliding part of f; half_width : of its 95 % interval, in ln
+    widening : factor on the bounds outside of the range of the solved cases; outside : what is outside of it, as text
+    """
+
+    levels: Levels
+    model: ErrorModel
+    bias: float
+    half_width: float
+    widening: float
+    outside: tuple[str, ...]
+
+    def numbers(self, scene: Scene) -> dict[str, float]:
+        """Return the numbers of the strips without their bias.
+
+        The bias of f is one of the asperity load, with f_b on asperities and the mean stress of the film beside it as
+        they are. What f has beyond that, because asperities carry none or all of the load, or have the stress of the
+        film, remains in the shear of the film. So the forces add up to f.
+        """
+        numbers = self.levels.numbers
+        load = scene.bodies.load
+        rolling = numbers["rolling_force"]
+        force = rolling + (load * numbers["coefficient"] - rolling) * math.exp(self.bias)
+        rubs = scene.bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0)
+        share = numbers["contact_load"] / load
+        contrast = rubs - (numbers["couette_force"] / numbers["film_load"] if numbers["film_load"] > 0 else rubs)
+        new_share = share
+        if contrast > LEAST_CONTRAST * rubs:
+            new_share = min(max(share + (force / load - numbers["coefficient"]) / contrast, 0.0), 1.0)
+        boundary = numbers["boundary_force"] * (new_share / share if share > 0 else 0.0)
+        boundary += rubs * new_share * load * (share == 0)
+        times = new_share / share if share > 0 else 0.0
+        of_films = times if scene.lubricant.newtonian else (1 - new_share) / (1 - share) if share < 1 else 0.0
+        return numbers | {
+            "coefficient": force / load,
+            "contact_load": new_share * load,
+            "film_load": (1 - new_share) * load,
+            "boundary_film_load": numbers["boundary_film_load"] * times if share > 0 else new_share * load,
+            "saturated_film_load": numbers["saturated_film_load"] * of_films,
+            "boundary_force": boundary,
+            "shear_force": force - boundary,
+            "couette_force": force - boundary - rolling,
+        }
+
+    def bounds(self, scene: Scene) -> tuple[float, float]:
+        """Return the 95 % bounds of f by the cells, relative, below and above."""
+        numbers = self.numbers(scene)
+        f = numbers["coefficient"]
+        rolling = numbers["rolling_force"] / scene.bodies.load
+        sliding = abs(f - rolling)
+        if f == 0:
+            return math.inf, math.inf
+        of_rolling = self.widening * self.model.rolling_error(rolling, sliding)
+        down, up = (sliding * abs(math.expm1(side * self.half_width)) for side in (-1, 1))
+        return math.hypot(down, of_rolling) / abs(f), math.hypot(up, of_rolling) / abs(f)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CalibratedSolution(SampleSolution):
+    """A few strips by the deterministic model on long cells, which are solved when they are needed.
+
+    ``known_line``: the line by load sharing, where it is solved: the control of strips whose roughness rests.
+    """
+
+    prepared: Prepared
+    sample: Sample
+    count: int
+    speed: float
+    known_line: PaperSolution | None = None
+
+    @cached_property
+    def line(self) -> PaperSolution:
+        """The line by load sharing."""
+        return self.known_line or PaperModel().solve(self.prepared, self.sample, self.count, self.speed).corrected()
+
+    @property
+    def sampling_error(self) -> StandardError:
+        return StandardError(0.0, 1) if self.known_line is None else self.known_line.sampling_error
+
+    def required_strips(self) -> int:
+        return self.count if self.known_line is None else self.known_line.required_strips()
+
+    def is_too_coarse(self) -> bool:
+        return self.known_line is not None and self.known_line.is_too_coarse()
+
+    def takes_more_strips_first(self) -> bool:
+        return self.known_line is not None and self.known_line.takes_more_strips_first()
+
+    def corrected(self) -> CalibratedSolution:
+        return self if self.known_line is None else replace(self, known_line=self.known_line.corrected())
+
+    def control(self) -> ControlVariate | None:
+        return self.line.control()
+
+    def heat(self) -> Heat:
+        return self.line.heat()
+
+    def warnings(self) -> tuple[Validity, ...]:
+        return self.line.warnings()
+
+    @property
+    def why_by_equation(self) -> str:
+        """Why f is that of Eq. (9), as text; "" where strips on long cells give it."""
+        lubricant = self.prepared.scene.lubricant
+        if lubricant.shear_modulus is not None:
+            return ELASTIC
+        if not lubricant.floods:
+            return NOT_FLOODED
+        return self._solved if isinstance(self._solved, str) else ""
+
+    @cached_property
+    def _solved(self) -> LongStrips | str:
+        """The strips on long cells, or why they have no solution, as text."""
+        control = None if self.known_line is None else self.known_line.control()
+        try:
+            return solve_long_strips(self.prepared, self.speed, control)
+        except ConvergenceError as error:
+            return UNSOLVED.format(error)
+
+    @property
+    def strips(self) -> LongStrips:
+        """The strips on long cells, where there are any (`why_by_equation`)."""
+        assert isinstance(self._solved, LongStrips)
+        return self._solved
+
+    def why_sufficient(self) -> str:
+        scene = self.prepared.scene
+        tolerance = scene.numerics.model_tolerance
+        if tolerance < LEAST_TOLERANCE or self.why_by_equation:
+            return ""
+        answer = self.answer()
+        error = math.sqrt(
+            max(max(answer.model_error) ** 2 - answer.by_limit**2, 0.0)
+        )  # the limit is no error of a model
+        if error > tolerance:
+            return ""
+        return f"its model-form error, {percent(error)}, is within numerics.model_tolerance, {percent(tolerance)}"
+
+    def answer(self) -> ModelAnswer:
+        if why := self.why_by_equation:
+            answer = self.line.answer()
+            return replace(answer, notes=(*answer.notes, why))
+        return calibrated_answer(self.prepared, self.speed, self.strips)
+
+
+def solve_long_strips(prepared: Prepared, speed: float, control: ControlVariate | None) -> LongStrips:
+    """Return the strips of ``prepared`` at ``speed`` [m/s], not 0, on long cells; ``control``: of the line by load
+    sharing. Raises `ConvergenceError`."""
+    scene = prepared.scene
+    numerics = replace(scene.numerics, sampling_tolerance=max(scene.numerics.sampling_tolerance, SAMPLING))
+    pairs = [_solve_strip(prepared, speed, 0, numerics, None)]
+    most = 1 if moves(scene) else MOST_STRIPS
+    while True:
+        estimate, wanted = two_levels(prepared, pairs, control, numerics)
+        if len(pairs) >= min(wanted, most):
+            break
+        pairs.append(_solve_strip(prepared, speed, len(pairs), numerics, pairs[0].resolved.slope))
+    friction = scene.bodies.boundary_friction_coefficient
+    slip = scene.motion.slide_roll_ratio
+    rows = [features(numbers_of_strip(pair), friction, slip) for pair in pairs]
+    x = {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
+    model = error_model_of(scene)
+    outside = out_of_range(scene, prepared.surface.sq, speed, model.range)
+    factor = widening(outside.values())
+    return LongStrips(
+        levels=levels_of(prepared, speed, pairs, estimate, with_shorter_cells=False),
+        model=model,
+        bias=model.bias_at(x),
+        half_width=factor * model.half_width(x),
+        widening=factor,
+        outside=tuple(outside),
+    )
+
+
+def cells_of_strips(scene: Scene, sample: Sample) -> tuple[int, int]:
+    """Return the length of the long cells in those of ``sample``, of a patch at rest in those of the map."""
+    (fx, fy) = sample.cells.coarsening if sample.refines_in_place and not moves(scene) else (1, 1)
+    (dx, dy) = sample.cells.spacing
+    return long_cells(scene, (dx / fx, dy / fy), sample.rows * fy, sample.correlation_lengths)
+
+
+def _solve_strip(
+    prepared: Prepared, speed: float, index: int, numerics: Numerics, slope: float | None
+) -> StripOnTwoGrids:
+    """Return strip ``index`` on long cells."""
+    scene = prepared.scene
+    sample = prepared.sample
+    surface = strip_surface(prepared, index)
+    factors = long_cells(scene, surface.spacing, surface.shape[1], sample.correlation_lengths)
+    is_mirrored = sample.distinct_rows(surface.heights) < surface.shape[1]
+    if not moves(scene):
+        return replace(solve_at_rest(scene, surface, speed, factors, slope), mirrored=is_mirrored)
+    target = None
+    if not sample.refines_in_place:
+        target = SampleTarget(
+            error=numerics.sampling_tolerance,
+            correlation_length=sample.correlation_lengths[1],
+            control=summit_control(prepared),
+        )
+    pair = solve_moving(scene, bodies_of(prepared, index, speed), speed, factors, target)
+    return replace(pair, mirrored=is_mirrored)
+
+
+def ends_at_rest(prepared: Prepared, speed: float, strips: LongStrips) -> AtInputs:
+    """Return f at other inputs on the first strip at rest, where its roughness moves: a continuation in motion takes as
+    long as the strip itself. The relative change of the sliding part of f is taken for that of f in motion."""
+    pair = strips.levels.pairs[0]
+    bodies = bodies_of(prepared, 0, speed)
+    spacing = pair.longer.problem.spacing
+    factors = (round(spacing[0] / bodies[0].surface.spacing[0]), round(spacing[1] / bodies[0].surface.spacing[1]))
+
+    def coefficient(scene: Scene) -> float:
+        return strip_at_rest(scene, bodies, speed, factors=factors, start=pair.longer).result.coefficient
+
+    return AtInputs(middle=pair.longer.result.coefficient, coefficient=coefficient)
+
+
+def calibrated_answer(prepared: Prepared, speed: float, strips: LongStrips) -> ModelAnswer:
+    """Return the answer of ``strips`` at ``speed`` [m/s] without their bias, with its error."""
+    scene = prepared.scene
+    levels = replace(strips.levels, numbers=strips.numbers(scene))
+    answer = deterministic_answer(prepared, speed, levels)
+    bounds = strips.bounds(scene)
+    largest = answer.largest_in_model
+    if max(bounds) >= max(answer.model_error):
+        largest = OF_CELLS.format(strips.model.cases)
+    notes = list(answer.notes)
+    if strips.outside:
+        notes.append(OUTSIDE.format("; ".join(strips.outside)))
+    basis = f"deterministic model on long cells, calibrated on {strips.model.cases} solved cases"
+    below, above = (math.hypot(part, bound) for part, bound in zip(answer.model_error, bounds))
+    if moves(scene):
+        answer = replace(answer, at_inputs=lambda: ends_at_rest(prepared, speed, strips))
+    return replace(
+        answer,
+        model_error=(min(below, 1.0), above),
+        largest_in_model=largest,
+        notes=tuple(notes),
+        decision=replace(answer.decision, model="load-sharing", basis=basis, notes=(NARROWER, *answer.decision.notes)),
+    )
+
+
+class CalibratedModel(Model):
+    """Strips on long cells with a calibrated error, beside the balance of Eq. (8)."""
+
+    @property
+    def name(self) -> str:
+        return "load-sharing"
+
+    @property
+    def includes_motion(self) -> bool:
+        return True  # roughness that moves, moves on the long cells as well
+
+    def described(self, scene: Scene) -> str:
+        unknown = "; its model-form error is not known and not in the interval" if gap_not_resolved(scene) else ""
+        return f"deterministic model on long cells, calibrated (numerics.model): fast, with the error of solved cases{unknown}"
+
+    def expected_warnings(self, scene: Scene, speeds: list[float]) -> ExpectedWarnings:
+        return expected_on_hertz(scene)
+
+    def estimate(
+        self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
+    ) -> WorkEstimate:
+        alone = PaperModel().estimate(scene, sample, surface, speed, None)
+        seconds = alone.seconds if cheaper is None and not moves(scene) else 0.0
+        if speed and surface.sq and sample.is_resolved and scene.transient is None:
+            count = 1 if moves(scene) else EXPECTED_STRIPS
+            seconds += work_on_strips(scene, sample, surface.sq, speed, cells_of_strips(scene, sample), count)
+        return replace(alone, seconds=seconds)
+
+    def methods(self, prepared: Prepared, *, contact: bool, film: bool) -> tuple[str, ...]:
+        return ("deterministic model", *methods_of_load_sharing(prepared, contact=contact, film=film))
+
+    def rolling_error(self, lambda_ratio: float) -> float:
+        return rolling_model_error(lambda_ratio)
+
+    def why_unable(self, prepared: Prepared, speed: float) -> str:
+        return no_rough_film(prepared, speed) or gap_not_resolved(prepared.scene, given=prepared.given)
+
+    def adopt(self, cheaper: SampleSolution) -> CalibratedSolution | None:
+        return _beside(cheaper) if isinstance(cheaper, PaperSolution) else None
+
+    def solve(
+        self,
+        prepared: Prepared,
+        sample: Sample,
+        count: int,
+        speed: float,
+        *,
+        start: SampleSolution | None = None,
+        control: ControlVariate | None = None,
+    ) -> CalibratedSolution:
+        """Solve the line by load sharing where it is a control of the strips, which follow when they are needed."""
+        if moves(prepared.scene):
+            return CalibratedSolution(prepared=prepared, sample=sample, count=count, speed=speed)
+        line = start.known_line if isinstance(start, CalibratedSolution) else None
+        return _beside(PaperModel().solve(prepared, sample, count, speed, start=line))
+
+
+def _beside(line: PaperSolution) -> CalibratedSolution:
+    """Return the strips beside a ``line`` that is solved."""
+    return CalibratedSolution(
+        prepared=line.prepared, sample=line.sample, count=line.count, speed=line.speed, known_line=line
+    )
