@@ -39,7 +39,7 @@ BEARING_SPEEDS = (30, 60, 120)  # rpm
 SKF_WEIGHS = "SKF weighs the friction of all sliding contacts of a bearing, flange and cage among them; their accuracy is not stated"
 BEARING_DIFFERS = {
     30: ListedDeviation(cause="both", reason=SKF_WEIGHS, low=0.35, high=0.41),
-    60: ListedDeviation(cause="both", reason=SKF_WEIGHS, low=0.0, high=0.1),
+    60: ListedDeviation(cause="both", reason=SKF_WEIGHS, low=0.02, high=0.055),
     120: ListedDeviation(cause="both", reason=SKF_WEIGHS, low=0.0, high=0.01),
 }
 MOTION = 0.4  # of the share at rest: what moving roughness changes of it (Masjedi and Khonsari's middle roughness)
