@@ -71,8 +71,11 @@ class Quantities(Generic[T]):
         error="all",
         note="(f_b F_C + F_sh)/F_T (Akchurin et al. 2015, Eq. 9), of surface 2 against its sliding",
     )
-    # By "deterministic" and "load-sharing" the load where the stress is f_b p, on saturated films of a Newtonian oil too.
-    contact_load: T = quantity("N", "load carried by the rough contact", "F_C", error="split")
+    contact_load: T = quantity(
+        *("N", "load carried by the rough contact", "F_C"),
+        error="split",
+        note="by every model but that of the paper the load where the stress is f_b p: saturated films of a Newtonian oil too",
+    )
     film_load: T = quantity("N", "load carried by the film", "F_H", error="split")
     shear_force: T = quantity("N", "shear force of the film", "F_sh", error="shear", note="of both parts")
     couette_force: T = quantity("N", "sliding part of the shear force", error="shear")

@@ -100,7 +100,7 @@ def test_the_estimate_knows_the_contract_of_a_model_and_no_model():
         "SampleSolution",
         "WorkEstimate",
         "with_friction_at",
-        "at_tolerance",
+        "prepared_with",
         "candidates",
         "models_up_to",
     }

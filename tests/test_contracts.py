@@ -95,9 +95,9 @@ class TestSample:
         heights = np.hstack([np.arange(6.0)[None], np.arange(6.0)[None, ::-1]])
         half_width = prepared.scene.bodies.half_width
         distance = sample.renewal_length(half_width)
-        if sample.refines_in_place:
+        if sample.is_only_map:
             assert sample.distinct_rows(heights) == 6 and math.isnan(distance) and sample.in_words(1) == "the patch"
-            assert sample.for_fields().cells.is_native and sample.cells_to_look_at(half_width) == (1, 1)
+            assert sample.for_fields().cells.is_native and sample.coarsening_to_look_at(half_width) == (1, 1)
         else:
             assert sample.distinct_rows(heights) == 12 and distance > 2 * half_width
             assert sample.for_fields() is sample and "2 strips" in sample.in_words(2)

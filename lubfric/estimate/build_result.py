@@ -17,7 +17,7 @@ from .methods import MethodUse, methods_of
 from .power import PowerLoss, power_loss_of
 from .ranges import changes_by_ranges, widened
 from .result import FrictionResult
-from .uncertainty import Uncertainty, field_errors_of, interval
+from .uncertainty import Uncertainty, interval, number_errors_of
 
 # Slide-roll ratio, without its sign, at which one surface stands still: (u_2 - u_1)/U with u_1 = 0.
 ONE_STANDS_STILL = 2.0
@@ -65,7 +65,7 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
         **numbers,
         report=replace(report, notes=notes),
         uncertainty=uncertainty,
-        errors=field_errors_of(errors, answer.why_no_error, answer.reasons),
+        errors=number_errors_of(errors, answer.why_no_error, answer.reasons),
         decision=decision,
         power_loss_interval=loss.interval,
         validity=warnings,

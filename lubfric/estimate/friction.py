@@ -8,7 +8,7 @@ import numpy as np
 from .._base import limited_work, releasing_memory, unlimited_work, validate, with_default_errors
 from .._base.jobs import current_executor, parts_on
 from .._base.processes import MOST_WORKERS, pool
-from ..models import Model, at_tolerance, with_friction_at
+from ..models import Model, prepared_with, with_friction_at
 from ..models.shared import Prepared, refused
 from ..scene import FASTEST, Scene, warn_unusual_values
 from .build_result import result_of
@@ -68,7 +68,7 @@ def friction(
     ValidityError : f means nothing, because an assumption fails, and ``numerics.accept`` is false; carries the result
     """
     begun = time.perf_counter()
-    prepared = at_tolerance(scene, tolerance, None if isinstance(model, Model) else model)
+    prepared = prepared_with(scene, tolerance, None if isinstance(model, Model) else model)
     speed = prepared.scene.motion.entrainment_speed if speed is None else speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     prepared = with_friction_at(prepared, speed)

@@ -15,7 +15,7 @@ from ..models import ContactFields, ModelDetails
 from ..models.shared import Decision, UnmodelledEffect, Validity
 from ..quantities import PointQuantities, described_in_doc, in_words
 from .bibtex import bibtex
-from .uncertainty import FieldErrors, Uncertainty
+from .uncertainty import NumberErrors, Uncertainty
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,7 +37,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     report : of the solve
     uncertainty : of the coefficient: from solvers and grids, because a finite surface represents all of it, and from
         the model (`Uncertainty`, docs/uncertainty.md)
-    errors : relative errors of every other number (`FieldErrors`), for example ``errors.contact_load``
+    errors : relative errors of every other number (`NumberErrors`), for example ``errors.contact_load``
     decision : how much was modelled, and the numbers it was judged by; ``decision.text`` describes it
     power_loss_interval : 95 % interval of the power loss [W], (low, high)
     validity : the assumptions that do not hold (`lubfric.Validity`). A severe one is there only where it was accepted
@@ -52,7 +52,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
 
     report: Report
     uncertainty: Uncertainty
-    errors: FieldErrors
+    errors: NumberErrors
     decision: Decision
     power_loss_interval: tuple[float, float] = (math.nan, math.nan)
     validity: tuple[Validity, ...] = ()

@@ -126,19 +126,19 @@ def curve_of(points: Sequence[Any]) -> UncertaintyCurve:
 
 
 @dataclass(frozen=True, kw_only=True)
-class FieldErrors(Quantities[float]):
+class NumberErrors(Quantities[float]):
     """Estimated relative error of every reported quantity: one standard error, where the surface is part of it. NaN
     where it is not known; ``reasons`` then has the name and why."""
 
     reasons: dict[str, str]
 
 
-def field_errors_of(known: dict[str, float], why: str, reasons: dict[str, str] | None = None) -> FieldErrors:
-    """`FieldErrors` of the errors ``known`` by name; ``why`` of those that are not, unless ``reasons`` has another."""
+def number_errors_of(known: dict[str, float], why: str, reasons: dict[str, str] | None = None) -> NumberErrors:
+    """`NumberErrors` of the errors ``known`` by name; ``why`` of those that are not, unless ``reasons`` has another."""
     errors = {name: float(known.get(name, math.nan)) for name in ESTIMATED}
     errors = {name: value if math.isfinite(value) else math.nan for name, value in errors.items()}
     unknown = [name for name, value in errors.items() if math.isnan(value)]
-    return FieldErrors(**errors, reasons={name: (reasons or {}).get(name, why) for name in unknown})
+    return NumberErrors(**errors, reasons={name: (reasons or {}).get(name, why) for name in unknown})
 
 
 def interval(value: float, numerical: float, sampling: float, freedom: float, *model: float) -> tuple[float, float]:

@@ -11,5 +11,5 @@ from .calibrated import CalibratedModel
 from .contract import ContactFields, Model, ModelAnswer, ModelDetails, SampleSolution, WorkEstimate
 from .deterministic import DeterministicModel, DeterministicResult
 from .load_sharing import Balance, PaperModel
-from .prepare import at_tolerance, prepare, prepare_on_maps, with_friction_at
+from .prepare import prepare, prepare_on_maps, prepared_with, with_friction_at
 from .registry import AUTO, MODELS, candidates, model_named, models_up_to

@@ -26,7 +26,7 @@ from ..samples import (
     sample_of,
     takes_strips,
 )
-from ..scene import CHANGING, Scene, gap_not_resolved, moves, warn_unusual_values
+from ..scene import CHANGING, Scene, moves, warn_unusual_values, why_gap_not_resolved
 from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import check_run, estimated_run, periods, run_model_of, sampled_times, scene_at, speeds_of_run
@@ -178,7 +178,7 @@ def _model(
     """Return which model will answer at the ``speeds`` [m/s] and ``ratios``, and why; and the processor seconds of all
     of them (`lubfric.estimate.friction`; 0: not known here)."""
     name = scene.numerics.model
-    why = gap_not_resolved(scene)
+    why = why_gap_not_resolved(scene)
     if scene.transient is not None:
         run = run_model_of(scene)
         rows = [run.described]

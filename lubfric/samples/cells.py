@@ -25,11 +25,11 @@ CELLS_PER_LENGTH = 4.0
 CELLS_PER_HALF_WIDTH = 2.0
 
 # Cells along x come in multiples of this number, so that their transforms are fast and pieces can be thinned.
-EVEN = 4
+COLUMNS_MULTIPLE = 4
 
 # Cells along y come in multiples of this number times a fast length of the transform, so that lengths can be halved
 # four times.
-FAST = 16
+ROWS_MULTIPLE = 16
 
 # Height [Sq] up to which asperities may touch: 3 in a million points of a Gaussian surface are higher.
 SUMMITS = 4.5
@@ -43,7 +43,7 @@ class Cells:
     """The cells of a strip.
 
     - ``coarsening`` (fx, fy): length of a cell in native cells, those of the scene, of ``native_spacing`` [m].
-    - ``columns``: number of cells along x.
+    - ``columns``: number nx of cells along x, the first axis of arrays of heights (nx, ny).
     - ``first_x`` [m]: centre of the first native cell along x (None: such that the cells lie evenly about the line of
       contact).
     """
@@ -65,11 +65,11 @@ class Cells:
 
     def halved(self) -> Cells:
         """Cells half as long along each axis, or as near to that as the scene's own cells allow."""
-        factors = max(1, self.coarsening[0] // 2), max(1, self.coarsening[1] // 2)
-        return replace(self, coarsening=factors, columns=self.columns * self.coarsening[0] // factors[0])
+        coarsening = max(1, self.coarsening[0] // 2), max(1, self.coarsening[1] // 2)
+        return replace(self, coarsening=coarsening, columns=self.columns * self.coarsening[0] // coarsening[0])
 
-    def ladder(self) -> list[tuple[int, int]]:
-        """Factors from those of these cells down to the scene's own, each half the one before."""
+    def coarsenings(self) -> list[tuple[int, int]]:
+        """Return the coarsening of these cells and of ever shorter ones, each half the one before, down to native."""
         steps = [self.coarsening]
         cells = self
         while not cells.is_native:
@@ -77,11 +77,11 @@ class Cells:
             steps.append(cells.coarsening)
         return steps
 
-    def to_look_at(self, half_width: float) -> tuple[int, int]:
+    def coarsening_to_look_at(self, half_width: float) -> tuple[int, int]:
         """Return the longest coarsening, from that of these cells down to native ones, that leaves `ACROSS` cells in the
         Hertz strip of this ``half_width`` [m]; native cells where they are longer."""
         longest = 2 * half_width / ACROSS
-        for coarsening in self.ladder():
+        for coarsening in self.coarsenings():
             if max(n * step for n, step in zip(coarsening, self.native_spacing)) <= longest:
                 return coarsening
         return (1, 1)
@@ -90,22 +90,24 @@ class Cells:
         """Number of cells along y of a strip of about ``length`` [m]: one that suits the Fourier transform."""
         from scipy.fft import next_fast_len
 
-        return FAST * next_fast_len(max(1, round(length / (FAST * self.spacing[1]))), real=True)
+        return ROWS_MULTIPLE * next_fast_len(max(1, round(length / (ROWS_MULTIPLE * self.spacing[1]))), real=True)
 
-    def axis(self, factors: tuple[int, int] | None = None) -> np.ndarray:
-        """Cell centres [m] along x of these cells, or of the finer ones of ``factors``, which share columns with
-        them."""
+    def axis(self, coarsening: tuple[int, int] | None = None) -> np.ndarray:
+        """Return the cell centres [m] along x of these cells, or of those of another ``coarsening`` that share columns
+        with them."""
         fx = self.coarsening[0]
         first = self.first_x
         if first is None:
             first = -0.5 * (self.columns - 1) * self.spacing[0] - fx // 2 * self.native_spacing[0]
         own = first + np.arange(self.columns * fx) * self.native_spacing[0]
-        step = fx if factors is None else factors[0]
+        step = fx if coarsening is None else coarsening[0]
         return own[fx // 2 % step :: step]
 
-    def thinned(self, heights: np.ndarray, factors: tuple[int, int]) -> np.ndarray:
-        """Every ``factors``-th of ``heights`` on the scene's own cells; of those along x the ones at `axis`."""
-        return heights[self.coarsening[0] // 2 % factors[0] :: factors[0], factors[1] // 2 :: factors[1]]
+    def thinned(self, heights: np.ndarray, coarsening: tuple[int, int]) -> np.ndarray:
+        """Return every n-th of ``heights`` on native cells, n the ``coarsening`` along each axis; along x those at
+        `axis`."""
+        fx, fy = coarsening
+        return heights[self.coarsening[0] // 2 % fx :: fx, fy // 2 :: fy]
 
 
 def choose_cells(spacing: tuple[float, float], lengths: tuple[float, float], half_width: float, reach: float) -> Cells:
@@ -113,8 +115,12 @@ def choose_cells(spacing: tuple[float, float], lengths: tuple[float, float], hal
 
     Their lengths are ``spacing`` [m] times powers of two. Along x they cover at least ``reach`` [m].
     """
-    fx, fy = largest_factors(spacing, lengths, half_width)
-    return Cells((fx, fy), (spacing[0], spacing[1]), EVEN * math.ceil(reach / (EVEN * fx * spacing[0]) - 1e-9))
+    fx, fy = longest_coarsening(spacing, lengths, half_width)
+    return Cells(
+        (fx, fy),
+        (spacing[0], spacing[1]),
+        COLUMNS_MULTIPLE * math.ceil(reach / (COLUMNS_MULTIPLE * fx * spacing[0]) - 1e-9),
+    )
 
 
 def cells_of_a_box(
@@ -125,7 +131,7 @@ def cells_of_a_box(
     first: float | None = None,
 ) -> Cells:
     """Return the largest cells over exactly the columns of ``shape``; where ``first`` is given, over exactly its rows too."""
-    fx, fy = largest_factors(spacing, lengths, half_width)
+    fx, fy = longest_coarsening(spacing, lengths, half_width)
     while shape[0] % (2 * fx) and fx > 1:
         fx //= 2
     while first is not None and shape[1] % (2 * fy) and fy > 1:
@@ -150,14 +156,17 @@ def length_or_half(surface: Surface, axis: int) -> float:
 
 
 def reach_of(scene: Scene, sq: float) -> float:
-    """Length [m] along x that contains the contact: it ends where an undeformed cylinder, resting on the ends of the
+    """Return the length [m] along x that contains the contact: it ends where an undeformed cylinder, resting on the ends of the
     Hertz strip, has risen by `SUMMITS` Sq."""
     bodies = scene.bodies
     return 2 * math.sqrt(bodies.half_width**2 + 2 * bodies.radius * SUMMITS * sq)
 
 
-def largest_factors(spacing: tuple[float, float], lengths: tuple[float, float], half_width: float) -> tuple[int, int]:
-    """Powers of two: the longest cells that still resolve the correlation ``lengths`` and the Hertz strip [m]."""
+def longest_coarsening(
+    spacing: tuple[float, float], lengths: tuple[float, float], half_width: float
+) -> tuple[int, int]:
+    """Return the coarsening, in powers of two, of the longest cells that still resolve the correlation ``lengths`` and
+    the Hertz strip [m]."""
     along = min(lengths[0] / CELLS_PER_LENGTH, half_width / CELLS_PER_HALF_WIDTH)
     return _power_of_two(along / spacing[0]), _power_of_two(lengths[1] / (CELLS_PER_LENGTH * spacing[1]))
 
@@ -186,7 +195,7 @@ def stacked(strips: list[np.ndarray], blend: int) -> np.ndarray:
 
 
 def spread(count: int) -> list[int]:
-    """0 .. count - 1 in an order that begins in the middle, each number as far from those before as possible."""
+    """Return the numbers 0 .. count - 1 in an order that begins in the middle, each number as far from those before as possible."""
     left = set(range(count))
     order: list[int] = []
     while left:

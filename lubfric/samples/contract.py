@@ -1,8 +1,8 @@
 """The contract of a sample: all that you need to know to write one.
 
 A sample represents the infinite rough line contact. Strip number k of a sample on given cells is always the same
-surface, so that a longer sample contains a shorter one. A model requests strips and does not depend on the kind of
-sample.
+surface, so that a longer sample contains a shorter one. A model requests strips; what it may have to know of their kind
+are two properties: `Sample.is_only_map` and `Sample.is_resolved`.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ class Sample(ABC):
     pieces : number of pieces that there are
     windows : whether each strip is a window of a measured map, which may differ from place to place
     exact_sq : whether every strip has the Sq of the surface
-    refines_in_place : whether its only strip is all that there is, and is itself solved on shorter and shorter cells;
-        else pieces of the surface show what these change
+    is_only_map : whether its one strip is all that there is: nothing is sampled, and shorter cells are cells of the same
+        map. Else further strips, and pieces on native cells, show what sampling and cells change
     is_resolved : whether the rough half-space is solved on the cells of its strips; False: the contact is a curve, made
         of independent asperities, or from outside, and there is nothing to solve strip by strip
     bodies : of two rough bodies the part of each, where the sample is cut from maps of both; () else
@@ -53,7 +53,7 @@ class Sample(ABC):
     pieces: int
     windows: bool = False
     exact_sq: bool = False
-    refines_in_place: bool = False
+    is_only_map: bool = False
     is_resolved: bool = True
     bodies: tuple[Surface, ...] = ()
 
@@ -89,12 +89,12 @@ class Sample(ABC):
         return half_space_contact_of(scene, heights, surface.spacing, operator=made, x=self.cells.axis())
 
     def for_fields(self) -> Self:
-        """Return this sample on the cells on which its fields are shown; native ones if it refines in place."""
+        """Return this sample on the cells on which its fields are shown; native ones if it is the only map."""
         return self
 
-    def cells_to_look_at(self, half_width: float) -> tuple[int, int]:
+    def coarsening_to_look_at(self, half_width: float) -> tuple[int, int]:
         """Return the length, in native cells, of cells that show a contact of this ``half_width`` [m]."""
-        return self.cells.to_look_at(half_width)
+        return self.cells.coarsening_to_look_at(half_width)
 
     def distinct_rows(self, heights: np.ndarray) -> int:
         """Return how many of the rows of ``heights`` (nx, ny), a strip or some joined, are not the image of others."""

@@ -26,7 +26,7 @@ class OnlyMap(Sample):
     def for_fields(self) -> Self:
         return self.native()
 
-    def cells_to_look_at(self, half_width: float) -> tuple[int, int]:
+    def coarsening_to_look_at(self, half_width: float) -> tuple[int, int]:
         return (1, 1)
 
     def distinct_rows(self, heights: np.ndarray) -> int:
@@ -59,7 +59,7 @@ class SinglePatch(OnlyMap):
     first: int = 1
     available: int = 1
     pieces: int = 1
-    refines_in_place: bool = True
+    is_only_map: bool = True
 
     @property
     def strip_length(self) -> float:  # type: ignore[override]
@@ -93,7 +93,7 @@ class UnresolvedSample(FieldsOnly, OnlyMap):
     first: int = 1
     available: int = 1
     pieces: int = 1
-    refines_in_place: bool = True
+    is_only_map: bool = True
     is_resolved: bool = False
 
     @property

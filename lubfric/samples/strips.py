@@ -21,7 +21,7 @@ from ..scene import ROUGH, Roughness, Scene, moves
 from ..surface import Surface, surface_generator
 from ..units import worded
 from .cells import (
-    EVEN,
+    COLUMNS_MULTIPLE,
     Cells,
     blend_of,
     cells_of_a_box,
@@ -195,9 +195,9 @@ class MeasuredStrips(Sample):
         piece = stacked([whole[:, first : first + rows + blend]], blend)[:, :rows]
         return self._made(piece, self.surface.spacing, "a piece on the map's own cells")
 
-    def _rows(self, columns: int) -> int:
-        """The number of cells along y on so many ``columns`` of the map: a multiple of four."""
-        return columns // (4 * self.cells.coarsening[1]) * 4
+    def _rows(self, native_rows: int) -> int:
+        """Return the number of cells along y on so many ``native_rows`` of the map: a multiple of four."""
+        return native_rows // (4 * self.cells.coarsening[1]) * 4
 
     @property
     def _blend(self) -> int:
@@ -291,7 +291,7 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
     kept = surface.shape[1] - min(blend_of(lengths[1], surface.spacing[1]), surface.shape[1] // 4)
     length = kept * surface.spacing[1]
     count = len(starts)
-    if length < EVEN * cells.spacing[1] * (1 - 1e-9):
+    if length < COLUMNS_MULTIPLE * cells.spacing[1] * (1 - 1e-9):
         raise InputError(
             f"the map is {surface.shape[1]} cells wide along y, across the motion: no line can be made of that; give a "
             f"wider one, or numerics.sampling = 'patch' (its rows go on along y as they are)"
@@ -319,7 +319,7 @@ def _cells_of_map(scene: Scene, surface: Surface, lengths: tuple[float, float], 
         reach = scene.contact.shape[0] * surface.spacing[0]
     cells = choose_cells(surface.spacing, lengths, scene.bodies.half_width, min(reach, surface.size[0]))
     while cells.columns * cells.coarsening[0] > surface.shape[0]:
-        cells = replace(cells, columns=cells.columns - EVEN)
+        cells = replace(cells, columns=cells.columns - COLUMNS_MULTIPLE)
     if cells.columns < 1:
         raise InputError(
             f"the map is {surface.shape[0]} cells long along x; allowed: at least {4 * cells.coarsening[0]}"

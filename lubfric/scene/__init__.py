@@ -6,7 +6,7 @@ from .history import Constant, Harmonic, History, Ramp, Table
 from .numerics import Numerics
 from .plausible import UnusualValue, other_convention, source_of, typical, unusual_values, warn_unusual_values
 from .roughness import Roughness, named
-from .scene import Scene, check_resolved_gap, gap_not_resolved, moves, moving_bodies, value_of
+from .scene import Scene, check_resolved_gap, moves, moving_bodies, value_of, why_gap_not_resolved
 from .sections import ROUGH, SECTIONS
 from .short_forms import MOST_SPEEDS, SOURCES, short_keys, speeds_of_range
 from .transient import HISTORIES, Transient, checked_history, read_history

@@ -246,7 +246,7 @@ def as_ranges(ends: dict[str, Any]) -> tuple[tuple[str, float, float], ...]:
     return tuple((name, *ends[name]) for name in sorted(ends) if ends[name] is not None)
 
 
-def gap_not_resolved(scene: Scene, *, given: bool = False) -> str:
+def why_gap_not_resolved(scene: Scene, *, given: bool = False) -> str:
     """The first key of ``scene`` that the deterministic model does not take, and what it takes, as text; "" if it
     takes all. ``given``: one map was given to `lubfric.prepare`, for all its bodies."""
     refusals = _not_taken(scene, given=given)
@@ -256,7 +256,7 @@ def gap_not_resolved(scene: Scene, *, given: bool = False) -> str:
 
 
 def check_resolved_gap(scene: Scene, *, given: bool = False) -> None:
-    """Raise `InputError` for keys that the deterministic model does not take. ``given``: as in `gap_not_resolved`."""
+    """Raise `InputError` for keys that the deterministic model does not take. ``given``: as in `why_gap_not_resolved`."""
     for name, value, instead in _not_taken(scene, given=given):
         said = f" = {value!r} does not go with numerics.model = 'deterministic'"
         raise InputError(said, name, f"{instead}, or numerics.model = 'load-sharing'")

@@ -14,7 +14,7 @@ from .._base.jobs import parts_on
 from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import ITERATION_LIMIT, InputError, Report
 from ..estimate import FrictionResult
-from ..models import at_tolerance
+from ..models import prepared_with
 from ..models.shared import Prepared, scene_of
 from ..quantities import PointQuantities, described_in_doc
 from ..scene import FASTEST, LARGEST_RATIO, Scene
@@ -156,7 +156,7 @@ def stribeck(
     Returns a `StribeckResult`. Raises `InputError`, and, with the curve, `ConvergenceError` or `ValidityError`.
     """
     requested, kept = _asked(speeds, fields, scene_of(scene))
-    executor, prepared = checked_executor(executor), at_tolerance(scene, tolerance, model)
+    executor, prepared = checked_executor(executor), prepared_with(scene, tolerance, model)
     if not requested:
         span(prepared.scene, prepared.surface.sq)  # raises where there is no range to choose from
     if checked_workers(workers, executor) > 1:
@@ -304,7 +304,7 @@ def traction(
     ratios = np.array(each_once(validate.numbers("ratios", ratios, "(-)", LARGEST_RATIO).tolist()))
     if speed is not None:
         speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
-    base = at_tolerance(scene, tolerance, model)
+    base = prepared_with(scene, tolerance, model)
     speed = base.scene.motion.entrainment_speed if speed is None else speed
     outcomes: list[Outcome] = []
     for prepared, ratio in zip(at_ratios(base, ratios.tolist()), ratios.tolist()):

@@ -53,7 +53,7 @@ def estimated_load_sharing(scene: Scene, sample: Sample, surface: Surface) -> Ru
     forecasts = [forecast(scene, sample, surface, speed) for speed in speeds_of_run(scene) or [0.0]]
     widest = None
     cells = surface.heights.size
-    if not sample.refines_in_place:
+    if not sample.is_only_map:
         widest = max(forecasts, key=lambda forecast: forecast.strips)
         cells = round(sample.cells.columns * widest.length / sample.cells.spacing[1])
     tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")

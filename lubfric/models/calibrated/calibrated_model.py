@@ -15,7 +15,7 @@ import numpy as np
 
 from ...errors import ConvergenceError
 from ...samples import Sample
-from ...scene import Numerics, Scene, gap_not_resolved, moves
+from ...scene import Numerics, Scene, moves, why_gap_not_resolved
 from ...surface import Surface
 from ..contract import AtInputs, Model, ModelAnswer, SampleSolution, WorkEstimate
 from ..deterministic import (
@@ -40,8 +40,8 @@ from ..shared import (
     StandardError,
     Validity,
     expected_on_hertz,
-    no_rough_film,
     percent,
+    why_no_rough_film,
 )
 from .calibrated_error import ErrorModel, error_model_of, out_of_range, widening
 from .long_strips import features, long_cells, numbers_of_strip, solve_at_rest, solve_moving
@@ -254,7 +254,7 @@ def solve_long_strips(prepared: Prepared, speed: float, control: ControlVariate 
 
 def cells_of_strips(scene: Scene, sample: Sample) -> tuple[int, int]:
     """Return the length of the long cells in those of ``sample``, of a patch at rest in those of the map."""
-    (fx, fy) = sample.cells.coarsening if sample.refines_in_place and not moves(scene) else (1, 1)
+    (fx, fy) = sample.cells.coarsening if sample.is_only_map and not moves(scene) else (1, 1)
     (dx, dy) = sample.cells.spacing
     return long_cells(scene, (dx / fx, dy / fy), sample.rows * fy, sample.correlation_lengths)
 
@@ -271,7 +271,7 @@ def _solve_strip(
     if not moves(scene):
         return replace(solve_at_rest(scene, surface, speed, factors, slope), mirrored=is_mirrored)
     target = None
-    if not sample.refines_in_place:
+    if not sample.is_only_map:
         target = SampleTarget(
             error=numerics.sampling_tolerance,
             correlation_length=sample.correlation_lengths[1],
@@ -332,7 +332,7 @@ class CalibratedModel(Model):
         return True  # roughness that moves, moves on the long cells as well
 
     def described(self, scene: Scene) -> str:
-        unknown = "; its model-form error is not known and not in the interval" if gap_not_resolved(scene) else ""
+        unknown = "; its model-form error is not known and not in the interval" if why_gap_not_resolved(scene) else ""
         return f"deterministic model on long cells, calibrated (numerics.model): fast, with the error of solved cases{unknown}"
 
     def expected_warnings(self, scene: Scene, speeds: list[float]) -> ExpectedWarnings:
@@ -355,7 +355,7 @@ class CalibratedModel(Model):
         return rolling_model_error(lambda_ratio)
 
     def why_unable(self, prepared: Prepared, speed: float) -> str:
-        return no_rough_film(prepared, speed) or gap_not_resolved(prepared.scene, given=prepared.given)
+        return why_no_rough_film(prepared, speed) or why_gap_not_resolved(prepared.scene, given=prepared.given)
 
     def adopt(self, cheaper: SampleSolution) -> CalibratedSolution | None:
         return _beside(cheaper) if isinstance(cheaper, PaperSolution) else None

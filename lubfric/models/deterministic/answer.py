@@ -85,7 +85,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     by_limit = _by_limit(scene, results)
     parts_of_model[OF_LIMIT] = max(by_limit)
     reasons = dict.fromkeys(depending_on("heat"), heat.reason(scene) or ONE_HEAT)
-    finest = levels.pieces[0][-1] if sample.refines_in_place and levels.pieces else levels.pairs[0].resolved
+    finest = levels.pieces[0][-1] if sample.is_only_map and levels.pieces else levels.pairs[0].resolved
     start = levels.pairs[0].resolved if moves(scene) else finest
     return ModelAnswer(
         numbers=numbers,
@@ -147,7 +147,7 @@ def fine_fields_of(prepared: Prepared, speed: float) -> ContactFields:
     """Return the fields of a piece of the surface on cells fine enough to look at, solved by itself."""
     sample = prepared.sample
     half_width = prepared.scene.bodies.half_width
-    cells = sample.cells_to_look_at(half_width)
+    cells = sample.coarsening_to_look_at(half_width)
     contact = on_piece(
         prepared, sample, 0, cells, max(LEAST_DRAWN, DRAWN_LENGTH * half_width / sample.correlation_lengths[1])
     )
@@ -233,7 +233,7 @@ def _recommendation(prepared: Prepared) -> str:
     """What makes the error by the cells smaller: shorter ones, if the map has them."""
     scene = prepared.scene
     sample = prepared.sample
-    if not sample.cells.is_native and (moves(scene) or not sample.refines_in_place):
+    if not sample.cells.is_native and (moves(scene) or not sample.is_only_map):
         return f"numerics.grid = 'given' for shorter cells, or {LOOSER}"
     if prepared.given or measured(scene):
         return f"{LOOSER}, or a map with shorter cells"

@@ -4,7 +4,7 @@
 import math
 
 from ...samples import Sample
-from ...scene import FRICTION, Scene, gap_not_resolved, moves
+from ...scene import FRICTION, Scene, moves, why_gap_not_resolved
 from ...surface import Surface
 from ..contract import WorkEstimate
 from ..shared import ORDER, SAFETY, peak_hertz_pressure, smooth_over_cells, student
@@ -62,7 +62,7 @@ def estimated_work(
         return NOTHING
     both = cells_of(scene, sample)
     one_strip = moving_point_work(scene, sample, sq, speed, both) if moves(scene) else 0.0
-    if scene.transient is not None or gap_not_resolved(scene):
+    if scene.transient is not None or why_gap_not_resolved(scene):
         return WorkEstimate(strips=0, seconds=0.0, strip_seconds=one_strip)
     scatter = 0.0
     if numerics.model == "auto" and cheaper is not None and cheaper.model_error <= numerics.model_tolerance:
@@ -90,7 +90,7 @@ def _work_at_rest(
     (dx, dy) = sample.cells.spacing
     (ux, uy) = sample.cells.coarsening
     cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * sample.strip_length / (fy * dy)
-    if sample.refines_in_place:  # it may be solved down to its own cells, and the ends on the same
+    if sample.is_only_map:  # it may be solved down to its own cells, and the ends on the same
         finer = 0.5 * cells * fx * fy * ux * uy
         again = work_of_steps(finer, AGAIN) * (ends + (ends > 0))
         return work_of_steps(cells, STEPS) + work_of_steps(finer, FINER_STEPS) + again
@@ -122,7 +122,7 @@ def work_on_strips(
         return IN_MOTION * count * moving_point_work(scene, sample, sq, speed, factors)
     (fx, fy) = factors
     (dx, dy) = sample.cells.spacing
-    (ux, uy) = sample.cells.coarsening if sample.refines_in_place else (1, 1)
+    (ux, uy) = sample.cells.coarsening if sample.is_only_map else (1, 1)
     length = sum(reach(scene.line_contact(abs(speed)), sq))
     cells = length / (fx * dx / ux) * sample.strip_length / (fy * dy / uy)
     ends = 2 * sum(name != FRICTION for name, *_ in scene.ranges)

@@ -261,7 +261,7 @@ def _of_moving(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], strips: Seq
     rows = [numbers_of(prepared, strip.result) for strip in strips]
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
     samples = [strip.sample.half() if pair.mirrored else strip.sample for pair, strip in zip(pairs, strips)]
-    control = None if prepared.sample.refines_in_place else summit_control(prepared)
+    control = None if prepared.sample.is_only_map else summit_control(prepared)
     width = prepared.sample.correlation_lengths[1]
     friction = mean_over_blocks(samples, "friction", width, control)
     contact = mean_over_blocks(samples, "contact_load", width, control)

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ...samples import Sample
-from ...scene import Scene, check_resolved_gap, gap_not_resolved, moves
+from ...scene import Scene, check_resolved_gap, moves, why_gap_not_resolved
 from ...surface import Surface
 from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
-from ..shared import ControlVariate, ExpectedWarnings, Prepared, StandardError, expected_on_hertz, no_rough_film
+from ..shared import ControlVariate, ExpectedWarnings, Prepared, StandardError, expected_on_hertz, why_no_rough_film
 from .answer import answer_of
 from .estimated_work import estimated_work
 from .heat import too_hot
@@ -87,7 +87,7 @@ class DeterministicModel(Model):
         return 0.0  # it has the pressure on the flanks of the roughness
 
     def takes_control(self, prepared: Prepared) -> bool:
-        return not prepared.sample.refines_in_place and not moves(prepared.scene)  # its summits control what moves
+        return not prepared.sample.is_only_map and not moves(prepared.scene)  # its summits control what moves
 
     def solve(
         self,
@@ -112,11 +112,11 @@ class DeterministicModel(Model):
         )
 
     def why_unable(self, prepared: Prepared, speed: float) -> str:
-        return no_rough_film(prepared, speed)
+        return why_no_rough_film(prepared, speed)
 
     def why_declined(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
         heat = cheaper.heat()
-        why = gap_not_resolved(prepared.scene, given=prepared.given) or ("" if heat is None else too_hot(heat))
+        why = why_gap_not_resolved(prepared.scene, given=prepared.given) or ("" if heat is None else too_hot(heat))
         if why:
             return f"load sharing alone: {why}"
         return too_costly(prepared, speed, cells_of(prepared.scene, prepared.sample))

@@ -35,7 +35,7 @@ CONTROL_CELLS = 4_000_000
 
 def strip_surface(prepared: Prepared, index: int) -> Surface:
     """The map of strip ``index``; of a patch at rest all of it, on its own cells."""
-    if prepared.sample.refines_in_place and not moves(prepared.scene):
+    if prepared.sample.is_only_map and not moves(prepared.scene):
         return prepared.surface
     return map_of(prepared, on_strip(prepared, prepared.sample, index))
 

@@ -105,12 +105,12 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     factors = zip(cells_of(scene, sample), sample.cells.coarsening)
     halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
     left = max(estimate([by_longer]), SOLVED, _by_motion(prepared, pairs) if moves(scene) else 0.0)
-    enough = left <= scene.numerics.tolerance and not (sample.refines_in_place and scene.numerics.grid == "given")
-    enough = enough and (sample.refines_in_place or smooth_over_cells(sample.strip(0).heights))
+    enough = left <= scene.numerics.tolerance and not (sample.is_only_map and scene.numerics.grid == "given")
+    enough = enough and (sample.is_only_map or smooth_over_cells(sample.strip(0).heights))
     own = sample.cells.is_native and cells_of(scene, sample) == (1, 1)
     if enough or own or moves(scene):
         return (), (), StandardError(0.0, 1), left, False
-    if sample.refines_in_place:
+    if sample.is_only_map:
         patch = _refined(prepared, speed, 0, pairs[0])
         return (patch,), (), StandardError(0.0, 1), max(estimate(changes_of(patch)), SOLVED), False
     try:
@@ -245,7 +245,7 @@ def _refined(
     scene = prepared.scene
     sample = prepared.sample
     surface, factors = strip_of(prepared, index)
-    enough = scene.numerics.tolerance if sample.refines_in_place and scene.numerics.grid != "given" else 0.0
+    enough = scene.numerics.tolerance if sample.is_only_map and scene.numerics.grid != "given" else 0.0
     if first is not None:
         ladder = [first.longer, first.resolved]
     else:

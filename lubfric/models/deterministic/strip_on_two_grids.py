@@ -68,7 +68,7 @@ def strip_of(prepared: Prepared, index: int) -> tuple[Surface, tuple[int, int]]:
     on the map's own cells."""
     sample = prepared.sample
     fx, fy = cells_of(prepared.scene, sample)
-    ux, uy = sample.cells.coarsening if sample.refines_in_place and not moves(prepared.scene) else (1, 1)
+    ux, uy = sample.cells.coarsening if sample.is_only_map and not moves(prepared.scene) else (1, 1)
     return strip_surface(prepared, index), (fx * ux, fy * uy)
 
 
@@ -102,7 +102,7 @@ def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int
             factors=factors,
             start=longer,
             for_continuation=True,
-            target=None if prepared.sample.refines_in_place else sample_target(prepared),
+            target=None if prepared.sample.is_only_map else sample_target(prepared),
         )
         if isinstance(strip, MovingStrip) and longer_cells[1] > factors[1]:
             with suppress(ConvergenceError):  # then the change at rest is all that is known

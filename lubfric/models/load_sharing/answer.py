@@ -82,7 +82,7 @@ def fine_fields_of(balanced: BalancedSample) -> ContactFields:
     prepared = balanced.prepared
     scene = prepared.scene
     sample = balanced.sample
-    cells = sample.cells_to_look_at(scene.bodies.half_width)
+    cells = sample.coarsening_to_look_at(scene.bodies.half_width)
     contact = on_piece(prepared, sample, 0, cells)
     balance = balanced.balance
     if balance.film is None:
@@ -141,7 +141,7 @@ def _cells(balanced: BalancedSample) -> tuple[tuple[int, int], float]:
     """Length of the cells that were solved, in cells of the map, along each axis; and the share of the load on the edge
     columns, on the map's own cells."""
     factors = balanced.sample.cells.coarsening
-    if balanced.sample.refines_in_place and factors != (1, 1):
+    if balanced.sample.is_only_map and factors != (1, 1):
         return factors, balanced.effect.edge_load_share
     return factors, balanced.contact.on_the_ends(balanced.solved.contact) / factors[0]
 

@@ -33,7 +33,7 @@ def control_for(solution: BalancedSample) -> ControlVariate | None:
     single patch, or does not know its own scatter."""
     prepared = solution.prepared
     sample = prepared.sample
-    same_strips = solution.sample.cells == sample.cells and not sample.refines_in_place
+    same_strips = solution.sample.cells == sample.cells and not sample.is_only_map
     return control_variate_of(prepared, solution) if same_strips and math.isfinite(solution.sampling) else None
 
 

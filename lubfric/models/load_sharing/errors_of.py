@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from ...quantities import depending_on
-from ...scene import Scene, budget, gap_not_resolved, moves
+from ...scene import Scene, budget, moves, why_gap_not_resolved
 from ..shared import FEW, ORDER, TOO_SHORT, StandardError, error_by_heat, percent, too_few
 from .balance import Balance
 from .balanced_sample import BalancedSample
@@ -189,7 +189,7 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
         return (NONE, ()) if fed is None else (starved_error(fed, balance.contact.mean_gap), (EMPTY,))
     if balanced.on_cells is None:
         return UNKNOWN, (NOT_STUDIED,)
-    if why := gap_not_resolved(scene):
+    if why := why_gap_not_resolved(scene):
         return UNKNOWN, (MODEL_UNKNOWN.format(why),)
 
     sq = float(balanced.on_cells.heights.std())
@@ -219,7 +219,7 @@ def moment_model_error(
     It is that of steady motion with the same film, asperity load ratio ``share``, and parts of f. NaN where it is not
     known.
     """
-    if gap_not_resolved(scene):
+    if why_gap_not_resolved(scene):
         return UNKNOWN
     moving = rolling if moves(scene) else 0.0
     down, up = load_sharing_error(film_to_roughness_ratio, share, boundary, shear, moving)

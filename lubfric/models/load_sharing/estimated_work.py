@@ -80,7 +80,7 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     seconds = FILM_SECONDS * (HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0)
     touching = "touching" if SURE * film < summit else "none" if film > SURE * summit else "none or a few summits"
     error_of_model = expected_model_error(scene, film, sq, speed)
-    if sample.refines_in_place:
+    if sample.is_only_map:
         if touching != "none":
             seconds += PATCH_SECONDS + MAP_SECONDS * surface.heights.size
         return WorkEstimate(strips=1, seconds=seconds, model_error=error_of_model, touching=touching)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...samples import Sample
-from ...scene import Scene, gap_not_resolved
+from ...scene import Scene, why_gap_not_resolved
 from ...surface import Surface
 from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
 from ..shared import ControlVariate, ExpectedWarnings, Heat, Prepared, StandardError, Validity, expected_in_film
@@ -93,7 +93,7 @@ class PaperModel(Model):
 
     def described(self, scene: Scene) -> str:
         width = "its model-form error is not known and not in the interval"
-        return f"load-sharing model of the paper (numerics.model): fast; {width if gap_not_resolved(scene) else 'its interval is wide'}"
+        return f"load-sharing model of the paper (numerics.model): fast; {width if why_gap_not_resolved(scene) else 'its interval is wide'}"
 
     def expected_warnings(self, scene: Scene, speeds: list[float]) -> ExpectedWarnings:
         return expected_in_film(scene, speeds)

@@ -40,12 +40,12 @@ from .prepared import (
     cells_of_contact,
     contact_of,
     contact_on,
-    no_rough_film,
     on_piece,
     on_stack,
     on_strip,
     operator_on,
     scene_of,
+    why_no_rough_film,
 )
 from .statistics import (
     FEW,

@@ -30,9 +30,10 @@ class Prepared(FieldsOnly, Shown):
     Attributes
     ----------
     scene : the scene
-    surface : the height map that is solved first
-    contact : the rough contact on it
-    known : assumptions of the model that bodies and map violate
+    surface : the height map whose statistics hold: of strips the one that is solved first, of an only map that map on
+        native cells
+    contact : the rough contact that is solved first, on the cells of ``sample``
+    known : assumptions of the model that bodies and map violate, known before any solve
     sample : what represents the infinite rough line contact
     given : whether a map or a contact was given to `lubfric.prepare`, so that there is no more of it
     """
@@ -63,7 +64,7 @@ class Prepared(FieldsOnly, Shown):
         return {"": self.scene.name, "map": self.surface.describe()}
 
 
-def no_rough_film(prepared: Prepared, speed: float) -> str:
+def why_no_rough_film(prepared: Prepared, speed: float) -> str:
     """Return why no film flows between rough surfaces on cells at ``speed`` [m/s], as text; "" if one does."""
     if speed == 0:
         return "nothing is entrained"

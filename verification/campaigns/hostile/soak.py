@@ -116,7 +116,7 @@ def _features(prepared, result) -> Iterator[str]:
     yield "asperities" if scene.contact.model != "half-space" else "height map"
     yield "separated" if share == 0 else "contact below 1 %" if share < 0.01 else "contact above 1 %"
     features = {
-        "strips": not prepared.sample.refines_in_place,
+        "strips": not prepared.sample.is_only_map,
         "plastic limit": scene.bodies.hardness,
         "cells yielded": result.plastic_area_fraction > 0,
         "two rough bodies": scene.counterface,

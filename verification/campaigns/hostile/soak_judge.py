@@ -162,7 +162,7 @@ def judge_of(prepared: Prepared, result) -> Judge:
     scaled = scene.numerics.film_deflection == "scaled"
     sample = prepared.sample
     pairs: tuple[tuple[MappedStrip, MappedStrip], ...] = ()
-    if sample.refines_in_place:
+    if sample.is_only_map:
         n = prepared.surface.shape[0]
         dx = prepared.surface.spacing[0]
         strip = _strip(prepared.surface, (np.arange(n) - 0.5 * (n - 1)) * dx)
