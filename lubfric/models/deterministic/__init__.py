@@ -5,7 +5,7 @@ from .estimated_work import work_on_strips
 from .flow import derivatives, mass_balance
 from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, too_hot, warmed
 from .levels import DIFFERENCE, Levels, levels_of, mean, two_levels
-from .linear import gmres
+from .linear import System, gmres, nested_dissection
 from .model import DeterministicModel, DeterministicSolution
 from .moving import Moment, RoughBody, moments, travelling
 from .moving_strip import (

@@ -112,8 +112,12 @@ def evaluated(problem: Problem, state: State, history: TimeHistory | None = None
 
 
 def update_active_sets(at: Iterate) -> Iterate:
-    """Return ``at`` with the equation in every cell that its state requires."""
-    new = evaluated(at.problem, _resorted(at), at.history)
+    """Return ``at`` with the equation in every cell that its state requires; evaluated again only if more than the kinds of
+    cells changes."""
+    state = _resorted(at)
+    names = ("pressure", "fill", "dent")
+    is_same = all(np.array_equal(getattr(state, name), getattr(at.state, name)) for name in names)
+    new = replace(at, state=state) if is_same else evaluated(at.problem, state, at.history)
     fluid = (new.state.kind == FLUID) & (at.state.kind == FLUID)  # cells that just opened begin at the floor
     closed = fluid & (new.gap < at.problem.floor)  # by a pressure that was cut to P_u
     kind = np.where(closed, TOUCHING, new.state.kind).astype(np.int8)
@@ -157,6 +161,8 @@ def _opened(touching: np.ndarray, surplus: np.ndarray, pull: float | np.ndarray)
     Along a furrow that the film wets, cells would otherwise open one by one. A cell that is opened although it gives
     off more than it is handed would sink below the floor, and close all that were opened with it, for ever.
     """
+    if not touching.any():
+        return touching
     handed = np.where(touching, surplus, 0.0)
     for before, own, touches in zip(handed[:-1], handed[1:], touching[1:]):
         own += np.where(touches & (before > pull), before, 0.0)
