@@ -330,11 +330,10 @@ class RunFolder:
         record = {"files": sorted([*self.contents, RESULT])} | record
         with self.reporting(f"{RESULT} has the numbers alone"):
             self.contents[RESULT] = _as_json(record)  # last: it appears when all files that it names are there
-        is_complete = RESULT in self.contents and "date" in record
         if RESULT not in self.contents:
             self.contents[RESULT] = json.dumps(record, indent=1, default=str).encode()
         self.put(OUTPUTS, (*record.get("validity", ()), *unusual_values))
-        if is_complete:  # else what was saved is all that has everything
+        if not self.failures:  # else what was saved is all that has everything
             Store(self.unfinished).clear()
             clear_checked(self.unfinished.parent)
 

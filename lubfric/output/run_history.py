@@ -7,7 +7,7 @@ from ..errors import ConvergenceError, LubfricError, ValidityError
 from ..models.shared import in_a_cell
 from ..quantities import OF_MOMENT, heading
 from ..scene import Scene, given_tables
-from ..time import TransientResult, transient
+from ..time import TransientResult, raise_if_failed, run_in_time
 from . import commands
 from .fields import npz_bytes
 from .pictures import animate, plot_history
@@ -45,12 +45,10 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
     with ProgressLine("s") as shown, begun as (folder, prepared, estimate):
         if folder.unfinished.is_dir():
             commands.say(f"the run continues from {folder.unfinished}")
+        result, _ = run_in_time(prepared, checkpoint=folder.unfinished, on_step=on_step)
         try:
-            result = transient(prepared, checkpoint=folder.unfinished, on_step=on_step)
+            raise_if_failed(result, accept=scene.numerics.accept)
         except (ConvergenceError, ValidityError) as error:
-            if error.result is None:
-                raise
-            result = error.result
             failure = error
         _write(folder, scene, result, animation=arguments.animation)
         folder.complete(prepared, estimate, given_tables(arguments.scene), result, OF_MOMENT)

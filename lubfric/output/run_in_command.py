@@ -2,6 +2,7 @@
 
 import io
 import json
+import tempfile
 import time
 from argparse import Namespace
 from collections.abc import Callable
@@ -13,13 +14,13 @@ from typing import Any
 
 import numpy as np
 
-from .._base import __version__, figures, plain, table_bytes
-from ..errors import InputError
+from .._base import __version__, figures, plain, table_bytes, write_whole
+from ..errors import InputError, OutputError
 from ..running_in import RunIn, run_in
 from ..scene import Scene
 from ..units import converted, number_of, plain_number, printed, unit_for, with_interval, worded
 from .command_line import scene_of
-from .commands import check_outputs, paced, run_folder, say
+from .commands import RunFolder, check_outputs, paced, run_folder, say
 from .inputs import SECTIONS, inputs
 from .progress import ProgressLine
 from .report import picture, style_sheet, table
@@ -38,27 +39,38 @@ def run_in_scene(arguments: Namespace) -> None:
         raise InputError(f"{given} is for wear, which needs {missing} as well", way_out=f"give {missing}, or neither")
     check_outputs(arguments, arguments.out, NAMES)
     begun = time.perf_counter()
-    say(f"{scene.name}: running-in of its surface")
-    with ProgressLine("parts") as shown:
-        result = run_in(
-            scene,
-            passes=arguments.passes,
-            distance=distance,
-            wear_coefficient=coefficient,
-            on_progress=_progress(shown),
-        )
-    answer = answer_lines(result)
-    with run_folder(arguments.out, begun) as folder:
-        folder.contents["surface.npy"] = _npy(result.surface.heights)
-        folder.contents["run_in.csv"] = table_bytes(result.columns())
+    with run_folder(arguments.out, begun) as folder:  # one that cannot be written to is refused before any work
+        say(f"{scene.name}: running-in of its surface")
+        with ProgressLine("parts") as shown:
+            result = run_in(
+                scene,
+                passes=arguments.passes,
+                distance=distance,
+                wear_coefficient=coefficient,
+                on_progress=_progress(shown),
+            )
+        answer = answer_lines(result)
+        for line in answer:
+            say(line)
+        folder.add("surface.npy", _npy, result.surface.heights)
+        folder.add("run_in.csv", lambda: table_bytes(result.columns()))
         folder.draw("run_in.png", draw_run_in, result, figures.plain_words(scene.name))
-        folder.contents["scene.toml"] = scene_after(scene, result).encode()
-        folder.contents["report.html"] = _page(scene, result, answer, folder.contents)
-        folder.contents["run_in.json"] = json.dumps(plain(_record(scene, result)), indent=1).encode()
-        folder.put()
-    for line in answer:
-        say(line)
+        folder.add("scene.toml", lambda: scene_after(scene, result).encode())
+        folder.add("report.html", _page, scene, result, answer, folder.contents)
+        folder.add("run_in.json", lambda: json.dumps(plain(_record(scene, result, folder.contents)), indent=1).encode())
+        _put(folder)
     say(f"lubfric run {Path(arguments.out) / 'scene.toml'} computes the friction of the surface after running-in")
+
+
+def _put(folder: RunFolder) -> None:
+    """Put the files in the ``folder``; where that fails, in a temporary folder, because nothing else holds them."""
+    try:
+        folder.put()
+    except (OutputError, OSError) as error:
+        rescued = Path(tempfile.mkdtemp(prefix="lubfric-run-in-"))
+        for name, content in folder.contents.items():
+            write_whole(rescued / name, content)
+        raise OutputError(f"{error}; the results are in {rescued}") from error
 
 
 def answer_lines(result: RunIn) -> list[str]:
@@ -140,8 +152,8 @@ def _npy(heights: np.ndarray) -> bytes:
     return file.getvalue()
 
 
-def _record(scene: Scene, result: RunIn) -> dict[str, Any]:
-    """Return what run_in.json holds."""
+def _record(scene: Scene, result: RunIn, contents: dict[str, bytes]) -> dict[str, Any]:
+    """Return what run_in.json holds; ``contents``: the other files, by name."""
     return {
         "version": __version__,
         "scene": scene.to_toml(),
@@ -149,7 +161,7 @@ def _record(scene: Scene, result: RunIn) -> dict[str, Any]:
         "notes": result.surface.notes,
         "passes": {"deepest": result.deepest, "sinking": result.sinking, "shaken_down": result.shaken_down},
         "table": result.columns(),
-        "files": sorted(NAMES),
+        "files": sorted([*contents, NAMES[-1]]),
     }
 
 
@@ -167,7 +179,8 @@ def _page(scene: Scene, result: RunIn, answer: list[str], contents: dict[str, by
         for section in SECTIONS
         if list(inputs(scene, section))
     ]
-    pictures = [picture(contents["run_in.png"], "Bearing curves before and after running-in")]
+    drawn = contents.get("run_in.png")
+    pictures = [picture(drawn, "Bearing curves before and after running-in")] if drawn else []
     page = Template((files(__package__) / "run_in_report.html").read_text(encoding="utf-8")).substitute(
         name=escape(scene.name),
         style=style_sheet(),
@@ -178,7 +191,7 @@ def _page(scene: Scene, result: RunIn, answer: list[str], contents: dict[str, by
         if result.shaken_down
         else "Not complete: asperities still yield.",
         answer="".join(f'<p class="{"answer" if i == 0 else ""}">{escape(line)}</p>' for i, line in enumerate(answer)),
-        pictures="".join(pictures) if "run_in.png" in contents else "",
+        pictures="".join(pictures),
         table=_table(result),
         inputs="".join(values),
     )

@@ -9,7 +9,7 @@ from .march import Memory, Plan, Progress, Step, advance, checked_times, plan_of
 from .model import Output, Start, TimeModel
 from .registry import check_run, estimated_run, run_model_of
 from .result import MANY, TransientResult, band_label, friction_over_time, in_motion, time_scale
-from .run import transient
+from .run import raise_if_failed, run_in_time, transient
 from .scene_in_time import sampled_times, scene_at
 from .start import speeds_of_run
 from .transient_deterministic import start_deterministic

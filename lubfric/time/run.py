@@ -87,6 +87,34 @@ def transient(
     outputs so far and the status "work_limit". The same run with a ``checkpoint`` and a larger limit continues from
     there.
     """
+    result, keys = run_in_time(scene, times, checkpoint=checkpoint, on_step=on_step)
+    if raise_on_failure:
+        raise_if_failed(result, accept=scene_of(scene).numerics.accept)
+    if result.report.converged:
+        with opened(checkpoint, CLASSES, "checkpoint") as store:
+            store.clear(keys)
+    return result
+
+
+def raise_if_failed(result: TransientResult, *, accept: bool) -> None:
+    """Raise `ConvergenceError` where the run did not end, and `ValidityError` where f means nothing at some time, unless
+    ``accept``. Both carry the ``result``."""
+    result.report.raise_if_failed(result)
+    severe = sorted((e for entries in result.entries for e in entries if e.severe), key=lambda e: e.value)
+    worst = {entry.what: entry for entry in severe}  # of each kind
+    refused(tuple(worst.values()), accept=accept, result=result)
+
+
+@with_default_errors
+def run_in_time(
+    scene: Scene | Prepared,
+    times: ArrayLike | None = None,
+    *,
+    checkpoint: str | Path | None = None,
+    on_step: Callable[[float, float, dict[str, float] | None], None] | None = None,
+) -> tuple[TransientResult, list[str]]:
+    """Return the run of `transient`, whether it ended well or not, and the keys of its states and outputs, which the
+    ``checkpoint`` keeps."""
     scene, times = _with_plan(scene, times)
     limit = scene_of(scene).numerics.max_work or math.inf
     with limited_work(limit) as begun:
@@ -105,14 +133,7 @@ def transient(
             model, start.state, course, store, key, on_step, most_work=limit - begun.spent
         )
     result = collect(model, start.grid_error, course, progress, outputs, limit if ended else math.inf)
-    if raise_on_failure:
-        result.report.raise_if_failed(result)
-        severe = sorted((e for entries in result.entries for e in entries if e.severe), key=lambda e: e.value)
-        worst = {entry.what: entry for entry in severe}  # of each kind
-        refused(tuple(worst.values()), accept=model.scene.numerics.accept, result=result)
-    if result.report.converged:
-        store.clear([key, *_output_keys(key, len(outputs))])
-    return result
+    return result, [key, *_output_keys(key, len(outputs))]
 
 
 def _output_keys(key: str, count: int) -> list[str]:
