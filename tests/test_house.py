@@ -158,6 +158,17 @@ def test_parameters_of_public_functions_have_types():
     assert len(untyped) <= REMAINING["untyped"], untyped
 
 
+def test_parameters_of_the_verification_have_types():
+    functions = [(path, node) for path, node in nodes("verification") if isinstance(node, ast.FunctionDef)]
+    untyped = [
+        f"{path}: {node.name}({argument.arg})"
+        for path, node in functions
+        for argument in (*node.args.args, *node.args.kwonlyargs, node.args.vararg, node.args.kwarg)
+        if argument is not None and argument.annotation is None and argument.arg not in ("self", "cls")
+    ]
+    assert untyped == []
+
+
 def records(package: str) -> Iterator[tuple[str, type]]:
     """Yield the dataclasses of a package with their names."""
     for info in pkgutil.walk_packages(import_module(package).__path__, f"{package}."):

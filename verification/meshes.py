@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -48,7 +48,11 @@ def in_space(points: np.ndarray) -> np.ndarray:
 
 
 def mesh_field(
-    name: str, caption: str, mesh: MeshQuad1 | MeshTri1, point_data: dict[str, FloatArray] | None = None, cell_data=None
+    name: str,
+    caption: str,
+    mesh: MeshQuad1 | MeshTri1,
+    point_data: dict[str, FloatArray] | None = None,
+    cell_data: Any = None,
 ) -> Field:
     """A `Field` on the vertices of a scikit-fem mesh.
 

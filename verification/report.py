@@ -8,6 +8,7 @@ import os
 import platform
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from . import page
 from .check import Check, Table
@@ -88,7 +89,7 @@ def outcome_dict(outcome: Outcome) -> dict:
     }
 
 
-def finite(value):
+def finite(value: Any):
     """``value`` in plain types, with NaN and infinities as None: JSON has no word for them."""
     if isinstance(value, dict):
         return {str(k): finite(v) for k, v in value.items()}

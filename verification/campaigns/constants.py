@@ -17,15 +17,29 @@ from pathlib import Path
 
 import lubfric
 
-ROOMS = ("lubfric.samples", "lubfric.estimate", "lubfric.models.shared", "lubfric.models.load_sharing")
+ROOMS = (
+    "lubfric.samples",
+    "lubfric.estimate",
+    "lubfric.models.shared",
+    "lubfric.models.load_sharing",
+    "lubfric.models.deterministic",
+)
+
+# The room whose constants are tried on points of its own.
+DETERMINISTIC = "lubfric.models.deterministic"
 
 # Factors on a constant.
 FACTORS = (0.5, 2.0)
 
 
-def points() -> dict[str, tuple[lubfric.Scene, float]]:
-    """Return the points that are solved, by name: light and heavy contact, strips and a patch, at rest and moving."""
+def points(module: str = "") -> dict[str, tuple[lubfric.Scene, float]]:
+    """Return the points that are solved for a constant of ``module``, by name: light and heavy contact, strips and a
+    patch, at rest and moving."""
     paper = lubfric.load_scene("paper")
+    if module.startswith(DETERMINISTIC):
+        alone = paper.with_(numerics={"model": "deterministic"})
+        patch = alone.with_(numerics={"sampling": "patch"})
+        return {"contact": (alone, 0.003), "mixed": (alone, 0.03), "patch": (patch, 0.03)}
     strips = paper.with_(numerics={"model": "paper"})
     return {
         "contact": (strips, 0.001),
@@ -95,10 +109,10 @@ def _imports(holder: object, module: str, name: str) -> bool:
     return False
 
 
-def solve() -> dict[str, tuple[float, float, float]]:
-    """Return f, the width of its interval over f, and the processor time [s] of all points."""
+def solve(module: str = "") -> dict[str, tuple[float, float, float]]:
+    """Return f, the width of its interval over f, and the processor time [s] of all `points` of ``module``."""
     results = {}
-    for name, (scene, speed) in points().items():
+    for name, (scene, speed) in points(module).items():
         begun = time.process_time()
         try:
             result = lubfric.friction(scene, speed, raise_on_failure=False)
@@ -113,15 +127,19 @@ def solve() -> dict[str, tuple[float, float, float]]:
 def main() -> None:
     """Print a row for every constant and factor."""
     prefixes = tuple(sys.argv[1:]) or ("",)
-    solve()
-    base = solve()
-    work = sum(row[2] for row in base.values())
+    bases: dict[bool, dict[str, tuple[float, float, float]]] = {}
     print("constant, factor: largest change of f [%] and where, of the width of the interval [%], processor time [%]")
     for module, name, value in constants(prefixes):
+        room = module.startswith(DETERMINISTIC)
+        if room not in bases:
+            solve(module)  # imports and caches
+            bases[room] = solve(module)
+        base = bases[room]
+        work = sum(row[2] for row in base.values())
         for factor in FACTORS:
             try:
                 with Changed(module, name, scaled(value, factor)):
-                    rows = solve()
+                    rows = solve(module)
             except Exception as error:  # noqa: BLE001  # a value that nothing allows is a result here
                 print(f"{module}.{name} = {value} x {factor}: {type(error).__name__}: {str(error)[:60]}", flush=True)
                 continue

@@ -71,7 +71,7 @@ def _deflections(x: np.ndarray, e_prime: float) -> np.ndarray:
 
 
 def _balance(
-    contact: LineContact, x: np.ndarray, stiff, p: np.ndarray, h: np.ndarray
+    contact: LineContact, x: np.ndarray, stiff: Any, p: np.ndarray, h: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the flow [m²/s] over each face between nodes, and its derivatives by the pressures and by the approach."""
     fluid = contact.fluid
@@ -103,7 +103,7 @@ def _balance(
 
 
 def _solved(
-    contact: LineContact, x: np.ndarray, stiff, p: np.ndarray, approach: float
+    contact: LineContact, x: np.ndarray, stiff: Any, p: np.ndarray, approach: float
 ) -> tuple[np.ndarray, float, int, bool]:
     """Return pressure, approach, steps and whether Newton's method converged, from ``p`` and ``approach`` on."""
     cell = x[1] - x[0]

@@ -30,7 +30,7 @@ def version(package: str) -> str:
 
 
 def tamaas_solver(
-    heights: np.ndarray, spacing: float, e_prime: float, threads=1, max_iterations=20000
+    heights: np.ndarray, spacing: float, e_prime: float, threads: int = 1, max_iterations: int = 20000
 ) -> Solver | None:
     """Polonsky-Keer-Rey of `tamaas`, pressure as its primal variable; its wheel always runs on one thread.
 
@@ -60,7 +60,12 @@ def tamaas_solver(
 
 
 def aspher_solver(
-    heights: np.ndarray, spacing: float, e_prime: float, threads=1, precision="float_then_double", engine="fft"
+    heights: np.ndarray,
+    spacing: float,
+    e_prime: float,
+    threads: int = 1,
+    precision: str = "float_then_double",
+    engine: str = "fft",
 ) -> Solver | None:
     """Nested grids of `aspher`, periodic: its fastest setting is float to double with the transform as preconditioner.
 

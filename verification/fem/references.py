@@ -459,7 +459,7 @@ def fernandes(torque: float, rpm: float, viscosity: float, alpha: float) -> floa
 PAPER = {"mean Hertz pressure": 102e6, "half-width": 4.5e-6}  # Pa, m
 
 
-def load_share_band(ratios) -> tuple[np.ndarray, np.ndarray]:
+def load_share_band(ratios: Any) -> tuple[np.ndarray, np.ndarray]:
     """The lowest and the highest of the `LOAD_SHARES` at each of the ``ratios``."""
     laws = np.array([law(np.asarray(ratios, dtype=float)) for law in LOAD_SHARES.values()])
     return laws.min(axis=0), laws.max(axis=0)

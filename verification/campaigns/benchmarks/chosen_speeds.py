@@ -9,6 +9,8 @@ even speeds, solved to 0.2 %, and three speeds near the lift-off speed. The comm
 """
 
 import os
+from collections.abc import Callable
+from typing import Any
 
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(name, "1")
@@ -44,7 +46,7 @@ def scenes(count: int, *, strips: bool, sequence: int):
         )
 
 
-def timed(work):
+def timed(work: Callable[..., Any]):
     """(result, processor seconds)."""
     begun = time.process_time()
     return work(), time.process_time() - begun

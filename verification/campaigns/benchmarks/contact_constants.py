@@ -12,6 +12,8 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Callable
+from typing import Any
 
 for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
@@ -61,7 +63,7 @@ def solvers(n: int) -> list:
     return [_solver(n, *case) for case in (*cases, *warm)]
 
 
-def _solver(n: int, kind: str, load: float, boundary, hardness, begun: float = 0.0):
+def _solver(n: int, kind: str, load: float, boundary: Any, hardness: float | None, begun: float = 0.0):
     gap0 = -surface(kind, (n, n), SPACING, 34e-6, 240e-9)
     options = {"operator": half_space(gap0.shape, SPACING, E_PRIME, boundary), "boundary": boundary}
     options |= {"hardness": hardness, "tolerance": 1e-4, "raise_on_failure": False}
@@ -75,14 +77,14 @@ def _solver(n: int, kind: str, load: float, boundary, hardness, begun: float = 0
     return solve
 
 
-def scaled(value, factor: float):
+def scaled(value: Any, factor: float):
     """Return a number, or each number of a tuple, times ``factor``; integers remain integers of at least one."""
     if isinstance(value, tuple):
         return tuple(scaled(v, factor) for v in value)
     return max(1, round(factor * value)) if isinstance(value, int) else factor * value
 
 
-def solved_with(module, name: str, factor: float, solves) -> np.ndarray:
+def solved_with(module: Any, name: str, factor: float, solves: list[Callable[..., Any]]) -> np.ndarray:
     """Rows of the solves with a constant scaled wherever it was imported."""
     value = getattr(module, name)
     homes = [m for m in MODULES if getattr(m, name, None) is value]
@@ -95,7 +97,7 @@ def solved_with(module, name: str, factor: float, solves) -> np.ndarray:
             setattr(home, name, value)
 
 
-def words(rows, usual) -> str:
+def words(rows: Any, usual: np.ndarray) -> str:
     """Ratios to the usual rows."""
     ratio = rows[:, 0] / usual[:, 0]
     failed = int(np.count_nonzero(rows[:, 1] == 0))

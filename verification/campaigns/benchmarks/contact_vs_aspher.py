@@ -21,7 +21,9 @@ import argparse
 import json
 import os
 import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
@@ -41,7 +43,7 @@ SIGMA = 240e-9
 FIRST = {"lubfric": 1e-3, "aspher": 1e-2, "tamaas": 1e-4}  # tolerances that the search begins with
 
 
-def loosest(solve, load: float, reference: np.ndarray, target: float, first):
+def loosest(solve: Callable[..., Any], load: float, reference: np.ndarray, target: float, first: Any):
     """(tolerance, error, seconds): loosest of the ladder, from ``first`` on, that meets the target, or the best of
     it."""
     best = (np.nan, np.inf, np.nan)
@@ -56,7 +58,7 @@ def loosest(solve, load: float, reference: np.ndarray, target: float, first):
     return best
 
 
-def measured(solve, load: float, tolerance: float, reference: np.ndarray):
+def measured(solve: Callable[..., Any], load: float, tolerance: float, reference: np.ndarray):
     """(error, processor seconds) of one solve."""
     begun = time.process_time()
     pressure = solve(load, tolerance)
@@ -64,7 +66,7 @@ def measured(solve, load: float, tolerance: float, reference: np.ndarray):
     return float(np.linalg.norm(pressure - reference) / np.linalg.norm(reference)), seconds
 
 
-def compare(solvers, load: float, reference: np.ndarray, target: float, repeats: int, first):
+def compare(solvers: Any, load: float, reference: np.ndarray, target: float, repeats: int, first: Any):
     """Rows (name, tolerance, error, median and quartiles of seconds), repeats interleaved; ``first``: the tolerances
     that the search begins with."""
     results = {name: loosest(solve, load, reference, target, first[name]) for name, solve in solvers.items()}
@@ -82,13 +84,13 @@ def stopped(heights: np.ndarray, load: float, reference: np.ndarray, seconds: fl
     if few is None:
         return []
     each = measured(few, load, 1e-14, reference)[1] / 20
-    error, spent = measured(
-        tamaas_solver(heights, SPACING, E_PRIME, max_iterations=int(seconds / each)), load, 1e-14, reference
-    )
+    solver = tamaas_solver(heights, SPACING, E_PRIME, max_iterations=int(seconds / each))
+    assert solver is not None  # as before
+    error, spent = measured(solver, load, 1e-14, reference)
     return [("tamaas", np.nan, error, spent, spent, spent)]
 
 
-def of_page(rows) -> tuple[list[str], list[list[str]]]:
+def of_page(rows: Any) -> tuple[list[str], list[list[str]]]:
     """The table of the page: a row for each surface and grid, a column for each load."""
     loads = sorted({r["load"] for r in rows})
     lines = []
@@ -102,7 +104,9 @@ def of_page(rows) -> tuple[list[str], list[list[str]]]:
     return ["surface, grid", *(f"{load:g} MPa" for load in loads)], lines
 
 
-def case_rows(kind, cells: int, load: float, solvers, heights: np.ndarray, options, kept) -> list[dict]:
+def case_rows(
+    kind: Any, cells: int, load: float, solvers: Any, heights: np.ndarray, options: Any, kept: Any
+) -> list[dict]:
     """The rows of one case, printed as they come."""
     reference = solvers["lubfric"](1e6 * load, 1e-10)
     label = f"{kind} {cells} {load:g}"
@@ -143,7 +147,7 @@ def main() -> None:
         run(parser, options)
 
 
-def run(parser, options) -> None:
+def run(parser: Any, options: Any) -> None:
     """Every case, its rows written as they come."""
     rows: list[dict] = []
     kept = json.loads(options.kept.read_text()) if options.kept and options.kept.exists() else {}

@@ -7,6 +7,8 @@ a solution at tolerance 3e-5. A warm solve starts from a result at 3 % less load
 import argparse
 import os
 import time
+from collections.abc import Callable
+from typing import Any
 
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[name] = "1"
@@ -52,7 +54,7 @@ def arguments(M: float, L: float) -> dict:
     }
 
 
-def shortest_ms(call, repeats: int):
+def shortest_ms(call: Callable[..., Any], repeats: int):
     """Shortest processor time of ``call()`` [ms], the one that other jobs lengthen least, and its last value."""
     times = []
     for _ in range(repeats):
@@ -62,7 +64,7 @@ def shortest_ms(call, repeats: int):
     return min(times), value
 
 
-def error(result, reference) -> float:
+def error(result: Any, reference: Any) -> float:
     """Largest relative error of smallest and flow film."""
     return max(abs(result.min_film / reference.min_film - 1), abs(result.flow_film / reference.flow_film - 1))
 

@@ -7,6 +7,7 @@ import statistics
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,7 @@ PAPER: dict[str, Any] = dict(
 )
 
 
-def median(work, repeats: int):
+def median(work: Callable[..., Any], repeats: int):
     work()
     times = []
     for _ in range(repeats):
@@ -29,7 +30,7 @@ def median(work, repeats: int):
     return statistics.median(times)
 
 
-def whole_process(code):
+def whole_process(code: Any):
     return median(lambda: subprocess.run([sys.executable, "-c", code], check=True), 7)
 
 

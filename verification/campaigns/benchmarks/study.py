@@ -8,6 +8,7 @@ continues. It prints one table and draws study.png into FOLDER.
 """
 
 import os
+from typing import Any
 
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(name, "1")
@@ -42,7 +43,7 @@ def plan(points: int):
     return lubfric.plan_study(scene, vary, np.geomspace(1e-3, 1.0, max(points // 100, 1)))
 
 
-def draw(folder: Path, result) -> None:
+def draw(folder: Path, result: Any) -> None:
     """Curves of all loads and viscosities on the first map, over viscosity x speed, from the Dataset."""
     import matplotlib.pyplot as plt
 

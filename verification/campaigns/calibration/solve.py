@@ -26,7 +26,7 @@ class TooLong(lubfric.LubfricError):
 def limited(seconds: float) -> Iterator[None]:
     """Raise `TooLong` in the block after so many ``seconds`` of processor time."""
 
-    def stop(number: int, frame) -> None:
+    def stop(number: int, frame: Any) -> None:
         raise TooLong(f"more than {seconds:g} s of processor time")
 
     before = signal.signal(signal.SIGPROF, stop)

@@ -1,6 +1,7 @@
 """The chart of the dry contact: error of the pressure against time, by method, tolerance, load, surface and
 boundary."""
 
+from collections.abc import Callable
 from functools import lru_cache, partial
 from typing import Any
 
@@ -89,7 +90,7 @@ def methods(z: np.ndarray, pressure: float, boundary: str, mean_gap: float) -> d
     return results
 
 
-def panel(label: str, acf: str, n: int, load: float, boundary: str, tolerances, repeats: int) -> list[dict]:
+def panel(label: str, acf: str, n: int, load: float, boundary: str, tolerances: Any, repeats: int) -> list[dict]:
     """Every method at every tolerance against one tight solution."""
     z = heights(n, acf)
     values = []
@@ -109,7 +110,7 @@ def panel(label: str, acf: str, n: int, load: float, boundary: str, tolerances, 
     return values
 
 
-def attempt(solve, tolerance: float):
+def attempt(solve: Callable[..., Any], tolerance: float):
     """The pressure, or None where the method gives up."""
     try:
         return solve(tolerance)
@@ -117,7 +118,7 @@ def attempt(solve, tolerance: float):
         return None
 
 
-def grids(acf: str, sizes) -> list[dict]:
+def grids(acf: str, sizes: Any) -> list[dict]:
     """Contact area and mean gap of one surface on coarser grids against the finest, with a solver error of 1e-6."""
     solved = {}
     values = []

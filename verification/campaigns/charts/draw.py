@@ -1,5 +1,7 @@
 """Draws charts from the points alone."""
 
+from typing import Any
+
 import numpy as np
 
 from ... import plotting
@@ -44,7 +46,7 @@ def palette(points: list[Check]) -> dict[str, str]:
     return {m: COLOURS[i % len(COLOURS)] for i, m in enumerate(methods)}
 
 
-def curve(ax, points: list[Check], colour: str) -> None:
+def curve(ax: Any, points: list[Check], colour: str) -> None:
     """One method, in the order in which its settings were given."""
     errors = [p.measured for p in points]
     times = np.array([p.at["seconds"] for p in points])

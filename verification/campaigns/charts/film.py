@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterator
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -42,7 +43,7 @@ def measured(case: tuple) -> list[dict]:
     return values
 
 
-def quantities(film) -> np.ndarray:
+def quantities(film: Any) -> np.ndarray:
     """Smallest film and flow film [m], and ∫ eta/h dx, which is the Newtonian shear force per sliding speed."""
     x = film.x
     h = film.film_thickness

@@ -11,6 +11,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -207,7 +208,7 @@ def _fit(rng: np.random.Generator, scene: lubfric.Scene, speed: float) -> Job:
     )
 
 
-def _of_scene(scene: lubfric.Scene, speeds=(), ratios=(), *, command: bool = False) -> float:
+def _of_scene(scene: lubfric.Scene, speeds: Any = (), ratios: Any = (), *, command: bool = False) -> float:
     prepared = lubfric.prepare(scene)
     estimate = estimate_scene(scene, prepared.sample, prepared.surface, speeds, ratios)
     return estimate.command_seconds if command else estimate.seconds

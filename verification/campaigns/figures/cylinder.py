@@ -36,7 +36,7 @@ PAPER_FILM_LOAD = 0.225  # N, at 0.001 m/s
 REAL = "ground-77nm.x3p"
 
 
-def scene_of(acf="gaussian", length: float = 8e-6, seed: int = 1):
+def scene_of(acf: str = "gaussian", length: float = 8e-6, seed: int = 1):
     """The paper's cylinder on a generated surface. Lengths that do not fit 90 µm are cut from a longer map."""
     fits = length <= (16e-6 if acf == "gaussian" else 8e-6)
     return PAPER.with_(surface={"acf": acf, "correlation_length": length, "seed": seed, "oversize": 1 if fits else 5})
@@ -108,7 +108,7 @@ def stribeck_curves(level: str, run: Run = Run()) -> Iterator[Item]:
     yield picture("fig8", title, _agrees(speeds, most, real, table), _differs(curves), canvas)
 
 
-def _draw_stribeck(speeds, curves, real, lengths, loads):
+def _draw_stribeck(speeds: Any, curves: Any, real: Any, lengths: Any, loads: Any):
     canvas, panels = axes(1, 3, width=12.0, height=4.2)
     for ax, ((acf, length), values) in zip(panels, curves.items()):
         for i, (name, c) in enumerate(zip(MODELS, values.transpose(1, 0, 2))):
@@ -131,7 +131,7 @@ def _draw_stribeck(speeds, curves, real, lengths, loads):
     return canvas
 
 
-def _agrees(speeds, most: float, real, table) -> str:
+def _agrees(speeds: Any, most: float, real: Any, table: Any) -> str:
     inside = [f"{length * 1e6:g}" for length, _, _, low, high in table if low <= PAPER_FILM_LOAD <= high]
     below = [f"{length * 1e6:g}" for length, *_, high in table if high < PAPER_FILM_LOAD]
     bracket = f"the paper's 0.225 N is within the range of the seeds for {', '.join(inside) or 'no length'} µm"
@@ -154,7 +154,7 @@ def _agrees(speeds, most: float, real, table) -> str:
     )
 
 
-def _differs(curves) -> str:
+def _differs(curves: Any) -> str:
     lines = []
     for (acf, _), c in curves.items():
         mean = c.mean(0)

@@ -51,7 +51,7 @@ def pressed(pressure: float, acf: str, level: float, length: float, seed: int, c
     return prepare(scene, rough(length, acf, seed, count, level))
 
 
-def friction_over_speed(ready: Prepared, law: str, speeds) -> np.ndarray:
+def friction_over_speed(ready: Prepared, law: str, speeds: Any) -> np.ndarray:
     """f under a law of the film; NaN where the model cannot carry its share."""
     oil, deflection = LAWS[law]
     scene = ready.scene.with_(lubricant=oil, numerics={"film_deflection": deflection})
@@ -153,7 +153,7 @@ def _surface(label: str) -> tuple:
     return r["acf"], r["level"]
 
 
-def _draw(d, labels, loads):
+def _draw(d: Any, labels: Any, loads: Any):
     canvas, panels = axes(1, 3, width=11.4, height=4.6, sharey=True)
     mega = np.array(loads) / 1e6
     for length, colour in zip(LENGTHS, ("C0", "C1")):
@@ -178,7 +178,7 @@ def _draw(d, labels, loads):
     return canvas
 
 
-def _verdict(d, labels, loads) -> tuple[str, str]:
+def _verdict(d: Any, labels: Any, loads: Any) -> tuple[str, str]:
     base = [d[BASE_LABEL, length, 1] for length in LENGTHS]
     dips = max(int(np.sum(np.diff(of_length) < 0)) for of_length in base)
     grows = dips <= 1 and all(of_length[-1] >= max(of_length) for of_length in base)

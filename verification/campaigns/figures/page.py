@@ -4,6 +4,7 @@ import re
 import textwrap
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 from ... import plotting
 from ...check import Figure
@@ -12,7 +13,7 @@ from ..tables.pages import source
 SECTION = re.compile(r"(?<=<!-- figures -->\n).*(?=<!-- end of figures -->)", re.DOTALL)
 
 
-def picture(name: str, title: str, agrees: str, differs: str, canvas) -> Figure:
+def picture(name: str, title: str, agrees: str, differs: str, canvas: Any) -> Figure:
     """The drawn figure, small enough for the documents, with its section of the page as caption: what agrees with the
     paper, and what does not, and why."""
     section = (

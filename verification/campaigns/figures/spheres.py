@@ -49,7 +49,7 @@ def approaches(distance: float, loads: FloatArray, cell: float = CELL) -> tuple[
     return np.array(free), np.array(free) + MEAN_OF_BOX * np.asarray(loads) / distance**2 * BOX / E_PRIME
 
 
-def hertz_load(approach):
+def hertz_load(approach: Any):
     """Load [N] of one isolated sphere."""
     return 2 / 3 * E_PRIME * np.sqrt(RADIUS) * np.asarray(approach) ** 1.5
 

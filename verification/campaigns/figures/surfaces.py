@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import lubfric
 from lubfric.surface.statistics import correlation_length, rms_slope
@@ -17,17 +18,20 @@ SPACING = 2e-6
 COUNT = 816
 
 
-def rough(length: float, acf: str = "exponential", seed: int = 1, count: int = COUNT, decay_level=math.exp(-1)):
+def rough(
+    length: float, acf: str = "exponential", seed: int = 1, count: int = COUNT, decay_level: float = math.exp(-1)
+) -> lubfric.Surface:
     """A surface of Sec. 3.1: 816 x 816 points at 2 um, Sq 240 nm."""
-    keys = {"sq": SQ, "correlation_length": length, "acf": acf, "decay_level": decay_level, "seed": seed}
-    return lubfric.generate_surface((count, count), SPACING, **keys)
+    return lubfric.generate_surface(
+        (count, count), SPACING, sq=SQ, correlation_length=length, acf=acf, decay_level=decay_level, seed=seed
+    )
 
 
 def generated_surfaces(level: str, run: Run = Run()) -> Iterator[Item]:
     """Both lengths with both autocorrelation functions: the length that the generator was given, and the lengths measured on the maps."""
     count = 400 if level == "quick" else COUNT
     canvas, grid = axes(2, 2, width=8.0, height=7.2)
-    rows = []
+    rows: list[tuple[Any, ...]] = []
     shown = min(count, 256)
     side = shown * SPACING * 1e6
     for row, acf in zip(grid, ("exponential", "gaussian")):

@@ -8,6 +8,7 @@ import os
 from collections import Counter
 from collections.abc import Iterator
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -108,7 +109,7 @@ def scene_row(seed: int, number: int) -> dict:
     return row | {"ratio": ratio, "words": words}
 
 
-def _features(prepared, result) -> Iterator[str]:
+def _features(prepared: Any, result: Any) -> Iterator[str]:
     """Names of what a soak should have had some of, as far as this scene has it."""
     scene = prepared.scene
     share = result.contact_load / prepared.scene.bodies.load

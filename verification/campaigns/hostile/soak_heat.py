@@ -125,7 +125,7 @@ def _twice_integrated(source: np.ndarray, z: np.ndarray) -> np.ndarray:
     return np.concatenate([np.zeros((source.shape[0], 1)), np.cumsum(rises, axis=1)], axis=1)
 
 
-def _viscosity(oil, log_ratio: np.ndarray, temperature: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _viscosity(oil: Any, log_ratio: np.ndarray, temperature: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """ln eta and -d ln(eta)/dT at temperatures [K], by Roelands' law if the scene requests it, otherwise exponential."""
     t0 = oil.temperature
     beta = oil.temperature_coefficient

@@ -104,7 +104,7 @@ class Judge:
             pass
         return solve_ehl(**case, sliding=sliding, eyring_stress=stress, tolerance=1e-4)
 
-    def pressed(self, strip: MappedStrip, film, load: float) -> tuple[float, float, np.ndarray]:
+    def pressed(self, strip: MappedStrip, film: Any, load: float) -> tuple[float, float, np.ndarray]:
         """Mean gap and mean film over A [m], and share in contact at each x, of a dry contact at ``load`` [N]."""
         scene = self.prepared.scene
         x = strip.x
@@ -151,7 +151,7 @@ class Judge:
         return force / scene.bodies.load, (self.film_tolerance * parts + spike) / scene.bodies.load
 
 
-def judge_of(prepared: Prepared, result) -> Judge:
+def judge_of(prepared: Prepared, result: Any) -> Judge:
     """What closes ``result`` of ``prepared`` anew: a patch on its own cells, or the strips of the result."""
     scene = prepared.scene
     parts = abs(result.couette_force) + abs(result.rolling_force) + result.boundary_force
@@ -177,7 +177,7 @@ def judge_of(prepared: Prepared, result) -> Judge:
     )
 
 
-def _strip(surface, x: np.ndarray) -> MappedStrip:
+def _strip(surface: Any, x: np.ndarray) -> MappedStrip:
     return MappedStrip(surface.heights - surface.heights.mean(), surface.spacing, x)
 
 
@@ -189,7 +189,7 @@ def _pair(sample: Sample, index: int) -> tuple[MappedStrip, MappedStrip]:
     return _strip(piece, cells.axis((1, 1))), _strip(kept, cells.axis())
 
 
-def verdict(prepared: Prepared, result) -> dict[str, float]:
+def verdict(prepared: Prepared, result: Any) -> dict[str, float]:
     """Deviations of ``result`` by name, over what is allowed. At rest the contact carries all."""
     scene = prepared.scene
     load = prepared.scene.bodies.load
@@ -248,7 +248,7 @@ def closed_again(judge: Judge, share: float, *, closely: bool = False) -> tuple[
 def _bracketed(judge: Judge, here: float) -> tuple[tuple[float, float], float]:
     """Close the balance as `closed_again` does, by a root between divisions on both sides of it."""
 
-    def surplus(split):
+    def surplus(split: Any):
         sides = judge.sides(split)
         return math.log(sides.gap / sides.mean_film)
 

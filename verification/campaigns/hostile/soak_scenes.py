@@ -70,7 +70,7 @@ def random_scene(rng: np.random.Generator, *, any_material: bool = False) -> lub
     return _rough(rng, scene, v["sq"], 0.2 if any_material else 0.05, flat=flat)
 
 
-def _drawn(rng: np.random.Generator, ranges) -> dict[str, float]:
+def _drawn(rng: np.random.Generator, ranges: Any) -> dict[str, float]:
     return {name: math.exp(rng.uniform(math.log(low), math.log(high))) for name, (low, high) in ranges.items()}
 
 

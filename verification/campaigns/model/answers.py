@@ -72,7 +72,7 @@ class AnswerCase:
     slip: float = 2.0
     longer: float = 1.0
 
-    def scene(self, seed: int, folder: str, **numerics) -> Scene:
+    def scene(self, seed: int, folder: str, **numerics: Any) -> Scene:
         """The scene with a surface of its own ``seed``; maps are written to ``folder``."""
         changes, times = CONTACTS[self.contact]
         times *= self.longer

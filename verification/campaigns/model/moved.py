@@ -72,7 +72,7 @@ def passed(scene: Scene, bodies: Sequence[RoughBody], speed: float) -> dict[str,
     return mean | {"rest": first, "off": balances(at, result[-1], result, step, out), "steps": start + count}
 
 
-def row(problem, result, out: float) -> dict[str, Any]:
+def row(problem: Any, result: Any, out: float) -> dict[str, Any]:
     """The numbers of one moment, in which touching cells give off ``out`` [m²/s]."""
     p = result.pressure
     h = result.gap

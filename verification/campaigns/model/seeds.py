@@ -8,7 +8,8 @@ part of this is allowed as bias (`SECOND_ORDER`).
 """
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 
@@ -88,7 +89,9 @@ def seeds(level: str, run: Run = Run()) -> Iterator[Item]:
     yield Table("answers-seeds", "The default answer on fresh surfaces", COLUMNS, rows)
 
 
-def _columns(run: Run, solve, speed: float, numbers: range, names: tuple[str, ...]) -> list[np.ndarray]:
+def _columns(
+    run: Run, solve: Callable[..., Any], speed: float, numbers: range, names: tuple[str, ...]
+) -> list[np.ndarray]:
     cases = {f"{speed:g} m/s, {seed}": (speed, seed) for seed in numbers}
     values = [row for _, row in run.solved(cases, solve, solve.__name__)]
     return [np.array([row[name] for row in values]) for name in names]

@@ -8,7 +8,7 @@ axes. That change is found on a narrower strip, over the same way.
 
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -281,7 +281,7 @@ def extend(seeds: int, budget: float, folder: Path = FOLDER) -> Iterator[dict[st
                     yield _appended(folder / REFERENCES, REFERENCE_COLUMNS, row)
 
 
-def _timed(solve, contact: RollingContact, seed: int) -> dict[str, Any]:
+def _timed(solve: Callable[..., Any], contact: RollingContact, seed: int) -> dict[str, Any]:
     begun = time.process_time()
     try:
         row = solve(contact, seed) | {"failure": ""}

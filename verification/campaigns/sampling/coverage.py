@@ -132,7 +132,7 @@ def coverage(level: str, run: Run = Run(), seed: int = SEED) -> Iterator[Item]:
     yield picture(results)
 
 
-def truths(cases, seed: int, run: Run) -> dict[str, tuple[float, float]]:
+def truths(cases: Any, seed: int, run: Run) -> dict[str, tuple[float, float]]:
     """f of an endless line and its relative standard error, by the name of the case."""
     wanted = {f"{case.name}, {seed}": (case, seed + REPORTED) for case in cases}
     return {case.name: (f, error) for (case, _), (f, error) in run.solved(wanted, endless, "truths")}

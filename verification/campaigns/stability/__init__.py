@@ -8,6 +8,7 @@ a bad input was not refused with a message, or when one of many random scenes ha
 import importlib
 from collections.abc import Iterator
 from functools import partial
+from typing import Any
 
 from ... import frame
 from ...check import Check, Item
@@ -35,7 +36,7 @@ def stability_map(level: str, name: str, run: Run = Run()) -> Iterator[Item]:
     yield draw(name, values)
 
 
-def check_cell(name: str, cell) -> dict:
+def check_cell(name: str, cell: Any) -> dict:
     """The check of one cell of the map ``name``, in plain types."""
     from . import cell as cells
 

@@ -1,6 +1,7 @@
 """Draws and counts the maps."""
 
 from collections import Counter
+from typing import Any
 
 import numpy as np
 
@@ -68,7 +69,7 @@ def draw(kind: str, cells: list[Check]) -> Figure:
     return plotting.compact(plotting.finish(kind, canvas, f"Stability of the {kind} solvers", format="png"))
 
 
-def panel(ax, cells: list[Check]) -> None:
+def panel(ax: Any, cells: list[Check]) -> None:
     """All cells of one map and method."""
     from matplotlib.ticker import MaxNLocator
 

@@ -46,7 +46,7 @@ def solve(cell: Cell):
     return solve_ehl(**film.case, tolerance=film.tolerance, start=start)
 
 
-def deviations(cell: Cell, result) -> dict[str, float]:
+def deviations(cell: Cell, result: Any) -> dict[str, float]:
     """Return the residuals of a film, and the deviations of its thicknesses from another discretisation, over the
     allowed ones."""
     case = cell.problem.case

@@ -8,6 +8,7 @@ coefficient and F_C/F_T may differ by twice the tolerance of the scene (1 %).
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -53,7 +54,7 @@ def solve(cell: Cell) -> tuple:
     if p.film:
         load = model.scene.bodies.load
 
-        def below(u):
+        def below(u: Any):
             return lubfric.solve_ehl(**case_of_scene(model.scene, load, u), tolerance=0.05).central_film < p.film
 
         speed = halved(1e-12, 1e4, below, 14)

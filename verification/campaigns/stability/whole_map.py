@@ -7,6 +7,7 @@ and with quadratures of the laws and of 1/h³ between cells. The error of these 
 """
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -59,7 +60,7 @@ def solve(cell: Cell):
     return solve_point(bearing(*cell.problem))
 
 
-def deviations(cell: Cell, result) -> dict[str, float]:
+def deviations(cell: Cell, result: Any) -> dict[str, float]:
     """`check` of the bearing of the cell."""
     return check(bearing(*cell.problem), result)
 
@@ -73,7 +74,7 @@ def bearing(sq: float, load: float, speed: float, seed: int = 1, across: int = A
     return lay_out(surface, contact, sliding=2 * speed, boundary_friction=FRICTION, hardness=HARDNESS)
 
 
-def check(problem, result) -> dict[str, float]:
+def check(problem: Any, result: Any) -> dict[str, float]:
     """Deviations over what is allowed, from the fields."""
     dx, _ = result.spacing
     p = result.pressure
@@ -89,7 +90,7 @@ def check(problem, result) -> dict[str, float]:
     return {name: error / ALLOWED[name] for name, error in errors.items()} | {"flow": flow_error(result)}
 
 
-def flow_error(result) -> float:
+def flow_error(result: Any) -> float:
     """Largest relative difference of the flow through sections before the first touching cell, as a part of what is
     allowed there: 3 %, and the error of the check's own quadrature (`_pressure_flow`)."""
     speed = result.speed
@@ -123,7 +124,7 @@ def _pressure_flow(p: np.ndarray, h: np.ndarray, speed: float, dx: float) -> tup
     return fine, np.abs(fine - three)
 
 
-def _mean_fluidity(p: np.ndarray, film, speed: float, points: int) -> np.ndarray:
+def _mean_fluidity(p: np.ndarray, film: Any, speed: float, points: int) -> np.ndarray:
     """Mean of rho/eta_eff between neighbours along x, p linear between them, by Simpson's rule."""
     between = p[:-1, :, None] + (p[1:] - p[:-1])[:, :, None] * np.linspace(0.0, 1.0, points)
     fluidity = 1 / FLUID.eta(between) + 2 * speed / (film[..., None] * (OFFSET + COEFFICIENT * between))

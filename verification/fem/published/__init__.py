@@ -8,6 +8,8 @@ stays (`verification.check.ListedDeviation`). A value that differs and is not li
 
 from __future__ import annotations
 
+from typing import Any
+
 from ... import check, frame
 from ...catalogue import PUBLISHED
 from ...check import CAUSES, Check, ListedDeviation
@@ -16,7 +18,7 @@ from ..references import SOURCES
 WEAK = 0.25
 
 
-def summary(report) -> str:
+def summary(report: Any) -> str:
     """Return the number of checks whose bounds are so wide that agreement is weak evidence, and the number of listed
     deviations by cause."""
     weak = sum(c.tolerance > WEAK * abs(c.expected) for c in report.checks)

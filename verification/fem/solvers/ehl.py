@@ -197,20 +197,33 @@ def solve_ehl(
         if level and not report.converged:
             start, _, _ = newton(body, replace(film, upwind=1.0), start, ROUGH, max_iterations)
             end, flow, report = newton(body, film, start, tolerance, max_iterations)
-        solution = EHLSolution(
-            contact=contact,
-            layout=layout,
-            body=body,
-            film=film,
-            displacement=end.u,
-            P=end.P,
-            H=film_thickness(body, end),
-            approach=end.H0,
-            flow_film=flow * contact.film_unit,
-            report=report,
-        )
-        solutions.append(report.checked(solution))
+        solutions.append(report.checked(solution_of(contact, layout, body, film, end, flow=flow, report=report)))
     return solutions
+
+
+def solution_of(
+    contact: LineContact,
+    layout: Layout,
+    body: Body,
+    film: FilmEquations,
+    end: Iterate,
+    *,
+    flow: float,
+    report: SolveReport,
+) -> EHLSolution:
+    """Return the solution at the last iterate of a solve, with its mass ``flow`` in units of rho0 U b^2/R."""
+    return EHLSolution(
+        contact=contact,
+        layout=layout,
+        body=body,
+        film=film,
+        displacement=end.u,
+        P=end.P,
+        H=film_thickness(body, end),
+        approach=end.H0,
+        flow_film=flow * contact.film_unit,
+        report=report,
+    )
 
 
 def film_of(contact: LineContact, line: Basis, penalty: float = PENALTY) -> FilmEquations:

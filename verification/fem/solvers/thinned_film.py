@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...arrays import ComplexArray, FloatArray
-from .ehl import EHLSolution, LineContact, solve_ehl
+from .ehl import EHLSolution, LineContact, solution_of, solve_ehl
 from .ehl_film import FilmEquations
-from .ehl_newton import Iterate, film_thickness, newton
+from .ehl_newton import Iterate, newton
 
 STATIONS = 41  # across the film
 STAGES = (125.0, 25.0, 5.0, 1.0)  # times the critical stress
@@ -108,16 +108,4 @@ def solve_thinned(
         )
         end, flow, report = newton(body, film, end, 1e-7, 40)
         report.checked(None)
-    thinned = EHLSolution(
-        contact=contact,
-        layout=newtonian.layout,
-        body=body,
-        film=film,
-        displacement=end.u,
-        P=end.P,
-        H=film_thickness(body, end),
-        approach=end.H0,
-        flow_film=flow * contact.film_unit,
-        report=report,
-    )
-    return newtonian, thinned
+    return newtonian, solution_of(contact, newtonian.layout, body, film, end, flow=flow, report=report)

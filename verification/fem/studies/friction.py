@@ -55,7 +55,7 @@ def surface(shape: tuple[int, int], spacing: float, seed: int = 1) -> np.ndarray
     return lubfric.generate_surface(shape, spacing, **made).heights
 
 
-def model(heights: np.ndarray, spacing: float, region: str = "hertz", **numerics) -> Prepared:
+def model(heights: np.ndarray, spacing: float, region: str = "hertz", **numerics: Any) -> Prepared:
     """The paper's cylinder made ready for given heights, tightly solved unless ``numerics`` say otherwise."""
     scene = lubfric.load_scene("paper").with_(contact={"region": region}, numerics=TIGHT | numerics)
     return prepare(scene, lubfric.Surface(heights, (spacing, spacing)))

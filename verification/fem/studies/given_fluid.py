@@ -88,7 +88,7 @@ def laid(case: GivenFluidCase, contact: LineContact) -> Problem:
     line = replace(contact, entrainment_speed=case.speed)
     upstream, downstream = reach(line, surface.sq)
 
-    def over(ends) -> Problem:
+    def over(ends: Any) -> Problem:
         sliding = 2 * case.speed
         laid = lay_out(surface, line, sliding=sliding, boundary_friction=0.09, hardness=case.hardness, ends=ends)
         return replace(laid, floor=case.floor)

@@ -4,6 +4,7 @@ map."""
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -94,7 +95,7 @@ def yielded(solution: SharedLoad, main: lubfric.FrictionResult, body: Compliance
     )
 
 
-def measured_map(allowed, refinements: int):
+def measured_map(allowed: Any, refinements: int):
     """A ground surface in a file: along the other axis, with other cells along it, tilted, and too rough."""
     across = 1.1e-6
     speed = 0.01

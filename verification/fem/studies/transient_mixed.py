@@ -1,6 +1,7 @@
 """Load sharing in time: the paper scene ramped, stopped, reversed; error of friction for step and grid."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -41,7 +42,7 @@ def transient_mixed(level: str):
     yield from cost()
 
 
-def run(model, plan: Transient, times=None, **numerics):
+def run(model: Any, plan: Transient, times: Any = None, **numerics: Any):
     """`lubfric.transient` of a prepared model with another plan (and numerics)."""
     scene = replace(model.scene, transient=plan).with_(numerics=numerics)
     return lubfric.transient(prepare(scene, like=model), times)
@@ -52,7 +53,7 @@ def wave(amplitude: float, frequency: float, mean: float = 0.0) -> Harmonic:
     return Harmonic(mean=mean, amplitude=amplitude, frequency=frequency, phase=np.pi / 2)
 
 
-def steady(model):
+def steady(model: Any):
     """The scene held, and ramped slowly through lift-off."""
     fine = prepare(model.scene.with_(numerics={"tolerance": 2e-3}), like=model)
     held = run(fine, Transient(1.0), [0.0, 0.1, 1.0])
@@ -70,7 +71,7 @@ def steady(model):
     yield bound("mass of the pressurised film: largest residual", lost, 1e-3, "balance over the step")
 
 
-def loops(model):
+def loops(model: Any):
     """Friction loops at three frequencies of a speed that pulsates without reversing, and of one that reverses."""
     opening = []
     for period in PERIODS:
@@ -99,7 +100,7 @@ def loops(model):
     )
 
 
-def stop_and_start(model):
+def stop_and_start(model: Any):
     """Shut-down, standstill and start-up."""
     plan = Transient(0.02, speed=History(times=(0, 5e-3, 1e-2, 1.5e-2, 0.02), values=(0.1, 0, 0, 0.1, 0.1)))
     history = run(model, plan, np.linspace(0, 0.02, 161))
@@ -114,7 +115,7 @@ def stop_and_start(model):
     yield bound(name, rest, 5e-3, "squeeze decays against the contact")
 
 
-def errors(model):
+def errors(model: Any):
     """Error of friction against time for the time tolerance and the grid."""
     times = np.linspace(0, 0.01, 26)
     speed = wave(LARGEST, 100.0)
