@@ -143,11 +143,15 @@ def test_a_loose_model_tolerance_lets_auto_answer_on_long_cells():
     assert lubfric.friction(tight, 0.1).decision.model == "deterministic"
 
 
-def test_bounds_widen_outside_the_campaign_and_the_result_says_so():
-    faster = lubfric.friction(PAPER.with_(numerics={"model": "load-sharing"}), 0.5)
-    assert "outside the range of the solved cases" in faster.uncertainty.text
-    inside = lubfric.friction(PAPER.with_(numerics={"model": "load-sharing"}), 0.03)
-    assert "outside the range" not in inside.uncertainty.text
+def test_bounds_widen_outside_the_campaign_and_info_and_result_say_so():
+    text = "outside the range of the solved cases"
+    quick_paper = PAPER.with_(numerics={"model": "load-sharing"})
+    thick = lubfric.friction(quick_paper, 0.5)
+    assert [entry.what for entry in thick.validity if text in entry.what][0].startswith("Moes' film over Sq")
+    assert not any(text in entry.what for entry in lubfric.friction(quick_paper, 0.03).validity)
+    assert text not in describe_scene(quick_paper, [0.03])
+    light = quick_paper.with_(bodies={"load": 0.5})
+    assert f"load per width, {text}" in describe_scene(light, [0.03])
     assert widening([]) == 1.0 < widening([0.5]) < widening([1.0]) <= widening([9.0])
 
 

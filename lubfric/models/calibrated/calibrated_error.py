@@ -17,7 +17,7 @@ import numpy as np
 
 from ..._base import packaged
 from ...scene import Scene, moves
-from ..shared import peak_hertz_pressure
+from ..shared import Validity, peak_hertz_pressure
 
 # Factor on the bounds far outside the range of the campaign.
 WIDEST = 3.0
@@ -70,26 +70,55 @@ def error_model_of(scene: Scene) -> ErrorModel:
     return error_models()["rolling" if moves(scene) else "rest"]
 
 
-def out_of_range(scene: Scene, sq: float, speed: float, known: Mapping[str, tuple[float, float]]) -> dict[str, float]:
-    """Return how far ``scene`` is outside the range of the campaign, in ln, by a description as text."""
-    line = scene.line_contact(abs(speed))
-    ratio = abs(scene.motion.slide_roll_ratio)
-    moes_ratio = line.moes_film / sq
+@dataclass(frozen=True, kw_only=True)
+class Outside:
+    """A number of a contact that is outside of the range of the campaign.
+
+    what, value, limit, unit : as of `lubfric.models.shared.Validity`; distance : in ln, from the range
+    """
+
+    what: str
+    value: float
+    limit: float
+    unit: str
+    distance: float
+
+    @property
+    def warning(self) -> Validity:
+        """What a result, and `lubfric info` before it, says of it."""
+        return Validity(
+            what=f"{self.what}, outside the range of the solved cases behind the error of long cells",
+            value=self.value,
+            limit=self.limit,
+            unit=self.unit,
+            consequence="that error is not known there; it is widened with the distance, up to three times in ln f",
+            remedy="take numerics.model = 'deterministic', which needs no such cases",
+        )
+
+
+def out_of_range(
+    scene: Scene, sq: float | None, speed: float, known: Mapping[str, tuple[float, float]]
+) -> tuple[Outside, ...]:
+    """Return what of ``scene`` at ``speed`` [m/s] is outside the range of the campaign; ``sq`` [m]: of its roughness
+    (None: not known yet)."""
     values = {
-        "pressure": ("Hertz pressure of {:.3g} Pa", peak_hertz_pressure(scene)),
-        "lambda": ("Moes' film over Sq of {:.3g}", moes_ratio),
-        "load": ("load of {:.3g} N/m", scene.bodies.load / scene.bodies.width),
-        "slip": ("slide-roll ratio of {:.3g}", ratio),
+        "pressure": ("Hertz pressure", peak_hertz_pressure(scene), "Pa"),
+        "load": ("load per width", scene.bodies.load / scene.bodies.width, "N/m"),
+        "slip": ("slide-roll ratio", abs(scene.motion.slide_roll_ratio), ""),
     }
-    words = {}
-    for name, (text, value) in values.items():
+    if sq and speed:
+        values["lambda"] = ("Moes' film over Sq", scene.line_contact(abs(speed)).moes_film / sq, "")
+    outside = []
+    for name, (what, value, unit) in values.items():
         low, high = known[name]
-        if value < low:
-            # less sliding than in any case changes the stress by little; the part of rolling is counted apart
-            words[f"{text.format(value)}, below {low:.3g}"] = low - value if name == "slip" else math.log(low / value)
-        elif value > high:
-            words[f"{text.format(value)}, above {high:.3g}"] = math.log(value / high)
-    return words
+        limit = low if value < low else high
+        if low <= value <= high:
+            continue
+        # less sliding than in any case changes the stress by little; the part of rolling is counted apart
+        is_slow = name == "slip" and value < low
+        distance = low - value if is_slow else abs(math.log(value / limit))
+        outside.append(Outside(what=what, value=value, limit=limit, unit=unit, distance=distance))
+    return tuple(outside)
 
 
 def widening(distances: Iterable[float]) -> float:

@@ -43,7 +43,7 @@ from ..shared import (
     percent,
     why_no_rough_film,
 )
-from .calibrated_error import ErrorModel, error_model_of, out_of_range, widening
+from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, widening
 from .long_strips import features, long_cells, numbers_of_strip, solve_at_rest, solve_moving
 
 # Strips at rest, at most: each adds .2 s.
@@ -69,7 +69,6 @@ NOT_FLOODED = (
     "f of Eq. (9) with the error of load sharing: the campaign behind the calibration has flooded contacts only"
 )
 UNSOLVED = "f of Eq. (9) with the error of load sharing: the strips on long cells were not solved ({})"
-OUTSIDE = "outside the range of the solved cases behind the model-form error, which is widened: {}"
 NARROWER = "numerics.model = 'deterministic' narrows f, at the cost that `lubfric info` estimates"
 OF_CELLS = "the error of long cells on {} solved cases: numerics.model = 'deterministic' narrows it"
 
@@ -80,7 +79,7 @@ class LongStrips:
 
     levels : their estimate; model : the error model of such contacts
     bias : of ln of the sliding part of f; half_width : of its 95 % interval, in ln
-    widening : factor on the bounds outside of the range of the solved cases; outside : what is outside of it, as text
+    widening : factor on the bounds outside of the range of the solved cases; outside : what is outside of it
     """
 
     levels: Levels
@@ -88,7 +87,7 @@ class LongStrips:
     bias: float
     half_width: float
     widening: float
-    outside: tuple[str, ...]
+    outside: tuple[Outside, ...]
 
     def numbers(self, scene: Scene) -> dict[str, float]:
         """Return the numbers of the strips without their bias.
@@ -241,14 +240,14 @@ def solve_long_strips(prepared: Prepared, speed: float, control: ControlVariate 
     x = {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
     model = error_model_of(scene)
     outside = out_of_range(scene, prepared.surface.sq, speed, model.range)
-    factor = widening(outside.values())
+    factor = widening(entry.distance for entry in outside)
     return LongStrips(
         levels=levels_of(prepared, speed, pairs, estimate, with_shorter_cells=False),
         model=model,
         bias=model.bias_at(x),
         half_width=factor * model.half_width(x),
         widening=factor,
-        outside=tuple(outside),
+        outside=outside,
     )
 
 
@@ -304,9 +303,6 @@ def calibrated_answer(prepared: Prepared, speed: float, strips: LongStrips) -> M
     largest = answer.largest_in_model
     if max(bounds) >= max(answer.model_error):
         largest = OF_CELLS.format(strips.model.cases)
-    notes = list(answer.notes)
-    if strips.outside:
-        notes.append(OUTSIDE.format("; ".join(strips.outside)))
     basis = f"deterministic model on long cells, calibrated on {strips.model.cases} solved cases"
     below, above = (math.hypot(part, bound) for part, bound in zip(answer.model_error, bounds))
     if moves(scene):
@@ -315,7 +311,7 @@ def calibrated_answer(prepared: Prepared, speed: float, strips: LongStrips) -> M
         answer,
         model_error=(min(below, 1.0), above),
         largest_in_model=largest,
-        notes=tuple(notes),
+        warnings=(*answer.warnings, *(entry.warning for entry in strips.outside)),
         decision=replace(answer.decision, model="load-sharing", basis=basis, notes=(NARROWER, *answer.decision.notes)),
     )
 
@@ -336,7 +332,13 @@ class CalibratedModel(Model):
         return f"deterministic model on long cells, calibrated (numerics.model): fast, with the error of solved cases{unknown}"
 
     def expected_warnings(self, scene: Scene, speeds: list[float]) -> ExpectedWarnings:
-        return expected_on_hertz(scene)
+        known = error_model_of(scene).range
+        at_all = out_of_range(scene, None, 0.0, known)
+        entries: list[tuple[float | None, Validity]] = [(None, entry.warning) for entry in at_all]
+        for speed in speeds:
+            outside = out_of_range(scene, _stated_sq(scene), speed, known)
+            entries += [(speed, entry.warning) for entry in outside if entry not in at_all]
+        return (*expected_on_hertz(scene), *entries)
 
     def estimate(
         self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
@@ -375,6 +377,12 @@ class CalibratedModel(Model):
             return CalibratedSolution(prepared=prepared, sample=sample, count=count, speed=speed)
         line = start.known_line if isinstance(start, CalibratedSolution) else None
         return _beside(PaperModel().solve(prepared, sample, count, speed, start=line))
+
+
+def _stated_sq(scene: Scene) -> float | None:
+    """Return the Sq [m] of all roughness of ``scene``, if it states that of each body."""
+    parts = [rough.sq for rough in (scene.surface, scene.counterface) if rough is not None]
+    return None if None in parts else math.hypot(*(part for part in parts if part is not None))
 
 
 def _beside(line: PaperSolution) -> CalibratedSolution:
