@@ -82,8 +82,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
 
     @property
     def balance(self) -> Balance | None:
-        """The balance of film and contact by Eq. (8), if there is one: of "load-sharing" before its calibration, so that
-        its loads and friction are those of "paper"."""
+        """The balance of film and contact by Eq. (8), if "paper" gives the answer, or was compared with it."""
         return cast("Balance | None", self._kept("balance"))
 
     @property
