@@ -411,6 +411,23 @@ def test_outside_the_campaign_the_half_width_grows_with_the_distance():
     assert strips[1].widening == pytest.approx(1 + math.log(1.5), rel=0.02)
 
 
+def test_the_bias_is_taken_from_the_sliding_part_of_f_alone():
+    prepared = lubfric.prepare(HEAVIER, patch())
+    strips = CalibratedModel().solve(prepared, prepared.sample, 1, 0.1).strips
+    biased = replace(strips, bias=-0.1)
+    load = HEAVIER.bodies.load
+    before = strips.levels.numbers
+    after = biased.numbers(HEAVIER)
+    rolling = before["rolling_force"]
+    sliding = load * before["coefficient"] - rolling
+    assert load * after["coefficient"] - after["rolling_force"] == pytest.approx(sliding * math.exp(-0.1), rel=1e-12)
+    assert after["rolling_force"] == rolling
+    assert after["boundary_force"] + after["shear_force"] == pytest.approx(load * after["coefficient"], rel=1e-12)
+    assert after["contact_load"] < before["contact_load"]
+    stress = [numbers["couette_force"] / numbers["film_load"] for numbers in (before, after)]
+    assert stress[1] == pytest.approx(stress[0], rel=1e-9)
+
+
 def test_the_unknown_limit_of_a_newtonian_oil_counts():
     result = lubfric.friction(PAPER, 0.03, model="load-sharing")
     assert 0.1 < result.uncertainty.fluid <= result.uncertainty.model
