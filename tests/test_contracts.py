@@ -271,7 +271,7 @@ def test_a_third_model_has_no_paper_and_no_error_of_another(monkeypatch):
     assert by_rolling == pytest.approx(0.25 * (0.03 - 0.0075), rel=1e-9)
 
 
-@pytest.mark.parametrize("requested, speed, scene", [("deterministic", 0.0, "paper"), ("load-sharing", 0.01, "flat")])
+@pytest.mark.parametrize("requested, speed, scene", [("deterministic", 0.0, "paper"), ("quick", 0.01, "flat")])
 def test_the_model_in_place_of_one_that_has_no_answer_is_named(requested, speed, scene):
     """Nothing is entrained, or nothing is rough: the answer is that of the paper's model, and says why."""
     result = lubfric.friction(lubfric.load_scene(scene), speed, model=requested)

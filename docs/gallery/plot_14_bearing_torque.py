@@ -37,7 +37,7 @@ base = lubfric.load_scene("paper").with_(
     motion={"slide_roll_ratio": 1e-3},
     surface={"sq": 160e-9, "correlation_length": 20e-6, "acf": "gaussian"},
     contact={"shape": (64, 32), "spacing": 8e-6},
-    numerics={"model": "load-sharing", "sampling": "patch", "tolerance": 0.03},
+    numerics={"model": "quick", "sampling": "patch", "tolerance": 0.03},
 )
 
 

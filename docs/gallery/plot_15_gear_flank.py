@@ -38,7 +38,7 @@ base = lubfric.load_scene("paper").with_(
     },
     surface={"sq": 0.35e-6, "correlation_length": 30e-6, "acf": "gaussian"},
     contact={"shape": (96, 32), "spacing": 8e-6},
-    numerics={"model": "load-sharing", "sampling": "patch", "tolerance": 0.03},
+    numerics={"model": "quick", "sampling": "patch", "tolerance": 0.03},
 )
 
 

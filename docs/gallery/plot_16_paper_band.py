@@ -16,7 +16,7 @@ import numpy as np
 import lubfric
 
 SPEEDS = np.geomspace(1e-3, 1.0, 7)
-base = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing", "sampling": "patch"})
+base = lubfric.load_scene("paper").with_(numerics={"model": "quick", "sampling": "patch"})
 
 
 def curve(**changes) -> np.ndarray:

@@ -49,7 +49,7 @@ def friction(
     scene : from `lubfric.load_scene`, or from `lubfric.prepare` for many speeds
     speed : entrainment speed U [m/s]; None: the scene's own
     tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need (docs/levels.md)
-    model : "paper", Eqs. (8) and (9); "load-sharing", the deterministic model on long cells with a calibrated error;
+    model : "paper", Eqs. (8) and (9); "quick", the deterministic model on long cells with a calibrated error;
         "deterministic"; or "auto": the cheapest that is good enough; None: the scene's. Or a `lubfric.models.Model` of your own
     fields : True: by load sharing, a single patch is solved on its own cells, so that ``result.fields`` are on them.
         Strips, and the deterministic model, keep the cells that the tolerance needs; "fine": a part of the surface is solved once more, on some 40 cells across the Hertz strip, for

@@ -2,14 +2,14 @@
 
 `contract` says what a model is: it solves strips of a sample at one speed. `registry` names the models there are:
 ``"paper"``, film and contact that share one load, with the friction of Eq. (9) (`load_sharing.paper_model`);
-``"load-sharing"``, the quick answer: strips on long cells with a calibrated error (`calibrated.calibrated_model`); and
+``"quick"``, the quick answer: strips on long cells with a calibrated error (`quick.quick_model`); and
 ``"deterministic"``, the film between the rough surfaces in its own gap (`deterministic.model`). `shared` is what they
 have in common: the scene made ready, heat, limits of validity, statistics. `prepare` makes a scene ready.
 """
 
-from .calibrated import CalibratedModel
 from .contract import ContactFields, Model, ModelAnswer, ModelDetails, SampleSolution, WorkEstimate
 from .deterministic import DeterministicModel, DeterministicResult
 from .load_sharing import Balance, PaperModel
 from .prepare import prepare, prepare_on_maps, prepared_with, with_friction_at
+from .quick import QuickModel
 from .registry import AUTO, MODELS, candidates, model_named, models_up_to

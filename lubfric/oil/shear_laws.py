@@ -63,7 +63,7 @@ class ShearLaw:
 
     def tangent(self, s: float | np.ndarray) -> tuple[FloatArray, FloatArray]:
         """Φ = 1/f' and s dΦ/ds, at s >= 0."""
-        self.refuse("tangent", "the deterministic model", "set numerics.model = 'load-sharing'")
+        self.refuse("tangent", "the deterministic model", "set numerics.model = 'paper'")
 
     def inverse(self, x: float | np.ndarray) -> FloatArray:
         """s of tau/tau_c = x, odd in x."""

@@ -9,6 +9,9 @@ from . import budget
 
 MOST_THREADS = 1024
 
+# The value of ``model`` that meant the model "quick" up to version 1.0, and is still accepted for it.
+FORMER_NAME_OF_QUICK = "load-sharing"
+
 
 @dataclass(frozen=True, repr=False)
 class Numerics(Shown):
@@ -26,7 +29,7 @@ class Numerics(Shown):
     film_deflection : which pressure deforms the film: the total load, by Johnson's scaled modulus E' F_H/F_T
         ("scaled"); its own ("hydrodynamic", the paper)
     model : "paper": film and contact share the load, Eq. (8), with the friction of Eq. (9) on a smooth film;
-        "deterministic": the deterministic model (docs/deterministic.md); "load-sharing": that model on a few strips of
+        "deterministic": the deterministic model (docs/deterministic.md); "quick": that model on a few strips of
         long cells, with a calibrated error, beside the line of Eq. (8);
         "auto": the cheapest that is within ``model_tolerance`` (docs/uncertainty.md)
     grid : "auto": cells of the contact as long as the tolerance allows; "given": the scene's own
@@ -63,6 +66,8 @@ class Numerics(Shown):
         return super().__new__(cls)
 
     def __post_init__(self) -> None:
+        if self.model == FORMER_NAME_OF_QUICK:
+            object.__setattr__(self, "model", "quick")
         validate.python_fields(self, "numerics")
         validate.in_range("numerics", self)
         validate.integer("numerics.workers", self.workers, minimum=1, maximum=MOST_THREADS)

@@ -259,7 +259,7 @@ def check_resolved_gap(scene: Scene, *, given: bool = False) -> None:
     """Raise `InputError` for keys that the deterministic model does not take. ``given``: as in `why_gap_not_resolved`."""
     for name, value, instead in _not_taken(scene, given=given):
         said = f" = {value!r} does not go with numerics.model = 'deterministic'"
-        raise InputError(said, name, f"{instead}, or numerics.model = 'load-sharing'")
+        raise InputError(said, name, f"{instead}, or numerics.model = 'paper'")
 
 
 def moving_bodies(scene: Scene) -> list[tuple[str, float]]:

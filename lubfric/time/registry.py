@@ -49,7 +49,7 @@ DETERMINISTIC = RunModel(
     described="deterministic model at all times (numerics.model)",
     moves_roughness=True,
 )
-RUNS = {"paper": LOAD_SHARING, "load-sharing": LOAD_SHARING, "deterministic": DETERMINISTIC}
+RUNS = {"paper": LOAD_SHARING, "quick": LOAD_SHARING, "deterministic": DETERMINISTIC}
 
 
 def run_model_of(scene: Scene) -> RunModel:

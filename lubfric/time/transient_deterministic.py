@@ -120,7 +120,7 @@ class TransientDeterministic:
         way = np.append(0.0, np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(times)))
         if way[-1] > MOST_CELLS * dx:
             said = f" = {duration:g} s: the roughness would move by {way[-1] / dx:.2g} cells, a step each"
-            way_out = "a shorter run, or numerics.model = 'load-sharing'"
+            way_out = "a shorter run, or numerics.model = 'paper'"
             raise InputError(said, "transient.duration", f"up to {MOST_CELLS:g} cells", way_out)
         return tuple(np.interp(dx * np.arange(1, math.floor(way[-1] / dx) + 1), way, times).tolist())
 
@@ -354,7 +354,7 @@ def deterministic_moment(
     entries = [*solver.prepared.known, *warn_motion(scene, speed, film), *warn_thickness(scene, film)]
     lost = max(heat.change, 1 - heat.inlet.factor if heat.inlet else 0.0)
     if lost > scene.numerics.tolerance:
-        remedy = "numerics.model = 'load-sharing', which has the heat in time; heat = 'off' states that this is meant"
+        remedy = "numerics.model = 'paper', which has the heat in time; heat = 'off' states that this is meant"
         entries.append(
             Validity(
                 what="loss of film or f by heat",

@@ -221,7 +221,7 @@ def test_a_flat_contact_wears_too(monkeypatch):
         ({"motion": {"slide_roll_ratio": 0.0}}, {}, "rolling"),
         ({"motion": {"entrainment_speed": 0.0}}, {}, "entrainment_speed"),
         ({"contact": {"model": "summits"}}, {}, "half-space"),
-        ({"numerics": {"model": "deterministic"}}, {}, "load-sharing"),
+        ({"numerics": {"model": "deterministic"}}, {}, "paper"),
     ],
 )
 def test_bad_wear_is_refused(changes, options, said):

@@ -20,7 +20,7 @@ from lubfric.output import main
 
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.01\nspeeds = [0.01, 0.3]\n"
 SCENE += "[surface]\nsq = 1e-7\ncorrelation_length = 4e-6\n[contact]\nshape = [48, 40]\nspacing = [1.1e-6, 0.9e-6]\n"
-SCENE += "[numerics]\nsampling = 'patch'\nmodel = 'load-sharing'\n"
+SCENE += "[numerics]\nsampling = 'patch'\nmodel = 'quick'\n"
 
 
 class Balanced(HTMLParser):
@@ -71,7 +71,7 @@ def test_the_report_stands_alone_and_holds_the_numbers(run):
 
 
 def test_the_page_tells_lift_off_the_formula_and_what_is_left_out(tmp_path, undrawn):
-    (tmp_path / "s.toml").write_text(SCENE.replace("'load-sharing'", "'paper'"))
+    (tmp_path / "s.toml").write_text(SCENE.replace("'quick'", "'paper'"))
     out = tmp_path / "o"
     scene = lubfric.load_scene(tmp_path / "s.toml")
     for speeds in (np.geomspace(0.01, 1.0, 9).tolist(), [0.01, 0.02, 0.03], [0.01, 0.3]):
@@ -227,7 +227,7 @@ def test_a_page_that_cannot_be_made_costs_no_numbers(tmp_path, monkeypatch, undr
 @pytest.mark.parametrize("options, table", [([], "stribeck"), (["--ratios", "0.5,2"], "traction")])
 def test_a_run_without_an_answer_says_that_there_is_nothing_to_draw(tmp_path, capsys, options, table):
     heavy = SCENE.replace("load = 5.5", "load = 2000.0").replace("spacing = [1.1e-6, 0.9e-6]", "spacing = [4e-6, 4e-6]")
-    heavy = heavy.replace("4e-6\n[contact]", "16e-6\n[contact]").replace("'load-sharing'", "'paper'")
+    heavy = heavy.replace("4e-6\n[contact]", "16e-6\n[contact]").replace("'quick'", "'paper'")
     (tmp_path / "s.toml").write_text(heavy)
     out = tmp_path / "o"
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(out), *options]) == 1

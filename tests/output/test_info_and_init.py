@@ -229,7 +229,7 @@ def test_a_run_in_time_that_fails_has_a_report_that_begins_with_that(tmp_path, c
     """Its status is marked as failed, and no number stands as its answer."""
     monkeypatch.setattr("lubfric.time.result.MASS", 1e-15)
     plan = lubfric.Transient(0.01, outputs=4, speed=Harmonic(amplitude=0.05, frequency=100.0, phase=1.0))
-    (tmp_path / "s.toml").write_text(SWINGING.with_(transient=plan, numerics={"model": "load-sharing"}).to_toml())
+    (tmp_path / "s.toml").write_text(SWINGING.with_(transient=plan, numerics={"model": "quick"}).to_toml())
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o")]) == 1
     message = capsys.readouterr().err.splitlines()[-1]
     page = (tmp_path / "o" / "report.html").read_text(encoding="utf-8")

@@ -9,8 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lubfric
-from lubfric.models.calibrated import (
-    CalibratedModel,
+from lubfric.models.deterministic import RoughBody, lay_out, solve_point, solve_strip
+from lubfric.models.load_sharing import least_error, starved_error
+from lubfric.models.quick import (
+    QuickModel,
     error_models,
     features,
     long_cells,
@@ -19,8 +21,6 @@ from lubfric.models.calibrated import (
     solve_moving,
     widening,
 )
-from lubfric.models.deterministic import RoughBody, lay_out, solve_point, solve_strip
-from lubfric.models.load_sharing import least_error, starved_error
 from lubfric.models.shared import speed_of
 from lubfric.output import describe_scene, main
 from verification.campaigns.calibration import fit
@@ -82,24 +82,24 @@ def test_calibrated_answer_holds_the_deterministic_one_and_is_narrower_than_load
     speed = 0.1
     results = {
         model: lubfric.friction(HEAVIER.with_(numerics={"model": model}), speed)
-        for model in ("load-sharing", "deterministic", "paper")
+        for model in ("quick", "deterministic", "paper")
     }
-    low, high = results["load-sharing"].uncertainty.interval
+    low, high = results["quick"].uncertainty.interval
     assert low < results["deterministic"].coefficient < high
     wide = results["paper"].uncertainty.interval
     assert high - low < wide[1] - wide[0]
-    parts = results["load-sharing"].boundary_force + results["load-sharing"].shear_force
-    assert parts / HEAVIER.bodies.load == pytest.approx(results["load-sharing"].coefficient, rel=1e-12)
-    assert results["load-sharing"].decision.model == "load-sharing"
+    parts = results["quick"].boundary_force + results["quick"].shear_force
+    assert parts / HEAVIER.bodies.load == pytest.approx(results["quick"].coefficient, rel=1e-12)
+    assert results["quick"].decision.model == "quick"
     basis = f"{BASIS} on {error_models()['rest'].cases} solved cases"
-    assert results["load-sharing"].decision.text.startswith(basis)
+    assert results["quick"].decision.text.startswith(basis)
     assert results["paper"].decision.basis == ""
 
 
 def test_report_says_first_what_the_answer_rests_on(tmp_path, monkeypatch):
     scene = HEAVIER.with_(
         motion={"entrainment_speed": 0.1},
-        numerics={"model": "load-sharing", "sampling_tolerance": 0.5, "tolerance": 0.1},
+        numerics={"model": "quick", "sampling_tolerance": 0.5, "tolerance": 0.1},
     )
     file = tmp_path / "scene.toml"
     file.write_text(scene.to_toml())
@@ -117,8 +117,7 @@ def test_report_says_first_what_the_answer_rests_on(tmp_path, monkeypatch):
 def test_the_sampling_error_holds_the_scatter_of_other_samples():
     """Some strips of the line are solved: other seeds differ by what the sampling error states."""
     results = [
-        lubfric.friction(PAPER.with_(surface={"seed": seed}, numerics={"model": "load-sharing"}), 0.03)
-        for seed in range(1, 5)
+        lubfric.friction(PAPER.with_(surface={"seed": seed}, numerics={"model": "quick"}), 0.03) for seed in range(1, 5)
     ]
     values = np.array([result.coefficient for result in results])
     stated = math.sqrt(np.mean([result.uncertainty.sampling**2 for result in results]))
@@ -126,9 +125,9 @@ def test_the_sampling_error_holds_the_scatter_of_other_samples():
     assert stated < 0.06
 
 
-def test_the_ends_of_an_input_are_those_of_the_calibrated_model():
+def test_the_ends_of_an_input_are_those_of_the_quick_model():
     """A range of the Eyring stress moves f by as much as a solve at its ends does."""
-    scene = HEAVIER.with_(numerics={"model": "load-sharing", "sampling_tolerance": 0.5, "tolerance": 0.1})
+    scene = HEAVIER.with_(numerics={"model": "quick", "sampling_tolerance": 0.5, "tolerance": 0.1})
     ends = (3e6, 1e7)
     ranged = lubfric.friction(scene.with_(lubricant={"eyring_stress": [*ends]}), 0.3)
     solved = [lubfric.friction(scene.with_(lubricant={"eyring_stress": end}), 0.3).coefficient for end in ends]
@@ -138,14 +137,14 @@ def test_the_ends_of_an_input_are_those_of_the_calibrated_model():
 
 def test_a_loose_model_tolerance_lets_auto_answer_on_long_cells():
     loose = HEAVIER.with_(bodies={"boundary_film": 2e-8}, numerics={"model_tolerance": "30 %"})
-    assert lubfric.friction(loose, 0.1).decision.model == "load-sharing"
+    assert lubfric.friction(loose, 0.1).decision.model == "quick"
     tight = loose.with_(numerics={"model_tolerance": 0.05})
     assert lubfric.friction(tight, 0.1).decision.model == "deterministic"
 
 
 def test_bounds_widen_outside_the_campaign_and_info_and_result_say_so():
     text = "outside the range of the solved cases"
-    quick_paper = PAPER.with_(numerics={"model": "load-sharing"})
+    quick_paper = PAPER.with_(numerics={"model": "quick"})
     thick = lubfric.friction(quick_paper, 0.5)
     assert [entry.what for entry in thick.validity if text in entry.what][0].startswith("Moes' film over Sq")
     assert not any(text in entry.what for entry in lubfric.friction(quick_paper, 0.03).validity)
@@ -299,20 +298,20 @@ def test_the_asperity_load_does_not_jump_with_the_law_of_the_oil(newtonian):
 def test_a_starved_interval_of_load_sharing_holds_the_deterministic_answer(film, deterministic):
     """f of the deterministic model on the same scene, solved once."""
     scene = PAPER.with_(lubricant={"inlet_film": film, "eyring_stress": 5e6})
-    low, high = lubfric.friction(scene, 0.03, model="load-sharing").uncertainty.interval
+    low, high = lubfric.friction(scene, 0.03, model="quick").uncertainty.interval
     assert low < deterministic < high
 
 
 def test_no_error_law_vanishes_while_a_film_is_present():
     assert least_error(0.5) > 0.04
     assert starved_error(1e-7, 1e-7) == pytest.approx(tuple(10 * part for part in starved_error(1e-8, 1e-7)))
-    starved = lubfric.friction(PAPER.with_(lubricant={"inlet_film": 1.2e-7}), 0.03, model="load-sharing")
+    starved = lubfric.friction(PAPER.with_(lubricant={"inlet_film": 1.2e-7}), 0.03, model="quick")
     low, high = starved.uncertainty.interval
     assert low < starved.coefficient < high
 
 
 def test_f_is_not_negative_where_one_surface_stands_still():
-    scene = PAPER.with_(bodies={"load": 0.5}, numerics={"model": "load-sharing", "sampling_tolerance": 0.3})
+    scene = PAPER.with_(bodies={"load": 0.5}, numerics={"model": "quick", "sampling_tolerance": 0.3})
     sliding = lubfric.friction(scene, 0.3)
     assert sliding.uncertainty.interval[0] >= 0.0
 
@@ -327,14 +326,14 @@ def test_every_model_of_the_scene_has_an_estimate_and_a_run_in_time():
         assert run_model_of(PAPER.with_(numerics={"model": model})).described
         prepared = lubfric.prepare(PAPER.with_(numerics={"model": model}))
         seconds[model] = forecast(prepared.scene, prepared.sample, prepared.surface, 0.03).seconds
-    assert seconds["paper"] < seconds["load-sharing"] < seconds["deterministic"]
-    long_cells = seconds["load-sharing"] - seconds["paper"]  # "deterministic" does not solve it, "auto" does
+    assert seconds["paper"] < seconds["quick"] < seconds["deterministic"]
+    long_cells = seconds["quick"] - seconds["paper"]  # "deterministic" does not solve it, "auto" does
     assert seconds["auto"] == pytest.approx(seconds["deterministic"] + long_cells)
 
 
 def test_friction_tends_to_that_of_the_boundary_as_the_film_vanishes():
     """Asperities carry the whole load then, and no part of the friction force changes its sign."""
-    scene = PAPER.with_(numerics={"model": "load-sharing"})
+    scene = PAPER.with_(numerics={"model": "quick"})
     slow = lubfric.friction(scene, 1e-5)
     assert slow.coefficient == pytest.approx(scene.bodies.boundary_friction_coefficient, rel=0.01)
     assert slow.contact_load == pytest.approx(scene.bodies.load, rel=0.01)
@@ -344,7 +343,7 @@ def test_friction_tends_to_that_of_the_boundary_as_the_film_vanishes():
     assert all(result.shear_force >= 0 for result in results)
 
 
-@pytest.mark.parametrize("model", ["load-sharing", "paper", "deterministic"])
+@pytest.mark.parametrize("model", ["quick", "paper", "deterministic"])
 def test_the_pressure_that_info_warns_of_is_warned_of_by_every_model(model):
     """1.47 GPa of Hertz, most of it on asperities: the film of load sharing has little of that pressure."""
     scene = PAPER.with_(
@@ -360,7 +359,7 @@ def test_the_pressure_that_info_warns_of_is_warned_of_by_every_model(model):
 def test_the_film_of_a_calibrated_answer_carries_no_more_stress_than_its_oil():
     """Friction above the oil's limit is that of asperities. The forces add up to f."""
     oil = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.06, "limiting_stress_offset": 1e6}
-    scene = PAPER.with_(lubricant=oil, bodies={"load": 60.0}, numerics={"model": "load-sharing"})
+    scene = PAPER.with_(lubricant=oil, bodies={"load": 60.0}, numerics={"model": "quick"})
     for speed in (0.01, 0.03, 0.1):
         result = lubfric.friction(scene, speed)
         width = scene.bodies.width
@@ -378,7 +377,7 @@ def test_the_film_of_a_calibrated_answer_carries_no_more_stress_than_its_oil():
 @pytest.mark.parametrize("speed, least", [(0.003, 0.85), (0.01, 0.6), (0.03, 0.2)])
 def test_the_asperity_load_of_a_calibrated_answer_is_that_of_the_deterministic_model(speed, least):
     """Two models that share no solver: the load where the stress is f_b p, within a twentieth of the total load."""
-    answers = [lubfric.friction(PAPER, speed, model=model) for model in ("load-sharing", "deterministic")]
+    answers = [lubfric.friction(PAPER, speed, model=model) for model in ("quick", "deterministic")]
     shares = [answer.contact_load / PAPER.bodies.load for answer in answers]
     assert shares[0] == pytest.approx(shares[1], abs=0.05)
     assert min(shares) > least
@@ -387,7 +386,7 @@ def test_the_asperity_load_of_a_calibrated_answer_is_that_of_the_deterministic_m
 def test_next_to_pure_rolling_the_error_of_a_small_difference_is_of_its_parts():
     """f is rolling and sliding, of opposite signs on one side of pure rolling: its error is no larger than a few times both,
     however near to 0 their sum is."""
-    scene = HEAVIER.with_(numerics={"model": "load-sharing"})
+    scene = HEAVIER.with_(numerics={"model": "quick"})
     surface = patch((28, 24), (3.6e-6, 4e-6))
     load = scene.bodies.load
     for ratio in (0.0, -1e-4):
@@ -405,7 +404,7 @@ def test_outside_the_campaign_the_half_width_grows_with_the_distance():
     sq = PAPER.surface.sq
     largest = error_models()["rest"].range["lambda"][1]
     speeds = [speed_of(PAPER, sq * largest * factor) for factor in (0.99, 1.5)]
-    strips = [CalibratedModel().solve(prepared, prepared.sample, prepared.sample.first, u).strips for u in speeds]
+    strips = [QuickModel().solve(prepared, prepared.sample, prepared.sample.first, u).strips for u in speeds]
     assert strips[0].outside == () and strips[0].widening == 1.0
     assert len(strips[1].outside) == 1
     assert strips[1].widening == pytest.approx(1 + math.log(1.5), rel=0.02)
@@ -413,7 +412,7 @@ def test_outside_the_campaign_the_half_width_grows_with_the_distance():
 
 def test_the_bias_is_taken_from_the_sliding_part_of_f_alone():
     prepared = lubfric.prepare(HEAVIER, patch())
-    strips = CalibratedModel().solve(prepared, prepared.sample, 1, 0.1).strips
+    strips = QuickModel().solve(prepared, prepared.sample, 1, 0.1).strips
     biased = replace(strips, bias=-0.1)
     load = HEAVIER.bodies.load
     before = strips.levels.numbers
@@ -428,6 +427,15 @@ def test_the_bias_is_taken_from_the_sliding_part_of_f_alone():
     assert stress[1] == pytest.approx(stress[0], rel=1e-9)
 
 
+def test_the_former_name_of_the_quick_model_is_accepted(tmp_path):
+    former = PAPER.with_(numerics={"model": "load-sharing"})
+    assert former == PAPER.with_(numerics={"model": "quick"})
+    file = tmp_path / "scene.toml"
+    file.write_text(former.to_toml().replace('"quick"', '"load-sharing"'))
+    assert "load-sharing" in file.read_text()
+    assert lubfric.load_scene(file) == former
+
+
 def test_the_unknown_limit_of_a_newtonian_oil_counts():
-    result = lubfric.friction(PAPER, 0.03, model="load-sharing")
+    result = lubfric.friction(PAPER, 0.03, model="quick")
     assert 0.1 < result.uncertainty.fluid <= result.uncertainty.model

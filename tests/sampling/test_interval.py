@@ -181,7 +181,7 @@ def test_a_forecast_is_right_to_a_factor_of_four():
 def test_the_work_of_the_deterministic_model_is_forecast_to_a_factor_of_two(sampling, speeds):
     """Of all points together, counted by the cells and steps of what they solve."""
     prepared = lubfric.prepare(PAPER.with_(numerics={"sampling": sampling, "model": "auto"}))
-    cheaper = prepared.scene.with_(numerics={"model": "load-sharing"})
+    cheaper = prepared.scene.with_(numerics={"model": "quick"})
     told = counted = 0.0
     for speed in speeds:
         one = forecast(prepared.scene, prepared.sample, prepared.surface, speed)

@@ -84,7 +84,7 @@ def test_info_shows_the_range_of_each_effect():
     assert "effects not modelled" in text and len(effects) >= 5
 
 
-@pytest.mark.parametrize("model", ["paper", "load-sharing", "deterministic"])
+@pytest.mark.parametrize("model", ["paper", "quick", "deterministic"])
 @pytest.mark.parametrize("speed", [0.003, 0.03, 0.3])
 def test_no_report_contradicts_info(model, speed):
     """The changes of f that a result states are in the ranges that were stated before it, whatever the model."""

@@ -25,7 +25,7 @@ def of_scene(scene, speeds=(), ratios=()):
     return estimate_scene(scene, prepared.sample, prepared.surface, speeds, ratios).seconds
 
 
-ROLLING = PAPER.with_(motion={"slide_roll_ratio": 0.1}, numerics={"model": "load-sharing", "accept": True})
+ROLLING = PAPER.with_(motion={"slide_roll_ratio": 0.1}, numerics={"model": "quick", "accept": True})
 PATCH = PAPER.with_(bodies={"hardness": 2e9}, contact={"shape": (96, 96), "spacing": 0.9e-6})
 IN_TIME = PAPER.with_(
     motion={"entrainment_speed": 0.03},

@@ -45,8 +45,8 @@ def points(module: str = "") -> dict[str, tuple[lubfric.Scene, float]]:
         "contact": (strips, 0.001),
         "mixed": (strips, 0.03),
         "lift-off": (strips, 0.1),
-        "calibrated": (paper.with_(numerics={"model": "load-sharing"}), 0.03),
-        "rolling": (paper.with_(numerics={"model": "load-sharing"}, motion={"slide_roll_ratio": 0.1}), 0.03),
+        "calibrated": (paper.with_(numerics={"model": "quick"}), 0.03),
+        "rolling": (paper.with_(numerics={"model": "quick"}, motion={"slide_roll_ratio": 0.1}), 0.03),
         "patch": (strips.with_(numerics={"sampling": "patch"}), 0.03),
     }
 

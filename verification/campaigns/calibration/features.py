@@ -2,7 +2,7 @@
 
 import time
 
-from lubfric.models.calibrated import long_cells, numbers_of_strip, solve_at_rest, solve_moving
+from lubfric.models.quick import long_cells, numbers_of_strip, solve_at_rest, solve_moving
 
 from .case import Case
 

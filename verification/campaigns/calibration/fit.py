@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.models.calibrated import features
+from lubfric.models.quick import features
 
 from .. import table_file
 from .case import drawn
@@ -16,7 +16,7 @@ from .features import quick
 from .table import DIGITS as TABLE_DIGITS
 from .table import TABLES, rows
 
-HOME = Path(lubfric.__path__[0]) / "models/calibrated/calibration.toml"
+HOME = Path(lubfric.__path__[0]) / "models/quick/calibration.toml"
 MOTIONS = ("rest", "rolling")
 # Features of the bias, the mean of ln of the ratio of both sliding parts of f, by motion. Chosen by the half-width on
 # kinds of cases that were left out; of features that did equally well the fewer.
@@ -274,7 +274,7 @@ def ranges(solved: Sequence[Solved]) -> dict[str, np.ndarray]:
 HEAD = """# The error of f on long cells, fitted to the tables of verification/campaigns/calibration by
 # python -m verification.campaigns.calibration fit: ln of the ratio of the sliding parts of f has the mean `bias` times
 # features, whose coefficients have the `covariance`, and the standard deviation exp(`spread` times features); `quantile`
-# times both together is the half-width of 95 % (lubfric/models/calibrated/calibrated_error.py). `rolling`: the relative
+# times both together is the half-width of 95 % (lubfric/models/quick/calibrated_error.py). `rolling`: the relative
 # error of the other part of f, at 95 %. Do not edit by hand.
 """
 

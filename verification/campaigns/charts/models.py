@@ -17,7 +17,7 @@ SURFACES = "Gaussian", "exponential", "ridges along", "plateau"
 SEEDS = {True: (1,), False: (1, 2, 3)}
 WAYS: dict[str, dict] = {
     "load sharing, Eqs. (8), (9)": {"model": "paper"},
-    "quick answer": {"model": "load-sharing"},
+    "quick answer": {"model": "quick"},
     "deterministic, long cells": {"model": "deterministic", "tolerance": 0.1},
     "default": {},
 }

@@ -23,11 +23,11 @@ from lubfric.studies import estimated_fit, estimated_study
 
 KINDS = (
     "rest auto",
-    "rest load-sharing",
+    "rest quick",
     "rest paper",
     "rest deterministic",
     "rolling auto",
-    "rolling load-sharing",
+    "rolling quick",
     "rolling deterministic",
     "curve",
     "traction",
@@ -39,9 +39,9 @@ KINDS = (
     "wear",
     "command",
 )
-ROLLING = ("rolling auto", "rolling load-sharing", "rolling deterministic", "traction")
+ROLLING = ("rolling auto", "rolling quick", "rolling deterministic", "traction")
 # Model of a kind whose name does not say it.
-MODELS = {"curve": "paper", "study": "load-sharing", "fit": "load-sharing", "time": "paper", "run-in": "paper"}
+MODELS = {"curve": "paper", "study": "quick", "fit": "quick", "time": "paper", "run-in": "paper"}
 # Usual ranges, drawn evenly in the logarithm: radius [m], E' [Pa], Hertz pressure [Pa], Sq [m], correlation length [m],
 # viscosity [Pa s], and Moes' film of the whole load over Sq [-].
 RANGES = {
@@ -96,7 +96,7 @@ def _drawn(rng: np.random.Generator, kind: str) -> Job:
     scene = _scene(rng, kind)
     speed = scene.motion.entrainment_speed
     model = kind.rpartition(" ")[2]
-    model = MODELS.get(kind, model if model in ("auto", "paper", "deterministic") else "load-sharing")
+    model = MODELS.get(kind, model if model in ("auto", "paper", "deterministic") else "quick")
     scene = scene.with_(numerics={"model": model})
     estimate = partial(_of_scene, scene)
     run: Callable[[], object] = partial(lubfric.friction, scene, speed)

@@ -1,7 +1,7 @@
 """The quick answer as a `lubfric.models.Model`: a few strips of the deterministic model on long cells, with the bias and
 the error that solved cases give them.
 
-It answers for ``numerics.model = "load-sharing"``. The balance of Eq. (8) on the line is the control of strips whose
+It answers for ``numerics.model = "quick"``. The balance of Eq. (8) on the line is the control of strips whose
 roughness rests, and answers alone, with the friction of Eq. (9), where the campaign has no such contacts.
 """
 
@@ -135,7 +135,7 @@ class LongStrips:
 
 
 @dataclass(frozen=True, kw_only=True)
-class CalibratedSolution(SampleSolution):
+class QuickSolution(SampleSolution):
     """A few strips by the deterministic model on long cells, which are solved when they are needed.
 
     ``known_line``: the line by load sharing, where it is solved: the control of strips whose roughness rests.
@@ -165,7 +165,7 @@ class CalibratedSolution(SampleSolution):
     def takes_more_strips_first(self) -> bool:
         return self.known_line is not None and self.known_line.takes_more_strips_first()
 
-    def corrected(self) -> CalibratedSolution:
+    def corrected(self) -> QuickSolution:
         return self if self.known_line is None else replace(self, known_line=self.known_line.corrected())
 
     def control(self) -> ControlVariate | None:
@@ -219,7 +219,7 @@ class CalibratedSolution(SampleSolution):
         if why := self.why_by_equation:
             answer = self.line.answer()
             return replace(answer, notes=(*answer.notes, why))
-        return calibrated_answer(self.prepared, self.speed, self.strips)
+        return quick_answer_of(self.prepared, self.speed, self.strips)
 
 
 def solve_long_strips(prepared: Prepared, speed: float, control: ControlVariate | None) -> LongStrips:
@@ -294,7 +294,7 @@ def ends_at_rest(prepared: Prepared, speed: float, strips: LongStrips) -> AtInpu
     return AtInputs(middle=pair.longer.result.coefficient, coefficient=coefficient)
 
 
-def calibrated_answer(prepared: Prepared, speed: float, strips: LongStrips) -> ModelAnswer:
+def quick_answer_of(prepared: Prepared, speed: float, strips: LongStrips) -> ModelAnswer:
     """Return the answer of ``strips`` at ``speed`` [m/s] without their bias, with its error."""
     scene = prepared.scene
     levels = replace(strips.levels, numbers=strips.numbers(scene))
@@ -312,16 +312,16 @@ def calibrated_answer(prepared: Prepared, speed: float, strips: LongStrips) -> M
         model_error=(min(below, 1.0), above),
         largest_in_model=largest,
         warnings=(*answer.warnings, *(entry.warning for entry in strips.outside)),
-        decision=replace(answer.decision, model="load-sharing", basis=basis, notes=(NARROWER, *answer.decision.notes)),
+        decision=replace(answer.decision, model="quick", basis=basis, notes=(NARROWER, *answer.decision.notes)),
     )
 
 
-class CalibratedModel(Model):
+class QuickModel(Model):
     """Strips on long cells with a calibrated error, beside the balance of Eq. (8)."""
 
     @property
     def name(self) -> str:
-        return "load-sharing"
+        return "quick"
 
     @property
     def includes_motion(self) -> bool:
@@ -359,7 +359,7 @@ class CalibratedModel(Model):
     def why_unable(self, prepared: Prepared, speed: float) -> str:
         return why_no_rough_film(prepared, speed) or why_gap_not_resolved(prepared.scene, given=prepared.given)
 
-    def adopt(self, cheaper: SampleSolution) -> CalibratedSolution | None:
+    def adopt(self, cheaper: SampleSolution) -> QuickSolution | None:
         return _beside(cheaper) if isinstance(cheaper, PaperSolution) else None
 
     def solve(
@@ -371,11 +371,11 @@ class CalibratedModel(Model):
         *,
         start: SampleSolution | None = None,
         control: ControlVariate | None = None,
-    ) -> CalibratedSolution:
+    ) -> QuickSolution:
         """Solve the line by load sharing where it is a control of the strips, which follow when they are needed."""
         if moves(prepared.scene):
-            return CalibratedSolution(prepared=prepared, sample=sample, count=count, speed=speed)
-        line = start.known_line if isinstance(start, CalibratedSolution) else None
+            return QuickSolution(prepared=prepared, sample=sample, count=count, speed=speed)
+        line = start.known_line if isinstance(start, QuickSolution) else None
         return _beside(PaperModel().solve(prepared, sample, count, speed, start=line))
 
 
@@ -385,8 +385,8 @@ def _stated_sq(scene: Scene) -> float | None:
     return None if None in parts else math.hypot(*(part for part in parts if part is not None))
 
 
-def _beside(line: PaperSolution) -> CalibratedSolution:
+def _beside(line: PaperSolution) -> QuickSolution:
     """Return the strips beside a ``line`` that is solved."""
-    return CalibratedSolution(
+    return QuickSolution(
         prepared=line.prepared, sample=line.sample, count=line.count, speed=line.speed, known_line=line
     )

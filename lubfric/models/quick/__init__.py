@@ -2,9 +2,9 @@
 
 - `long_strips`: the cells, the solves, and the features of a strip on which its error depends.
 - `calibrated_error`: the bias and the 95 % bounds of f by these features; calibration.toml has their numbers.
-- `calibrated_model`: ``"load-sharing"``, the model that answers by them, beside the balance of ``"paper"``.
+- `quick_model`: ``"quick"``, the model that answers by them, beside the balance of ``"paper"``.
 """
 
 from .calibrated_error import ErrorModel, error_model_of, error_models, out_of_range, widening
-from .calibrated_model import CalibratedModel, CalibratedSolution
 from .long_strips import features, long_cells, numbers_of_strip, solve_at_rest, solve_moving
+from .quick_model import QuickModel, QuickSolution

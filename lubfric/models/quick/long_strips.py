@@ -1,6 +1,6 @@
 """Strips by the deterministic model on cells so long that a strip takes a second or less.
 
-What such cells change of f is calibrated (`lubfric.models.calibrated.calibrated_error`). `features` are what that depends
+What such cells change of f is calibrated (`lubfric.models.quick.calibrated_error`). `features` are what that depends
 on: they come from the same solves.
 """
 
