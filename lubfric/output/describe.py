@@ -181,7 +181,7 @@ def _model(
     why = why_gap_not_resolved(scene)
     if scene.transient is not None:
         run = run_model_of(scene)
-        rows = [run.described]
+        rows = [run.described(scene)]
         if moves(scene) and not run.moves_roughness:
             rows.append("moving roughness is treated as stationary; numerics.model = 'deterministic' moves it")
         return rows, 0.0

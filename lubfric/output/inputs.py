@@ -68,12 +68,18 @@ def _bodies(scene: Scene) -> list[str]:
     else:
         low, high, time = _cycle_peak_pressure(scene)
         rows = [
-            f"Hertz: peak pressure {worded((low, high), 'Pa').replace(' and ', ' to ')} over the run, largest at t = "
-            f"{worded(time, 's')}; half-width {worded(b.half_width, 'm')} at bodies.load and bodies.radius"
+            f"Hertz: peak pressure {_pressures_in_words(low, high, time)}; half-width {worded(b.half_width, 'm')} at bodies.load and bodies.radius"
         ]
     if b.hardness is None:
         rows.append("asperity contacts: elastic (no bodies.hardness)")
     return rows
+
+
+def _pressures_in_words(low: float, high: float, time: float) -> str:
+    """Return the smallest and the largest peak pressure [Pa] of a run, the latter at a ``time`` [s], as text."""
+    if worded(low, "Pa") == worded(high, "Pa"):
+        return f"{worded(high, 'Pa')} at all times"
+    return f"{worded((low, high), 'Pa').replace(' and ', ' to ')} over the run, largest at t = {worded(time, 's')}"
 
 
 def _cycle_peak_pressure(scene: Scene) -> tuple[float, float, float]:

@@ -379,7 +379,7 @@ def _history_answer(result: TransientResult, *, complete: bool) -> list[str]:
     span = worded(float(result.time[-1]), "s")
     when = f"over {span}" if mean.in_motion == 1 else f"over the {100 * mean.in_motion:.3g} % in motion of {span}"
     head = "" if complete else "The run has no valid answer. Its outputs so far show: "
-    film = worded(float(np.nanmin(result.min_film)), "m")
+    film = plain_number(float(np.nanmin(result.min_film)), "m")
     deterministic = "deterministic model" in result.methods
     mean_text = with_interval(mean.coefficient, *mean.interval)
     sentences = [sentence(f"{head}the mean friction coefficient {when} is {mean_text}.")]
@@ -388,7 +388,7 @@ def _history_answer(result: TransientResult, *, complete: bool) -> list[str]:
     power = result.power_loss
     if np.isfinite(power).any():
         loss = with_interval(mean.power_loss, *mean.power_loss_interval, unit="W")
-        sentences.append(f"The mean power loss is {loss}, the largest {worded(float(np.nanmax(power)), 'W')}.")
+        sentences.append(f"The mean power loss is {loss}, the largest {plain_number(float(np.nanmax(power)), 'W')}.")
     sentences.append(
         f"The smallest film is {film}."
         if deterministic

@@ -65,7 +65,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
     ended: list[tuple[Any, ...]] = []
     speeds, chosen = _requested(scene, arguments.speeds, arguments.fields)
     total = "some" if speeds == studies.AUTO else len(speeds)
-    progress = _progress("U = {:<9.4g} m/s")
+    progress = _progress("U = {:.4g} m/s")
     names = ["stribeck.csv", "stribeck.png", "contact.png", "sharing.png", "law.json", "law.c"]
     names += [f"contact_{i}.vtk" for i in range(len(chosen) if arguments.vtk else 0)]
 
@@ -119,7 +119,7 @@ def run_traction(scene: Scene, arguments: Namespace) -> None:
     ratios = parse_ratios(arguments.ratios)
     names = ["traction.csv", "traction.png"]
     begun = run_begun(scene, arguments, names, None, ratios, "traction", ratios=ratios)
-    progress = _progress("slide-roll ratio {:<9.4g}")
+    progress = _progress("slide-roll ratio {:.4g}")
     with ProgressLine("ratios") as shown, begun as (folder, prepared, estimate):
 
         def on_point(*point: Any) -> None:

@@ -33,9 +33,9 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
         shown.update(now, duration)
         if row is not None and due(end=now >= duration):
             commands.say(
-                f"t = {now:<8.5g} of {duration:g} s: U = {row['entrainment_speed']:<9.4g} m/s, f = "
-                f"{row['coefficient']:<z8.5f}, F_C = {row['contact_load']:<9.4g} N, F_H = {row['film_load']:<9.4g} N, "
-                f"h_min = {row['min_film'] * 1e9:<6.4g} nm (step {row['steps']:.0f})"
+                f"t = {now:.5g} of {duration:g} s: U = {row['entrainment_speed']:.4g} m/s, f = "
+                f"{row['coefficient']:z.5f}, F_C = {row['contact_load']:.4g} N, F_H = {row['film_load']:.4g} N, "
+                f"h_min = {row['min_film'] * 1e9:.4g} nm (step {row['steps']:.0f})"
             )
 
     def kept() -> str:

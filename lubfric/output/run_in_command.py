@@ -16,11 +16,13 @@ import numpy as np
 
 from .._base import __version__, figures, plain, table_bytes, write_whole
 from ..errors import InputError, OutputError
-from ..running_in import RunIn, run_in
+from ..running_in import RunIn, estimated_run_in, run_in
 from ..scene import Scene
+from ..studies import in_words
 from ..units import converted, number_of, plain_number, printed, unit_for, with_interval, worded
 from .command_line import scene_of
 from .commands import RunFolder, check_outputs, paced, run_folder, say
+from .describe import WITHIN_WORDS
 from .inputs import SECTIONS, inputs
 from .progress import ProgressLine
 from .report import picture, style_sheet, table
@@ -40,7 +42,8 @@ def run_in_scene(arguments: Namespace) -> None:
     check_outputs(arguments, arguments.out, NAMES)
     begun = time.perf_counter()
     with run_folder(arguments.out, begun) as folder:  # one that cannot be written to is refused before any work
-        say(f"{scene.name}: running-in of its surface")
+        seconds = estimated_run_in(scene, distance=distance, wear_coefficient=coefficient)
+        say(f"{scene.name}: running-in of its surface, about {in_words(seconds)} of processor time ({WITHIN_WORDS})")
         with ProgressLine("parts") as shown:
             result = run_in(
                 scene,
@@ -83,7 +86,9 @@ def answer_lines(result: RunIn) -> list[str]:
     lines = [f"Sq changes from {worded(before.sq, 'm')} to {worded(after.sq, 'm')}{span}."]
     passes = result.deepest.size
     dented = np.count_nonzero(result.dents) / result.dents.size
-    if result.shaken_down:
+    if result.shaken_down and not dented:
+        lines.append("No asperity yields.")
+    elif result.shaken_down:
         lines.append(
             f"The asperities yield on {100 * dented:.2g} % of the map, and no further after {passes} "
             f"{'pass' if passes == 1 else 'passes'}."
@@ -97,11 +102,12 @@ def answer_lines(result: RunIn) -> list[str]:
         depth = worded(float(wear.depth[-1]), "m")
         lines.append(f"Wear removes {depth} on average over {worded(float(wear.distance[-1]), 'm')}; {wear.stopped}.")
         for name, values, intervals, unit in (
-            ("The friction coefficient", wear.coefficient, wear.interval, "-"),
+            ("The friction coefficient at the speed of the scene", wear.coefficient, wear.interval, "-"),
             ("The lift-off speed", wear.lift_off_speed, wear.lift_off_interval, "m/s"),
         ):
             ends = [with_interval(values[i], intervals[i][0], intervals[i][1], unit=unit) for i in (0, -1)]
-            lines.append(f"{name} changes from {ends[0]} to {ends[1]}.")
+            unknown = "" if np.isfinite(intervals).any() else " (intervals not known)"
+            lines.append(f"{name} changes from {ends[0]} to {ends[1]}{unknown}.")
         lines += [f"Note: {note}." for note in wear.notes]
     return lines
 
@@ -141,7 +147,7 @@ def _progress(shown: ProgressLine) -> Callable[[str, int, int], None]:
     def on_progress(what: str, done: int, total: int) -> None:
         shown.update(done, total)
         if due(end=done == total):
-            say(f"{what}: {done} of {'at most ' * (what == 'pass')}{total}")
+            say(f"wear: {done} %" if what == "wear" else f"{what}: {done} of at most {total}")
 
     return on_progress
 

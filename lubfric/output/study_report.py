@@ -176,9 +176,11 @@ def answer_lines(result: StudyResult) -> list[str]:
 
 def _point_in_words(result: StudyResult, index: tuple[int, ...]) -> str:
     """Return where a point lies, as text; an operating point by its number in the tables and its coordinate alone."""
-    if not result.paired:
+    if result.chosen:
         return result.place(index)
     number = int(np.ravel_multi_index(index, result.status.shape)) + 1
+    if not result.paired:
+        return f"point {number}: {result.place(index)}"
     known = (name for name in COORDINATE if name in result.coords)
     place = "".join(f" ({name} {worded_value(name, float(result.coords[name][1][index[-1]]))})" for name in known)
     return f"point {number}{place}"

@@ -117,7 +117,7 @@ class Wear(FrozenArrays, Shown):
         axes.plot(over, self.asperity_load_ratio / self.asperity_load_ratio[0], "^-", ms=4, color=figures.RED)
         axes.lines[-1].set_label("asperity load ratio")
         axes.set(xlabel=f"sliding distance in the contact ({printed(unit)})", ylabel="value over its first (-)")
-        axes.set_ylim(bottom=0)
+        axes.set_ylim(bottom=0, top=1.05 * axes.get_ylim()[1])
         figures.key_above(axes, 2)
         return axes
 
@@ -191,7 +191,7 @@ def worn_in(
         try:
             while progress.distance < aim and not progress.vanished:
                 heights, progress = _advance(rig, heights, progress, aim, coefficient / hardness[0])
-                report_progress("wear, percent", round(100 * progress.distance / distance), 100)
+                report_progress("wear", round(100 * progress.distance / distance), 100)
             rows.append(_record(rig, heights, progress.distance))
         except WorkLimitError as error:
             ended = f"{progress.distance:.4g} of {distance:g} m of wear are done"

@@ -29,6 +29,9 @@ LEVEL = 0.95
 # Distance from a bound, as a share of the bounds, below which a parameter is said to lie on it.
 AT_BOUND = 5e-3
 
+# Standard error of f by another sample of the surface up to which it is not reported. Not measured: a convention.
+NOTHING = 1e-5
+
 # Correlation of two parameters, without sign, above which it is reported.
 CORRELATED = 0.9
 
@@ -191,9 +194,11 @@ class FitResult(Shown):
             if self.base.surface.sq == 0 or not self.sampling.size:
                 return ""
             return "not in the intervals: what another sample of the surface would give, which is not known"
-        if np.nanmax(self.sampling) == 0:
+        if np.nanmax(self.sampling) < NOTHING:
             return ""
-        moved = ", ".join(f"{key} by {move:.2g}" for key, move in self.moved_by_surface.items())
+        moved = ", ".join(
+            f"{key} by {worded_value(key, float(f'{move:.2g}'))}" for key, move in self.moved_by_surface.items()
+        )
         return (
             f"not in the intervals: another sample of the surface (standard error of f up to "
             f"{percent(float(np.nanmax(self.sampling)))}), which moves {moved}"

@@ -94,7 +94,12 @@ def check_slopes(surface: Surface) -> None:
     slope = rms_slope(surface)[2] if min(surface.shape) > 1 else 0.0
     if slope > STEEPEST:
         of = f"of heights with Sq {surface.sq:.3g} m on a spacing of {surface.spacing[0]:.3g} m"
-        raise InputError(f": rms slope = {slope:.3g} {of}", "surface", f"up to {STEEPEST:g} (are both in m?)")
+        raise InputError(
+            f": rms slope = {slope:.3g} {of}",
+            "surface",
+            f"up to {STEEPEST:g}",
+            "check the unit of the heights and of the spacing",
+        )
 
 
 def check_scale(surface: Surface) -> None:

@@ -7,7 +7,7 @@ from ..errors import InputError
 from ..models import AUTO, candidates
 from ..models.shared import Prepared
 from ..samples import Sample
-from ..scene import Scene
+from ..scene import Scene, gap_not_resolved
 from ..surface import Surface
 from .estimated import RunEstimate, estimated_deterministic, estimated_load_sharing
 from .model import Start
@@ -24,29 +24,35 @@ class RunModel:
     start : makes a scene ready, and returns the `TimeModel` with its state at t = 0
     check : raises `InputError` for a scene that the run does not take, and solves nothing
     estimate : steps and processor time of a run, with its sample and the map that is solved first
-    described : what computes the run, as text
+    described : what computes the run of a scene, and which model-form error its interval has, as text
     moves_roughness : whether the roughness moves through the film
     """
 
     start: Callable[[Scene | Prepared], Start]
     check: Callable[[Scene], None]
     estimate: Callable[[Scene, Sample, Surface], RunEstimate]
-    described: str
+    described: Callable[[Scene], str]
     moves_roughness: bool
+
+
+def _load_sharing_in_words(scene: Scene) -> str:
+    unknown = "its model-form error is not known and not in the interval"
+    known = "the interval has the model-form error of steady motion"
+    return f"load-sharing model at all times; {unknown if gap_not_resolved(scene) else known}"
 
 
 LOAD_SHARING = RunModel(
     start=start_load_sharing,
     check=check_load_sharing,
     estimate=estimated_load_sharing,
-    described="load-sharing model at all times; its model-form error is not known and not in the interval",
+    described=_load_sharing_in_words,
     moves_roughness=False,
 )
 DETERMINISTIC = RunModel(
     start=start_deterministic,
     check=check_deterministic,
     estimate=estimated_deterministic,
-    described="deterministic model at all times (numerics.model)",
+    described=lambda _: "deterministic model at all times (numerics.model); the interval has no model-form error",
     moves_roughness=True,
 )
 RUNS = {"paper": LOAD_SHARING, "quick": LOAD_SHARING, "deterministic": DETERMINISTIC}

@@ -101,7 +101,7 @@ def test_heights_and_spacing_that_cannot_be_in_one_unit_are_refused(tmp_path):
     """A map in um that was taken for m had Sq 4.4e+08 nm."""
     z = lubfric.generate_surface((40, 40), 2e-6, sq=440e-9, correlation_length=9e-6, acf="gaussian", seed=2).heights
     np.savetxt(tmp_path / "a.txt", z * 1e6)
-    with pytest.raises(InputError, match="rms slope.*are both in m"):
+    with pytest.raises(InputError, match="rms slope.*check the unit of the heights"):
         read_surface(tmp_path / "a.txt", spacing=2e-6)
     assert read_surface(tmp_path / "a.txt", spacing=2e-6, unit="um").sq == pytest.approx(440e-9, rel=0.2)
     with pytest.raises(InputError, match="rms slope"):
