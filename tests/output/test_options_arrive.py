@@ -123,7 +123,7 @@ def test_a_fit_gets_columns_bounds_and_axis(work):
 def test_other_tables_of_a_study(work, monkeypatch, options, asked):
     (work.folder / "study.toml").write_text(STUDY)
     tools = []
-    monkeypatch.setattr(studies, "check_tools", lambda *given: tools.append(given))
+    monkeypatch.setattr(studies, "check_tools", lambda *, netcdf, parquet: tools.append((netcdf, parquet)))
     given(work, "study", "study.toml", *options)
     assert tools == [asked]
 
