@@ -7,7 +7,7 @@ from ..errors import InputError
 from ..models import AUTO, candidates
 from ..models.shared import Prepared
 from ..samples import Sample
-from ..scene import Scene, gap_not_resolved
+from ..scene import Scene, why_gap_not_resolved
 from ..surface import Surface
 from .estimated import RunEstimate, estimated_deterministic, estimated_load_sharing
 from .model import Start
@@ -38,7 +38,7 @@ class RunModel:
 def _load_sharing_in_words(scene: Scene) -> str:
     unknown = "its model-form error is not known and not in the interval"
     known = "the interval has the model-form error of steady motion"
-    return f"load-sharing model at all times; {unknown if gap_not_resolved(scene) else known}"
+    return f"load-sharing model at all times; {unknown if why_gap_not_resolved(scene) else known}"
 
 
 LOAD_SHARING = RunModel(
