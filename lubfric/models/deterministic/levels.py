@@ -48,16 +48,47 @@ from .strip_on_two_grids import (
 )
 from .time_and_place import mean_over_blocks
 
-DIFFERENCE = 0.95  # of numerics.model_tolerance: half-width that the scatter of the difference may leave
-ALONE = 1.3  # scatter of the deterministic f between strips over that of blocks
-LINED = 1.2  # the same of its difference from a line of load sharing
-PRIOR = 3  # strips that the scatter of blocks weighs as much as
-FREEDOM = 5  # degrees of freedom of that scatter, at most
-BALANCED = 1.3  # times (scatter of f between strips)²: bias of strips that balance the load each by itself
-GROWTH = (4.0, 2.0)  # factors by which the number of strips may grow, first and later (`required_strips`)
-SPARE = (1.1, 1.2)  # what is spared of them there
-MOST_WORK = 120.0  # s, counted: of the strips of one point
-FEWEST = 3  # strips whose scatter tells an error
+# The effects named here are those of half and twice a constant on three points of the scene "paper" (`python -m
+# verification.campaigns.constants lubfric.models.deterministic.levels`). Where f moves, more or fewer strips are
+# solved: it moves by up to 3 %, within the sampling error that is stated with it.
+
+# Part of numerics.model_tolerance that the half-width by the scatter of the difference may take [-]; the rest is for what
+# is added to it. Half: twice the time.
+DIFFERENCE = 0.95
+
+# Scatter of the deterministic f between strips over that of blocks [-], without a control variate. From the first
+# campaigns of strips, whose numbers are not kept; half and twice change nothing there.
+ALONE = 1.3
+
+# Scatter between strips, over that of blocks, of the difference of f from a line of load sharing [-]. From the same
+# campaigns; with it the stated sampling error is 1.06 times the scatter of 200 surfaces in mixed lubrication
+# (docs/measurements.md, answers-seeds). Half narrows the interval by 32 %, twice takes twice the time.
+LINED = 1.2
+
+# Strips that the scatter of blocks weighs as much as, where both are pooled [-]. Half changes the interval by .4 %, twice
+# takes a third more time.
+PRIOR = 3
+
+# Degrees of freedom of the scatter of blocks, at most [-]: blocks of one strip are not independent of each other. Half
+# takes 39 % more time, twice narrows the interval by 8 %.
+FREEDOM = 5
+
+# Bias of strips that balance the load each by itself, over (scatter of f between strips)² [-]: .5 to 1 % near the lift-off
+# speed (docs/uncertainty.md). Half and twice change the interval by up to 1 %.
+BALANCED = 1.3
+
+# Factors by which the number of strips may grow, the first time and later [-] (`required_strips`).
+GROWTH = (4.0, 2.0)
+
+# Factor on the strips that an error needs, and least growth [-] (`required_strips`).
+SPARE = (1.1, 1.2)
+
+# Counted work of the strips of one point [s], at most: `rough_bodies.MOST_WORK`, from which "auto" declines.
+MOST_WORK = 120.0
+
+# Strips whose scatter tells an error [-]: two degrees of freedom. A convention.
+FEWEST = 3
+
 SUMMITS = "f {:+.2g} % for the summits of the sample, compared with those of the endless surface"
 OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
 
