@@ -1,5 +1,5 @@
 """The chart of the models: error of f against time on four kinds of surface, for load sharing by Eqs. (8) and (9) and
-as it is calibrated, for the deterministic model on long cells, and for the default, which is the deterministic model on
+for the quick answer, for the deterministic model on long cells, and for the default, which is the deterministic model on
 levels of cells here.
 
 An error is the root mean square over surfaces of other seeds. A map has one sample only, which the reference also
