@@ -53,6 +53,7 @@ def read_surface(
     .txt .csv .asc .dat  a matrix: one line of the file is one x, unless its header says that x runs along the lines;
                          or points "x y z". Headers of Gwyddion, SPIP, Wyko and others give spacing and units
     .xyz                 lines "x y z" on a uniform grid, any order; omitted points are unmeasured
+    .xyz .asc .txt       of Zygo MetroPro and Mx; points need the ``unit`` of their heights
     .x3p                 ISO 25178-72; x is the fast axis of the file and axis 0 here; metres
     .sur .al3d .opd ...  every format of SurfaceTopography (``lubfric[formats]``): its first channel
     ==================== ==================================================================

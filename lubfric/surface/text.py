@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from ..quantities import counted
 from .header import LENGTHS, UNIT_WORDS, UNITS, Header, column_units, grid_of, read_header, statements
 from .layout import FEWEST, Border, border_of, kind_of_table, refuse_profile
 from .points import gridded
+from .zygo import PHASES, POINTS, read_zygo
 
 MOST_BYTES = 2**30  # of a file of text
 DECIMALS = (".", ",")
@@ -25,6 +27,7 @@ NEAR = 0.02  # relative difference up to which the step of coordinates is the gi
 
 _NUMBER = re.compile(r"[+-]?(?:(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?|nan|inf|infinity)", re.I)
 _VALUE = r"(?:[+-]?(?:\d+(?:,\d+)?(?:[eE][+-]?\d+)?|[nN][aA][nN]))"
+_TWO_NUMBERS = re.compile(rf"{_NUMBER.pattern}[\s;,]{{1,9}}{_NUMBER.pattern}[\s;,]{{0,9}}", re.I)
 _QUOTED = re.compile(
     r'"([+-]?(?:\d{1,40}[.,]?\d{0,40}|[.,]\d{1,40})(?:[eE][+-]?\d{1,4})?)"'
 )  # a comma is the decimal mark
@@ -89,15 +92,37 @@ def read_text(
     text = text_of(path, MOST_BYTES)
     if text.startswith(WYKO):
         return _wyko(path, text, units, spacing)
+    if text.startswith((POINTS, PHASES)):
+        heights, steps, notes = read_zygo(path, text, units)
+        if steps is not None and spacing is not None:
+            _same_spacing(path, spacing, steps, either=False)
+        return TextMap(heights=heights, height_scale=1.0, spacing=steps or spacing, notes=notes)
     if _SMD.match(text[:1000]):
         _refuse_smd(path, text)
-    table = _table(path, text, decimal)
+    try:
+        table = _table(path, text, decimal)
+    except InputError:
+        _refuse_profile_with_results(path, text, decimal)
+        raise
     kind = "points" if points else kind_of_table(path.name, table.numbers)
     if kind == "profile":
         refuse_profile(path.name, table.numbers, table.header, units)
     if kind == "points":
         return _points(path, table, units, spacing)
     return _matrix(path, table, units, spacing)
+
+
+def _refuse_profile_with_results(path: Path, text: str, decimal: str | None) -> None:
+    """Raise `InputError` with the statistics of a profile below which a program has written its results, as that of a
+    Dektak does."""
+    lines = text.splitlines()
+    while lines and not _TWO_NUMBERS.fullmatch(lines[-1].strip()):
+        lines.pop()
+    table: NumberTable | None = None
+    with suppress(InputError):
+        table = _table(path, "\n".join(lines), decimal)
+    if table is not None and kind_of_table(path.name, table.numbers) == "profile":
+        refuse_profile(path.name, table.numbers, table.header, None)
 
 
 def _refuse_smd(path: Path, text: str) -> None:
