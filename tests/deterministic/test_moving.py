@@ -53,19 +53,55 @@ def after(problem, bodies, steps, step=None, **how):
     return next(islice(moments(travelling(problem, bodies), step, **how), steps, None))
 
 
-@pytest.mark.parametrize("cells, steps", [(8, 60), (1, 120)])
-def test_roughness_at_rest_settles_to_the_steady_film(cells, steps):
+def test_roughness_at_rest_settles_to_the_steady_film():
     """From the film of the smooth bodies, in time, to the solution that the steady solver finds; in steps in which the
-    lubricant passes so many cells. In those of one its mass is followed along with it, and the rupture differs by
-    a cell or so."""
-    surface = rough(1)
-    problem = laid(surface, sliding=0.6)
+    lubricant passes eight cells."""
+    problem = laid(rough(1), sliding=0.6)
     start = solve_point(replace(problem, heights=0 * problem.heights)).state
     steady = solve_point(problem, tolerance=1e-8)
-    moment = next(islice(moments(lambda t: problem, cells * CELL / 0.3, start=start, tolerance=1e-5), steps, None))
+    moment = next(islice(moments(lambda t: problem, 8 * CELL / 0.3, start=start, tolerance=1e-5), 60, None))
     assert moment.result.coefficient == pytest.approx(steady.coefficient, rel=1e-4)
-    where, least = (problem.x < np.inf, 1e-3) if cells > 1 else (problem.x < 0, 2e-3)
-    assert np.abs(moment.at.gap - steady.gap)[where].max() < least * steady.gap[where].mean()
+    assert np.abs(moment.at.gap - steady.gap).max() < 1e-3 * steady.gap.mean()
+
+
+def test_two_discretisations_have_one_limit():
+    """In steps of one cell the mass is followed along the lubricant, by third order; the steady solver is second-order
+    upwind. Halving the cells divides the difference of f by some four."""
+    surface = generate_surface((64, 24), (CELL / 2,) * 2, sq=0.1e-6, correlation_length=12e-6, acf="gaussian", seed=1)
+    difference = []
+    for factor in (2, 1):
+        problem = laid(surface, sliding=0.6, factors=(factor, factor))
+        steady = solve_point(problem, tolerance=1e-6)
+        passing = moments(lambda t: problem, problem.spacing[0] / 0.3, start=steady.state, tolerance=1e-4)
+        followed = next(islice(passing, 60 // factor, None)).result
+        difference.append(followed.coefficient / steady.coefficient - 1)
+    assert 0.02 < abs(difference[0]) < 0.1 and abs(difference[1]) < 0.35 * abs(difference[0])
+
+
+def test_the_short_inlet_of_a_heavy_load_lets_the_film_of_solve_ehl_through():
+    """Its length is a few of eight cells in the half-width, and f of a needle roller hangs on the film. Steps of second
+    order along the lubricant, and the steady solver on these cells, leave 8 % less film (M 16, L 11)."""
+    oil = Lubricant(0.0105, 17e-9)
+    line = LineContact(load_per_width=8e4, radius=2.73e-3, e_prime=2.26e11, entrainment_speed=2.0, lubricant=oil)
+    exact = lubfric.solve_ehl(
+        load_per_width=line.load_per_width,
+        radius=line.radius,
+        e_prime=line.e_prime,
+        entrainment_speed=line.entrainment_speed,
+        viscosity=oil.viscosity,
+        pressure_viscosity_coefficient=oil.pressure_viscosity_coefficient,
+        tolerance=1e-3,
+    ).central_film
+    b = line.half_width
+    error = []
+    for cells in (8, 16):
+        flat = Surface(np.zeros((32, 1)), (b / cells,) * 2, periodic_axes=(True, True))
+        problem = lay_out(flat, line, sliding=0.0, boundary_friction=0.1, ends=(2 * b, 1.3 * b))
+        start = solve_point(problem, tolerance=1e-6)
+        passing = moments(lambda time: problem, b / cells / 2.0, start=start.state, tolerance=1e-6)
+        moment = next(islice(passing, round(3.5 * cells), None))
+        error.append(moment.result.central_gap / exact - 1)
+    assert -0.025 < error[0] < 0 and error[0] / error[1] > 4
 
 
 def test_two_rough_bodies_at_one_speed_are_one():
@@ -261,7 +297,7 @@ def test_mass_that_loose_steps_leave_is_not_lost():
 
     exact = mean_mass(tolerance=1e-3)
     lost, kept = (mean_mass(tolerance=0.5, carries_imbalance=kept) / exact - 1 for kept in (False, True))
-    assert abs(lost) > 1e-3 and abs(kept) < 0.5 * abs(lost)
+    assert abs(lost) > 5e-4 and abs(kept) < 0.5 * abs(lost)
 
 
 def test_a_matrix_that_is_singular_to_single_precision_is_factorised_in_double(monkeypatch):

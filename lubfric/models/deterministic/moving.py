@@ -2,14 +2,16 @@
 
     div( U rho θ h - rho h³ Φ/(12 eta) grad p ) + d(rho θ h)/dt = 0
 
-Steps are BDF2, of second order: (3 m - 4 m' + m'')/(2 dt), with m' and m'' the mass rho θ h of the last two moments,
-limited where a summit closes a cell (`state.stored`). In a step the lubricant passes one cell, and m' and m'' are
-those of the one and two cells before: along the way of the lubricant both first terms are one, d(rho θ h)/dt. Waves
-that go with it lose nothing, and of a film at rest that is second-order upwind, as of the steady one. (In steps and
-cells that are at rest, waves of 12 cells lost half of their height in a half-width.)
+In a step the lubricant passes one cell, and the step is BDF3, of third order: (11 m - 18 m1 + 9 m2 - 2 m3)/(6 dt),
+with m the mass rho θ h, and mn that of n moments ago, n cells upstream; limited where a summit closes a cell
+(`state.stored`). Along the way of the lubricant both first terms of the balance are one, d(rho θ h)/dt. Waves that go
+with it lose nothing, and of a film at rest that is third-order upwind. (In steps and cells that are at rest, waves of
+12 cells lost half of their height in a half-width. With BDF2 along the lubricant, ten cells in the half-width of a
+needle roller let 5.5 % less film through its short inlet. Then f, which hangs on the thinnest of it, was 33 % too
+high; with BDF3 it is 6 % too high.)
 
-Where all roughness is slower than U/2, or some is faster than 2 U, the fastest rough body moves by one cell in a step,
-m' and m'' are of the cell itself, and the first step is implicit Euler.
+Where all roughness is slower than U/2, or some is faster than 2 U, the fastest rough body moves by one cell in a step.
+Then steps are BDF2 of the cell itself, the Couette flow is second-order upwind, and the first step is implicit Euler.
 
 f is that of surface 2, the upper one, against its sliding u2 - u1, or against U in pure rolling (`Problem.sense`).
 """
@@ -96,14 +98,14 @@ def moments(
     problem = problem_at(0.0)
     count = 0
     imbalance: np.ndarray | None = None
-    at = before = evaluated(problem, solve_point(problem).state if start is None else start)
+    at = before = earlier = evaluated(problem, solve_point(problem).state if start is None else start)
     smooth = max(1, round(SMOOTH * half_width(problem.contact) / problem.spacing[0]))
     yield Moment(0.0, at, Work(0))
     while True:
         count += 1
         work = Work(MOST)
         problem = problem_at(count * step)
-        history = _history(problem, at, before, step, imbalance)
+        history = _history(problem, (at, before, earlier), step, imbalance)
         how: dict[str, Any] = {"tolerance": tolerance, "most": MOST // 4, "linear_accuracy": linear_accuracy}
         near = (_moved(at.state, before.state, shift, smooth),) if shift else ()
         for state in (*near, at.state):
@@ -127,6 +129,7 @@ def moments(
                 residuals=left,
                 advice=advice,
             ).raise_if_failed()
+        earlier = before
         before = at
         at = result.at
         if carries_imbalance:
@@ -135,10 +138,11 @@ def moments(
 
 
 def _history(
-    problem: Problem, at: Iterate, before: Iterate, step: float, imbalance: np.ndarray | None = None
+    problem: Problem, past: tuple[Iterate, Iterate, Iterate], step: float, imbalance: np.ndarray | None = None
 ) -> TimeHistory:
-    """Return the history of the step from ``at`` to ``problem``; ``before``: the moment a step earlier, or ``at``
-    itself where there is none; ``imbalance`` [m/s]: what the last step left in each cell."""
+    """Return the history of the step to ``problem``; ``past``: the last three moments, from the last one on (of the
+    first step all are one); ``imbalance`` [m/s]: what the last step left in each cell."""
+    (at, before, earlier) = past
     cell = problem.spacing[0]
     lost = 0.0 if imbalance is None else step * imbalance
     if max(abs(end.speed * step - cell) for end in (problem, at.problem)) > SAME * cell:
@@ -146,14 +150,21 @@ def _history(
             return TimeHistory(extrapolated=at.mass, step=step)
         return TimeHistory(extrapolated=extrapolated_mass(at.mass, before.mass) - lost, step=step, last=at.mass)
 
-    def upstream(mass: FloatArray) -> FloatArray:
-        """Return the mass of the cell before each cell; before the first one by the parabola."""
-        return np.concatenate([mass[:1] - problem.x[0] / problem.radius * cell, mass[:-1]])
+    def upstream(mass: FloatArray, cells: int = 1) -> FloatArray:
+        """Return the mass so many ``cells`` before each cell; before the first one by the parabola."""
+        for k in range(cells):
+            entering = mass[:1] + (k * cell - problem.x[0]) / problem.radius * cell
+            mass = np.concatenate([entering, mass[:-1]])
+        return mass
 
-    last = upstream(at.mass)
-    left = extrapolated_mass(at.mass, upstream(before.mass)) - lost
-    extrapolated = np.concatenate([0.0 * left[:1], left[:-1]])  # what enters has no history
-    return TimeHistory(extrapolated=extrapolated, step=step, last=last, follows_lubricant=True)
+    left = extrapolated_mass(at.mass, upstream(before.mass), earlier=upstream(earlier.mass, 2)) - lost
+    return TimeHistory(
+        extrapolated=np.concatenate([0.0 * left[:1], left[:-1]]),  # what enters has no history
+        step=step,
+        last=upstream(at.mass),
+        earlier=upstream(before.mass, 2),
+        follows_lubricant=True,
+    )
 
 
 def _in_parts(

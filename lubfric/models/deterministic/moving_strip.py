@@ -14,7 +14,7 @@ from ...film import LineContact
 from ...scene import Scene
 from ...surface import Surface
 from .linear import ACCURACY
-from .moving import Moment, RoughBody, half_width, moments, travelling
+from .moving import SAME, Moment, RoughBody, half_width, moments, travelling
 from .problem import HERTZ_INLET, HERTZ_OUTLET, Problem, reach
 from .result import DeterministicResult, LoadSplit
 from .state import RUPTURED, State
@@ -117,6 +117,11 @@ class MovingStrip(Strip):
     ends: tuple[float, float]
     state_after_discard: State = field(repr=False)
     early: DeterministicResult | None = field(default=None, repr=False)
+
+    @property
+    def follows_lubricant(self) -> bool:
+        """Whether the lubricant passed one cell in a step, so that the steps are of third order along it."""
+        return abs(self.problem.speed * float(self.times[0]) / self.problem.spacing[0] - 1.0) < SAME
 
     @property
     def peak_pressure(self) -> float:

@@ -25,6 +25,7 @@ from ..shared import (
     smooth_over_cells,
     speed_of,
 )
+from .moving_strip import MovingStrip
 from .rough_bodies import (
     MOST_WORK,
     map_of,
@@ -50,14 +51,17 @@ MOST_PIECES = 32
 
 # Counted work [s] of pieces beyond which no more are solved.
 PIECES_WORK = 30.0
-MOVING = 0.5  # times (cell along x/correlation length)²: error of f where roughness moves, at least; one change may be
-# small by chance (to cells of an eighth, f of nine Gaussian maps moved by 0 to 10 % from a half, and 0 to 2 % from a
-# quarter)
+
+# Times (cell along x/correlation length)²: error of f where roughness moves, at least, without and with steps along the
+# lubricant, of second and third order. One change may be small by chance: cells of an eighth of a correlation length
+# instead of a quarter move f of nine Gaussian maps by 0 to 2 % by steps of second order, of four contacts by 0 to 0.8 %
+# by steps of third order.
+MOVING = (0.5, 0.3)
 
 # Times (cell along x/correlation length)² and the square of the relative change of f by twice the boundary film: the same
-# error where f hangs on that film. Cells of an eighth instead of a quarter move f of a needle roller by -20 %, where that
-# change is 58 %, of a gear flank by -1.2 % (19 %), and of a roller bearing by -0.2 % (0.1 to 0.7 %).
-MOVING_THIN = 8.0
+# error where f hangs on that film. Of steps of second order cells of an eighth instead of a quarter move f of a needle
+# roller by -20 %, where that change is 58 %; of third order cells of a sixteenth move it by -6 %, where it is 80 %.
+MOVING_THIN = (8.0, 1.5)
 
 AS_START = 100  # LU factorisations of a piece on longer cells, from which it starts, at most
 SOLVED = 2e-3  # of f: what the tolerance of a strip may move
@@ -148,7 +152,9 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
 def _by_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -> float:
     """Return the relative error of f by the cells along x, at least, where roughness moves: larger where f hangs on the
     boundary film, because shorter cells leave fewer gaps that are so thin."""
-    return (MOVING + MOVING_THIN * _by_boundary_film(pairs) ** 2) * _coarse(prepared) ** 2
+    strips = [pair.resolved for pair in pairs]
+    order = int(all(isinstance(strip, MovingStrip) and strip.follows_lubricant for strip in strips))
+    return (MOVING[order] + MOVING_THIN[order] * _by_boundary_film(pairs) ** 2) * _coarse(prepared) ** 2
 
 
 def _by_boundary_film(pairs: Sequence[StripOnTwoGrids]) -> float:

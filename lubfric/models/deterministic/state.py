@@ -15,6 +15,13 @@ RUPTURED = 1
 
 # Kind of a cell: the bodies touch, the gap is the floor.
 TOUCHING = 2
+
+# Of the second difference of the last three masses, which makes a step of BDF2 one of BDF3: (11 m - 18 m1 + 9 m2 -
+# 2 m3)/6 is the change of m + (m - m1)/2 + (m - 2 m1 + m2)/3 from step to step.
+CURVATURE = 1.0 / 3.0
+
+# Of the mass of a cell: how far it is extrapolated at most, as by the limiter of the Couette flow (`flow.couette_flow`).
+LIMIT = 0.5
 PULL = 0.01  # of U times the floor over dx: suction in a touching cell, below which it is left alone
 
 
@@ -25,14 +32,16 @@ class TimeHistory:
     ``step`` [s]: its length. ``extrapolated`` [m] (nx, ny): the mass that the moments before leave to it. Of an
     implicit Euler step that is the mass of the last moment. Of a step of second order (BDF2) it is
     `extrapolated_mass` of the last two, and ``last`` [m] is the mass of the last one, ``part`` the part of its change
-    by which a mass is extrapolated. ``follows_lubricant``: these masses are those of the cell upstream, because in a
-    step the lubricant moves by one cell; then nothing more flows with U.
+    by which a mass is extrapolated. Of a step of third order (BDF3) ``earlier`` [m] is the mass of the moment before
+    the last. ``follows_lubricant``: these masses are those of the cells upstream, because in a step the lubricant
+    moves by one cell; then nothing more flows with U.
     """
 
     extrapolated: np.ndarray
     step: float
     last: np.ndarray | None = None
     part: float = 0.5
+    earlier: np.ndarray | None = None
     follows_lubricant: bool = False
 
 
@@ -87,19 +96,29 @@ def stored(mass: np.ndarray, history: TimeHistory) -> tuple[np.ndarray, np.ndarr
     part = history.part
     if last is None:
         return (mass - history.extrapolated) / step, np.full_like(mass, 1 / step)
-    now = extrapolated_mass(mass, last, part)
-    free = part * (last - mass) < 0.5 * mass
-    return (now - history.extrapolated) / step, np.where(free, 1.0 + part, 0.5) / step
+    now = extrapolated_mass(mass, last, part, history.earlier)
+    change = now - mass
+    slope = part + (0.0 if history.earlier is None else CURVATURE)
+    highest = max(LIMIT, part)
+    free = (change > -LIMIT * mass) & (change < highest * mass)
+    limited = np.where(change > 0, highest, -LIMIT)
+    return (now - history.extrapolated) / step, (1.0 + np.where(free, slope, limited)) / step
 
 
-def extrapolated_mass(mass: np.ndarray, before: np.ndarray, part: float = 0.5) -> np.ndarray:
+def extrapolated_mass(
+    mass: np.ndarray, before: np.ndarray, part: float = 0.5, earlier: np.ndarray | None = None
+) -> np.ndarray:
     """Return ``mass`` [m] of cells extrapolated by a ``part`` of its change since the moment ``before`` (a half where
-    steps are equal), and half of it at least.
+    steps are equal), by `LIMIT` of itself, or that part, at most. With the moment ``earlier`` than that, `CURVATURE` of the second
+    difference is added: the differences of such masses from step to step are those of BDF3.
 
     So the Couette flow is limited in space. Without the limit a cell that a summit closes would give off more than it
     has.
     """
-    return np.maximum(mass + part * (mass - before), 0.5 * mass)
+    change = part * (mass - before)
+    if earlier is not None:
+        change = change + CURVATURE * (mass - 2.0 * before + earlier)
+    return mass + np.clip(change, -LIMIT * mass, max(LIMIT, part) * mass)
 
 
 def evaluated(problem: Problem, state: State, history: TimeHistory | None = None) -> Iterate:

@@ -113,15 +113,16 @@ def balances(
     U = line.entrainment_speed
     carried = bool(passing) and abs(U * step / dx - 1) < 1e-9
     masses = [held(line, one, one.gap) for one in results]
-    before = [np.vstack([m[:1] - x[0] / line.radius * dx, m[:-1]]) if carried else m for m in masses]
-    kept = [np.maximum(1.5 * now - 0.5 * then, 0.5 * now) for then, now in zip(before, masses[1:])]  # limited BDF2
-    left = [held(line, one, 1.5 * one.gap - 0.5 * np.roll(one.gap, 1, 0))[-1] for one in results]
-    out_of = [m[-1] for m in kept[:-1]] if carried else left[2:]
-    lost = [U * (one.flow_film - behind.mean()) for one, behind in zip(results[2:], out_of)]
+    rises = -x[0] * dx / line.radius, (dx - x[0]) * dx / line.radius
+    kept = _kept_along(masses, rises) if carried else _kept(masses)
+    counted = results[3:] if carried else results[2:]  # what the moments before leave needs three of them, or two
+    left = [held(line, one, 1.5 * one.gap - 0.5 * np.roll(one.gap, 1, 0))[-1] for one in counted]
+    out_of = [m[-1] for m in kept[:-1]] if carried else left
+    lost = [U * (one.flow_film - behind.mean()) for one, behind in zip(counted, out_of)]
     gained = float((kept[-1] - kept[0]).mean(axis=1).sum()) * dx / step if passing else 0.0  # in all steps
-    source = out * len(results[2:])
+    source = out * len(counted)
     missing = float(np.sum(lost)) + source - gained
-    enters = U * float(np.sum([one.flow_film for one in results[2:]])) + source
+    enters = U * float(np.sum([one.flow_film for one in counted])) + source
     p = result.pressure.mean(axis=1)
     face = x[:, None] - x[None, :]
     a = face + dx / 2
@@ -139,6 +140,20 @@ def balances(
         "gap": float(np.ptp(off)) / 2 / result.mean_gap,
         "bounds": max(0.0, *map(float, broken), 1 - result.gap.min() / FLOOR),
     }
+
+
+def _kept(masses: Sequence[np.ndarray]) -> list[np.ndarray]:
+    """Return what cells of these ``masses`` [m] leave to the next step by BDF2, limited."""
+    return [np.maximum(1.5 * now - 0.5 * then, 0.5 * now) for then, now in zip(masses, masses[1:])]
+
+
+def _kept_along(masses: Sequence[np.ndarray], rises: tuple[float, float]) -> list[np.ndarray]:
+    """Return the same by BDF3, where masses are followed along the lubricant, by one cell in a step; ``rises`` [m]: of
+    the gap from the first cell to the one before, and from that to the next."""
+    once = [np.vstack([m[:1] + rises[0], m[:-1]]) for m in masses]
+    twice = [np.vstack([m[:1] + rises[1], m[:-1]]) for m in once]
+    kept = [(11 * now - 7 * then + 2 * first) / 6 for first, then, now in zip(twice, once[1:], masses[2:])]
+    return [np.clip(left, 0.5 * now, 1.5 * now) for left, now in zip(kept, masses[2:])]
 
 
 def held(line: LineContact, result: DeterministicResult, gap: FloatArray) -> np.ndarray:
