@@ -280,6 +280,29 @@ def test_the_model_in_place_of_one_that_has_no_answer_is_named(requested, speed,
     assert result.coefficient == lubfric.friction(lubfric.load_scene(scene), speed, model="paper").coefficient
 
 
+def test_two_given_maps_are_known_whose_they_are():
+    """Both bodies move, each with a map of its own: every model takes them; of one map for both nobody knows."""
+    scene = TWO.with_(motion={"slide_roll_ratio": 0.5})
+    shape = {"shape": (240, 160), "spacing": 1e-6, "correlation_length": 5e-6}
+    surface, counterface = (lubfric.generate_surface(**shape, sq=sq, seed=seed) for sq, seed in ((1e-7, 1), (5e-8, 2)))
+    prepared = lubfric.prepare(
+        scene, surface.periodic(axes=(False, True)), counterface=counterface.periodic(axes=(False, True))
+    )
+    assert [model.why_unable(prepared, 0.03) for model in MODELS] == [""] * len(MODELS)
+    joint = lubfric.prepare(scene, surface.periodic(axes=(False, True)))
+    assert any("second rough body" in model.why_unable(joint, 0.03) for model in MODELS)
+
+
+def test_a_gap_that_the_given_film_does_not_fill_is_not_without_entrainment():
+    scene = PAPER.with_(lubricant={"inlet_film": 20e-9})
+    result = lubfric.friction(scene, 0.03, model="paper")
+    assert result.film_load == 0 and result.uncertainty.model > 0
+    assert "the film in the inlet does not fill the gap" in result.decision.text
+    assert "no entrainment" not in result.decision.text + " ".join(result.errors.reasons.values())
+    still = lubfric.friction(scene, 0.0, model="paper")
+    assert "no entrainment" in still.decision.text and still.uncertainty.model == 0
+
+
 @pytest.mark.parametrize("slide_roll_ratio, controls", [(2.0, 1), (1.0, 0)])
 def test_the_cheapest_model_is_solved_beside_roughness_at_rest_alone(monkeypatch, slide_roll_ratio, controls):
     """What moves has the control of its own summits, so nothing else is solved for it."""

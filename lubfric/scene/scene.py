@@ -246,18 +246,19 @@ def as_ranges(ends: dict[str, Any]) -> tuple[tuple[str, float, float], ...]:
     return tuple((name, *ends[name]) for name in sorted(ends) if ends[name] is not None)
 
 
-def why_gap_not_resolved(scene: Scene, *, given: bool = False) -> str:
-    """The first key of ``scene`` that the deterministic model does not take, and what it takes, as text; "" if it
-    takes all. ``given``: one map was given to `lubfric.prepare`, for all its bodies."""
-    refusals = _not_taken(scene, given=given)
+def why_gap_not_resolved(scene: Scene, *, is_joint: bool = False) -> str:
+    """Return the first key of ``scene`` that the deterministic model does not take, and what it takes, as text; "" if
+    it takes all. ``is_joint``: one map was given to `lubfric.prepare`, for all its bodies."""
+    refusals = _not_taken(scene, is_joint=is_joint)
     return next(
         (f"{name} = {value!r} (the deterministic model has {instead})" for name, value, instead in refusals), ""
     )
 
 
-def check_resolved_gap(scene: Scene, *, given: bool = False) -> None:
-    """Raise `InputError` for keys that the deterministic model does not take. ``given``: as in `why_gap_not_resolved`."""
-    for name, value, instead in _not_taken(scene, given=given):
+def check_resolved_gap(scene: Scene, *, is_joint: bool = False) -> None:
+    """Raise `InputError` for keys that the deterministic model does not take. ``is_joint``: as in
+    `why_gap_not_resolved`."""
+    for name, value, instead in _not_taken(scene, is_joint=is_joint):
         said = f" = {value!r} does not go with numerics.model = 'deterministic'"
         raise InputError(said, name, f"{instead}, or numerics.model = 'paper'")
 
@@ -275,7 +276,7 @@ def moves(scene: Scene) -> bool:
     return any(speed != 0 for _, speed in moving_bodies(scene))
 
 
-def _not_taken(scene: Scene, *, given: bool) -> Iterator[tuple[str, Any, str]]:
+def _not_taken(scene: Scene, *, is_joint: bool) -> Iterator[tuple[str, Any, str]]:
     for name, allowed, why in RESOLVED:
         section, _, key = name.partition(".")
         value = getattr(getattr(scene, section), key)
@@ -293,7 +294,7 @@ def _not_taken(scene: Scene, *, given: bool) -> Iterator[tuple[str, Any, str]]:
         )
         yield "lubricant.limiting_stress_offset", offset, instead
     bodies = moving_bodies(scene)
-    if len({u for _, u in bodies}) > 1 and given:
+    if len({u for _, u in bodies}) > 1 and is_joint:
         yield "counterface", "a second rough body", "at a slide-roll ratio other than 0 a map of its own"
     lubricant = scene.lubricant
     if lubricant.shear_modulus is not None:

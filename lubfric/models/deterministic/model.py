@@ -67,7 +67,7 @@ class DeterministicModel(Model):
         return True
 
     def check(self, scene: Scene, *, is_joint: bool) -> None:
-        check_resolved_gap(scene, given=is_joint)
+        check_resolved_gap(scene, is_joint=is_joint)
 
     def expected_warnings(self, scene: Scene, speeds: list[float]) -> ExpectedWarnings:
         return expected_on_hertz(scene)
@@ -116,7 +116,7 @@ class DeterministicModel(Model):
 
     def why_declined(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
         heat = cheaper.heat()
-        why = why_gap_not_resolved(prepared.scene, given=prepared.given) or ("" if heat is None else too_hot(heat))
+        why = why_gap_not_resolved(prepared.scene, is_joint=prepared.joint) or ("" if heat is None else too_hot(heat))
         if why:
             return f"load sharing alone: {why}"
         return too_costly(prepared, speed, cells_of(prepared.scene, prepared.sample))

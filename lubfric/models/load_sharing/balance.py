@@ -54,8 +54,12 @@ SETTLED = 0.3
 
 @dataclass(frozen=True, kw_only=True)
 class Balance(ModelDetails):
-    """One operating point, loads in N. ``film`` is None without entrainment; ``response`` is None if the film carries
-    everything. ``notes``: choices that a reader should know."""
+    """One operating point, loads in N.
+
+    ``film`` is None where no film carries load, and ``why_no_film`` says why: without entrainment, or where a given film
+    in the inlet does not fill the gap. ``response`` is None if the film carries everything. ``notes``: choices that a
+    reader should know.
+    """
 
     kind = "balance"
 
@@ -68,6 +72,7 @@ class Balance(ModelDetails):
     response: Response | None = None
     settings: Settings | None = None
     notes: tuple[str, ...] = ()
+    why_no_film: str = ""
 
     @property
     def log_load_ratio(self) -> float:
@@ -103,7 +108,7 @@ def solve_balance(
     Raises `ConvergenceError`.
     """
     if speed == 0:
-        return _dry(scene, contact)
+        return _dry(scene, contact, "no entrainment")
     alone: EHLResult | None = None
     notes: tuple[str, ...] = ()
     if not _certainly_touching(scene, speed, contact):
@@ -121,11 +126,12 @@ def solve_balance(
     return replace(_in_contact(Point(scene, speed, contact, settings), sq, start, alone), notes=notes)
 
 
-def _dry(scene: Scene, contact: RoughContact, why: str = "no entrainment: all contact") -> Balance:
+def _dry(scene: Scene, contact: RoughContact, why: str) -> Balance:
+    """Return the balance of a contact that carries the total load; ``why`` no film does, as text."""
     load = scene.bodies.load
     shape = contact.x**2 / (2 * scene.bodies.radius)
     state = contact.close(shape, load)
-    report = _report(scene, CONVERGED, (0.0,), state, None, (why,))
+    report = _report(scene, CONVERGED, (0.0,), state, None, (f"{why}: all contact",))
     friction = forces(scene, None, state, load)
     return Balance(
         film_load=0.0,
@@ -135,6 +141,7 @@ def _dry(scene: Scene, contact: RoughContact, why: str = "no entrainment: all co
         forces=friction,
         report=report,
         response=respond(scene, contact, state, load, shape),
+        why_no_film=why,
     )
 
 
@@ -190,7 +197,7 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
         point, root = _seen_root(point, log_load_ratio, slope, step, (value, last))
         trial = root.payload
         if trial is None:
-            return _dry(point.scene, point.contact, "what arrives does not fill the gap: all contact")
+            return _dry(point.scene, point.contact, "the film in the inlet does not fill the gap")
         if response is None or abs(root.x - response[0]) > SETTLED:
             response = root.x, _response(point, trial)
         balance = _balance(point, root, response[1])

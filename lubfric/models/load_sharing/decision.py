@@ -28,7 +28,7 @@ def decided(scene: Scene, contact: RoughContact, balance: Balance, clearance: fl
             notes = (*notes, text)
     return Decision(
         model="paper",
-        film="none, no entrainment" if film is None else "full EHL",
+        film=f"none, {balance.why_no_film}" if film is None else "full EHL",
         contact=contact.name if touching else f"none, clearance {clearance:.2g} Sq",
         tolerance=tolerance,
         film_tolerance=0.0 if balance.settings is None else balance.settings.film_tolerance,

@@ -56,7 +56,7 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
     if balance.film is None:
         # only areas scatter
         errors = _area_errors(scene, balance, scatter)
-        why = "no entrainment: there is no film"
+        why = f"{balance.why_no_film}: there is no film"
         errors |= dict.fromkeys((*depending_on("split"), *depending_on("shear")), 0.0)
     elif response is None:
         relative += forces.film_sensitivity * of_film
@@ -186,7 +186,11 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
     scene = balanced.prepared.scene
     if balance.film is None:
         fed = scene.lubricant.inlet_film
-        return (NONE, ()) if fed is None else (starved_error(fed, balance.contact.mean_gap), (EMPTY,))
+        return (
+            (NONE, ())
+            if fed is None or balanced.speed == 0
+            else (starved_error(fed, balance.contact.mean_gap), (EMPTY,))
+        )
     if balanced.on_cells is None:
         return UNKNOWN, (NOT_STUDIED,)
     if why := why_gap_not_resolved(scene):
