@@ -14,6 +14,7 @@ from lubfric.models.deterministic import (
     SummitControl,
     TimeAndPlace,
     attenuated,
+    cells_in_a_step,
     control_of,
     mean_over_blocks,
     solve_moving_strip,
@@ -111,3 +112,17 @@ def test_a_march_ends_when_its_error_is_within_the_target():
     reached = mean_over_blocks([short.sample], "friction", length, control)
     assert reached.error.error < 0.5 * reached.value
     assert reached.value == pytest.approx(long.result.coefficient, rel=4 * reached.error.error / reached.value)
+
+
+def test_two_rough_bodies_start_a_step_where_their_common_roughness_is():
+    """In a step in which the film passes one cell: one body goes its own way, two equal ones that of the film, and one that
+    is smooth has no weight. What moves against the film has no start downstream."""
+    rough = generate_surface((64, 64), 2e-6, sq=2e-7, correlation_length=LENGTH, acf="gaussian", seed=1)
+    smooth = surface_of(np.zeros((64, 64)))
+
+    def cells(*bodies):
+        return cells_in_a_step([RoughBody(surface, speed) for surface, speed in bodies], 2e-6, 2e-6)
+
+    assert [cells((rough, speed)) for speed in (0.4, 0.6, 1.05, 2.0, -1.0)] == [0, 1, 1, 2, 0]
+    assert cells((rough, 0.36), (rough, 1.64)) == 1
+    assert cells((rough, 0.36), (smooth, 1.64)) == 0 and cells((smooth, 0.36), (rough, 1.64)) == 2

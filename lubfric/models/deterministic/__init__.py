@@ -16,6 +16,7 @@ from .moving_strip import (
     MovingEffort,
     MovingStrip,
     SampleTarget,
+    cells_in_a_step,
     continued_strip,
     effort_for,
     effort_of,

@@ -30,6 +30,9 @@ KRYLOV = 25.0  # GMRES iterations in a step in time, about
 SMALL_WAVES = 3.0  # film of the smooth contact over Sq, from which on waves are small
 ON_LONGER = 0.4  # work of a step on cells twice as long along y, over that on the shorter ones
 AT_REST = 12.0  # steps in time that the strip at rest is worth, on two lengths of cells and for its slope, about
+
+# m²: mean square height below which a body is smooth.
+SMALLEST_SQUARE = 1e-30
 SLOW = 0.5  # of U: where all roughness is slower, the fastest passes one cell in a step; else the lubricant does
 FAST = 2.0  # of U: where some roughness is faster, it passes one cell in a step
 CONTINUED = 0.4  # half-widths: distance that the lubricant travels in the moments of a continuation that count
@@ -354,7 +357,6 @@ def _passing(
     for a negative ``speed`` in the mirror."""
     bodies = _as_seen(bodies, speed)
     cell = problem.spacing[0]
-    fastest = max(abs(body.speed) for body in bodies)
     heights_at = travelling(problem, bodies)
     return moments(
         lambda time: heights_at(begun + time),
@@ -363,8 +365,20 @@ def _passing(
         tolerance=effort.residual * problem.x.size,
         carries_imbalance=effort.carries_imbalance,
         linear_accuracy=effort.linear,
-        shift=max(1, round(fastest * step / cell)) if problem.contact.half_width > RESOLVED * cell else 0,
+        shift=cells_in_a_step(bodies, step, cell) if problem.contact.half_width > RESOLVED * cell else 0,
     )
+
+
+def cells_in_a_step(bodies: Sequence[RoughBody], step: float, cell: float) -> int:
+    """Return the number of cells [m] by which the roughness of ``bodies`` moves downstream in a ``step`` [s]: with the mean
+    of their speeds, each with the weight of its mean square height.
+
+    Pressure and cells of both bodies start a step there. With the speed of the fastest, 2 cells instead of 1, a gear flank of
+    1.1 GPa with two equal maps and a slide-roll ratio of 1.28 took 25 instead of 5 Newton steps for a step in time.
+    """
+    weights = [body.surface.sq**2 for body in bodies]
+    mean = sum(weight * body.speed for weight, body in zip(weights, bodies)) / max(sum(weights), SMALLEST_SQUARE)
+    return max(0, math.floor(mean * step / cell + 0.5))
 
 
 def _as_seen(bodies: Sequence[RoughBody], speed: float) -> Sequence[RoughBody]:
