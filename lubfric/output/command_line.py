@@ -113,7 +113,7 @@ def init(arguments: Namespace) -> None:
     from ..scene import write_template
 
     write_template(arguments.file)
-    say(f"wrote {arguments.file}; 'lubfric info {arguments.file}' says what it means, 'lubfric run' computes it")
+    say(f"wrote {arguments.file}; 'lubfric info {arguments.file}' explains it, 'lubfric run' computes it")
 
 
 def oils(_: Namespace) -> None:

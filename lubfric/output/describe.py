@@ -197,22 +197,24 @@ def _model(
     elif why:
         rows = [f"load-sharing model alone: {why}; its model-form error is not known and not in the interval"]
     elif not resolved and strip > MOST_WORK:
-        rows = ["deterministic model on long cells, calibrated: on its usual cells it would take too long"]
+        rows = [
+            "quick answer (deterministic model on long cells, calibrated): on its usual cells it would take too long"
+        ]
     elif not resolved:
         rows = ["load-sharing model alone: the film is thick or the surfaces are smooth, and both models agree"]
     else:
         ends = dict.fromkeys(f"{speed:.3g}" for speed in (resolved[0], resolved[-1]))
-        to = f"to {100 * scene.numerics.model_tolerance:g} % of f"
+        to = f"with a target of {100 * scene.numerics.model_tolerance:g} % for the model-form error"
         rows = [
-            f"{DETERMINISTIC[bool(strip)]} at {' to '.join(ends)} m/s, {to}; the load-sharing model alone elsewhere, and where "
-            "heat changes f by more than a fifth or the film by more than three tenths"
+            f"{DETERMINISTIC[bool(strip)]} at {' to '.join(ends)} m/s, {to}; elsewhere the load-sharing model, and "
+            "the quick answer where heat changes f by more than a fifth or the film by more than three tenths"
         ]
     if strip:
         takes = f"one strip of moving roughness takes about {in_words(strip)} by the deterministic model"
         if not any(model.includes_motion for model in candidates(name)):
             takes = f"moving roughness is treated as stationary; {takes}"
         if name == AUTO:
-            takes += f"; where it takes more than {MOST_WORK:g} s, the quick answer on long cells replaces it"
+            takes += f"; where it takes more than {MOST_WORK:g} s, the quick answer replaces it"
         rows.append(takes)
     many = len(ratios) or len(moving)
     return rows, sum(one.seconds for one in forecasts) * many / len(forecasts) if forecasts else 0.0
@@ -261,7 +263,7 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
     steady = scene.transient is None
     sampled = steady and sample.is_resolved
     table: list[tuple[str, ...]] = [("U [m/s]", "M", "L", "film [nm]", "lambda ratio", "asperity contact")]
-    table[0] += ("strips", "deterministic", "length [mm]", "time [s]") * sampled
+    table[0] += ("strips", "of them deterministic", "length of line [mm]", "time [s]") * sampled
     own = (scene.motion.entrainment_speed,) if steady else ()
     for speed in sorted({*speeds[:: max(1, len(speeds) // SHOWN)], *own, speeds[-1]}):
         one = forecast(scene, sample, surface, speed)
@@ -271,7 +273,12 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
             ratio = line.expected_film / surface.sq if surface.sq > 0 else math.inf
             numbers = f"{line.M:.3g}", f"{line.L:.3g}", f"{line.expected_film * 1e9:.4g}", f"{ratio:.3g}"
             film = *numbers, ASPERITIES[one.touching]
-        counts = f"{one.strips}", f"{one.resolved}", f"{1e3 * one.length:.2g}".replace("nan", "-"), f"{one.seconds:.1g}"
+        counts = (
+            f"{one.strips}",
+            f"{one.resolved}",
+            f"{1e3 * one.length:.2g}".replace("nan", "-"),
+            f"{float(f'{one.seconds:.1g}'):g}",
+        )
         table.append((f"{speed:.4g}", *film, *counts * sampled))
     return table
 

@@ -204,6 +204,8 @@ def run_fit(arguments: Namespace) -> None:
     for name in ("measured", "coefficient"):
         if getattr(arguments, name) is None:
             raise InputError(f"lubfric fit needs --{name}, the measured curve with the heading of its coefficients")
+    if (arguments.speed is None) == (arguments.ratio is None):
+        raise InputError("a measured curve is over one quantity; give --speed or --ratio, the heading of its column")
     scene = scene_of(arguments)
     check_outputs(arguments, arguments.out, ("fitted.toml", "fit.png", "fit.json"))
     scene.to_toml()  # raises InputError now, rather than after the fit

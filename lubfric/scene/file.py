@@ -75,6 +75,8 @@ def read_toml(path: Path | Traversable, what: str) -> dict[str, Any]:
                 f"{what} {validate.shown(str(path))} has {size:.3g} bytes; allowed: up to {MOST_BYTES:.3g}"
             )
         return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except FileNotFoundError:
+        raise InputError(f"{what} {validate.shown(str(path))}: no such file") from None
     except (UnicodeDecodeError, OSError) as error:
         raise InputError(f"{what} {validate.shown(str(path))} cannot be read as UTF-8 text: {error}") from None
     except InputError:

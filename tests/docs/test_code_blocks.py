@@ -105,6 +105,28 @@ def test_lubfric_command_lines_run(page, tmp_path, monkeypatch, capfd):
         assert quoted in output, f"{page.name} quotes what no command prints: {quoted}"
 
 
+QUOTED = re.compile(r"f = ([\d.]+) \(([\d.]+) to ([\d.]+) at 95 %\)")
+
+
+def test_the_numbers_of_the_first_page_are_those_of_today(tmp_path):
+    """The quick answer of job 1, which the page quotes, is solved; the deterministic one, of a minute, is compared with
+    it, and solved by `test_lubfric_command_lines_run`."""
+    page = ROOT / "docs" / "start.md"
+    text = page.read_text(encoding="utf-8")
+    (block,) = quoted_outputs(page)
+    by_default, quick = (tuple(map(float, m.groups())) for m in QUOTED.finditer(text.replace("\n", " ")))
+    assert block.startswith(f"f = {by_default[0]:g} ({by_default[1]:g} to {by_default[2]:g} at 95 %)")
+    assert f"between {by_default[1]:g} and {by_default[2]:g} with 95 % confidence" in text.replace("\n", " ")
+    (tmp_path / "bearing.toml").write_text(files(page)["bearing.toml"], encoding="utf-8")
+    scene = lubfric.load_scene(tmp_path / "bearing.toml").with_(numerics={"model": "quick"})
+    point = lubfric.friction(scene)
+    assert f"at {scene.motion.entrainment_speed:g} m/s" in text.partition("model-form error:")[2][:60]
+    assert quick[0] == pytest.approx(point.coefficient, rel=0.03)
+    assert quick[1:] == pytest.approx(point.uncertainty.interval, rel=0.1)
+    below, above = point.uncertainty.model_sides
+    assert point.coefficient * (1 - below) < by_default[0] < point.coefficient * (1 + above)
+
+
 def test_the_first_page_leads_to_a_curve_of_ones_own(tmp_path, monkeypatch):
     """`lubfric init`, the oil and the map of the page put in by hand: f with an interval."""
     monkeypatch.chdir(tmp_path)

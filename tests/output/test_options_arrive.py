@@ -38,7 +38,7 @@ def work(tmp_path, monkeypatch):
 
     for name in ("stribeck", "traction", "fit", "study"):
         monkeypatch.setattr(studies, name, solver)
-    monkeypatch.setattr(run_history, "transient", solver)
+    monkeypatch.setattr(run_history, "run_in_time", solver)
     monkeypatch.chdir(tmp_path)
     return SimpleNamespace(folder=tmp_path, calls=calls)
 

@@ -127,7 +127,7 @@ def test_another_surface_keeps_its_own_grid(tmp_path):
 @pytest.mark.parametrize(
     "changes, words",
     [
-        ({"spacing": 0.4}, ["rms slope", "both in m"]),
+        ({"spacing": 0.4}, ["rms slope", "check the unit of the heights"]),
         ({"spacing": 9e-6}, ["contact.spacing", "half-width"]),
         ({"shape": (8, 200), "spacing": 0.9e-6}, ["Hertz strip"]),
     ],
