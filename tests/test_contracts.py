@@ -9,7 +9,7 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
 from lubfric.errors import CONVERGED, Report
-from lubfric.models import MODELS, DeterministicModel, Model, ModelAnswer, PaperModel, SampleSolution
+from lubfric.models import MODELS, DeterministicModel, Model, ModelAnswer, PaperModel, QuickModel, SampleSolution
 from lubfric.models.shared import Decision, StandardError
 from lubfric.output import describe_scene, main
 from lubfric.quantities import CHOICES
@@ -105,7 +105,7 @@ class TestSample:
 
 
 class TestModel:
-    @pytest.mark.parametrize("model", [PaperModel(), DeterministicModel()], ids=lambda model: model.name)
+    @pytest.mark.parametrize("model", [PaperModel(), QuickModel(), DeterministicModel()], ids=lambda model: model.name)
     def test_a_solution_says_all_that_the_estimate_asks(self, model):
         prepared = lubfric.prepare(PAPER)
         count = model.first_strips(prepared.sample)

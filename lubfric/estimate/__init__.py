@@ -10,10 +10,10 @@ The way of a point, in the order of the modules:
    lambda ratio and papers.
 
 `outlook` estimates beforehand what a point will take. Nothing here knows how a model solves: the contract is
-`lubfric.models.contract`, and a test holds that no module imports a model.
+`lubfric.models.contract`, and a test holds that no module imports a model at run time.
 """
 
-from .friction import LEAST_WORK, TIMES_ESTIMATE, friction
+from .friction import LEAST_LIMIT, TIMES_ESTIMATE, friction
 from .full_load import full_load_numbers
 from .methods import MethodUse, methods_of
 from .outlook import Forecast, forecast

@@ -20,7 +20,7 @@ from .result import FrictionResult
 TIMES_ESTIMATE = 10.0
 
 # Least counted work [s] that a point may take where numerics.max_work does not say.
-LEAST_WORK = 120.0
+LEAST_LIMIT = 120.0
 
 
 @releasing_memory
@@ -37,11 +37,11 @@ def friction(
 ) -> FrictionResult:
     """Return the friction coefficient of a scene at one entrainment speed, with its uncertainty.
 
-    A sample of the rough surface represents the infinite line contact: strips of it, solved by a model until the sampling error
-    is within its tolerance. The models are the load-sharing model, in which film and rough contact share one load by
-    Eq. (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z), with the friction of the paper, and the deterministic
-    model, which solves the film between the rough surfaces, on long cells with a calibrated error or on short ones. By default the cheapest one answers
-    whose model-form error is within ``numerics.model_tolerance`` (docs/models.md). Without entrainment the contact
+    A sample of the rough surface represents the infinite line contact: strips of it, solved by a model until the
+    sampling error is within its tolerance. The models are the load-sharing model, in which film and rough contact share
+    one load by Eq. (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z), with the friction of the paper, and the
+    deterministic model, which solves the film between the rough surfaces, on long cells with a calibrated error or on
+    short ones. By default the cheapest one answers whose model-form error is within ``numerics.model_tolerance`` (docs/models.md). Without entrainment the contact
     carries the total load. Where the film is thicker than the highest asperities, no contact is solved.
 
     Parameters
@@ -50,10 +50,11 @@ def friction(
     speed : entrainment speed U [m/s]; None: the scene's own
     tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need (docs/levels.md)
     model : "paper", Eqs. (8) and (9); "quick", the deterministic model on long cells with a calibrated error;
-        "deterministic"; or "auto": the cheapest that is good enough; None: the scene's. Or a `lubfric.models.Model` of your own
-    fields : True: by load sharing, a single patch is solved on its own cells, so that ``result.fields`` are on them.
-        Strips, and the deterministic model, keep the cells that the tolerance needs; "fine": a part of the surface is solved once more, on some 40 cells across the Hertz strip, for
-        ``result.fields``
+        "deterministic"; or "auto": the cheapest that is good enough; None: the scene's. Or a `lubfric.models.Model` of
+        your own
+    fields : on which cells ``result.fields`` are. False: on those that the tolerance needs; True: on native ones, where
+        one patch is solved by load sharing, else as False; "fine": a part of the surface is solved once more, on some
+        40 cells across the Hertz strip
     raise_on_failure : False: return a result even if unbalanced or refused. A failed film or contact still raises
     workers : processes that solve strips of the surface and ends of input ranges side by side, where there are
         several. The numbers do not depend on it. A script that requests more than one needs ``if __name__ ==
@@ -95,4 +96,4 @@ def most_work(prepared: Prepared, speed: float) -> float:
     scene = prepared.scene
     if scene.numerics.max_work is not None:
         return scene.numerics.max_work
-    return max(LEAST_WORK, TIMES_ESTIMATE * forecast(scene, prepared.sample, prepared.surface, speed).seconds)
+    return max(LEAST_LIMIT, TIMES_ESTIMATE * forecast(scene, prepared.sample, prepared.surface, speed).seconds)

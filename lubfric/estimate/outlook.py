@@ -20,10 +20,10 @@ class Forecast:
     error : relative standard error of f after the first strips of the cheapest model
     strips : number of its strips that ``numerics.sampling_tolerance`` needs
     length : of these strips [m]
-    resolved : number of strips by the model that moves roughness (`lubfric.models.Model.moves_roughness`); 0: it is
+    long_point_strips : number of strips by the model of long points (`lubfric.models.Model.has_long_points`); 0: it is
         not asked
     seconds : processor time [s]
-    moving : processor time [s] of one strip by that model if its roughness moves; 0 where it does not, or has little
+    long_strip_seconds : processor time [s] of one strip by that model if its roughness moves; 0 where it does not, or has little
         effect
     """
 
@@ -32,9 +32,9 @@ class Forecast:
     error: float
     strips: int
     length: float
-    resolved: int
+    long_point_strips: int
     seconds: float
-    moving: float = 0.0
+    long_strip_seconds: float = 0.0
 
 
 def forecast(scene: Scene, sample: Sample, surface: Surface, speed: float) -> Forecast:
@@ -50,14 +50,14 @@ def forecast(scene: Scene, sample: Sample, surface: Surface, speed: float) -> Fo
     # is good enough
     enough = [k for k in range(last) if estimates[k].model_error <= scene.numerics.model_tolerance]
     solved = range(min(enough, default=last) + 1) if scene.numerics.model == AUTO else {0, last}
-    moving = [k for k, model in enumerate(models) if model.moves_roughness]
+    with_long_points = [k for k, model in enumerate(models) if model.has_long_points]
     return Forecast(
         speed=speed,
         touching=cheapest.touching,
         error=cheapest.sampling,
         strips=cheapest.strips,
         length=cheapest.length,
-        resolved=max((estimates[k].strips for k in moving if k in solved), default=0),
+        long_point_strips=max((estimates[k].strips for k in with_long_points if k in solved), default=0),
         seconds=sum(estimates[k].seconds for k in solved),
-        moving=max((estimates[k].strip_seconds for k in moving), default=0.0),
+        long_strip_seconds=max((estimates[k].strip_seconds for k in with_long_points), default=0.0),
     )

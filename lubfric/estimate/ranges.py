@@ -33,7 +33,7 @@ def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tupl
             load_ratio = answer.numbers["contact_load"] / scene.bodies.load
             slope = load_ratio * (scene.motion.slide_roll_ratio != 0)
             changes[name] = tuple(slope * (value_of(end, name) - value_of(scene, name)) for end in ends)
-        elif name == HARDNESS and not prepared.own:
+        elif name == HARDNESS and not prepared.has_own_contact:
             changes[name] = "the contact is not lubfric's own"
         elif answer.at_inputs is None:
             changes[name] = "the model does not solve its ends"

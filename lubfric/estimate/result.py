@@ -82,12 +82,13 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
 
     @property
     def balance(self) -> Balance | None:
-        """The balance of film and contact by Eq. (8), if "paper" gives the answer, or was compared with it."""
+        """The balance of film and contact by Eq. (8): of "paper", and of what answers beside it or by Eq. (9); else
+        None."""
         return cast("Balance | None", self._kept("balance"))
 
     @property
     def deterministic(self) -> DeterministicResult | None:
-        """What the deterministic model solved, if it gives the answer."""
+        """What deterministic strips gave, where they give the answer: of "deterministic" and of "quick"; else None."""
         return cast("DeterministicResult | None", self._kept("deterministic"))
 
     def _kept(self, kind: str) -> ModelDetails | None:
@@ -116,7 +117,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
 
     @property
     def pressure(self) -> np.ndarray:
-        """Pressure of the rough contact [Pa], (nx, ny); 0 where it is separated."""
+        """Pressure [Pa], (nx, ny): of the asperity contacts by "paper", else of film and contact together."""
         return self._field("pressure")
 
     @property

@@ -105,7 +105,7 @@ class ModelAnswer:
     notes : what a reader should know of these errors
     report, decision : of the solve; what was modelled
     warnings : limits of the model that are exceeded
-    recommendation : what makes the numerical error smaller
+    recommendation : what to do where the numerical error exceeds the tolerance
     fields : of the solve; None if there are none
     fine_fields : solves a part of the surface again on cells fine enough to look at; None: ``fields`` are all there is
     details : what the model keeps of its solve, for those who know it
@@ -163,12 +163,13 @@ class WorkEstimate:
 
 
 class SampleSolution(ABC):
-    """The first ``count`` strips of a sample, solved by a model. Means over them are the answer.
+    """The first ``count`` strips of a sample, solved by a model. Means over them are the answer. A solution may solve
+    more when it is asked for its answer.
 
     Attributes
     ----------
     prepared, sample, count, speed : what was solved, at an entrainment speed [m/s]
-    sampling_error : relative standard error of f because the sample is finite
+    sampling_error : the error that decides on more strips
     """
 
     prepared: Prepared
@@ -179,7 +180,8 @@ class SampleSolution(ABC):
     @property
     @abstractmethod
     def sampling_error(self) -> StandardError:
-        """The relative standard error of f because the sample is finite."""
+        """The relative standard error of f, because the sample is finite, by which more strips are requested; that of
+        the answer is `ModelAnswer.sampling`."""
 
     @abstractmethod
     def answer(self) -> ModelAnswer:
@@ -262,11 +264,11 @@ class Model(ABC):
     @property
     def includes_motion(self) -> bool:
         """Whether f, or its model-form error, includes that roughness moves through the contact."""
-        return self.moves_roughness
+        return False
 
     @property
-    def moves_roughness(self) -> bool:
-        """Whether it solves moving roughness moment by moment, so that a point takes long."""
+    def has_long_points(self) -> bool:
+        """Whether a strip of moving roughness takes so long that its time is estimated, and shown, by itself."""
         return False
 
     def first_strips(self, sample: Sample) -> int:

@@ -47,7 +47,7 @@ def prepare(
     """
     validate.instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
     maps = _given(scene, surface, counterface)
-    check_by_model(scene, is_joint=len(maps) == 1 or isinstance(like, Prepared) and like.joint)
+    check_by_model(scene, is_joint=len(maps) == 1 or isinstance(like, Prepared) and like.is_joint)
     if like is not None:
         validate.instance("like", like, Prepared, "what lubfric.prepare returned")
         _check_likeness(scene, like.scene, maps, contact)
@@ -56,7 +56,7 @@ def prepare(
             prepared.memo.keep_surface_of(like.memo)
             return prepared
         maps = (like.surface, *like.sample.bodies) if like.given else ()
-        contact = None if like.own else like.contact
+        contact = None if like.has_own_contact else like.contact
     with warn_unusual_values(scene):
         sample = sample_of(scene, maps, contact=contact)
         return _on_sample(scene, sample, is_given=bool(maps) or contact is not None)

@@ -54,8 +54,8 @@ class Lubricant(Shown):
         None: Newtonian
     carreau : [G [Pa], n [-]], critical stress and exponent of Carreau's law, 0.1 <= n < 1, in place of Eyring's; None
     limiting_stress_coefficient : Lambda > 0 [-]: |tau| <= tau_0 + Lambda p (Bair & Winer 1979,
-        doi:10.1115/1.3453342, typically 0.03-0.1); None: no limit; "f_b": Newtonian up to f_b p, as both models take it
-        without a limit, and known to be so: f is not held to depend on the limits of oils
+        doi:10.1115/1.3453342, typically 0.03-0.1); None: no limit; "f_b": Newtonian up to f_b p, as the deterministic
+        model takes it without a limit, and known to be so: f is not held to depend on the limits of oils
     limiting_stress_offset : tau_0 >= 0 [Pa], the limit at ambient pressure (about 1-5 MPa)
     temperature : T0 [K] at which all of this holds, and temperature_coefficient : beta = -d ln(eta)/dT >= 0 there at
         ambient pressure [1/K]; None: the heat of the film is not known

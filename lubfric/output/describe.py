@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import InputError
 from ..estimate import forecast
 from ..models import AUTO, candidates, model_named
-from ..models.deterministic import MOST_WORK
+from ..models.deterministic import MOST_WORK_IN_AUTO
 from ..models.shared import (
     ExpectedEffect,
     Validity,
@@ -190,13 +190,13 @@ def _model(
     if len(ratios):
         points = [(scene.with_(motion={"slide_roll_ratio": ratio}), speeds[0]) for ratio in ratios]
     forecasts = [forecast(at, sample, surface, speed) for at, speed in points]
-    resolved = [one.speed for one in forecasts if one.resolved]
-    strip = max((one.moving for one in forecasts), default=0.0)
+    resolved = [one.speed for one in forecasts if one.long_point_strips]
+    strip = max((one.long_strip_seconds for one in forecasts), default=0.0)
     if name != AUTO:
         rows = [model_named(name).described(scene)]
     elif why:
         rows = [f"load-sharing model alone: {why}; its model-form error is not known and not in the interval"]
-    elif not resolved and strip > MOST_WORK:
+    elif not resolved and strip > MOST_WORK_IN_AUTO:
         rows = [
             "quick answer (deterministic model on long cells, calibrated): on its usual cells it would take too long"
         ]
@@ -214,7 +214,7 @@ def _model(
         if not any(model.includes_motion for model in candidates(name)):
             takes = f"moving roughness is treated as stationary; {takes}"
         if name == AUTO:
-            takes += f"; where it takes more than {MOST_WORK:g} s, the quick answer replaces it"
+            takes += f"; where it takes more than {MOST_WORK_IN_AUTO:g} s, the quick answer replaces it"
         rows.append(takes)
     many = len(ratios) or len(moving)
     return rows, sum(one.seconds for one in forecasts) * many / len(forecasts) if forecasts else 0.0
@@ -275,7 +275,7 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
             film = *numbers, ASPERITIES[one.touching]
         counts = (
             f"{one.strips}",
-            f"{one.resolved}",
+            f"{one.long_point_strips}",
             f"{1e3 * one.length:.2g}".replace("nan", "-"),
             f"{float(f'{one.seconds:.1g}'):g}",
         )

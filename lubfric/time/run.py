@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from .._base import limited_work, unlimited_work, with_default_errors
 from ..errors import InputError, WorkLimitError
-from ..estimate import LEAST_WORK, TIMES_ESTIMATE
+from ..estimate import LEAST_LIMIT, TIMES_ESTIMATE
 from ..models.deterministic import State
 from ..models.shared import (
     Prepared,
@@ -127,7 +127,7 @@ def run_in_time(
     key = fingerprint_without_files(replace(model.prepared, scene=unlimited), plan, times)
     if math.isinf(limit):
         seconds = estimated_run(model.scene, model.prepared.sample, model.prepared.surface).seconds
-        limit = max(LEAST_WORK, TIMES_ESTIMATE * seconds)
+        limit = max(LEAST_LIMIT, TIMES_ESTIMATE * seconds)
     with opened(checkpoint, CLASSES, "checkpoint") as store:
         progress, outputs, ended = _marched(
             model, start.state, course, store, key, on_step, most_work=limit - begun.spent

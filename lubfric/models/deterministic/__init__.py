@@ -3,7 +3,7 @@
 from .answer import answer_of
 from .estimated_work import work_on_strips
 from .flow import derivatives, mass_balance
-from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, too_hot, warmed
+from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
 from .levels import DIFFERENCE, Levels, levels_of, mean, two_levels
 from .linear import System, gmres, nested_dissection
 from .model import DeterministicModel, DeterministicSolution
@@ -31,13 +31,13 @@ from .result import DeterministicResult, assemble
 from .rheology import mean_fluidity, thinning
 from .rough_bodies import (
     HARDNESS,
-    MOST_WORK,
+    MOST_WORK_IN_AUTO,
     bodies_of,
     maps_of,
     moving_point_work,
     strip_surface,
     summit_control,
-    too_costly,
+    why_too_costly,
 )
 from .shorter_cells import SHORT
 from .solve import dry_contact, solve_point

@@ -31,7 +31,7 @@ from ..shared import (
     warn_pressure,
     warn_thickness,
 )
-from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, too_hot, warmed
+from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
 from .levels import Levels, mean
 from .moving_strip import MovingStrip, continued_strip
 from .result import DeterministicResult
@@ -316,7 +316,7 @@ def _entries(
             remedy=remedy,
         )
     yield from warn_heat(scene, heat)
-    if why := too_hot(heat):
+    if why := why_too_hot(heat):
         parts = (1 - heat.film_factor) / (1 - LEAST_FILM), heat.change / MOST_CHANGE
         yield Validity(
             what="heat over the most that was checked",

@@ -7,11 +7,11 @@ from ...samples import Sample
 from ...scene import FRICTION, Scene, moves, why_gap_not_resolved
 from ...surface import Surface
 from ..contract import WorkEstimate
-from ..shared import ORDER, SAFETY, peak_hertz_pressure, smooth_over_cells, student
+from ..shared import FREEDOM_NOT_COUNTED, SAFETY, peak_hertz_pressure, smooth_over_cells, student
 from .counted_work import work_of_steps
 from .levels import DIFFERENCE
 from .problem import reach
-from .rough_bodies import MOST_WORK, moving_point_work
+from .rough_bodies import MOST_WORK_IN_AUTO, moving_point_work
 from .shorter_cells import SHORT
 from .strip_on_two_grids import cells_of
 
@@ -69,12 +69,14 @@ def estimated_work(
         return NOTHING
     if cheaper is not None and math.isfinite(cheaper.sampling):
         scatter = cheaper.sampling * math.sqrt(sample.first)
-    allowed = math.hypot(DIFFERENCE * numerics.model_tolerance / student(ORDER), numerics.sampling_tolerance)
+    allowed = math.hypot(
+        DIFFERENCE * numerics.model_tolerance / student(FREEDOM_NOT_COUNTED), numerics.sampling_tolerance
+    )
     count = min(max(1, math.ceil(SAFETY * (UNLIKE * scatter / allowed) ** 2)), sample.available)
     if moves(scene):
-        if one_strip > MOST_WORK and numerics.model == "auto":
+        if one_strip > MOST_WORK_IN_AUTO and numerics.model == "auto":
             return WorkEstimate(strips=0, seconds=0.0, strip_seconds=one_strip)
-        count = min(count, max(1, int(MOST_WORK / one_strip)))  # no more are solved
+        count = min(count, max(1, int(MOST_WORK_IN_AUTO / one_strip)))  # no more are solved
         return WorkEstimate(strips=count, seconds=IN_MOTION * count * one_strip, strip_seconds=one_strip)
     ends = 2 * sum(name != FRICTION for name, *_ in scene.ranges)
     is_smooth = smooth_over_cells(surface.heights)

@@ -60,7 +60,7 @@ def warmed(scene: Scene, numbers: dict[str, float], heat: Heat) -> dict[str, flo
     }
 
 
-def too_hot(heat: Heat) -> str:
+def why_too_hot(heat: Heat) -> str:
     """Return why ``heat`` is more than was checked for the deterministic model, as text; "" if it is not."""
     factor = heat.film_factor
     change = heat.change

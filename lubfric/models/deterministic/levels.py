@@ -1,8 +1,8 @@
 """Friction of an infinite line contact by the deterministic model, as a sum over levels of cost.
 
-    f = mean over strips (f deterministic - difference of that strip from a line of Eq. (8))      a few strips
-      + mean over pieces (f on cells half as long - f)                                            fewer, half as long
-      + the same once more, from these cells on                                           one, a sixth as long
+    f = mean over strips (f deterministic - difference of that strip from a line of Eq. (8))    a few strips
+      * mean f on cells half as long / mean f on the cells of the strips        fewer pieces, half as long as a strip
+      * the same once more, from these cells on                                 one piece, a sixth as long
 
 The line is the first level: its many strips show what is chance of the few
 (`lubfric.models.load_sharing.control_variate`). These are few where both models scatter alike, as they do about
@@ -83,8 +83,8 @@ GROWTH = (4.0, 2.0)
 # Factor on the strips that an error needs, and least growth [-] (`required_strips`).
 SPARE = (1.1, 1.2)
 
-# Counted work of the strips of one point [s], at most: `rough_bodies.MOST_WORK`, from which "auto" declines.
-MOST_WORK = 120.0
+# Counted work of the strips of one point [s], at most: `rough_bodies.MOST_WORK_IN_AUTO`, from which "auto" declines.
+MOST_WORK_OF_STRIPS = 120.0
 
 # Strips whose scatter tells an error [-]: two degrees of freedom. A convention.
 FEWEST = 3
@@ -169,11 +169,11 @@ def two_levels(
 
     Strips are needed until the standard error of f is within ``numerics.sampling_tolerance``. With the first level, the
     difference of the models may leave a half-width of `DIFFERENCE` times ``numerics.model_tolerance`` beside it. No
-    more are wanted than `MOST_WORK` allows. ``numerics``: whose tolerances count (None: those of the scene).
+    more are wanted than `MOST_WORK_OF_STRIPS` allows. ``numerics``: whose tolerances count (None: those of the scene).
     """
     numerics = prepared.scene.numerics if numerics is None else numerics
     load = prepared.scene.bodies.load
-    most = max(1, min(prepared.sample.available, int(MOST_WORK / pairs[0].resolved.work)))
+    most = max(1, min(prepared.sample.available, int(MOST_WORK_OF_STRIPS / pairs[0].resolved.work)))
     moving = [pair.resolved for pair in pairs if isinstance(pair.resolved, MovingStrip)]
     if moving:
         estimate = _of_moving(prepared, pairs, moving)

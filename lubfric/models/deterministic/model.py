@@ -12,9 +12,9 @@ from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
 from ..shared import ControlVariate, ExpectedWarnings, Prepared, StandardError, expected_on_hertz, why_no_rough_film
 from .answer import answer_of
 from .estimated_work import estimated_work
-from .heat import too_hot
+from .heat import why_too_hot
 from .levels import Levels, TwoLevelEstimate, levels_of, solve_strips, two_levels
-from .rough_bodies import too_costly
+from .rough_bodies import why_too_costly
 from .strip_on_two_grids import StripOnTwoGrids, cells_of
 
 
@@ -63,7 +63,11 @@ class DeterministicModel(Model):
         return "deterministic"
 
     @property
-    def moves_roughness(self) -> bool:
+    def has_long_points(self) -> bool:
+        return True
+
+    @property
+    def includes_motion(self) -> bool:
         return True
 
     def check(self, scene: Scene, *, is_joint: bool) -> None:
@@ -116,7 +120,8 @@ class DeterministicModel(Model):
 
     def why_declined(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
         heat = cheaper.heat()
-        why = why_gap_not_resolved(prepared.scene, is_joint=prepared.joint) or ("" if heat is None else too_hot(heat))
+        why = why_gap_not_resolved(prepared.scene, is_joint=prepared.is_joint)
+        why = why or ("" if heat is None else why_too_hot(heat))
         if why:
             return f"load sharing alone: {why}"
-        return too_costly(prepared, speed, cells_of(prepared.scene, prepared.sample))
+        return why_too_costly(prepared, speed, cells_of(prepared.scene, prepared.sample))

@@ -24,7 +24,9 @@ from .problem import (
 from .summits import SummitControl, control_of
 
 HARDNESS = "bodies.hardness"
-MOST_WORK = 120.0  # s, counted: a point whose estimate is above it is left to load sharing by "auto" (docs/models.md)
+MOST_WORK_IN_AUTO = (
+    120.0  # s, counted: a point whose estimate is above it is left to load sharing by "auto" (docs/models.md)
+)
 
 # Strips over which the control of moving roughness is averaged, at most: its error is a seventh of their scatter.
 CONTROL_STRIPS = 48
@@ -58,7 +60,7 @@ def maps_of(prepared: Prepared, index: int) -> dict[str, Surface]:
     """Return the map of each rough body on strip ``index``, by its section."""
     moving = [name for name, _ in moving_bodies(prepared.scene)]
     sample = prepared.sample
-    if len(moving) < 2 or prepared.joint:  # of a joint map all is that of surface 1
+    if len(moving) < 2 or prepared.is_joint:  # of a joint map all is that of surface 1
         return dict.fromkeys(moving[:1], strip_surface(prepared, index))
     return {name: sample.of_body(k).strip(index) for k, name in enumerate(moving)}
 
@@ -92,14 +94,14 @@ def moving_point_work(scene: Scene, sample: Sample, sq: float, speed: float, fac
     return moving_work(line, sq, fx * dx, fastest, sample.cells.columns * dx, cells, continuations)
 
 
-def too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -> str:
+def why_too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -> str:
     """Return why "auto" leaves moving roughness to load sharing; "" if it does not."""
     scene = prepared.scene
     sample = prepared.sample
     work = moving_point_work(scene, sample, prepared.surface.sq, speed, factors) if moves(scene) else 0.0
-    if work <= MOST_WORK:
+    if work <= MOST_WORK_IN_AUTO:
         return ""
     return (
         "load sharing alone: the roughness moves, and one strip by the deterministic model would take about "
-        f"{work:.2g} s of processor time, more than {MOST_WORK:g} s; numerics.model = 'deterministic' asks for it"
+        f"{work:.2g} s of processor time, more than {MOST_WORK_IN_AUTO:g} s; numerics.model = 'deterministic' asks for it"
     )

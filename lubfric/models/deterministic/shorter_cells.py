@@ -27,7 +27,7 @@ from ..shared import (
 )
 from .moving_strip import MovingStrip
 from .rough_bodies import (
-    MOST_WORK,
+    MOST_WORK_IN_AUTO,
     map_of,
 )
 from .strip import (
@@ -100,7 +100,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     what the change from longer cells lets expect, and the last value is True. Raises `ConvergenceError` for a
     single patch only.
 
-    There is a fourth level where the third leaves more than ``numerics.tolerance``, and `MOST_WORK` allows it. What it
+    There is a fourth level where the third leaves more than ``numerics.tolerance``, and `MOST_WORK_IN_AUTO` allows it. What it
     estimates from one short piece may be off by half.
     """
     scene = prepared.scene
@@ -134,7 +134,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     short = (
         SHORTEST * sample.correlation_lengths[1] / (pieces[0][-1].result.load_at.size * pieces[0][-1].result.spacing[1])
     )
-    dear = spent + 4 * min(short, 1.0) * pieces[0][-1].work > MOST_WORK  # a short map is all of both pieces
+    dear = spent + 4 * min(short, 1.0) * pieces[0][-1].work > MOST_WORK_IN_AUTO  # a short map is all of both pieces
     if left <= scene.numerics.tolerance or halvings < 2 or dear:
         return pieces, (), error, left, False
     try:

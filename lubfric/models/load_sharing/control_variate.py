@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..shared import (
-    ORDER,
+    FREEDOM_NOT_COUNTED,
     ControlVariate,
     Prepared,
     StandardError,
@@ -54,7 +54,7 @@ def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlV
     places = of_strips(solved.forces.coefficient * friction_influence(prepared.scene, contact, solved))
     numbers = {"coefficient": places.mean(axis=1)}
     if response is None or response.rates is None:
-        return ControlVariate(places, numbers, StandardError(balanced.sampling, ORDER))
+        return ControlVariate(places, numbers, StandardError(balanced.sampling, FREEDOM_NOT_COUNTED))
     gap, loads = (of(contact, solved.contact) for of in (hertz_mean_gap, line_load))
     influence = gap_influence(gap, loads, response.slopes.gap)
     moved = response.log_load_ratio_per_gap * of_strips(influence).mean(axis=1)  # of ln(F_H/F_C)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from ...quantities import depending_on
 from ...scene import Scene, budget, moves, why_gap_not_resolved
-from ..shared import FEW, ORDER, TOO_SHORT, StandardError, error_by_heat, percent, too_few
+from ..shared import FEW, FREEDOM_NOT_COUNTED, TOO_SHORT, StandardError, error_by_heat, percent, too_few
 from .balance import Balance
 from .balanced_sample import BalancedSample
 from .error_of_eq8 import least_error, load_sharing_error, starved_error
@@ -51,7 +51,7 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
     forces = balance.forces
     scatter = balanced.scatter
     sampling = balanced.sampling
-    error = StandardError(0.0, ORDER)
+    error = StandardError(0.0, FREEDOM_NOT_COUNTED)
     why = "there was none, or too little to estimate it"
     if balance.film is None:
         # only areas scatter
@@ -120,7 +120,9 @@ def _numerical(balanced: BalancedSample) -> tuple[float, float, float, float]:
     return film, gap, forces.quadrature + forces.heat.left_out + by_area, effect.area_error + read
 
 
-def _contact_errors(scene: Scene, balanced: BalancedSample, film: float, gap: float, area: float) -> dict[str, float]:
+def _contact_errors(
+    scene: Scene, balanced: BalancedSample, film_error: float, gap_error: float, area_error: float
+) -> dict[str, float]:
     """Relative errors where film and contact share the load, by the names of `FrictionResult`: the root of the sum of
     squares of the standard error by the surface and of the estimated error by solvers and grids.
 
@@ -131,17 +133,17 @@ def _contact_errors(scene: Scene, balanced: BalancedSample, film: float, gap: fl
     response = balanced.response
     assert response is not None
     scattered = balanced.gap_error.error if math.isfinite(balanced.gap_error.error) else 0.0
-    gap = math.hypot(scattered, gap + film * balance.contact.mean_film)
-    errors = {name: response.relative(name, gap) for name in response.rates or ()}
+    gap_error = math.hypot(scattered, gap_error + film_error * balance.contact.mean_film)
+    errors = {name: response.relative(name, gap_error) for name in response.rates or ()}
     errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
-    for name, at_given_load in _given_load(balance.forces, film).items():
+    for name, at_given_load in _given_load(balance.forces, film_error).items():
         errors[name] = errors.get(name, 0.0) + at_given_load
     by_load = errors.get("contact_load", 0.0)
     for name, error in _area_errors(scene, balance, balanced.scatter).items():
-        errors[name] = math.hypot(by_load, error, area)
+        errors[name] = math.hypot(by_load, error, area_error)
     if balance.contact.plastic_area_fraction > 0:
         change = balanced.effect.plastic / balance.contact.plastic_area_fraction
-        counted = balanced.scatter.spots**-0.5 if balanced.scatter.spots else PLASTIC * math.hypot(by_load, area)
+        counted = balanced.scatter.spots**-0.5 if balanced.scatter.spots else PLASTIC * math.hypot(by_load, area_error)
         errors["plastic_area_fraction"] = math.hypot(counted, change)
     return errors
 
@@ -153,27 +155,27 @@ def _area_errors(scene: Scene, balance: Balance, scatter: Scatter) -> dict[str, 
     pairs = (fraction, scatter.area.error), (length, scatter.touched.error)
     finite = [(value, error if math.isfinite(error) else 0.0) for value, error in pairs]
     names = depending_on("area")
-    return {name: error / value if value > 0 else math.nan for name, (value, error) in zip(names, finite)}
+    return {name: error / value if value > 0 else math.nan for name, (value, error) in zip(names, finite, strict=True)}
 
 
-def _given_load(friction: Forces, film: float) -> dict[str, float]:
-    """Errors of what depends on a film at a given load, whose relative error is ``film``. Where the heat of the inlet
+def _given_load(forces: Forces, film_error: float) -> dict[str, float]:
+    """Errors of what depends on a film at a given load, whose relative error is ``film_error``. Where the heat of the inlet
     is omitted, its factor is off by what is known of it; a temperature rise that was omitted has no error (NaN)."""
-    heat = friction.heat
-    of_heat = dict.fromkeys(depending_on("heat"), film if heat.heated else math.nan)
-    of_heat["inlet_film_factor"] = math.nan if heat.inlet is None else film + heat.film_factor - heat.inlet.factor
-    return dict.fromkeys(depending_on("film"), film) | of_heat | _shear_errors(friction, film)
+    heat = forces.heat
+    of_heat = dict.fromkeys(depending_on("heat"), film_error if heat.heated else math.nan)
+    of_heat["inlet_film_factor"] = math.nan if heat.inlet is None else film_error + heat.film_factor - heat.inlet.factor
+    return dict.fromkeys(depending_on("film"), film_error) | of_heat | _shear_errors(forces, film_error)
 
 
-def _shear_errors(friction: Forces, film: float) -> dict[str, float]:
-    """Relative errors of the film's friction and its parts, by the relative error ``film`` of the film and by the sums
+def _shear_errors(forces: Forces, film_error: float) -> dict[str, float]:
+    """Relative errors of the film's friction and its parts, by the relative error ``film_error`` of the film and by the sums
     over its nodes. The rolling part is a small difference of large numbers, so its error is large."""
-    shear = friction.shear
-    rolling = film * max(abs(shear.rolling), shear.rolling_parts)
-    heat = friction.heat.left_out * friction.total
+    shear = forces.shear
+    rolling = film_error * max(abs(shear.rolling), shear.rolling_parts)
+    heat = forces.heat.left_out * forces.total
     parts = {
-        "shear_force": (shear.total, film * abs(shear.couette) + rolling + heat),
-        "couette_force": (shear.couette, film * abs(shear.couette) + heat),
+        "shear_force": (shear.total, film_error * abs(shear.couette) + rolling + heat),
+        "couette_force": (shear.couette, film_error * abs(shear.couette) + heat),
         "rolling_force": (shear.rolling, rolling),
         "rolling_resistance": (shear.rolling, rolling),
     }

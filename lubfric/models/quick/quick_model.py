@@ -357,7 +357,7 @@ class QuickModel(Model):
         return rolling_model_error(lambda_ratio)
 
     def why_unable(self, prepared: Prepared, speed: float) -> str:
-        return why_no_rough_film(prepared, speed) or why_gap_not_resolved(prepared.scene, is_joint=prepared.joint)
+        return why_no_rough_film(prepared, speed) or why_gap_not_resolved(prepared.scene, is_joint=prepared.is_joint)
 
     def adopt(self, cheaper: SampleSolution) -> QuickSolution | None:
         return _beside(cheaper) if isinstance(cheaper, PaperSolution) else None

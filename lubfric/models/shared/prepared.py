@@ -46,12 +46,12 @@ class Prepared(FieldsOnly, Shown):
     given: bool = False
 
     @property
-    def own(self) -> bool:
+    def has_own_contact(self) -> bool:
         """Whether the rough contact is one of lubfric's own."""
         return isinstance(self.contact, OWN)
 
     @property
-    def joint(self) -> bool:
+    def is_joint(self) -> bool:
         """Whether one map was given for all bodies, and nobody knows what of it is whose."""
         return self.given and not self.sample.bodies
 
@@ -74,7 +74,10 @@ def why_no_rough_film(prepared: Prepared, speed: float) -> str:
 
 
 def contact_on(prepared: Prepared, sample: Sample, count: int) -> RoughContact:
-    """Return the contact on the first ``count`` strips of ``sample``; of an unresolved one the only contact."""
+    """Return the contact on the first ``count`` strips of ``sample``; of an unresolved one the only contact.
+
+    ``sample``: that of ``prepared``, on any cells; the memo knows its cells and the number of strips, and no more.
+    """
 
     def make() -> RoughContact:
         return contact_of(prepared, sample, count, prepared.scene)

@@ -46,7 +46,7 @@ GROWTH = 4.0, 8.0
 CONFIDENCE = 0.95
 
 # Degrees of freedom of an error that is not counted from blocks: Student's t is then 2.04 for 1.96.
-ORDER = 30
+FREEDOM_NOT_COUNTED = 30
 
 # Effective asperity contacts below which an interval covers less often than it states: 91.5 % at 55 N
 # (docs/measurements.md, `python -m verification sampling`).
@@ -123,25 +123,32 @@ def required_strips(
     available: int,
     error: StandardError,
     target: float,
-    enough: float = 0.0,
+    at_least: float = 0.0,
     *,
     growth: tuple[float, float] = GROWTH,
     spare: tuple[float, float] = (SAFETY, LEAST),
 ) -> int:
-    """Number of strips at which a standard ``error`` on ``count`` of them falls to ``target``: ``count`` if it does, at most ``available``; at least ``enough`` times as many (0: whatever the error needs).
+    """Return how many strips bring a standard ``error`` on ``count`` of them within ``target``, as it falls with the root
+    of their number: ``count`` if it is within.
 
-    It is (reached/target)² times the present number, with some to ``spare`` (1.3 times that, and at least 1.5 times the
-    present number), and at most ``growth`` times as many: of the ``first``, and of a later one. A standard error from
-    few blocks is itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. If a sample counted as long enough
-    whenever its blocks happen to scatter little, the stated error would be too small. So the first one counts as long
-    enough only if even 1 + 1/sqrt(nu) times its error is within the target.
+    Parameters
+    ----------
+    first, available : number of strips that are solved first, and that there are
+    at_least : factor on ``count`` that is needed for another reason; 0: none
+    growth : largest factor on ``count``, of the ``first`` strips and of more
+    spare : factor on what the error needs, and least factor on ``count``
+
+    A standard error from few blocks is itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. If a sample
+    counted as long enough whenever its blocks happen to scatter little, the stated error would be too small. So the
+    first strips count as enough only if even 1 + 1/sqrt(nu) times their error is within the target.
     """
-    doubt = 1 / math.sqrt(error.freedom) if count == first and error.freedom > 0 else 0.0
+    is_first = count == first
+    doubt = 1 / math.sqrt(error.freedom) if is_first and error.freedom > 0 else 0.0
     reached = error.error * (1 + doubt)
-    if reached <= target and not enough:
+    if reached <= target and not at_least:
         return count
-    most = growth[count > first]
-    times = spare[0] * max((reached / target) ** 2, enough) if math.isfinite(reached) else most
+    most = growth[1] if count > first else growth[0]
+    times = spare[0] * max((reached / target) ** 2, at_least) if math.isfinite(reached) else most
     return min(available, math.ceil(min(max(times, spare[1]), most) * count - 1e-9))
 
 
