@@ -68,6 +68,18 @@ def test_a_strip_on_long_cells_is_the_strip_of_the_heights_that_they_take():
     assert pair.longer.problem.spacing == pytest.approx((3.6e-6, 4.8e-6))
 
 
+def test_the_strips_of_a_line_have_one_slope_and_show_their_scatter_by_blocks():
+    scene = HEAVIER.with_(numerics={"sampling_tolerance": 0.03})
+    prepared = lubfric.prepare(scene)
+    pairs = QuickModel().solve(prepared, prepared.sample, prepared.sample.first, 0.1).strips.levels.pairs
+    slopes = {pair.resolved.slope for pair in pairs}
+    assert len(slopes) == 1 and math.isfinite(slopes.pop())
+    first, second = (solve_at_rest(scene, patch(seed=seed), 0.1, (2, 2), slope=0.07).resolved for seed in (3, 4))
+    for strip in (first, second):
+        assert strip.slope == 0.07
+        assert np.isfinite(strip.deviations).all() and strip.deviations.mean() == pytest.approx(0.0, abs=1e-6)
+
+
 def test_a_strip_that_moves_on_long_cells_starts_at_rest():
     scene = HEAVIER.with_(motion={"slide_roll_ratio": 0.5})
     pair = solve_moving(scene, [RoughBody(patch((48, 16), (1.8e-6, 2.4e-6)), 0.075)], 0.1, (2, 2))
@@ -161,7 +173,7 @@ STRIP = {
 
 
 def half_width(motion="rest", **numbers):
-    return error_models()[motion].half_width(features(STRIP | numbers, 0.09, 2.0))
+    return error_models()[motion].half_width(features(STRIP | numbers, 0.09))
 
 
 def test_the_bounds_grow_with_what_cells_and_boundary_film_change():
@@ -175,7 +187,7 @@ def test_the_bounds_grow_with_what_cells_and_boundary_film_change():
 def test_the_bounds_grow_where_no_case_is_alike():
     """x C x of the coefficients: at a hundred times the change by cells of any case it is no longer small."""
     model = error_models()["rest"]
-    x = features(STRIP, 0.09, 2.0)
+    x = features(STRIP, 0.09)
     assert model.half_width(x | {"cells": 10.0}) > 1.5 * model.half_width(x)
 
 

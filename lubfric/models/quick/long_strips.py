@@ -7,6 +7,7 @@ on: they come from the same solves.
 import math
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 
 from ...errors import ConvergenceError
 from ...scene import Scene, moves
@@ -42,7 +43,7 @@ LEAST_BY_CELLS = 0.01
 MIDDLE_BY_CELLS = 0.05
 
 # Change of f by the boundary film, from half to twice its thickness, that counts at most.
-MOST_BY_FILM = 1.5
+MOST_BY_FILM = 4.0
 
 # The least of it: below it the cells of the boundary film are few and show nothing.
 LEAST_BY_FILM = 0.01
@@ -53,9 +54,8 @@ MIDDLE_BY_FILM = 0.1
 # Distance of the sliding part of f from f_b, over f_b, at least: where f is f_b, no cell changes it.
 LEAST_BELOW = 0.02
 
-# Slide-roll ratio below which less sliding changes the features no more, and the middle of the solved cases.
-LEAST_SLIP = 0.003
-MIDDLE_SLIP = 0.3
+# Part of f by the gradient of the pressure over the sliding part that counts at most: f may be a small difference.
+MOST_ROLLING = 1.5
 
 
 def long_cells(scene: Scene, spacing: Sequence[float], rows: int, lengths: Sequence[float]) -> tuple[int, int]:
@@ -74,14 +74,16 @@ def solve_at_rest(
     scene: Scene, surface: Surface, speed: float, factors: tuple[int, int], slope: float | None = math.nan
 ) -> StripOnTwoGrids:
     """Solve the strip ``surface`` at ``speed`` [m/s], not 0, on cells ``factors`` times as long as its own, and before on
-    cells twice as long, where it has those and they have a solution (else both are the same). ``slope``: as of
-    `solve_pair` (None: found by a second solve). Raises `ConvergenceError`."""
+    cells twice as long, where it has those and they have a solution (else both are the same). ``slope``: of friction over
+    load, which is put into the strip (NaN: none; None: found by a second solve). Raises `ConvergenceError`."""
     (fx, fy) = factors
     longer: Strip | None = None
     if surface.shape[1] % (2 * fy) == 0:
         with suppress(ConvergenceError):
             longer = solve_strip(scene, surface, speed, factors=(2 * fx, 2 * fy))
     strip = solve_strip(scene, surface, speed, factors=factors, start=longer, slope=slope is None)
+    if slope is not None:
+        strip = replace(strip, slope=slope)
     return StripOnTwoGrids(strip, strip if longer is None else longer)
 
 
@@ -119,14 +121,15 @@ def numbers_of_strip(pair: StripOnTwoGrids) -> dict[str, float]:
     }
 
 
-def features(numbers: Mapping[str, float], friction: float, slip: float) -> dict[str, float]:
+def features(numbers: Mapping[str, float], friction: float) -> dict[str, float]:
     """Return what bias and σ may depend on, by name, for the ``numbers`` of a strip (`numbers_of_strip`).
 
-    ``friction``: f_b; ``slip``: the slide-roll ratio. The features are
+    ``friction``: f_b. The features are
 
     - "one"; "cells", by_cells between ± `MOST_BY_CELLS`, and "ln cells" of its size;
-    - "film": by how much twice the boundary film instead of half of it changes f, over the sliding part of f, and "ln
-      film"; "film slip", the same times ln of the slide-roll ratio;
+    - "film": c/(1 + c) of the change c of f by twice the boundary film instead of half of it, over the sliding part of f,
+      and "ln film", of c;
+    - "rolling": part of f by the gradient of the pressure, over the sliding part;
     - "ln below": ln of how far the sliding part of f is below f_b, over f_b.
     """
     sliding = max(numbers["coefficient"] - numbers["rolling"], 1e-9)
@@ -137,8 +140,8 @@ def features(numbers: Mapping[str, float], friction: float, slip: float) -> dict
         "one": 1.0,
         "cells": 0.0 if math.isnan(by_cells) else math.copysign(size, by_cells),
         "ln cells": math.log(max(size, LEAST_BY_CELLS) / MIDDLE_BY_CELLS),
-        "film": by_film,
+        "film": by_film / (1 + by_film),
         "ln film": math.log(max(by_film, LEAST_BY_FILM) / MIDDLE_BY_FILM),
-        "film slip": by_film * math.log(max(abs(slip), LEAST_SLIP) / MIDDLE_SLIP),
+        "rolling": min(abs(numbers["rolling"]) / sliding, MOST_ROLLING),
         "ln below": math.log(max(1 - sliding / friction, LEAST_BELOW)),
     }

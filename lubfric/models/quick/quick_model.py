@@ -235,8 +235,7 @@ def solve_long_strips(prepared: Prepared, speed: float, control: ControlVariate 
             break
         pairs.append(_solve_strip(prepared, speed, len(pairs), numerics, pairs[0].resolved.slope))
     friction = scene.bodies.boundary_friction_coefficient
-    slip = scene.motion.slide_roll_ratio
-    rows = [features(numbers_of_strip(pair), friction, slip) for pair in pairs]
+    rows = [features(numbers_of_strip(pair), friction) for pair in pairs]
     x = {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
     model = error_model_of(scene)
     outside = out_of_range(scene, prepared.surface.sq, speed, model.range)
