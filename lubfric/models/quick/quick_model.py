@@ -226,7 +226,11 @@ def solve_long_strips(prepared: Prepared, speed: float, control: ControlVariate 
     """Return the strips of ``prepared`` at ``speed`` [m/s], not 0, on long cells; ``control``: of the line by load
     sharing. Raises `ConvergenceError`."""
     scene = prepared.scene
-    numerics = replace(scene.numerics, sampling_tolerance=max(scene.numerics.sampling_tolerance, SAMPLING))
+    numerics = replace(
+        scene.numerics,
+        sampling_tolerance=max(scene.numerics.sampling_tolerance, SAMPLING),
+        model_tolerance=max(scene.numerics.model_tolerance, LEAST_TOLERANCE),
+    )
     pairs = [_solve_strip(prepared, speed, 0, numerics, None)]
     most = 1 if moves(scene) else MOST_STRIPS
     while True:
