@@ -226,8 +226,8 @@ def test_calibration_is_the_fit_to_its_tables():
 def test_numbers_of_the_cases_are_those_of_todays_model(motion, seed):
     known = next(case for case in fit.cases(motion) if case.row["seed"] == str(seed)).numbers
     solved = quick(drawn(motion, seed))
-    for name in solved.keys() - {"seconds"}:
-        assert solved[name] == pytest.approx(known[name], rel=2e-3, abs=1e-9, nan_ok=True)  # a march in time ends so far off
+    for name in solved.keys() - {"seconds"}:  # a march in time ends so far off
+        assert solved[name] == pytest.approx(known[name], rel=2e-3, abs=1e-9, nan_ok=True)
 
 
 def test_bounds_of_kinds_that_were_left_out_hold_nine_cases_in_ten():
