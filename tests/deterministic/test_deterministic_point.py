@@ -173,6 +173,18 @@ def test_the_film_of_longer_cells_leads_to_shorter_ones_in_a_few_whole_steps():
     assert near.coefficient == pytest.approx(none.coefficient, rel=1e-6)
 
 
+@pytest.mark.parametrize("speed", [10.0, 3.0, 1.0, 0.3])
+def test_a_gigapascal_starts_from_half_of_the_film(speed):
+    """A roller on long cells takes at most nine factorisations; from the dry contact lifted by all of Moes' film it took 11
+    to 14."""
+    oil = Lubricant(0.02, 18e-9, limiting_stress_coefficient=0.06, eyring_stress=5e6)
+    surface = lubfric.generate_surface((64, 64), 4e-6, sq=150e-9, correlation_length=10e-6, acf="gaussian", seed=1)
+    line = contact(1.6e5, speed, oil, 6e-3)
+    problem = lay_out(surface, line, sliding=2 * speed, boundary_friction=0.12, factors=(2, 2))
+    result = solve_point(problem, tolerance=3e-3)
+    assert result.report.iterations <= 9 and "from the dry contact" in result.report.notes[0]
+
+
 def test_steps_in_time_lead_from_a_neighbouring_speed_to_the_steady_film():
     """To the same film as Newton's method from the dry contact, which shares none of the way."""
     problem = rough(32, 18333.0, 0.01, LIMITED, hardness=4e9)

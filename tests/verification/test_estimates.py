@@ -89,3 +89,19 @@ def test_a_film_far_above_the_summits_is_estimated_and_solved_without_a_contact(
         with limited_work(math.inf) as meter:
             result = lubfric.friction(scene, speed)
         assert result.contact_load == 0 and meter.spent < 0.1 and of_scene(scene, [speed]) < 0.1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("speed", [3.0, 0.3])
+def test_a_heavy_roller_at_rest_is_estimated_within_two(speed):
+    """A film of 2.3 and of 0.46 Sq at 1 GPa; all of the short strip is solved on shorter cells."""
+    scene = lubfric.load_scene("paper").with_(
+        bodies={"radius": 6e-3, "width": 10e-3, "load": 1600.0, "material": "steel", "hardness": None},
+        lubricant={"viscosity": 0.02, "pressure_viscosity_coefficient": 18e-9, "eyring_stress": 5e6},
+        surface={"sq": 150e-9, "correlation_length": 10e-6, "acf": "gaussian"},
+        contact={"shape": (256, 64), "spacing": 2e-6},
+    )
+    scene = scene.with_(bodies={"boundary_friction_coefficient": 0.12}, lubricant={"limiting_stress_coefficient": 0.06})
+    with limited_work(math.inf) as meter:
+        lubfric.friction(scene, speed)
+    assert meter.spent / 2 <= of_scene(scene, [speed]) <= 2 * meter.spent
