@@ -43,6 +43,9 @@ ROUGH = 3.5
 # points of 0.26 and 19 GPa took 33 and 36 times what they would otherwise be estimated to).
 SOFT = 30.0
 
+# The same where a given film arrives at the inlet: 60 nm on 80 nm of roughness took 6 to 9 times as long.
+STARVED = 8.0
+
 # Pressure-viscosity coefficient times Hertz pressure below which pressure hardly thickens the lubricant: no strip above 0.7
 # took so long, and one of 0.7 did at 19 GPa.
 ISOVISCOUS = 1.0
@@ -117,6 +120,8 @@ def _work_at_rest(
     seconds = count * work_of_steps(cells, STEPS) + work_of_steps(finer, _finer_steps(scene, sq, speed)) + again
     if _is_soft(scene, sq):
         return SOFT * seconds + shorter
+    if scene.lubricant.inlet_film is not None:
+        return STARVED * seconds + shorter
     return seconds + shorter if is_smooth or short else ROUGH * seconds
 
 
