@@ -57,7 +57,7 @@ def cluster(address: str) -> Iterator[Any]:
     distributed = validate.installed("distributed", "cluster")
     try:
         client = distributed.Client(address, timeout=CONNECT)
-    except (OSError, ValueError, TimeoutError) as error:
+    except (OSError, ValueError, TimeoutError, RuntimeError, TypeError, ImportError) as error:  # by the kind of address
         said = f" = {validate.shown(address)}: no Dask scheduler answers ({validate.shown(str(error))})"
         way_out = "start one with 'dask scheduler', and give its address, tcp://host:8786"
         raise InputError(said, "--cluster", way_out=way_out) from None

@@ -181,6 +181,14 @@ def instance(name: str, value: Any, kind: type | tuple[type, ...], allowed: str)
         raise InputError(f" = {shown(value)} is a {type(value).__name__}", name, allowed)
 
 
+def called_back(name: str, value: Any, arguments: str) -> None:
+    """Check that ``value`` is None or a function, which is called with these ``arguments``."""
+    if value is not None and not callable(value):
+        raise InputError(
+            f" = {shown(value)} is a {type(value).__name__}", name, f"None, or a function of ({arguments})"
+        )
+
+
 def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
     """A non-empty array of finite floats with ``ndim`` axes; ``value`` itself if it is one.
 

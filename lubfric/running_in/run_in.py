@@ -202,6 +202,7 @@ def run_in(
     ConvergenceError : a contact or a balance that could not be solved; or (`lubfric.errors.WorkLimitError`) the run needs
         more counted work than ``numerics.max_work``: its ``result`` is the `RunIn` so far
     """
+    validate.called_back("on_progress", on_progress, "what, done, total")
     if on_progress is not None:
         with progress_to(on_progress):
             return run_in(

@@ -96,6 +96,7 @@ def fit(
     InputError : before any work
     ConvergenceError : the search does not end, or a curve fails; carries the result
     """
+    validate.called_back("on_progress", on_progress, "done, total, left, misfit, values")
     bounds = _checked(scene, measured, parameters)
     begin = _start(scene, bounds, {} if start is None else start)
     starts = _checked_starts(starts, len(bounds))

@@ -284,6 +284,7 @@ def study(
 
     Faults of the program are raised unchanged.
     """
+    validate.called_back("on_progress", on_progress, "done, total")
     plan = scene if isinstance(scene, StudyPlan) else plan_study(scene, vary, speeds, points)
     if plan is scene and any(given is not None for given in (vary, speeds, points)):
         raise InputError("vary, speeds and points belong to the plan; give a scene with them, or a plan alone")

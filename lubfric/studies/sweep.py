@@ -155,6 +155,7 @@ def stribeck(
 
     Returns a `StribeckResult`. Raises `InputError`, and, with the curve, `ConvergenceError` or `ValidityError`.
     """
+    validate.called_back("on_point", on_point, "done, total, speed, outcome")
     requested, kept = _asked(speeds, fields, scene_of(scene))
     executor, prepared = checked_executor(executor), prepared_with(scene, tolerance, model)
     if not requested:
@@ -301,6 +302,7 @@ def traction(
     ConvergenceError : at the end, if a point failed; the complete curve is its ``result``
     ValidityError : the same, if all points that failed were refused as invalid
     """
+    validate.called_back("on_point", on_point, "done, total, ratio, outcome")
     ratios = np.array(each_once(validate.numbers("ratios", ratios, "(-)", LARGEST_RATIO).tolist()))
     if speed is not None:
         speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)

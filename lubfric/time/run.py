@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._base import limited_work, unlimited_work, with_default_errors
+from .._base import limited_work, unlimited_work, validate, with_default_errors
 from ..errors import InputError, WorkLimitError
 from ..estimate import LEAST_LIMIT, TIMES_ESTIMATE
 from ..models.deterministic import State
@@ -115,6 +115,7 @@ def run_in_time(
 ) -> tuple[TransientResult, list[str]]:
     """Return the run of `transient`, whether it ended well or not, and the keys of its states and outputs, which the
     ``checkpoint`` keeps."""
+    validate.called_back("on_step", on_step, "time, duration, row")
     scene, times = _with_plan(scene, times)
     limit = scene_of(scene).numerics.max_work or math.inf
     with limited_work(limit) as begun:

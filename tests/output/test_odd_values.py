@@ -8,6 +8,7 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
+from lubfric._base.processes import cluster
 
 RAGGED = [[1.0, 2.0], [3.0]]
 PATHS = (True, 3, b"x", "a\0b", 300 * "x", 3000 * "../x")
@@ -115,3 +116,36 @@ def test_heat_at_the_ends_of_motion_is_finite_or_told(speed, ratio):
         return
     assert np.isfinite(found.coefficient)
     assert (abs(ratio) <= 2) == (not any("slide-roll ratio" in entry.what for entry in found.validity))
+
+
+@pytest.mark.parametrize("value", [1.0, "f", [], {}])
+def test_what_is_to_be_called_back_must_be_a_function(value):
+    plan = lubfric.scene.Transient(duration=1e-4, outputs=2)
+    measured = lubfric.Measured(x=[0.01, 0.03, 0.1, 0.3], coefficient=[0.09, 0.05, 0.03, 0.03])
+    for name, call in (
+        ("on_progress", lambda: lubfric.run_in(SCENE.with_(bodies={"hardness": 2e9}), on_progress=value)),
+        ("on_step", lambda: lubfric.transient(SCENE.with_(transient=plan), on_step=value)),
+        ("on_point", lambda: lubfric.stribeck(SCENE, [0.1], on_point=value)),
+        ("on_point", lambda: lubfric.traction(SCENE, [0.1], speed=0.1, on_point=value)),
+        ("on_progress", lambda: lubfric.study(SCENE, {"bodies.load": [5.0]}, [0.1], on_progress=value)),
+        ("on_progress", lambda: lubfric.fit(SCENE, measured, {"surface.sq": (1e-8, 1e-7)}, on_progress=value)),
+    ):
+        with pytest.raises(lubfric.InputError, match=f"{name} = .*None, or a function of"):
+            call()
+
+
+def test_a_film_below_the_last_digit_of_the_load_carries_nothing():
+    """It tends to rest, without a step and without a raw error (ln 0 before)."""
+    scene = SCENE.with_(numerics={"model": "paper"})
+    rest = lubfric.friction(scene, 0.0)
+    for speed in (1e-12, 1e-17, 1e-30, 1e-90):
+        found = lubfric.friction(scene, speed)
+        assert found.coefficient == pytest.approx(rest.coefficient, rel=1e-9)
+        assert found.contact_load == pytest.approx(rest.contact_load, rel=1e-9)
+
+
+@pytest.mark.parametrize("address", ["ucx://127.0.0.1:1", "x", "http://127.0.0.1:1"])
+def test_an_address_at_which_no_scheduler_answers_is_refused(address):
+    pytest.importorskip("distributed")
+    with pytest.raises(lubfric.InputError, match="no Dask scheduler answers"), cluster(address):
+        pass

@@ -123,10 +123,10 @@ def respond(
         (more.real_contact_area_fraction - state.real_contact_area_fraction) * width / step,
         (touched_length(more) - touched_length(state)) * width / step,
     )
-    if film_of is None:
-        return Response(slopes)
     total = scene.bodies.load
     film_load = total - load
+    if film_of is None or film_load <= 0:  # 0 where the film carries less than the load is rounded to
+        return Response(slopes)
     log_load_ratio = math.log(film_load / load)
 
     def at(s: float) -> dict[str, float]:
