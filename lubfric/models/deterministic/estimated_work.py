@@ -2,6 +2,7 @@
 (`counted_work`). Nothing is solved."""
 
 import math
+from dataclasses import replace
 
 from ...samples import Sample
 from ...scene import FRICTION, Scene, moves, why_gap_not_resolved
@@ -148,8 +149,8 @@ def work_on_strips(
 ) -> float:
     """Return the counted work [s] of ``count`` strips on cells ``factors`` times as long as those of ``sample``, and of the
     ends of input ranges; ``sq`` [m]: of the surface."""
-    if moves(scene):
-        return IN_MOTION * count * moving_point_work(scene, sample, sq, speed, factors)
+    if moves(scene):  # the ends of ranges are solved at rest, which takes little
+        return IN_MOTION * count * moving_point_work(replace(scene, ranges=()), sample, sq, speed, factors)
     (fx, fy) = factors
     (dx, dy) = sample.cells.spacing
     (ux, uy) = sample.cells.coarsening if sample.is_only_map else (1, 1)
