@@ -22,6 +22,7 @@ from lubfric.output import (
     plot_surface,
     plot_traction,
 )
+from lubfric.output.pictures import PictureOptions
 from lubfric.studies import csv_bytes, interval_band, plot_map
 
 UNITS = {  # of the columns of results, typed by hand
@@ -355,3 +356,18 @@ def test_a_picture_for_a_paper_is_a_vector_graphic(tmp_path):
         assert (out / f"stribeck.{kind}").read_bytes().startswith(begin)
     main(["run", str(scene), "--speeds", "0.1,1", "--out", str(out)])  # a new run removes what is no longer its own
     assert not (out / "stribeck.pdf").exists() and (out / "stribeck.png").exists()
+
+
+def test_a_narrow_picture_has_smaller_lines_and_markers():
+    """For a journal's column: lines, markers and those of the key, and in the usual width the style's own."""
+    sizes = {}
+    for width in (0.085, 0.178):
+        figure = Figure()
+        axes = figure.subplots()
+        axes.plot([1, 2], [1, 2], "o-", ms=4, lw=2, label="f")
+        axes.legend()
+        PictureOptions(width=width).thin(figure)
+        lines = (axes.lines[0], axes.get_legend().get_lines()[0])
+        sizes[width] = [(line.get_markersize(), line.get_linewidth()) for line in lines]
+    assert sizes[0.178] == [(4, 2), (4, 2)]
+    assert all(0 < small < large for pairs in zip(sizes[0.085], sizes[0.178]) for small, large in zip(*pairs))
