@@ -19,14 +19,30 @@ from .result import DeterministicResult, assemble
 from .solve import MOST, refined_start, solve_point
 from .state import evaluated
 
-ENOUGH = 3e-3  # tolerance of a strip's residuals: f moves by some .1 %
-LOOSE = 1e-2  # on longer cells, from which a strip starts
+# The effects of half and twice a constant are those on three points of the scene "paper" (`python -m
+# verification.campaigns.constants lubfric.models.deterministic.strip.`).
+
+# Tolerance of a strip's residuals [-]: f moves by some .1 %.
+ENOUGH = 3e-3
+
+# The same on longer cells, from which a strip starts [-]. Half and twice change nothing.
+LOOSE = 1e-2
+
 FIRST = 12_000  # cells from which longer ones come first
-HEAVIER = 1.03  # times the load: the second solve, for the slope
-RATIO = (0.25, 0.75)  # between which the change from grid to grid is taken to fall
+
+# Load of the second solve, for the slope, over that of the first [-]. Far from 1 the slope is a secant: 2.06 times
+# changes f by 3 %, for more strips are solved then.
+HEAVIER = 1.03
+
+# Ratios of successive changes from grid to grid between which they are taken to fall [-]. Half changes nothing, twice
+# the interval by .2 %.
+RATIO = (0.25, 0.75)
+
 GROWING = 2.0  # the same, where the series ends; 1.7 to 2.2 was seen at 110 N on cells from 1.8 to 0.45 um
 UNKNOWN_RATIO = 0.6  # from two grids: as measured on cells of 3.6, 1.8 and 0.9 um of the built-in surface
-BLOCK = 2  # columns of the coarser of two grids in a place that changes by itself
+
+# Columns of the coarser of two grids in a place that changes by itself [-]. Half and twice change the interval by .01 %.
+BLOCK = 2
 
 
 @dataclass(frozen=True)

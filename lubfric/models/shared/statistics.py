@@ -35,7 +35,8 @@ ENDS = 1 / math.sqrt(math.pi)
 # Factor on the number of strips that an error needs, because this error is itself known to 1/sqrt(2 nu) only.
 SAFETY = 1.3
 
-# Factor by which a sample grows, at least: fewer new strips tell little that is new. Not measured.
+# Factor by which a sample grows, at least: fewer new strips tell little that is new. Not measured:
+# as a default argument, the campaign above does not change it.
 LEAST = 1.5
 
 # Factors by which a sample grows, at most: the first one, and a longer one. A standard error from few blocks is no
@@ -52,7 +53,8 @@ FREEDOM_NOT_COUNTED = 30
 # (docs/measurements.md, `python -m verification sampling`).
 FEW = 10.0
 
-# Part of the sampling tolerance below which an error needs no more asperity contacts. Not measured.
+# Part of the sampling tolerance below which an error needs no more asperity contacts. Half and twice change nothing on
+# the points of the campaign above.
 MATTERS = 0.25
 TOO_SHORT = (
     "not known: {:.2g} correlation lengths along y are too few for an interval (omit numerics.sampling and "
