@@ -52,16 +52,16 @@ MOST_PIECES = 32
 # Counted work [s] of pieces beyond which no more are solved.
 PIECES_WORK = 30.0
 
-# Times (cell along x/correlation length)²: error of f where roughness moves, at least, without and with steps along the
-# lubricant, of second and third order. One change may be small by chance: cells of an eighth of a correlation length
-# instead of a quarter move f of nine Gaussian maps by 0 to 2 % by steps of second order, of four contacts by 0 to 0.8 %
-# by steps of third order.
+# Times (cell along x/correlation length)²: error of f where roughness moves, at least, by steps of second order, and along
+# the lubricant, of third. One change may be small by chance: cells of an eighth of a correlation length instead of a
+# quarter move f of nine Gaussian maps by 0 to 2 % by steps of second order; steps of third order leave 0 to 0.8 % on four
+# contacts (verification/campaigns/moving_cells has the table).
 MOVING = (0.5, 0.3)
 
 # Times (cell along x/correlation length)² and the square of the relative change of f by twice the boundary film: the same
-# error where f hangs on that film. Of steps of second order cells of an eighth instead of a quarter move f of a needle
-# roller by -20 %, where that change is 58 %; of third order cells of a sixteenth move it by -6 %, where it is 80 %.
-MOVING_THIN = (8.0, 1.5)
+# error where f hangs on that film. By steps of second order cells of an eighth instead of a quarter move f of a needle
+# roller by -20 %, where that change is 58 %; of third order f is 6.5 % too high, where it is 61 % (the same table).
+MOVING_THIN = (8.0, 2.5)
 
 AS_START = 100  # LU factorisations of a piece on longer cells, from which it starts, at most
 SOLVED = 2e-3  # of f: what the tolerance of a strip may move
@@ -108,7 +108,9 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     by_longer = sum(pair.change_by_cells for pair in pairs) / len(pairs)
     factors = zip(cells_of(scene, sample), sample.cells.coarsening)
     halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
-    left = max(estimate([by_longer]), SOLVED, _by_motion(prepared, pairs) if moves(scene) else 0.0)
+    strips = [pair.resolved for pair in pairs]
+    by_motion = error_by_motion(strips, _coarse(prepared)) if moves(scene) else 0.0
+    left = max(estimate([by_longer]), SOLVED, by_motion)
     enough = left <= scene.numerics.tolerance and not (sample.is_only_map and scene.numerics.grid == "given")
     enough = enough and (sample.is_only_map or smooth_over_cells(sample.strip(0).heights))
     own = sample.cells.is_native and cells_of(scene, sample) == (1, 1)
@@ -121,7 +123,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
         with limited_work(PIECES_SHARE * work_left()):
             if sample.strip_length < SHORT * sample.correlation_lengths[1] and strip_of(prepared, 0)[1] != (1, 1):
                 pieces, error = _pieces(prepared, speed, pairs[0])
-            elif _by_boundary_film(pairs) > SPEED_MATTERS:
+            elif _by_boundary_film(strips) > SPEED_MATTERS:
                 pieces, error = _pieces(prepared, speed, None)
             else:
                 pieces, error = _at_fixed_speed(prepared, speed)
@@ -149,17 +151,17 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     return pieces, shortest, error, left, False
 
 
-def _by_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -> float:
+def error_by_motion(strips: Sequence[Strip], coarse: float) -> float:
     """Return the relative error of f by the cells along x, at least, where roughness moves: larger where f hangs on the
-    boundary film, because shorter cells leave fewer gaps that are so thin."""
-    strips = [pair.resolved for pair in pairs]
+    boundary film, because shorter cells leave fewer gaps that are so thin. ``coarse``: length of the cells over the
+    correlation length."""
     order = int(all(isinstance(strip, MovingStrip) and strip.follows_lubricant for strip in strips))
-    return (MOVING[order] + MOVING_THIN[order] * _by_boundary_film(pairs) ** 2) * _coarse(prepared) ** 2
+    return (MOVING[order] + MOVING_THIN[order] * _by_boundary_film(strips) ** 2) * coarse**2
 
 
-def _by_boundary_film(pairs: Sequence[StripOnTwoGrids]) -> float:
+def _by_boundary_film(strips: Sequence[Strip]) -> float:
     """Return the relative change of f by twice the boundary film."""
-    results = [pair.resolved.result for pair in pairs]
+    results = [strip.result for strip in strips]
     return sum(abs(result.at_twice_film / result.coefficient - 1) for result in results) / len(results)
 
 

@@ -10,7 +10,7 @@ from ... import frame
 PARTS: tuple[tuple[str, str, str, dict], ...] = (
     ("answers", "model.answers:answers", "The default answer on surfaces and contacts of many kinds", {}),
     ("answers-rollers", "model.answers:answers", "The default answer of rollers of 1 GPa", {"rollers": True}),
-    ("answers-moving", "model.answers_moving:answers_moving", "The default answer where the roughness moves", {}),
+    ("answers-moving", "moving_coverage.items:coverage", "The deterministic answer where the roughness moves", {}),
     ("seeds", "model.seeds:seeds", "The default answer on fresh surfaces: coverage, bias, cost", {}),
     ("boundary-film", "model.boundary_film:boundary_film", "How thick the boundary film should be", {}),
     ("rolling", "model.rolling:rolling", "load sharing compared with roughness that moves", {}),

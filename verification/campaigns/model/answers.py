@@ -62,20 +62,17 @@ WAYS = {"default": {}, "load sharing": {"model": "paper"}}
 
 @dataclass(frozen=True, kw_only=True)
 class AnswerCase:
-    """A kind of surface under a contact with ``over`` = f_b over the limit of the oil, at a film/Sq and a slide-roll
-    ratio (2: the roughness rests); ``longer``: times the lengths of the surface."""
+    """A kind of surface under a contact with ``over`` = f_b over the limit of the oil, at a film/Sq; the
+    roughness rests."""
 
     surface: str
     contact: str
     over: float
     ratio: float
-    slip: float = 2.0
-    longer: float = 1.0
 
     def scene(self, seed: int, folder: str, **numerics: Any) -> Scene:
         """The scene with a surface of its own ``seed``; maps are written to ``folder``."""
         changes, times = CONTACTS[self.contact]
-        times *= self.longer
         scene = lubfric.load_scene("paper").with_(**changes)
         limit = scene.bodies.boundary_friction_coefficient / self.over
         oil = {"limiting_stress_coefficient": limit, "density_law": "dowson-higginson"}
@@ -92,7 +89,7 @@ class AnswerCase:
             patch = {"shape": None, "spacing": None}
         keys = {"accept": True, "film_deflection": "scaled"} | numerics
         film = {"boundary_film": 20e-9}  # given, so that both answers have it and the interval leaves it out
-        motion = {"slide_roll_ratio": self.slip}
+        motion = {"slide_roll_ratio": 2.0}
         return scene.with_(bodies=film, lubricant=oil, surface=rough, contact=patch, motion=motion, numerics=keys)
 
     def speed(self, scene: Scene) -> float:

@@ -29,7 +29,7 @@ from lubfric.models.deterministic import (
 )
 from lubfric.models.deterministic.rough_bodies import bodies_of, summit_control
 from lubfric.models.deterministic.strip_on_two_grids import strip_of
-from lubfric.models.shared import student
+from lubfric.models.shared import Prepared, student
 from lubfric.scene import Scene, moving_bodies
 from lubfric.surface import generate_surface
 
@@ -218,22 +218,24 @@ def tight_strip(contact: RollingContact, seed: int) -> dict[str, Any]:
     return {"f": mean.value, "error": mean.error.error}
 
 
-def change_by_cells(contact: RollingContact, seed: int) -> dict[str, Any]:
-    """Return the ratio of f on cells half as long along both axes to that on the cells of the answers."""
+def narrow_strip(
+    contact: RollingContact, seed: int, halvings: tuple[int, int]
+) -> tuple[Prepared, list[RoughBody], tuple[int, int]]:
+    """Return the prepared scene of ``contact``, rough bodies `NARROW` correlation lengths wide on cells halved so often along x and
+    y, and the length of the cells of an answer in these."""
     scene = with_seed(contact, REFERENCE_SEED + seed)
     prepared = prepare(scene)
     _, (fx, fy) = strip_of(prepared, 0)
     (dx, dy) = prepared.sample.cells.spacing
-    spacing = (0.5 * dx, 0.5 * dy)
-    half_width = scene.bodies.half_width
-    columns = 2 * math.ceil(6 * half_width / dx)
-    rows = 8 * fy * math.ceil(NARROW * prepared.sample.correlation_lengths[1] / (4 * fy * dy))
+    factors = (fx * 2 ** halvings[0], fy * 2 ** halvings[1])
+    columns = factors[0] * math.ceil(6 * scene.bodies.half_width / (fx * dx))
+    rows = 4 * factors[1] * math.ceil(NARROW * prepared.sample.correlation_lengths[1] / (4 * fy * dy))
     bodies = []
     for k, (name, ratio) in enumerate(moving_bodies(scene)):
         rough = getattr(scene, name)
         surface = generate_surface(
             (columns, rows),
-            spacing,
+            (dx / 2 ** halvings[0], dy / 2 ** halvings[1]),
             sq=rough.sq,
             correlation_length=rough.correlation_length,
             acf=rough.acf,
@@ -241,10 +243,16 @@ def change_by_cells(contact: RollingContact, seed: int) -> dict[str, Any]:
             seed=seed + 17 * k,
         )
         bodies.append(RoughBody(surface, contact.speed * ratio, name == "counterface"))
+    return prepared, bodies, factors
+
+
+def change_by_cells(contact: RollingContact, seed: int) -> dict[str, Any]:
+    """Return the ratio of f on cells half as long along both axes to that on the cells of the answers."""
+    prepared, bodies, (fx, fy) = narrow_strip(contact, seed, (1, 1))
+    scene = prepared.scene
     f = []
-    for times in (2, 1):
-        steps = round(WAY * half_width / (0.5 * times * fx * dx))
-        factors = (times * fx, times * fy)
+    for factors in ((fx, fy), (fx // 2, fy // 2)):
+        steps = round(WAY * scene.bodies.half_width / (factors[0] * bodies[0].surface.spacing[0]))
         strip = solve_moving_strip(scene, bodies, contact.speed, factors=factors, most_steps=steps)
         f.append(strip.result.coefficient)
     return {"f": f[1] / f[0], "error": 0.0}

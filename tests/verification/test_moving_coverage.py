@@ -1,0 +1,47 @@
+"""The judge of moving answers, on tables whose coverage is known."""
+
+import pytest
+
+from verification.campaigns import table_file
+from verification.campaigns.moving_cells.table import COLUMNS, TABLE, errors
+from verification.campaigns.moving_coverage.items import coverage
+from verification.campaigns.moving_coverage.table import ANSWER_COLUMNS, ANSWERS, REFERENCE_COLUMNS, REFERENCES
+from verification.check import Check, Table
+
+
+@pytest.mark.parametrize("inside, passes", [(19, True), (15, False)])
+def test_answers_that_miss_the_reference_lower_the_coverage(tmp_path, inside, passes):
+    """The reference is .05 times .9. Answers .045 and .053 have a half-width of 5 %, 30 degrees of freedom."""
+    for seed in range(2):
+        row = {"contact": "gear flank", "kind": "strip", "seed": seed, "f": 0.05, "error": 1e-6, "failure": ""}
+        table_file.append(tmp_path / REFERENCES, REFERENCE_COLUMNS, row, 7)
+    row = {"contact": "gear flank", "kind": "cells", "seed": 0, "f": 0.9, "error": 0.0, "failure": ""}
+    table_file.append(tmp_path / REFERENCES, REFERENCE_COLUMNS, row, 7)
+    for seed in range(20):
+        f = 0.045 if seed < inside else 0.053
+        row = {"contact": "gear flank", "seed": seed, "f": f, "sampling": 0.02, "freedom": 30, "numerical": 0.03}
+        table_file.append(tmp_path / ANSWERS, ANSWER_COLUMNS, row | {"seconds": 1.0, "failure": ""}, 7)
+    table, check, _ = coverage("quick", folder=tmp_path)
+    assert isinstance(table, Table) and isinstance(check, Check)
+    assert check.measured == pytest.approx(inside / 20) and check.passed is passes
+    assert list(table.rows[0][:2]) == ["gear flank", "20"]
+
+
+def test_the_limit_is_that_of_second_order(tmp_path):
+    """f = .05 + .004 h² on cells of h = 1, 1/2, 1/4."""
+    for halvings in range(3):
+        f = 0.05 + 0.004 / 4**halvings
+        row = {"contact": "gear flank", "seed": 0, "halvings": halvings, "f": f, "stated": 0.1, "failure": ""}
+        table_file.append(tmp_path / "table.csv", COLUMNS, row, 12)
+    (strip,) = errors(tmp_path / "table.csv")
+    assert strip["limit"] == pytest.approx(0.05) and strip["error"] == pytest.approx(0.08)
+    assert strip["order"] == pytest.approx(2.0)
+
+
+def test_the_stated_error_holds_that_of_the_cells():
+    """On every contact of the committed table; and where cells of a quarter of the length were solved too, f on those of an
+    answer is within 10 % of its limit."""
+    strips = list(errors(TABLE))
+    assert len({strip["contact"] for strip in strips}) >= 6
+    for strip in strips:
+        assert abs(strip["error"]) <= strip["stated"], strip
