@@ -31,17 +31,18 @@ def test_the_limit_is_that_of_second_order(tmp_path):
     """f = .05 + .004 h² on cells of h = 1, 1/2, 1/4."""
     for halvings in range(3):
         f = 0.05 + 0.004 / 4**halvings
-        row = {"contact": "gear flank", "seed": 0, "halvings": halvings, "f": f, "stated": 0.1, "failure": ""}
+        row = {"contact": "gear flank", "seed": 0, "halvings": halvings, "f": f, "twice": 1.2 * f, "failure": ""}
+        row |= {"coarse": 0.25, "follows": 1}
         table_file.append(tmp_path / "table.csv", COLUMNS, row, 12)
     (strip,) = errors(tmp_path / "table.csv")
     assert strip["limit"] == pytest.approx(0.05) and strip["error"] == pytest.approx(0.08)
     assert strip["order"] == pytest.approx(2.0)
+    assert strip["stated"] == pytest.approx((0.3 + 2.5 * 0.2**2) / 16)
 
 
 def test_the_stated_error_holds_that_of_the_cells():
-    """On every contact of the committed table; and where cells of a quarter of the length were solved too, f on those of an
-    answer is within 10 % of its limit."""
+    """On every contact of the committed table."""
     strips = list(errors(TABLE))
-    assert len({strip["contact"] for strip in strips}) >= 6
+    assert "needle roller" in {strip["contact"] for strip in strips}
     for strip in strips:
         assert abs(strip["error"]) <= strip["stated"], strip

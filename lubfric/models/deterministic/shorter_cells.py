@@ -109,7 +109,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     factors = zip(cells_of(scene, sample), sample.cells.coarsening)
     halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
     strips = [pair.resolved for pair in pairs]
-    by_motion = error_by_motion(strips, _coarse(prepared)) if moves(scene) else 0.0
+    by_motion = _by_motion(prepared, strips) if moves(scene) else 0.0
     left = max(estimate([by_longer]), SOLVED, by_motion)
     enough = left <= scene.numerics.tolerance and not (sample.is_only_map and scene.numerics.grid == "given")
     enough = enough and (sample.is_only_map or smooth_over_cells(sample.strip(0).heights))
@@ -151,12 +151,21 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     return pieces, shortest, error, left, False
 
 
-def error_by_motion(strips: Sequence[Strip], coarse: float) -> float:
-    """Return the relative error of f by the cells along x, at least, where roughness moves: larger where f hangs on the
-    boundary film, because shorter cells leave fewer gaps that are so thin. ``coarse``: length of the cells over the
-    correlation length."""
-    order = int(all(isinstance(strip, MovingStrip) and strip.follows_lubricant for strip in strips))
-    return (MOVING[order] + MOVING_THIN[order] * _by_boundary_film(strips) ** 2) * coarse**2
+def _by_motion(prepared: Prepared, strips: Sequence[Strip]) -> float:
+    """Return the `error_by_motion` of ``strips``, at least."""
+    follows = all(isinstance(strip, MovingStrip) and strip.follows_lubricant for strip in strips)
+    return error_by_motion(_by_boundary_film(strips), _coarse(prepared), follows_lubricant=follows)
+
+
+def error_by_motion(by_film: float, coarse: float, *, follows_lubricant: bool) -> float:
+    """Return the relative error of f by the cells along x where roughness moves: larger where f hangs on the boundary
+    film, because shorter cells leave fewer gaps that are so thin.
+
+    ``by_film``: relative change of f by twice that film; ``coarse``: length of the cells over the correlation length;
+    ``follows_lubricant``: whether steps were of third order along it.
+    """
+    order = int(follows_lubricant)
+    return (MOVING[order] + MOVING_THIN[order] * by_film**2) * coarse**2
 
 
 def _by_boundary_film(strips: Sequence[Strip]) -> float:

@@ -9,7 +9,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # isort: split
-from .table import FOLDER, covered, extend
+from .table import EXTENDED, covered, extend
 
 
 def main() -> int:
@@ -17,7 +17,7 @@ def main() -> int:
     p = argparse.ArgumentParser("python -m verification.campaigns.moving_coverage", description=__doc__)
     p.add_argument("--seeds", type=int, default=10, help="surfaces of each contact (default: %(default)s)")
     p.add_argument("--budget", type=float, default=3600.0, help="processor time [s] (default: %(default)s)")
-    p.add_argument("--folder", type=Path, default=FOLDER, help="of both tables (default: beside this module)")
+    p.add_argument("--folder", type=Path, default=EXTENDED, help="of both tables (default: %(default)s)")
     options = p.parse_args()
     for row in extend(options.seeds, options.budget, options.folder):
         print(row, flush=True)

@@ -35,7 +35,12 @@ from lubfric.surface import generate_surface
 
 from .. import table_file
 
-FOLDER = Path(__file__).parent
+# The tables that are judged: answers and references by steps of second order along the lubricant, whose cells err by up
+# to a third, both alike (before `lubfric.models.deterministic.state.CURVATURE`).
+FOLDER = Path(__file__).parent / "second_order"
+
+# The tables that are extended: by the steps of today. They are judged once every contact has its references there.
+EXTENDED = Path(__file__).parent / "third_order"
 ANSWERS = "answers.csv"
 REFERENCES = "references.csv"
 ANSWER_COLUMNS = (
@@ -261,7 +266,7 @@ def change_by_cells(contact: RollingContact, seed: int) -> dict[str, Any]:
 KINDS = {"strip": reference_strip, "cells": change_by_cells, "tight": tight_strip}
 
 
-def extend(seeds: int, budget: float, folder: Path = FOLDER) -> Iterator[dict[str, Any]]:
+def extend(seeds: int, budget: float, folder: Path = EXTENDED) -> Iterator[dict[str, Any]]:
     """Solve what the tables have not, as long as the processor time of this process is below ``budget`` [s], and append
     each row as it is solved. References come after the first three answers of each contact."""
     known = {(row["contact"], row["seed"]) for row in table_file.rows(folder / ANSWERS)}
