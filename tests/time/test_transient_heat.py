@@ -107,7 +107,7 @@ def test_heat_that_a_plain_viscosity_leaves_out_is_told_with_its_size():
     share = 1 - warm.coefficient / steady.coefficient
     off = in_time(plain.with_(numerics={"heat": "off"}))
     for entries in (steady.validity, moving.entries[-1], off.entries[-1]):
-        told = [e.value / 100 for e in entries if e.what == "share of f that the heat of the film would take away"]
+        told = [e.value / 100 for e in entries if e.what == "reduction of f by the heat of the film"]
         assert (told == []) if entries is off.entries[-1] else (0.02 < share < told[0] < 2 * share), (share, told)
     with pytest.raises(lubfric.InputError, match="heat = 'on' needs"):
         plain.with_(numerics={"heat": "on"})

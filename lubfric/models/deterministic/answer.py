@@ -305,10 +305,10 @@ def _entries(
         )
     drawn = mean(result.drawn for result in results)
     if drawn > DRAWN:
-        consequence = "f depends on the 1 nm of lubricant that touching bodies are said to keep, by about a percent"
-        remedy = "take f as known to 2 %: next to no lubricant passes the contact"
+        consequence = "f depends by about 1 % on the gap of 1 nm that touching cells keep"
+        remedy = "treat f as known to 2 %; almost no lubricant passes through the contact"
         yield Validity(
-            what="share of the lubricant out of touching cells",
+            what="share of the lubricant that comes from touching cells",
             value=drawn,
             limit=DRAWN,
             unit="",

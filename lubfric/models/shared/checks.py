@@ -125,7 +125,7 @@ def warn_pressure(scene: Scene, peak: float) -> Iterator[Validity]:
     limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(law, math.inf)
     consequence = f"the {law} viscosity law is an extrapolation there"
     is_local = peak > SPIKE * hertz_peak
-    remedy = "the film's friction rests on it: a measured limiting stress is safer"
+    remedy = "use a measured limiting stress (lubricant.limiting_stress_coefficient), which bounds the film's friction"
     severe = peak > NO_LIQUID
     if severe:
         limit = NO_LIQUID
@@ -136,7 +136,7 @@ def warn_pressure(scene: Scene, peak: float) -> Iterator[Validity]:
     if is_local:
         consequence += f"; it is a local peak, and the peak Hertz pressure is {hertz_peak / 1e9:.3g} GPa"
     if scene.lubricant.density_law == "constant" and hertz_peak < limit:
-        consequence += "; an oil that is not compressed has such a spike"
+        consequence += "; a constant density causes such a spike"
         remedy = f"give lubricant.density_law = 'dowson-higginson', which lowers it; {remedy}"
     yield Validity(
         what="highest local film pressure" if is_local else "peak film pressure",
@@ -176,20 +176,18 @@ def warn_inlet(scene: Scene, line: LineContact, flow: float, friction: float) ->
     lost = 12 * oil.viscosity * line.entrainment_speed * line.radius / out * scene.bodies.width
     if not oil.floods and flow <= (1 - tolerance) * flooded:
         consequence = "inlet_length or inlet_film makes the inlet starved; f depends on their values"
-        what = "film over that of a full inlet, by Moes,"
-        yield Validity(
-            what=what, value=flow / flooded, limit=1.0, unit="", consequence=consequence, remedy="leave both out"
-        )
+        what = "film over that of a fully flooded inlet (Moes)"
+        yield Validity(what=what, value=flow / flooded, limit=1.0, unit="", consequence=consequence, remedy="omit both")
     elif lost > tolerance * friction:
-        what = "rolling friction of the inlet beyond inlet_length, in f,"
-        why = "f rests on where the lubricant begins"
+        what = "rolling friction of the inlet beyond inlet_length, relative to f"
+        why = "f depends on where the lubricant begins"
         yield Validity(
             what=what,
             value=100 * lost / friction,
             limit=100 * tolerance,
             unit="%",
             consequence=why,
-            remedy="leave it out for a full inlet",
+            remedy="omit it for a full inlet",
         )
 
 
@@ -221,8 +219,8 @@ def warn_patches(scene: Scene, heights: FloatArray, area: float) -> Iterator[Val
         return
     count = ridges(heights, min(2 * area, 1.0), (scene.contact.geometry == "flat", True))
     if count:
-        why = "a ridge without ends is one asperity, blunter the longer the map is: f depends on that length"
-        what = "number of asperities that reach round the map"
+        why = "a ridge without ends counts as one asperity, blunter on a longer map; f depends on the length of the map"
+        what = "number of asperities that extend across the whole map"
         yield Validity(
             what=what,
             value=count,
@@ -304,7 +302,7 @@ def warn_typical_heat(scene: Scene, change: float) -> Iterator[Validity]:
     if change > scene.numerics.tolerance:
         temperature, coefficient = TYPICAL
         yield Validity(
-            what="share of f that the heat of the film would take away",
+            what="reduction of f by the heat of the film",
             value=100 * change,
             limit=100 * scene.numerics.tolerance,
             unit="%",

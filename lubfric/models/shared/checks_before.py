@@ -81,7 +81,7 @@ def warn_bodies(bodies: Bodies) -> Iterator[Validity]:
     wide = bodies.half_width / bodies.radius
     if wide > WIDE:
         remedy = "check bodies.load, e_prime and radius; a lighter load or a stiffer body"
-        why = "the contact is as wide as the body, which is then no half-space"
+        why = "the contact is about as wide as the body, which is then no half-space"
         what = "contact half-width over radius"
         yield Validity(
             what=what,
@@ -105,7 +105,7 @@ def warn_bodies(bodies: Bodies) -> Iterator[Validity]:
         )
     peak = hertz.line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
     if bodies.hardness is None and peak > YIELDED:
-        why = "hard steel yields there, the bodies are elastic here"
+        why = "hard steel yields at this pressure, but the bodies are modelled as elastic"
         what = "peak Hertz pressure"
         yield Validity(
             what=what,
@@ -122,7 +122,7 @@ def warn_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Itera
     motion; ``cells``: in its correlation length along x and y. NaN: not known."""
     if slope > STEEP:
         remedy = "check the units of heights and spacing; filter the map at the scale that matters"
-        why = "the half-space takes slopes as small: contact area and pressures are off"
+        why = "the half-space assumes small slopes; contact area and pressures are wrong"
         what = "rms slope of the map"
         yield Validity(
             what=what,
@@ -152,7 +152,7 @@ def warn_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Itera
                 value=count,
                 limit=NOISE,
                 unit="",
-                consequence="neighbouring heights are as good as noise",
+                consequence="neighbouring heights are uncorrelated, like noise",
                 remedy=remedy,
                 severe=True,
             )

@@ -135,7 +135,7 @@ def _all_effects(
         (
             "the ends of the line, edge pressure and misalignment",
             ends,
-            "this part of the line is next to an end; use a three-dimensional contact model for it",
+            "the stated part of the line is next to an end; use a three-dimensional contact model for it",
         )
     )
     return effects
