@@ -197,7 +197,7 @@ def test_a_starved_inlet_reaches_the_number(model, inlet):
     )
     starved = flooded.with_(lubricant=inlet)
     assert moved(starved, lambda: flooded) > MOVES
-    told = [[e.what for e in lubfric.friction(s).validity if "full inlet" in e.what] for s in (starved, flooded)]
+    told = [[e.what for e in lubfric.friction(s).validity if "flooded inlet" in e.what] for s in (starved, flooded)]
     assert told[0] and not told[1]
     assert answer(starved, "sweep") == pytest.approx(answer(starved), rel=0.6 * MOVES)
     enough = flooded.with_(lubricant={key: 3e3 * value for key, value in inlet.items()})
