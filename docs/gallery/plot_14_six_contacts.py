@@ -17,7 +17,7 @@ import lubfric
 # %%
 # They differ in size, pressure, oil and motion.
 
-SHARED = {"model": "quick", "sampling": "patch", "tolerance": 0.05, "accept": True, "heat": "off"}
+SHARED = {"model": "paper", "sampling": "patch", "tolerance": 0.05, "accept": True, "heat": "off"}
 PLANE = math.inf
 
 
