@@ -43,6 +43,6 @@ def test_the_limit_is_that_of_second_order(tmp_path):
 def test_the_stated_error_holds_that_of_the_cells():
     """On every contact of the committed table."""
     strips = list(errors(TABLE))
-    assert "needle roller" in {strip["contact"] for strip in strips}
+    assert len({strip["contact"] for strip in strips}) >= 9
     for strip in strips:
         assert abs(strip["error"]) <= strip["stated"], strip

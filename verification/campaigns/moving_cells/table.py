@@ -132,4 +132,6 @@ def errors(file: Path = TABLE) -> Iterator[dict[str, Any]]:
 def _stated(row: dict[str, str]) -> float:
     """Return the error by the cells along x that an answer states, at least."""
     by_film = abs(float(row["twice"]) / float(row["f"]) - 1.0)
-    return error_by_motion(by_film, float(row["coarse"]), follows_lubricant=row["follows"] == "1")
+    follows = row["follows"] == "1"
+    is_smooth = "exponential" not in row["contact"]
+    return error_by_motion(by_film, float(row["coarse"]), follows_lubricant=follows, is_smooth=is_smooth)
