@@ -130,7 +130,7 @@ def beside_table(checks: list[Check]) -> str:
     for c in checks:
         unit = "" if c.unit == "1" else f" {c.unit}"
         value, published = (f"{number(v)} ± {e:.2g}{unit}" for v, e in zip((c.measured, c.expected), c.errors))
-        percent = f"{round(100 * (c.measured / c.expected - 1), 6) + 0.0:+.2g} %"
+        percent = f"{round(100 * (c.measured / c.expected - 1), 6) + 0.0:+.2g} %" if c.expected else ""
         source = c.source + (f". {c.note}" if c.note else "")
         rows.append(
             (

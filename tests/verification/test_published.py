@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 
+from verification import page
 from verification.__main__ import main
 from verification.catalogue import PUBLISHED, STUDIES, Study
 from verification.check import Check, beside, listed_near
@@ -47,6 +48,11 @@ def test_oils_and_heat_agree_and_their_page_shows_both_values(tmp_path):
     page = (tmp_path / "report.html").read_text()
     for word in ("Published", "lubfric", "Deviation", "Over both errors", "R. Nahme", "naphthenic"):
         assert word in page
+
+
+def test_the_page_shows_a_published_zero_without_a_relative_deviation():
+    shown = page.beside_table([beside("load ratio", 0.001, 0.0, (0.01, 0.02), "somebody")])
+    assert "load ratio" in shown and "%" not in shown
 
 
 def test_one_that_differs_ends_with_1_and_is_listed(tmp_path, monkeypatch, capsys):
