@@ -114,7 +114,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
     strips = [pair.resolved for pair in pairs]
     by_motion = _by_motion(prepared, strips) if moves(scene) else 0.0
-    left = max(estimate([by_longer]), SOLVED, by_motion)
+    left = max(math.hypot(estimate([by_longer]), by_motion), SOLVED)  # along y and along x, where roughness moves
     enough = left <= scene.numerics.tolerance and not (sample.is_only_map and scene.numerics.grid == "given")
     enough = enough and (sample.is_only_map or smooth_over_cells(sample.strip(0).heights))
     own = sample.cells.is_native and cells_of(scene, sample) == (1, 1)
