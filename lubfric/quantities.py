@@ -84,7 +84,7 @@ class Quantities(Generic[T]):
         "N",
         "rolling resistance of both surfaces together, against the entrainment",
         error="shear",
-        note="moment of the load about the middle over R; twice the rolling part without moving roughness",
+        note="moment of the load about the middle over R; that of the smooth film where roughness moves",
     )
     boundary_force: T = quantity(
         "N", "friction force of the asperity contacts", "f_b F_C", error="split", note="zero in pure rolling"

@@ -115,3 +115,24 @@ def test_in_time_at_a_steady_speed_it_is_that_of_the_steady_point(model):
     history = lubfric.transient(dataclasses.replace(scene, transient=lubfric.Transient(2e-4, outputs=2)))
     assert history.power_loss[-1] == pytest.approx(steady.power_loss, rel=0.03)
     assert history.rolling_resistance[-1] == pytest.approx(steady.rolling_resistance, rel=0.05)
+
+
+def test_where_roughness_moves_the_rolling_resistance_is_that_of_the_smooth_film():
+    """The moment of its pressure over R, with Johnson's modulus; the moment on a strip is that of the summits passing."""
+    scene = ROUGH.with_(motion={"slide_roll_ratio": 0.5}, numerics={"model": "quick"})
+    result = lubfric.friction(scene, 0.1)
+    assert result.decision.model == "quick"
+    share = result.film_load / scene.bodies.load
+    film = lubfric.solve_ehl(
+        load_per_width=share * scene.bodies.load / scene.bodies.width,
+        radius=scene.bodies.radius,
+        e_prime=share * scene.bodies.e_prime,
+        entrainment_speed=0.1,
+        viscosity=scene.lubricant.viscosity,
+        pressure_viscosity_coefficient=scene.lubricant.pressure_viscosity_coefficient,
+    )
+    x, p, _, _ = with_inlet(film)
+    moment = -np.trapezoid(p * x, x) * scene.bodies.width
+    assert result.rolling_resistance == pytest.approx(moment / scene.bodies.radius, rel=0.02)
+    by_sliding = result.coefficient * scene.bodies.load * 0.05
+    assert result.power_loss == pytest.approx(by_sliding + result.rolling_resistance * (0.1 - 0.025), rel=1e-9)

@@ -1,6 +1,6 @@
 """The deterministic mixed-lubrication model: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
-from .answer import answer_of
+from .answer import MODEL_ERROR, answer_of, warn_model_error
 from .estimated_work import work_on_strips
 from .flow import derivatives, mass_balance
 from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot

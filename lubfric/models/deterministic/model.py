@@ -9,7 +9,15 @@ from ...samples import Sample
 from ...scene import Scene, check_resolved_gap, moves, why_gap_not_resolved
 from ...surface import Surface
 from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
-from ..shared import ControlVariate, ExpectedWarnings, Prepared, StandardError, expected_on_hertz, why_no_rough_film
+from ..shared import (
+    ControlVariate,
+    ExpectedWarnings,
+    Prepared,
+    StandardError,
+    expected_on_hertz,
+    rolling_model_error,
+    why_no_rough_film,
+)
 from .answer import answer_of
 from .estimated_work import estimated_work
 from .heat import why_too_hot
@@ -88,7 +96,7 @@ class DeterministicModel(Model):
         return ("deterministic model", "kept mass") if film else ("deterministic model",)
 
     def rolling_error(self, lambda_ratio: float) -> float:
-        return 0.0  # it has the pressure on the flanks of the roughness
+        return rolling_model_error(lambda_ratio)
 
     def takes_control(self, prepared: Prepared) -> bool:
         return not prepared.sample.is_only_map and not moves(prepared.scene)  # its summits control what moves

@@ -14,7 +14,7 @@ from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
 from .control_variate import control_for
 from .decision import decided
-from .error_of_eq8 import least_error, load_sharing_error, rolling_model_error, starved_error
+from .error_of_eq8 import least_error, load_sharing_error, starved_error
 from .errors_of import moment_model_error
 from .forces import Forces, forces
 from .limits import limits_exceeded

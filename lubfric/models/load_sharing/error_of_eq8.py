@@ -32,19 +32,6 @@ LEAST_WITH_FILM = 0.1
 FLANKS = 1.5
 
 
-# Relative model-form error of the rolling resistance of rough surfaces by load sharing, at 95 %: OF_RESISTANCE/Λ², between
-# these bounds. Load sharing has that of the smooth film. Compared with the deterministic model on moving roughness, it
-# is off by -6.5 and +5.5 % at Λ of 0.70 and 0.31, and by at most 0.9 % from 1.7 to 15 (built-in contact and the bearing of
-# docs/start.md in pure rolling).
-OF_RESISTANCE = 0.08
-
-# Least of these errors.
-LEAST_OF_RESISTANCE = 0.02
-
-# Largest of these errors.
-MOST_OF_RESISTANCE = 0.15
-
-
 def load_sharing_error(
     film_to_roughness_ratio: float, share: float, boundary: float, shear: float, rolling: float = 0.0
 ) -> tuple[float, float]:
@@ -88,13 +75,3 @@ def least_error(film_to_roughness_ratio: float) -> float:
     """Return the least relative error of f by Eq. (8) where a film is present, however much of the load the asperities
     carry: it does not vanish with the load of the film."""
     return LEAST_WITH_FILM * min(film_to_roughness_ratio, 1.0)
-
-
-def rolling_model_error(lambda_ratio: float) -> float:
-    """Return the relative model-form error of the rolling resistance by load sharing at a lambda ratio; 0 for smooth
-    surfaces."""
-    if lambda_ratio == math.inf:
-        return 0.0
-    if not lambda_ratio > 0:
-        return MOST_OF_RESISTANCE
-    return min(max(OF_RESISTANCE / lambda_ratio**2, LEAST_OF_RESISTANCE), MOST_OF_RESISTANCE)

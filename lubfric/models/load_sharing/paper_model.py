@@ -8,11 +8,19 @@ from ...samples import Sample
 from ...scene import Scene, why_gap_not_resolved
 from ...surface import Surface
 from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
-from ..shared import ControlVariate, ExpectedWarnings, Heat, Prepared, StandardError, Validity, expected_in_film
+from ..shared import (
+    ControlVariate,
+    ExpectedWarnings,
+    Heat,
+    Prepared,
+    StandardError,
+    Validity,
+    expected_in_film,
+    rolling_model_error,
+)
 from .answer import answer_of, limits_of
 from .balanced_sample import BalancedSample, solve_sample
 from .control_variate import control_for
-from .error_of_eq8 import rolling_model_error
 from .errors_of import model_error_of_eq8
 from .estimated_work import estimated_work
 from .methods import methods_of_load_sharing

@@ -19,6 +19,11 @@ from ..._base import packaged
 from ...scene import Scene, moves
 from ..shared import Validity, peak_hertz_pressure
 
+OUTSIDE = (
+    "this is outside the range of the solved cases behind the error of long cells, which is widened with the distance, "
+    "up to three times in ln f"
+)
+
 # Factor on the bounds far outside the range of the campaign.
 WIDEST = 3.0
 
@@ -86,12 +91,13 @@ class Outside:
     @property
     def warning(self) -> Validity:
         """What a result, and `lubfric info` before it, says of it."""
+        factor = 1e-9 if self.unit == "Pa" else 1.0
         return Validity(
-            what=f"{self.what}, outside the range of the solved cases behind the error of long cells",
-            value=self.value,
-            limit=self.limit,
-            unit=self.unit,
-            consequence="that error is not known there; it is widened with the distance, up to three times in ln f",
+            what=self.what,
+            value=factor * self.value,
+            limit=factor * self.limit,
+            unit="GPa" if self.unit == "Pa" else self.unit,
+            consequence=OUTSIDE,
             remedy="take numerics.model = 'deterministic', which needs no such cases",
         )
 

@@ -17,21 +17,22 @@ from ...errors import ConvergenceError
 from ...samples import Sample
 from ...scene import Numerics, Scene, moves, why_gap_not_resolved
 from ...surface import Surface
-from ..contract import AtInputs, Model, ModelAnswer, SampleSolution, WorkEstimate
+from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
 from ..deterministic import (
+    MODEL_ERROR,
     Levels,
     SampleTarget,
     StripOnTwoGrids,
     bodies_of,
     levels_of,
-    strip_at_rest,
     strip_surface,
     summit_control,
     two_levels,
+    warn_model_error,
     work_on_strips,
 )
 from ..deterministic import answer_of as deterministic_answer
-from ..load_sharing import PaperModel, PaperSolution, methods_of_load_sharing, rolling_model_error
+from ..load_sharing import PaperModel, PaperSolution, methods_of_load_sharing
 from ..shared import (
     ControlVariate,
     ExpectedWarnings,
@@ -41,6 +42,7 @@ from ..shared import (
     Validity,
     expected_on_hertz,
     percent,
+    rolling_model_error,
     why_no_rough_film,
 )
 from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, widening
@@ -279,22 +281,9 @@ def _solve_strip(
             correlation_length=sample.correlation_lengths[1],
             control=summit_control(prepared),
         )
-    pair = solve_moving(scene, bodies_of(prepared, index, speed), speed, factors, target)
+    bodies = bodies_of(prepared, index, speed)
+    pair = solve_moving(scene, bodies, speed, factors, target, for_continuation=bool(scene.ranges))
     return replace(pair, mirrored=is_mirrored)
-
-
-def ends_at_rest(prepared: Prepared, speed: float, strips: LongStrips) -> AtInputs:
-    """Return f at other inputs on the first strip at rest, where its roughness moves: a continuation in motion takes as
-    long as the strip itself. The relative change of the sliding part of f is taken for that of f in motion."""
-    pair = strips.levels.pairs[0]
-    bodies = bodies_of(prepared, 0, speed)
-    spacing = pair.longer.problem.spacing
-    factors = (round(spacing[0] / bodies[0].surface.spacing[0]), round(spacing[1] / bodies[0].surface.spacing[1]))
-
-    def coefficient(scene: Scene) -> float:
-        return strip_at_rest(scene, bodies, speed, factors=factors, start=pair.longer).result.coefficient
-
-    return AtInputs(middle=pair.longer.result.coefficient, coefficient=coefficient)
 
 
 def quick_answer_of(prepared: Prepared, speed: float, strips: LongStrips) -> ModelAnswer:
@@ -308,13 +297,16 @@ def quick_answer_of(prepared: Prepared, speed: float, strips: LongStrips) -> Mod
         largest = OF_CELLS.format(strips.model.cases)
     basis = f"deterministic model on long cells, calibrated on {strips.model.cases} solved cases"
     below, above = (math.hypot(part, bound) for part, bound in zip(answer.model_error, bounds))
-    if moves(scene):
-        answer = replace(answer, at_inputs=lambda: ends_at_rest(prepared, speed, strips))
+    warnings = (entry for entry in answer.warnings if entry.what != MODEL_ERROR)  # which was without the cells
     return replace(
         answer,
         model_error=(min(below, 1.0), above),
         largest_in_model=largest,
-        warnings=(*answer.warnings, *(entry.warning for entry in strips.outside)),
+        warnings=(
+            *warnings,
+            *warn_model_error(prepared, max(below, above)),
+            *(entry.warning for entry in strips.outside),
+        ),
         decision=replace(answer.decision, model="quick", basis=basis, notes=(NARROWER, *answer.decision.notes)),
     )
 

@@ -47,6 +47,7 @@ from .prepared import (
     scene_of,
     why_no_rough_film,
 )
+from .rolling import rolling_model_error, smooth_rolling_resistance
 from .statistics import (
     FEW,
     FREEDOM_NOT_COUNTED,
