@@ -111,10 +111,12 @@ class UncertaintyCurve(UncertaintyQuantities[np.ndarray]):
     Attributes
     ----------
     interval : (n, 2)
+    model_sides : (n, 2), of the model-form error, towards 0 and away from it
     text : of each point
     """
 
     interval: np.ndarray
+    model_sides: np.ndarray
     text: tuple[str, ...]
 
 
@@ -122,7 +124,10 @@ def curve_of(points: Sequence[Any]) -> UncertaintyCurve:
     """The `UncertaintyCurve` of ``points``, each an `Uncertainty` or None."""
     columns = {name: np.array([math.nan if p is None else getattr(p, name) for p in points]) for name in OF_UNCERTAINTY}
     both = np.array([(math.nan, math.nan) if p is None else p.interval for p in points]).reshape(len(points), 2)
-    return UncertaintyCurve(**columns, interval=both, text=tuple("" if p is None else p.text for p in points))
+    sides = np.array([(math.nan, math.nan) if p is None else p.model_sides for p in points]).reshape(len(points), 2)
+    return UncertaintyCurve(
+        **columns, interval=both, model_sides=sides, text=tuple("" if p is None else p.text for p in points)
+    )
 
 
 @dataclass(frozen=True, kw_only=True)

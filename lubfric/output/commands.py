@@ -26,7 +26,7 @@ import numpy as np
 from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, figures, plain, read_json, validate
 from ..errors import InputError, OutputError
 from ..models import prepare
-from ..models.shared import Prepared, Validity
+from ..models.shared import Prepared, Validity, warn_unusual
 from ..quantities import KEYS, Quantity, described
 from ..scene import Scene
 from ..studies import Law, Store, fingerprint_without_files, fits
@@ -165,6 +165,8 @@ def run_begun(
     begun = time.perf_counter()
     names = [*names, "fields.npz", "surface.png", "report.html", RESOLVED, RESULT]
     check_outputs(arguments, arguments.out, names, OUTPUTS)
+    for entry in warn_unusual(scene):
+        say(entry.text)
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)
     estimate = estimate_scene(scene, prepared.sample, prepared.surface, **places)

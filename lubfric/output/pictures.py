@@ -3,6 +3,7 @@ time."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -220,9 +221,10 @@ def _mark(figure: Figure, axes: Axes, speed: FloatArray, coefficient: FloatArray
     ):
         if chosen.any():
             axes.plot(speed[chosen], coefficient[chosen], marker, ms=9, mfc="none", mec=color, label=label)
-    if names := dict.fromkeys(entry.what for violated in entries for entry in violated):
-        head = "warnings, at all points: " if everywhere else "warnings: "
-        figure.supxlabel(head + "; ".join(names), fontsize="small", color=figures.GREY, wrap=True)
+    counts = Counter(what for violated in entries for what in {entry.what for entry in violated})
+    if counts:
+        named = (what if n == len(entries) else f"{what} ({n} of {len(entries)} points)" for what, n in counts.items())
+        figure.supxlabel(f"warnings: {'; '.join(named)}", fontsize="small", color=figures.GREY, wrap=True)
     figures.key_above(axes)
 
 
@@ -359,7 +361,7 @@ def _section(axes: Axes, fields: Any, row: int, *, touching: bool) -> None:
         deflection = fields.deflection[:, row]
         drawn.append(surface - deflection + deflection.mean())
         axes.plot(micro, drawn[-1] * 1e9, color=figures.GREY, lw=1, label="rough surface, deformed")
-        axes.plot(micro, (fields.gap[:, row] + drawn[-1]) * 1e9, color=figures.RED, label="smooth counterface")
+        axes.plot(micro, (fields.gap[:, row] + drawn[-1]) * 1e9, color=figures.RED, label="counterface")
     low = 1e9 * min(z.min() for z in drawn)
     high = 1e9 * max(*(z.max() for z in drawn), 1.2 * smooth.min())
     room = 0.15 * (high - low)

@@ -359,7 +359,7 @@ def _history_parts(result: TransientResult, estimate: SceneEstimate) -> dict[str
     return {
         "kind": "" if complete else "failed",
         "status": escape(result.status),
-        "answer": _paragraphs(_history_answer(result, complete=complete)),
+        "answer": _paragraphs(history_answer(result, complete=complete)),
         "budget": _history_budget(result),
         "table": _history_table(result),
         "effects": _effects(estimate.effects, "at the largest speed"),
@@ -368,7 +368,7 @@ def _history_parts(result: TransientResult, estimate: SceneEstimate) -> dict[str
     }
 
 
-def _history_answer(result: TransientResult, *, complete: bool) -> list[str]:
+def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
     """Return the answer of a run in time in sentences; of one that is not ``complete`` what its outputs show."""
     if result.time.size < 2:
         return ["The run has no answer."]

@@ -12,6 +12,7 @@ from . import commands
 from .fields import npz_bytes
 from .pictures import animate, plot_history
 from .progress import ProgressLine
+from .report import history_answer
 
 
 def run_history(scene: Scene, arguments: Namespace) -> None:
@@ -52,6 +53,8 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
             failure = error
         _write(folder, scene, result, animation=arguments.animation)
         folder.complete(prepared, estimate, given_tables(arguments.scene), result, OF_MOMENT)
+    for line in history_answer(result, complete=failure is None):
+        commands.say(line)
     if failure:
         raise failure
 

@@ -10,8 +10,8 @@ import numpy as np
 
 from .._base import __version__
 from ..models.shared import gathered_texts, sentence
-from ..quantities import COLUMNS, counted, worded_value
-from ..studies import DURATION, ENDS, StudyResult, columns_of_study, label, mean_over_cycle
+from ..quantities import CHOICES, COLUMNS, counted, worded_value
+from ..studies import DURATION, ENDS, RATIO, StudyResult, columns_of_study, label, mean_over_cycle
 from ..units import CELSIUS, converted, plain_number, printed, unit_of_largest, with_interval
 from .inputs import SECTIONS, inputs
 from .report import picture, style_sheet, table
@@ -76,12 +76,22 @@ def _common_inputs(result: StudyResult) -> str:
     varied = {*result.coords, "motion.entrainment_speed", "motion.speeds"}
     whole_sections = {key for key in varied if "." not in key}
     parts = []
+    scene = result.plan.scene
     for section in SECTIONS:
         rows = [
             f'<td>{escape(label_)}</td><td>{escape(text)}{escape(note)}</td><td class="key">{escape(key)}</td>'
             for label_, text, key, note in inputs(result.plan.scene, section)
             if key not in varied and section not in whole_sections
         ]
+        if section not in whole_sections:
+            rows += [
+                f'<td>{escape(key.partition(".")[2].replace("_", " "))}</td><td>{escape(value)}</td><td class="key">{key}</td>'
+                for key in CHOICES
+                if key.startswith(f"{section}.") and key not in varied
+                if isinstance(value := getattr(getattr(scene, section), key.partition(".")[2], None), str)
+            ]
+        if section == "lubricant" and scene.lubricant.oil is not None and section not in whole_sections:
+            rows.append(f"<td>oil</td><td>{escape(scene.lubricant.oil.name)}</td><td></td>")
         parts.append(f"<h3>{section}</h3>{table(['quantity', 'value', 'key'], rows)}" if rows else "")
     return "".join(parts)
 
@@ -113,7 +123,8 @@ def _table(result: StudyResult, rows: int) -> str:
     picked = np.unique(np.linspace(0, count - 1, rows).round().astype(int))
     heads = ["no."]
     cells: list[list[str]] = [[f"{row + 1}" for row in picked]]
-    for name in (*result.coords, *SHOWN):
+    constant = [name for name, (_, values) in result.coords.items() if count > 1 and np.unique(values).size == 1]
+    for name in (*(name for name in result.coords if name not in constant), *SHOWN):
         values = columns[name][picked] if name in columns else np.full(picked.size, np.nan)
         quantity = COLUMNS.get(name)
         heads.append(quantity.label if quantity else name)
@@ -166,10 +177,12 @@ def answer_lines(result: StudyResult) -> list[str]:
             continue
         what = {"coefficient": "friction coefficient"}.get(name, COLUMNS[name].label)
         for word, find in {"smallest": np.nanargmin, "largest": np.nanargmax}.items():
-            index = tuple(map(int, np.unravel_index(int(find(values)), values.shape)))
+            index = tuple(map(int, np.unravel_index(int(find(np.abs(values))), values.shape)))
             low, high = (float(result[end][index]) for end in (low_name, high_name))
             shown = with_interval(float(values[index]), low, high, unit=COLUMNS[name].unit)
             unknown = "" if np.isfinite(low) else " (interval not known)"
+            if name == "coefficient" and not _slides(result, index):
+                unknown += ", the rolling resistance of one surface, without sliding"
             rows.append(f"The {word} {what} is {shown}{unknown}, at {_point_in_words(result, index)}.")
     return rows
 
@@ -182,8 +195,22 @@ def _point_in_words(result: StudyResult, index: tuple[int, ...]) -> str:
     if not result.paired:
         return f"point {number}: {result.place(index)}"
     known = (name for name in COORDINATE if name in result.coords)
-    place = "".join(f" ({name} {worded_value(name, float(result.coords[name][1][index[-1]]))})" for name in known)
+    place = "".join(f" ({name} {_coordinate(name, result.coords[name][1], index[-1])})" for name in known)
     return f"point {number}{place}"
+
+
+def _coordinate(name: str, values: np.ndarray, index: int) -> str:
+    """Return one of the ``values`` of a coordinate in the unit that all have in common."""
+    unit = unit_of_largest(values.tolist(), COLUMNS[name].unit)
+    return f"{converted(float(values[index]), COLUMNS[name].unit, unit):.4g} {printed(unit)}"
+
+
+def _slides(result: StudyResult, index: tuple[int, ...]) -> bool:
+    """Return whether the surfaces slide at a point."""
+    if RATIO not in result.coords:
+        return result.plan.scene.motion.slide_roll_ratio != 0
+    dim, ratios = result.coords[RATIO]
+    return bool(ratios[index[result.dims.index(dim)]] != 0)
 
 
 def _mean_lines(result: StudyResult) -> list[str]:

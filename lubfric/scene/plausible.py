@@ -81,7 +81,7 @@ def slip(name: str, value: Any) -> str | None:
         if low <= abs(meant) <= high:
             in_si = f"{meant:.4g} {printed(q.unit)}".rstrip()
             text = "".join(f" {words[0].upper()}{words[1:]}." for words in advice)
-            return f"did you mean {v:g} {printed(unit)} ({in_si})?{text}"
+            return f"did you mean {v:.4g} {printed(unit)} ({in_si})?{text}"
     return ""
 
 
@@ -103,6 +103,8 @@ def unusual_values(scene: Any) -> tuple[UnusualValue, ...]:
         value = _index(scene) if key == "viscosity_index" else getattr(getattr(scene, section, None), key, None)
         for number in value if isinstance(value, (list, tuple)) else (value,):
             question = None if number is None else slip(name, number)
+            if question and name.endswith(".sq") and float(f"{number:.4g}") != number:
+                question = ""  # not as it was written: it follows from Ra or Rz
             if question is not None:
                 unusual.append(
                     UnusualValue(
@@ -157,9 +159,9 @@ def naming_slips(section: str, values: dict[str, Any]) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        for name in (error.quantity, *error.also):
-            key = name.rpartition(".")[2].partition("[")[0]
-            question = slip(f"{section}.{key}", values.get(key))
+        named = [name.rpartition(".")[2].partition("[")[0] for name in (error.quantity, *error.also)]
+        for key in dict.fromkeys([*named, *values]):
+            question = None if error.hints or key not in values else slip(f"{section}.{key}", values[key])
             if question:
                 unit = KEYS[f"{section}.{key}"].unit
                 error.hint(f"{section}.{key} = {_read_as(values[key], unit)}; {question}")
@@ -182,5 +184,5 @@ def warn_unusual_values(scene: Any) -> Iterator[None]:
 
 def _read_as(value: Any, unit: str) -> str:
     """Return a value as given, and how it is read: "12 is read as 12 m"."""
-    shown = value if isinstance(value, str) else f"{value:g}" if isinstance(value, (int, float)) else f"{value}"
+    shown = value if isinstance(value, str) else f"{value:.4g}" if isinstance(value, (int, float)) else f"{value}"
     return shown if unit == "-" else f"{shown} is read as {shown} {printed(unit)}"

@@ -149,6 +149,7 @@ def numbers_of(curve: CurveResult) -> dict[str, np.ndarray]:
     low, high = uncertainty.interval.T
     columns = swept | columns_of(curve.points) | swept | {"interval_low": low, "interval_high": high}
     columns |= dict(zip(("power_loss_low", "power_loss_high"), curve.power_loss_interval.T))
+    columns |= dict(zip(("model_error_low", "model_error_high"), uncertainty.model_sides.T))
     return columns | {q.column or name: getattr(uncertainty, name) for name, q in OF_UNCERTAINTY.items()}
 
 

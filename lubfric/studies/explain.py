@@ -62,7 +62,7 @@ def _in_sentences(entries: Sequence[Sequence[Validity]], plural: str) -> list[st
     for group in groups.values():
         ordered = sorted(group.values(), key=lambda entry: entry.value)
         values = dict.fromkeys(f"{entry.value:.3g}" for entry in (ordered[0], ordered[-1]))
-        some = f"{len(group)} of {len(entries)} {plural}: " if len(group) < len(entries) else ""
+        some = f"in {len(group)} of {len(entries)} {plural}: " if len(group) < len(entries) else ""
         lines.append(f"{some}{ordered[-1].text_of(' to '.join(values))}")
     return lines
 
@@ -116,6 +116,8 @@ def explain(plan: Any, store: Path | None = None) -> str:
         if axis.name == POINT:
             shown = ", ".join(filter(None, (shown, f"speed {_range('speed', plan.point_speeds)}")))
         lines.append(f"  {len(axis.values):6d} x {shown}")
+    if plan.paired:
+        lines.append(f"  other    inputs are those of the scene {plan.scene.name}")
     if plan.speeds:
         lines.append(f"  {counted(len(plan.speeds), 'speeds'):>13}: {_range('speed', plan.speeds)}")
     elif plan.chooses_speeds:

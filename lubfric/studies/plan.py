@@ -23,6 +23,8 @@ from .store import digest
 from .vary import SLIDING, Axis, Between, axes_of, notes_of_sliding, sample, unit_of
 
 KEYS = ("scene", "speeds", "speed_range", "points", "vary", "together", "sample")
+# Sections by which a scene is told from a study file.
+SCENE_SECTIONS = {"bodies", "lubricant", "motion", "surface"}
 SAMPLE_KEYS = ("count", "sampler", "seed")
 
 
@@ -202,6 +204,11 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
     if points is not None and (not path.is_file() or "scene" not in read_toml(path, "study")):
         return plan_study(load_scene(path if path.is_file() else str(path)), points=points)
     table = read_toml(path, "study")
+    if "scene" not in table and not SCENE_SECTIONS.isdisjoint(table):
+        raise InputError(
+            f"{path.name} is a scene, not a study",
+            way_out=f"give a study file with scene = {str(path.name)!r}, or --points with a table of operating points",
+        )
     validate.keys(path.name, table, KEYS)
     name: Any = table.get("scene")
     validate.instance(f"scene of {path.name}", name, str, "a file or a built-in scene")

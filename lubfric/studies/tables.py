@@ -247,9 +247,11 @@ def interval_band(
     ax.fill_between(wide, sides[0], sides[1], color=figures.BLUE, alpha=0.2, lw=0, label=band)
     for name, times, dashes in OF_INTERVAL:
         error = at(times * columns.get(name, unknown))
+        towards, away = (at(times * columns.get(f"{name}_{end}", unknown)) for end in ("low", "high"))
+        towards, away = (np.where(np.isfinite(side), side, error) for side in (towards, away))
         if np.nanmax(error, initial=0.0) > 0:
             thin: dict[str, Any] = {"color": figures.BLUE, "lw": 0.6, "ls": dashes}
-            within = np.maximum(y * (1 - error), ends[0]), np.minimum(y * (1 + error), ends[1])  # a part of the whole
+            within = np.maximum(y * (1 - towards), ends[0]), np.minimum(y * (1 + away), ends[1])  # a part of the whole
             wide, *sides = figures.widened(x, *within)
             ax.plot(wide, sides[0], **thin)
             ax.plot(

@@ -180,7 +180,9 @@ class TransientResult(Shown):
         error = self.sampling_error
         unknown = np.full(f.size, math.nan)
         down, up = np.broadcast_to(self.inputs, (2, f.size))
+        sides = [self.columns.get(f"model_error_{end}", unknown) for end in ("low", "high")]
         return UncertaintyCurve(
+            model_sides=np.stack(sides, axis=1),
             numerical=self.columns.get("shear_error", unknown),
             sampling=error,
             interval=interval_in_time(self.columns, down, up),
@@ -188,7 +190,7 @@ class TransientResult(Shown):
             spots=unknown,
             length=np.full(f.size, self.line_length),
             area_needed=unknown,
-            model=np.fmax(*(self.columns.get(f"model_error_{end}", unknown) for end in ("low", "high"))),
+            model=np.fmax(*sides),
             inputs=unknown if self.not_in else np.maximum(down, up) / np.maximum(np.abs(f), TINY),
             text=tuple("; ".join((f"sampling {percent(each)}", *self.not_in)) for each in error),
         )

@@ -224,7 +224,7 @@ def test_the_picture_of_a_contact_holds_its_fields(figures, solved):
     np.testing.assert_allclose(film, 1e9 * point.balance.film.film_at(x * 1e-6))
     _, surface = data(section, "rough surface, undeformed")
     np.testing.assert_allclose(surface, 1e9 * (prepared.surface.heights[:, row] - prepared.surface.heights.mean()))
-    _, under = data(section, "smooth counterface")
+    _, under = data(section, "counterface")
     _, deformed = data(section, "rough surface, deformed")
     np.testing.assert_allclose(under - deformed, 1e9 * point.gap[:, row], atol=1e-6)
     assert "(nm)" in section.get_ylabel()
@@ -327,7 +327,7 @@ def test_no_point_is_ringed_where_all_would_be(figures):
     columns = COLUMNS | {"ratio": COLUMNS["speed"]}
     plot_traction("x.png", columns, "title", [(entry,)] * 4)
     assert "with warnings" not in {line.get_label() for line in figures[0].axes[0].lines}
-    assert figures[0].get_supxlabel() == "warnings, at all points: starved"
+    assert figures[0].get_supxlabel() == "warnings: starved"
     cold = dict.fromkeys(("flash_temperature_rise", "film_temperature_rise"), 0 * COLUMNS["speed"])
     plot_traction("x.png", columns | cold, "title", [()] * 4)
     assert len(figures[1].axes) == 1  # no panel of temperatures where none rises
@@ -371,3 +371,13 @@ def test_a_narrow_picture_has_smaller_lines_and_markers():
         sizes[width] = [(line.get_markersize(), line.get_linewidth()) for line in lines]
     assert sizes[0.178] == [(4, 2), (4, 2)]
     assert all(0 < small < large for pairs in zip(sizes[0.085], sizes[0.178]) for small, large in zip(*pairs))
+
+
+def test_the_model_form_error_is_drawn_with_both_its_sides():
+    axes = new_figure().subplots()
+    f = np.array([0.1, 0.1])
+    columns = {"coefficient": f, "interval_low": 0.6 * f, "interval_high": 1.9 * f, "model_error": np.array([0.8, 0.8])}
+    columns |= {"model_error_low": np.array([0.3, 0.3]), "model_error_high": np.array([0.8, 0.8])}
+    interval_band(axes, np.array([1.0, 2.0]), columns)
+    low, high = (line.get_ydata() for line in axes.lines[:2])
+    assert low == pytest.approx(0.07) and high == pytest.approx(0.18)

@@ -88,3 +88,11 @@ def test_the_likely_cause_begins_a_message():
     assert str(caught.value).startswith(
         "bodies.hardness = 700 is read as 700 Pa; did you mean 700 HV (7.404e+09 Pa)? Give hardness_hv. bodies.load"
     )
+
+
+def test_a_height_in_another_unit_is_questioned_by_the_key_that_was_written():
+    paper = lubfric.load_scene("paper")
+    with pytest.raises(lubfric.InputError, match="^surface.ra = 150 is read as 150 m; did you mean 150 nm"):
+        paper.with_(surface={"ra": 150})
+    (derived,) = unusual_values(paper.with_(surface={"ra": "150 um"}))
+    assert derived.key == "surface.sq" and derived.question == ""  # it follows from Ra: no unit explains it

@@ -108,3 +108,9 @@ def test_a_plan_has_its_values_and_an_executor_can_submit(tmp_path):
     for call in (lambda: lubfric.study(plan, executor=3), lambda: lubfric.stribeck(plan.scene, [0.1], executor=3)):
         with pytest.raises(lubfric.InputError, match="executor = 3; allowed: None, a concurrent"):
             call()
+
+
+def test_a_scene_in_place_of_a_study_is_named_as_one(tmp_path):
+    (tmp_path / "s.toml").write_text(lubfric.load_scene("paper").to_toml())
+    with pytest.raises(lubfric.InputError, match="is a scene, not a study.*--points"):
+        load_study(tmp_path / "s.toml")
