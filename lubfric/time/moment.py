@@ -71,7 +71,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
     touches = contact.load > 0.0
     wet = setting.grid.x[t.P > 0.0] * p.length_unit
     central_film = t.H[setting.grid.n // 2] * p.film_unit
-    shares = (boundary / total, shear.total / total, shear.rolling / total)
+    shares = tuple(sense * part / total for part in (boundary, shear.total, shear.rolling))  # along the sliding
     sq = float(model.prepared.surface.sq)
     model_error = moment_model_error(scene, central_film / sq if sq else math.inf, contact.load / total, *shares)
     row = {

@@ -86,6 +86,13 @@ def test_a_reciprocating_contact_becomes_periodic_and_mirrors_itself():
     np.testing.assert_allclose(f[30:51], f[10:31], rtol=2e-3)  # one period later
     np.testing.assert_allclose(f[20:41], f[10:31], rtol=5e-3)  # run backwards (the map itself is not symmetric)
     assert f.max() > 1.5 * f.min()
+    for side in (
+        found.model_error_low,
+        found.model_error_high,
+    ):  # f resists the sliding both ways, and so do its errors
+        np.testing.assert_allclose(side[20:41], side[10:31], rtol=2e-2)
+    low, high = found.uncertainty.interval.T
+    np.testing.assert_allclose(((f - low) / (high - f))[20:41], ((f - low) / (high - f))[10:31], rtol=2e-2)
 
 
 def loop_gap(period):
