@@ -69,6 +69,8 @@ SMALL_PART = 0.01
 
 # Columns of a table that a narrow screen shows as they are.
 NARROW_COLUMNS = 3
+# Columns of a table from which on its numbers may wrap, so that it fits a page.
+MANY_COLUMNS = 8
 MOST_GIVEN = 60  # characters of a value in the column of how an input was given
 
 
@@ -584,6 +586,7 @@ def table(heads: Sequence[str], rows: Sequence[str]) -> str:
     in which every cell has its heading before it, so that nothing is cut."""
     rows = [_labelled(heads, row) for row in rows]
     kind = ' class="wide"' if len(heads) > NARROW_COLUMNS else ""
+    kind = ' class="wide many"' if len(heads) > MANY_COLUMNS else kind
     head = "".join(f"<th>{escape(text)}</th>" for text in heads)
     head = f"<thead><tr>{head}</tr></thead>" if any(heads) else ""
     body = "".join(f"<tr>{row}</tr>" for row in rows)

@@ -9,7 +9,7 @@ from string import Template
 import numpy as np
 
 from .._base import __version__
-from ..models.shared import gathered_texts, sentence
+from ..models.shared import gathered_texts, percent, sentence, student
 from ..quantities import CHOICES, COLUMNS, counted, worded_value
 from ..studies import DURATION, ENDS, RATIO, StudyResult, columns_of_study, label, mean_over_cycle
 from ..units import CELSIUS, converted, plain_number, printed, unit_of_largest, with_interval
@@ -26,6 +26,9 @@ SHOWN: dict[str, tuple[str, str] | None] = {
     "lambda_ratio": None,
     "contact_load": None,
 }
+
+# Parts of the uncertainty budget, and their columns of a study.
+PARTS = {"numerical": "numerical", "sampling": "sampling", "model-form": "model", "input": "inputs"}
 
 # Where an operating point lies.
 COORDINATE = ("position", "angle", "time")
@@ -112,6 +115,10 @@ def _range(key: str, values: np.ndarray) -> str:
     if values.dtype.kind == "f" and values.size > 6:
         ends = " to ".join(dict.fromkeys(worded_value(key, float(value)) for value in (values.min(), values.max())))
         return f"{label}: {ends}" if " to " not in ends else f"{label}: {values.size} values, {ends}"
+    if values.dtype.kind == "f" and key in COLUMNS and COLUMNS[key].unit not in ("-", "K"):
+        unit = unit_of_largest(values.tolist(), COLUMNS[key].unit)
+        numbers = dict.fromkeys(f"{converted(value, COLUMNS[key].unit, unit):.4g}" for value in values.tolist())
+        return f"{label}: {', '.join(numbers)} {printed(unit)}"
     shown = dict.fromkeys(worded_value(key, v.item()) if values.dtype.kind == "f" else str(v) for v in values[:6])
     return f"{label}: {', '.join(shown)}{', ...' if values.size > 6 else ''}"
 
@@ -184,7 +191,20 @@ def answer_lines(result: StudyResult) -> list[str]:
             if name == "coefficient" and not _slides(result, index):
                 unknown += ", the rolling resistance of one surface, without sliding"
             rows.append(f"The {word} {what} is {shown}{unknown}, at {_point_in_words(result, index)}.")
-    return rows
+    return [*rows, *_budget_line(result)]
+
+
+def _budget_line(result: StudyResult) -> list[str]:
+    """Return the relative errors of f at its largest value in a sentence; none where f or its interval is not known."""
+    f = np.abs(result["coefficient"])
+    f = np.where(np.isfinite(result["uncertainty_low"]), f, np.nan)
+    if not np.isfinite(f).any():
+        return []
+    index = tuple(map(int, np.unravel_index(int(np.nanargmax(f)), f.shape)))
+    parts = {name: float(result[f"uncertainty_{column}"][index]) for name, column in PARTS.items()}
+    parts["sampling"] *= student(float(result["uncertainty_freedom"][index])) if parts["sampling"] else 1.0
+    words = ", ".join(f"{name} {percent(part)}" for name, part in parts.items())
+    return [f"The relative errors of f at {_point_in_words(result, index)} are at 95 %: {words}."]
 
 
 def _point_in_words(result: StudyResult, index: tuple[int, ...]) -> str:

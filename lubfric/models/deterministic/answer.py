@@ -261,7 +261,9 @@ def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[s
     tolerance = prepared.scene.numerics.sampling_tolerance
     if math.isnan(sampling):
         return TOO_SHORT.format(length / sample.correlation_lengths[1]), BIASED
-    return (f"the sampling error is above the requested {percent(tolerance)}",) if sampling > tolerance else ()
+    return (
+        (f"the standard error of sampling is above the requested {percent(tolerance)}",) if sampling > tolerance else ()
+    )
 
 
 def _words_of_levels(levels: Levels) -> str:
