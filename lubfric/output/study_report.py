@@ -204,7 +204,8 @@ def _budget_line(result: StudyResult) -> list[str]:
     parts = {name: float(result[f"uncertainty_{column}"][index]) for name, column in PARTS.items()}
     parts["sampling"] *= student(float(result["uncertainty_freedom"][index])) if parts["sampling"] else 1.0
     words = ", ".join(f"{name} {percent(part)}" for name, part in parts.items())
-    return [f"The relative errors of f at {_point_in_words(result, index)} are at 95 %: {words}."]
+    place = _point_in_words(result, index).partition(":")[0]
+    return [f"The relative errors of f at {place}, each at 95 %, are: {words}."]
 
 
 def _point_in_words(result: StudyResult, index: tuple[int, ...]) -> str:

@@ -70,7 +70,7 @@ def test_a_study_file_is_carried_out(tmp_path, capsys):
 def test_a_study_of_one_speed_is_drawn_over_what_is_varied(tmp_path, vary):
     result = lubfric.study(SMALL, vary, [0.3])
     _picture(tmp_path / "study.png", result)
-    assert (tmp_path / "study.png").stat().st_size > 5000 and len(answer_lines(result)) == 4
+    assert (tmp_path / "study.png").stat().st_size > 5000 and len(answer_lines(result)) == 5
 
 
 def test_explain_solves_nothing(tmp_path, capsys):
