@@ -116,9 +116,7 @@ def rough_strip(level: str) -> Iterator[Item]:
             name = f"{load:g} N/m, {'moving' if moving else 'at rest'}"
             study = level != "quick" and not moving and load == LOADS[0]
             cells = MOVING_CELLS[level] if moving else STUDY_CELLS if study else CELLS[level]
-            grids: tuple[tuple[int, int], ...] = STUDY_GRIDS if study else GRIDS[level]
-            if moving and level == "default" and load != LOADS[0]:
-                grids = grids[:1]
+            grids = STUDY_GRIDS if study else GRIDS[level]
             ours, elements = both_programs(case, cells, grids, moving=moving, bodies=bodies)
             yield from judged_films(name, case, ours[-1], elements[-1], ALLOWED)
             if study:
