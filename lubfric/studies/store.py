@@ -22,7 +22,14 @@ from .vary import Axis
 
 POINTS = "points"
 FILE = ("Roughness", "file")  # the field of a scene that names a map
-LABELS = {("Scene", "name"), ("Surface", "source"), ("Surface", "notes"), ("Motion", "speeds")}  # no number needs them
+# Fields on which no number depends.
+LABELS = {
+    ("Scene", "name"),
+    ("Scene", "doubtful"),
+    ("Surface", "source"),
+    ("Surface", "notes"),
+    ("Motion", "speeds"),
+}
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -20,7 +20,7 @@ OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70}
 SCENE = paper_scene(
     lubricant=OIL, transient=lubfric.Transient(duration=1.0, speed=Harmonic(amplitude=0.1, frequency=1.0))
 )
-LABELS = {"name", "motion.speeds"}  # of a scene: no number depends on them
+LABELS = {"name", "doubtful", "motion.speeds"}  # of a scene: no number depends on them
 
 
 def places(part, path=""):

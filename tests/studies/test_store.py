@@ -194,6 +194,13 @@ def test_a_second_writer_is_refused_until_the_first_is_gone(tmp_path):
 # fingerprint
 
 
+def test_the_fingerprint_does_not_depend_on_how_a_slip_was_written():
+    ratio, percent = ({"slide_roll_ratio": 5e-4}, {"slip_percent": 0.05})
+    scenes = [lubfric.load_scene("paper").with_(motion=motion) for motion in (ratio, percent)]
+    assert scenes[0] == scenes[1] and len({scene.doubtful for scene in scenes}) == 2
+    assert fingerprint(scenes[0]) == fingerprint(scenes[1])
+
+
 def test_the_fingerprint_sees_every_number_and_no_label(tmp_path):
     model = prepare(SCENE)
     same = prepare(SCENE.with_(name="other", motion={"speeds": (0.1,)}))
