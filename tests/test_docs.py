@@ -34,6 +34,9 @@ def test_ci_runs_the_readme_test_command():
     )
 
 
+LONG = ("plot_14_bearing_torque", "plot_15_gear_flank", "plot_16_paper_band")  # ten seconds and more
+
+
 @pytest.mark.parametrize("script", sorted((ROOT / "docs" / "examples").glob("*.py")), ids=lambda p: p.name)
 def test_examples_run(script, tmp_path, monkeypatch, load_sharing):
     import runpy
@@ -43,7 +46,13 @@ def test_examples_run(script, tmp_path, monkeypatch, load_sharing):
     namespace["main"]()
 
 
-@pytest.mark.parametrize("script", sorted((ROOT / "docs" / "gallery").glob("plot_*.py")), ids=lambda p: p.stem)
+@pytest.mark.parametrize(
+    "script",
+    [
+        pytest.param(script, marks=[pytest.mark.slow] * (script.stem in LONG), id=script.stem)
+        for script in sorted((ROOT / "docs" / "gallery").glob("plot_*.py"))
+    ],
+)
 def test_gallery_runs_and_draws(script, tmp_path, monkeypatch, load_sharing):
     """Every script of the gallery stands alone, and ends with a picture that has something in it."""
     import runpy

@@ -145,7 +145,7 @@ def test_the_gap_of_touching_bodies_matters_where_they_give_off_the_lubricant():
 
 @pytest.mark.parametrize(
     "sq, load, speed, across, way, most",
-    [(200e-9, 2.72e5, 0.3, 28, "the dry contact", 50), (100e-9, 3e5, 1e-3, 24, "a faster speed", 80)],
+    [(200e-9, 2.72e5, 0.3, 28, "the dry contact", 50), (100e-9, 3e5, 1e-3, 24, "a faster speed", 90)],
 )
 def test_a_bearing_at_a_gigapascal_is_solved_from_a_cold_start(sq, load, speed, across, way, most):
     """By Newton's method alone, or step by step. In the valleys of the Hertz strip the start has fluid, and the film

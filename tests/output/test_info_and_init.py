@@ -180,6 +180,7 @@ def test_the_map_that_was_given_comes_before_its_strips(tmp_path):
     assert "mine.x3p: 60 x 40 points, 120 x 80 µm" in told and "solved first: " in told
 
 
+@pytest.mark.slow
 def test_info_of_a_model_that_takes_too_long_says_what_answers():
     """As the answer has it: the error of long cells is larger than requested, and known."""
     moving = HEAVY.with_(

@@ -1,6 +1,7 @@
 """The quick answer on long cells, its calibrated error, and the limit of an oil that nobody gave."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -161,11 +162,11 @@ def test_bounds_widen_outside_the_campaign_and_info_and_result_say_so():
     text = "outside the range of the solved cases"
     quick_paper = PAPER.with_(numerics={"model": "quick"})
     thick = lubfric.friction(quick_paper, 0.5)
-    assert [entry.what for entry in thick.validity if text in entry.what][0].startswith("Moes' film over Sq")
-    assert not any(text in entry.what for entry in lubfric.friction(quick_paper, 0.03).validity)
+    assert [entry.what for entry in thick.validity if text in entry.consequence] == ["Moes' film over Sq"]
+    assert not any(text in entry.consequence for entry in lubfric.friction(quick_paper, 0.03).validity)
     assert text not in describe_scene(quick_paper, [0.03])
     light = quick_paper.with_(bodies={"load": 0.5})
-    assert f"load per width, {text}" in describe_scene(light, [0.03])
+    assert re.search(f"load per width is .*{text}", describe_scene(light, [0.03]))
     assert widening([]) == 1.0 < widening([0.5]) < widening([1.0]) <= widening([9.0])
 
 
@@ -227,7 +228,7 @@ def test_numbers_of_the_cases_are_those_of_todays_model(motion, seed):
     known = next(case for case in fit.cases(motion) if case.row["seed"] == str(seed)).numbers
     solved = quick(drawn(motion, seed))
     for name in solved.keys() - {"seconds"}:  # a march in time ends so far off
-        assert solved[name] == pytest.approx(known[name], rel=2e-3, abs=1e-9, nan_ok=True)
+        assert solved[name] == pytest.approx(known[name], rel=2e-3, abs=5e-6, nan_ok=True)
 
 
 def test_bounds_of_kinds_that_were_left_out_hold_nine_cases_in_ten():

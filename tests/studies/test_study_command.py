@@ -59,7 +59,7 @@ def test_a_study_file_is_carried_out(tmp_path, capsys):
         load, seed, speed = (
             axis[i] for axis, i in zip(((3, 5.5), (1, 2), (3e-3, 0.03, 0.3)), np.argwhere(f == value)[0])
         )
-        assert f"at total load {load:g} N, seed {seed}, " in row and row.endswith(f"speed {speed:g} m/s.")
+        assert f": total load {load:g} N, seed {seed}, " in row and row.endswith(f"speed {speed:g} m/s.")
     assert (tmp_path / "out" / "study.png").read_bytes().startswith(b"\x89PNG")
     rows = (tmp_path / "out" / "study.csv").read_text().splitlines()
     assert len(rows) == 13 and rows[0].startswith("bodies.load [N],surface.seed,surface.sq [m],speed [m/s],")

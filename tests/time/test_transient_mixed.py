@@ -252,7 +252,7 @@ def test_the_command_writes_history_figure_and_animation(tmp_path, capsys, monke
     assert names == {*told.split()}
     rows = (tmp_path / "out" / "history.csv").read_text().splitlines()
     assert len(rows) == 8 and rows[0].startswith("time [s],entrainment_speed [m/s]")
-    assert "t = 0.02     of 0.02 s" in capsys.readouterr().err
+    assert "t = 0.02 of 0.02 s" in capsys.readouterr().err
     (tmp_path / "out" / "history.png").unlink()
     assert main(["plot", str(tmp_path / "out")]) == 0 and (tmp_path / "out" / "history.png").is_file()
     drawn = (tmp_path / "out" / "history.png").read_bytes()

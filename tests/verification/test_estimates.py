@@ -59,7 +59,9 @@ RUNS = {
 }
 
 
-@pytest.mark.parametrize("name", RUNS)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name in ("ratios", "rolling"))) for name in RUNS]
+)
 def test_the_estimate_is_near_the_counted_work(name):
     estimate, run = RUNS[name]
     seconds = estimate()

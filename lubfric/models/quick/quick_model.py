@@ -29,6 +29,7 @@ from ..deterministic import (
     summit_control,
     two_levels,
     warn_model_error,
+    why_too_hot,
     work_on_strips,
 )
 from ..deterministic import answer_of as deterministic_answer
@@ -353,6 +354,11 @@ class QuickModel(Model):
 
     def why_unable(self, prepared: Prepared, speed: float) -> str:
         return why_no_rough_film(prepared, speed) or why_gap_not_resolved(prepared.scene, is_joint=prepared.is_joint)
+
+    def why_declined(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
+        heat = cheaper.heat()
+        why = "" if heat is None else why_too_hot(heat)
+        return f"load sharing alone: {why}" if why else ""
 
     def adopt(self, cheaper: SampleSolution) -> QuickSolution | None:
         return _beside(cheaper) if isinstance(cheaper, PaperSolution) else None
