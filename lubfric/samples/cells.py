@@ -4,6 +4,7 @@ And how strips are cut from a map and joined."""
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,6 +12,15 @@ import numpy as np
 from ..errors import InputError
 from ..scene import Roughness, Scene
 from ..surface import Surface, correlation_length
+from ..units import worded
+
+# Cells in the shortest correlation length of the cells that a message suggests, and correlation lengths along x. Not
+# measured: a summit of a Gaussian surface is some correlation lengths wide.
+EXAMPLE_CELLS = 10
+EXAMPLE_LENGTHS = 16.0
+
+# Correlation length [m] of that example where none is given.
+EXAMPLE_LENGTH = 1e-5
 
 # Cells across the Hertz strip in a picture: an asperity contact of the built-in scene then has five across. Changes
 # no number.
@@ -145,6 +155,20 @@ def correlation_lengths(rough: Roughness) -> tuple[float, float]:
     factor = decay if rough.acf == "exponential" else math.sqrt(decay)
     both = np.broadcast_to(np.asarray(rough.correlation_length, dtype=float), 2)
     return float(both[0]) / factor, float(both[1]) / factor
+
+
+def no_cells(bodies: Sequence[Roughness], reach: float = 0.0, name: str = "surface") -> InputError:
+    """Return the error of a generated surface ``name`` without cells, with an example: cells of a tenth of the shortest
+    correlation length of the ``bodies``, as many as `EXAMPLE_LENGTHS` of the longest one and ``reach`` [m] need."""
+    known = [rough for rough in bodies if rough.correlation_length is not None]
+    lengths = [length for rough in known for length in correlation_lengths(rough)] or [EXAMPLE_LENGTH]
+    spacing = float(f"{min(lengths) / EXAMPLE_CELLS:.1g}")
+    along = 32 * math.ceil(max(reach, EXAMPLE_LENGTHS * max(lengths)) / spacing / 32)
+    example = f'for example shape = [{along}, {along // 2}] and spacing = "{worded(spacing, "m")}"'
+    return InputError(
+        f"contact.shape and contact.spacing [m] are needed for a generated {name}",
+        way_out=f"{example}: twice the spacing is the shortest wavelength that the surface has",
+    )
 
 
 def length_or_half(surface: Surface, axis: int) -> float:

@@ -11,7 +11,7 @@ from .._base import validate
 from ..errors import InputError
 from ..scene import ContactDomain, Roughness, Scene, named
 from ..surface import Surface, check_slopes, generate_surface, outliers, read_surface
-from ..units import worded
+from .cells import no_cells
 
 # Hertz half-widths on each side to which a measured patch is cut. Not measured: at the lightest loads of rough
 # contacts the contact is wider than the Hertz strip by a factor of this order.
@@ -135,9 +135,7 @@ def check_grid(scene: Scene, surface: Surface) -> None:
 def generated_map(rough: Roughness, domain: ContactDomain, name: str = "surface") -> Surface:
     """A generated map on the grid of ``domain``. The counterface draws other random numbers from the same seed."""
     if domain.shape is None or domain.spacing is None:
-        spacing = worded(float(f"{0.1 * np.min(rough.correlation_length or 1e-5):.1g}"), "m")
-        way_out = f'for example shape = [448, 224] and spacing = "{spacing}", a tenth of the correlation length'
-        raise InputError(f"contact.shape and contact.spacing [m] are needed for a generated {name}", way_out=way_out)
+        raise no_cells([rough], name=name)
     surface = generate_surface(
         (rough.oversize * domain.shape[0], rough.oversize * domain.shape[1]),
         validate.spacing("contact.spacing", domain.spacing),

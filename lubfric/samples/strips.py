@@ -19,7 +19,6 @@ from ..errors import InputError
 from ..quantities import counted
 from ..scene import ROUGH, Roughness, Scene, moves
 from ..surface import Surface, surface_generator
-from ..units import worded
 from .cells import (
     COLUMNS_MULTIPLE,
     Cells,
@@ -28,6 +27,7 @@ from .cells import (
     choose_cells,
     correlation_lengths,
     length_or_half,
+    no_cells,
     reach_of,
     spread,
     stacked,
@@ -66,11 +66,6 @@ APART = 4.0
 
 # Windows from which on none has to reach over the ends of the map: their scatter is known to 1/sqrt(14) = 27 %.
 ENOUGH = 8
-
-# Cells in the shortest correlation length, and correlation lengths along x, of the cells that a message suggests. Not
-# measured: a summit of a Gaussian surface is some correlation lengths wide.
-EXAMPLE_CELLS = 10
-EXAMPLE_LENGTHS = 16.0
 
 # Stream of seeds of strips.
 STRIPS = 0
@@ -222,28 +217,14 @@ def strips_of(scene: Scene, read: tuple[Surface, ...] = ()) -> Sample:
     return strips.native() if scene.numerics.grid == "given" else strips
 
 
-def _no_cells(scene: Scene) -> str:
-    """Return why a generated surface needs cells, with an example: a tenth of its shortest correlation length, and as
-    many as contain the contact."""
-    bodies = [rough for rough, _ in rough_bodies(scene)]
-    lengths = [length for rough in bodies if rough.sq for length in correlation_lengths(rough)]
-    spacing = float(f"{min(lengths) / EXAMPLE_CELLS:.1g}")
-    reach = max(reach_of(scene, math.hypot(*(rough.sq or 0.0 for rough in bodies))), EXAMPLE_LENGTHS * max(lengths))
-    along = 32 * math.ceil(reach / spacing / 32)
-    return (
-        "contact.shape and contact.spacing [m] are needed for a generated surface, for example "
-        f'shape = [{along}, {along // 2}] and spacing = "{worded(spacing, "m")}": twice the spacing is the shortest '
-        "wavelength that the surface has"
-    )
-
-
 def generated_strips(scene: Scene) -> GeneratedStrips:
     """Strips of the generated surface of ``scene``. Along x they are as long as its patch, or as the contact if that is
     longer; where the patch is the area A, as the patch."""
     patch = scene.contact
     bodies = [rough for rough, _ in rough_bodies(scene)]
+    sq = math.hypot(*(rough.sq or 0.0 for rough in bodies))
     if patch.shape is None or patch.spacing is None:
-        raise InputError(_no_cells(scene))
+        raise no_cells(bodies, reach_of(scene, sq))
     spacing = validate.spacing("contact.spacing", patch.spacing)
     half_width = scene.bodies.half_width
     along_x, along_y = zip(*(correlation_lengths(rough) for rough in bodies if rough.sq))
@@ -252,7 +233,6 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
     if patch.region == "box":
         cells = cells_of_a_box(spacing, shortest, half_width, patch.shape)
     else:
-        sq = math.hypot(*(rough.sq or 0.0 for rough in bodies))
         cells = choose_cells(spacing, shortest, half_width, max(patch.shape[0] * spacing[0], reach_of(scene, sq)))
     narrow = WIDE * lengths[0] / half_width
     long = STRIP if narrow > 1 else STRIP / 2

@@ -60,8 +60,11 @@ def warmed(scene: Scene, numbers: dict[str, float], heat: Heat) -> dict[str, flo
     }
 
 
-def why_too_hot(heat: Heat) -> str:
-    """Return why ``heat`` is more than was checked for the deterministic model, as text; "" if it is not."""
+def why_too_hot(heat: Heat | None) -> str:
+    """Return why ``heat`` is more than was checked for the deterministic model, as text; "" if it is not, or not known
+    (None)."""
+    if heat is None:
+        return ""
     factor = heat.film_factor
     change = heat.change
     if factor >= LEAST_FILM and change <= MOST_CHANGE:

@@ -127,9 +127,7 @@ class DeterministicModel(Model):
         return why_no_rough_film(prepared, speed)
 
     def why_declined(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
-        heat = cheaper.heat()
-        why = why_gap_not_resolved(prepared.scene, is_joint=prepared.is_joint)
-        why = why or ("" if heat is None else why_too_hot(heat))
+        why = why_gap_not_resolved(prepared.scene, is_joint=prepared.is_joint) or why_too_hot(cheaper.heat())
         if why:
             return f"load sharing alone: {why}"
         return why_too_costly(prepared, speed, cells_of(prepared.scene, prepared.sample))

@@ -93,13 +93,11 @@ def solve_moving(
     speed: float,
     factors: tuple[int, int],
     target: SampleTarget | None = None,
-    *,
-    for_continuation: bool = False,
 ) -> StripOnTwoGrids:
     """Solve the strip of rough ``bodies`` that move, at ``speed`` [m/s], not 0, on cells ``factors`` times as long as
     those of their maps, until the ``target`` is reached (None: for a pass of the map). The second strip is at rest, from
-    which the motion starts. ``for_continuation``: so that ends of ranges can continue it. Raises `ConvergenceError`."""
-    strip = solve_moving_strip(scene, bodies, speed, factors=factors, target=target, for_continuation=for_continuation)
+    which the motion starts. Raises `ConvergenceError`."""
+    strip = solve_moving_strip(scene, bodies, speed, factors=factors, target=target)
     return StripOnTwoGrids(strip, strip.rest)
 
 

@@ -219,6 +219,11 @@ class QuickSolution(SampleSolution):
         return f"its model-form error, {percent(error)}, is within numerics.model_tolerance, {percent(tolerance)}"
 
     def answer(self) -> ModelAnswer:
+        return self._answer
+
+    @cached_property
+    def _answer(self) -> ModelAnswer:
+        """The answer: `why_sufficient` needs its error before it is requested."""
         if why := self.why_by_equation:
             answer = self.line.answer()
             return replace(answer, notes=(*answer.notes, why))
@@ -283,7 +288,7 @@ def _solve_strip(
             control=summit_control(prepared),
         )
     bodies = bodies_of(prepared, index, speed)
-    pair = solve_moving(scene, bodies, speed, factors, target, for_continuation=bool(scene.ranges))
+    pair = solve_moving(scene, bodies, speed, factors, target)
     return replace(pair, mirrored=is_mirrored)
 
 
@@ -356,8 +361,7 @@ class QuickModel(Model):
         return why_no_rough_film(prepared, speed) or why_gap_not_resolved(prepared.scene, is_joint=prepared.is_joint)
 
     def why_declined(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
-        heat = cheaper.heat()
-        why = "" if heat is None else why_too_hot(heat)
+        why = why_too_hot(cheaper.heat())
         return f"load sharing alone: {why}" if why else ""
 
     def adopt(self, cheaper: SampleSolution) -> QuickSolution | None:
