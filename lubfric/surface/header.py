@@ -27,6 +27,7 @@ SAME = 0.01  # relative difference up to which two statements of one length agre
 WIDTH = {"width", "šířka", "breite", "anchura", "largeur", "larghezza", "幅", "폭", "largura", "ширина"}
 HEIGHT = {"height", "výška", "höhe", "altura", "hauteur", "altezza", "高さ", "높이", "высота"}
 VALUE_UNIT = {"value", "values", "hodnot", "einheiten", "unités", "valore", "値の単位", "값", "valor", "измерения"}
+UNIT = {"unit", "units", "einheit", "단위", "単位"}
 CHANNEL = {"channel", "kanál", "kanal", "canal", "canale", "チャネル", "채널", "канал"}
 STEP_WORDS = {
     "step",
@@ -41,9 +42,15 @@ STEP_WORDS = {
     "dx",
     "dy",
 }
+SCALE = "scale "  # begins the name of a step that only Nova calls so
+CALIBRATION = {"calibration", "justierung", "캘리브레이션"}  # "XY calibration" of Keyence: the step of x and y
 COUNT_WORDS = {
     "horizontal",
     "vertical",
+    "horizont",
+    "vertikal",
+    "가로",
+    "세로",
     "points",
     "pixels",
     "size",
@@ -62,6 +69,10 @@ EXTENT_WORDS = {"length", "range", "extent", "size", "scan", "width", "field"}
 MISSING_WORDS = {"nodata", "missing", "invalid", "void", "undefined", "bad"}
 AXES = {"x": "x", "y": "y", "z": "z", "dx": "x", "dy": "y", "nx": "x", "ny": "y", "xres": "x", "yres": "y"}
 AXES |= {"horizontal": "x", "vertical": "y", "xscale": "x", "yscale": "y", "zscale": "z"}
+AXES |= {"horizont": "x", "vertikal": "y", "가로": "x", "세로": "y"}
+DOWN = {"down", "downward", "downwards"}
+INVERTED = {"inverted", "invert", "inversion", "replica"}
+TRUE = {"yes", "true", "on", "ja", "oui", "1"}
 
 _DIGITS = r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?"
 _NUMBER = re.compile(_DIGITS)
@@ -83,6 +94,10 @@ class Statement:
     line: int
     text: str
 
+    def worded(self) -> str:
+        """Return where and how the file states it."""
+        return f"line {self.line} {self.text[:60]!r}"
+
 
 @dataclass(frozen=True, kw_only=True)
 class Stated:
@@ -98,6 +113,12 @@ class Stated:
         return f"line {self.line} {self.text[:60]!r}"
 
 
+def contradiction(name: str, quantity: str, old: Statement | Stated, new: Statement | Stated) -> InputError:
+    """Return the error of a file of which two lines contradict each other."""
+    said = f"file {name} contradicts itself about {quantity}: {old.worded()} and {new.worded()}"
+    return InputError(said, way_out="remove the wrong line")
+
+
 @dataclass(kw_only=True)
 class Header:
     """What the lines around a table state, by quantity: "nx", "ny", "columns", "lines", "dx", "dy", "width", "height",
@@ -106,15 +127,24 @@ class Header:
     name: str
     program: str = ""
     stated: dict[str, Stated] = field(default_factory=dict)
+    unitless: dict[str, Statement] = field(default_factory=dict)
     lines_read: set[int] = field(default_factory=set)
+
+    def state_lateral(self, quantity: str, statement: Statement, value: float, length: float | None) -> None:
+        """Keep a step or an extent in units of ``length`` [m]; without one, until all lines are read."""
+        if length is not None:
+            self.state(quantity, statement, value * length)
+            return
+        old = self.unitless.setdefault(quantity, statement)
+        if old.numbers != statement.numbers:
+            raise contradiction(self.name, quantity, old, statement)
 
     def state(self, quantity: str, statement: Statement, value: float, unit: str | None = None) -> None:
         """Keep the ``value`` of a ``quantity``. Raise `InputError` where another line states another one."""
         new = Stated(value=value, unit=unit, line=statement.line, text=statement.text)
         old = self.stated.get(quantity)
         if old is not None and (old.unit != new.unit or not math.isclose(old.value, new.value, rel_tol=SAME)):
-            said = f"file {self.name} contradicts itself about {quantity}: {old.worded()} and {new.worded()}"
-            raise InputError(said, way_out="remove the wrong line")
+            raise contradiction(self.name, quantity, old, new)
         self.stated.setdefault(quantity, new)
         self.lines_read.add(statement.line)
 
@@ -184,14 +214,51 @@ def read_header(name: str, lines: Iterable[tuple[int, str]]) -> Header:
             _file(header, statement)
     if {"width", "height"} <= set(header.stated) and "z unit" in header.stated and not header.program:
         header.program = "Gwyddion"
+    _resolve_unitless(header)
     if header.program == "SPIP" and "z unit" not in header.stated and "z factor" in header.stated:
         factor = header.stated["z factor"]  # Bit2nm
         header.stated["z unit"] = Stated(value=LENGTHS["nm"], unit="nm", line=factor.line, text=factor.text)
     return header
 
 
+def _resolve_unitless(header: Header) -> None:
+    """State the lengths that their own lines give no unit, where another line does, or the program is SPIP (nm)."""
+    unit = LENGTHS["nm"] if header.program == "SPIP" else None
+    unit = header.value("xy unit") or unit
+    if unit is None:
+        return
+    nova = "z unit" in header.stated and re.match(r"Unit Data\b", header.stated["z unit"].text)
+    for quantity, statement in header.unitless.items():
+        step = {SCALE + "x": "dx", SCALE + "y": "dy"}.get(quantity, quantity)
+        if step == quantity or nova:  # the text export of Nova says "Scale X = 0.5" of a step
+            value = statement.numbers[-1 if quantity == "dy" else 0]
+            header.state(step, statement, value * unit)
+    header.unitless.clear()
+
+
+def steps_in_unit(header: Header, unit: float) -> tuple[float | None, float | None]:
+    """Return the (dx, dy) that lines state without a unit, if they were in this one [m]; None where none does."""
+    steps = []
+    for quantity, place in (("dx", 0), ("dy", -1)):
+        statement = header.unitless.get(quantity)
+        steps.append(None if statement is None else statement.numbers[place] * unit)
+    return steps[0], steps[1]
+
+
+def _refuse_inverted(header: Header, statement: Statement) -> None:
+    """Raise `InputError` for a line that says that the heights fall out of the material."""
+    words = set(statement.words)
+    spoken = words - set(UNIT_WORDS)
+    inverted = words & INVERTED and (words & TRUE or statement.numbers == (1.0,))
+    if inverted or "positive" in words and words & DOWN or spoken == {"depth"} and not statement.numbers:
+        said = f"file {header.name}: {statement.worded()} leaves the sign of the heights open"
+        way_out = "remove the line where heights rise out of the material; else change their sign and remove it"
+        raise InputError(said, way_out=way_out)
+
+
 def _file(header: Header, statement: Statement) -> None:
     """Put a ``statement`` into the ``header`` as the quantity that its words name, if they name one."""
+    _refuse_inverted(header, statement)
     words = set(statement.words)
     axes = {AXES[word] for word in statement.words if word in AXES}
     axis = axes.pop() if len(axes) == 1 else ""
@@ -220,16 +287,18 @@ def _file(header: Header, statement: Statement) -> None:
         header.state("lines", statement, value)
     elif len(numbers) == 1 and _whole(value) and length is None and axis in ("x", "y") and _counts(words):
         header.state("n" + axis, statement, value)
-    elif words & STEP_WORDS and (length is not None or header.program == "SPIP"):
-        scale = length or LENGTHS["nm"]
-        if axis in ("x", "y") and len(numbers) == 1:
-            header.state("d" + axis, statement, value * scale)
-        elif axis == "" and (axes == set() or axes == {"x", "y"}) and len(numbers) <= 2 and _square(words):
-            header.state("dx", statement, value * scale)
-            header.state("dy", statement, numbers[-1] * scale)
+    elif axis in ("x", "y") and statement.words == ("scale", axis) and len(numbers) == 1 and length is None:
+        header.state_lateral(SCALE + axis, statement, value, None)
+    elif length is not None and words & CALIBRATION and "xy" in words and len(numbers) == 1:
+        header.state("dx", statement, value * length)
+        header.state("dy", statement, value * length)
+    elif words & STEP_WORDS and axis in ("x", "y") and len(numbers) == 1:
+        header.state_lateral("d" + axis, statement, value, length)
+    elif words & STEP_WORDS and axis == "" and axes in (set(), {"x", "y"}) and len(numbers) <= 2 and _square(words):
+        header.state_lateral("dx", statement, value, length)
+        header.state_lateral("dy", statement, numbers[-1], length)
     elif axis in ("x", "y") and words & EXTENT_WORDS and len(numbers) == 1:
-        if length is not None or header.program == "SPIP" and "length" in words:
-            header.state("width" if axis == "x" else "height", statement, value * (length or LENGTHS["nm"]))
+        header.state_lateral("width" if axis == "x" else "height", statement, value, length)
     elif length is not None and not axis and len(numbers) == 1 and words & (WIDTH | HEIGHT) and len(words) == 1:
         header.state("width" if words & WIDTH else "height", statement, value * length)
     elif length is not None and not axis and len(numbers) == 2 and words & {"size", "range", "area", "field"}:
@@ -240,18 +309,18 @@ def _file(header: Header, statement: Statement) -> None:
 def _unit_alone(header: Header, statement: Statement, words: set[str], axis: str) -> None:
     """File a statement without a number: a unit of the heights, or of the coordinates."""
     last = next((word for word in reversed(statement.words) if word in UNIT_WORDS), None)
-    unit = statement.unit or (UNIT_WORDS[last] if last and words & ({"unit", "units", "data"} | VALUE_UNIT) else None)
+    unit = statement.unit or (UNIT_WORDS[last] if last and words & (UNIT | VALUE_UNIT | {"data"}) else None)
     spoken = words - set(UNIT_WORDS)
     about_heights = axis == "z" or spoken & VALUE_UNIT or spoken & (HEIGHT | {"heights", "z", "elevation"})
     lateral = axis in ("x", "y") or spoken & {"lateral", "xy"}
-    if "data" in spoken and spoken & {"unit", "units", "z"}:
+    if "data" in spoken and spoken & (UNIT | {"z"}):
         about_heights = True
-    if last and spoken <= {"unit", "units", "in", "all"}:  # a line 'um', or 'units: um'
+    if last and spoken <= UNIT | {"in", "all"}:  # a line 'um', or 'units: um'
         unit = UNIT_WORDS[last]
         about_heights = True
     if unit is None and about_heights and spoken & {"heights", "height", "z"}:
         unit = UNIT_WORDS[last] if last else None  # 'heights in nm'
-    if unit is None and about_heights and (spoken & VALUE_UNIT or spoken & {"unit", "units"}):
+    if unit is None and about_heights and spoken & (UNIT | VALUE_UNIT):
         _, mark, stated = re.sub("[:：]", "=", statement.text).partition("=")
         unit = stated.strip() or None if mark else None
     if unit is None:
@@ -261,7 +330,7 @@ def _unit_alone(header: Header, statement: Statement, words: set[str], axis: str
             said = f"file {header.name}, line {statement.line} {statement.text[:60]!r}: values are in {unit!r}"
             raise InputError(said, allowed=f"heights in {', '.join(LENGTHS)}")
         header.state("z unit", statement, LENGTHS[unit], unit)
-    elif lateral and spoken & {"unit", "units"} and unit in LENGTHS:
+    elif lateral and spoken & UNIT and unit in LENGTHS:
         header.state("xy unit", statement, LENGTHS[unit], unit)
 
 

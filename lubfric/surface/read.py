@@ -15,14 +15,17 @@ from .height_map import Surface
 from .layout import kind_of_table, refuse_profile
 from .prepare import FORMS
 from .regrid import points
+from .sdf import MAGIC as SDF
 from .statistics import check_scale, check_slopes
+from .surfer import BINARY as SURFER_BINARY
 from .text import DECIMALS, read_text
 from .x3p import read_x3p
 
 MOST_BYTES = 2**31  # of any file
-TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz", ".prf", ".smd")
+TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz", ".prf", ".smd", ".grd")
 OWN_GRID = {".x3p": read_x3p}  # formats that carry their grid and their units, and their readers
 SUFFIXES = (".npy", *TEXT, *OWN_GRID)
+ISO_TEXT = tuple(magic.encode("ascii") for magic in SDF)  # first bytes of an .sdf or .bcr file that is text
 BETTER = 0.9  # of Sq: a form that leaves less than that is worth a word
 # of the formats that SurfaceTopography 1.27 knows; those that lubfric reads itself (.x3p, .xyz, text, .npy) are left
 # out
@@ -54,6 +57,8 @@ def read_surface(
                          or points "x y z". Headers of Gwyddion, SPIP, Wyko and others give spacing and units
     .xyz                 lines "x y z" on a uniform grid, any order; omitted points are unmeasured
     .xyz .asc .txt       of Zygo MetroPro and Mx; points need the ``unit`` of their heights
+    .sdf .bcr            ISO 25178-71 as text; in metres
+    .grd                 Surfer as text (DSAA); needs ``unit``
     .x3p                 ISO 25178-72; x is the fast axis of the file and axis 0 here; metres
     .sur .al3d .opd ...  every format of SurfaceTopography (``lubfric[formats]``): its first channel
     ==================== ==================================================================
@@ -106,6 +111,11 @@ def _read(path: Path, head: bytes, spacing: Any, unit: Any, decimal: str | None,
     """Return the map in a file unchanged, by the reader of its format."""
     suffix = path.suffix.lower()
     binary = b"\0" in head and not head.startswith((b"\xff\xfe", b"\xfe\xff"))  # no text: .dat of an interferometer
+    if head.startswith(SURFER_BINARY):
+        said = f"path = {str(path)!r} is a binary grid of Surfer"
+        raise InputError(said, way_out="save it as a Surfer 6 text grid (DSAA)")
+    if head.lstrip(b"\xef\xbb\xbf \r\n").startswith(ISO_TEXT):
+        return _plain(path, ".txt", spacing, unit, decimal, missing_value)
     by_instrument = suffix in TEXT and binary or suffix not in SUFFIXES and suffix in INSTRUMENTS
     if by_instrument or suffix in OWN_GRID:
         _refuse(suffix, spacing=spacing, unit=unit, decimal=decimal, missing_value=missing_value)

@@ -1,7 +1,7 @@
 """Height maps as text: a matrix of heights, or a list of points x y z; their separators, decimal marks and headers."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,15 +11,30 @@ import numpy as np
 from .._base import FloatArray, text_of, validate
 from ..errors import InputError
 from ..quantities import counted
-from .header import LENGTHS, UNIT_WORDS, UNITS, Header, column_units, grid_of, read_header, statements
+from .header import (
+    LENGTHS,
+    UNIT_WORDS,
+    UNITS,
+    Header,
+    column_units,
+    grid_of,
+    read_header,
+    statements,
+    steps_in_unit,
+)
 from .layout import FEWEST, Border, border_of, kind_of_table, refuse_profile
 from .points import gridded
+from .sdf import MAGIC as SDF
+from .sdf import read_sdf
+from .surfer import MAGIC as SURFER
+from .surfer import read_surfer
 from .zygo import PHASES, POINTS, read_zygo
 
 MOST_BYTES = 2**30  # of a file of text
 DECIMALS = (".", ",")
 UNCLEAR = "is neither numbers nor a title; use 'nan' where unmeasured, '#' before a line to be skipped"
 WYKO = "Wyko ASCII Data File Format"
+_PROFILM = re.compile(r"(numCols)\s+(numRows)\s+(pixelSize) \((\w+)\)\s+(\S+)\s+(\S+)\s+(\S+)\s", re.I)  # Filmetrics
 _SMD = re.compile(r"[^\n]*\n[^\n]* PRF [^\n]*\n *CX ")  # a profile of ISO 5436-2, as Taylor Hobson writes .prf and .smd
 HEIGHT_BLOCKS = ("RAW_DATA", "RAW DATA", "OPD", "SAMPLE_DATA")  # of a Wyko file; others are intensities
 LATERAL = (1.0, 1e-3, 1e-6, 1e-9)  # m: units that coordinates without a stated one may be in
@@ -29,8 +44,9 @@ _NUMBER = re.compile(r"[+-]?(?:(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?|nan|inf|inf
 _VALUE = r"(?:[+-]?(?:\d+(?:,\d+)?(?:[eE][+-]?\d+)?|[nN][aA][nN]))"
 _TWO_NUMBERS = re.compile(rf"{_NUMBER.pattern}[\s;,]{{1,9}}{_NUMBER.pattern}[\s;,]{{0,9}}", re.I)
 _QUOTED = re.compile(
-    r'"([+-]?(?:\d{1,40}[.,]?\d{0,40}|[.,]\d{1,40})(?:[eE][+-]?\d{1,4})?)"'
+    r'"((?:[+-]?(?:\d{1,40}[.,]?\d{0,40}|[.,]\d{1,40})(?:[eE][+-]?\d{1,4})?|nan)?)"'
 )  # a comma is the decimal mark
+_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")  # '1,234', which is 1.234 or 1234
 _EMPTY = re.compile(r"^\t|\t *(?:\t|$)")  # a value left out between tabs
 _BLANKS_BETWEEN = re.compile(rf"{_VALUE}(?:\s+{_VALUE})*")  # '1,5 2,5'
 _PAIR = r"[+-]?\d+,\d+(?:[eE][+-]?\d+)?"
@@ -49,6 +65,14 @@ _ODD = re.compile(r"[^\d\s.,;+eE-]|--|(?<![^\s;,])-(?![^\s;,])")  # a line that 
 Units = tuple[str, str, str] | None  # of x, y and the heights, as the caller gives them
 Pair = tuple[float, float] | None  # a spacing [m], where there is one
 Lines = list[tuple[int, str]]  # (line number in the file, text without blanks around it)
+Reader = Callable[[Path, str, Units], tuple[FloatArray, Pair, tuple[str, ...]]]
+
+# Formats that their first words name, and their readers: heights [m], spacing [m] and notes.
+BY_FIRST_WORDS: dict[tuple[str, ...], Reader] = {
+    (POINTS, PHASES): read_zygo,
+    SDF: read_sdf,
+    (SURFER,): read_surfer,
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,11 +116,13 @@ def read_text(
     text = text_of(path, MOST_BYTES)
     if text.startswith(WYKO):
         return _wyko(path, text, units, spacing)
-    if text.startswith((POINTS, PHASES)):
-        heights, steps, notes = read_zygo(path, text, units)
+    if reader := next((reader for marks, reader in BY_FIRST_WORDS.items() if text.lstrip().startswith(marks)), None):
+        heights, steps, notes = reader(path, text.lstrip(), units)
         if steps is not None and spacing is not None:
             _same_spacing(path, spacing, steps, either=False)
         return TextMap(heights=heights, height_scale=1.0, spacing=steps or spacing, notes=notes)
+    if names := _PROFILM.match(text[:400]):  # its header is a row of names above a row of numbers
+        text = f"columns: {names[5]}\nrows: {names[6]}\npixel size: {names[7]} {names[4]}\n{text[names.end() :]}"
     if _SMD.match(text[:1000]):
         _refuse_smd(path, text)
     try:
@@ -153,6 +179,8 @@ def _matrix(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
     border, numbers = border_of(table.numbers)
     grid = grid_of(header, *numbers.shape)
     steps = table.own_spacing if table.own_spacing is not None else grid.steps
+    if steps is None and border is None:
+        notes += _unitless_steps(path, header, spacing)
     if grid.steps is not None and table.own_spacing is not None:
         _same_spacing(path, table.own_spacing, grid.steps, either=grid.either)
     if border is not None:
@@ -179,6 +207,22 @@ def _matrix(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
         missing_value=header.value("missing"),
         notes=notes,
     )
+
+
+def _unitless_steps(path: Path, header: Header, spacing: Pair) -> tuple[str, ...]:
+    """Return a note of steps whose unit no line states. Raise `InputError` where the ``spacing`` that the caller gives
+    is not theirs in any unit, along either axis."""
+    stated = [header.unitless[name] for name in ("dx", "dy") if name in header.unitless]
+    if not stated:
+        return ()
+    if spacing is None:
+        return (f"steps of {stated[0].worded()} have no unit",)
+    for unit in LATERAL:
+        steps = steps_in_unit(header, unit)
+        if _all_near(steps, spacing) or _all_near(steps, spacing[::-1]):
+            return ()
+    said = f"spacing = {spacing[0]:g}, {spacing[1]:g} m is given, and file {path.name} states {stated[0].worded()}"
+    raise InputError(said, allowed="that in m, mm, um or nm", way_out="give it, or remove the wrong line from the file")
 
 
 def _coordinates(
@@ -524,6 +568,9 @@ def _marks(path: Path, lines: Lines, decimal: str | None) -> tuple[str | None, b
     if decimal == "," or not commas or semicolon or tab:
         if commas and decimal == ".":
             raise _wrong(path, *commas[0], "has a comma inside a number and decimal = '.'; give decimal = ','")
+        if decimal is None and commas and _may_be_thousands(lines):
+            said = "has commas that can be decimal marks or marks of thousands, as all others have"
+            raise _wrong(path, *commas[0], f"{said}; give decimal = ',', or write the numbers without them")
         return separator, bool(commas) or decimal == ","
     if decimal == ".":
         return ",", False
@@ -536,6 +583,12 @@ def _marks(path: Path, lines: Lines, decimal: str | None) -> tuple[str | None, b
         said = "and all others have commas that can separate values or be decimal marks"
         raise _wrong(path, *commas[0], f"{said}; give {ways_out}")
     return ",", False
+
+
+def _may_be_thousands(lines: Lines) -> bool:
+    """Whether every comma between digits stands before exactly three digits, and none behind a zero alone."""
+    cells = (cell for _, text in lines for cell in re.split(r"[\s;]+", text) if re.search(r"\d,\d", cell))
+    return all(_THOUSANDS.fullmatch(cell) for cell in cells)
 
 
 def _fault(lines: Lines, separator: str | None) -> str:

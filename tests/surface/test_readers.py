@@ -335,7 +335,7 @@ def test_xyz_with_decimal_commas_and_titles(tmp_path):
         ("0,12 0,13\n1 2,5E-1\n", [[0.12, 0.13], [1, 0.25]]),
         ("1\t2,5\n3\t4\n", [[1, 2.5], [3, 4]]),
         ("height\n\n# none\n1 2\n# between\n3 5\n", [[1, 2], [3, 5]]),
-        ("Scan 17, roller A 2\nPixel 0.8 x 0.8\n1 2 3 4 5\n4 5 6 7 8\n", [[1, 2, 3, 4, 5], [4, 5, 6, 7, 8]]),
+        ("Scan 17, roller A 2\nPixel 1.0 x 1.0\n1 2 3 4 5\n4 5 6 7 8\n", [[1, 2, 3, 4, 5], [4, 5, 6, 7, 8]]),
     ],
 )
 def test_text_that_can_be_read_in_one_way(tmp_path, text, found):

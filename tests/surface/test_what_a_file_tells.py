@@ -55,11 +55,15 @@ def test_steps_in_headings_are_read(tmp_path, heading):
 @pytest.mark.parametrize("heading", ["Step X [um];1.5\nStep Y [um];2.5", "Step X;1.5\nStep Y;1.5", "Step [um];1.5"])
 def test_steps_that_do_not_tell_the_grid_leave_it_to_the_user(tmp_path, heading):
     """Different along X and Y (along which does a line run?), without a unit, without an axis."""
+    given = (1.5e-6, 1.5e-6) if heading == "Step X;1.5\nStep Y;1.5" else (2.5e-6, 1.5e-6)
     path = tmp_path / "a.csv"
     path.write_text(heading + "\n1;2;3\n4;5;7\n")
     with pytest.raises(InputError, match="spacing of a.csv is missing"):
         read_surface(path, unit="nm")
-    assert read_surface(path, unit="nm", spacing=(2.5e-6, 1.5e-6), **RAW).spacing == (2.5e-6, 1.5e-6)
+    assert read_surface(path, unit="nm", spacing=given, **RAW).spacing == given
+    if "um" not in heading:
+        with pytest.raises(InputError, match="is given, and file a.csv states line 1 'Step X;1.5'; allowed: that in m"):
+            read_surface(path, unit="nm", spacing=(2.5e-6, 1.5e-6))
 
 
 def barrel(step=2e-6):
