@@ -80,10 +80,10 @@ class TestSample:
 
         def operator(shape, spacing):
             asked.append((shape, spacing))
-            return prepared.contact.operator
+            return prepared.rough_contact.operator
 
         contact = sample.contact(prepared.scene, sample.first, operator)
-        assert type(contact) is type(prepared.contact) and np.array_equal(contact.x, prepared.contact.x)
+        assert type(contact) is type(prepared.rough_contact) and np.array_equal(contact.x, prepared.rough_contact.x)
         if asked:
             first = sample.stack(sample.first)
             assert asked == [(first.shape, first.spacing)]
@@ -349,3 +349,22 @@ def test_fields_are_solved_again_or_not_by_what_is_asked():
     assert fine.coefficient == plain.coefficient and fine.fields.spacing[0] < plain.fields.spacing[0]
     with pytest.raises(lubfric.InputError, match="fields"):
         lubfric.friction(PAPER, 0.01, fields="coarse")
+
+
+def test_an_old_name_raises_with_the_new_one(prepared):
+    with pytest.raises(AttributeError, match="called rough_contact now"):
+        _ = prepared.contact
+    with pytest.raises(AttributeError, match="has no attribute 'contacts'"):
+        _ = prepared.contacts
+    film = lubfric.solve_ehl(
+        load_per_width=1e5,
+        radius=0.01,
+        e_prime=2e11,
+        entrainment_speed=1.0,
+        viscosity=0.05,
+        viscosity_law="constant",
+        pressure_viscosity_coefficient=0.0,
+        tolerance=0.05,
+    )
+    with pytest.raises(AttributeError, match="called line now"):
+        _ = film.contact

@@ -24,9 +24,9 @@ loads = np.geomspace(1e3, 3e5, 9)  # N/m
 
 films = [lubfric.solve_ehl(load_per_width=w, **CONTACT) for w in loads]
 numerical = np.array([film.flow_film for film in films])
-formula = np.array([film.contact.moes_film for film in films])
+formula = np.array([film.line.moes_film for film in films])
 fine = np.geomspace(loads[0], loads[-1], 100)
-drawn = np.array([replace(films[0].contact, load_per_width=w).moes_film for w in fine])
+drawn = np.array([replace(films[0].line, load_per_width=w).moes_film for w in fine])
 error = 100 * (formula / numerical - 1)
 print(f"the formula deviates by {error.min():+.1f} to {error.max():+.1f} %")
 

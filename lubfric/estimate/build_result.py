@@ -135,8 +135,8 @@ def _use(scene: Scene, model: Model, numbers: dict[str, Any], uncertainty: Uncer
     """Return what the ``numbers`` of ``model`` show of the methods behind them."""
     return MethodUse(
         model=model,
-        contact=numbers["contact_load"] > 0,
-        film=numbers["film_load"] > 0,
+        has_contact=numbers["contact_load"] > 0,
+        has_film=numbers["film_load"] > 0,
         sliding=scene.motion.slide_roll_ratio != 0,
         sampled=uncertainty.sampling > 0,
         inlet_heat=numbers["inlet_film_factor"] < 1.0,

@@ -16,15 +16,15 @@ class MethodUse:
     Attributes
     ----------
     model : that gives it
-    contact, film : whether asperities, or a film, carry load
+    has_contact, has_film : whether asperities, or a film, carry load
     sliding : whether the surfaces slide
     sampled : whether its sampling error is known and not 0
     inlet_heat, film_heat, flash : whether the heat of inlet, film or surfaces changes it
     """
 
     model: Model
-    contact: bool
-    film: bool
+    has_contact: bool
+    has_film: bool
     sliding: bool
     sampled: bool
     inlet_heat: bool
@@ -34,9 +34,9 @@ class MethodUse:
 
 def methods_of(prepared: Prepared, use: MethodUse) -> tuple[str, ...]:
     """Return the names of the methods that a result with this ``use`` rests on."""
-    of_model = use.model.methods(prepared, contact=use.contact, film=use.film)
+    of_model = use.model.methods(prepared, has_contact=use.has_contact, has_film=use.has_film)
     used = dict.fromkeys(of_model, True) | {"interval": use.sampled} | _surface(prepared)
-    if use.film:
+    if use.has_film:
         used |= _lubricant(prepared, use) | _heat(prepared, use)
     return tuple(_names(used.items()))
 

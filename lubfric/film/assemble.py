@@ -188,13 +188,13 @@ def in_si(
     """Return the result in SI units, seen along +x. ``at``: (X, P, H) at the nodes; ``load``: ∫ P dX between them;
     ``films``: the smallest, and that at X = 0; ``constant``: H00; ``known``: what has no unit to change."""
     (X, P, H) = at
-    contact = problem.contact
+    line = problem.line
     b = problem.half_width
-    sign = math.copysign(1.0, contact.entrainment_speed)
+    sign = math.copysign(1.0, line.entrainment_speed)
     length = problem.length_unit
     film = problem.film_unit
     with np.errstate(over="ignore"):  # Barus far above its range: infinite beyond e^709
-        viscosity = contact.lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])
+        viscosity = line.lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])
     order = slice(None) if sign > 0 else slice(None, None, -1)
     return EHLResult(
         x=(sign * X * length)[order],
@@ -205,11 +205,11 @@ def in_si(
         min_film=films[0] * film,
         central_film=films[1] * film,
         flow_film=flow * film,
-        flux=flow * film * contact.entrainment_speed,
+        flux=flow * film * line.entrainment_speed,
         rupture=rupture * length * sign,
         approach=(constant - 4.0 / math.pi * load * math.log(b)) * film,
         half_width=b * length,
         hertz_pressure=2.0 * problem.M / (math.pi * b) * problem.pressure_unit,
-        contact=contact,
+        line=line,
         **known,
     )

@@ -90,7 +90,7 @@ def solve_ehl(
         inlet_film=inlet_film,
         carreau=carreau,
     )
-    contact = LineContact(
+    line = LineContact(
         load_per_width=load_per_width,
         radius=radius,
         e_prime=e_prime,
@@ -99,22 +99,22 @@ def solve_ehl(
         sliding=sliding,
     )
     effort = Effort(tolerance, least_cells, max_iterations)
-    return solve_line_contact(contact, effort, start=start, raise_on_failure=raise_on_failure)
+    return solve_line_contact(line, effort, start=start, raise_on_failure=raise_on_failure)
 
 
 def solve_line_contact(
-    contact: LineContact, effort: Effort = Effort(), *, start: EHLResult | None = None, raise_on_failure: bool = True
+    line: LineContact, effort: Effort = Effort(), *, start: EHLResult | None = None, raise_on_failure: bool = True
 ) -> EHLResult:
     """Return `solve_ehl` for a `LineContact`. ``effort``: tolerance and limits."""
     if start is not None:
         validate.instance("start", start, EHLResult, "an EHLResult or None")
-    problem = film_problem(contact)
+    problem = film_problem(line)
     state = None if start is None else start.state
-    arriving = contact.lubricant.inlet_film
+    arriving = line.lubricant.inlet_film
     if arriving is None:
         solutions = solved(problem, effort, state)
     else:
-        solutions = _fed(problem, arriving / contact.film_unit, effort, state)
+        solutions = _fed(problem, arriving / line.film_unit, effort, state)
     return returned(assemble(*solutions, effort.tolerance), raise_on_failure=raise_on_failure)
 
 

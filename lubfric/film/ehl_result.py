@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._base import Shown
+from .._base import Renamed, Shown
 from ..errors import Report
 from .hertz import HasLineContact, LineContact
 from .start import FilmState
@@ -16,7 +16,7 @@ LUMP = 6
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
-class EHLResult(Shown, HasLineContact):
+class EHLResult(Renamed, Shown, HasLineContact):
     """Steady film of a smooth line contact. Arrays are (n,), x ascending.
 
     Attributes
@@ -31,7 +31,7 @@ class EHLResult(Shown, HasLineContact):
     flux : mass flux/rho0, along +x when positive [m²/s]
     approach : h0 [m] in h = h0 + x²/2R - (4/(pi E')) ∫ p ln(|x - x'|/half_width) dx'
     half_width, hertz_pressure : Hertz values of the load [m, Pa]
-    contact : what was solved, a `LineContact`
+    line : what was solved, a `LineContact`
     report : how the solve ended
     state : what a neighbouring solve starts from
     rolling : half of ∫ h dp over the nodes, along the motion, and its estimated error, both in N/m
@@ -65,16 +65,17 @@ class EHLResult(Shown, HasLineContact):
     approach: float
     half_width: float
     hertz_pressure: float
-    contact: LineContact
+    line: LineContact
     report: Report
     state: FilmState = field(repr=False)
     rolling: tuple[float, float] | None = None
+    _RENAMED = {"contact": "line"}
 
     @property
     def inlet(self) -> float | None:
         """Distance [m] upstream of the line of centres at which the lubricant begins; None: fully flooded."""
         inlet = self.state.inlet
-        return None if inlet is None else inlet * self.contact.length_unit
+        return None if inlet is None else inlet * self.line.length_unit
 
     @property
     def cells(self) -> int:
@@ -84,8 +85,8 @@ class EHLResult(Shown, HasLineContact):
     def _facts(self) -> dict[str, str]:
         return {
             "": f"{self.x.size} nodes",
-            "M": f"{self.contact.M:.3g}",
-            "L": f"{self.contact.L:.3g}",
+            "M": f"{self.line.M:.3g}",
+            "L": f"{self.line.L:.3g}",
             "min film": f"{self.min_film:.4g} m",
             "central film": f"{self.central_film:.4g} m",
             "status": self.report.status,

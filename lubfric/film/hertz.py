@@ -160,11 +160,11 @@ class LineContact:
 
 
 class HasLineContact:
-    """Base of what is solved or found for a ``contact``, a `LineContact`: its numbers, by the names of a film."""
+    """Base of what is solved or found for a ``line``, a `LineContact`: its numbers, by the names of a film."""
 
-    contact: LineContact
+    line: LineContact
 
-    load = property(attrgetter("contact.load_per_width"), doc="w [N/m]: what the film carries.")
-    radius = property(attrgetter("contact.radius"), doc="R [m].")
-    e_prime = property(attrgetter("contact.e_prime"), doc="E' [Pa].")
-    entrainment_speed = property(attrgetter("contact.entrainment_speed"), doc="U [m/s].")
+    load = property(attrgetter("line.load_per_width"), doc="w [N/m]: what the film carries.")
+    radius = property(attrgetter("line.radius"), doc="R [m].")
+    e_prime = property(attrgetter("line.e_prime"), doc="E' [Pa].")
+    entrainment_speed = property(attrgetter("line.entrainment_speed"), doc="U [m/s].")

@@ -29,11 +29,11 @@ from .thinning import thinned
 MOST_STARVED = 0.995
 
 
-def film_problem(contact: LineContact) -> FilmProblem:
+def film_problem(line: LineContact) -> FilmProblem:
     """Return the contact in Moes' units, along its motion, with all the lubricant that its inlet takes. Raises
     `InputError` if the lubricant begins inside the dry contact."""
-    problem = FilmProblem(contact)
-    length = contact.lubricant.inlet_length
+    problem = FilmProblem(line)
+    length = line.lubricant.inlet_length
     half_width = problem.half_width * problem.length_unit
     if length is None:
         return problem
@@ -52,17 +52,17 @@ class FilmProblem:
     lubricant has so many ``times`` its critical stress (inf: its flow is Newtonian).
     """
 
-    contact: LineContact
+    line: LineContact
     inlet: float | None = None
     fed: float | None = None
     times: float = 1.0
 
     # the numbers and units of the contact: M, L [-]; units of x [m], h [m], p [Pa]
-    M = property(attrgetter("contact.M"))
-    L = property(attrgetter("contact.L"))
-    length_unit = property(attrgetter("contact.length_unit"))
-    film_unit = property(attrgetter("contact.film_unit"))
-    pressure_unit = property(attrgetter("contact.pressure_unit"))
+    M = property(attrgetter("line.M"))
+    L = property(attrgetter("line.L"))
+    length_unit = property(attrgetter("line.length_unit"))
+    film_unit = property(attrgetter("line.film_unit"))
+    pressure_unit = property(attrgetter("line.pressure_unit"))
 
     @property
     def half_width(self) -> float:
@@ -97,35 +97,35 @@ class FilmProblem:
         """Return the same contact with ``share`` of the pressure-viscosity coefficient (same units, same M)."""
         if share == 1.0:
             return self
-        oil = self.contact.lubricant
+        oil = self.line.lubricant
         oil = replace(oil, pressure_viscosity_coefficient=share * oil.pressure_viscosity_coefficient)
-        return replace(self, contact=replace(self.contact, lubricant=oil))
+        return replace(self, line=replace(self.line, lubricant=oil))
 
     @property
     def thins_by(self) -> ShearLaw | None:
         """Return the law by which shear makes the flow thinner than a Newtonian one; None: it does not."""
-        law = self.contact.lubricant.flow_law
-        sheared = self.contact.sliding is not None and self.times < math.inf
+        law = self.line.lubricant.flow_law
+        sheared = self.line.sliding is not None and self.times < math.inf
         return law if law is not None and law.thins and sheared else None
 
     def thinned(self, fluidity: FloatArray, H: FloatArray, gradient: FloatArray) -> tuple[Any, ...]:
         """Factor Φ of the pressure flow where 1/eta, film and dP/dX are given (n,), s dΦ/ds and b dΦ/db (`thinned`)."""
-        contact = self.contact
+        line = self.line
         law = self.thins_by
         if law is None:
             return 1.0, 0.0, 0.0
         critical = self.times * law.critical(0.0)[0]
-        sliding = abs(contact.sliding or 0.0)
-        s = contact.lubricant.viscosity * sliding / (self.film_unit * critical) / (fluidity * H)
+        sliding = abs(line.sliding or 0.0)
+        s = line.lubricant.viscosity * sliding / (self.film_unit * critical) / (fluidity * H)
         b = 0.5 * self.pressure_unit * self.film_unit / (self.length_unit * critical) * np.abs(gradient) * H
         return thinned(law, s, b)
 
     def log_viscosity(self, P: FloatArray) -> tuple[np.ndarray, np.ndarray]:
         """ln(eta/eta0) and its derivative with respect to P."""
-        value, slope = log_viscosity_ratio(self.contact.lubricant, P * self.pressure_unit)
+        value, slope = log_viscosity_ratio(self.line.lubricant, P * self.pressure_unit)
         return value, slope * self.pressure_unit
 
     def density(self, P: FloatArray) -> tuple[np.ndarray, np.ndarray]:
         """rho/rho0 and its derivative with respect to P."""
-        value, slope = density_ratio(self.contact.lubricant, P * self.pressure_unit)
+        value, slope = density_ratio(self.line.lubricant, P * self.pressure_unit)
         return value, slope * self.pressure_unit

@@ -289,10 +289,10 @@ class Model(ABC):
         """Return why the model has no answer at ``speed`` [m/s], as text; "" if it has one."""
         return ""
 
-    def methods(self, prepared: Prepared, *, contact: bool, film: bool) -> tuple[str, ...]:
+    def methods(self, prepared: Prepared, *, has_contact: bool, has_film: bool) -> tuple[str, ...]:
         """Return the names of the methods of this model that have a paper behind them (estimate/papers.toml).
 
-        ``contact``, ``film``: whether asperities, or a film, carry load. What surface, lubricant and heat rest on is
+        ``has_contact``, ``has_film``: whether asperities, or a film, carry load. What surface, lubricant and heat rest on is
         added for every model.
         """
         return ()

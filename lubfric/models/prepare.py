@@ -56,7 +56,7 @@ def prepare(
             prepared.memo.keep_surface_of(like.memo)
             return prepared
         maps = (like.surface, *like.sample.bodies) if like.given else ()
-        contact = None if like.has_own_contact else like.contact
+        contact = None if like.has_own_contact else like.rough_contact
     with warn_unusual_values(scene):
         sample = sample_of(scene, maps, contact=contact)
         return _on_sample(scene, sample, is_given=bool(maps) or contact is not None)
@@ -75,10 +75,15 @@ def _on_sample(scene: Scene, sample: Sample, *, is_given: bool) -> Prepared:
     surface = sample.first_map()
     check_map(scene, surface)
     memo = Memo()
-    contact = sample.contact(scene, sample.first, partial(operator_on, memo, scene))
-    memo.put(StackKey(sample.cells.coarsening, sample.first), contact, cells_of_contact(contact))
+    rough_contact = sample.contact(scene, sample.first, partial(operator_on, memo, scene))
+    memo.put(StackKey(sample.cells.coarsening, sample.first), rough_contact, cells_of_contact(rough_contact))
     prepared = Prepared(
-        scene=scene, surface=surface, contact=contact, sample=sample, known=beforehand(scene, surface), given=is_given
+        scene=scene,
+        surface=surface,
+        rough_contact=rough_contact,
+        sample=sample,
+        known=beforehand(scene, surface),
+        given=is_given,
     )
     prepared.memo.keep_surface_of(memo)
     return prepared

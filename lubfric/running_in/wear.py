@@ -319,7 +319,7 @@ def _step(rig: _WearRig, heights: np.ndarray, compliance: float, turn: int, star
     contact = _contact(rig, heights, compliance, windows)
     balance = solve_balance(rig.scene, rig.speed, contact, float(contact.heights.std()), start)
     balance.report.raise_if_failed(balance)
-    fields = balance.contact.fields
+    fields = balance.contact_state.fields
     if fields is None:  # separated
         empty = np.zeros((len(windows.columns), contact.heights.shape[0], windows.rows))
         return _WearStep(balance=balance, heights=heights, by_window=empty)

@@ -210,8 +210,8 @@ class StudyResult(Shown):
         factor = self.columns.get("inlet_film_factor", np.ones(1))
         return MethodUse(
             model=model,
-            contact=above("contact_load"),
-            film=above("film_load"),
+            has_contact=above("contact_load"),
+            has_film=above("film_load"),
             sliding=bool((self.columns.get("couette_force", np.zeros(1)) != 0).any()),
             sampled=above("uncertainty_sampling"),
             inlet_heat=bool((factor < 1).any()),

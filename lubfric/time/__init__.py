@@ -4,7 +4,7 @@ from .estimated import RunEstimate, periods
 from .film import TransientFilm, solve_transient_ehl
 from .film_equations import Spring, StepEquations, outside, outside_shear
 from .film_grid import make_fixed_grid, symmetric_nodes
-from .film_setting import FIRST_STEP, TIME_SHARE, WET, ContactHistory, make_setting
+from .film_setting import FIRST_STEP, TIME_SHARE, WET, LineHistory, make_setting
 from .march import Memory, Plan, Progress, Step, advance, checked_times, plan_of, report_of, steps
 from .model import Output, Start, TimeModel
 from .registry import check_run, estimated_run, run_model_of

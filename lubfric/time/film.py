@@ -9,7 +9,7 @@ from ..errors import CONVERGED, ConvergenceError, InputError, Report, returned
 from ..film import smallest
 from ..oil import Lubricant
 from ..scene import Harmonic, Ramp, Table, checked_history
-from .film_setting import FINER, TIME_SHARE, ContactHistory, Setting, make_setting, steady_start
+from .film_setting import FINER, TIME_SHARE, LineHistory, Setting, make_setting, steady_start
 from .march import Plan, Residual, Step, checked_times, grid_residual, initial_progress, plan_of, report_of, steps
 
 
@@ -80,7 +80,7 @@ def solve_transient_ehl(
             validate.positive(name, given, unit)
     duration = float(times[-1])
     eta = checked_history("viscosity", viscosity, "Pa s", duration)
-    contact = ContactHistory(
+    line_history = LineHistory(
         load=checked_history("load_per_width", load_per_width, "N/m", duration),
         radius=checked_history("radius", radius, "m", duration),
         e_prime=validate.positive("e_prime", e_prime, "Pa"),
@@ -96,24 +96,24 @@ def solve_transient_ehl(
         duration=duration,
         initial_film=initial_film,
     )
-    setting, start, residuals = _start(contact, tolerance)
-    changing = contact.speed, contact.load, contact.radius, contact.viscosity
+    setting, start, residuals = _start(line_history, tolerance)
+    changing = line_history.speed, line_history.load, line_history.radius, line_history.viscosity
     plan = plan_of(times, changing, first_step or setting.first_step, time_tolerance)
     result = _marched(setting, start, plan, residuals)
     return returned(result, raise_on_failure=raise_on_failure)
 
 
-def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, Step, dict[str, Residual]]:
+def _start(line_history: LineHistory, tolerance: float) -> tuple[Setting, Step, dict[str, Residual]]:
     """Setting, state at t = 0 and residual of its grid. The grid is refined until a steady start meets the
     tolerance."""
-    if contact.initial_film is not None:
-        setting = make_setting(contact, tolerance)
-        return setting, setting.undeformed(contact.initial_film), {}
-    if contact.speed.before(0.0) == 0.0:
+    if line_history.initial_film is not None:
+        setting = make_setting(line_history, tolerance)
+        return setting, setting.undeformed(line_history.initial_film), {}
+    if line_history.speed.before(0.0) == 0.0:
         said = " = 0 m/s before t = 0 carries no steady film"
         raise InputError(said, "entrainment_speed", way_out="give initial_film > 0 m, or a speed")
     for finer in FINER:
-        setting = make_setting(contact, tolerance, finer=finer)
+        setting = make_setting(line_history, tolerance, finer=finer)
         start, error = steady_start(setting)
         if error <= tolerance:
             break

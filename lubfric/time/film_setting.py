@@ -25,7 +25,7 @@ SMALLEST_STAGE = 0.01  # of the logarithm of a change of the load
 
 
 @dataclass(frozen=True, kw_only=True)
-class ContactHistory:
+class LineHistory:
     """A line contact in time: histories in SI units from t = 0 to ``duration`` [s].
 
     Attributes
@@ -53,29 +53,29 @@ class ContactHistory:
 class Setting:
     """The contact in the units of a reference ``problem``, on ``grid``."""
 
-    contact: ContactHistory
+    line_history: LineHistory
     problem: FilmProblem
     grid: FixedGrid
 
     @property
     def inlet(self) -> float | None:
         """Distance upstream at which the lubricant begins, in units of x; None: it floods the inlet."""
-        length = self.contact.lubricant.inlet_length
+        length = self.line_history.lubricant.inlet_length
         return None if length is None else length / self.problem.length_unit
 
     @property
     def load_unit(self) -> float:
         """The unit of the load [N]."""
-        return self.problem.contact.e_prime * self.problem.film_unit * self.contact.width
+        return self.problem.line.e_prime * self.problem.film_unit * self.line_history.width
 
     def equations(self, time: float, memory: Memory | None = None, spring: Spring | None = None) -> StepEquations:
         """Return the equations of the step that ends at ``time`` [s], with a ``memory`` in SI units (None: of a steady state), at the
         speed, load, curvature and viscosity just before that time."""
-        c = self.contact
-        reference = self.problem.contact
+        c = self.line_history
+        reference = self.problem.line
         time_unit = self.problem.length_unit / reference.entrainment_speed
         memory = memory or Memory(0.0, np.zeros(self.grid.n + 1))
-        sheared = replace(self.problem, contact=replace(reference, sliding=c.sliding and c.sliding(time)))
+        sheared = replace(self.problem, line=replace(reference, sliding=c.sliding and c.sliding(time)))
         return StepEquations(
             grid=self.grid,
             problem=sheared,
@@ -107,42 +107,42 @@ class Setting:
     @property
     def first_step(self) -> float:
         """The length [s] of the step after a start or a jump."""
-        contact = self.contact
+        contact = self.line_history
         fastest = max(abs(u) for u in contact.speed.range(contact.duration))
         width = math.hypot(self.problem.half_width, 3.0) * self.problem.length_unit
         return FIRST_STEP * (min(width / fastest, contact.duration) if fastest else contact.duration)
 
 
 def make_setting(
-    contact: ContactHistory, tolerance: float, *, sq: float = 0.0, reach: float = 0.0, finer: float = 1.0
+    line_history: LineHistory, tolerance: float, *, sq: float = 0.0, reach: float = 0.0, finer: float = 1.0
 ) -> Setting:
     """Units and grid that suit the complete range of the histories.
 
     ``sq`` [m]: roughness of surfaces that carry part of the load (0: smooth); films of that size are resolved too. The
     grid extends to ``reach`` [m] at least. ``finer``: factor on the number of nodes.
     """
-    problem, films = _reference(contact, sq)
+    problem, films = _reference(line_history, sq)
     share = LIGHTEST if sq > 0.0 else 1.0
-    load, radius = (history.range(contact.duration) for history in (contact.load, contact.radius))
+    load, radius = (history.range(line_history.duration) for history in (line_history.load, line_history.radius))
 
     def edge(load: float, radius: float) -> float:
-        return hertz.line_half_width(load / contact.width, radius, contact.e_prime) / problem.length_unit
+        return hertz.line_half_width(load / line_history.width, radius, line_history.e_prime) / problem.length_unit
 
     edges = edge(share * load[0], radius[0]), edge(load[1], radius[1])
     x = symmetric_nodes(finer * RESOLUTION * math.sqrt(3e-3 / tolerance), edges, films, reach / problem.length_unit)
-    length = contact.lubricant.inlet_length
+    length = line_history.lubricant.inlet_length
     if length is not None and length < x[-1] * problem.length_unit:
         every_other = x[len(x) // 2 % 2 :: 2]  # nodes of the coarser grid of `discretisation` too
         inlet = length / problem.length_unit
         nearest = every_other[np.argmin(np.abs(every_other - inlet))]
         x = x * (inlet / nearest)
-    return Setting(contact, problem, make_fixed_grid(x))
+    return Setting(line_history, problem, make_fixed_grid(x))
 
 
-def _reference(contact: ContactHistory, sq: float) -> tuple[FilmProblem, tuple[float, float]]:
+def _reference(line_history: LineHistory, sq: float) -> tuple[FilmProblem, tuple[float, float]]:
     """The problem that gives the units, and the smallest and the largest film in them."""
-    c = contact
-    T = contact.duration
+    c = line_history
+    T = line_history.duration
     radius = c.radius.range(T)
     eta = c.viscosity.range(T)
     (low, high) = c.speed.range(T)
@@ -179,7 +179,7 @@ def _reference(contact: ContactHistory, sq: float) -> tuple[FilmProblem, tuple[f
 def steady_start(setting: Setting, load: float | None = None) -> tuple[Step, float]:
     """The steady state of the conditions just before t = 0, with ``load`` [N] instead of the history's if it is given;
     and its `discretisation` error, infinite where it did not converge."""
-    c = setting.contact
+    c = setting.line_history
     p = setting.problem
     grid = setting.grid
     equations = setting.equations(0.0)

@@ -20,7 +20,7 @@ MOST_TRIALS = 16  # number of film and contact solves in one step, at most
 
 
 @dataclass(frozen=True)
-class Contact:
+class ContactStep:
     """The asperity contact in a step: its load [N], its state, and its softness -d(gap)/d(ln load) [m]."""
 
     load: float
@@ -61,14 +61,14 @@ class LoadSharingSolver:
     @property
     def patch(self) -> RoughContact:
         """The rough contact of the strip."""
-        return self.prepared.contact
+        return self.prepared.rough_contact
 
     def error_of(self, solution: Step, difference: np.ndarray) -> float:
         """Return the relative size of a ``difference`` of films."""
         return self.setting.error_of(solution, difference)
 
-    def solve(self, time: float, memory: Memory | None, z: np.ndarray, past: Contact) -> Step:
-        """Return the solution at ``time`` [s]; its payload is the `Contact`.
+    def solve(self, time: float, memory: Memory | None, z: np.ndarray, past: ContactStep) -> Step:
+        """Return the solution at ``time`` [s]; its payload is the `ContactStep`.
 
         A `Spring` represents the contact in the film's load balance. Then the contact is solved at the load of the
         spring, and its gap gives the next spring (a secant in ln load), until |gap - film|/(gap + film) <= tolerance.
@@ -76,7 +76,7 @@ class LoadSharingSolver:
         touch = past.load
         softness = past.softness
         seen = None
-        total = self.setting.contact.load.before(time)
+        total = self.setting.line_history.load.before(time)
         state = past.state
         mean = past.state.mean_gap
         solution: Step
@@ -97,7 +97,7 @@ class LoadSharingSolver:
             if load == 0.0:
                 if closed.volume_residual <= 0.0:
                     if spring is None:
-                        return replace(solution, payload=Contact(0.0, closed, softness))
+                        return replace(solution, payload=ContactStep(0.0, closed, softness))
                     touch = 0.0
                     z = solution.z
                     state = closed
@@ -110,7 +110,7 @@ class LoadSharingSolver:
                     break
                 softness = max(touching - closed.mean_gap, 1e-3 * touching)
             elif abs(closed.volume_residual) <= self.tolerance:
-                return replace(solution, payload=Contact(load, closed, _softness(softness, seen, load, closed)))
+                return replace(solution, payload=ContactStep(load, closed, _softness(softness, seen, load, closed)))
             softness = _softness(softness, seen, load, closed)
             seen = (load, closed.mean_gap)
             touch = load

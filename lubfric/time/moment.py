@@ -51,35 +51,35 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
     sliding = sliding_at(model.scene, time)
     t = solution.terms
     p = setting.problem
-    contact = solution.payload
+    contact_step = solution.payload
     state = solution.payload.state
     total = scene.bodies.load
     film_load = t.carried * setting.load_unit
     speed = scene.motion.entrainment_speed
-    boundary = scene.bodies.boundary_friction_coefficient * contact.load * np.sign(sliding)
+    boundary = scene.bodies.boundary_friction_coefficient * contact_step.load * np.sign(sliding)
     shear, heat = film_shear(model, scene, time, sliding, solution, boundary)
-    loads = (contact.load, film_load)
+    loads = (contact_step.load, film_load)
     parts = (boundary, shear.total)
     force = boundary + shear.total
     sense = np.sign(sliding) or np.sign(speed) or 1.0
     inlet, _ = inlet_at(scene, speed)
-    heated_inlet = setting.contact.viscosity.before(time) != scene.lubricant.viscosity
+    heated_inlet = setting.line_history.viscosity.before(time) != scene.lubricant.viscosity
     film_factor = math.nan if inlet is None else inlet.factor if heated_inlet else 1.0
     length = model.correlation_length
     thinning = film_thinning(scene, film_load)
-    finite = moment_error(model.patch, state, loads, contact.softness, scene.bodies.width, length, parts, thinning)
-    touches = contact.load > 0.0
+    finite = moment_error(model.patch, state, loads, contact_step.softness, scene.bodies.width, length, parts, thinning)
+    touches = contact_step.load > 0.0
     wet = setting.grid.x[t.P > 0.0] * p.length_unit
     central_film = t.H[setting.grid.n // 2] * p.film_unit
     shares = tuple(sense * part / total for part in (boundary, shear.total, shear.rolling))  # along the sliding
     sq = float(model.prepared.surface.sq)
-    model_error = moment_model_error(scene, central_film / sq if sq else math.inf, contact.load / total, *shares)
+    model_error = moment_model_error(scene, central_film / sq if sq else math.inf, contact_step.load / total, *shares)
     row = {
         "time": time,
         "entrainment_speed": speed,
         "sliding_speed": sliding,
         "load": total,
-        "contact_load": contact.load,
+        "contact_load": contact_step.load,
         "film_load": film_load,
         "friction_force": force,
         "boundary_force": boundary,
@@ -107,7 +107,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         "real_contact_area_fraction": state.real_contact_area_fraction * model.area if touches else 0.0,
         "plastic_area_fraction": state.plastic_area_fraction and state.plastic_area_fraction * model.plastic,
         "edge_load": model.patch.on_the_ends(state) if touches else math.nan,
-        "load_residual": (film_load + contact.load) / total - 1.0,
+        "load_residual": (film_load + contact_step.load) / total - 1.0,
         "volume_residual": state.volume_residual if touches else math.nan,
         **full_load_numbers(scene, speed, model.prepared.surface.sq, film_factor),
         **_mass(model, solution),
@@ -149,7 +149,7 @@ def _mass(model: LoadSharingSolver, solution: Step) -> dict[str, float]:
     fills. mass_residual: what is missing in the balance, over the larger of the flow and ``NO_FLOW``."""
     t = solution.terms
     p = model.setting.problem
-    unit = p.film_unit * p.contact.entrainment_speed
+    unit = p.film_unit * p.line.entrainment_speed
     film = t.P[1:-1] > WET * t.P.max()
     stored = float(np.sum(t.stored[1:-1][film]))
     inflow = -float(np.sum(np.diff(t.flux)[film]))
@@ -173,7 +173,7 @@ def film_shear(
     Film and surfaces are taken to be as hot as in steady motion at the speeds of the moment.
     """
     lubricant = scene.lubricant
-    contact = solution.payload
+    contact_step = solution.payload
     t = solution.terms
     p = model.setting.problem
     wet = np.flatnonzero(t.P > 0.0)
@@ -194,7 +194,7 @@ def film_shear(
         entrainment_speed=speed,
         rupture=float(x[-1] if speed > 0 else x[0]),
     )
-    of_point = film, contact.state, contact.load, abs(boundary + isothermal.total), isothermal
+    of_point = film, contact_step.state, contact_step.load, abs(boundary + isothermal.total), isothermal
     heat, _, heated = point_heat(scene, *of_point)
     if heated is None:
         return isothermal, replace(heat, typical=typical_heat(scene, *of_point))
@@ -231,7 +231,7 @@ def _summed(
         off = max(off, spike_error(x[inside], tau[inside])) + rolling_error(pressure[inside], h[inside], 1.0)
     drags = tau[[0, -1]] * h[[0, -1]] if drag is None else np.full(2, drag)
     more, rolling = _tails(model, time, drags, solution)
-    width = model.setting.contact.width
+    width = model.setting.line_history.width
     return ShearForce(
         couette=width * (float(np.sum(_halfway(tau) * full)) + more),
         rolling=width * (float(np.sum(rolls)) + rolling),

@@ -329,8 +329,8 @@ def _use(prepared: Prepared, columns: dict[str, np.ndarray]) -> MethodUse:
     """Return what the ``columns`` of a run show of the methods that it uses."""
     return MethodUse(
         model=candidates(prepared.scene.numerics.model)[0],
-        contact=bool((columns["contact_load"] > 0).any()),
-        film=bool((columns["film_load"] > 0).any()),
+        has_contact=bool((columns["contact_load"] > 0).any()),
+        has_film=bool((columns["film_load"] > 0).any()),
         sliding=bool((columns["sliding_speed"] != 0).any()),
         sampled=bool((columns["sampling_error"] > 0).any()),
         inlet_heat=bool((columns["inlet_film_factor"] < 1.0).any()),

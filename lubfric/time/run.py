@@ -23,14 +23,14 @@ from ..models.shared import (
 )
 from ..scene import Scene, Transient
 from ..studies import Store, classes_of, digest, fingerprint_without_files, opened
-from .load_sharing_solver import Contact
+from .load_sharing_solver import ContactStep
 from .march import Plan, Progress, Step, checked_times, initial_progress, plan_of, steps
 from .model import Output, TimeModel
 from .registry import estimated_run, run_model_of
 from .result import TransientResult, collect
 from .scene_in_time import transient_of
 
-CLASSES = classes_of(Progress, Output, Contact, Validity, State)  # that a state or an output may hold
+CLASSES = classes_of(Progress, Output, ContactStep, Validity, State)  # that a state or an output may hold
 STATE = tuple[int, Progress]  # what is kept of a run: how many outputs there are, and its progress
 
 

@@ -16,8 +16,8 @@ from ..samples import (
     Sample,
 )
 from ..scene import Constant, Scene
-from .film_setting import FINER, ContactHistory, make_setting, steady_start
-from .load_sharing_solver import Contact
+from .film_setting import FINER, LineHistory, make_setting, steady_start
+from .load_sharing_solver import ContactStep
 from .march import Step
 from .model import Start
 from .scene_in_time import inlet_viscosity, sampled_times, scene_at, sliding_at, transient_of
@@ -41,14 +41,14 @@ def start_load_sharing(scene: Scene | Prepared) -> Start:
     run_strip = strip_of_run(scene if isinstance(scene, Prepared) else prepare(scene))
     prepared = run_strip.prepared
     sq = prepared.surface.sq
-    contact = _contact_history(prepared.scene)
-    if not sq > 0.0 and plan.initial_film is None and contact.speed.before(0.0) == 0.0:
+    line_history = _line_history(prepared.scene)
+    if not sq > 0.0 and plan.initial_film is None and line_history.speed.before(0.0) == 0.0:
         ways = "transient.initial_film > 0 m, or an entrainment speed before t = 0"
         raise InputError(f"smooth surfaces at rest have no film to start from; give {ways}")
-    reach = float(np.max(np.abs(prepared.contact.x))) if sq > 0.0 else 0.0
+    reach = float(np.max(np.abs(prepared.rough_contact.x))) if sq > 0.0 else 0.0
     tolerance = base.numerics.tolerance_of("film")
     for finer in FINER:
-        setting = make_setting(contact, tolerance, sq=max(sq, 0.0), reach=reach, finer=finer)
+        setting = make_setting(line_history, tolerance, sq=max(sq, 0.0), reach=reach, finer=finer)
         model = make_load_sharing(
             prepared,
             setting,
@@ -89,11 +89,11 @@ def check_start(base: Scene) -> None:
         raise InputError("transient.initial = 'steady' needs entrainment before t = 0; give 'rest', or a speed")
 
 
-def _contact_history(scene: Scene) -> ContactHistory:
+def _line_history(scene: Scene) -> LineHistory:
     """The line contact of a scene in time, with the scene's constants where nothing changes."""
     bodies = scene.bodies
     plan = transient_of(scene)
-    return ContactHistory(
+    return LineHistory(
         load=plan.load or Constant(bodies.load),
         radius=plan.radius or Constant(bodies.radius),
         e_prime=bodies.e_prime,
@@ -112,7 +112,7 @@ def _first_state(model: TransientLoadSharing) -> tuple[Step, float]:
     plan = transient_of(model.scene)
     if plan.initial_film is not None:
         return _flying(model, plan.initial_film), math.nan
-    still = model.setting.contact.speed.before(0.0) == 0.0
+    still = model.setting.line_history.speed.before(0.0) == 0.0
     if plan.initial == "rest" or (plan.initial == "auto" and still):
         return _resting(model), math.nan
     return _steady(model)
@@ -120,7 +120,7 @@ def _first_state(model: TransientLoadSharing) -> tuple[Step, float]:
 
 def _untouched(model: TransientLoadSharing, film: Step) -> Step:
     state = model.patch.close(model.to_patch @ film.terms.H, 0.0)
-    return replace(film, payload=Contact(0.0, state, max(SOFT * state.mean_gap, 1e-12)))
+    return replace(film, payload=ContactStep(0.0, state, max(SOFT * state.mean_gap, 1e-12)))
 
 
 def _flying(model: TransientLoadSharing, film: float) -> Step:
@@ -137,8 +137,8 @@ def _resting(model: TransientLoadSharing) -> Step:
     """The contact carries the load under the undeformed cylinder, its gap full of lubricant without pressure."""
     setting = model.setting
     patch = model.patch
-    load = model.setting.contact.load.before(0.0)
-    state = patch.close(patch.x**2 / (2.0 * setting.contact.radius.before(0.0)), load)
+    load = model.setting.line_history.load.before(0.0)
+    state = patch.close(patch.x**2 / (2.0 * setting.line_history.radius.before(0.0)), load)
     touching = setting.undeformed(0.0).terms.H
     film = state.mean_gap - float(model.mean_row @ touching)
     if film <= 0.0:
@@ -147,14 +147,14 @@ def _resting(model: TransientLoadSharing) -> Step:
         raise InputError(f"{said}; give {ways}")
     undeformed = setting.undeformed(film)
     state = replace(state, mean_film=float(model.mean_row @ undeformed.terms.H))
-    return replace(undeformed, payload=Contact(load, state, SOFT * state.mean_gap))
+    return replace(undeformed, payload=ContactStep(load, state, SOFT * state.mean_gap))
 
 
 def _steady(model: TransientLoadSharing) -> tuple[Step, float]:
     """The balance of the steady state, and then the same on the grid of the run."""
     setting = model.setting
     scene = model.scene
-    c = model.setting.contact
+    c = model.setting.line_history
     viscosity = transient_of(scene).viscosity
     cold = scene.lubricant.viscosity if viscosity is None else viscosity.before(0.0)
     values = scene.with_(
@@ -168,8 +168,8 @@ def _steady(model: TransientLoadSharing) -> tuple[Step, float]:
         raise ConvergenceError("transient: no steady film on the grid of the run to start from")
     if balance.contact_load == 0.0:
         return _untouched(model, film), error
-    state = balance.contact
-    step = model.solve(0.0, None, film.z, Contact(balance.contact_load, state, SOFT * state.mean_gap))
+    state = balance.contact_state
+    step = model.solve(0.0, None, film.z, ContactStep(balance.contact_load, state, SOFT * state.mean_gap))
     if step.status != CONVERGED:
         raise ConvergenceError("transient: film and contact of the steady start do not balance on the grid of the run")
     return step, error
@@ -218,7 +218,7 @@ def strip_of_run(prepared: Prepared) -> RunStrip:
 def _made(prepared: Prepared, sample: Sample, count: int) -> Prepared:
     contact = on_stack(prepared, sample, count)
     surface = replace(prepared.surface, heights=contact.heights, spacing=contact.spacing, mask=None)
-    return replace(prepared, surface=surface, contact=contact, sample=sample)
+    return replace(prepared, surface=surface, rough_contact=contact, sample=sample)
 
 
 def speeds_of_run(scene: Scene) -> list[float]:
@@ -244,8 +244,8 @@ def _needs(prepared: Prepared, sample: Sample, speeds: list[float]) -> np.ndarra
         except LubfricError:
             rows.append((sample.first, 0.0, math.nan, math.nan))
             continue
-        plastic = balanced.solved.contact.plastic_area_fraction
-        corrected = balanced.balance.contact.plastic_area_fraction
+        plastic = balanced.solved.contact_state.plastic_area_fraction
+        corrected = balanced.balance.contact_state.plastic_area_fraction
         area = balanced.effect.area if balanced.response is not None else math.nan
         same = balanced.sample.cells.coarsening == sample.cells.coarsening
         by_cells = balanced.change("gap") if same else math.inf

@@ -138,7 +138,7 @@ class TransientDeterministic:
         pace = max(abs(speed), REST * self.base.speed)
         return replace(
             self.base,
-            contact=replace(now.line_contact(pace), sliding=abs(sliding)),
+            line=replace(now.line_contact(pace), sliding=abs(sliding)),
             sliding=abs(sliding),
             boundary_friction=now.bodies.boundary_friction_coefficient,
             x=back * self.base.x[::back],

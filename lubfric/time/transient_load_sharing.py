@@ -68,10 +68,12 @@ class TransientLoadSharing(LoadSharingSolver):
     def resumable(self, progress: Progress) -> Progress:
         """Return ``progress`` with the pressure of the contact, from which the next one is solved, and without what the
         next step computes again."""
-        contact = progress.payload
-        state = contact.state
+        contact_step = progress.payload
+        state = contact_step.state
         fields = state.fields and replace(state.fields, gap=np.empty(0), displacement=np.empty(0))
-        return replace(progress, payload=replace(contact, state=replace(state, fields=fields, y=None)), solution=None)
+        return replace(
+            progress, payload=replace(contact_step, state=replace(state, fields=fields, y=None)), solution=None
+        )
 
 
 def make_load_sharing(
@@ -80,7 +82,7 @@ def make_load_sharing(
     """Return the model on the strip of ``prepared``, with the operators between the film's grid and the patch.
     ``correlation_length``, ``area``, ``plastic``: as in `TransientLoadSharing`."""
     problem = setting.problem
-    patch = prepared.contact
+    patch = prepared.rough_contact
     x = patch.x / problem.length_unit
     unit_vectors = np.eye(setting.grid.n + 1)
     to_patch = np.stack([cubic(setting.grid.x, e, x) for e in unit_vectors], axis=1) * problem.film_unit

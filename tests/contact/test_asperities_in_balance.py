@@ -31,8 +31,8 @@ def test_both_balances_recomputed_from_the_asperities(model, reading):
     scene = CYLINDER.with_(contact={"model": model, "asperity_separation": reading})
     prepared = prepare(scene)
     point = lubfric.friction(prepared, 0.01)
-    contact = prepared.contact
-    film = point.balance.film.film_at(prepared.contact.x)
+    contact = prepared.rough_contact
+    film = point.balance.film.film_at(prepared.rough_contact.x)
 
     def carried(offset):
         found = asperity_contact(
@@ -63,11 +63,11 @@ def test_a_film_carries_what_patches_cannot():
     for repeats in (1, 2):
         surface = lubfric.Surface(np.tile(rough.heights, (1, repeats)), rough.spacing, periodic_axes=(True, True))
         model = prepare(scene.with_(contact={"shape": surface.shape}), surface)
-        assert model.contact.capacity < 0.8 * scene.bodies.load
+        assert model.rough_contact.capacity < 0.8 * scene.bodies.load
         found.append(lubfric.friction(model, 0.01))
     once, twice = found
     assert twice.coefficient == pytest.approx(once.coefficient, rel=2e-3)
-    assert once.contact_load < 0.9 * model.contact.capacity and abs(once.volume_residual) < 1e-3
+    assert once.contact_load < 0.9 * model.rough_contact.capacity and abs(once.volume_residual) < 1e-3
     at_that_gap = asperity_contact(
         rough.heights,
         rough.spacing,
@@ -75,7 +75,7 @@ def test_a_film_carries_what_patches_cannot():
         separation=separation_of(rough.heights, once.mean_gap),
         definition="patches",
     )
-    assert at_that_gap.mean_pressure * model.contact.area == pytest.approx(once.contact_load, rel=0.03)
+    assert at_that_gap.mean_pressure * model.rough_contact.area == pytest.approx(once.contact_load, rel=0.03)
 
 
 def separation_of(heights, gap):

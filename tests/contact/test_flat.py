@@ -17,7 +17,7 @@ SCENE = lubfric.load_scene("flat").with_(
 @pytest.mark.parametrize("opens", [0.3, 1e-2, 1e-3])
 def test_the_mean_of_a_film_that_opens_at_the_ends_of_the_strip(opens):
     """h = h0 + h1 exp(-(b - |x|)/l): its mean in closed form, down to ends of a thousandth of the strip."""
-    contact = lubfric.prepare(SCENE).contact
+    contact = lubfric.prepare(SCENE).rough_contact
     b = SCENE.bodies.half_width
     film = 1e-8 + 4e-7 * np.exp(-(b - np.abs(contact.x)) / (opens * b))
     mean = 1e-8 + 4e-7 * opens * (1 - math.exp(-1 / opens))
@@ -26,7 +26,7 @@ def test_the_mean_of_a_film_that_opens_at_the_ends_of_the_strip(opens):
 
 
 def test_it_touches_evenly_from_end_to_end_of_the_strip():
-    contact = lubfric.prepare(SCENE).contact
+    contact = lubfric.prepare(SCENE).rough_contact
     b = SCENE.bodies.half_width
     state = contact.close(np.full(contact.x.size, 1e-8), 0.5 * SCENE.bodies.load)
     x = np.array([-3, -2, -1, -0.5, 0, 0.7, 1, 1.5]) * b
@@ -62,5 +62,5 @@ def test_a_soft_body_whose_film_opens_in_the_last_columns(viscosity):
     b = scene.bodies.half_width
     angle = np.linspace(0, np.pi, 20001)
     film = np.trapezoid(point.balance.film.film_at(-b * np.cos(angle)) * np.sin(angle), angle) / 2
-    gap = prepared.contact.curve.at(point.contact_load / prepared.contact.area)[0]
+    gap = prepared.rough_contact.curve.at(point.contact_load / prepared.rough_contact.area)[0]
     assert gap == pytest.approx(film, rel=5e-3)

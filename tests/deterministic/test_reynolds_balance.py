@@ -45,7 +45,7 @@ def small(lubricant, shape=(12, 6), step=5e-6, e_prime=231e9, load=900.0):
     )
     operator = half_space(shape, step, e_prime, ("free", "periodic"))
     return Problem(
-        contact=contact,
+        line=contact,
         sliding=2 * SPEED,
         x=x,
         heights=1e-8 * random.standard_normal(shape),
@@ -182,9 +182,7 @@ def test_a_film_ruptures_and_refills_where_its_flow_says():
     contact = LineContact(load_per_width=12.0, radius=RADIUS, e_prime=1e13, entrainment_speed=SPEED, lubricant=oil)
     heights = 2.4e-6 * np.exp(-(((x - 100e-6) / 25e-6) ** 2))[:, None]
     operator = half_space((n, 1), step, 1e13, ("free", "periodic"))
-    problem = Problem(
-        contact=contact, sliding=2 * SPEED, x=x, heights=heights, operator=operator, boundary_friction=0.09
-    )
+    problem = Problem(line=contact, sliding=2 * SPEED, x=x, heights=heights, operator=operator, boundary_friction=0.09)
     found = solve_point(problem)
     h = found.gap[:, 0]
     p = found.pressure[:, 0]
@@ -220,7 +218,7 @@ def even(lubricant=WATER):
     x = (np.arange(SHAPE[0]) - 30) * DX
     contact = LineContact(load_per_width=900.0, radius=RADIUS, e_prime=231e9, entrainment_speed=U, lubricant=lubricant)
     return Problem(
-        contact=contact,
+        line=contact,
         sliding=2 * U,
         x=x,
         heights=np.zeros(SHAPE),

@@ -49,7 +49,7 @@ def test_switched_off_it_is_the_point_of_the_plain_numbers(model):
 def test_friction_is_that_of_the_standalone_solve(model, speed, ratio):
     found = at(model, speed, ratio, numerics={"heat": "on"})
     film = found.balance.film
-    contact = found.balance.contact
+    contact = found.balance.contact_state
     bodies = BASE.bodies
     share = 1 - contact.touching(film.x)
     share = np.where(film.x[:-1] < film.rupture, share, 0)

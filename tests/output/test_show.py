@@ -50,7 +50,7 @@ def test_every_result_is_one_line(point, curve, history):
         "3 speeds": curve,
         "21 times": history,
         "48 x 48 points": MODEL.surface,
-        "48 x 48 cells": point.balance.contact.fields,
+        "48 x 48 cells": point.balance.contact_state.fields,
         "nodes, M": lubfric.solve_ehl(**EHL),
         "paper, map": MODEL,
     }

@@ -90,7 +90,7 @@ def test_the_film_rubs_beside_the_contacts_of_all_strips():
     """Its force summed anew, by code of its own, with the share in contact at each x."""
     scene = PAPER.with_(motion={"slide_roll_ratio": 0.0}, numerics={"sampling_tolerance": 0.04})
     found = lubfric.friction(scene, 0.03)
-    contact = found.balance.contact
+    contact = found.balance.contact_state
     sides = SimpleNamespace(film=found.balance.film, x=contact.x, touching=contact.contact_fraction)
     force = friction_force(scene, sides, found.contact_load, 0.03)[0]
     assert found.decision.strips >= 2 and found.shear_force == pytest.approx(force, rel=1e-3)

@@ -338,7 +338,7 @@ def test_a_line_knows_how_its_strips_differ_when_each_is_balanced_alone(prepared
         strip = on_strip(prepared, prepared.sample, index)
         one = solve_balance(scene, 0.005, strip, prepared.surface.sq)
         loads = one.contact_load, one.film_load
-        rows.append((one.forces.coefficient, *loads, one.contact.mean_gap, one.forces.boundary))
+        rows.append((one.forces.coefficient, *loads, one.contact_state.mean_gap, one.forces.boundary))
     names = "coefficient", "contact_load", "film_load", "mean_gap", "boundary_force"
     for name, alone in zip(names, np.transpose(rows)):
         told = line.numbers[name]

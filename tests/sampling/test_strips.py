@@ -57,7 +57,7 @@ def test_a_map_too_narrow_for_a_line_is_refused_by_its_width(tmp_path, width):
 def test_a_prepared_scene_is_used_again_or_made_again():
     model = lubfric.prepare(PAPER)
     same = lubfric.prepare(PAPER.with_(motion={"slide_roll_ratio": 1.0}), like=model)
-    assert same.surface is model.surface and same.contact.operator is model.contact.operator
+    assert same.surface is model.surface and same.rough_contact.operator is model.rough_contact.operator
     patch = lubfric.prepare(PAPER.with_(numerics={"sampling": "patch"}), like=model)
     assert patch.sample.is_only_map and patch.surface.shape == PAPER.contact.shape
     back = lubfric.prepare(PAPER, like=patch)

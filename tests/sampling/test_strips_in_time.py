@@ -119,8 +119,10 @@ def test_a_run_on_one_patch_takes_the_cells_of_the_patch():
     prepared = lubfric.prepare(scene)
     assert max(prepared.sample.cells.coarsening) > 1
     strip = strip_of_run(prepared).prepared
-    assert strip.sample.cells.is_native and strip.surface.spacing == strip.contact.spacing == pytest.approx(spacing)
-    assert strip.surface.shape == strip.contact.heights.shape == scene.contact.shape
+    assert strip.sample.cells.is_native and strip.surface.spacing == strip.rough_contact.spacing == pytest.approx(
+        spacing
+    )
+    assert strip.surface.shape == strip.rough_contact.heights.shape == scene.contact.shape
     run = lubfric.transient(scene)
     own = scene.with_(numerics={"grid": "given", "film_deflection": "hydrodynamic"})
     assert run.coefficient[0] == pytest.approx(lubfric.friction(own).coefficient, rel=0.003)

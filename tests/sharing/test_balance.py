@@ -106,13 +106,13 @@ def test_both_balances_recomputed_from_the_fields(scene):
     prepared = lubfric.prepare(scene)
     point = lubfric.friction(prepared, 0.01, fields=True)
     film = point.balance.film
-    contact = point.balance.contact.fields
+    contact = point.balance.contact_state.fields
     dx, dy = prepared.surface.spacing
     carried = contact.pressure.sum() * dx * dy / (contact.pressure.shape[1] * dy) * B.width
     fluid = np.sum(0.5 * (film.pressure[1:] + film.pressure[:-1]) * np.diff(film.x)) * B.width
     assert carried == pytest.approx(point.contact_load, rel=1e-4)
     assert fluid == pytest.approx(point.film_load, rel=2e-3)  # trapezoid, without the far inlet
-    x = prepared.contact.x
+    x = prepared.rough_contact.x
     share = np.clip((np.minimum(x + dx / 2, B.half_width) - np.maximum(x - dx / 2, -B.half_width)) / dx, 0, 1)
     gap = (share @ contact.gap.mean(axis=1)) / share.sum()
     smooth = (share @ film.film_at(x)) / share.sum()
@@ -153,7 +153,9 @@ def test_johnsons_modulus_keeps_the_strip_and_matters_not_where_the_film_carries
 def test_a_thick_film_needs_no_contact_and_is_the_rigid_cylinder(patch):
     point = lubfric.friction(patch, 1.0, fields=True)
     film = point.balance.film
-    assert point.contact_load == 0 and point.balance.contact.fields is None and point.real_contact_area_fraction == 0
+    assert (
+        point.contact_load == 0 and point.balance.contact_state.fields is None and point.real_contact_area_fraction == 0
+    )
     exact = rigid.couette_friction(
         film.min_film, radius=B.radius, speed_difference=2.0, viscosity=0.36
     ) + rigid.rolling_friction(film.min_film, radius=B.radius, entrainment_speed=1.0, viscosity=0.36)

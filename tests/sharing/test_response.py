@@ -22,9 +22,9 @@ def test_it_is_what_a_rougher_surface_does(load, speed, near):
     scene = SCENE.with_(bodies={"load": load}, lubricant={"limiting_stress_coefficient": 0.05})
     model = lubfric.prepare(scene)
     found = lubfric.friction(model, speed).balance
-    rougher = replace(model.contact, heights=1.01 * model.contact.heights)
-    thickness = found.film.film_at(model.contact.x)
-    gap = [each.close(thickness, found.contact_load).mean_gap for each in (model.contact, rougher)]
+    rougher = replace(model.rough_contact, heights=1.01 * model.rough_contact.heights)
+    thickness = found.film.film_at(model.rough_contact.x)
+    gap = [each.close(thickness, found.contact_load).mean_gap for each in (model.rough_contact, rougher)]
     again = solve_balance(scene, speed, rougher, model.surface.sq, found)
     moved = again.log_load_ratio - found.log_load_ratio
     response = found.response
@@ -40,10 +40,10 @@ def test_it_is_what_a_rougher_surface_does(load, speed, near):
 def test_slopes_of_a_contact_are_those_of_two_loads():
     model = lubfric.prepare(SCENE)
     found = lubfric.friction(model, 0.01).balance
-    film = found.film.film_at(model.contact.x)
+    film = found.film.film_at(model.rough_contact.x)
     width = SCENE.bodies.width
     loads = found.contact_load * np.array([0.99, 1.01])
-    light, heavy = (model.contact.close(film, load) for load in loads)
+    light, heavy = (model.rough_contact.close(film, load) for load in loads)
     per_load = width / (loads[1] - loads[0])
     slopes = found.response.slopes
     assert slopes.gap == pytest.approx((heavy.mean_gap - light.mean_gap) * per_load, rel=0.05)

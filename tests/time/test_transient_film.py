@@ -97,7 +97,7 @@ def test_reversal_passes_with_the_film_trapped_by_squeeze():
     times = period * np.linspace(0, 1.5, 61)
     found = solve_transient_ehl(**keywords, times=times, **LOOSE)
     assert found.pressure.min() >= 0 and found.min_film.min() > 0.2 * found.min_film[0]
-    np.testing.assert_allclose(found.load, problem.contact.load_per_width, rtol=1e-6)
+    np.testing.assert_allclose(found.load, problem.line.load_per_width, rtol=1e-6)
     half = found.min_film[20:40]
     whole = found.min_film[40:60]
     np.testing.assert_allclose(whole, half, rtol=0.04)  # each half cycle mirrors the one before

@@ -138,7 +138,7 @@ def test_the_judge_of_one_gap_allows_what_its_cells_leave_open_and_sees_a_leak(m
     assert whole_map.flow_error(found) <= 1
     flow, open_ = whole_map._pressure_flow(found.pressure, found.gap, found.speed, found.spacing[0])
     left_open = open_.mean(axis=1) / (found.speed * found.flow_film)
-    assert np.mean(left_open > 0.03) < 0.2 and left_open[found.x[:-1] < -1.2 * problem.contact.half_width].max() < 1e-6
+    assert np.mean(left_open > 0.03) < 0.2 and left_open[found.x[:-1] < -1.2 * problem.line.half_width].max() < 1e-6
     for wrong in (
         replace(found, flow_film=1.05 * found.flow_film),
         replace(found, pressure=found.pressure * (1 + 1e-3 * (np.arange(len(found.x)) == 30))[:, None]),

@@ -37,7 +37,7 @@ def film(result: FrictionResult) -> EHLResult:
 
 def contact(result: FrictionResult) -> ContactState:
     """The rough contact of a point."""
-    return the(result.balance, "balance").contact
+    return the(result.balance, "balance").contact_state
 
 
 def contact_fields(result: FrictionResult) -> ContactResult:
@@ -47,9 +47,9 @@ def contact_fields(result: FrictionResult) -> ContactResult:
 
 def half_space(model: Prepared) -> HalfSpaceContact:
     """The rough contact of a scene under a cylinder, on a height map."""
-    if not isinstance(model.contact, HalfSpaceContact):
-        raise TypeError(f"this study needs a contact of half-spaces, not {type(model.contact).__name__}")
-    return model.contact
+    if not isinstance(model.rough_contact, HalfSpaceContact):
+        raise TypeError(f"this study needs a contact of half-spaces, not {type(model.rough_contact).__name__}")
+    return model.rough_contact
 
 
 def line_contact(case: dict) -> LineContact:

@@ -30,7 +30,7 @@ class Smooth:
     @property
     def half_width(self) -> float:
         """Half-width of Hertz [m]."""
-        return self.problem.contact.half_width
+        return self.problem.line.half_width
 
     @property
     def middle(self) -> int:

@@ -158,12 +158,14 @@ def fine_fields_of(prepared: Prepared, speed: float) -> ContactFields:
     sample = prepared.sample
     half_width = prepared.scene.bodies.half_width
     cells = sample.coarsening_to_look_at(half_width)
-    contact = on_piece(
+    rough_contact = on_piece(
         prepared, sample, 0, cells, max(LEAST_DRAWN, DRAWN_LENGTH * half_width / sample.correlation_lengths[1])
     )
-    strip = solve_strip(prepared.scene, map_of(prepared, contact), speed)
+    strip = solve_strip(prepared.scene, map_of(prepared, rough_contact), speed)
     where = sample.piece_in_words()
-    return fields_of(strip, f"{where}, on cells of {contact.spacing[0] * 1e6:.3g} x {contact.spacing[1] * 1e6:.3g} µm")
+    return fields_of(
+        strip, f"{where}, on cells of {rough_contact.spacing[0] * 1e6:.3g} x {rough_contact.spacing[1] * 1e6:.3g} µm"
+    )
 
 
 def _stays_elastic(strip: Strip, scene: Scene, name: str, ends: tuple[Scene, ...]) -> bool:

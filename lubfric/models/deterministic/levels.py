@@ -295,10 +295,10 @@ def _of_moving(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], strips: Seq
     control = None if prepared.sample.is_only_map else summit_control(prepared)
     width = prepared.sample.correlation_lengths[1]
     friction = mean_over_blocks(samples, "friction", width, control)
-    contact = mean_over_blocks(samples, "contact_load", width, control)
+    rubbing = mean_over_blocks(samples, "contact_load", width, control)
     load = prepared.scene.bodies.load
-    if numbers["contact_load"] > 0 and 0 < contact.value < 1:  # else hardly anything rubs: the mean of the strips
-        contact_load = contact.value * load
+    if numbers["contact_load"] > 0 and 0 < rubbing.value < 1:  # else hardly anything rubs: the mean of the strips
+        contact_load = rubbing.value * load
         times = contact_load / numbers["contact_load"]
         for name in ("contact_load", "boundary_force", "boundary_film_load", "real_contact_area_fraction"):
             numbers[name] *= times

@@ -92,8 +92,8 @@ class DeterministicModel(Model):
     ) -> WorkEstimate:
         return estimated_work(scene, sample, surface, speed, cheaper)
 
-    def methods(self, prepared: Prepared, *, contact: bool, film: bool) -> tuple[str, ...]:
-        return ("deterministic model", "kept mass") if film else ("deterministic model",)
+    def methods(self, prepared: Prepared, *, has_contact: bool, has_film: bool) -> tuple[str, ...]:
+        return ("deterministic model", "kept mass") if has_film else ("deterministic model",)
 
     def rolling_error(self, lambda_ratio: float) -> float:
         return rolling_model_error(lambda_ratio)

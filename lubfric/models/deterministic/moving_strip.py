@@ -163,14 +163,14 @@ def solve_moving_strip(
     rest = strip_at_rest(scene, bodies, speed, factors=factors, start=near, slope=slope, effort=effort)
     step, discarded, count = _steps_of(scene, bodies, speed, rest.problem.spacing[0], effort)
     count = count if most_steps is None else min(count, most_steps)
-    travelled = _travelled(bodies, speed, step, half_width(rest.problem.contact))
-    early = continued_moments(rest.problem.contact, rest.problem.spacing[0], abs(speed) * step, effort)
+    travelled = _travelled(bodies, speed, step, half_width(rest.problem.line))
+    early = continued_moments(rest.problem.line, rest.problem.spacing[0], abs(speed) * step, effort)
     passing = _passing(rest.problem, bodies, speed, step, effort, rest.result.state, 0.0)
     summits_at = _summits(rest.problem, bodies, speed, target)
     rows: list[dict[str, Any]] = []
     early_result: DeterministicResult | None = None
     state_after_discard = rest.result.state
-    required = count if target is None else min(count, _pilot(rest.problem.contact, bodies, step))
+    required = count if target is None else min(count, _pilot(rest.problem.line, bodies, step))
     last = discarded + max(required, sum(early) if for_continuation else 0)
     for number, moment in enumerate(islice(passing, 1, None), 1):
         rows.append(_row(moment) | {"summits_at": summits_at(number * step)})
@@ -230,7 +230,7 @@ def continued_strip(
     problem = problem_of(scene, surface, speed, factors, upper, strip.ends)
     state = _on_longer_cells(strip.state_after_discard) if longer else strip.state_after_discard
     step = float(strip.times[0])
-    early = continued_moments(rest.problem.contact, cell, abs(speed) * step, strip.effort)
+    early = continued_moments(rest.problem.line, cell, abs(speed) * step, strip.effort)
     begun = float(strip.times[strip.discarded - 1])
     passing = _passing(problem, bodies, speed, step, strip.effort, state, begun)
     rows = []
@@ -274,9 +274,9 @@ def _required_moments(sample: TimeAndPlace, target: SampleTarget, required: int,
     return min(most, math.ceil(required * min(max(times, MORE[0]), MORE[1])))
 
 
-def _pilot(contact: LineContact, bodies: Sequence[RoughBody], step: float) -> int:
+def _pilot(line: LineContact, bodies: Sequence[RoughBody], step: float) -> int:
     """Return the number of steps [s] in which the fastest of ``bodies`` passes `PILOT` half-widths."""
-    return math.ceil(PILOT * half_width(contact) / (max(abs(body.speed) for body in bodies) * step))
+    return math.ceil(PILOT * half_width(line) / (max(abs(body.speed) for body in bodies) * step))
 
 
 def _travelled(bodies: Sequence[RoughBody], speed: float, step: float, half_width: float) -> float:
@@ -307,10 +307,10 @@ def _sample(rows: Sequence[dict[str, Any]], result: DeterministicResult, travell
     )
 
 
-def continued_moments(contact: LineContact, cell: float, way: float, effort: MovingEffort) -> tuple[int, int]:
+def continued_moments(line: LineContact, cell: float, way: float, effort: MovingEffort) -> tuple[int, int]:
     """Return the numbers of moments of a continuation that are discarded, and that count, on cells [m] along x; ``way``
     [m]: that the lubricant travels in a step."""
-    width = half_width(contact)
+    width = half_width(line)
     return math.ceil(effort.discarded_again * width / way), max(FEWEST, math.ceil(CONTINUED * width / cell))
 
 
@@ -365,7 +365,7 @@ def _passing(
         tolerance=effort.residual * problem.x.size,
         carries_imbalance=effort.carries_imbalance,
         linear_accuracy=effort.linear,
-        shift=cells_in_a_step(bodies, step, cell) if problem.contact.half_width > RESOLVED * cell else 0,
+        shift=cells_in_a_step(bodies, step, cell) if problem.line.half_width > RESOLVED * cell else 0,
     )
 
 
@@ -417,8 +417,8 @@ def effort_of(
     return effort_for(scene.line_contact(abs(speed)), surface.sq, factors[0] * surface.spacing[0])
 
 
-def effort_for(contact: LineContact, sq: float, cell: float) -> MovingEffort:
-    """Return the `MovingEffort` for roughness of ``sq`` [m] in a smooth ``contact``, on cells [m] along x.
+def effort_for(line: LineContact, sq: float, cell: float) -> MovingEffort:
+    """Return the `MovingEffort` for roughness of ``sq`` [m] in a smooth ``line``, on cells [m] along x.
 
     It is `ECONOMICAL` where f keeps within 0.5 % of the tight one, and the asperity load ratio within 0.005
     (verification/campaigns/moving_effort has the table). It is `TIGHT`
@@ -428,11 +428,11 @@ def effort_for(contact: LineContact, sq: float, cell: float) -> MovingEffort:
     - where the roughness is small compared with the film: what a loose step leaves may be as large as the waves;
     - where the Hertz strip has few cells: a cell that changes its kind moves a per cent of the load (0.013 was seen).
     """
-    oil = contact.lubricant
+    oil = line.lubricant
     starved = oil.inlet_film is not None or oil.inlet_length is not None
-    light = half_width(contact) > contact.half_width
-    smooth = contact.moes_film > SMALL_WAVES * sq
-    narrow = contact.half_width < RESOLVED * cell
+    light = half_width(line) > line.half_width
+    smooth = line.moes_film > SMALL_WAVES * sq
+    narrow = line.half_width < RESOLVED * cell
     return TIGHT if starved or light or smooth or narrow else ECONOMICAL
 
 
@@ -445,24 +445,24 @@ def _steps_of(
 
 
 def _steps(
-    contact: LineContact, cell: float, fastest: float, length: float, effort: MovingEffort
+    line: LineContact, cell: float, fastest: float, length: float, effort: MovingEffort
 ) -> tuple[float, int, int]:
     """Return the length [s] of a step, and the numbers of steps that are discarded and that count, for cells [m] along
     x and a ``fastest`` body [m/s] whose map has this ``length`` [m]."""
-    speed = contact.entrainment_speed
+    speed = line.entrainment_speed
     step = cell / (speed if SLOW <= abs(fastest) / speed <= FAST else abs(fastest))
-    discarded = math.ceil(effort.discarded * half_width(contact) / (speed * step))
+    discarded = math.ceil(effort.discarded * half_width(line) / (speed * step))
     return step, discarded, max(1, round(length / (abs(fastest) * step)))
 
 
 def moving_work(
-    contact: LineContact, sq: float, cell: float, fastest: float, length: float, cells: float, continuations: int = 0
+    line: LineContact, sq: float, cell: float, fastest: float, length: float, cells: float, continuations: int = 0
 ) -> float:
     """Estimate the counted work [s of a usual core] of `solve_moving_strip` on so many ``cells``, and of so many
     `continued_strip`; on cells [m] along x, for a ``fastest`` body [m/s] whose map has this ``length`` [m]."""
-    effort = effort_for(contact, sq, cell)
-    step, discarded, count = _steps(contact, cell, fastest, length, effort)
-    once_more = sum(continued_moments(contact, cell, contact.entrainment_speed * step, effort))
-    expected = math.ceil(EXPECTED * half_width(contact) / (abs(fastest) * step))
+    effort = effort_for(line, sq, cell)
+    step, discarded, count = _steps(line, cell, fastest, length, effort)
+    once_more = sum(continued_moments(line, cell, line.entrainment_speed * step, effort))
+    expected = math.ceil(EXPECTED * half_width(line) / (abs(fastest) * step))
     steps = discarded + max(min(count, expected), once_more) + (continuations + ON_LONGER) * once_more
     return AT_REST * work_of_steps(cells, STEPS, KRYLOV) + steps * work_of_steps(cells, STEPS, KRYLOV)

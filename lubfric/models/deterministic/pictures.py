@@ -63,7 +63,7 @@ def plot_passing(path: Path | str, strip: MovingStrip) -> None:
 
 def _limits(moments: Sequence[Moment]) -> tuple[float, float]:
     """The largest gap [nm] and pressure [GPa] that are drawn."""
-    near = np.abs(moments[0].at.problem.x) < 1.2 * half_width(moments[0].at.problem.contact)
+    near = np.abs(moments[0].at.problem.x) < 1.2 * half_width(moments[0].at.problem.line)
     gap = 1.3 * max(np.quantile(moment.at.gap[near], 0.98) for moment in moments)
     return 1e9 * float(gap), 1e-9 * float(max(moment.at.state.pressure.max() for moment in moments))
 

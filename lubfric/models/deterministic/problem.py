@@ -58,7 +58,7 @@ LARGEST = 2**20  # cells
 class Problem(HasLineContact):
     """One operating point, plain values in SI units.
 
-    contact: load, bodies, lubricant and the speed U > 0 along +x; sliding Δu >= 0 [m/s], the difference of the surface
+    line: load, bodies, lubricant and the speed U > 0 along +x; sliding Δu >= 0 [m/s], the difference of the surface
     speeds; x [m] (nx,) centres of the cells around the line of contact; heights z [m] (nx, ny) of both bodies, out of
     them; operator: K of that grid, free along x and periodic along y; hardness P_u [Pa] (inf: elastic);
     boundary_friction: f_b [-] where the gap is thinner than boundary_film [m]; floor [m].
@@ -68,13 +68,13 @@ class Problem(HasLineContact):
     [m] (nx, ny): that roughness, part of z (None: surface 2 is smooth). The force on surface 1 is the opposite, but for
     the rolling resistance ∫ p x/R dx, the moment of the load about the middle.
 
-    sheared: the lubricant whose stress is the friction, where that of ``contact`` flows with the viscosity of a warmer
+    sheared: the lubricant whose stress is the friction, where that of ``line`` flows with the viscosity of a warmer
     inlet (None: they are one).
 
     least_flow [m²/s]: what the residuals of the mass are relative to, where less flows in (in time, where U may be 0).
     """
 
-    contact: LineContact
+    line: LineContact
     sliding: float
     x: np.ndarray
     heights: np.ndarray
@@ -96,12 +96,12 @@ class Problem(HasLineContact):
     @property
     def speed(self) -> float:
         """U [m/s]."""
-        return self.contact.entrainment_speed
+        return self.line.entrainment_speed
 
     @property
     def lubricant(self) -> Lubricant:
         """The lubricant of the contact."""
-        return self.contact.lubricant
+        return self.line.lubricant
 
     @cached_property
     def rigid_gap(self) -> np.ndarray:
@@ -123,16 +123,16 @@ class Problem(HasLineContact):
 
     def at_load(self, load: float) -> Problem:
         """Return the problem on the same grid under another load [N/m]."""
-        return replace(self, contact=replace(self.contact, load_per_width=load))
+        return replace(self, line=replace(self.line, load_per_width=load))
 
     def at_speed(self, speed: float) -> Problem:
         """Return the problem on the same grid at another U [m/s], with the same ratio of sliding."""
-        faster = replace(self.contact, entrainment_speed=speed)
-        return replace(self, contact=faster, sliding=self.sliding * speed / self.speed)
+        faster = replace(self.line, entrainment_speed=speed)
+        return replace(self, line=faster, sliding=self.sliding * speed / self.speed)
 
 
 def reach(
-    contact: LineContact, sq: float, *, inlet: float = HERTZ_INLET, outlet: float = HERTZ_OUTLET
+    line: LineContact, sq: float, *, inlet: float = HERTZ_INLET, outlet: float = HERTZ_OUTLET
 ) -> tuple[float, float]:
     """Return the lengths [m] of the grid upstream and downstream of the line of contact.
 
@@ -140,9 +140,9 @@ def reach(
     %) and where there is no pressure. Upstream of the grid the film continues in closed form. ``inlet``, ``outlet``: the lengths, at least, in Hertz
     half-widths.
     """
-    radius = contact.radius
-    b = contact.half_width
-    film = min(contact.moes_film, contact.rigid_film) if contact.L == 0 else contact.moes_film
+    radius = line.radius
+    b = line.half_width
+    film = min(line.moes_film, line.rigid_film) if line.L == 0 else line.moes_film
     thick = math.sqrt(2 * radius * film)
     rough_in, rough_out = (math.sqrt(2 * radius * n * sq) for n in (ROUGH_INLET, ROUGH_OUTLET))
     return max(rough_in, inlet * b, FILM_INLET * thick), max(rough_out, outlet * b, FILM_OUTLET * thick)
@@ -150,7 +150,7 @@ def reach(
 
 def lay_out(
     surface: Surface,
-    contact: LineContact,
+    line: LineContact,
     *,
     sliding: float,
     boundary_friction: float,
@@ -172,8 +172,8 @@ def lay_out(
     dy = surface.spacing[1] * fy
     if ny % fy:
         raise InputError(f"factors = {factors} do not divide the {ny} cells of the map along y; allowed: its divisors")
-    upstream, downstream = reach(contact, surface.sq) if ends is None else ends
-    begins = contact.lubricant.inlet_length
+    upstream, downstream = reach(line, surface.sq) if ends is None else ends
+    begins = line.lubricant.inlet_length
     if begins is not None and begins < upstream + dx:  # the first cell is the first that is all behind it
         upstream = begins - 1.5 * dx + 1e-9 * dx
     # the centres of the cells of the map are (i - (nx - 1)/2) dx/fx; those taken are fx//2, fx//2 + fx, ...
@@ -191,11 +191,11 @@ def lay_out(
     place = index % period
     place = np.where(place < nx, place, period - 1 - place)
     heights = surface.heights[place, fy // 2 :: fy] - surface.heights.mean()
-    operator = half_space(heights.shape, (dx, dy), contact.e_prime, ("free", "periodic"))
+    operator = half_space(heights.shape, (dx, dy), line.e_prime, ("free", "periodic"))
     x = (index - middle) * surface.spacing[0]
     limit = math.inf if hardness is None else hardness
     return Problem(
-        contact=contact,
+        line=line,
         sliding=sliding,
         x=x,
         heights=heights,

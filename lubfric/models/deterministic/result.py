@@ -203,7 +203,7 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
     capped = spots & ~sheared.thin
     saturated = capped | (sheared.wet & at_its_limit(problem.sheared or problem.lubricant, p, law))
     loads = (float(p[where].sum()) * dx / p.shape[1] for where in (touching, sheared.thin, capped, saturated))
-    in_hertz = np.abs(problem.x) <= max(problem.contact.half_width, 0.5001 * problem.spacing[0])
+    in_hertz = np.abs(problem.x) <= max(problem.line.half_width, 0.5001 * problem.spacing[0])
     return DeterministicResult(
         x=problem.x,
         spacing=problem.spacing,

@@ -42,9 +42,9 @@ def strip_surface(prepared: Prepared, index: int) -> Surface:
     return map_of(prepared, on_strip(prepared, prepared.sample, index))
 
 
-def map_of(prepared: Prepared, contact: HalfSpaceContact) -> Surface:
-    """The map of ``contact``, a strip or a piece."""
-    return replace(prepared.surface, heights=contact.heights, spacing=contact.spacing, mask=None)
+def map_of(prepared: Prepared, rough_contact: HalfSpaceContact) -> Surface:
+    """The map of ``rough_contact``, a strip or a piece."""
+    return replace(prepared.surface, heights=rough_contact.heights, spacing=rough_contact.spacing, mask=None)
 
 
 def bodies_of(prepared: Prepared, index: int, speed: float) -> list[RoughBody]:

@@ -103,7 +103,7 @@ def _attempts(
     lubricant = problem.lubricant
     if lubricant.newtonian:
         limited = replace(lubricant, limiting_stress_coefficient=THIN_STRESS, limiting_stress_offset=THIN_OFFSET)
-        thin = replace(problem, contact=replace(problem.contact, lubricant=limited))
+        thin = replace(problem, line=replace(problem.line, lubricant=limited))
         helped = newton(thin, cold, work, tolerance=tolerance, most=DIRECT)
         if helped.residual <= tolerance:
             result = newton(problem, helped.at.state, work, tolerance=tolerance, most=DIRECT)
@@ -149,9 +149,9 @@ def dry_start(problem: Problem, dry: ContactResult, lift: float = 1.0) -> State:
     """Return the pressure of the ``dry`` contact, and its gap plus the part ``lift`` of Moes' film. Behind contact and
     film the film has ruptured."""
     p = dry.pressure
-    film = problem.contact.moes_film
+    film = problem.line.moes_film
     dent = np.where(p >= problem.hardness, np.maximum(-dry.gap, 0.0), 0.0)
-    full = max(RUPTURE * math.sqrt(2 * problem.radius * film), problem.contact.half_width)
+    full = max(RUPTURE * math.sqrt(2 * problem.radius * film), problem.line.half_width)
     kind = np.where((p <= 0) & (problem.x > full)[:, None], RUPTURED, FLUID).astype(np.int8)
     return State(
         pressure=p.copy(),

@@ -123,7 +123,7 @@ def change_by_flow(strip: Strip, lubricant: Lubricant) -> float:
     result = strip.result
     if lubricant == problem.lubricant:
         return 0.0
-    other = replace(problem, contact=replace(problem.contact, lubricant=lubricant))
+    other = replace(problem, line=replace(problem.line, lubricant=lubricant))
     solution = solve_point(other, start=result.state, tolerance=ENOUGH)
     return assemble(evaluated(problem, solution.state), solution.report).coefficient / result.coefficient - 1
 

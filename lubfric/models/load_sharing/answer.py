@@ -39,7 +39,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         sampling=errors.sampling,
         model_error=errors.model,
         report=replace(report, notes=(*report.notes, *estimated)),
-        decision=decided(scene, balanced.contact, balanced.balance, numbers["clearance"], **sample),
+        decision=decided(scene, balanced.rough_contact, balanced.balance, numbers["clearance"], **sample),
         errors=errors.errors,
         why_no_error=errors.why_not,
         reasons=errors.reasons,
@@ -52,7 +52,8 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         fields=fields_of(balanced),
         fine_fields=None if balanced.on_cells is None else partial(fine_fields_of, balanced),
         details=replace(
-            balanced.balance, contact=replace(balanced.balance.contact, fields=balanced.solved.contact.fields)
+            balanced.balance,
+            contact_state=replace(balanced.balance.contact_state, fields=balanced.solved.contact_state.fields),
         ),
         at_inputs=lambda: _at_inputs(balanced),
     )
@@ -68,12 +69,12 @@ def fields_of(balanced: BalancedSample) -> ContactFields | None:
 
     Where nothing touches, the gap is that of the undeformed surface below the film.
     """
-    contact = balanced.on_cells
-    if contact is None:
+    rough_contact = balanced.on_cells
+    if rough_contact is None:
         return None
     solved = balanced.solved
     where = balanced.sample.in_words(balanced.count)
-    return fields_on(contact, solved, solved.contact.fields, balanced.prepared.scene, where)
+    return fields_on(rough_contact, solved, solved.contact_state.fields, balanced.prepared.scene, where)
 
 
 def fine_fields_of(balanced: BalancedSample) -> ContactFields:
@@ -83,38 +84,38 @@ def fine_fields_of(balanced: BalancedSample) -> ContactFields:
     scene = prepared.scene
     sample = balanced.sample
     cells = sample.coarsening_to_look_at(scene.bodies.half_width)
-    contact = on_piece(prepared, sample, 0, cells)
+    rough_contact = on_piece(prepared, sample, 0, cells)
     balance = balanced.balance
     if balance.film is None:
-        state = contact.close(contact.x**2 / (2 * scene.bodies.radius), balance.contact_load)
+        state = rough_contact.close(rough_contact.x**2 / (2 * scene.bodies.radius), balance.contact_load)
     else:
-        state = balanced.point.pressed(contact, balance.film, balance.contact_load, None)
-    words = f"{sample.piece_in_words()}, on cells of {contact.spacing[0] * 1e6:.3g} x {contact.spacing[1] * 1e6:.3g} µm"
-    return fields_on(contact, balance, state.fields, scene, words)
+        state = balanced.point.pressed(rough_contact, balance.film, balance.contact_load, None)
+    words = f"{sample.piece_in_words()}, on cells of {rough_contact.spacing[0] * 1e6:.3g} x {rough_contact.spacing[1] * 1e6:.3g} µm"
+    return fields_on(rough_contact, balance, state.fields, scene, words)
 
 
 def fields_on(
-    contact: HalfSpaceContact, solved: Balance, fields: ContactResult | None, scene: Scene, where: str
+    rough_contact: HalfSpaceContact, solved: Balance, fields: ContactResult | None, scene: Scene, where: str
 ) -> ContactFields:
-    """Return the ``fields`` of ``contact`` (None: separated) in the balance ``solved``, on the part of the surface that
+    """Return the ``fields`` of ``rough_contact`` (None: separated) in the balance ``solved``, on the part of the surface that
     ``where`` says."""
-    shape = contact.heights.shape
-    film = np.full(contact.x.size, math.nan)
-    shear = np.full(contact.x.size, math.nan)
+    shape = rough_contact.heights.shape
+    film = np.full(rough_contact.x.size, math.nan)
+    shear = np.full(rough_contact.x.size, math.nan)
     if solved.film is not None:
-        film = solved.film.film_at(contact.x)
+        film = solved.film.film_at(rough_contact.x)
         if solved.forces.heat.heated is None:
-            shear = film_stress(scene, contact, solved.film)
+            shear = film_stress(scene, rough_contact, solved.film)
     slides = scene.motion.slide_roll_ratio != 0
     pressure = np.zeros(shape) if fields is None else fields.pressure
     boundary = scene.bodies.boundary_friction_coefficient * slides * pressure
     return ContactFields(
         solve=f"load sharing on {where}",
-        x=contact.x,
-        y=contact.y,
-        heights=contact.heights,
+        x=rough_contact.x,
+        y=rough_contact.y,
+        heights=rough_contact.heights,
         pressure=pressure,
-        gap=film[:, None] - contact.heights if fields is None else fields.gap,
+        gap=film[:, None] - rough_contact.heights if fields is None else fields.gap,
         deflection=np.zeros(shape) if fields is None else fields.displacement,
         film=np.broadcast_to(film[:, None], shape),
         shear=np.where(pressure > 0, boundary, shear[:, None]),
@@ -126,12 +127,12 @@ def _at_inputs(balanced: BalancedSample) -> AtInputs:
     prepared = balanced.prepared
     sample = prepared.sample
     surface = prepared.surface
-    contact = contact_on(prepared, sample, sample.first)
-    start = solve_balance(prepared.scene, balanced.speed, contact, surface.sq)
+    rough_contact = contact_on(prepared, sample, sample.first)
+    start = solve_balance(prepared.scene, balanced.speed, rough_contact, surface.sq)
 
     def coefficient(scene: Scene) -> float:
         is_as_hard = scene.bodies.hardness == prepared.scene.bodies.hardness
-        there = contact if is_as_hard else contact_of(prepared, sample, sample.first, scene)
+        there = rough_contact if is_as_hard else contact_of(prepared, sample, sample.first, scene)
         return solve_balance(scene, balanced.speed, there, surface.sq, start).forces.coefficient
 
     return AtInputs(middle=coefficient(prepared.scene), coefficient=coefficient)
@@ -143,7 +144,7 @@ def _cells(balanced: BalancedSample) -> tuple[tuple[int, int], float]:
     factors = balanced.sample.cells.coarsening
     if balanced.sample.is_only_map and factors != (1, 1):
         return factors, balanced.effect.edge_load_share
-    return factors, balanced.contact.on_the_ends(balanced.solved.contact) / factors[0]
+    return factors, balanced.rough_contact.on_the_ends(balanced.solved.contact_state) / factors[0]
 
 
 def _finer(change: float, tolerance: float) -> tuple[Validity, ...]:
@@ -166,21 +167,21 @@ def _numbers(balanced: BalancedSample) -> dict[str, float]:
     scene = prepared.scene
     balance = balanced.balance
     sq = prepared.surface.sq
-    contact = balance.contact
+    contact_state = balance.contact_state
     film = balance.film
     loads = (balance.film_load, balance.contact_load)
     separated = balance.contact_load == 0
-    touched = touched_length(contact) * balanced.effect.touched / balanced.effect.area
-    numbers = quantities(balance.forces, film, loads, contact.mean_film if separated else contact.mean_gap)
+    touched = touched_length(contact_state) * balanced.effect.touched / balanced.effect.area
+    numbers = quantities(balance.forces, film, loads, contact_state.mean_film if separated else contact_state.mean_gap)
     return numbers | {
         "speed": balanced.speed,
-        "real_contact_area_fraction": contact.real_contact_area_fraction,
+        "real_contact_area_fraction": contact_state.real_contact_area_fraction,
         "real_contact_area": touched * scene.bodies.width,
-        "plastic_area_fraction": contact.plastic_area_fraction,
+        "plastic_area_fraction": contact_state.plastic_area_fraction,
         "film_to_roughness_ratio": numbers["central_film"] / sq if sq > 0 else math.inf,
         "load_residual": (sum(loads) - scene.bodies.load) / scene.bodies.load,
-        "volume_residual": 0.0 if film is None or separated else balanced.solved.contact.volume_residual,
-        "clearance": (contact.mean_film - contact.mean_gap) / max(sq, 1e-12) if separated else math.nan,
+        "volume_residual": 0.0 if film is None or separated else balanced.solved.contact_state.volume_residual,
+        "clearance": (contact_state.mean_film - contact_state.mean_gap) / max(sq, 1e-12) if separated else math.nan,
         "steepness": _steepness(balanced),
     }
 
@@ -194,4 +195,4 @@ def _steepness(balanced: BalancedSample) -> float:
         return math.nan
     scene = balanced.prepared.scene
     line = replace(scene.line_contact(balanced.speed), load_per_width=balance.film_load / scene.bodies.width)
-    return -exponents(line)[2] * response.log_load_ratio_per_gap * balance.contact.mean_film
+    return -exponents(line)[2] * response.log_load_ratio_per_gap * balance.contact_state.mean_film

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ..._base import Root, increasing_root
+from ..._base import Renamed, Root, increasing_root
 from ...contact import ContactState, RoughContact
 from ...errors import CONVERGED, ConvergenceError, Report
 from ...film import EHLResult
@@ -57,7 +57,7 @@ NOTHING = 1e-14
 
 
 @dataclass(frozen=True, kw_only=True)
-class Balance(ModelDetails):
+class Balance(Renamed, ModelDetails):
     """One operating point, loads in N.
 
     ``film`` is None where no film carries load, and ``why_no_film`` says why: without entrainment, or where a given film
@@ -70,13 +70,14 @@ class Balance(ModelDetails):
     film_load: float
     contact_load: float
     film: EHLResult | None
-    contact: ContactState
+    contact_state: ContactState
     forces: Forces
     report: Report
     response: Response | None = None
     settings: Settings | None = None
     notes: tuple[str, ...] = ()
     why_no_film: str = ""
+    _RENAMED = {"contact": "contact_state"}
 
     @property
     def log_load_ratio(self) -> float:
@@ -89,19 +90,19 @@ class Balance(ModelDetails):
     def slope(self) -> float:
         """Slope of the volume residual (G - h)/(G + h) over ``log_load_ratio``; infinite where no film shares the load."""
         per_gap = 0.0 if self.response is None else self.response.log_load_ratio_per_gap
-        return -0.5 / (per_gap * self.contact.mean_film) if per_gap else math.inf
+        return -0.5 / (per_gap * self.contact_state.mean_film) if per_gap else math.inf
 
 
 def solve_balance(
     scene: Scene,
     speed: float,
-    contact: RoughContact,
+    rough_contact: RoughContact,
     sq: float,
     start: Balance | None = None,
     *,
     correctable: bool = False,
 ) -> Balance:
-    """The balance of ``scene`` at ``speed`` [m/s] on ``contact``, whose heights have the standard deviation ``sq`` [m].
+    """The balance of ``scene`` at ``speed`` [m/s] on ``rough_contact``, whose heights have the standard deviation ``sq`` [m].
 
     Without entrainment the contact carries the total load. The film of the total load is solved first; if it separates
     the surfaces, no contact is solved. Otherwise the residual (gap - film)/(gap + film) of the volume increases with
@@ -112,41 +113,41 @@ def solve_balance(
     Raises `ConvergenceError`.
     """
     if speed == 0:
-        return _dry(scene, contact, "no entrainment")
+        return _dry(scene, rough_contact, "no entrainment")
     if sq > 0 and scene.lubricant.inlet_film is None and scene.line_contact(speed).rigid_film < NOTHING * sq:
-        return _dry(scene, contact, "the film carries less than the load is rounded to")
+        return _dry(scene, rough_contact, "the film carries less than the load is rounded to")
     alone: EHLResult | None = None
     notes: tuple[str, ...] = ()
-    if not _certainly_touching(scene, speed, contact):
+    if not _certainly_touching(scene, speed, rough_contact):
         try:
-            separated = _film_alone(Point(scene, speed, contact, _first_settings(scene, alone=True)))
+            separated = _film_alone(Point(scene, speed, rough_contact, _first_settings(scene, alone=True)))
         except ConvergenceError as error:  # then a balance in contact, one of a kind, is what excludes separation
             notes = (f"the full-load film was not solved ({error})",)
         else:
-            if separated.contact.volume_residual <= 0:
+            if separated.contact_state.volume_residual <= 0:
                 return separated
             alone = separated.film
     settings = replace(_first_settings(scene), correctable=correctable)
     if start is not None and start.film is not None and start.film.entrainment_speed == speed:
         settings = start.settings or settings
-    return replace(_in_contact(Point(scene, speed, contact, settings), sq, start, alone), notes=notes)
+    return replace(_in_contact(Point(scene, speed, rough_contact, settings), sq, start, alone), notes=notes)
 
 
-def _dry(scene: Scene, contact: RoughContact, why: str) -> Balance:
+def _dry(scene: Scene, rough_contact: RoughContact, why: str) -> Balance:
     """Return the balance of a contact that carries the total load; ``why`` no film does, as text."""
     load = scene.bodies.load
-    shape = contact.x**2 / (2 * scene.bodies.radius)
-    state = contact.close(shape, load)
+    shape = rough_contact.x**2 / (2 * scene.bodies.radius)
+    state = rough_contact.close(shape, load)
     report = _report(scene, CONVERGED, (0.0,), state, None, (f"{why}: all contact",))
     friction = forces(scene, None, state, load)
     return Balance(
         film_load=0.0,
         contact_load=load,
         film=None,
-        contact=state,
+        contact_state=state,
         forces=friction,
         report=report,
-        response=respond(scene, contact, state, load, shape),
+        response=respond(scene, rough_contact, state, load, shape),
         why_no_film=why,
     )
 
@@ -156,30 +157,30 @@ def _film_alone(point: Point) -> Balance:
     load = point.scene.bodies.load
     trial = point.trial(load, 0.0)
     while True:
-        friction = forces(point.scene, trial.film, trial.contact, 0.0)
+        friction = forces(point.scene, trial.film, trial.contact_state, 0.0)
         cells = _cells(point, trial.film, friction)
         if cells == point.settings.film_cells:
             break
         point = replace(point, settings=replace(point.settings, film_cells=cells))
         trial = point.trial(load, 0.0, trial)
     notes = ("separated: the film clears the summits",)
-    report = _report(point.scene, CONVERGED, (0.0,), trial.contact, trial.film, notes)
+    report = _report(point.scene, CONVERGED, (0.0,), trial.contact_state, trial.film, notes)
     return Balance(
         film_load=load,
         contact_load=0.0,
         film=trial.film,
-        contact=trial.contact,
+        contact_state=trial.contact_state,
         forces=friction,
         report=report,
         settings=point.settings,
     )
 
 
-def _certainly_touching(scene: Scene, speed: float, contact: RoughContact) -> bool:
+def _certainly_touching(scene: Scene, speed: float, rough_contact: RoughContact) -> bool:
     """Whether the summits would even reach through twice Moes' film over an undeformed cylinder, which is thicker than
     any film."""
     film = SAFE_FILM * scene.line_contact(speed).moes_film
-    return contact.close(film + contact.x**2 / (2 * scene.bodies.radius), 0.0).volume_residual > 0
+    return rough_contact.close(film + rough_contact.x**2 / (2 * scene.bodies.radius), 0.0).volume_residual > 0
 
 
 def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult | None) -> Balance:
@@ -189,7 +190,7 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
     if last is None and alone is not None:
         last = Trial(
             film=alone,
-            contact=point.contact.close(alone.film_at(point.contact.x), 0.0),
+            contact_state=point.rough_contact.close(alone.film_at(point.rough_contact.x), 0.0),
             film_load=0.0,
             contact_load=0.0,
         )
@@ -203,7 +204,7 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
         point, root = _seen_root(point, log_load_ratio, slope, step, (value, last))
         trial = root.payload
         if trial is None:
-            return _dry(point.scene, point.contact, "the film in the inlet does not fill the gap")
+            return _dry(point.scene, point.rough_contact, "the film in the inlet does not fill the gap")
         if response is None or abs(root.x - response[0]) > SETTLED:
             response = root.x, _response(point, trial)
         balance = _balance(point, root, response[1])
@@ -227,8 +228,10 @@ def _response(point: Point, trial: Trial) -> Response:
     def film_of(load: float) -> EHLResult:
         return point.film(load, trial.film, trial.film.cells)
 
-    shape = point.on(point.contact, trial.film)
-    return respond(point.scene, point.tight(point.contact), trial.contact, trial.contact_load, *shape, film_of)
+    shape = point.on(point.rough_contact, trial.film)
+    return respond(
+        point.scene, point.tight(point.rough_contact), trial.contact_state, trial.contact_load, *shape, film_of
+    )
 
 
 def _beginning(point: Point, sq: float, start: Balance | None) -> tuple[float, float | None, float, Trial | None]:
@@ -240,10 +243,10 @@ def _beginning(point: Point, sq: float, start: Balance | None) -> tuple[float, f
         return math.log(share / (1 - share)), None, FIRST_STEP, None
     trial = Trial(
         film=start.film,
-        contact=start.contact,
+        contact_state=start.contact_state,
         film_load=start.film_load,
         contact_load=start.contact_load,
-        touched=start.contact,
+        touched=start.contact_state,
     )
     if start.film.entrainment_speed == point.speed:
         return start.log_load_ratio, start.slope, NEXT_STEP, trial
@@ -287,7 +290,7 @@ def _seen_root(
         root = _root(point, log_load_ratio, slope, step, first)
         now = point.settings.contact_tolerance
         volume = point.settings.balance_tolerance
-        tighter = now if root.payload is None else _contact_tolerance(point, root.payload.contact, volume)
+        tighter = now if root.payload is None else _contact_tolerance(point, root.payload.contact_state, volume)
         if tighter == now:
             return point, root
         point = replace(point, settings=replace(point.settings, contact_tolerance=tighter))
@@ -295,14 +298,14 @@ def _seen_root(
         first = (None, root.payload)
 
 
-def _contact_tolerance(point: Point, contact: ContactState, volume: float) -> float | None:
-    """The tolerance that leaves less than ``volume`` of the gap of ``contact`` open: that of ``point`` if it does."""
+def _contact_tolerance(point: Point, contact_state: ContactState, volume: float) -> float | None:
+    """The tolerance that leaves less than ``volume`` of the gap of ``contact_state`` open: that of ``point`` if it does."""
     now = point.settings.contact_tolerance
-    own = point.contact.adjustable_tolerance
-    fields = contact.fields
+    own = point.rough_contact.adjustable_tolerance
+    fields = contact_state.fields
     if own is None or fields is None or point.scene.numerics.contact_tolerance is not None:
         return now
-    enough = max(volume * contact.mean_gap / fields.length, budget.TIGHTEST_CONTACT)
+    enough = max(volume * contact_state.mean_gap / fields.length, budget.TIGHTEST_CONTACT)
     return now if (now or own) <= budget.SLACK * enough else 0.5 * enough
 
 
@@ -310,12 +313,12 @@ def _root(
     point: Point, log_load_ratio: float, slope: float | None, step: float, first: tuple[float | None, Trial | None]
 ) -> Root:
     load = point.scene.bodies.load
-    most = point.contact.capacity
+    most = point.rough_contact.capacity
     lowest = max(math.log((load - most) / most), BOUNDS[0]) if most < load else BOUNDS[0]
 
     def residual(x: float, last: Trial | None) -> tuple[float, Trial]:
         trial = point.trial(*loads_at(load, x), last)
-        return trial.contact.volume_residual, trial
+        return trial.contact_state.volume_residual, trial
 
     tolerance = point.settings.balance_tolerance
     fed = point.scene.lubricant.inlet_film is not None
@@ -328,13 +331,15 @@ def _root(
 def _balance(point: Point, root: Root, response: Response) -> Balance:
     trial = root.payload
     scene = point.scene
-    report = _report(scene, root.status, root.history, trial.contact, trial.film, (), point.settings.balance_tolerance)
-    friction = forces(scene, trial.film, trial.contact, trial.contact_load)
+    report = _report(
+        scene, root.status, root.history, trial.contact_state, trial.film, (), point.settings.balance_tolerance
+    )
+    friction = forces(scene, trial.film, trial.contact_state, trial.contact_load)
     return Balance(
         film_load=trial.film_load,
         contact_load=trial.contact_load,
         film=trial.film,
-        contact=trial.contact,
+        contact_state=trial.contact_state,
         forces=friction,
         report=report,
         response=response,
@@ -356,7 +361,7 @@ def _needed(point: Point, balance: Balance) -> Settings:
     now = point.settings
     response = balance.response
     assert response is not None and balance.film is not None
-    mean_film = balance.contact.mean_film
+    mean_film = balance.contact_state.mean_film
     film = now.film_tolerance
     volume = now.balance_tolerance
     if numerics.film_tolerance is None:
@@ -373,12 +378,12 @@ def _needed(point: Point, balance: Balance) -> Settings:
             )
         closed = min(0.5 * allowed, budget.LOOSEST_VOLUME * min(mean_film, balance.film.central_film))
         volume = _tightened(volume, max(closed / mean_film, budget.TIGHTEST_VOLUME))
-    contact = _contact_tolerance(point, balance.contact, volume)
+    contact_tolerance = _contact_tolerance(point, balance.contact_state, volume)
     return Settings(
         film_tolerance=film,
         balance_tolerance=volume,
         film_cells=_cells(point, balance.film, balance.forces),
-        contact_tolerance=contact,
+        contact_tolerance=contact_tolerance,
         correctable=now.correctable,
     )
 
@@ -402,7 +407,7 @@ def _report(
     scene: Scene,
     status: str,
     history: tuple[float, ...],
-    contact: ContactState,
+    contact_state: ContactState,
     film: EHLResult | None,
     notes: tuple[str, ...],
     tolerance: float | None = None,
@@ -410,8 +415,8 @@ def _report(
     residuals = {"volume": min(history), "load": 0.0}
     if film is not None:
         residuals["film"] = film.report.residual
-    if contact.fields is not None:
-        residuals["contact"] = contact.fields.report.residual
+    if contact_state.fields is not None:
+        residuals["contact"] = contact_state.fields.report.residual
     tolerance, steps = scene.numerics.tolerance_of("balance") if tolerance is None else tolerance, len(history)
     return Report(
         "load sharing",

@@ -89,7 +89,7 @@ class BalancedSample:
     """The balance of a sample, corrected for its cells, and what is known of its error.
 
     - ``balance``: with the division of the load that the scene's own cells demand; ``solved``: as it was solved on
-      ``contact``, the first ``count`` strips of ``sample``.
+      ``rough_contact``, the first ``count`` strips of ``sample``.
     - ``effect``: of the cells; ``scatter``: from place to place; ``undetected``: contact that the sample may have missed by
       chance where none was found: its relative effect on f.
     - ``first_effect``: of the cells at the load at which it was found (None: not yet), from which ``effect`` is.
@@ -99,7 +99,7 @@ class BalancedSample:
     speed: float
     balance: Balance
     solved: Balance
-    contact: RoughContact
+    rough_contact: RoughContact
     scatter: Scatter
     sample: Sample
     effect: CellEffect = CellEffect()
@@ -150,7 +150,7 @@ class BalancedSample:
     @property
     def left_by_root(self) -> float:
         """Mean gap less mean film [m], as the balance was solved."""
-        return self.solved.contact.mean_gap - self.solved.contact.mean_film
+        return self.solved.contact_state.mean_gap - self.solved.contact_state.mean_film
 
     @property
     def second_order(self) -> float:
@@ -171,19 +171,19 @@ class BalancedSample:
     def point(self) -> Point:
         """The point on this contact, with the settings of the balance."""
         assert self.solved.settings is not None
-        return Point(self.prepared.scene, self.speed, self.contact, self.solved.settings)
+        return Point(self.prepared.scene, self.speed, self.rough_contact, self.solved.settings)
 
     @property
     def on_cells(self) -> HalfSpaceContact | None:
         """The contact, whose cells and places along y can be compared; None where it has none of them."""
-        return cast(HalfSpaceContact, self.contact) if self.sample.is_resolved else None
+        return cast(HalfSpaceContact, self.rough_contact) if self.sample.is_resolved else None
 
     @property
     def start(self) -> Balance | None:
         """The balance from which that of more strips starts; None where nothing touches."""
         if self.response is None:
             return None
-        return replace(self.solved, contact=replace(self.solved.contact, fields=None))
+        return replace(self.solved, contact_state=replace(self.solved.contact_state, fields=None))
 
     def required_strips(self) -> int:
         tolerance = self.prepared.scene.numerics.sampling_tolerance
@@ -212,7 +212,7 @@ class BalancedSample:
         allowed = budget.CONTACT_GRID * scene.numerics.tolerance
         if response is not None:
             moved = abs(response.log_load_ratio_per_gap * self.corrected_gap)
-            if max(abs(self.corrected_gap), abs(self.effect.film)) > LARGEST * solved.contact.mean_gap:
+            if max(abs(self.corrected_gap), abs(self.effect.film)) > LARGEST * solved.contact_state.mean_gap:
                 return True
             by_contact = solved.forces.boundary / max(solved.forces.total, 1e-300)
             part = max(by_contact, solved.contact_load / scene.bodies.load)  # of the friction, or of the load
@@ -221,7 +221,7 @@ class BalancedSample:
             if moved > FARTHEST and part * math.expm1(min(moved, 30.0)) > allowed:
                 return True
             return response.relative("coefficient", self.second_order) > allowed
-        clearance = solved.contact.mean_film - solved.contact.mean_gap
+        clearance = solved.contact_state.mean_film - solved.contact_state.mean_gap
         if self.count > sample.first or clearance > CLOSE * self.prepared.surface.sq:
             return False
         depth = lost_summits(self.prepared, self.point, solved, sample) - clearance
@@ -240,19 +240,19 @@ class BalancedSample:
         ratio = solved.log_load_ratio + response.log_load_ratio_per_gap * self.corrected_gap
         loads = loads_at(scene.bodies.load, ratio)
         film = self.point.film(loads[0], solved.film, solved.film.cells)
-        state = solved.contact
-        area = solved.contact.real_contact_area_fraction
+        state = solved.contact_state
+        area = solved.contact_state.real_contact_area_fraction
         by_load = response.slopes.area_factor(loads[1] - solved.contact_load, scene.bodies.width, area)
         plastic = max(state.plastic_area_fraction + effect.plastic, 0.0)
         state = with_contact_area_scaled(replace(state, plastic_area_fraction=plastic), effect.area * by_load)
-        mean = weighted_mean(film.film_at(self.contact.x), self.contact.weight) + effect.film
+        mean = weighted_mean(film.film_at(self.rough_contact.x), self.rough_contact.weight) + effect.film
         state = replace(state, mean_gap=mean, mean_film=mean)
         balance = replace(
             solved,
             film_load=loads[0],
             contact_load=loads[1],
             film=film,
-            contact=state,
+            contact_state=state,
             forces=forces(scene, film, state, loads[1]),
         )
         return replace(self, balance=balance)
@@ -264,16 +264,16 @@ def solve_sample(
     """Solve the first ``count`` strips of ``sample`` at ``speed`` [m/s], joined to one line with one film and one
     approach. ``start``: the solution of fewer of them. Raises `ConvergenceError`."""
     scene = prepared.scene
-    contact = contact_on(prepared, sample, count)
+    rough_contact = contact_on(prepared, sample, count)
     begin = _reference(prepared, speed, sample) if start is None else start.start
     coarse = not sample.cells.is_native
-    solved = solve_balance(scene, speed, contact, prepared.surface.sq, begin, correctable=coarse)
+    solved = solve_balance(scene, speed, rough_contact, prepared.surface.sq, begin, correctable=coarse)
     solution = BalancedSample(
         prepared=prepared,
         speed=speed,
         balance=solved,
         solved=solved,
-        contact=contact,
+        rough_contact=rough_contact,
         scatter=Scatter(length=sample.rows_of(count) * sample.cells.spacing[1]),
         sample=sample,
         first_effect=None if start is None else start.first_effect,
@@ -283,7 +283,7 @@ def solve_sample(
     if on_cells is None:
         return replace(solution, undetected=math.nan)
     if solved.response is None:
-        undetected = undetected_contact(scene, contact, solved.film, solved.forces, sample.correlation_lengths[1])
+        undetected = undetected_contact(scene, rough_contact, solved.film, solved.forces, sample.correlation_lengths[1])
         return replace(solution, undetected=undetected)
     effect = solution.first_effect
     if effect is None and solved.film is not None:

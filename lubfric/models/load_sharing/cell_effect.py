@@ -168,12 +168,12 @@ def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, in
     states: list[ContactState] = []
     rest = math.inf
     for factors in ladder:
-        contact = on_piece(prepared, sample, index, factors)
-        if rest <= enough and contact.heights.size > MOST_CELLS:
+        rough_contact = on_piece(prepared, sample, index, factors)
+        if rest <= enough and rough_contact.heights.size > MOST_CELLS:
             break
         start = states[-1] if states else None
-        states.append(point.pressed(contact, balance.film, balance.contact_load, start))
-        places.append(_along_y(contact, states[-1], slope, coarse.coarsening[1] // factors[1]))
+        states.append(point.pressed(rough_contact, balance.film, balance.contact_load, start))
+        places.append(_along_y(rough_contact, states[-1], slope, coarse.coarsening[1] // factors[1]))
         if len(places) > 1:
             changes.append(float(np.mean(places[-1][0]) - np.mean(places[-2][0])))
             rest = remaining(changes)
@@ -196,16 +196,18 @@ def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, in
         area_error=area_error,
         touched=touched_length(states[-1]) / touched_length(states[0]),
         plastic=states[-1].plastic_area_fraction - states[0].plastic_area_fraction,
-        edge_load_share=contact.on_the_ends(states[-1]),
+        edge_load_share=rough_contact.on_the_ends(states[-1]),
     )
 
 
-def _along_y(contact: HalfSpaceContact, state: ContactState, slope: float, rows: int) -> tuple[np.ndarray, np.ndarray]:
+def _along_y(
+    rough_contact: HalfSpaceContact, state: ContactState, slope: float, rows: int
+) -> tuple[np.ndarray, np.ndarray]:
     """Influence on the mean gap beyond the mean film [m], and share of A in contact, means over ``rows`` cells along
     y."""
     assert state.fields is not None
-    gap = gap_influence(hertz_mean_gap(contact, state), line_load(contact, state), slope) - state.mean_film
-    touching = contact.weight @ (state.fields.pressure > 0) / contact.weight.sum()
+    gap = gap_influence(hertz_mean_gap(rough_contact, state), line_load(rough_contact, state), slope) - state.mean_film
+    touching = rough_contact.weight @ (state.fields.pressure > 0) / rough_contact.weight.sum()
     return gap.reshape(-1, rows).mean(axis=1), touching.reshape(-1, rows).mean(axis=1)
 
 

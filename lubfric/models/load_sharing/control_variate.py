@@ -42,20 +42,20 @@ def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlV
     solved = balanced.solved
     response = balanced.response
     load = prepared.scene.bodies.load
-    contact: Any = balanced.contact  # of cells, as there are strips
+    rough_contact: Any = balanced.rough_contact  # of cells, as there are strips
     rows = on_strip(prepared, prepared.sample, 0).heights.shape[1]
     starts = (
-        np.arange(balanced.count) * contact.heights.shape[1] // balanced.count
+        np.arange(balanced.count) * rough_contact.heights.shape[1] // balanced.count
     )  # a measured line may have some more
 
     def of_strips(places: np.ndarray) -> np.ndarray:
         return np.array([places[start : start + rows] for start in starts]) - places.mean()
 
-    places = of_strips(solved.forces.coefficient * friction_influence(prepared.scene, contact, solved))
+    places = of_strips(solved.forces.coefficient * friction_influence(prepared.scene, rough_contact, solved))
     numbers = {"coefficient": places.mean(axis=1)}
     if response is None or response.rates is None:
         return ControlVariate(places, numbers, StandardError(balanced.sampling, FREEDOM_NOT_COUNTED))
-    gap, loads = (of(contact, solved.contact) for of in (hertz_mean_gap, line_load))
+    gap, loads = (of(rough_contact, solved.contact_state) for of in (hertz_mean_gap, line_load))
     influence = gap_influence(gap, loads, response.slopes.gap)
     moved = response.log_load_ratio_per_gap * of_strips(influence).mean(axis=1)  # of ln(F_H/F_C)
     for name, value in (
@@ -64,7 +64,7 @@ def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlV
         ("boundary_force", solved.forces.boundary),
         ("rolling_force", solved.forces.shear.rolling),
         ("rolling_resistance", solved.forces.shear.resistance),
-        ("mean_gap", solved.contact.mean_gap),
+        ("mean_gap", solved.contact_state.mean_gap),
     ):
         numbers[name] = value * response.rates[name] * moved
     numbers["shear_force"] = load * numbers["coefficient"] - numbers["boundary_force"]

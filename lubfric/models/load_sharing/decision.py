@@ -9,15 +9,15 @@ from ..shared import Decision
 from .balance import Balance
 
 
-def decided(scene: Scene, contact: RoughContact, balance: Balance, clearance: float, **sample: Any) -> Decision:
-    """Return the decision of the paper's model behind ``balance`` on ``contact``.
+def decided(scene: Scene, rough_contact: RoughContact, balance: Balance, clearance: float, **sample: Any) -> Decision:
+    """Return the decision of the paper's model behind ``balance`` on ``rough_contact``.
 
     ``clearance`` [Sq]: between the film and the highest summits, NaN in contact; ``sample``: further fields of
     `Decision`.
     """
     tolerance = scene.numerics.tolerance
     film = balance.film
-    grid = contact.grid
+    grid = rough_contact.grid
     touching = math.isnan(clearance)
     notes = balance.notes
     heat = ""
@@ -29,7 +29,7 @@ def decided(scene: Scene, contact: RoughContact, balance: Balance, clearance: fl
     return Decision(
         model="paper",
         film=f"none, {balance.why_no_film}" if film is None else "full EHL",
-        contact=contact.name if touching else f"none, clearance {clearance:.2g} Sq",
+        contact=rough_contact.name if touching else f"none, clearance {clearance:.2g} Sq",
         tolerance=tolerance,
         film_tolerance=0.0 if balance.settings is None else balance.settings.film_tolerance,
         cells=grid if touching else None,

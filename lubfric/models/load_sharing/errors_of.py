@@ -65,7 +65,7 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
         errors |= {"film_load": 0.0}
     else:
         error = balanced.friction_error
-        mean_film = balance.contact.mean_film
+        mean_film = balance.contact_state.mean_film
         relative += response.per_film(forces, mean_film) * of_film
         relative += response.relative("coefficient", of_gap)
         errors = _contact_errors(scene, balanced, of_film, of_gap, of_area)
@@ -74,7 +74,7 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
         sampling = math.nan
     of_model, unknown = model_error_of_eq8(balanced)
     film_sensitivity = (
-        response.per_film(forces, balance.contact.mean_film) if response is not None else forces.film_sensitivity
+        response.per_film(forces, balance.contact_state.mean_film) if response is not None else forces.film_sensitivity
     )
     by_heat = error_by_heat(forces.heat, 1 - forces.heat.film_factor**film_sensitivity)
     of_model = (math.hypot(of_model[0], by_heat), math.hypot(of_model[1], by_heat))
@@ -110,13 +110,13 @@ def _numerical(balanced: BalancedSample) -> tuple[float, float, float, float]:
             effect.remaining_change
             + balanced.second_order
             + (budget.SLOPE * abs(balanced.corrected_gap) or abs(balanced.left_by_root))
-            + solved.contact.gap_error
+            + solved.contact_state.gap_error
         )
-    read = solved.contact.area_error / max(solved.contact.real_contact_area_fraction, 1e-300)
+    read = solved.contact_state.area_error / max(solved.contact_state.real_contact_area_fraction, 1e-300)
     by_area = 0.0
-    if solved.contact.area_error and forces.total:
-        open_ = max(1 - solved.contact.real_contact_area_fraction, solved.contact.area_error)
-        by_area = solved.contact.area_error / open_ * forces.shear.magnitude / forces.total
+    if solved.contact_state.area_error and forces.total:
+        open_ = max(1 - solved.contact_state.real_contact_area_fraction, solved.contact_state.area_error)
+        by_area = solved.contact_state.area_error / open_ * forces.shear.magnitude / forces.total
     return film, gap, forces.quadrature + forces.heat.left_out + by_area, effect.area_error + read
 
 
@@ -133,7 +133,7 @@ def _contact_errors(
     response = balanced.response
     assert response is not None
     scattered = balanced.gap_error.error if math.isfinite(balanced.gap_error.error) else 0.0
-    gap_error = math.hypot(scattered, gap_error + film_error * balance.contact.mean_film)
+    gap_error = math.hypot(scattered, gap_error + film_error * balance.contact_state.mean_film)
     errors = {name: response.relative(name, gap_error) for name in response.rates or ()}
     errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
     for name, at_given_load in _given_load(balance.forces, film_error).items():
@@ -141,8 +141,8 @@ def _contact_errors(
     by_load = errors.get("contact_load", 0.0)
     for name, error in _area_errors(scene, balance, balanced.scatter).items():
         errors[name] = math.hypot(by_load, error, area_error)
-    if balance.contact.plastic_area_fraction > 0:
-        change = balanced.effect.plastic / balance.contact.plastic_area_fraction
+    if balance.contact_state.plastic_area_fraction > 0:
+        change = balanced.effect.plastic / balance.contact_state.plastic_area_fraction
         counted = balanced.scatter.spots**-0.5 if balanced.scatter.spots else PLASTIC * math.hypot(by_load, area_error)
         errors["plastic_area_fraction"] = math.hypot(counted, change)
     return errors
@@ -150,8 +150,10 @@ def _contact_errors(
 
 def _area_errors(scene: Scene, balance: Balance, scatter: Scatter) -> dict[str, float]:
     """Relative standard errors of the areas at given load."""
-    fraction = balance.contact.real_contact_area_fraction
-    length = float(balance.contact.contact_fraction.sum() * (balance.contact.x[1] - balance.contact.x[0]))
+    fraction = balance.contact_state.real_contact_area_fraction
+    length = float(
+        balance.contact_state.contact_fraction.sum() * (balance.contact_state.x[1] - balance.contact_state.x[0])
+    )
     pairs = (fraction, scatter.area.error), (length, scatter.touched.error)
     finite = [(value, error if math.isfinite(error) else 0.0) for value, error in pairs]
     names = depending_on("area")
@@ -191,7 +193,7 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
         return (
             (NONE, ())
             if fed is None or balanced.speed == 0
-            else (starved_error(fed, balance.contact.mean_gap), (EMPTY,))
+            else (starved_error(fed, balance.contact_state.mean_gap), (EMPTY,))
         )
     if balanced.on_cells is None:
         return UNKNOWN, (NOT_STUDIED,)
@@ -211,7 +213,7 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
         down = max(down, least)
         up = max(up, least)
     if scene.lubricant.inlet_film is not None and share > 0:
-        starved = starved_error(scene.lubricant.inlet_film, balance.contact.mean_gap)
+        starved = starved_error(scene.lubricant.inlet_film, balance.contact_state.mean_gap)
         down = math.hypot(down, starved[0])
         up = math.hypot(up, starved[1])
     return (min(down, 1.0), up), ()

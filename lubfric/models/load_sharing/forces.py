@@ -44,18 +44,18 @@ class Forces:
         return self.shear.magnitude / self.total if 0 < self.total < np.inf else 1.0
 
 
-def forces(scene: Scene, film: EHLResult | None, contact: ContactState, contact_load: float) -> Forces:
+def forces(scene: Scene, film: EHLResult | None, contact_state: ContactState, contact_load: float) -> Forces:
     """The forces of ``film`` (None: none) and of a contact that carries ``contact_load`` [N]."""
     bodies = scene.bodies
     boundary = bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0) * contact_load
     if film is None:
         return Forces(coefficient=boundary / bodies.load, boundary=boundary, shear=ShearForce(couette=0.0, rolling=0.0))
-    elastic = _elastic(scene, film, contact, contact_load)
-    shear = _shear(scene, film, contact, elastic)
+    elastic = _elastic(scene, film, contact_state, contact_load)
+    shear = _shear(scene, film, contact_state, elastic)
     boundary *= shear.asperity_share
-    heat, warm, stress = point_heat(scene, film, contact, contact_load, abs(boundary + shear.total), shear)
+    heat, warm, stress = point_heat(scene, film, contact_state, contact_load, abs(boundary + shear.total), shear)
     if warm is not None or stress is not None:
-        shear = _shear(scene, film, contact, elastic, warm, stress)
+        shear = _shear(scene, film, contact_state, elastic, warm, stress)
     total = abs(boundary + shear.total)
     quadrature = shear.quadrature / total if 0 < total < np.inf else 0.0
     return Forces(
@@ -67,7 +67,7 @@ def forces(scene: Scene, film: EHLResult | None, contact: ContactState, contact_
     )
 
 
-def _elastic(scene: Scene, film: EHLResult, contact: ContactState, contact_load: float) -> ElasticContact | None:
+def _elastic(scene: Scene, film: EHLResult, contact_state: ContactState, contact_load: float) -> ElasticContact | None:
     """Return the discs and asperities that shear elastically, where the lubricant has a shear modulus.
 
     The mean asperity pressure across the width is that of the contact's cells, or Hertz's with the asperity load.
@@ -77,9 +77,9 @@ def _elastic(scene: Scene, film: EHLResult, contact: ContactState, contact_load:
     bodies = scene.bodies
     half_width = bodies.half_width
     direction = np.copysign(1.0, film.entrainment_speed)
-    if contact.fields is not None:
-        x = contact.x * direction
-        mean = contact.fields.pressure.mean(axis=1)
+    if contact_state.fields is not None:
+        x = contact_state.x * direction
+        mean = contact_state.fields.pressure.mean(axis=1)
     else:
         x = np.linspace(-1.0, 1.0, HERTZ_NODES) * half_width
         mean = np.sqrt(np.maximum(half_width**2 - x**2, 0.0))
@@ -96,7 +96,7 @@ def _elastic(scene: Scene, film: EHLResult, contact: ContactState, contact_load:
 def _shear(
     scene: Scene,
     film: EHLResult,
-    contact: ContactState,
+    contact_state: ContactState,
     elastic: ElasticContact | None,
     warm: float | None = None,
     stress: Callable[..., Any] | None = None,
@@ -108,7 +108,7 @@ def _shear(
             width=scene.bodies.width,
             slide_roll_ratio=scene.motion.slide_roll_ratio,
             cavitated=scene.numerics.cavitated_shear,
-            contact_fraction=contact.touching,
+            contact_fraction=contact_state.touching,
             warm=warm,
             heated=stress,
             elastic=elastic,

@@ -24,15 +24,15 @@ def limits_exceeded(prepared: Prepared, speed: float, balance: Balance, ends: fl
     film = balance.film
     thickness = film.central_film if film is not None else math.nan
     entries = [*prepared.known, *warn_motion(scene, speed, thickness), *warn_ends(ends, prepared.surface.size[0])]
-    entries += warn_patches(scene, prepared.surface.heights, balance.contact.real_contact_area_fraction)
+    entries += warn_patches(scene, prepared.surface.heights, balance.contact_state.real_contact_area_fraction)
     if film is not None:
         peak = float(film.pressure.max())
         friction = balance.forces
         force = abs(friction.coefficient) * scene.bodies.load
-        entries += warn_inlet(scene, film.contact, film.flow_film, force)
+        entries += warn_inlet(scene, film.line, film.flow_film, force)
         entries += warn_film(scene, thickness, peak, friction.shear, balance.film_load, force, friction.heat)
-        typical = typical_heat(scene, film, balance.contact, balance.contact_load, force, friction.shear)
+        typical = typical_heat(scene, film, balance.contact_state, balance.contact_load, force, friction.shear)
         entries += warn_typical_heat(scene, typical)
         if scene.numerics.film_deflection == "hydrodynamic" and balance.contact_load > 0:
-            entries += warn_deflection(scene, balance.contact.mean_gap)
+            entries += warn_deflection(scene, balance.contact_state.mean_gap)
     return tuple(entries)

@@ -12,12 +12,12 @@ OWN = {  # names of lubfric's own rough contacts; another may have been given
 CONTACTS = {"half-space": "half-space contact", "summits": "summits", "patches": "patches"}
 
 
-def methods_of_load_sharing(prepared: Prepared, *, contact: bool, film: bool) -> tuple[str, ...]:
-    """Return the names of the methods; ``contact``, ``film``: whether asperities, or a film, carry load."""
+def methods_of_load_sharing(prepared: Prepared, *, has_contact: bool, has_film: bool) -> tuple[str, ...]:
+    """Return the names of the methods; ``has_contact``, ``has_film``: whether asperities, or a film, carry load."""
     scene = prepared.scene
     names = ["load sharing"]
-    if contact and prepared.contact.name in OWN[scene.contact.model]:
+    if has_contact and prepared.rough_contact.name in OWN[scene.contact.model]:
         names.append(CONTACTS[scene.contact.model])
-    if contact and film and scene.numerics.film_deflection == "scaled" and scene.transient is None:
+    if has_contact and has_film and scene.numerics.film_deflection == "scaled" and scene.transient is None:
         names.append("scaled modulus")
     return tuple(names)

@@ -107,8 +107,8 @@ class PaperModel(Model):
     ) -> WorkEstimate:
         return estimated_work(scene, sample, surface, speed)
 
-    def methods(self, prepared: Prepared, *, contact: bool, film: bool) -> tuple[str, ...]:
-        return methods_of_load_sharing(prepared, contact=contact, film=film)
+    def methods(self, prepared: Prepared, *, has_contact: bool, has_film: bool) -> tuple[str, ...]:
+        return methods_of_load_sharing(prepared, has_contact=has_contact, has_film=has_film)
 
     def rolling_error(self, lambda_ratio: float) -> float:
         return rolling_model_error(lambda_ratio)

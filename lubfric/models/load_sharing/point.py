@@ -31,7 +31,7 @@ class Trial:
     """
 
     film: EHLResult
-    contact: ContactState
+    contact_state: ContactState
     film_load: float
     contact_load: float
     touched: ContactState | None = None
@@ -40,11 +40,11 @@ class Trial:
 
 @dataclass(frozen=True)
 class Point:
-    """``scene`` at one speed [m/s], not 0, on ``contact``, solved with ``settings``."""
+    """``scene`` at one speed [m/s], not 0, on ``rough_contact``, solved with ``settings``."""
 
     scene: Scene
     speed: float
-    contact: RoughContact
+    rough_contact: RoughContact
     settings: Settings
 
     def line(self, film_load: float) -> LineContact:
@@ -62,37 +62,44 @@ class Point:
         effort = Effort(self.settings.film_tolerance, max(self.settings.film_cells, cells))
         return solve_line_contact(self.line(film_load), effort, start=start)
 
-    def on(self, contact: RoughContact, film: EHLResult) -> tuple[np.ndarray, np.ndarray]:
-        """Film [m] at the x of ``contact``, and the shape under which the surface is pressed there, up to a constant.
+    def on(self, rough_contact: RoughContact, film: EHLResult) -> tuple[np.ndarray, np.ndarray]:
+        """Film [m] at the x of ``rough_contact``, and the shape under which the surface is pressed there, up to a constant.
 
         The shape is the film, unless the film contains the deflection by the total load (Johnson's modulus). Then it
         is the film less the contact's share, because the contact adds its own deflection.
         """
-        thickness = film.film_at(contact.x)
+        thickness = film.film_at(rough_contact.x)
         if self.scene.numerics.film_deflection != "scaled":
             return thickness, thickness
-        parabola = contact.x**2 / (2 * film.radius)
+        parabola = rough_contact.x**2 / (2 * film.radius)
         return thickness, parabola + film.e_prime / self.scene.bodies.e_prime * (thickness - parabola)
 
     def trial(self, film_load: float, contact_load: float, last: Trial | None = None) -> Trial:
         """The film of ``film_load`` [N], and under it the contact that carries ``contact_load`` [N], from ``last``."""
         start, touched, cells = (last.film, last.touched, last.cells) if last else (None, None, 0)
         film = self.film(film_load, start, cells)
-        contact = self.pressed(self.contact, film, contact_load, touched)
-        touched, cells = contact if contact_load > 0 else touched, max(film.cells, cells) if last else 0
+        contact_state = self.pressed(self.rough_contact, film, contact_load, touched)
+        touched, cells = contact_state if contact_load > 0 else touched, max(film.cells, cells) if last else 0
         return Trial(
-            film=film, contact=contact, film_load=film_load, contact_load=contact_load, touched=touched, cells=cells
+            film=film,
+            contact_state=contact_state,
+            film_load=film_load,
+            contact_load=contact_load,
+            touched=touched,
+            cells=cells,
         )
 
-    def pressed(self, contact: RoughContact, film: EHLResult, load: float, start: ContactState | None) -> ContactState:
-        """``contact`` under ``film``, with ``load`` [N]."""
-        thickness, shape = self.on(contact, film)
-        return self.tight(contact).close(thickness, load, start, shape)
+    def pressed(
+        self, rough_contact: RoughContact, film: EHLResult, load: float, start: ContactState | None
+    ) -> ContactState:
+        """``rough_contact`` under ``film``, with ``load`` [N]."""
+        thickness, shape = self.on(rough_contact, film)
+        return self.tight(rough_contact).close(thickness, load, start, shape)
 
-    def tight(self, contact: RoughContact) -> RoughContact:
-        """``contact``, solved as closely as the settings ask."""
+    def tight(self, rough_contact: RoughContact) -> RoughContact:
+        """``rough_contact``, solved as closely as the settings ask."""
         tolerance = self.settings.contact_tolerance
-        return contact if tolerance is None else contact.tightened(tolerance)
+        return rough_contact if tolerance is None else rough_contact.tightened(tolerance)
 
     @cached_property
     def oil(self) -> Lubricant:

@@ -101,14 +101,14 @@ def load_growth(moved: float, load_ratio: float) -> float:
 
 def respond(
     scene: Scene,
-    contact: RoughContact,
+    rough_contact: RoughContact,
     state: ContactState,
     load: float,
     film: np.ndarray,
     shape: np.ndarray | None = None,
     film_of: Callable[[float], EHLResult] | None = None,
 ) -> Response:
-    """The `Response` of ``contact``, which is in ``state`` at ``load`` [N] under ``film`` and ``shape`` [m] (nx,).
+    """The `Response` of ``rough_contact``, which is in ``state`` at ``load`` [N] under ``film`` and ``shape`` [m] (nx,).
 
     Slopes are secants to a load 5 % larger (smaller where the contact carries no more). ``film_of``: the film that
     carries a load [N], where one shares the load. Its rates come from films at two other divisions of the load; no
@@ -116,8 +116,8 @@ def respond(
     F_H/F_T.
     """
     width = scene.bodies.width
-    step = LOAD_STEP * load * (1 if contact.capacity > (1 + LOAD_STEP) * load else -1)
-    more = contact.close(film, load + step, state, shape)
+    step = LOAD_STEP * load * (1 if rough_contact.capacity > (1 + LOAD_STEP) * load else -1)
+    more = rough_contact.close(film, load + step, state, shape)
     slopes = Slopes(
         (more.mean_gap - state.mean_gap) * width / step,
         (more.real_contact_area_fraction - state.real_contact_area_fraction) * width / step,
@@ -133,7 +133,7 @@ def respond(
         loads = loads_at(total, s)
         shared = film_of(loads[0])
         factor = slopes.area_factor(loads[1] - load, width, state.real_contact_area_fraction)
-        mean_film = weighted_mean(shared.film_at(contact.x), contact.weight)  # the film fills the gap
+        mean_film = weighted_mean(shared.film_at(rough_contact.x), rough_contact.weight)  # the film fills the gap
         return quantities(
             forces(scene, shared, with_contact_area_scaled(state, factor), loads[1]), shared, loads, mean_film
         )

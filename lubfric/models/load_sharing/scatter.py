@@ -32,15 +32,15 @@ FEWEST_WINDOWS = 3
 SPOT = 1.75
 
 
-def hertz_mean_gap(contact: Any, state: Any) -> np.ndarray:
+def hertz_mean_gap(rough_contact: Any, state: Any) -> np.ndarray:
     """G(y) [m] (ny,): the gap at every place along the line, averaged over the strip A. ``state``: a `ContactState`
     with fields."""
-    return contact.weight @ np.maximum(state.fields.gap, 0.0) / contact.weight.sum()
+    return rough_contact.weight @ np.maximum(state.fields.gap, 0.0) / rough_contact.weight.sum()
 
 
-def line_load(contact: Any, state: Any) -> np.ndarray:
+def line_load(rough_contact: Any, state: Any) -> np.ndarray:
     """P(y) [N/m] (ny,): load per length at every place along the line."""
-    return state.fields.pressure.sum(axis=0) * contact.spacing[0]
+    return state.fields.pressure.sum(axis=0) * rough_contact.spacing[0]
 
 
 def gap_influence(hertz_mean_gap: FloatArray, line_load: FloatArray, slope: float) -> np.ndarray:
@@ -72,18 +72,18 @@ class Scatter:
     spots: float = 0.0
 
 
-def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, sample: Sample, count: int) -> Scatter:
-    """The `Scatter` of ``contact``, a stack of ``count`` strips of ``sample``, in ``balance``. Of a mirrored map only half
+def scatter_of(scene: Scene, rough_contact: HalfSpaceContact, balance: Balance, sample: Sample, count: int) -> Scatter:
+    """The `Scatter` of ``rough_contact``, a stack of ``count`` strips of ``sample``, in ``balance``. Of a mirrored map only half
     counts."""
-    state = balance.contact
+    state = balance.contact_state
     response = balance.response
     assert state.fields is not None and response is not None
     slopes = response.slopes
-    rows = slice(0, sample.distinct_rows(contact.heights))
-    by_place = line_load(contact, state)[rows]
-    step = contact.spacing[1]
+    rows = slice(0, sample.distinct_rows(rough_contact.heights))
+    by_place = line_load(rough_contact, state)[rows]
+    step = rough_contact.spacing[1]
     touching = state.fields.pressure[:, rows] > 0
-    squares = np.square(contact.heights[:, rows]).mean(axis=0) if sample.exact_sq else None
+    squares = np.square(rough_contact.heights[:, rows]).mean(axis=0) if sample.exact_sq else None
 
     def error(influence: FloatArray) -> StandardError:
         return place_error(influence, step, sample, count, squares)
@@ -93,33 +93,33 @@ def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, sample
 
     of_friction = StandardError(0.0, 1)
     if balance.film is not None and response.rates and balance.forces.total:
-        of_friction = error(friction_influence(scene, contact, balance)[rows])
+        of_friction = error(friction_influence(scene, rough_contact, balance)[rows])
     return Scatter(
         length=by_place.size * step,
-        gap=at_given_load(hertz_mean_gap(contact, state)[rows], slopes.gap),
-        area=at_given_load(contact.weight @ touching / contact.weight.sum(), slopes.area),
-        touched=at_given_load(touching.sum(axis=0) * contact.spacing[0], slopes.touched),
+        gap=at_given_load(hertz_mean_gap(rough_contact, state)[rows], slopes.gap),
+        area=at_given_load(rough_contact.weight @ touching / rough_contact.weight.sum(), slopes.area),
+        touched=at_given_load(touching.sum(axis=0) * rough_contact.spacing[0], slopes.touched),
         friction=of_friction,
         spots=effective_spots(by_place, step, sample.correlation_lengths[1]),
     )
 
 
-def friction_influence(scene: Scene, contact: HalfSpaceContact, balance: Balance) -> np.ndarray:
-    """Influence of every place y of ``contact`` on f (ny,), relative, in a ``balance`` of film and contact: by the gap,
+def friction_influence(scene: Scene, rough_contact: HalfSpaceContact, balance: Balance) -> np.ndarray:
+    """Influence of every place y of ``rough_contact`` on f (ny,), relative, in a ``balance`` of film and contact: by the gap,
     which divides the load, and by where the place touches, since the film has no shear there. 0 without contact."""
-    state = balance.contact
+    state = balance.contact_state
     response = balance.response
     film = balance.film
     if response is None or not response.rates or film is None or state.fields is None:
-        return np.zeros(contact.heights.shape[1])
+        return np.zeros(rough_contact.heights.shape[1])
     touching = state.fields.pressure > 0
-    touched = max(float(touching.sum(axis=0).mean()) * contact.spacing[0], 1e-300)
-    lost = film_stress(scene, contact, film) @ touching * contact.spacing[0]
+    touched = max(float(touching.sum(axis=0).mean()) * rough_contact.spacing[0], 1e-300)
+    lost = film_stress(scene, rough_contact, film) @ touching * rough_contact.spacing[0]
     by_load = response.rates["coefficient"] * response.log_load_ratio_per_gap
     force = balance.forces.total / scene.bodies.width
     slope = by_load * response.slopes.gap - response.slopes.touched * float(lost.mean()) / touched / force
-    values = by_load * hertz_mean_gap(contact, state) - lost / force
-    return gap_influence(values, line_load(contact, state), slope)
+    values = by_load * hertz_mean_gap(rough_contact, state) - lost / force
+    return gap_influence(values, line_load(rough_contact, state), slope)
 
 
 def place_error(
@@ -136,16 +136,16 @@ def place_error(
     return max((e for e in (blocks, windows) if math.isfinite(e.error)), key=lambda e: e.error)
 
 
-def film_stress(scene: Scene, contact: HalfSpaceContact, film: EHLResult) -> np.ndarray:
-    """Shear stress [Pa] (nx,) of ``film`` at the columns of ``contact``, signed as the friction."""
+def film_stress(scene: Scene, rough_contact: HalfSpaceContact, film: EHLResult) -> np.ndarray:
+    """Shear stress [Pa] (nx,) of ``film`` at the columns of ``rough_contact``, signed as the friction."""
     sliding = scene.motion.slide_roll_ratio * film.entrainment_speed
-    pressure = np.interp(contact.x, film.x, film.pressure)
-    stress = shear_stress(scene.lubricant, pressure, abs(sliding) / film.film_at(contact.x))
+    pressure = np.interp(rough_contact.x, film.x, film.pressure)
+    stress = shear_stress(scene.lubricant, pressure, abs(sliding) / film.film_at(rough_contact.x))
     return np.where(pressure > 0, np.abs(stress), 0.0)
 
 
 def moment_error(
-    contact: Any,
+    rough_contact: Any,
     state: ContactState,
     loads: tuple[float, float],
     softness: float,
@@ -154,7 +154,7 @@ def moment_error(
     parts: tuple[float, float],
     thinning: float,
 ) -> float:
-    """Relative standard error of f at one moment, from a `ContactState` with fields on ``contact``: 0 without contact,
+    """Relative standard error of f at one moment, from a `ContactState` with fields on ``rough_contact``: 0 without contact,
     NaN if the line is too short.
 
     ``loads``: (F_C, F_H) [N]; ``softness``: -dG/d ln F_C [m] of the contact; ``parts``: boundary and viscous friction
@@ -171,8 +171,8 @@ def moment_error(
     if state.fields is None or not math.isfinite(correlation_length):
         return math.nan
     slope = -softness / (contact_load / width)
-    values = gap_influence(hertz_mean_gap(contact, state), line_load(contact, state), slope)
-    influence_error = block_error(values, contact.spacing[1], correlation_length)
+    values = gap_influence(hertz_mean_gap(rough_contact, state), line_load(rough_contact, state), slope)
+    influence_error = block_error(values, rough_contact.spacing[1], correlation_length)
     shares = contact_load / total, film_load / total
     split = influence_error.error / (softness * shares[1] + thinning * state.mean_film * shares[0])
     return abs((viscous * shares[0] - boundary * shares[1]) / friction) * split if influence_error.freedom else math.nan

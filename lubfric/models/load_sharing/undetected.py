@@ -32,13 +32,15 @@ OVERLAP = math.gamma(2.5)
 EULER = 0.5772156649
 
 
-def undetected_contact(scene: Scene, contact: Any, film: Any, forces: Forces, correlation_length: float) -> float:
-    """Relative effect of `undetected_load` on f; NaN if ``contact`` has no cells, or too few along y."""
-    if contact.grid is None or not forces.coefficient:
+def undetected_contact(scene: Scene, rough_contact: Any, film: Any, forces: Forces, correlation_length: float) -> float:
+    """Relative effect of `undetected_load` on f; NaN if ``rough_contact`` has no cells, or too few along y."""
+    if rough_contact.grid is None or not forces.coefficient:
         return math.nan
-    under = film.film_at(contact.x)
+    under = film.film_at(rough_contact.x)
     bodies = scene.bodies
-    load = undetected_load(contact.heights, contact.spacing, under, bodies.e_prime, bodies.width, correlation_length)
+    load = undetected_load(
+        rough_contact.heights, rough_contact.spacing, under, bodies.e_prime, bodies.width, correlation_length
+    )
     return _share(scene, load, forces)
 
 
@@ -74,12 +76,12 @@ def undetected_load(
     return rate * spot / (size * step) * width
 
 
-def hidden_contact(scene: Scene, contact: HalfSpaceContact, forces: Forces, depth: float) -> float:
-    """Relative effect on f of the highest summit of ``contact``, a piece, that is pressed ``depth`` [m] into a body, if
+def hidden_contact(scene: Scene, rough_contact: HalfSpaceContact, forces: Forces, depth: float) -> float:
+    """Relative effect on f of the highest summit of ``rough_contact``, a piece, that is pressed ``depth`` [m] into a body, if
     every such piece has one."""
     bodies = scene.bodies
-    length = contact.heights.shape[1] * contact.spacing[1]
-    load = _spot(contact.heights, contact.spacing, bodies.e_prime, depth) / length * bodies.width
+    length = rough_contact.heights.shape[1] * rough_contact.spacing[1]
+    load = _spot(rough_contact.heights, rough_contact.spacing, bodies.e_prime, depth) / length * bodies.width
     return _share(scene, load, forces)
 
 

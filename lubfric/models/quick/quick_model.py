@@ -351,8 +351,8 @@ class QuickModel(Model):
             seconds += work_on_strips(scene, sample, surface.sq, speed, cells_of_strips(scene, sample), count)
         return replace(alone, seconds=seconds)
 
-    def methods(self, prepared: Prepared, *, contact: bool, film: bool) -> tuple[str, ...]:
-        return ("deterministic model", *methods_of_load_sharing(prepared, contact=contact, film=film))
+    def methods(self, prepared: Prepared, *, has_contact: bool, has_film: bool) -> tuple[str, ...]:
+        return ("deterministic model", *methods_of_load_sharing(prepared, has_contact=has_contact, has_film=has_film))
 
     def rolling_error(self, lambda_ratio: float) -> float:
         return rolling_model_error(lambda_ratio)

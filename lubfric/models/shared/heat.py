@@ -172,9 +172,9 @@ def film_lubricant(scene: Scene, speed: float) -> Lubricant:
 
 
 def point_heat(
-    scene: Scene, film: Any, contact: ContactState, contact_load: float, force: float, shear: ShearForce
+    scene: Scene, film: Any, contact_state: ContactState, contact_load: float, force: float, shear: ShearForce
 ) -> tuple[Heat, float | None, Callable[..., Any] | None]:
-    """Heat of ``film`` with a ``contact`` that carries ``contact_load`` [N]; the viscosity [Pa s] of the warm inlet
+    """Heat of ``film`` with a ``contact_state`` that carries ``contact_load`` [N]; the viscosity [Pa s] of the warm inlet
     with which it was solved (None: as given); and the stress [Pa] of the heated film, stress(x, pressure, film) at
     positions x [m] running downstream (None: isothermal). ``force``: |f F_T| [N] and ``shear`` (`ShearForce`)
     without the heat of the film."""
@@ -187,7 +187,7 @@ def point_heat(
         return Heat(inlet=inlet, used=used), warm, None
     lubricant = scene.lubricant
     numerics = scene.numerics
-    nodes, change_by = _nodes(scene, film, contact, contact_load, force)
+    nodes, change_by = _nodes(scene, film, contact_state, contact_load, force)
     change = change_by(isothermal_heat(lubricant, *nodes).stress)
     peclet = peclet_at(scene, film.entrainment_speed)
     if numerics.heat != "on" and change <= budget.HEAT * numerics.tolerance:
@@ -203,7 +203,7 @@ def point_heat(
 
 
 def _nodes(
-    scene: Scene, film: EHLResult, contact: ContactState, contact_load: float, force: float
+    scene: Scene, film: EHLResult, contact_state: ContactState, contact_load: float, force: float
 ) -> tuple[tuple[FloatArray, FloatArray, FloatArray, Surroundings], Callable[..., Any]]:
     """Nodes running downstream, pressure and film there, and the `Surroundings`; and the function that shows by what
     share of ``force`` [N] a stress [Pa] (n,) makes the friction less than the isothermal stress does."""
@@ -215,7 +215,7 @@ def _nodes(
     x = film.x[order] * direction
     p = film.pressure[order]
     h = film.film_thickness[order]
-    share = 1.0 - contact.touching(x * direction)
+    share = 1.0 - contact_state.touching(x * direction)
     share = np.where(x[:-1] < film.rupture * direction, share, 0.0)
     wet = 0.5 * (np.append(share[:1], share) + np.append(share, share[-1:]))
     sliding = motion.slide_roll_ratio * speed
@@ -240,7 +240,7 @@ def surroundings(scene: Scene, speed: float, wet: FloatArray, spots: FloatArray)
 
 
 def typical_heat(
-    scene: Scene, film: Any, contact: ContactState, contact_load: float, force: float, shear: ShearForce
+    scene: Scene, film: Any, contact_state: ContactState, contact_load: float, force: float, shear: ShearForce
 ) -> float:
     """Share of ``force`` = |f F_T| [N] that the heat of film and surfaces would take away, at most, if the viscosity
     fell with the temperature as that of a typical oil (`TYPICAL`), from the stress of the isothermal film. 0 where the
@@ -254,7 +254,7 @@ def typical_heat(
     temperature = lubricant.temperature or TYPICAL[0]
     coefficient = lubricant.temperature_coefficient or TYPICAL[1]
     like = replace(lubricant, temperature=temperature, temperature_coefficient=coefficient)
-    nodes, change_by = _nodes(scene, film, contact, contact_load, force)
+    nodes, change_by = _nodes(scene, film, contact_state, contact_load, force)
     return change_by(isothermal_heat(like, *nodes).stress)
 
 

@@ -7,7 +7,7 @@ from typing import cast
 
 import numpy as np
 
-from ..._base import FieldsOnly, Shown, validate
+from ..._base import FieldsOnly, Renamed, Shown, validate
 from ...contact import BOUNDARY, AsperityContact, FlatContact, HalfSpace, HalfSpaceContact, RoughContact, half_space
 from ...samples import (
     PIECE,
@@ -23,7 +23,7 @@ OWN = HalfSpaceContact, FlatContact, AsperityContact
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
-class Prepared(FieldsOnly, Shown):
+class Prepared(FieldsOnly, Renamed, Shown):
     """A scene prepared by `lubfric.prepare`. It is accepted wherever a scene is, and safe to share: only what it remembers
     (`Memo`) changes, and that changes no result.
 
@@ -32,7 +32,7 @@ class Prepared(FieldsOnly, Shown):
     scene : the scene
     surface : the height map whose statistics hold: of strips the one that is solved first, of an only map that map on
         native cells
-    contact : the rough contact that is solved first, on the cells of ``sample``
+    rough_contact : the rough contact that is solved first, on the cells of ``sample``
     known : assumptions of the model that bodies and map violate, known before any solve
     sample : what represents the infinite rough line contact
     given : whether a map or a contact was given to `lubfric.prepare`, so that there is no more of it
@@ -40,15 +40,16 @@ class Prepared(FieldsOnly, Shown):
 
     scene: Scene
     surface: Surface
-    contact: RoughContact
+    rough_contact: RoughContact
     sample: Sample
     known: tuple[Validity, ...] = ()
     given: bool = False
+    _RENAMED = {"contact": "rough_contact"}
 
     @property
     def has_own_contact(self) -> bool:
         """Whether the rough contact is one of lubfric's own."""
-        return isinstance(self.contact, OWN)
+        return isinstance(self.rough_contact, OWN)
 
     @property
     def is_joint(self) -> bool:
@@ -137,9 +138,9 @@ def operator_on(memo: Memo, scene: Scene, shape: tuple[int, int], spacing: tuple
     )
 
 
-def cells_of_contact(contact: RoughContact) -> int:
+def cells_of_contact(rough_contact: RoughContact) -> int:
     """Return the number of cells that a contact holds."""
-    return math.prod(contact.grid or (0,))
+    return math.prod(rough_contact.grid or (0,))
 
 
 def scene_of(scene: Scene | Prepared) -> Scene:

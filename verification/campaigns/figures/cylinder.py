@@ -228,7 +228,7 @@ def sections(level: str, run: Run = Run()) -> Iterator[Item]:
     pressure = parts.contact_fields(lubfric.friction(model, 0.001, fields=True)).pressure
     line = int(np.argmax(pressure.max(axis=0)))  # through the highest contact pressure
     z = parts.half_space(model).heights
-    weight = model.contact.weight / model.contact.weight.sum()
+    weight = model.rough_contact.weight / model.rough_contact.weight.sum()
     for ax, speed in zip(panels, (0.001, 0.3)):
         point = lubfric.friction(model, speed, fields=True)
         contact = parts.contact(point)

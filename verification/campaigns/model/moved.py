@@ -49,7 +49,7 @@ def passed(scene: Scene, bodies: Sequence[RoughBody], speed: float) -> dict[str,
     fastest = max(abs(body.speed) for body in bodies)
     if fastest == 0:
         return first | {"rest": first, "off": balances(problem, rest.result, [], 0.0, first["given"]), "steps": 0}
-    line = problem.contact
+    line = problem.line
     dx = problem.spacing[0]
     U = line.entrainment_speed
     width = max(line.half_width, math.sqrt(2 * line.radius * line.moes_film))
@@ -106,7 +106,7 @@ def balances(
       mean gap between the ends of the contact.
     - bounds: the largest violation of p >= 0, 0 <= fill <= 1, p (1 - fill) = 0, h >= 1 nm, relative.
     """
-    line = problem.contact
+    line = problem.line
     dx = problem.spacing[0]
     x = result.x
     results = passing or (result,) * 4

@@ -55,7 +55,7 @@ class Pad:
         heights = (x**2 / (2 * CURVATURE))[:, None] - (gap - p.end)
         operator = half_space(gap.shape, (dx, dy), RIGID, ("free", "periodic"))
         return Problem(
-            contact=LineContact(
+            line=LineContact(
                 load_per_width=load, radius=CURVATURE, e_prime=RIGID, entrainment_speed=p.speed, lubricant=oil
             ),
             sliding=0.0,

@@ -86,7 +86,7 @@ def unit(solution: lubfric.EHLResult) -> float:
 def numbers(solution: lubfric.EHLResult) -> tuple[float, float, float]:
     """eta U/(E' R), alpha E' and w/(E' R)."""
     scale = E_PRIME * RADIUS
-    return VISCOSITY * solution.entrainment_speed / scale, ALPHA * E_PRIME, solution.contact.load_per_width / scale
+    return VISCOSITY * solution.entrainment_speed / scale, ALPHA * E_PRIME, solution.line.load_per_width / scale
 
 
 def rigid() -> Iterator[Item]:
@@ -123,7 +123,7 @@ def limits() -> Iterator[Item]:
 
 def one_gap() -> Check:
     """The deterministic model on a surface without roughness."""
-    flow = smooth_film(film(20, 5).contact, 0.0).flow_film
+    flow = smooth_film(film(20, 5).line, 0.0).flow_film
     theirs = references.moes(20, 5) * unit(film(20, 5))
     return against("moes", "one gap, one pressure: flow film, M = 20, L = 5", flow, theirs, 1e-3, "m")
 

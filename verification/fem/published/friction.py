@@ -96,7 +96,7 @@ def bearing() -> Iterator[Item]:
                     "entrainment_speed": speed,
                 }
                 solution = lubfric.solve_ehl(**case, **FVA_3, inlet_length=inlet, tolerance=TOLERANCE)
-                rolled = force(solution, solution.contact.lubricant, 1e-9).rolling * bearing["length"]
+                rolled = force(solution, solution.line.lubricant, 1e-9).rolling * bearing["length"]
                 total += bearing["rollers"] * 2 * speed / turn * rolled
             torques.append(total)
         short, long = torques
@@ -120,7 +120,7 @@ def rolling(m: float, l: float, inlet: float | None = None) -> tuple[float, floa
     solution = film(m, l, "dowson-higginson", "barus", inlet_length=inlet * b) if inlet else flooded
     size, error = solution.rolling or (math.nan, math.nan)
     unit = solution.hertz_pressure * b**2 / (RADIUS * m**1.5)
-    return force(solution, solution.contact.lubricant, 1e-9).rolling / unit, own(solution) + error / size
+    return force(solution, solution.line.lubricant, 1e-9).rolling / unit, own(solution) + error / size
 
 
 def starved(m: float, l: float, inlet: float) -> tuple[float, float, float]:
@@ -134,7 +134,7 @@ def starved(m: float, l: float, inlet: float) -> tuple[float, float, float]:
 def rigid() -> Iterator[Item]:
     """Forces on the rigid cylinder."""
     solution = film(1e-3, 5.0, law="constant", tolerance=1e-4)
-    forces = force(solution, solution.contact.lubricant, 1.0)
+    forces = force(solution, solution.line.lubricant, 1.0)
     h0 = solution.min_film
     scale = VISCOSITY * solution.entrainment_speed * math.sqrt(RADIUS / h0)
     for name, ours in (("couette", forces.couette / scale), ("rolling", forces.rolling / (2 * scale))):
@@ -143,7 +143,7 @@ def rigid() -> Iterator[Item]:
     m = 0.05
     l = 5.0
     solution = film(m, l, law="constant", tolerance=1e-4)
-    torque = force(solution, solution.contact.lubricant, 1e-9).rolling * RADIUS
+    torque = force(solution, solution.line.lubricant, 1e-9).rolling * RADIUS
     ours = torque * m / (solution.hertz_pressure * solution.half_width**2)
     yield against("biboulet-rigid", f"torque on a roller, M = {m}", ours, references.RIGID_TORQUE, own(solution))
 
@@ -153,7 +153,7 @@ def eyring(m: float, l: float, stress: float, ratio: float) -> Check:
     solution = film(m, l, law="barus")
     ours = force(solution, Lubricant(VISCOSITY, ALPHA, viscosity_law="barus", eyring_stress=stress), ratio).couette
     rate = ratio * solution.entrainment_speed / solution.central_film
-    half_width, peak = references.hertz_line(solution.contact.load_per_width, RADIUS, E_PRIME)
+    half_width, peak = references.hertz_line(solution.line.load_per_width, RADIUS, E_PRIME)
     theirs = references.eyring_force(stress, VISCOSITY, ALPHA, rate, half_width, peak)
     name = f"Eyring traction, M = {m}, L = {l}, {stress / 1e6:g} MPa, slide-roll {ratio:g}"
     return against("johnson", name, ours, theirs, own(solution), "N/m")

@@ -136,7 +136,7 @@ def point_checks(pair: Pair, level: str):
     rows = [
         ("flow film", "1", s.flow_film / k, pair.line.flow_film / k, allowed),
         ("smallest film", "1", s.min_film / k, pair.line.min_film / k, allowed),
-        ("rolling force", "N/m", s.rolling, force(pair.line, pair.line.contact.lubricant, 1e-9).rolling, allowed),
+        ("rolling force", "N/m", s.rolling, force(pair.line, pair.line.line.lubricant, 1e-9).rolling, allowed),
     ]
     yield from compared(pair.label, rows, SOLVER, note)
     if pair.point in TABLE:

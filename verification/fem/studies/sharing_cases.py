@@ -74,7 +74,7 @@ def sharing_cases(level: str):
 
 def yielded(solution: SharedLoad, main: lubfric.FrictionResult, body: Compliance, model: Prepared):
     """Cells at the hardness, on both sides."""
-    weight = model.contact.weight / model.contact.weight.sum()
+    weight = model.rough_contact.weight / model.rough_contact.weight.sum()
     share = float(weight @ the(solution.pressed, "dry contact").saturated.mean(axis=1))
     words = f"{YIELDING}: share of the strip at the hardness"
     yield Check(

@@ -15,7 +15,7 @@ from lubfric.oil import Lubricant
 from lubfric.scene import Constant, Harmonic, Ramp
 from lubfric.scene import Table as History
 from lubfric.time import (
-    ContactHistory,
+    LineHistory,
     Memory,
     Progress,
     advance,
@@ -136,7 +136,7 @@ def setting(resolution: float) -> Setting:
         *map(Constant, (100.0, 0.01, 0.0, 0.1)),
     )
     made = make_setting(
-        ContactHistory(
+        LineHistory(
             load=load,
             radius=radius,
             e_prime=2.2e17,
