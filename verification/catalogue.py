@@ -9,6 +9,7 @@ docstring is the text of its section in the report. To add one, put the function
 from dataclasses import KW_ONLY, dataclass, field
 
 from .check import LEVELS, file_name
+from .types import Keywords
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class Study:
     title: str
     _: KW_ONLY
     levels: tuple[str, ...] = LEVELS
-    options: dict = field(default_factory=dict)
+    options: Keywords = field(default_factory=dict)
     grade: str = "C"
 
     def __post_init__(self) -> None:

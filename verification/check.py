@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import KW_ONLY, asdict, dataclass, field, fields
-from typing import Any
 
 import numpy as np
+
+from .types import PlainRow, TableRow
 
 LEVELS = ("quick", "default", "full")
 RELATIVE = "relative"
@@ -95,7 +96,7 @@ class Check:
     seconds: float | None = None
     decisive: bool = True
     refused: str = ""
-    at: Mapping[str, Any] = field(default_factory=dict)
+    at: PlainRow = field(default_factory=dict)
     grade: str = ""
     errors: Sequence[float] = ()
     listed: ListedDeviation | None = None
@@ -155,7 +156,7 @@ class Check:
         """Whether the run fails by this check."""
         return self.decisive and not self.passed and not self.deviates_as_listed
 
-    def as_dict(self) -> dict:
+    def as_dict(self) -> PlainRow:
         """Plain types only, with the verdict."""
         return asdict(self) | {
             "deviation": self.deviation,
@@ -164,7 +165,7 @@ class Check:
         }
 
     @classmethod
-    def from_dict(cls, values: dict) -> Check:
+    def from_dict(cls, values: PlainRow) -> Check:
         """The check whose values `as_dict` gave. What JSON has no word for comes back as NaN."""
         known = {f.name: values[f.name] for f in fields(cls) if f.name in values}
         for name in ("measured", "expected", "tolerance"):
@@ -181,7 +182,7 @@ class Table:
     name: str
     caption: str
     columns: Sequence[str]
-    rows: Iterable[Sequence[Any]]
+    rows: Iterable[TableRow]
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "columns", tuple(self.columns))
@@ -233,12 +234,16 @@ class Field:
 Item = Check | Table | Figure | Field
 
 
+# quantity, unit, measured, expected, relative tolerance
+ComparedRow = tuple[str, str, float, float, float]
+
+
 def bound(name: str, error: float, limit: float, source: str, note: str = "") -> Check:
     """The check that an error, or what is left over, is at most ``limit``."""
     return Check(name, error, expected=0.0, tolerance=limit, source=source, kind=AT_MOST, note=note)
 
 
-def compared(label: str, rows: Iterable[tuple], source: str, note: str = "") -> Iterator[Check]:
+def compared(label: str, rows: Iterable[ComparedRow], source: str, note: str = "") -> Iterator[Check]:
     """A relative check of each row: (quantity, unit, measured, expected, tolerance)."""
     for quantity, unit, measured, expected, tolerance in rows:
         yield Check(

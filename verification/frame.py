@@ -13,13 +13,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from . import kept
 from . import report as reports
 from .catalogue import Study
 from .check import Check
 from .run import Outcome, run
+from .types import Keywords
 
 LEVELS = ("default", "quick", "full")
 
@@ -46,7 +46,7 @@ class Command:
     levels: tuple[str, ...] = LEVELS
     workers: int = 1
     add_options: Callable[[argparse.ArgumentParser], None] = lambda parser: None
-    own: Callable[[str, argparse.Namespace], dict[str, Any]] = lambda name, options: {}
+    own: Callable[[str, argparse.Namespace], Keywords] = lambda name, options: {}
     finished: Callable[[reports.Report, argparse.Namespace], str] = lambda report, options: ""
     campaign: bool = False
 
@@ -74,10 +74,10 @@ def main(command: Command, argv: list[str]) -> int:
 def campaign(
     name: str,
     summary: str,
-    parts: Sequence[tuple[str, str, str, dict[str, Any]]],
+    parts: Sequence[tuple[str, str, str, Keywords]],
     levels: tuple[str, ...] = LEVELS,
     add_options: Callable[[argparse.ArgumentParser], None] = lambda parser: None,
-    own: Callable[[str, argparse.Namespace], dict[str, Any]] = lambda part, options: {},
+    own: Callable[[str, argparse.Namespace], Keywords] = lambda part, options: {},
 ) -> Command:
     """A command whose ``parts`` are (name, "module:function" in `verification.campaigns`, title, keywords).
 

@@ -11,10 +11,11 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from .report import finite
 from .run import mapped
+from .types import PlainRow, PlainValue
 
 Case = TypeVar("Case")
 
@@ -28,8 +29,8 @@ class Run:
     name: str = "rows"
 
     def solved(
-        self, cases: Mapping[str, Case], solve: Callable[[Case], Any], name: str = ""
-    ) -> Iterator[tuple[Case, Any]]:
+        self, cases: Mapping[str, Case], solve: Callable[[Case], PlainValue], name: str = ""
+    ) -> Iterator[tuple[Case, PlainValue]]:
         """(case, ``solve(case)``) of every case in order, the row in plain types with NaN as None.
 
         ``solve`` is a function that another process can import. Each row is stored in a file of that ``name`` as soon
@@ -46,7 +47,7 @@ class Run:
                 yield case, known[key]
 
 
-def row_of(solve: Callable[[Case], Any], file: Path | None, key: str, case: Case) -> Any:
+def row_of(solve: Callable[[Case], PlainValue], file: Path | None, key: str, case: Case) -> PlainValue:
     """``solve(case)`` in plain types, a line of ``file`` now. It is written at once, so that others may write too."""
     row = finite(solve(case))
     if file is not None:
@@ -66,7 +67,7 @@ def code() -> str:
     return f"lubfric-{lubfric.__version__}-{digest.hexdigest()[:16]}"
 
 
-def rows_of(file: Path) -> dict[str, Any]:
+def rows_of(file: Path) -> PlainRow:
     """The rows of ``file`` by case. It is made if it is missing; an unfinished last line is cut off."""
     file.parent.mkdir(parents=True, exist_ok=True)
     whole = file.read_bytes() if file.is_file() else b""

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .arrays import FloatArray
 from .check import Field
+from .types import FloatArray
 
 if TYPE_CHECKING:
     from skfem.mesh.mesh_quad_1 import MeshQuad1
@@ -52,7 +52,7 @@ def mesh_field(
     caption: str,
     mesh: MeshQuad1 | MeshTri1,
     point_data: dict[str, FloatArray] | None = None,
-    cell_data: Any = None,
+    cell_data: dict[str, FloatArray] | None = None,
 ) -> Field:
     """A `Field` on the vertices of a scikit-fem mesh.
 

@@ -6,17 +6,18 @@ core that the limits are stated for.
 
 import time
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 from scipy import fft
+
+from .types import T
 
 PAIR = 8e-3  # s
 CELLS = 816
 REPEATS = 15
 
 
-def paced(work: Callable[[], Any]) -> tuple[Any, float]:
+def paced(work: Callable[[], T]) -> tuple[T, float]:
     """What ``work()`` returns, and its processor seconds on the stated core. The core is timed before and after it."""
     before = _pair()
     begun = time.process_time()

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from .check import Check, Figure, Table
 from .run import Outcome
+from .types import TableRow
 from .wording import allowed, by_grade, listed, number, remark, seconds
 
 if TYPE_CHECKING:
@@ -155,7 +156,7 @@ def data_table(table: Table) -> str:
 
 def html_table(
     columns: list[str] | tuple[str, ...],
-    rows: Iterable[Sequence[Any]],
+    rows: Iterable[TableRow],
     kind: str = "cards",
     caption: str = "",
 ) -> str:

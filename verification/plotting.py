@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from .arrays import FloatArray
+import numpy as np
+
 from .check import Figure
+from .types import FloatArray, Option
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,7 +18,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Canvas
     from matplotlib.typing import RcKeyType
 
-STYLE: dict[RcKeyType, Any] = {
+# x, y, style, label, and perhaps the errors of y. `Any`: each has a type of its own.
+Curve = Sequence[Any]
+
+STYLE: dict[RcKeyType, object] = {
     "font.size": 9.5,
     "axes.titlesize": 10,
     "axes.spines.top": False,
@@ -32,10 +37,9 @@ STYLE: dict[RcKeyType, Any] = {
 }
 
 
-def axes(
-    rows: int = 1, columns: int = 1, width: float = 6.4, height: float = 4.0, **options: Any
-) -> tuple[Canvas, Any]:
-    """A figure in the report's style and its axes, as ``matplotlib.figure.Figure.subplots`` gives them."""
+def axes(rows: int, columns: int, width: float, height: float, **options: Option) -> tuple[Canvas, np.ndarray]:
+    """Return a figure in the report's style and its axes, as ``matplotlib.figure.Figure.subplots`` gives them with
+    these ``options``."""
     import matplotlib
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure as Canvas
@@ -46,7 +50,13 @@ def axes(
         return canvas, canvas.subplots(rows, columns, **options)
 
 
-def panels(count: int, columns: int, width: float, height: float) -> tuple[Canvas, Any]:
+def panel(width: float, height: float) -> tuple[Canvas, Axes]:
+    """Return a figure in the report's style and its only panel."""
+    canvas, grid = axes(1, 1, width, height, squeeze=False)
+    return canvas, grid[0, 0]
+
+
+def panels(count: int, columns: int, width: float, height: float) -> tuple[Canvas, np.ndarray]:
     """A figure of ``count`` panels in rows of at most ``columns``, each row so high, and its axes in a flat array."""
     columns = min(columns, count)
     rows = -(-count // columns)
@@ -59,22 +69,27 @@ def panels(count: int, columns: int, width: float, height: float) -> tuple[Canva
 def chart(
     name: str,
     caption: str,
-    curves: Iterable[tuple[Any, ...]],
+    curves: Iterable[Curve],
     width: float = 6.0,
     height: float = 3.8,
-    **settings: Any,
+    **settings: Option,
 ) -> Figure:
     """One panel of ``curves``, each (x, y, style, label) and perhaps the errors of y, with ``settings`` of its axes."""
-    canvas, ax = axes(width=width, height=height)
-    for x, y, style, label, *error in curves:
-        ax.errorbar(x, y, *error, fmt=style, label=label)
+    canvas, ax = panel(width, height)
+    for x, y, style, label, *errors in curves:
+        ax.errorbar(x, y, yerr=errors[0] if errors else None, fmt=style, label=label)
     ax.set(**settings)
     canvas.legend(loc="outside lower center", ncols=2, frameon=False)
     return finish(name, canvas, caption)
 
 
 def image(
-    canvas: Canvas, ax: Axes, field: FloatArray, extent: tuple[float, float, float, float], label: str, **options: Any
+    canvas: Canvas,
+    ax: Axes,
+    field: FloatArray,
+    extent: tuple[float, float, float, float],
+    label: str,
+    **options: Option,
 ) -> None:
     """A map (nx, ny) with x to the right and a labelled colour bar."""
     shown = ax.imshow(field.T, origin="lower", extent=extent, interpolation="nearest", **options)

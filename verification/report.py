@@ -8,12 +8,12 @@ import os
 import platform
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from typing import Any
 
 from . import page
 from .check import Check, Table
 from .meshes import write_vtu
 from .run import Outcome, explain, raised
+from .types import PlainRow, PlainValue
 from .wording import allowed, by_grade, listed, mark, number, remark, seconds
 
 FORMAT = "lubfric-verification-1"
@@ -64,14 +64,14 @@ class Report:
             text += f"; only {len(self.outcomes)} of {len(self.selected)} studies finished"
         return f"{text}; by grade: {by_grade(self.checks)}" if decisive else text
 
-    def as_dict(self) -> dict:
+    def as_dict(self) -> PlainRow:
         """Plain types for report.json; a number that is not finite becomes null."""
         shown = ("passed", "complete", "verdict", "level", "selected", "started", "seconds", "environment")
         values = {"format": FORMAT} | {name: getattr(self, name) for name in shown}
         return finite(values | {"studies": [outcome_dict(o) for o in self.outcomes]})
 
 
-def outcome_dict(outcome: Outcome) -> dict:
+def outcome_dict(outcome: Outcome) -> PlainRow:
     """One study for report.json."""
     name = outcome.study.name
     return {
@@ -89,7 +89,7 @@ def outcome_dict(outcome: Outcome) -> dict:
     }
 
 
-def finite(value: Any):
+def finite(value: object) -> PlainValue:
     """``value`` in plain types, with NaN and infinities as None: JSON has no word for them."""
     if isinstance(value, dict):
         return {str(k): finite(v) for k, v in value.items()}

@@ -14,6 +14,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from multiprocessing.connection import wait
+from typing import Any
 
 from .catalogue import Study
 from .check import AT_MOST, Check, Field, Figure, Item, Table
@@ -52,7 +53,7 @@ class Outcome:
         return not self.error and bool(self.checks) and not any(c.failed for c in self.checks)
 
 
-def collected(items: Iterable[Item], *, timed: bool, results: dict[type, list], progress: Progress) -> None:
+def collected(items: Iterable[Item], *, timed: bool, results: dict[type, list[Any]], progress: Progress) -> None:
     """Put every item of a study with its kind in ``results``; a check has the time since the item before it."""
     last = time.perf_counter()
     for item in items:
@@ -88,8 +89,9 @@ def run(
         yield from each(partial(run_one, level=level, progress=progress, announce=announce), studies)
 
 
+# `Any` in `mapped`: what the function returns that is mapped. In `collected`: each list has items of the type of its key.
 @contextmanager
-def mapped(workers: int) -> Iterator[Callable]:
+def mapped(workers: int) -> Iterator[Callable[..., Iterator[Any]]]:
     """``map`` in this process, or over fresh processes that end with it."""
     if workers <= 1:
         yield map
@@ -106,7 +108,7 @@ def run_one(
 ) -> Outcome:
     """Import and run one study. Only an interrupt from the keyboard goes past here."""
     announce(study)
-    results: dict[type, list] = {kind: [] for kind in (Check, Table, Figure, Field)}
+    results: dict[type, list[Any]] = {kind: [] for kind in (Check, Table, Figure, Field)}
     start = time.perf_counter()
     description = error = trace = ""
     try:

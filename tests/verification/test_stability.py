@@ -16,7 +16,7 @@ from verification.campaigns.stability.contact_check import contact_deviations, d
 from verification.campaigns.stability.film_check import film_deviations
 from verification.fem.parts import case_of
 
-HERE = Cell(map="contact: load and surface", panel="", x=1.0, y=1.0)
+HERE = Cell(map="contact: load and surface", panel="", x=1.0, y=1.0, problem=None)
 
 
 def ended(solve, found=None, cell=HERE):

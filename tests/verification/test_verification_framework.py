@@ -26,7 +26,7 @@ def good(level):
     A second paragraph with <angle brackets> & an ampersand.
     """
     yield Check("right", 1.0, expected=1.0, tolerance=1e-9, source="arithmetic")
-    canvas, ax = plotting.axes()
+    canvas, ax = plotting.panel(6.4, 4.0)
     ax.plot([0, 1], [0, 1])
     yield plotting.finish("line", canvas, 'a "quoted" caption')
     yield Table("numbers", "caption", ("a", "b"), ((1, np.float64(2.5)), ("x", math.nan)))

@@ -8,13 +8,13 @@ contact, and does not converge in every case.
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import scipy.linalg
 
 from ..fem.solvers.ehl import LineContact
 from ..fem.solvers.fluid import slope
+from ..types import Keywords
 
 # where the film begins and the grid ends: half-widths, or sqrt(2 R h) of the smooth film where that is longer
 INLET = (4.5, 8.0)
@@ -43,7 +43,7 @@ class DenseFilm:
         return float(self.film[: np.flatnonzero(wet)[-1] + 2].min())
 
 
-def dense_newton(case: dict[str, Any], nodes: int) -> DenseFilm:
+def dense_newton(case: Keywords, nodes: int) -> DenseFilm:
     """Return the film of ``case``, the arguments of `lubfric.solve_ehl`, on so many ``nodes``."""
     contact = LineContact.of(case)
     b = contact.half_width
@@ -71,7 +71,7 @@ def _deflections(x: np.ndarray, e_prime: float) -> np.ndarray:
 
 
 def _balance(
-    contact: LineContact, x: np.ndarray, stiff: Any, p: np.ndarray, h: np.ndarray
+    contact: LineContact, x: np.ndarray, stiff: np.ndarray, p: np.ndarray, h: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the flow [m²/s] over each face between nodes, and its derivatives by the pressures and by the approach."""
     fluid = contact.fluid
@@ -103,7 +103,7 @@ def _balance(
 
 
 def _solved(
-    contact: LineContact, x: np.ndarray, stiff: Any, p: np.ndarray, approach: float
+    contact: LineContact, x: np.ndarray, stiff: np.ndarray, p: np.ndarray, approach: float
 ) -> tuple[np.ndarray, float, int, bool]:
     """Return pressure, approach, steps and whether Newton's method converged, from ``p`` and ``approach`` on."""
     cell = x[1] - x[0]

@@ -7,13 +7,13 @@ different things to each: compare them by one measured error, never by tolerance
 import importlib.metadata
 import os
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
 from lubfric import solve_contact
 from lubfric.contact.operator import half_space
 
+from ..types import Keywords
 from .polonsky_keer import polonsky_keer
 
 COARSEST = 48
@@ -95,7 +95,7 @@ def lubfric_solver(heights: np.ndarray, spacing: float, e_prime: float, threads:
     operator = half_space(heights.shape, spacing, e_prime, workers=threads)
 
     def solve(load: float, tolerance: float) -> np.ndarray:
-        asked: dict[str, Any] = {
+        asked: Keywords = {
             "mean_pressure": load,
             "tolerance": tolerance,
             "operator": operator,

@@ -6,13 +6,17 @@ pressure is rescaled to the load. The contact is elastic and its load is given. 
 preconditioner and no nested grids.
 """
 
-from typing import Any
-
 import numpy as np
+
+from lubfric.contact import HalfSpace
 
 
 def polonsky_keer(
-    gap0: np.ndarray, operator: Any, mean_pressure: float, tolerance: float = 1e-6, max_iterations: int = 5000
+    gap0: np.ndarray,
+    operator: HalfSpace,
+    mean_pressure: float,
+    tolerance: float = 1e-6,
+    max_iterations: int = 5000,
 ) -> tuple[np.ndarray, bool]:
     """(pressure [Pa], converged) for any ``operator`` with ``apply``.
 

@@ -3,9 +3,10 @@
 import csv
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+
+from ..types import PlainRow
 
 
 def rows(file: Path) -> list[dict[str, str]]:
@@ -16,7 +17,7 @@ def rows(file: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(stream))
 
 
-def append(file: Path, columns: Sequence[str], row: dict[str, Any], digits: int) -> None:
+def append(file: Path, columns: Sequence[str], row: PlainRow, digits: int) -> None:
     """Append the ``columns`` of ``row`` to the table in ``file``, which begins with their names; a number that is no
     integer has so many ``digits``, None is an empty cell."""
     is_new = not file.is_file()
@@ -27,5 +28,5 @@ def append(file: Path, columns: Sequence[str], row: dict[str, Any], digits: int)
         writer.writerow({name: _as_text(row.get(name), digits) for name in columns})
 
 
-def _as_text(value: Any, digits: int) -> Any:
+def _as_text(value: object, digits: int) -> object:
     return f"{value:.{digits}g}" if isinstance(value, (float, np.floating)) else value

@@ -3,17 +3,16 @@
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import KW_ONLY, dataclass
-from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
 
-from ..arrays import FloatArray
 from ..check import ABSOLUTE, Check, Figure, Item
-from ..plotting import axes, finish
+from ..plotting import finish, panel
+from ..types import FloatArray
 
 
-def fitted_order(sizes: Any, errors: Any) -> float:
+def fitted_order(sizes: Sequence[float] | FloatArray, errors: Sequence[float] | FloatArray) -> float:
     """Slope of the least-squares line through ``(log h, log e)``.
 
     Raises ValueError unless there are at least two finite values > 0: an order fitted to others means nothing.
@@ -31,14 +30,14 @@ def order_of_three(sizes: Sequence[float], values: Sequence[float]) -> float:
 
     def mismatch(order: float) -> float:
         ratio = (sizes[0] ** order - sizes[1] ** order) / (sizes[1] ** order - sizes[2] ** order)
-        return ratio - (coarse - middle) / (middle - fine)
+        return float(ratio - (coarse - middle) / (middle - fine))
 
     low = 0.2
     high = 6.0
     return brentq(mismatch, low, high) if mismatch(low) * mismatch(high) < 0 else math.nan
 
 
-def extrapolated_by(order: float, sizes: Sequence[float], values: Sequence[FloatArray | float]) -> Any:
+def extrapolated_by(order: float, sizes: Sequence[float], values: Sequence[FloatArray | float]) -> FloatArray:
     """Return the value at no cell size of the last two ``values``, whose error falls with ``order`` of the cell."""
     return values[-1] + (values[-1] - values[-2]) / ((sizes[-2] / sizes[-1]) ** order - 1)
 
@@ -94,7 +93,7 @@ def convergence(name: str, caption: str, series: Sequence[Series], size: str, er
 
 def picture(name: str, caption: str, series: Sequence[Series], size: str, error: str) -> Figure:
     """Errors against mesh size, log-log, each with its fitted order and a dotted line of the expected one."""
-    canvas, ax = axes(height=3.6 + 0.2 * ((len(series) + 1) // 2))
+    canvas, ax = panel(6.4, 3.6 + 0.2 * ((len(series) + 1) // 2))
     for one in series:
         sizes = np.asarray(one.sizes, dtype=float)
         errors = np.asarray(one.errors, dtype=float)

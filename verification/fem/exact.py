@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
-from ..arrays import FloatArray
+from ..types import FloatArray
 
 if TYPE_CHECKING:
     from scipy.integrate._ivp.ivp import OdeResult
@@ -33,11 +33,11 @@ class Slider:
     inlet: float
     outlet: float
 
-    def film(self, x: Any) -> Any:
+    def film(self, x: FloatArray) -> FloatArray:
         """Film thickness at x = x[0] in m."""
         return self.inlet + (self.outlet - self.inlet) * x[0] / self.length
 
-    def pressure(self, x: Any) -> Any:
+    def pressure(self, x: FloatArray) -> FloatArray:
         """``12 eta U L/(a^2 - b^2) (a - h)(h - b)/h^2`` with a the inlet and b the outlet film."""
         a = self.inlet
         b = self.outlet
@@ -50,7 +50,7 @@ class Slider:
         a = self.inlet
         b = self.outlet
         lift = np.log(a / b) - 2 * (a - b) / (a + b)
-        return 12 * self.viscosity * self.speed * (self.length / (a - b)) ** 2 * lift
+        return float(12 * self.viscosity * self.speed * (self.length / (a - b)) ** 2 * lift)
 
     @property
     def flow(self) -> float:
@@ -87,11 +87,11 @@ class Parabola:
         """Xe, the place where both P and dP/dX vanish."""
         return float(brentq(lambda xe: antiderivative(xe, xe) - antiderivative(self.inlet, xe), 0.1, 2, xtol=1e-15))
 
-    def film(self, x: Any) -> Any:
+    def film(self, x: FloatArray) -> FloatArray:
         """Film thickness at x[0] in m."""
         return self.film_thickness + x[0] ** 2 / (2 * self.radius)
 
-    def pressure(self, x: Any) -> Any:
+    def pressure(self, x: FloatArray) -> FloatArray:
         """Pressure at x[0] in m, 0 beyond the exit."""
         xe = self.exit
         big = np.minimum(x[0] / self.scale, xe)
@@ -121,12 +121,12 @@ class Parabola:
         lift = self._integral(lambda t: (np.tan(t) ** 2 - xe**2) * np.cos(t) ** 2)
         return self.pressure_scale * self.film_thickness / 2 * lift
 
-    def _integral(self, f: Callable[..., Any]) -> float:
+    def _integral(self, f: Callable[[float], float]) -> float:
         """Integral over t from inlet to exit, with X = tan t."""
-        return quad(f, np.arctan(self.inlet), np.arctan(self.exit), epsabs=1e-13, epsrel=1e-13)[0]
+        return float(quad(f, np.arctan(self.inlet), np.arctan(self.exit), epsabs=1e-13, epsrel=1e-13)[0])
 
 
-def antiderivative(big_x: FloatArray | float, xe: float) -> Any:
+def antiderivative(big_x: FloatArray | float, xe: float) -> FloatArray:
     """``integral (X^2 - Xe^2)/(1 + X^2)^3 dX``, with X = tan t."""
     t = np.arctan(big_x)
     second = t / 2 + np.sin(2 * t) / 4
@@ -156,7 +156,7 @@ class ExponentialPad:
         """g in 1/m."""
         return float(np.log(self.inlet / self.outlet) / self.length)
 
-    def film(self, x: Any) -> Any:
+    def film(self, x: FloatArray) -> FloatArray:
         """Film thickness at x[0] in m."""
         return self.inlet * np.exp(-self.decay * x[0])
 
@@ -182,7 +182,7 @@ class ExponentialPad:
         second = -special * last - first * forth
         return k, special, first, second, up, down
 
-    def pressure(self, x: Any) -> Any:
+    def pressure(self, x: FloatArray) -> FloatArray:
         """Pressure at (x[0], x[1]) in m."""
         p = np.zeros(np.shape(x[0]))
         for k, special, first, second, up, down in zip(*self.modes(), strict=True):
@@ -210,13 +210,13 @@ class ExponentialPad:
         neck = second / third  # Q/U times 1/inlet: makes the pressure vanish at both ends
         scale = 12 * self.viscosity * self.speed / self.inlet**2
         lift = quad(lambda x: (length - x) * (np.exp(2 * g * x) - neck * np.exp(3 * g * x)), 0, length, epsrel=1e-13)[0]
-        return scale * lift
+        return float(scale * lift)
 
     @property
     def narrow_load(self) -> float:
         """Load of the infinitely narrow pad, N: ``eta U width^3 g integral h^-2 dx`` (Michell, Ocvirk)."""
         over = np.expm1(2 * self.decay * self.length) / (2 * self.decay * self.inlet**2)
-        return self.viscosity * self.speed * self.width**3 * self.decay * over
+        return float(self.viscosity * self.speed * self.width**3 * self.decay * over)
 
 
 def reduced_to_true(reduced: FloatArray, alpha: float) -> FloatArray:
@@ -231,7 +231,7 @@ def roelands_to_true(reduced: FloatArray, exponent: float, index: float, pressur
     """
 
     def fluidity(s: float) -> float:
-        return np.exp(-exponent * ((1 + s / pressure) ** index - 1))
+        return float(np.exp(-exponent * ((1 + s / pressure) ** index - 1)))
 
     def solve(q: float) -> float:
         def over(p: float) -> float:
@@ -242,7 +242,7 @@ def roelands_to_true(reduced: FloatArray, exponent: float, index: float, pressur
             high *= 1.5
             if high > 1e3 * q:
                 raise ValueError(f"no Roelands pressure belongs to a reduced pressure of {q:.4g} Pa")
-        return brentq(over, 0, high, rtol=1e-13)
+        return float(brentq(over, 0, high, rtol=1e-13))
 
     flat = [solve(float(q)) if q > 0 else 0.0 for q in np.ravel(reduced)]
     return np.reshape(flat, np.shape(reduced))
@@ -257,7 +257,7 @@ def gas_slider(slider: Slider, ambient: float, points: np.ndarray) -> np.ndarray
 
     def upstream(q: float, where: FloatArray | None = None) -> OdeResult:
         def rate(x: float, p: FloatArray) -> FloatArray:
-            h = slider.film([x])
+            h = slider.film(np.array([x]))
             return 12 * slider.viscosity * (slider.speed / h**2 - q / (p * h**3))
 
         span = (slider.length, 0.0)

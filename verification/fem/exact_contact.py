@@ -7,10 +7,11 @@ E* = E'/2 with 2/E' = sum (1 - nu^2)/E. Hertz (1882) line and point contact: K. 
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.integrate import quad
+
+from ..types import FloatArray
 
 
 @dataclass(frozen=True)
@@ -31,14 +32,14 @@ class Line:
         """``E* b/(2 R)``, Pa."""
         return self.e_prime / 2 * self.half_width / (2 * self.radius)
 
-    def gap(self, x: Any) -> Any:
+    def gap(self, x: FloatArray | float) -> FloatArray:
         """Gap in m at x: twice the integral of the slope ``sqrt(x^2 - b^2)/(2R)`` beyond the edge."""
         t = np.maximum(np.abs(x) / self.half_width, 1.0)
         return self.half_width**2 / (2 * self.radius) * (t * np.sqrt(t**2 - 1) - np.log(t + np.sqrt(t**2 - 1)))
 
     def mean_gap(self, half: float) -> float:
         """Mean of the gap [m] over |x| < half."""
-        return quad(self.gap, self.half_width, half)[0] / half
+        return float(quad(self.gap, self.half_width, half)[0] / half)
 
 
 @dataclass(frozen=True)
@@ -64,7 +65,7 @@ class Sphere:
         """``a^2/R``, m."""
         return self.contact_radius**2 / self.radius
 
-    def gap(self, r: Any) -> Any:
+    def gap(self, r: FloatArray | float) -> FloatArray:
         """Gap in m at a distance r from the axis."""
         a, r = self.contact_radius, np.maximum(r, self.contact_radius)
         inside = (2 * a**2 - r**2) * np.arcsin(a / r) + a * np.sqrt(r**2 - a**2)
@@ -95,7 +96,7 @@ class Wave:
         """``amplitude (1 - s + s ln s)`` [m]: the pressure is minus the derivative of the energy by it."""
         return self.amplitude * (1 - self.share + self.share * math.log(self.share))
 
-    def pressure(self, x: Any) -> Any:
+    def pressure(self, x: FloatArray | float) -> FloatArray:
         """Pressure [Pa] at x, with the crest at 0."""
         phase = math.pi * np.asarray(x) / self.length
         inside = np.sqrt(np.maximum(self.share - np.sin(phase) ** 2, 0))

@@ -3,7 +3,7 @@ result and of a model that a study needs. A missing part ends the study with a m
 
 import math
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from lubfric.models.shared import Prepared
 from lubfric.oil import Lubricant
 from lubfric.scene import Scene
 
+from ..types import Keywords, PlainRow
 from . import exact_contact
 
 T = TypeVar("T")
@@ -52,7 +53,7 @@ def half_space(model: Prepared) -> HalfSpaceContact:
     return model.rough_contact
 
 
-def line_contact(case: dict) -> LineContact:
+def line_contact(case: Keywords) -> LineContact:
     """The contact of arguments of `solve_ehl`, which may have an ``eyring_stress`` as well."""
     laws = ("viscosity", "pressure_viscosity_coefficient", "viscosity_law", "density_law", "eyring_stress")
     oil = Lubricant(**{name: case[name] for name in laws if name in case})
@@ -86,12 +87,12 @@ def pressed_cylinder(
     dx = line.half_width / across
     n = 2 * int(2 * across)
     x = (np.arange(n) - (n - 1) / 2) * dx
-    asked: dict[str, Any] = {"mean_pressure": line.load / (n * dx), "boundary": ("free", "periodic"), "tolerance": 1e-8}
+    asked: Keywords = {"mean_pressure": line.load / (n * dx), "boundary": ("free", "periodic"), "tolerance": 1e-8}
     gap0 = np.tile(x[:, None] ** 2 / (2 * line.radius), (1, 4))
     return x, solve_contact(gap0, dx, line.e_prime, hardness=hardness, **asked)
 
 
-def case_of_scene(scene: Scene, load: float, speed: float) -> dict:
+def case_of_scene(scene: Scene, load: float, speed: float) -> PlainRow:
     """The smooth film of a scene under a load [N] at an entrainment speed [m/s]."""
     bodies = scene.bodies
     oil = scene.lubricant
@@ -100,7 +101,7 @@ def case_of_scene(scene: Scene, load: float, speed: float) -> dict:
     return case | {"entrainment_speed": speed} | {name: getattr(oil, name) for name in laws}
 
 
-def case_of(M: float, L: float, law: str = "roelands", density: str = "constant") -> dict:
+def case_of(M: float, L: float, law: str = "roelands", density: str = "constant") -> PlainRow:
     """Arguments of the film solvers, in SI units, with the Moes numbers M and L. L = 0 is a constant viscosity."""
     law, effective = ("constant", 5.0) if L == 0 else (law, L)
     u1 = (effective / (ALPHA * E_PRIME)) ** 4

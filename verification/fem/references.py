@@ -13,12 +13,14 @@ from __future__ import annotations
 
 import math
 import tomllib
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from scipy.special import erf
+
+from ..types import FloatArray, Law
 
 UNSTATED = 0.05
 GOT = {
@@ -156,22 +158,22 @@ def moes(m: float, l: float) -> float:
     s = (7 + 8 * math.exp(-2 * ei / ri)) / 5
     soft = (ri ** (7 / 3) + ei ** (7 / 3)) ** (3 / 7)
     hard = (rp**-3.5 + ep**-3.5) ** (-2 / 7)
-    return (soft**s + hard**s) ** (1 / s)
+    return float((soft**s + hard**s) ** (1 / s))
 
 
 def grubin(u: float, g: float, w: float) -> float:
     """h/R."""
-    return 1.95 * (g * u) ** (8 / 11) * w ** (-1 / 11)
+    return float(1.95 * (g * u) ** (8 / 11) * w ** (-1 / 11))
 
 
 def dowson_higginson(u: float, g: float, w: float) -> float:
     """Smallest h/R."""
-    return 2.65 * u**0.70 * g**0.54 * w**-0.13
+    return float(2.65 * u**0.70 * g**0.54 * w**-0.13)
 
 
 def dowson_toyoda(u: float, g: float, w: float) -> float:
     """Central h/R."""
-    return 3.06 * u**0.69 * g**0.56 * w**-0.10
+    return float(3.06 * u**0.69 * g**0.56 * w**-0.10)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -194,9 +196,9 @@ class Pocket:
     viscosity: float = 0.01
     speed: float = 0.5
 
-    def wedge(self, x: Any) -> Any:
+    def wedge(self, x: FloatArray | float) -> FloatArray:
         """Gap of the pad without its pocket."""
-        return self.start + (self.end - self.start) * x / self.length
+        return self.start + (self.end - self.start) * np.asarray(x) / self.length
 
     def inside(self, x: np.ndarray) -> np.ndarray:
         """Where the pocket is along the motion."""
@@ -232,8 +234,8 @@ def refilled(pad: Pocket) -> tuple[float, float, float]:
     last = pad.wedge(pad.ends)
     flow = pad.start * first / (pad.start + first)  # half of it, over U
 
-    def rise(gap: Any, since: Any) -> Any:
-        return scale * (1 / gap - 1 / since - flow * (1 / gap**2 - 1 / since**2))
+    def rise(gap: FloatArray | float, since: FloatArray | float) -> FloatArray:
+        return scale * (1 / np.asarray(gap) - 1 / since - flow * (1 / gap**2 - 1 / since**2))
 
     deep = last + pad.depth
     constant = rise(last, pad.end) / scale - 1 / deep + flow / deep**2
@@ -244,7 +246,7 @@ def refilled(pad: Pocket) -> tuple[float, float, float]:
     pocket = gap + pad.depth
     p = np.where(pad.inside(x), np.where(pocket < full, rise(np.minimum(pocket, full), full), 0.0), p)
     place = (pad.start + pad.depth - full) * pad.length / (pad.start - pad.end)
-    return float(np.trapezoid(p, x)), place, float(p.max())
+    return float(np.trapezoid(p, x)), float(place), float(p.max())
 
 
 # ---- waves across the motion; their speed is that of their body over the entrainment speed
@@ -268,7 +270,7 @@ WITHIN = 0.01  # of the roughness: how closely Hooke's formulas follow his solut
 def amplitude_fit(m: float, l: float, wavelength: float) -> float:
     """A_d/A_i in pure rolling; ``wavelength`` in half-widths."""
     n = wavelength * m**0.75 / l**0.5
-    return 1 / (1 + 0.17 * n + 0.03 * n**2)
+    return float(1 / (1 + 0.17 * n + 0.03 * n**2))
 
 
 def hooke(
@@ -295,7 +297,7 @@ ELASTIC_TORQUE = 1.45
 def rolling_torque(m: float) -> float:
     """Torque on a roller over p_h b²/M^1.5, per length: sqrt(M) times the rigid one, then constant."""
     rigid = RIGID_TORQUE * math.sqrt(m)
-    return rigid / (1 + (rigid / ELASTIC_TORQUE) ** 10) ** 0.1
+    return float(rigid / (1 + (rigid / ELASTIC_TORQUE) ** 10) ** 0.1)
 
 
 def starved_torque(s: float) -> float:
@@ -323,12 +325,12 @@ def nahme(number: float) -> float:
 def gupta(number: float, slide_roll: float, pressure_ratio: float) -> float:
     """Film over the isothermal one; ``number`` = eta beta U²/k."""
     over = 1 + 0.213 * (1 + 2.23 * slide_roll**0.83) * number**0.64
-    return (1 - 13.2 * pressure_ratio * number**0.42) / over
+    return float((1 - 13.2 * pressure_ratio * number**0.42) / over)
 
 
 def olver_spikes(number: float, slide_roll: float) -> float:
     """Return the film over the isothermal one by the fit of Olver and Spikes."""
-    return 1 / (1 + 0.1 * (1 + 14.8 * slide_roll**0.83) * number**0.64)
+    return float(1 / (1 + 0.1 * (1 + 14.8 * slide_roll**0.83) * number**0.64))
 
 
 # ---- oils; kinematic viscosities in mm²/s, alpha in 1/GPa, temperatures in °C
@@ -375,7 +377,9 @@ def density(pressure: float) -> float:
 
 # ---- mixed lubrication
 
-LOAD_SHARES = {  # of the asperities, over film/Sq; Doleschel has the film over the mean Ra of two surfaces, here alike
+LOAD_SHARES: dict[
+    str, Law
+] = {  # of the asperities, over film/Sq; Doleschel has the film over the mean Ra of two surfaces, here alike
     "1 - erf(Λ) (Arana)": lambda ratio: 1 - erf(ratio),
     "exp(-2.32 Λ^.97) (Zhou & Hoeprich)": lambda ratio: np.exp(-2.32 * ratio**0.97),
     "exp(-1.8 Λ^1.2) (Patir & Cheng)": lambda ratio: np.exp(-1.8 * ratio**1.2),
@@ -446,20 +450,20 @@ def schlenk(torque: float, rpm: float, viscosity: float) -> float:
     ``torque`` on the pinion [N m], ``viscosity`` [Pa s]."""
     load = torque / C14.base[0] / C14.width
     film = (load * 1e-3 / (C14.sum_speed(rpm) * C14.radius * 1e3)) ** 0.2 * (viscosity * 1e3) ** -0.05
-    return 0.048 * film * (C14.ra * 1e6) ** 0.25 * LUBRICANT_FACTOR[0]
+    return float(0.048 * film * (C14.ra * 1e6) ** 0.25 * LUBRICANT_FACTOR[0])
 
 
 def fernandes(torque: float, rpm: float, viscosity: float, alpha: float) -> float:
     """Fernandes' mean friction of the gear `C14` by a modified Hersey number: 0.014 S_p^-0.25 S_g^0.25 X_L."""
     hersey = C14.sum_speed(rpm) * viscosity * math.sqrt(alpha * C14.base[0] / torque)
     roughness = C14.ra / math.sqrt(C14.width * C14.radius)
-    return 0.014 * (roughness / hersey) ** 0.25 * LUBRICANT_FACTOR[0]
+    return float(0.014 * (roughness / hersey) ** 0.25 * LUBRICANT_FACTOR[0])
 
 
 PAPER = {"mean Hertz pressure": 102e6, "half-width": 4.5e-6}  # Pa, m
 
 
-def load_share_band(ratios: Any) -> tuple[np.ndarray, np.ndarray]:
+def load_share_band(ratios: Sequence[float] | FloatArray) -> tuple[np.ndarray, np.ndarray]:
     """The lowest and the highest of the `LOAD_SHARES` at each of the ``ratios``."""
     laws = np.array([law(np.asarray(ratios, dtype=float)) for law in LOAD_SHARES.values()])
     return laws.min(axis=0), laws.max(axis=0)

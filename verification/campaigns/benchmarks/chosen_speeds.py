@@ -9,8 +9,9 @@ even speeds, solved to 0.2 %, and three speeds near the lift-off speed. The comm
 """
 
 import os
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterator
+
+from ...types import T
 
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(name, "1")
@@ -28,7 +29,7 @@ from . import page
 COLUMNS = ("scene", "speeds", "stated error", "largest error", "of 25 even speeds", "time over that of 25")
 
 
-def scenes(count: int, *, strips: bool, sequence: int):
+def scenes(count: int, *, strips: bool, sequence: int) -> Iterator[lubfric.Scene]:
     """``count`` scenes of the Sobol ``sequence`` of that number."""
     base = lubfric.load_scene("paper")
     numerics = {"sampling_tolerance": 0.05} if strips else {"sampling": "patch"}
@@ -46,7 +47,7 @@ def scenes(count: int, *, strips: bool, sequence: int):
         )
 
 
-def timed(work: Callable[..., Any]):
+def timed(work: Callable[[], T]) -> tuple[T, float]:
     """(result, processor seconds)."""
     begun = time.process_time()
     return work(), time.process_time() - begun

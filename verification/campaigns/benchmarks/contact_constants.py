@@ -13,7 +13,9 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Callable
-from typing import Any
+from types import ModuleType
+
+from ...types import Keywords
 
 for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
@@ -52,39 +54,47 @@ CONSTANTS = (
     (candidate_cells, "BLOCK"),
 )
 
+# A constant, or several of one kind.
+Constant = int | float | tuple["Constant", ...]
+# surface, load [Pa], boundary, hardness [Pa], and the part of the load whose contact is the initial guess
+ConstantCase = tuple[str, float, str | tuple[str, str], float | None, float]
+# The solve of a case: its convolutions, and whether it converged.
+CountedSolve = Callable[[], tuple[float, bool]]
 COLUMNS = ("constant", "value", "halved: convolutions, mean and worst", "doubled")
 
 
-def solvers(n: int) -> list:
+def solvers(n: int) -> list[CountedSolve]:
     """Functions that solve one case each and return (convolutions, converged)."""
-    cases: list[tuple] = [(kind, load, "periodic", None) for kind in KINDS for load in (50e6, 200e6, 1e9)]
-    cases += [("exponential", 200e6, "periodic", 3e9), ("exponential", 200e6, ("free", "periodic"), None)]
-    warm: list[tuple] = [("gaussian", 200e6, "periodic", None, share) for share in (1 / 3, 2 / 3)]
+    cases: list[ConstantCase] = [(kind, load, "periodic", None, 0.0) for kind in KINDS for load in (50e6, 200e6, 1e9)]
+    cases += [("exponential", 200e6, "periodic", 3e9, 0.0), ("exponential", 200e6, ("free", "periodic"), None, 0.0)]
+    warm: list[ConstantCase] = [("gaussian", 200e6, "periodic", None, share) for share in (1 / 3, 2 / 3)]
     return [_solver(n, *case) for case in (*cases, *warm)]
 
 
-def _solver(n: int, kind: str, load: float, boundary: Any, hardness: float | None, begun: float = 0.0):
+def _solver(
+    n: int, kind: str, load: float, boundary: str | tuple[str, str], hardness: float | None, begun: float
+) -> CountedSolve:
     gap0 = -surface(kind, (n, n), SPACING, 34e-6, 240e-9)
-    options = {"operator": half_space(gap0.shape, SPACING, E_PRIME, boundary), "boundary": boundary}
+    options: Keywords = {"operator": half_space(gap0.shape, SPACING, E_PRIME, boundary), "boundary": boundary}
     options |= {"hardness": hardness, "tolerance": 1e-4, "raise_on_failure": False}
     if begun:
         options["start"] = solve_contact(gap0, SPACING, E_PRIME, mean_pressure=begun * load, **options)
 
-    def solve():
+    def solve() -> tuple[float, bool]:
         report = solve_contact(gap0, SPACING, E_PRIME, mean_pressure=load, **options).report
         return report.evaluations, report.converged
 
     return solve
 
 
-def scaled(value: Any, factor: float):
+def scaled(value: Constant, factor: float) -> Constant:
     """Return a number, or each number of a tuple, times ``factor``; integers remain integers of at least one."""
     if isinstance(value, tuple):
         return tuple(scaled(v, factor) for v in value)
     return max(1, round(factor * value)) if isinstance(value, int) else factor * value
 
 
-def solved_with(module: Any, name: str, factor: float, solves: list[Callable[..., Any]]) -> np.ndarray:
+def solved_with(module: ModuleType, name: str, factor: float, solves: list[CountedSolve]) -> np.ndarray:
     """Rows of the solves with a constant scaled wherever it was imported."""
     value = getattr(module, name)
     homes = [m for m in MODULES if getattr(m, name, None) is value]
@@ -97,7 +107,7 @@ def solved_with(module: Any, name: str, factor: float, solves: list[Callable[...
             setattr(home, name, value)
 
 
-def words(rows: Any, usual: np.ndarray) -> str:
+def words(rows: np.ndarray, usual: np.ndarray) -> str:
     """Ratios to the usual rows."""
     ratio = rows[:, 0] / usual[:, 0]
     failed = int(np.count_nonzero(rows[:, 1] == 0))

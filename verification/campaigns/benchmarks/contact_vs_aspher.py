@@ -21,9 +21,7 @@ import argparse
 import json
 import os
 import time
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
@@ -31,7 +29,8 @@ os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 
 import numpy as np
 
-from ..opponents import CONTACT, tamaas_solver
+from ...types import PlainRow
+from ..opponents import CONTACT, Solver, tamaas_solver
 from . import page
 from .rough import E_PRIME, surface
 
@@ -43,7 +42,13 @@ SIGMA = 240e-9
 FIRST = {"lubfric": 1e-3, "aspher": 1e-2, "tamaas": 1e-4}  # tolerances that the search begins with
 
 
-def loosest(solve: Callable[..., Any], load: float, reference: np.ndarray, target: float, first: Any):
+# name, tolerance, error, and median, lower and upper quartile of the processor seconds
+MeasuredRow = tuple[str, float, float, float, float, float]
+
+
+def loosest(
+    solve: Solver, load: float, reference: np.ndarray, target: float, first: float
+) -> tuple[float, float, float]:
     """(tolerance, error, seconds): loosest of the ladder, from ``first`` on, that meets the target, or the best of
     it."""
     best = (np.nan, np.inf, np.nan)
@@ -58,7 +63,7 @@ def loosest(solve: Callable[..., Any], load: float, reference: np.ndarray, targe
     return best
 
 
-def measured(solve: Callable[..., Any], load: float, tolerance: float, reference: np.ndarray):
+def measured(solve: Solver, load: float, tolerance: float, reference: np.ndarray) -> tuple[float, float]:
     """(error, processor seconds) of one solve."""
     begun = time.process_time()
     pressure = solve(load, tolerance)
@@ -66,7 +71,9 @@ def measured(solve: Callable[..., Any], load: float, tolerance: float, reference
     return float(np.linalg.norm(pressure - reference) / np.linalg.norm(reference)), seconds
 
 
-def compare(solvers: Any, load: float, reference: np.ndarray, target: float, repeats: int, first: Any):
+def compare(
+    solvers: dict[str, Solver], load: float, reference: np.ndarray, target: float, repeats: int, first: dict[str, float]
+) -> list[MeasuredRow]:
     """Rows (name, tolerance, error, median and quartiles of seconds), repeats interleaved; ``first``: the tolerances
     that the search begins with."""
     results = {name: loosest(solve, load, reference, target, first[name]) for name, solve in solvers.items()}
@@ -78,7 +85,7 @@ def compare(solvers: Any, load: float, reference: np.ndarray, target: float, rep
     return [(name, *results[name][:2], *np.quantile(seconds[name][-repeats:], (0.5, 0.25, 0.75))) for name in solvers]
 
 
-def stopped(heights: np.ndarray, load: float, reference: np.ndarray, seconds: float):
+def stopped(heights: np.ndarray, load: float, reference: np.ndarray, seconds: float) -> list[MeasuredRow]:
     """Row of tamaas after about ``seconds``: its iterations are counted from the time of twenty."""
     few = tamaas_solver(heights, SPACING, E_PRIME, max_iterations=20)
     if few is None:
@@ -90,7 +97,7 @@ def stopped(heights: np.ndarray, load: float, reference: np.ndarray, seconds: fl
     return [("tamaas", np.nan, error, spent, spent, spent)]
 
 
-def of_page(rows: Any) -> tuple[list[str], list[list[str]]]:
+def of_page(rows: list[PlainRow]) -> tuple[list[str], list[list[str]]]:
     """The table of the page: a row for each surface and grid, a column for each load."""
     loads = sorted({r["load"] for r in rows})
     lines = []
@@ -105,8 +112,14 @@ def of_page(rows: Any) -> tuple[list[str], list[list[str]]]:
 
 
 def case_rows(
-    kind: Any, cells: int, load: float, solvers: Any, heights: np.ndarray, options: Any, kept: Any
-) -> list[dict]:
+    kind: str,
+    cells: int,
+    load: float,
+    solvers: dict[str, Solver],
+    heights: np.ndarray,
+    options: argparse.Namespace,
+    kept: dict[str, dict[str, float]],
+) -> list[PlainRow]:
     """The rows of one case, printed as they come."""
     reference = solvers["lubfric"](1e6 * load, 1e-10)
     label = f"{kind} {cells} {load:g}"
@@ -147,9 +160,9 @@ def main() -> None:
         run(parser, options)
 
 
-def run(parser: Any, options: Any) -> None:
+def run(parser: argparse.ArgumentParser, options: argparse.Namespace) -> None:
     """Every case, its rows written as they come."""
-    rows: list[dict] = []
+    rows: list[PlainRow] = []
     kept = json.loads(options.kept.read_text()) if options.kept and options.kept.exists() else {}
     for cells in options.cells:
         for kind in options.surfaces:

@@ -8,13 +8,14 @@ import argparse
 import os
 import time
 from collections.abc import Callable
-from typing import Any
+from functools import partial
 
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[name] = "1"
 
-from lubfric import solve_ehl
+from lubfric import EHLResult, solve_ehl
 
+from ...types import Keywords, T
 from . import page
 
 ALPHA = 2.2e-8
@@ -41,7 +42,7 @@ COLUMNS = (
 OF_PAGE = [0, 3, 4]  # columns: the page has those of the default tolerance
 
 
-def arguments(M: float, L: float) -> dict:
+def arguments(M: float, L: float) -> Keywords:
     """SI inputs with the Moes numbers M, L."""
     u1 = (L / (ALPHA * E_PRIME)) ** 4
     return {
@@ -54,7 +55,7 @@ def arguments(M: float, L: float) -> dict:
     }
 
 
-def shortest_ms(call: Callable[..., Any], repeats: int):
+def shortest_ms(call: Callable[[], T], repeats: int) -> tuple[float, T]:
     """Shortest processor time of ``call()`` [ms], the one that other jobs lengthen least, and its last value."""
     times = []
     for _ in range(repeats):
@@ -64,7 +65,7 @@ def shortest_ms(call: Callable[..., Any], repeats: int):
     return min(times), value
 
 
-def error(result: Any, reference: Any) -> float:
+def error(result: EHLResult, reference: EHLResult) -> float:
     """Largest relative error of smallest and flow film."""
     return max(abs(result.min_film / reference.min_film - 1), abs(result.flow_film / reference.flow_film - 1))
 
@@ -77,8 +78,8 @@ def row(M: float, L: float, repeats: int) -> list[str]:
     reference = solve_ehl(**case, tolerance=3e-5)
     for tolerance in TOLERANCES:
         start = solve_ehl(**lighter, tolerance=tolerance)
-        cold_ms, cold = shortest_ms(lambda t=tolerance: solve_ehl(**case, tolerance=t), repeats)
-        warm_ms, warm = shortest_ms(lambda t=tolerance, s=start: solve_ehl(**case, tolerance=t, start=s), repeats)
+        cold_ms, cold = shortest_ms(partial(solve_ehl, **case, tolerance=tolerance), repeats)
+        warm_ms, warm = shortest_ms(partial(solve_ehl, **case, tolerance=tolerance, start=start), repeats)
         errors = f"{error(cold, reference):.1e} / {error(warm, reference):.1e}"
         cells += [f"{cold_ms:.1f} / {warm_ms:.1f}", errors]
     return cells

@@ -8,19 +8,20 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
 import lubfric
 from lubfric.models import prepare
 
-PAPER: dict[str, Any] = dict(
+from ...types import Keywords
+
+PAPER: Keywords = dict(
     load_per_width=5.5 / 6e-3, radius=2e-3, e_prime=231e9, viscosity=0.36, pressure_viscosity_coefficient=25e-9
 )
 
 
-def median(work: Callable[..., Any], repeats: int):
+def median(work: Callable[[], object], repeats: int) -> float:
     work()
     times = []
     for _ in range(repeats):
@@ -30,7 +31,7 @@ def median(work: Callable[..., Any], repeats: int):
     return statistics.median(times)
 
 
-def whole_process(code: Any):
+def whole_process(code: str) -> float:
     return median(lambda: subprocess.run([sys.executable, "-c", code], check=True), 7)
 
 

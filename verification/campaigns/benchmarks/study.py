@@ -8,7 +8,6 @@ continues. It prints one table and draws study.png into FOLDER.
 """
 
 import os
-from typing import Any
 
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(name, "1")
@@ -30,7 +29,7 @@ from . import page
 FEW = 10  # every so many curves are run here too
 
 
-def plan(points: int):
+def plan(points: int) -> lubfric.StudyPlan:
     """5 loads x 5 viscosities x 4 maps x speeds."""
     scene = lubfric.load_scene("paper").with_(
         contact={"shape": (64, 64), "spacing": 0.9e-6}, numerics={"model": "paper", "sampling": "patch"}
@@ -43,7 +42,7 @@ def plan(points: int):
     return lubfric.plan_study(scene, vary, np.geomspace(1e-3, 1.0, max(points // 100, 1)))
 
 
-def draw(folder: Path, result: Any) -> None:
+def draw(folder: Path, result: lubfric.StudyResult) -> None:
     """Curves of all loads and viscosities on the first map, over viscosity x speed, from the Dataset."""
     import matplotlib.pyplot as plt
 

@@ -7,8 +7,9 @@ model of lubfric anew.
 """
 
 from ... import frame
+from ...types import Keywords
 
-PARTS: tuple[tuple[str, str, str, dict], ...] = (
+PARTS: tuple[tuple[str, str, str, Keywords], ...] = (
     (
         "rest",
         "calibration.held_out:coverage",

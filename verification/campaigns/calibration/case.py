@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from lubfric.models.deterministic import RoughBody, reach
 from lubfric.surface import Surface
 
 from ...fem.parts import halved
+from ...types import Keywords
 
 MOTIONS = ("rest", "rolling")
 FLUIDS = ("newtonian", "eyring", "limit", "low-limit")
@@ -43,7 +43,7 @@ class Case:
     scene: lubfric.Scene
     bodies: tuple[RoughBody, ...]
     speed: float
-    facts: dict
+    facts: Keywords
 
     @property
     def surface(self) -> Surface:
@@ -187,12 +187,12 @@ def _drawn(
     return Case(scene=scene, bodies=bodies, speed=speed, facts=facts)
 
 
-def _oil(rng: np.random.Generator, fluid: str, friction: float) -> dict:
+def _oil(rng: np.random.Generator, fluid: str, friction: float) -> Keywords:
     """Keys of a lubricant of that kind: Newtonian up to f_b p; Eyring; a limit near f_b; Eyring with a limit below."""
     eyring = math.exp(rng.uniform(math.log(3e6), math.log(15e6)))
     near = friction * rng.uniform(0.8, 1.25)
     low = friction * rng.uniform(0.3, 0.8)
-    keys: dict[str, dict] = {
+    keys: dict[str, Keywords] = {
         "newtonian": {},
         "eyring": {"eyring_stress": eyring},
         "limit": {"limiting_stress_coefficient": near},
@@ -211,7 +211,7 @@ def _map(
     seed: int,
 ) -> Surface:
     """A periodic map of that lay with exactly this ``sq`` [m]."""
-    keys: dict[str, Any] = {"sq": 1.0, "correlation_length": lengths, "acf": acf}
+    keys: Keywords = {"sq": 1.0, "correlation_length": lengths, "acf": acf}
     made = lubfric.generate_surface(shape, spacing, seed=seed, **keys)
     if lay == "plateau":
         fine = lubfric.generate_surface(shape, spacing, seed=seed + 1_000_003, **keys)

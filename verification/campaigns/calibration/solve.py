@@ -5,13 +5,14 @@ import signal
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from typing import Any
+from types import FrameType
 
 import numpy as np
 
 import lubfric
 from lubfric.models.deterministic import DeterministicResult, Strip, solve_moving_strip, solve_strip
 
+from ...types import PlainRow
 from .case import Case
 
 SHIFTS = 4  # places of a moving map at which load sharing is solved
@@ -26,7 +27,7 @@ class TooLong(lubfric.LubfricError):
 def limited(seconds: float) -> Iterator[None]:
     """Raise `TooLong` in the block after so many ``seconds`` of processor time."""
 
-    def stop(number: int, frame: Any) -> None:
+    def stop(number: int, frame: FrameType | None) -> None:
         raise TooLong(f"more than {seconds:g} s of processor time")
 
     before = signal.signal(signal.SIGPROF, stop)
@@ -38,7 +39,7 @@ def limited(seconds: float) -> Iterator[None]:
         signal.signal(signal.SIGPROF, before)
 
 
-def solved(case: Case, seconds: float) -> dict[str, Any]:
+def solved(case: Case, seconds: float) -> PlainRow:
     """The row of ``case``; where a model has no answer within so many ``seconds`` of processor time, ``failure`` says
     why."""
     row = case.facts | {f"map_{name}": value for name, value in map_facts(case).items()}

@@ -3,10 +3,10 @@
 import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+from ...types import PlainRow
 from .. import table_file
 from .case import MOTIONS, drawn
 from .solve import solved
@@ -35,7 +35,7 @@ def to_repeat(motion: str, folder: Path = TABLES) -> list[int]:
 
 def extend(
     motion: str, seeds: Sequence[int], budget: float, folder: Path = TABLES, repeat: int = 0
-) -> Iterator[dict[str, Any]]:
+) -> Iterator[PlainRow]:
     """Solve the cases of these ``seeds``, or their ``repeat``, that are missing in the table of ``motion``, as long as
     the time of this process is below ``budget`` [s], and append each when it is solved."""
     assert motion in MOTIONS

@@ -1,9 +1,8 @@
 """The chart of the dry contact: error of the pressure against time, by method, tolerance, load, surface and
 boundary."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
-from typing import Any
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from lubfric import ConvergenceError, solve_contact
 from lubfric.contact import half_space
 from lubfric.paper import alternating, single_loop
 
+from ...types import Keywords, PlainRow
 from ..opponents import CONTACT
 from .measure import interleaved, point
 
@@ -20,6 +20,8 @@ LENGTH = 34e-6
 E_PRIME = 231e9
 DEFAULT = 1e-6
 LONG = 5.0  # CPU seconds: a method that took longer is not asked for a tighter tolerance
+# The measurement of a panel.
+MeasuredCase = Callable[[], list[PlainRow]]
 BOUNDARIES = {"periodic": ("periodic", "periodic"), "periodic along y": ("free", "periodic"), "free": ("free", "free")}
 
 
@@ -39,49 +41,54 @@ def _finest(acf: str, finest: int = 2048) -> np.ndarray:
     return (z - z.mean()) * (SIGMA / z.std())
 
 
-def cases(*, quick: bool) -> dict[str, tuple]:
+def cases(*, quick: bool) -> dict[str, MeasuredCase]:
     """Panels for surfaces and loads of a periodic contact, for the other boundaries at one load, and for grids."""
     n, loads = (64, (200e6,)) if quick else (256, (50e6, 200e6, 1000e6))
     tolerances = (1e-2, 1e-4, 1e-6) if quick else (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10)
     surfaces, repeats = (("gaussian",), 1) if quick else (("exponential", "gaussian"), 3)
-    results: dict[str, tuple] = {}
+    results: dict[str, MeasuredCase] = {}
     for acf in surfaces:
         for load in loads:
-            results[f"{acf}, {load / 1e6:g} MPa, {n}²"] = (acf, n, load, "periodic", tolerances, repeats)
-    for name in list(BOUNDARIES)[1:]:
-        results[f"{name}, exponential, 200 MPa, {n}²"] = ("exponential", n, 200e6, name, tolerances[:5], repeats)
+            name = f"{acf}, {load / 1e6:g} MPa, {n}²"
+            results[name] = partial(panel, name, acf, n, load, "periodic", tolerances, repeats)
+    for boundary in list(BOUNDARIES)[1:]:
+        name = f"{boundary}, exponential, 200 MPa, {n}²"
+        results[name] = partial(panel, name, "exponential", n, 200e6, boundary, tolerances[:5], repeats)
     sizes = (32, 64, 128) if quick else (128, 256, 512, 1024, 2048)
-    results |= {f"grids, {acf}": (acf, sizes) for acf in reversed(surfaces)}
-    return {name: (name, *case) for name, case in results.items()}
+    return results | {f"grids, {acf}": partial(grids, acf, sizes) for acf in reversed(surfaces)}
 
 
-def measured(case: tuple) -> list[dict]:
+def measured(case: MeasuredCase) -> list[PlainRow]:
     """The points of one case."""
-    return panel(*case) if len(case) > 3 else grids(*case[1:])
+    return case()
 
 
-def methods(z: np.ndarray, pressure: float, boundary: str, mean_gap: float) -> dict:
+def methods(z: np.ndarray, pressure: float, boundary: str, mean_gap: float) -> dict[str, Callable[[float], np.ndarray]]:
     """{name: solve(tolerance) -> pressure}. The paper's methods are given the mean gap instead of the load."""
     kind = BOUNDARIES[boundary]
     spacing = 512 * SPACING / len(z)
     operator = half_space(z.shape, spacing, E_PRIME, kind)
     weight = np.ones(z.shape)
     gap0 = z.max() - z
-    options: dict[str, Any] = dict(operator=operator, boundary=kind, raise_on_failure=False)
-    by_gap: dict[str, Any] = options | {"weight": weight}
+    options: Keywords = dict(operator=operator, boundary=kind, raise_on_failure=False)
+    by_gap: Keywords = options | {"weight": weight}
 
-    def default(tolerance: float):
+    def default(tolerance: float) -> np.ndarray:
         result = solve_contact(gap0, spacing, E_PRIME, mean_pressure=pressure, tolerance=tolerance, **options)
         return result.pressure
 
-    def in_one_loop(tolerance: float):
-        asked: dict[str, Any] = {"tolerance": tolerance, "max_iterations": 600}
+    def in_one_loop(tolerance: float) -> np.ndarray:
+        asked: Keywords = {"tolerance": tolerance, "max_iterations": 600}
         return single_loop(z, mean_gap, spacing, E_PRIME, **asked, **by_gap).pressure
 
-    def in_turns(tolerance: float):
+    def in_turns(tolerance: float) -> np.ndarray:
         return alternating(z, mean_gap, spacing, E_PRIME, tolerance=tolerance, **by_gap).pressure
 
-    results = {"lubfric": default, "paper, single loop": in_one_loop, "paper, alternating": in_turns}
+    results: dict[str, Callable[[float], np.ndarray]] = {
+        "lubfric": default,
+        "paper, single loop": in_one_loop,
+        "paper, alternating": in_turns,
+    }
     if boundary == "periodic":
         for name in ("plain Polonsky-Keer", "aspher", "tamaas"):
             solver = CONTACT[name](z, spacing, E_PRIME)
@@ -90,11 +97,13 @@ def methods(z: np.ndarray, pressure: float, boundary: str, mean_gap: float) -> d
     return results
 
 
-def panel(label: str, acf: str, n: int, load: float, boundary: str, tolerances: Any, repeats: int) -> list[dict]:
+def panel(
+    label: str, acf: str, n: int, load: float, boundary: str, tolerances: Sequence[float], repeats: int
+) -> list[PlainRow]:
     """Every method at every tolerance against one tight solution."""
     z = heights(n, acf)
     values = []
-    asked: dict[str, Any] = {"mean_pressure": load, "boundary": BOUNDARIES[boundary]}
+    asked: Keywords = {"mean_pressure": load, "boundary": BOUNDARIES[boundary]}
     tight = solve_contact(z.max() - z, 512 * SPACING / n, E_PRIME, tolerance=1e-11, raise_on_failure=False, **asked)
     solvers = methods(z, load, boundary, tight.mean_gap)
     for tolerance in tolerances:
@@ -110,7 +119,7 @@ def panel(label: str, acf: str, n: int, load: float, boundary: str, tolerances: 
     return values
 
 
-def attempt(solve: Callable[..., Any], tolerance: float):
+def attempt(solve: Callable[[float], np.ndarray], tolerance: float) -> np.ndarray | None:
     """The pressure, or None where the method gives up."""
     try:
         return solve(tolerance)
@@ -118,7 +127,7 @@ def attempt(solve: Callable[..., Any], tolerance: float):
         return None
 
 
-def grids(acf: str, sizes: Any) -> list[dict]:
+def grids(acf: str, sizes: Sequence[int]) -> list[PlainRow]:
     """Contact area and mean gap of one surface on coarser grids against the finest, with a solver error of 1e-6."""
     solved = {}
     values = []

@@ -1,8 +1,7 @@
 """Draws charts from the points alone."""
 
-from typing import Any
-
 import numpy as np
+from matplotlib.axes import Axes
 
 from ... import plotting
 from ...check import Check, Figure, Table
@@ -46,7 +45,7 @@ def palette(points: list[Check]) -> dict[str, str]:
     return {m: COLOURS[i % len(COLOURS)] for i, m in enumerate(methods)}
 
 
-def curve(ax: Any, points: list[Check], colour: str) -> None:
+def curve(ax: Axes, points: list[Check], colour: str) -> None:
     """One method, in the order in which its settings were given."""
     errors = [p.measured for p in points]
     times = np.array([p.at["seconds"] for p in points])

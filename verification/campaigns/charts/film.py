@@ -1,9 +1,8 @@
 """The chart of smooth films: error of smallest film, flow film and friction against time."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -13,21 +12,24 @@ from lubfric.film import moes_film
 from ...fem.parts import case_of, moes_unit
 from ...fem.solvers import ehl as fem
 from ...fem.solvers.report import SolveError
+from ...types import FloatArray, Keywords, PlainRow
 from ..dense_newton import dense_newton
-from .measure import interleaved, point
+from .measure import Quartiles, interleaved, point
 
+# method, setting, its quantities, quartiles of the processor seconds, unknowns
+FilmRun = tuple[str, str, Sequence[float] | FloatArray, Quartiles, int]
 POINTS = ((1, 5), (10, 10), (20, 5), (100, 20), (1000, 20))
 DEFAULT = 3e-3
 FINER = 50  # M up to which finite elements are refined once: beyond, that takes minutes
 SHEARED = (20, 5)  # below 1 GPa, where a Newtonian shear force still means something
 
 
-def cases(*, quick: bool) -> dict[str, tuple]:
+def cases(*, quick: bool) -> dict[str, tuple[float, float, bool]]:
     """One panel for each (M, L)."""
     return {f"M = {M:g}, L = {L:g}": (M, L, quick) for M, L in (POINTS[1:2] if quick else POINTS)}
 
 
-def measured(case: tuple) -> list[dict]:
+def measured(case: tuple[float, float, bool]) -> list[PlainRow]:
     """Every method at every setting against a tight solution."""
     M, L, quick = case
     arguments = case_of(M, L)
@@ -43,7 +45,7 @@ def measured(case: tuple) -> list[dict]:
     return values
 
 
-def quantities(film: Any) -> np.ndarray:
+def quantities(film: EHLResult) -> np.ndarray:
     """Smallest film and flow film [m], and ∫ eta/h dx, which is the Newtonian shear force per sliding speed."""
     x = film.x
     h = film.film_thickness
@@ -52,7 +54,7 @@ def quantities(film: Any) -> np.ndarray:
     return np.array([film.min_film, film.flow_film, np.trapezoid((eta / h)[wet], x[wet])])
 
 
-def runs(case: dict, M: float, L: float, *, quick: bool) -> Iterator[tuple]:
+def runs(case: Keywords, M: float, L: float, *, quick: bool) -> Iterator[FilmRun]:
     """(method, setting, quantities, quartiles of seconds, unknowns) of every method and setting."""
     near = case | {"load_per_width": 0.97 * case["load_per_width"]}
     calls: dict[tuple[str, float], Callable[[], EHLResult]] = {}
@@ -76,7 +78,7 @@ def runs(case: dict, M: float, L: float, *, quick: bool) -> Iterator[tuple]:
     yield "Moes formula (flow film)", "", (math.nan, value * moes_unit(case["entrainment_speed"])), seconds, 1
 
 
-def finite_elements(case: dict, *, quick: bool) -> Iterator[tuple]:
+def finite_elements(case: Keywords, *, quick: bool) -> Iterator[FilmRun]:
     """The full system by finite elements on its nested meshes. The time of each includes that of the coarser ones."""
     contact = fem.LineContact.of(case)
     for refinements in (0,) if quick or contact.load_number > FINER else (0, 1):

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...check import REPORTED, Check
 from ...frame import environment
+from ...types import PlainRow
 from ..opponents import version
 
 K = TypeVar("K")
@@ -20,7 +21,7 @@ Quartiles = tuple[float, float, float]  # median, lower, upper, of processor sec
 
 def point(
     panel: str, method: str, setting: str, error: float, seconds: Sequence[float], **at: str | float | bool | None
-) -> dict:
+) -> PlainRow:
     """One setting of one method, as a check in plain types: its error against a tight solution, its time, and where it
     is drawn.
 

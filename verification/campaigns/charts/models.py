@@ -10,12 +10,13 @@ from functools import cache
 
 import numpy as np
 
+from ...types import Keywords, PlainRow
 from ..model.answers import MEASURED, AnswerCase, reference, solved
 from .measure import point, quartiles
 
 SURFACES = "Gaussian", "exponential", "ridges along", "plateau"
 SEEDS = {True: (1,), False: (1, 2, 3)}
-WAYS: dict[str, dict] = {
+WAYS: dict[str, Keywords] = {
     "load sharing, Eqs. (8), (9)": {"model": "paper"},
     "quick answer": {"model": "quick"},
     "deterministic, long cells": {"model": "deterministic", "tolerance": 0.1},
@@ -35,7 +36,7 @@ def cases(*, quick: bool) -> dict[str, tuple[AnswerCase, str, bool]]:
     return {f"{case.surface}, {way}": (case, way, quick) for case in surfaces for way in WAYS}
 
 
-def measured(chosen: tuple[AnswerCase, str, bool]) -> list[dict]:
+def measured(chosen: tuple[AnswerCase, str, bool]) -> list[PlainRow]:
     """One way at every setting, against the deterministic model on another surface, or on all of the map."""
     (case, way, quick) = chosen
     values = []

@@ -10,6 +10,7 @@ import numpy as np
 
 from ... import plotting
 from ...check import Check, Figure
+from ...types import PlainRow
 from ..calibration import fit
 from .draw import COLOURS
 from .measure import point, quartiles
@@ -35,7 +36,7 @@ def of_kind(row: dict[str, str], kind: str) -> bool:
     return float(row["pressure"]) > HEAVY if kind == "heavy" else row["lay"] == kind
 
 
-def measured(chosen: tuple[str, str]) -> list[dict]:
+def measured(chosen: tuple[str, str]) -> list[PlainRow]:
     """Return the points of one panel."""
     kind, motion = chosen
     solved = fit.cases(motion)
@@ -63,7 +64,7 @@ def measured(chosen: tuple[str, str]) -> list[dict]:
     return [_point(panel, method, sizes[method], seconds[method]) for method in METHODS]
 
 
-def _point(panel: str, method: str, errors: np.ndarray, seconds: list[float]) -> dict:
+def _point(panel: str, method: str, errors: np.ndarray, seconds: list[float]) -> PlainRow:
     low, median, high = (float(value) for value in np.quantile(errors, (0.25, 0.5, 0.75)))
     return point(panel, method, "", median, quartiles(seconds), least=low, most=high, cases=len(errors))
 

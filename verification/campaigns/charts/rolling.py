@@ -15,6 +15,7 @@ import numpy as np
 
 import lubfric
 
+from ...types import PlainRow
 from .. import table_file
 from ..moving_coverage.table import ANSWERS, FOLDER, REFERENCES, RollingContact, contacts, covered, with_seed
 from .measure import point, quartiles
@@ -31,7 +32,7 @@ def cases(*, quick: bool) -> dict[str, tuple[RollingContact, float, bool]]:
     return {contact.name: (contact, known[contact.name], quick) for contact in chosen}
 
 
-def measured(case: tuple[RollingContact, float, bool]) -> list[dict]:
+def measured(case: tuple[RollingContact, float, bool]) -> list[PlainRow]:
     """Return the points of one contact."""
     contact, truth, quick = case
     points = []

@@ -6,12 +6,11 @@ import resource
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -20,6 +19,8 @@ from lubfric.output.describe import estimate_scene
 from lubfric.running_in import estimated_run_in
 from lubfric.scene import Harmonic, History, Table, Transient
 from lubfric.studies import estimated_fit, estimated_study
+
+from ...types import Keywords
 
 KINDS = (
     "rest auto",
@@ -208,13 +209,19 @@ def _fit(rng: np.random.Generator, scene: lubfric.Scene, speed: float) -> Job:
     )
 
 
-def _of_scene(scene: lubfric.Scene, speeds: Any = (), ratios: Any = (), *, command: bool = False) -> float:
+def _of_scene(
+    scene: lubfric.Scene,
+    speeds: Sequence[float] | str = (),
+    ratios: Sequence[float] = (),
+    *,
+    command: bool = False,
+) -> float:
     prepared = lubfric.prepare(scene)
     estimate = estimate_scene(scene, prepared.sample, prepared.surface, speeds, ratios)
     return estimate.command_seconds if command else estimate.seconds
 
 
-def _of_study(scene: lubfric.Scene, axes: dict, speeds: list[float]) -> float:
+def _of_study(scene: lubfric.Scene, axes: Keywords, speeds: list[float]) -> float:
     return estimated_study(lubfric.plan_study(scene, axes, speeds=speeds))
 
 

@@ -3,13 +3,13 @@
 import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 import lubfric
 from lubfric._base import limited_work
 
+from ...types import PlainRow
 from .. import table_file
 from .jobs import KINDS, MOST_WORK, drawn, seconds
 
@@ -19,13 +19,13 @@ DIGITS = 4
 COLUMNS = ("seed", "kind", "lambda_ratio", "pressure", "sq", "estimate", "work", "seconds", "failure")
 
 
-def timed(seed: int) -> dict[str, Any]:
+def timed(seed: int) -> PlainRow:
     """Return the row of run number ``seed``."""
     job = drawn(seed)
     scene = job.scene
     line = scene.line_contact(scene.motion.entrainment_speed)
     sq = scene.surface.sq or math.nan
-    row: dict[str, Any] = {
+    row: PlainRow = {
         "seed": seed,
         "kind": job.kind,
         "lambda_ratio": line.moes_film / sq,
@@ -55,7 +55,7 @@ def rows(file: Path = TABLE) -> list[dict[str, str]]:
 
 def extend(
     count: int, budget: float, kinds: Sequence[str] = KINDS, file: Path = TABLE, first: int = 0
-) -> Iterator[dict[str, Any]]:
+) -> Iterator[PlainRow]:
     """Do the runs of these ``kinds`` from number ``first`` to below ``count`` that the table has not, as long as the
     processor time is below ``budget`` [s], and append each as it ends."""
     known = {int(row["seed"]) for row in rows(file)}

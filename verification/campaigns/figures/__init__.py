@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from ... import frame
 from ...report import Report
+from ...types import Keywords
 
 FIGURES = {
     "fig2": "surfaces:generated_surfaces",
@@ -32,5 +33,5 @@ def _document(report: Report, options: Namespace) -> str:
     return f"written: {options.docs / 'paper.md'}"
 
 
-PARTS: list[tuple[str, str, str, dict]] = [(name, f"figures.{at}", name, {}) for name, at in FIGURES.items()]
+PARTS: list[tuple[str, str, str, Keywords]] = [(name, f"figures.{at}", name, {}) for name, at in FIGURES.items()]
 COMMAND = replace(frame.campaign("figures", __doc__, PARTS, ("full", "quick")), finished=_document)

@@ -1,11 +1,11 @@
 """Figs. 8, 9 and 10: the cylinder of Tables 1 and 2, on an ensemble of surfaces and on a real ground one."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure as Canvas
 from scipy.ndimage import label
 
 import lubfric
@@ -15,6 +15,7 @@ from ...check import AT_LEAST, AT_MOST, Check, Item, Table
 from ...fem import parts
 from ...kept import Run
 from ...plotting import axes, image
+from ...types import FloatArray, Keywords, TableRow
 from .page import picture
 
 OWN = {  # the model, the grid and the film of the paper
@@ -24,7 +25,7 @@ OWN = {  # the model, the grid and the film of the paper
 PAPER = lubfric.load_scene("paper").with_(numerics=OWN)
 ELASTIC = {"hardness": None}
 SUMMITS = {"model": "summits"}
-MODELS: dict[str, dict[str, Any]] = {
+MODELS: dict[str, Keywords] = {
     "half-space, elastic": {"bodies": ELASTIC},
     "half-space, elastic-plastic": {},
     "asperities (summits), elastic": {"bodies": ELASTIC, "contact": SUMMITS},
@@ -36,7 +37,7 @@ PAPER_FILM_LOAD = 0.225  # N, at 0.001 m/s
 REAL = "ground-77nm.x3p"
 
 
-def scene_of(acf: str = "gaussian", length: float = 8e-6, seed: int = 1):
+def scene_of(acf: str = "gaussian", length: float = 8e-6, seed: int = 1) -> lubfric.Scene:
     """The paper's cylinder on a generated surface. Lengths that do not fit 90 µm are cut from a longer map."""
     fits = length <= (16e-6 if acf == "gaussian" else 8e-6)
     return PAPER.with_(surface={"acf": acf, "correlation_length": length, "seed": seed, "oversize": 1 if fits else 5})
@@ -49,7 +50,7 @@ def real_surface() -> Path | None:
     return values[0] if values else None
 
 
-def friction_by_model(case: tuple) -> list[list[float]]:
+def friction_by_model(case: tuple[tuple[str, float, int], FloatArray, str]) -> list[list[float]]:
     """Friction over ``speeds`` with each of `MODELS`, on a generated surface (acf, length, seed), or, with an ``axis``
     of its file along the motion, on the ground surface scaled to 100 nm with all but the flat strip."""
     (acf, length, seed), speeds, axis = case
@@ -61,7 +62,7 @@ def friction_by_model(case: tuple) -> list[list[float]]:
     return [lubfric.stribeck(scene.with_(**change), speeds).coefficient.tolist() for change in models]
 
 
-def film_load(case: tuple) -> float:
+def film_load(case: tuple[str, float, int]) -> float:
     """F_H [N] at 0.001 m/s on one generated surface."""
     return lubfric.friction(scene_of(*case), 0.001).film_load
 
@@ -81,7 +82,7 @@ def stribeck_curves(level: str, run: Run = Run()) -> Iterator[Item]:
     counted = range(1, 3 if quick else 13)
     wanted = {f"F_H, {length} m, {seed}": ("gaussian", length, seed) for length in lengths for seed in counted}
     loads = np.array([f for _, f in run.solved(wanted, film_load)]).reshape(len(lengths), -1)
-    rows: list[tuple] = [
+    rows: list[TableRow] = [
         (*kind, name, float(u), float(m), float(lo), float(hi))
         for kind, c in curves.items()
         for name, values in zip(MODELS, c.transpose(1, 0, 2))
@@ -108,7 +109,13 @@ def stribeck_curves(level: str, run: Run = Run()) -> Iterator[Item]:
     yield picture("fig8", title, _agrees(speeds, most, real, table), _differs(curves), canvas)
 
 
-def _draw_stribeck(speeds: Any, curves: Any, real: Any, lengths: Any, loads: Any):
+def _draw_stribeck(
+    speeds: FloatArray,
+    curves: dict[tuple[str, float], np.ndarray],
+    real: dict[str, np.ndarray],
+    lengths: Sequence[float],
+    loads: np.ndarray,
+) -> Canvas:
     canvas, panels = axes(1, 3, width=12.0, height=4.2)
     for ax, ((acf, length), values) in zip(panels, curves.items()):
         for i, (name, c) in enumerate(zip(MODELS, values.transpose(1, 0, 2))):
@@ -131,7 +138,7 @@ def _draw_stribeck(speeds: Any, curves: Any, real: Any, lengths: Any, loads: Any
     return canvas
 
 
-def _agrees(speeds: Any, most: float, real: Any, table: Any) -> str:
+def _agrees(speeds: FloatArray, most: float, real: dict[str, np.ndarray], table: list[tuple[float, ...]]) -> str:
     inside = [f"{length * 1e6:g}" for length, _, _, low, high in table if low <= PAPER_FILM_LOAD <= high]
     below = [f"{length * 1e6:g}" for length, *_, high in table if high < PAPER_FILM_LOAD]
     bracket = f"the paper's 0.225 N is within the range of the seeds for {', '.join(inside) or 'no length'} µm"
@@ -154,7 +161,7 @@ def _agrees(speeds: Any, most: float, real: Any, table: Any) -> str:
     )
 
 
-def _differs(curves: Any) -> str:
+def _differs(curves: dict[tuple[str, float], np.ndarray]) -> str:
     lines = []
     for (acf, _), c in curves.items():
         mean = c.mean(0)
@@ -173,7 +180,7 @@ def _differs(curves: Any) -> str:
 def pressure_map(level: str, run: Run = Run()) -> Iterator[Item]:
     """Fig. 9: the elastic-plastic contact pressure at 0.001 m/s, with F_C and F_H."""
     canvas, panels = axes(1, 2, width=9.4, height=4.2)
-    rows: list[tuple] = []
+    rows: list[tuple[str, float, float, float, float, float, int]] = []
     for ax, (acf, _) in zip(panels, KINDS):
         scene = scene_of(acf)
         point = lubfric.friction(scene, 0.001, fields=True)

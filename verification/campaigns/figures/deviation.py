@@ -2,11 +2,11 @@
 difference, Eq. (13)."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure as Canvas
 
 import lubfric
 from lubfric.models import prepare
@@ -15,6 +15,7 @@ from lubfric.models.shared import Prepared
 from ...check import AT_LEAST, Check, Item, Table, bound
 from ...kept import Run
 from ...plotting import axes
+from ...types import FloatArray, Keywords
 from .page import picture
 from .surfaces import LENGTHS, rough
 
@@ -22,14 +23,14 @@ INVERSE_E = math.exp(-1)
 LOADS = (20e6, 50e6, 100e6, 200e6, 500e6, 1000e6)  # mean Hertz pressure, Pa
 SPEEDS = np.geomspace(1e-3, 10.0, 17)
 LIMITED = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.05}
-LAWS: dict[str, tuple[dict, str]] = {  # shear law of the film, and what deflects it
+LAWS: dict[str, tuple[Keywords, str]] = {  # shear law of the film, and what deflects it
     "Newtonian": ({}, "hydrodynamic"),
     "limited": (LIMITED, "hydrodynamic"),
     "Johnson": (LIMITED, "scaled"),
 }
-BASE: dict[str, Any] = {"acf": "exponential", "level": INVERSE_E, "model": ("summits", "volume"), "law": "Johnson"}
+BASE: Keywords = {"acf": "exponential", "level": INVERSE_E, "model": ("summits", "volume"), "law": "Johnson"}
 BASE_LABEL = "base case: summits, exponential ACF"
-ASSUMPTIONS: dict[str, dict[str, Any]] = {  # label: what differs from the base case
+ASSUMPTIONS: dict[str, Keywords] = {  # label: what differs from the base case
     BASE_LABEL: {},
     "Newtonian, film pressure only": {"law": "Newtonian"},
     "limited, film pressure only": {"law": "limited"},
@@ -44,21 +45,23 @@ SCENE = lubfric.load_scene("flat").with_(bodies={"hardness": None}, numerics={"m
 
 
 @lru_cache(maxsize=24)
-def pressed(pressure: float, acf: str, level: float, length: float, seed: int, count: int, model: tuple) -> Prepared:
+def pressed(
+    pressure: float, acf: str, level: float, length: float, seed: int, count: int, model: tuple[str, str]
+) -> Prepared:
     """A surface with one of the models, prepared for a mean Hertz pressure [Pa]."""
     contact = {"model": model[0], "asperity_separation": model[1]}
     scene = SCENE.with_(bodies={"hertz_pressure": 4 / math.pi * pressure}, contact=contact)
     return prepare(scene, rough(length, acf, seed, count, level))
 
 
-def friction_over_speed(ready: Prepared, law: str, speeds: Any) -> np.ndarray:
+def friction_over_speed(ready: Prepared, law: str, speeds: FloatArray) -> np.ndarray:
     """f under a law of the film; NaN where the model cannot carry its share."""
     oil, deflection = LAWS[law]
     scene = ready.scene.with_(lubricant=oil, numerics={"film_deflection": deflection})
     return lubfric.stribeck(prepare(scene, like=ready), speeds, raise_on_failure=False).coefficient
 
 
-def both_models(case: tuple) -> list[list[list[float]]]:
+def both_models(case: tuple[str, float, int, Sequence[float], FloatArray, int]) -> list[list[list[float]]]:
     """f over ``speeds`` by the asperities of one assumption and by the half-space, at every load."""
     label, length, seed, loads, speeds, count = case
     r = BASE | ASSUMPTIONS[label]
@@ -147,13 +150,13 @@ def deviation_map(level: str, run: Run = Run()) -> Iterator[Item]:
     yield picture("fig6", title, *_verdict(d, labels, loads), _draw(d, labels, loads))
 
 
-def _surface(label: str) -> tuple:
+def _surface(label: str) -> tuple[str, float]:
     """Return the key that groups readings of one surface and law, so that its half-space is prepared once."""
     r = BASE | ASSUMPTIONS[label]
     return r["acf"], r["level"]
 
 
-def _draw(d: Any, labels: Any, loads: Any):
+def _draw(d: dict[tuple[str, float, int], list[float]], labels: list[str], loads: Sequence[float]) -> Canvas:
     canvas, panels = axes(1, 3, width=11.4, height=4.6, sharey=True)
     mega = np.array(loads) / 1e6
     for length, colour in zip(LENGTHS, ("C0", "C1")):
@@ -166,9 +169,9 @@ def _draw(d: Any, labels: Any, loads: Any):
     panels[0].legend()
     for ax, length in zip(panels[1:], LENGTHS):
         for i, label in enumerate(labels):
-            values = np.array(d[label, length, 1])
+            over_load = np.array(d[label, length, 1])
             style = {"ms": 4, "lw": 1.1, "color": f"C{i}" if i < 7 else "0.6", "label": label}
-            ax.semilogx(mega, np.where(np.abs(values) <= 60, values, np.nan), "os^vDP*X"[i] + "-", **style)
+            ax.semilogx(mega, np.where(np.abs(over_load) <= 60, over_load, np.nan), "os^vDP*X"[i] + "-", **style)
         ax.axhline(0, color="grey", lw=0.8)
         ax.set(title=f"assumptions, L = {length * 1e6:g} µm")
     handles, names = panels[2].get_legend_handles_labels()
@@ -178,7 +181,9 @@ def _draw(d: Any, labels: Any, loads: Any):
     return canvas
 
 
-def _verdict(d: Any, labels: Any, loads: Any) -> tuple[str, str]:
+def _verdict(
+    d: dict[tuple[str, float, int], list[float]], labels: list[str], loads: Sequence[float]
+) -> tuple[str, str]:
     base = [d[BASE_LABEL, length, 1] for length in LENGTHS]
     dips = max(int(np.sum(np.diff(of_length) < 0)) for of_length in base)
     grows = dips <= 1 and all(of_length[-1] >= max(of_length) for of_length in base)

@@ -4,7 +4,8 @@ import re
 import textwrap
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+
+from matplotlib.figure import Figure as Canvas
 
 from ... import plotting
 from ...check import Figure
@@ -13,7 +14,7 @@ from ..tables.pages import source
 SECTION = re.compile(r"(?<=<!-- figures -->\n).*(?=<!-- end of figures -->)", re.DOTALL)
 
 
-def picture(name: str, title: str, agrees: str, differs: str, canvas: Any) -> Figure:
+def picture(name: str, title: str, agrees: str, differs: str, canvas: Canvas) -> Figure:
     """The drawn figure, small enough for the documents, with its section of the page as caption: what agrees with the
     paper, and what does not, and why."""
     section = (

@@ -2,17 +2,16 @@
 
 import math
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
 from lubfric.contact import find_asperities
 from lubfric.contact.solve import solve_contact
 
-from ...arrays import FloatArray
 from ...check import AT_LEAST, AT_MOST, Check, Item, Table
 from ...kept import Run
 from ...plotting import axes, image
+from ...types import FloatArray, Keywords
 from .page import picture
 
 RADIUS = 30e-6
@@ -43,13 +42,13 @@ def approaches(distance: float, loads: FloatArray, cell: float = CELL) -> tuple[
     free = []
     start = None
     for load in loads:
-        pressed: dict[str, Any] = {"mean_pressure": load / distance**2, "tolerance": 1e-6, "start": start}
+        pressed: Keywords = {"mean_pressure": load / distance**2, "tolerance": 1e-6, "start": start}
         start = solve_contact(HEIGHT - heights, step, E_PRIME, **pressed)
         free.append(start.approach)
     return np.array(free), np.array(free) + MEAN_OF_BOX * np.asarray(loads) / distance**2 * BOX / E_PRIME
 
 
-def hertz_load(approach: Any):
+def hertz_load(approach: FloatArray) -> FloatArray:
     """Load [N] of one isolated sphere."""
     return 2 / 3 * E_PRIME * np.sqrt(RADIUS) * np.asarray(approach) ** 1.5
 

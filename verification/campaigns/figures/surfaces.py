@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator
-from typing import Any
 
 import lubfric
 from lubfric.surface.statistics import correlation_length, rms_slope
@@ -31,18 +30,18 @@ def generated_surfaces(level: str, run: Run = Run()) -> Iterator[Item]:
     """Both lengths with both autocorrelation functions: the length that the generator was given, and the lengths measured on the maps."""
     count = 400 if level == "quick" else COUNT
     canvas, grid = axes(2, 2, width=8.0, height=7.2)
-    rows: list[tuple[Any, ...]] = []
+    rows: list[tuple[str, float, float, float, float, float]] = []
     shown = min(count, 256)
     side = shown * SPACING * 1e6
     for row, acf in zip(grid, ("exponential", "gaussian")):
         for ax, length in zip(row, LENGTHS):
             surface = rough(length, acf, count=count)
-            values = [correlation_length(surface, axis) for axis in (0, 1)]
-            rows.append((acf, length, surface.sq, *values, rms_slope(surface)[2]))
+            along, across = (correlation_length(surface, axis) for axis in (0, 1))
+            rows.append((acf, length, surface.sq, along, across, rms_slope(surface)[2]))
             colours = {"vmin": -720, "vmax": 720, "cmap": "cividis"}
             image(canvas, ax, surface.heights[:shown, :shown] * 1e9, (0, side, 0, side), "z (nm)", **colours)
             ax.set(title=f"{acf}, L = {length * 1e6:g} µm (1/e)", xlabel="x (µm)", ylabel="y (µm)")
-    off = max(abs(r[k] / r[1] - 1) for r in rows for k in (3, 4))
+    off = max(abs(measured / r[1] - 1) for r in rows for measured in (r[3], r[4]))
     headings = ("acf", "L requested [m]", "Sq [m]", "L along x [m]", "L along y [m]", "rms slope [-]")
     yield Check(
         "Sq of the last map", rows[-1][2], expected=SQ, tolerance=1e-9, source="the Sq given to the generator", unit="m"

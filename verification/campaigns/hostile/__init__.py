@@ -5,22 +5,28 @@ case and returns how it ended. No case may end in an exception that is not lubfr
 than 8 s, or take more than 2 GB.
 """
 
+from __future__ import annotations
+
 import importlib
 import tempfile
 import tomllib
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ...check import AT_MOST, Check, Item, Table
 from ...kept import Run
+
+if TYPE_CHECKING:
+    from .case import HostileCase
 
 SEED = 1
 HAND = tomllib.loads(Path(__file__).with_name("bad.toml").read_text(encoding="utf-8"))
 COUNTS = {"scenes": 1500, "files": 500, "calls": 900, "layouts": 1500}  # at least so many of a group
 
 
-def cases(group: str, seed: int, share: float = 1.0) -> Iterator:
+def cases(group: str, seed: int, share: float = 1.0) -> Iterator[HostileCase]:
     """About ``share`` of the cases of a group of ``seed``, chosen at random."""
     import numpy as np
 

@@ -1,7 +1,7 @@
 """Calls of the public functions with one argument that they cannot take, or two."""
 
 import datetime
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -11,6 +11,7 @@ import numpy as np
 import lubfric
 from lubfric.scene import Constant, Harmonic, Ramp, Table
 
+from ...types import TableRow
 from .case import HostileCase
 
 HEIGHTS = 1e-8 * np.random.default_rng(0).standard_normal((16, 12))
@@ -39,9 +40,9 @@ class Target:
     """A function, arguments that it takes, and for each of them values that it must refuse."""
 
     name: str
-    call: Callable
+    call: Callable[..., object]
     good: Mapping[str, object]
-    bad: dict[str, tuple] = field(default_factory=dict)
+    bad: Mapping[str, Sequence[object]] = field(default_factory=dict)
 
 
 @cache
@@ -59,7 +60,7 @@ def targets() -> tuple[Target, ...]:
     map_keys = dict.fromkeys(("spacing", "correlation_length", "decay_level", "cutoff"), NUMBER)
     contact_keys = dict.fromkeys(("spacing", "mean_pressure", "tolerance", "hardness"), NUMBER)
     in_time = dict.fromkeys(("duration", "load", "radius", "viscosity", "tolerance", "initial_film"), NUMBER)
-    section: dict[str, tuple] = {"bodies": (3, None, [], {"x": 1}, {"load": "1"}), "nonsense": ({},)}
+    section: dict[str, TableRow] = {"bodies": (3, None, [], {"x": 1}, {"load": "1"}), "nonsense": ({},)}
     section["motion"] = ({"speeds": [True]},)
     table = {"times": (0.0, 1.0), "values": (1.0, 2.0)}
     return (

@@ -6,12 +6,12 @@ are the functions of `KINDS`.
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 import lubfric
 
+from ...types import Keywords, Option
 from .case import HostileCase
 
 # Spacing of the maps along x and y [m].
@@ -51,7 +51,7 @@ def lines_of(table: np.ndarray, separator: str, mark: str = "nan", *, comma: boo
     return text.replace(".", ",") if comma else text
 
 
-def read_map(path: Path, heights: np.ndarray | None, **given: Any) -> str:
+def read_map(path: Path, heights: np.ndarray | None, **given: Option) -> str:
     """Read the map at ``path``. Raise `MisreadError` where it is not ``heights`` (None: where it is anything)."""
     surface = lubfric.read_surface(path, level=False, fill=False, **given)
     if heights is None:
@@ -108,7 +108,7 @@ def contradiction(draw: Draw, folder: Path) -> str:
     z = rough_map(draw)
     unit = str(draw.choice(["m", "mm", "nm"]))
     text = header_of(draw, z, unit)
-    given: dict[str, Any] = {}
+    given: Keywords = {}
     kind = int(draw.integers(4))
     if kind == 0:
         given["spacing"] = (10 * STEPS[0], 10 * STEPS[1])
@@ -133,7 +133,7 @@ def points(draw: Draw, folder: Path) -> str:
     heads = [f"X [{lateral}];Y [{lateral}];Z [{unit}]\n", f"x/{lateral} y/{lateral} z/{unit}\n", ""]
     heads += [f"# x ({lateral}), y ({lateral}), z ({unit})\n", f"X;Y;Z\n{lateral};{lateral};{unit}\n"]
     head = str(draw.choice(heads))
-    given: dict[str, Any] = {} if head else {"unit": (lateral, unit)}
+    given: Keywords = {} if head else {"unit": (lateral, unit)}
     path = folder / f"map{draw.choice(['.xyz', '.txt', '.csv', '.dat', '.asc'])}"
     text = head + lines_of(table[draw.permutation(len(table))], str(draw.choice([";", "\t", "  "])))
     path.write_text(text, encoding="utf-8")

@@ -8,14 +8,15 @@ import os
 from collections import Counter
 from collections.abc import Iterator
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 import lubfric
+from lubfric.models.shared import Prepared
 
 from ...check import AT_MOST, Check, Item, Table
 from ...kept import Run
+from ...types import Keywords, PlainRow
 from . import SEED
 from .case import resident_memory
 from .soak_judge import verdict
@@ -38,12 +39,12 @@ def soak(level: str, run: Run = Run()) -> Iterator[Item]:
     yield from summarized([row for _, row in run.solved(chunks, partial(chunk, SEED))])
 
 
-def summarized(chunks: list[dict]) -> Iterator[Item]:
+def summarized(chunks: list[PlainRow]) -> Iterator[Item]:
     """Checks and tables of the chunks."""
     scenes = [one for row in chunks for one in row["scenes"]]
     ended = Counter(one["ended"] for one in scenes)
     closed = [one for one in scenes if one["ratio"] is not None]
-    none: dict = {"ratio": math.inf, "words": "nothing was judged"}
+    none: Keywords = {"ratio": math.inf, "words": "nothing was judged"}
     worst = max(closed, key=lambda one: one["ratio"], default=none)
     wrong = [one["words"] for one in closed if not one["ratio"] <= 1]
     raw = [one["words"] for one in scenes if one["ended"] == RAW]
@@ -80,16 +81,16 @@ def summarized(chunks: list[dict]) -> Iterator[Item]:
     yield Table("soak-memory", "Resident memory of the process", ("scenes before", "process", "MiB"), rows)
 
 
-def chunk(seed: int, numbers: range) -> dict:
+def chunk(seed: int, numbers: range) -> PlainRow:
     """What became of the scenes of ``numbers``, and the resident memory [MiB] of the process at their end."""
     scenes = [scene_row(seed, number) for number in numbers]
     return {"first": numbers[0], "scenes": scenes, "process": os.getpid(), "memory": resident_memory() / 2**20}
 
 
-def scene_row(seed: int, number: int) -> dict:
+def scene_row(seed: int, number: int) -> PlainRow:
     """Return how one call ended, its message, its largest error over the allowed one (None: not checked), its
     features."""
-    row: dict = {"ended": REFUSED, "words": "", "ratio": None, "features": []}
+    row: PlainRow = {"ended": REFUSED, "words": "", "ratio": None, "features": []}
     scene = random_scene(np.random.default_rng((seed, number)), any_material=number % 2 == 1)
     try:
         prepared = lubfric.prepare(scene)
@@ -109,7 +110,7 @@ def scene_row(seed: int, number: int) -> dict:
     return row | {"ratio": ratio, "words": words}
 
 
-def _features(prepared: Any, result: Any) -> Iterator[str]:
+def _features(prepared: Prepared, result: lubfric.FrictionResult) -> Iterator[str]:
     """Names of what a soak should have had some of, as far as this scene has it."""
     scene = prepared.scene
     share = result.contact_load / prepared.scene.bodies.load
@@ -131,7 +132,7 @@ def _features(prepared: Any, result: Any) -> Iterator[str]:
     yield from (name for name, holds in features.items() if holds)
 
 
-def growth(chunks: list[dict]) -> float:
+def growth(chunks: list[PlainRow]) -> float:
     """Largest rise of the memory of a process [MiB], from the mean of its second quarter to that of its last."""
     rises = [0.0]
     for process in {row["process"] for row in chunks}:

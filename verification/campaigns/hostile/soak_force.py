@@ -1,23 +1,28 @@
 """The friction force in the check of random scenes: by the trapezoidal rule over the film, with every shear law and
 heat."""
 
+from __future__ import annotations
+
 import math
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from lubfric.film import EHLResult
 from lubfric.scene import Scene
 
-from ...arrays import FloatArray
 from ...fem.solvers.fluid import Fluid
+from ...types import FloatArray
 from .soak_heat import heated_stress, heats, inlet_viscosity
+
+if TYPE_CHECKING:
+    from .soak_judge import Sides
 
 MOSTLY = 0.5  # of the isothermal force: below it the heated one is summed by itself
 HEATED = 1400  # nodes at most on which the heat of the film is found
 
 
-def friction_force(scene: Scene, sides: Any, contact_load: float, speed: float) -> tuple[float, float, float]:
+def friction_force(scene: Scene, sides: Sides, contact_load: float, speed: float) -> tuple[float, float, float]:
     """The friction force f_b F_C + F_sh [N] along the sliding, and how well it is known.
 
     ``sides`` has the film, x and the share in contact. The far inlet is in closed form. Returned are the force, the
@@ -52,7 +57,7 @@ def friction_force(scene: Scene, sides: Any, contact_load: float, speed: float) 
     return float(boundary + force), float(parts), float(spike)
 
 
-def _upstream(x0: Any, h0: Any, radius: float) -> float:
+def _upstream(x0: float, h0: float, radius: float) -> float:
     """∫dx/h before the first node [-], where h is a parabola."""
     share = np.linspace(0, 1, 4001)[1:]  # x0/x
     return float(np.trapezoid(abs(x0) / share**2 / (h0 + x0**2 * (share**-2.0 - 1) / (2 * radius)), share))
@@ -69,14 +74,14 @@ def _rolling_upstream(film: EHLResult, x0: float, h0: float, radius: float, visc
     return 6 * viscosity_speed * float(np.trapezoid(rate, share))
 
 
-def _touched(x: FloatArray, sides: Any) -> np.ndarray:
+def _touched(x: FloatArray, sides: Sides) -> np.ndarray:
     """Share of the width in contact over each cell between neighbouring ``x``; columns are even inside."""
     step = sides.x[1] - sides.x[0]
     edges = np.concatenate([sides.x - step / 2, sides.x[-1:] + step / 2])
     return np.diff(np.interp(x, edges, np.concatenate([[0.0], step * np.cumsum(sides.touching)]))) / np.diff(x)
 
 
-def _inside(x: np.ndarray, half: Any) -> np.ndarray:
+def _inside(x: np.ndarray, half: float) -> np.ndarray:
     """Part of each cell that lies within ``half`` of the middle."""
     return np.diff(np.clip(x, -half, half)) / np.diff(x)
 
@@ -113,18 +118,18 @@ def _couette(
         hot = np.trapezoid(heated, x)
         cold = np.trapezoid(free * tau, x)
         upstream *= heated[0] / (free[0] * tau[0])
-        return float(hot if hot < MOSTLY * cold else force + hot - cold) + upstream
+        return float((hot if hot < MOSTLY * cold else force + hot - cold) + upstream)
     return force + upstream
 
 
-def _where_it_varies(tau: Any) -> np.ndarray:
+def _where_it_varies(tau: FloatArray) -> np.ndarray:
     """Indices of at most `HEATED` nodes, half of them spread evenly and half where the stress changes."""
     steps = np.abs(np.diff(np.log(np.maximum(tau, 1e-300))))
     measure = np.concatenate([[0.0], np.cumsum(1 / steps.size + steps / max(steps.sum(), 1e-300))])
     return np.unique(np.searchsorted(measure, np.linspace(0, measure[-1], HEATED)).clip(0, tau.size - 1))
 
 
-def _log_mean(eta: Any) -> np.ndarray:
+def _log_mean(eta: FloatArray) -> np.ndarray:
     """Mean of a viscosity that is exponential between the nodes."""
     d = np.diff(np.log(eta))
     return eta[:-1] * np.where(np.abs(d) < 1e-6, 1.0, np.expm1(d) / np.where(d == 0, 1.0, d))

@@ -5,13 +5,13 @@ of the surfaces comes from heat that is constant in each cell, and that of the i
 """
 
 import math
-from typing import Any
 
 import numpy as np
 
+from lubfric.oil import Lubricant
 from lubfric.scene import Scene
 
-from ...fem.parts import halved
+from ...fem.parts import halved, the
 
 # nodes of half the film; steps of the fixed point, what they keep of the last
 ACROSS = 25
@@ -37,7 +37,7 @@ def moes(w: float, radius: float, e_prime: float, speed: float, viscosity: float
     s = 0.2 * (7 + 8 * math.exp(-2 * ei / ri))
     iso = ri ** (7 / 3) + ei ** (7 / 3)
     piezo = (rp**-3.5 + ep**-3.5) ** (-2 * s / 7) if l > 1e-6 else 0.0
-    return radius * math.sqrt(u1) * (iso ** (3 * s / 7) + piezo) ** (1 / s)
+    return float(radius * math.sqrt(u1) * (iso ** (3 * s / 7) + piezo) ** (1 / s))
 
 
 def inlet_viscosity(scene: Scene, speed: float) -> float:
@@ -54,7 +54,7 @@ def inlet_viscosity(scene: Scene, speed: float) -> float:
     thinner /= 1 + 0.213 * (1 + 2.23 * abs(scene.motion.slide_roll_ratio) ** 0.83) * number**0.64
     alpha = oil.pressure_viscosity_coefficient * (oil.viscosity_law != "constant")
 
-    def film(eta: float):
+    def film(eta: float) -> float:
         return moes(bodies.load / bodies.width, bodies.radius, bodies.e_prime, u, eta, alpha)
 
     whole = thinner * film(oil.viscosity)
@@ -76,7 +76,8 @@ def heated_stress(
     ``log_ratio`` is ln(eta/eta0) at the nodes, at the temperature of the oil. ``free`` is the share of the width on
     which they have film.
     """
-    oil: Any = scene.lubricant  # its temperature and its limits are stated
+    oil = scene.lubricant
+    ambient = the(oil.temperature, "temperature")
     bodies = scene.bodies
     k = scene.lubricant.conductivity
     slide = abs(scene.motion.slide_roll_ratio * speed)
@@ -88,7 +89,7 @@ def heated_stress(
     spots = np.sqrt(np.maximum(1 - (x / bodies.half_width) ** 2, 0.0)) * 2 * contact_load
     spots *= bodies.boundary_friction_coefficient * slide / (math.pi * bodies.half_width * bodies.width)
     z = np.linspace(0, 0.5, ACROSS)
-    wall = np.full(x.size, oil.temperature)
+    wall = np.full(x.size, ambient)
     rise = np.zeros((x.size, ACROSS))
     tau = np.zeros(x.size)
     for _ in range(STEPS):
@@ -100,16 +101,16 @@ def heated_stress(
         mean = wall + tau * slide * h / (12 * k)
         new = np.exp(log_eta) * rate
         if oil.eyring_stress:
-            stress = oil.eyring_stress * mean / oil.temperature
+            stress = oil.eyring_stress * mean / ambient
             new = stress * np.arcsinh(new / stress)
-        if oil.limiting_stress_coefficient:
+        if isinstance(oil.limiting_stress_coefficient, float):
             limit = oil.limiting_stress_offset + oil.limiting_stress_coefficient * p
-            new = np.minimum(new, limit * np.exp(585 * (1 / mean - 1 / oil.temperature)))
+            new = np.minimum(new, limit * np.exp(585 * (1 / mean - 1 / ambient)))
         moved, tau = float(np.max(np.abs(new - tau))), KEPT * tau + (1 - KEPT) * new
         source = (tau * slide * h / k)[:, None] * thin / whole[:, None]
         rise = KEPT * rise + (1 - KEPT) * _twice_integrated(source, z)
         heat = free * tau * slide + spots
-        hotter = oil.temperature + memory @ (0.5 * (heat[1:] + heat[:-1]))
+        hotter = ambient + memory @ (0.5 * (heat[1:] + heat[:-1]))
         wall = KEPT * wall + (1 - KEPT) * hotter
         if moved < SETTLED * float(np.max(tau)):
             return tau
@@ -125,10 +126,10 @@ def _twice_integrated(source: np.ndarray, z: np.ndarray) -> np.ndarray:
     return np.concatenate([np.zeros((source.shape[0], 1)), np.cumsum(rises, axis=1)], axis=1)
 
 
-def _viscosity(oil: Any, log_ratio: np.ndarray, temperature: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _viscosity(oil: Lubricant, log_ratio: np.ndarray, temperature: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """ln eta and -d ln(eta)/dT at temperatures [K], by Roelands' law if the scene requests it, otherwise exponential."""
-    t0 = oil.temperature
-    beta = oil.temperature_coefficient
+    t0 = the(oil.temperature, "temperature")
+    beta = the(oil.temperature_coefficient, "temperature coefficient")
     cold = math.log(oil.viscosity) + log_ratio
     if oil.viscosity_law != "roelands":
         return cold - beta * (temperature - t0), np.full(temperature.size, beta)

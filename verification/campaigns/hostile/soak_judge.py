@@ -7,16 +7,24 @@ division that balances. Where it is far from the result, a bracketed root is sol
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
 
-from lubfric import LubfricError, solve_contact, solve_differential_deflection, solve_ehl
+from lubfric import (
+    EHLResult,
+    FrictionResult,
+    LubfricError,
+    Surface,
+    solve_contact,
+    solve_differential_deflection,
+    solve_ehl,
+)
 from lubfric.models.shared import Prepared
 from lubfric.samples import Sample
 
 from ...fem.parts import case_of_scene
+from ...types import Keywords
 from .soak_force import friction_force
 from .soak_heat import inlet_viscosity
 
@@ -47,7 +55,7 @@ class MappedStrip:
 class Sides:
     """Film, mean gap and mean film over A [m], and the share of the width in contact at each x [m]."""
 
-    film: object
+    film: EHLResult
     gap: float
     mean_film: float
     x: np.ndarray
@@ -89,7 +97,7 @@ class Judge:
             touching=touching * (np.mean(areas) if areas else 1.0),
         )
 
-    def film(self, film_load: float, modulus: float):
+    def film(self, film_load: float, modulus: float) -> EHLResult:
         """The film by differential deflection, or by the tightest Newton solution where that does not converge or where
         shear thins the flow."""
         scene = self.prepared.scene
@@ -104,7 +112,7 @@ class Judge:
             pass
         return solve_ehl(**case, sliding=sliding, eyring_stress=stress, tolerance=1e-4)
 
-    def pressed(self, strip: MappedStrip, film: Any, load: float) -> tuple[float, float, np.ndarray]:
+    def pressed(self, strip: MappedStrip, film: EHLResult, load: float) -> tuple[float, float, np.ndarray]:
         """Mean gap and mean film over A [m], and share in contact at each x, of a dry contact at ``load`` [N]."""
         scene = self.prepared.scene
         x = strip.x
@@ -127,7 +135,7 @@ class Judge:
             mean_film = float(smooth @ weight / weight.sum())
         if load <= 1e-9 * bodies.load:
             return float((weight @ (gap0 - gap0.min()).mean(axis=1)) / weight.sum()), mean_film, np.zeros(x.size)
-        asked: dict[str, Any] = {"mean_pressure": pressure, "hardness": bodies.hardness, "tolerance": 1e-6}
+        asked: Keywords = {"mean_pressure": pressure, "hardness": bodies.hardness, "tolerance": 1e-6}
         boundary = ("periodic" if flat else "free", "periodic")
         dry = solve_contact(gap0, strip.spacing, bodies.e_prime, boundary=boundary, **asked)
         gap = np.maximum(dry.gap, 0)
@@ -151,7 +159,7 @@ class Judge:
         return force / scene.bodies.load, (self.film_tolerance * parts + spike) / scene.bodies.load
 
 
-def judge_of(prepared: Prepared, result: Any) -> Judge:
+def judge_of(prepared: Prepared, result: FrictionResult) -> Judge:
     """What closes ``result`` of ``prepared`` anew: a patch on its own cells, or the strips of the result."""
     scene = prepared.scene
     parts = abs(result.couette_force) + abs(result.rolling_force) + result.boundary_force
@@ -177,7 +185,7 @@ def judge_of(prepared: Prepared, result: Any) -> Judge:
     )
 
 
-def _strip(surface: Any, x: np.ndarray) -> MappedStrip:
+def _strip(surface: Surface, x: np.ndarray) -> MappedStrip:
     return MappedStrip(surface.heights - surface.heights.mean(), surface.spacing, x)
 
 
@@ -189,7 +197,7 @@ def _pair(sample: Sample, index: int) -> tuple[MappedStrip, MappedStrip]:
     return _strip(piece, cells.axis((1, 1))), _strip(kept, cells.axis())
 
 
-def verdict(prepared: Prepared, result: Any) -> dict[str, float]:
+def verdict(prepared: Prepared, result: FrictionResult) -> dict[str, float]:
     """Deviations of ``result`` by name, over what is allowed. At rest the contact carries all."""
     scene = prepared.scene
     load = prepared.scene.bodies.load
@@ -248,7 +256,7 @@ def closed_again(judge: Judge, share: float, *, closely: bool = False) -> tuple[
 def _bracketed(judge: Judge, here: float) -> tuple[tuple[float, float], float]:
     """Close the balance as `closed_again` does, by a root between divisions on both sides of it."""
 
-    def surplus(split: Any):
+    def surplus(split: float) -> float:
         sides = judge.sides(split)
         return math.log(sides.gap / sides.mean_film)
 

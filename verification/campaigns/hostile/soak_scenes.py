@@ -1,11 +1,13 @@
 """Random scenes over what machines have, for the soak: every key that a scene file is likely to carry."""
 
 import math
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
 
 import lubfric
+
+from ...types import Keywords, PlainRow
 
 RANGES = {  # of the logarithms: N/m, m/s, m, Pa s, 1/Pa, m, slide-roll ratio
     "load_per_width": (1e2, 5e5),
@@ -70,11 +72,11 @@ def random_scene(rng: np.random.Generator, *, any_material: bool = False) -> lub
     return _rough(rng, scene, v["sq"], 0.2 if any_material else 0.05, flat=flat)
 
 
-def _drawn(rng: np.random.Generator, ranges: Any) -> dict[str, float]:
+def _drawn(rng: np.random.Generator, ranges: Mapping[str, tuple[float, float]]) -> dict[str, float]:
     return {name: math.exp(rng.uniform(math.log(low), math.log(high))) for name, (low, high) in ranges.items()}
 
 
-def _lubricant(rng: np.random.Generator, v: dict[str, float]) -> dict[str, Any]:
+def _lubricant(rng: np.random.Generator, v: dict[str, float]) -> PlainRow:
     stress = dict.fromkeys(("eyring_stress", "limiting_stress_coefficient"), None)
     stress |= STRESS_LAWS[rng.choice(4, p=(0.5, 0.25, 0.15, 0.1))]
     common = stress | {"density_law": str(rng.choice(("constant", "dowson-higginson")))}
@@ -96,13 +98,13 @@ def _rough(rng: np.random.Generator, scene: lubfric.Scene, sq: float, steepest: 
     nx = int(rng.choice((28, 36, 48)))
     spacing = (6 * half_width if not flat else 2e-4) / nx
     long = nx == 48 and scene.numerics.sampling == "strips" and not flat  # their cells are twice the scene's
-    keys: dict[str, Any] = {
+    keys: Keywords = {
         "sq": min(sq, steepest * spacing),
         "correlation_length": spacing * float(rng.uniform(2.1, 9.0 if long else nx / 11)),
         "acf": str(rng.choice(("gaussian", "exponential"))),
         "seed": int(rng.integers(2**31)),
     }
-    grid: dict[str, Any] = {"shape": (nx, nx), "spacing": spacing}
+    grid: Keywords = {"shape": (nx, nx), "spacing": spacing}
     grid["region"] = "box" if rng.random() < 0.1 and not flat else "hertz"
     if flat and rng.random() < 0.12:
         grid |= {"model": str(rng.choice(("summits", "patches")))}

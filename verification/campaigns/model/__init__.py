@@ -6,8 +6,9 @@ The default answer, and that of load sharing alone, are compared with the determ
 """
 
 from ... import frame
+from ...types import Keywords
 
-PARTS: tuple[tuple[str, str, str, dict], ...] = (
+PARTS: tuple[tuple[str, str, str, Keywords], ...] = (
     ("answers", "model.answers:answers", "The default answer on surfaces and contacts of many kinds", {}),
     ("answers-rollers", "model.answers:answers", "The default answer of rollers of 1 GPa", {"rollers": True}),
     ("answers-moving", "moving_coverage.items:coverage", "The deterministic answer where the roughness moves", {}),

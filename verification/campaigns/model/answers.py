@@ -12,18 +12,17 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 import lubfric
 from lubfric.scene import Roughness, Scene
 
-from ...arrays import FloatArray
 from ...check import ABSOLUTE, REPORTED, Check, Figure, Item, Table
 from ...fem.parts import halved
 from ...kept import Run
-from ...plotting import chart
+from ...plotting import Curve, chart
+from ...types import FloatArray, Keywords, Option, PlainRow
 
 SEED = 884  # so that the first few differ in surface and load
 DRAWN = {"quick": 2, "default": 6, "full": 24}  # combinations, drawn from all; of rollers a third of them
@@ -70,18 +69,18 @@ class AnswerCase:
     over: float
     ratio: float
 
-    def scene(self, seed: int, folder: str, **numerics: Any) -> Scene:
+    def scene(self, seed: int, folder: str, **numerics: Option) -> Scene:
         """The scene with a surface of its own ``seed``; maps are written to ``folder``."""
         changes, times = CONTACTS[self.contact]
         scene = lubfric.load_scene("paper").with_(**changes)
         limit = scene.bodies.boundary_friction_coefficient / self.over
         oil = {"limiting_stress_coefficient": limit, "density_law": "dowson-higginson"}
-        rough: dict | Roughness
+        rough: Keywords | Roughness
         if self.surface in GENERATED:
             acf, lengths = GENERATED[self.surface]
             rough = {"acf": acf, "correlation_length": tuple(times * one for one in lengths), "seed": seed}
             rough["oversize"] = 1 if lengths[0] < 20e-6 else 3  # ridges along are longer than a light contact
-            patch: dict = {"spacing": 0.45e-6 * times}
+            patch: Keywords = {"spacing": 0.45e-6 * times}
         else:
             path = Path(folder) / f"{self.surface}-{seed}.npy"
             np.save(path, heights(self.surface, seed) * scene.surface.sq)
@@ -132,18 +131,18 @@ def cases(level: str, *, rollers: bool) -> dict[str, AnswerCase]:
     return {f"{c.surface}; {c.contact}; {c.over:g}; {c.ratio:g}": c for c in every}
 
 
-def reference(case: AnswerCase) -> dict:
+def reference(case: AnswerCase) -> PlainRow:
     """f of the endless line, and its error."""
     return solved(case, 1 if case.surface in MEASURED else REFERENCE, {"model": "deterministic"} | ASKED)
 
 
-def answer(case_and_seed: tuple[AnswerCase, int]) -> dict[str, dict]:
+def answer(case_and_seed: tuple[AnswerCase, int]) -> dict[str, PlainRow]:
     """f and its interval on one surface, both ways."""
     case, seed = case_and_seed
     return {way: solved(case, seed, numerics) for way, numerics in WAYS.items()}
 
 
-def solved(case: AnswerCase, seed: int, numerics: dict) -> dict:
+def solved(case: AnswerCase, seed: int, numerics: Keywords) -> PlainRow:
     """One point: f, half of its interval and its standard error, all relative; or why there is none."""
     begun = time.process_time()
     with tempfile.TemporaryDirectory() as folder:
@@ -171,7 +170,9 @@ def answers(level: str, run: Run = Run(), *, rollers: bool = False) -> Iterator[
     yield from compared("answers-rollers" if rollers else "answers", values, failed, "finer strips")
 
 
-def compared(name: str, result: list[tuple], failed: int, source: str) -> Iterator[Item]:
+def compared(
+    name: str, result: list[tuple[tuple[str, str], list[tuple[float, float, float]]]], failed: int, source: str
+) -> Iterator[Item]:
     """Table, checks and picture of answers ``result``: the groups of each, and by both ways what is `interval_error`."""
     every = {way: np.array([both[k] for _, both in result]).reshape(-1, 3) for k, way in enumerate(WAYS)}
     names = [
@@ -206,7 +207,7 @@ def compared(name: str, result: list[tuple], failed: int, source: str) -> Iterat
     yield drawn(name, every)
 
 
-def interval_error(row: dict, truth: dict) -> tuple[float, float, float]:
+def interval_error(row: PlainRow, truth: PlainRow) -> tuple[float, float, float]:
     """Half of the interval; by how much f is off; and how much of that its interval on this side and twice the error of
     the reference allow; all relative to the reference."""
     f = row["f"]
@@ -224,9 +225,9 @@ def summary(values: np.ndarray) -> list[str]:
 
 def drawn(name: str, every: dict[str, np.ndarray]) -> Figure:
     """The error of f over what its interval allows, for both ways."""
-    curves: list[tuple] = [([1, 100], [1, 100], "k-", "allowed")]
+    curves: list[Curve] = [([1, 100], [1, 100], "k-", "allowed")]
     for way, label in (("load sharing", "load sharing alone"), ("default", "default answer")):
         curves.append((*100 * np.maximum(every[way][:, [2, 1]].T, 1e-4), "o", label))
     caption = "Error of f over what its interval allows; below the line it is covered"
-    labels: dict[str, Any] = {"xlabel": "stated error of interval and reference (%)", "ylabel": "error of f (%)"}
+    labels: Keywords = {"xlabel": "stated error of interval and reference (%)", "ylabel": "error of f (%)"}
     return chart(name, caption, curves, xscale="log", yscale="log", **labels)

@@ -103,7 +103,7 @@ def shares(case: tuple[str, float]) -> list[list[float]]:
     return rows
 
 
-def roller(pressure: float):
+def roller(pressure: float) -> lubfric.Scene:
     """A steel roller of 6 mm with a thin oil at a Hertz ``pressure`` [Pa]."""
     return lubfric.load_scene("paper").with_(
         bodies={"radius": 6e-3, "width": 5e-3, "hertz_pressure": pressure, "boundary_friction_coefficient": 0.12},
@@ -134,4 +134,4 @@ def speed_of(scene: Scene, film: float) -> float:
     fast = 1.0
     cases = (case_of_scene(scene, scene.bodies.load, speed) for speed in (slow, fast))
     first, last = (lubfric.solve_ehl(**case).central_film for case in cases)
-    return fast * (film / last) ** (math.log(fast / slow) / math.log(last / first))
+    return float(fast * (film / last) ** (math.log(fast / slow) / math.log(last / first)))

@@ -55,7 +55,7 @@ def grids(level: str, run: Run = Run()) -> Iterator[Item]:
     yield Check("memory", memory, expected=MEMORY, tolerance=0.0, source="of the process", kind=AT_MOST, unit="GB")
 
 
-def patch(seed: int, cells: int):
+def patch(seed: int, cells: int) -> lubfric.Prepared:
     """One patch of the built-in surface made ready for the deterministic model, on so many cells each way."""
     fine = lubfric.generate_surface(
         (256, 256), WIDTH / 256, sq=1e-7, correlation_length=8e-6, acf="gaussian", seed=seed

@@ -4,7 +4,6 @@ fields, by formulas of this program."""
 import math
 from collections.abc import Sequence
 from itertools import islice
-from typing import Any
 
 import numpy as np
 
@@ -23,8 +22,8 @@ from lubfric.models.deterministic import (
 )
 from lubfric.scene import Scene
 
-from ...arrays import FloatArray
 from ...fem.solvers.fluid import Fluid
+from ...types import FloatArray, PlainRow
 
 FILMS = (5e-9, 10e-9, 20e-9, 30e-9, 40e-9)  # m
 SWEEP = 2.5  # half-widths that the film travels before anything counts
@@ -36,7 +35,7 @@ FLOOR = 1e-9  # m
 BALANCES = "mass", "load", "gap", "bounds"
 
 
-def passed(scene: Scene, bodies: Sequence[RoughBody], speed: float) -> dict[str, Any]:
+def passed(scene: Scene, bodies: Sequence[RoughBody], speed: float) -> PlainRow:
     """Means over one pass of the fastest of ``bodies`` (at rest: of the steady film): ``f``, ``central`` and ``mean``
     gap [m], ``shares`` of the load on gaps below each of `FILMS`, and ``drawn``, the share of the lubricant that
     touching cells give off; the same at rest, from which it starts; ``off``: how far the `BALANCES` are from 0."""
@@ -65,14 +64,14 @@ def passed(scene: Scene, bodies: Sequence[RoughBody], speed: float) -> dict[str,
     )
     result, sources = zip(*((moment.result, given(moment.at)) for moment in islice(moving, start, start + count + 1)))
     rows = [row(problem, *both) for both in zip(result[1:], sources[1:])]
-    mean: dict[str, Any] = {name: np.mean([one[name] for one in rows], axis=0).tolist() for name in rows[0]}
+    mean: PlainRow = {name: np.mean([one[name] for one in rows], axis=0).tolist() for name in rows[0]}
     mean["drawn"] = share(mean["given"], mean["enters"])
     at = travelling(problem, bodies)((start + count) * step)
     out = float(np.mean(sources[2:]))
     return mean | {"rest": first, "off": balances(at, result[-1], result, step, out), "steps": start + count}
 
 
-def row(problem: Any, result: Any, out: float) -> dict[str, Any]:
+def row(problem: Problem, result: DeterministicResult, out: float) -> PlainRow:
     """The numbers of one moment, in which touching cells give off ``out`` [m²/s]."""
     p = result.pressure
     h = result.gap
@@ -90,11 +89,11 @@ def share(out: float, enters: float) -> float:
 def given(at: Iterate) -> float:
     """What touching cells give off [m²/s]: their outflow less their inflow, and what they gain."""
     source = np.where(at.state.kind == TOUCHING, at.residual, 0.0)
-    return float(source.sum()) * at.problem.spacing[0] / source.shape[1]
+    return float(source.sum() * at.problem.spacing[0] / source.shape[1])
 
 
 def balances(
-    problem: Problem, result: DeterministicResult, passing: Sequence, step: float, out: float = 0.0
+    problem: Problem, result: DeterministicResult, passing: Sequence[DeterministicResult], step: float, out: float = 0.0
 ) -> dict[str, float]:
     """How far fields are from what they must obey.
 

@@ -8,7 +8,6 @@ roughness on one body or both. The map has 2.5 cells in a correlation length, an
 import math
 import time
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from lubfric.models.deterministic import RoughBody
 
 from ...check import REPORTED, Check, Item, Table
 from ...kept import Run
+from ...types import Keywords, PlainRow
 from .boundary_film import speed_of
 from .moved import BALANCES, passed
 
@@ -30,10 +30,10 @@ PER_HALF_WIDTH = 3.0
 COLUMNS = 12
 ALLOWED = {"mass": 0.05, "load": 1e-3, "gap": 1e-2, "bounds": 1e-6}  # of a solved point
 DRAWN = 0.1  # share of the lubricant out of touching cells from which a result has a warning; it is in the balance
-OILS: tuple[dict, ...] = ({}, {"eyring_stress": 5e6}, {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.06})
+OILS: tuple[Keywords, ...] = ({}, {"eyring_stress": 5e6}, {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.06})
 
 
-def drawn(seed: int) -> tuple[Any, list[RoughBody], float, dict]:
+def drawn(seed: int) -> tuple[lubfric.Scene, list[RoughBody], float, PlainRow]:
     """Scene, rough bodies and speed [m/s] of one random contact, and what it is in numbers."""
     rng = np.random.default_rng([33, seed])
 
@@ -79,10 +79,10 @@ def drawn(seed: int) -> tuple[Any, list[RoughBody], float, dict]:
     return scene, chosen, speed, inputs
 
 
-def solved(seed: int) -> dict[str, Any]:
+def solved(seed: int) -> PlainRow:
     """One point: f and its balances; or how it was said not to be solved."""
     begun = time.process_time()
-    inputs: dict[str, Any] = {}
+    inputs: Keywords = {}
     try:
         scene, bodies, speed, inputs = drawn(seed)
         solution = passed(scene, bodies, speed)

@@ -7,7 +7,6 @@ rough, so slide-roll ratios s and -s are two cases.
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -19,12 +18,13 @@ from ... import plotting
 from ...check import AT_LEAST, REPORTED, Check, Figure, Item, Table
 from ...fem.references import load_share_band
 from ...kept import Run
+from ...types import Keywords, PlainRow
 from .boundary_film import roller, speed_of
 from .moved import FILMS, passed
 
 RATIOS = (2.0, 1.0, 0.6, 0.3)  # smooth central film over Sq
 SLIPS = (-1.0, -0.1, 0.0, 0.1, 0.5, 1.5, 2.0)  # slide-roll ratios; at 2 surface 1 rests
-CONTACTS: dict[str, tuple[float, dict, float, float]] = {  # pressure [Pa], bodies, Sq and correlation length [m]
+CONTACTS: dict[str, tuple[float, Keywords, float, float]] = {  # pressure [Pa], bodies, Sq and correlation length [m]
     "roller, 1 GPa": (1e9, {}, 150e-9, 10e-6),
     "gear flank, 1.2 GPa": (1.2e9, {"radius": 10e-3}, 300e-9, 20e-6),
     "roller, 0.5 GPa": (0.5e9, {}, 150e-9, 10e-6),
@@ -42,7 +42,11 @@ HOLDS = 0.95
 SURE = 0.99
 
 
-def cases(level: str) -> dict[str, tuple]:
+# contact, kind of surface, film/Sq, slide-roll ratio
+RollingCase = tuple[str, str, float, float]
+
+
+def cases(level: str) -> dict[str, RollingCase]:
     """The cases of ``level`` by name: (contact, kind of surface, film/Sq, slide-roll ratio). Two are mapped."""
     mapped = list(CONTACTS)[:2]
     others = list(CONTACTS)[2:]
@@ -56,7 +60,7 @@ def cases(level: str) -> dict[str, tuple]:
     return {"; ".join(map(str, one)): one for one in values}
 
 
-def solved(case: tuple) -> dict[str, Any]:
+def solved(case: RollingCase) -> PlainRow:
     """Both models at one case; or why there is no answer."""
     contact, kind, ratio, slip = case
     pressure, bodies, sq, length = CONTACTS[contact]
@@ -128,12 +132,12 @@ def rolling(level: str, run: Run = Run()) -> Iterator[Item]:
     yield drawn(values)
 
 
-def stated(fast: dict) -> tuple[float, float]:
+def stated(fast: PlainRow) -> tuple[float, float]:
     """Return the error that load sharing states where roughness moves, below and above f."""
     return load_sharing_error(*(fast[name] for name in ("ratio", "share", "boundary", "shear", "rolling")))
 
 
-def summary(result: list) -> Iterator[list[str]]:
+def summary(result: list[tuple[RollingCase, PlainRow]]) -> Iterator[list[str]]:
     """A row for every film."""
     film = FILMS.index(BOUNDARY_FILM)
     for ratio in RATIOS:
@@ -149,7 +153,7 @@ def summary(result: list) -> Iterator[list[str]]:
             yield [f"{ratio:g}", *(f"{low:.2f}–{high:.2f}" for low, high in zip(rows.min(axis=0), rows.max(axis=0)))]
 
 
-def shares(result: list) -> Iterator[Item]:
+def shares(result: list[tuple[RollingCase, PlainRow]]) -> Iterator[Item]:
     """How far the share of the load on gaps below each of `FILMS` is from the band of four laws, at most."""
     ratios = np.array([case[2] for case, _ in result])
     low, high = (side[:, None] for side in load_share_band(ratios))
@@ -161,7 +165,7 @@ def shares(result: list) -> Iterator[Item]:
             yield Check(what, distance, expected=0.0, tolerance=1.0, source="four laws", kind=REPORTED)
 
 
-def drawn(rows: list) -> Figure:
+def drawn(rows: list[tuple[RollingCase, PlainRow]]) -> Figure:
     """f and the share of the load over film/Sq at every slide-roll ratio, of the first two contacts."""
     names = list(CONTACTS)[:2]
     film = FILMS.index(BOUNDARY_FILM)

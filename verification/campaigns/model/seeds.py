@@ -9,7 +9,6 @@ part of this is allowed as bias (`SECOND_ORDER`).
 
 import time
 from collections.abc import Callable, Iterator
-from typing import Any
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from lubfric.models.deterministic import solve_strip
 
 from ...check import ABSOLUTE, REPORTED, Check, Item, Table
 from ...kept import Run
+from ...types import PlainRow
 from ..sampling.coverage import within
 
 SPEEDS = (0.06, 0.03, 0.01, 0.003)  # m/s
@@ -33,7 +33,7 @@ COLUMNS: tuple[str, ...] = ("speed", "answers", "coverage", "interval", "stated 
 COLUMNS += ("CPU time", "plain, to that scatter", "times cheaper")
 
 
-def answer(speed_and_seed: tuple[float, int]) -> dict:
+def answer(speed_and_seed: tuple[float, int]) -> PlainRow:
     """f, half of its interval, and processor seconds."""
     speed, seed = speed_and_seed
     begun = time.process_time()
@@ -42,7 +42,7 @@ def answer(speed_and_seed: tuple[float, int]) -> dict:
     return {"f": point.coefficient, "half": (high - low) / 2, "seconds": time.process_time() - begun}
 
 
-def plain(speed_and_seed: tuple[float, int]) -> dict:
+def plain(speed_and_seed: tuple[float, int]) -> PlainRow:
     """f of one strip, and processor seconds."""
     speed, seed = speed_and_seed
     scene = lubfric.load_scene("paper").with_(surface={"seed": seed})
@@ -90,7 +90,7 @@ def seeds(level: str, run: Run = Run()) -> Iterator[Item]:
 
 
 def _columns(
-    run: Run, solve: Callable[..., Any], speed: float, numbers: range, names: tuple[str, ...]
+    run: Run, solve: Callable[[tuple[float, int]], PlainRow], speed: float, numbers: range, names: tuple[str, ...]
 ) -> list[np.ndarray]:
     cases = {f"{speed:g} m/s, {seed}": (speed, seed) for seed in numbers}
     values = [row for _, row in run.solved(cases, solve, solve.__name__)]

@@ -6,13 +6,13 @@ import time
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import lubfric
 from lubfric.models.deterministic import effort_of, solve_moving_strip
 from lubfric.models.deterministic.moving import half_width
 from lubfric.models.deterministic.shorter_cells import error_by_motion
 
+from ...types import PlainRow
 from .. import table_file
 from ..moving_coverage.table import RollingContact, contacts, narrow_strip
 
@@ -56,7 +56,7 @@ def cases() -> tuple[RollingContact, ...]:
     return (*every.values(), *others, replace(light, name="light contact, sliding", scene=scene))
 
 
-def followed(contact: RollingContact, seed: int, halvings: int) -> dict[str, Any]:
+def followed(contact: RollingContact, seed: int, halvings: int) -> PlainRow:
     """Return the row of ``contact`` on the surface ``seed`` and cells halved so often along x."""
     prepared, bodies, (fx, fy) = narrow_strip(contact, seed, (MOST_HALVINGS, 0))
     scene = prepared.scene
@@ -78,7 +78,7 @@ def followed(contact: RollingContact, seed: int, halvings: int) -> dict[str, Any
     }
 
 
-def extend(halvings: int, seeds: int, budget: float, file: Path = TABLE) -> Iterator[dict[str, Any]]:
+def extend(halvings: int, seeds: int, budget: float, file: Path = TABLE) -> Iterator[PlainRow]:
     """Solve what the table has not, the longest cells first, as long as the processor time of this process is below
     ``budget`` [s], and append each row as it is solved."""
     known = {(row["contact"], row["seed"], row["halvings"]) for row in table_file.rows(file)}
@@ -90,7 +90,7 @@ def extend(halvings: int, seeds: int, budget: float, file: Path = TABLE) -> Iter
                 if time.process_time() > budget:
                     return
                 begun = time.process_time()
-                row: dict[str, Any] = {"contact": contact.name, "seed": seed, "halvings": count}
+                row: PlainRow = {"contact": contact.name, "seed": seed, "halvings": count}
                 try:
                     row |= followed(contact, seed, count) | {"failure": ""}
                 except lubfric.LubfricError as error:
@@ -100,7 +100,7 @@ def extend(halvings: int, seeds: int, budget: float, file: Path = TABLE) -> Iter
                 yield row
 
 
-def errors(file: Path = TABLE) -> Iterator[dict[str, Any]]:
+def errors(file: Path = TABLE) -> Iterator[PlainRow]:
     """Yield of each strip the error of f on the cells of an answer, relative, and the ``stated`` one.
 
     The limit of f is that of second order from the two shortest cells, because the flow by the pressure is of second

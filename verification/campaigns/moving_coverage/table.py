@@ -11,7 +11,6 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -21,6 +20,7 @@ from lubfric.models import DeterministicModel, prepare
 from lubfric.models.deterministic import (
     TIGHT,
     DeterministicSolution,
+    MovingStrip,
     RoughBody,
     SampleTarget,
     effort_of,
@@ -33,6 +33,7 @@ from lubfric.models.shared import Prepared, student
 from lubfric.scene import Scene, moving_bodies
 from lubfric.surface import generate_surface
 
+from ...types import Option, PlainRow
 from .. import table_file
 
 # The tables that are judged: answers and references by steps of second order along the lubricant, whose cells err by up
@@ -88,7 +89,7 @@ class RollingContact:
     heavy: bool = False
 
 
-def _contact(name: str, speed: float, *, heavy: bool = False, **sections: Any) -> RollingContact:
+def _contact(name: str, speed: float, *, heavy: bool = False, **sections: Option) -> RollingContact:
     """Return a contact of steel bodies with a stated boundary film, so that only cells and sample are uncertain."""
     bodies = {"boundary_film": 2e-8, "hardness": None, "boundary_friction_coefficient": 0.12} | sections.pop("bodies")
     scene = lubfric.load_scene("paper").with_(bodies=bodies, **sections)
@@ -180,12 +181,13 @@ def with_seed(contact: RollingContact, seed: int) -> Scene:
     return contact.scene.with_(**sections)
 
 
-def answer(contact: RollingContact, seed: int) -> dict[str, Any]:
+def answer(contact: RollingContact, seed: int) -> PlainRow:
     """Return the row of one moving answer."""
     solution = sampled(prepare(with_seed(contact, seed)), contact.speed, DeterministicModel())
     assert isinstance(solution, DeterministicSolution)
     parts = solution.answer()
-    first: Any = solution.strips[0].resolved  # a `MovingStrip`
+    first = solution.strips[0].resolved
+    assert isinstance(first, MovingStrip)
     return {
         "f": parts.numbers["coefficient"],
         "sampling": parts.sampling.error,
@@ -197,7 +199,7 @@ def answer(contact: RollingContact, seed: int) -> dict[str, Any]:
     }
 
 
-def reference_strip(contact: RollingContact, seed: int) -> dict[str, Any]:
+def reference_strip(contact: RollingContact, seed: int) -> PlainRow:
     """Return f of a whole pass of one strip and its standard error, on the cells of the answers."""
     prepared = prepare(with_seed(contact, REFERENCE_SEED + seed))
     _, factors = strip_of(prepared, 0)
@@ -212,7 +214,7 @@ def reference_strip(contact: RollingContact, seed: int) -> dict[str, Any]:
     return {"f": mean.value, "error": mean.error.error} | plain
 
 
-def tight_strip(contact: RollingContact, seed: int) -> dict[str, Any]:
+def tight_strip(contact: RollingContact, seed: int) -> PlainRow:
     """Return f of a whole pass of one strip in tight steps, without a control: as version 0.2.0 took it, but on its cells
     of today."""
     prepared = prepare(with_seed(contact, REFERENCE_SEED + seed))
@@ -251,7 +253,7 @@ def narrow_strip(
     return prepared, bodies, factors
 
 
-def change_by_cells(contact: RollingContact, seed: int) -> dict[str, Any]:
+def change_by_cells(contact: RollingContact, seed: int) -> PlainRow:
     """Return the ratio of f on cells half as long along both axes to that on the cells of the answers."""
     prepared, bodies, (fx, fy) = narrow_strip(contact, seed, (1, 1))
     scene = prepared.scene
@@ -266,7 +268,7 @@ def change_by_cells(contact: RollingContact, seed: int) -> dict[str, Any]:
 KINDS = {"strip": reference_strip, "cells": change_by_cells, "tight": tight_strip}
 
 
-def extend(seeds: int, budget: float, folder: Path = EXTENDED) -> Iterator[dict[str, Any]]:
+def extend(seeds: int, budget: float, folder: Path = EXTENDED) -> Iterator[PlainRow]:
     """Solve what the tables have not, as long as the processor time of this process is below ``budget`` [s], and append
     each row as it is solved. References come after the first three answers of each contact."""
     known = {(row["contact"], row["seed"]) for row in table_file.rows(folder / ANSWERS)}
@@ -294,7 +296,7 @@ def extend(seeds: int, budget: float, folder: Path = EXTENDED) -> Iterator[dict[
                     yield _appended(folder / REFERENCES, REFERENCE_COLUMNS, row)
 
 
-def _timed(solve: Callable[..., Any], contact: RollingContact, seed: int) -> dict[str, Any]:
+def _timed(solve: Callable[[RollingContact, int], PlainRow], contact: RollingContact, seed: int) -> PlainRow:
     begun = time.process_time()
     try:
         row = solve(contact, seed) | {"failure": ""}
@@ -303,12 +305,12 @@ def _timed(solve: Callable[..., Any], contact: RollingContact, seed: int) -> dic
     return row | {"seconds": time.process_time() - begun}
 
 
-def _appended(file: Path, columns: tuple[str, ...], row: dict[str, Any]) -> dict[str, Any]:
+def _appended(file: Path, columns: tuple[str, ...], row: PlainRow) -> PlainRow:
     table_file.append(file, columns, row, DIGITS)
     return row
 
 
-def covered(folder: Path = FOLDER) -> Iterator[dict[str, Any]]:
+def covered(folder: Path = FOLDER) -> Iterator[PlainRow]:
     """Yield of each contact how many answers hold the reference within their half-width, and within it and
     `OF_REFERENCE` standard errors of the reference."""
     for contact in contacts():

@@ -8,11 +8,11 @@ import time
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import lubfric
 from lubfric.models.deterministic import ECONOMICAL, TIGHT, MovingEffort, solve_moving_strip
 
+from ...types import PlainRow
 from .. import table_file
 from ..calibration.case import Case, drawn
 from ..calibration.solve import limited
@@ -53,7 +53,7 @@ def case_of(seed: int) -> tuple[Case, bool]:
     return case, starved
 
 
-def followed(seed: int, variant: str) -> dict[str, Any]:
+def followed(seed: int, variant: str) -> PlainRow:
     """Return the row of contact number ``seed`` with the effort ``variant``."""
     case, starved = case_of(seed)
     line = case.scene.line_contact(case.speed)
@@ -89,7 +89,7 @@ def rows(file: Path = TABLE) -> list[dict[str, str]]:
 
 def extend(
     count: int, budget: float, variants: Sequence[str] = tuple(VARIANTS), file: Path = TABLE
-) -> Iterator[dict[str, Any]]:
+) -> Iterator[PlainRow]:
     """Solve the missing ``variants`` of the contacts below number ``count``, as long as the processor time of this
     process is below ``budget`` [s], and append each row when it is solved."""
     known = {(int(row["seed"]), row["variant"]) for row in rows(file)}
@@ -104,7 +104,7 @@ def extend(
             yield row
 
 
-def differences(file: Path = TABLE) -> Iterator[dict[str, Any]]:
+def differences(file: Path = TABLE) -> Iterator[PlainRow]:
     """Yield the difference of each variant from the tight one, of each contact that has both: of f relative, of the
     asperity load ratio absolute, and the ratio of their processor times."""
     table = {(row["seed"], row["variant"]): row for row in rows(file) if not row["failure"]}

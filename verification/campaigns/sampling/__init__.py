@@ -7,8 +7,9 @@ or bias of a case is out of its bounds (`verification.campaigns.sampling.coverag
 from argparse import ArgumentParser, Namespace
 
 from ... import frame
+from ...types import Keywords, PlainRow
 
-PARTS: tuple[tuple[str, str, str, dict], ...] = (
+PARTS: tuple[tuple[str, str, str, Keywords], ...] = (
     ("coverage", "sampling.coverage:coverage", "Intervals compared with the friction of an infinite line contact", {}),
     ("pieces", "sampling.others:pieces", "Intervals of pieces compared with the complete map", {}),
     ("quantities", "sampling.others:quantities", "Every other quantity compared with its stated error", {}),
@@ -20,7 +21,7 @@ def _options(parser: ArgumentParser) -> None:
     parser.add_argument("--seed", type=int, default=SEED, help="of the surfaces (default: %(default)s)")
 
 
-def _own(part: str, options: Namespace) -> dict:
+def _own(part: str, options: Namespace) -> PlainRow:
     return {} if part == "quantities" else {"seed": options.seed}
 
 

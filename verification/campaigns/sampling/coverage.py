@@ -8,9 +8,8 @@ effect of these cells is computed on shorter patches, on the scene's own cells a
 
 import math
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 from scipy.special import stdtrit
@@ -22,6 +21,7 @@ from lubfric.surface import Surface
 from ...check import ABSOLUTE, Check, Figure, Item, Table
 from ...kept import Run
 from ...plotting import finish, panels
+from ...types import Keywords, PlainRow
 from . import SEED
 
 TRIALS = {"quick": 16, "default": 60, "full": 400}
@@ -52,7 +52,7 @@ class CoverageCase:
     speed: float = 0.01
     target: float = 0.02
     bounds: tuple[float, float] = (0.92, 0.98)
-    changes: dict = field(default_factory=dict)
+    changes: Keywords = field(default_factory=dict)
 
     def scene(self, seed: int) -> Scene:
         """The scene with a surface of its own ``seed``."""
@@ -86,7 +86,7 @@ class Result:
     """The rows of the trials of a case, and the truth with its relative standard error."""
 
     case: CoverageCase
-    rows: list[dict]
+    rows: list[PlainRow]
     truth: float
     error: float
 
@@ -132,19 +132,19 @@ def coverage(level: str, run: Run = Run(), seed: int = SEED) -> Iterator[Item]:
     yield picture(results)
 
 
-def truths(cases: Any, seed: int, run: Run) -> dict[str, tuple[float, float]]:
+def truths(cases: Iterable[CoverageCase], seed: int, run: Run) -> dict[str, tuple[float, float]]:
     """f of an endless line and its relative standard error, by the name of the case."""
     wanted = {f"{case.name}, {seed}": (case, seed + REPORTED) for case in cases}
     return {case.name: (f, error) for (case, _), (f, error) in run.solved(wanted, endless, "truths")}
 
 
-def trial(case_and_seed: tuple[CoverageCase, int]) -> dict:
+def trial(case_and_seed: tuple[CoverageCase, int]) -> PlainRow:
     """One trial of a case."""
     case, seed = case_and_seed
     return solve(case.scene(seed), case.speed, case.target)
 
 
-def solve(scene: Scene, speed: float, target: float) -> dict:
+def solve(scene: Scene, speed: float, target: float) -> PlainRow:
     """One point with its interval and its processor seconds."""
     begun = time.process_time()
     point = lubfric.friction(scene.with_(numerics={"sampling_tolerance": target}), speed)
@@ -182,8 +182,8 @@ def endless(case_and_seed: tuple[CoverageCase, int]) -> tuple[float, float]:
 def cells_of(scene: Scene) -> tuple[tuple[float, float], tuple[int, int], float]:
     """The scene's own spacing [m]; how many of its cells (a power of two) make a quarter of the correlation length
     along x and y, and half the Hertz strip; the correlation length along y [m]."""
-    given: tuple[Any, Any] = (scene.contact.spacing, scene.surface.correlation_length)
-    spacing, length = (np.broadcast_to(v, 2).tolist() for v in given)
+    spacing = np.broadcast_to(np.asarray(scene.contact.spacing), 2).tolist()
+    length = np.broadcast_to(np.asarray(scene.surface.correlation_length), 2).tolist()
     most = min(length[0] / 4, scene.bodies.half_width / 2) / spacing[0], length[1] / 4 / spacing[1]
     fx, fy = (2 ** max(0, math.floor(math.log2(m * (1 + 1e-9)))) for m in most)
     return (spacing[0], spacing[1]), (fx, fy), length[1]
@@ -210,7 +210,7 @@ def _error(values: Sequence[float]) -> float:
 
 def _surface(scene: Scene, shape: tuple[int, int], spacing: tuple[float, float], seed: int) -> Surface:
     rough = scene.surface
-    keys: dict[str, Any] = {"sq": rough.sq, "correlation_length": rough.correlation_length, "acf": rough.acf}
+    keys: Keywords = {"sq": rough.sq, "correlation_length": rough.correlation_length, "acf": rough.acf}
     return lubfric.generate_surface(shape, spacing, seed=seed, **keys)
 
 

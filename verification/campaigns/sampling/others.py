@@ -3,7 +3,6 @@
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from lubfric.quantities import ESTIMATED
 
 from ...check import AT_LEAST, Check, Item, Table
 from ...kept import Run
+from ...types import Keywords, PlainRow
 from ..hostile.soak_scenes import random_scene
 from . import SEED
 from .coverage import SHARED, chance, solve, within
@@ -44,10 +44,10 @@ def pieces(level: str, run: Run = Run(), seed: int = SEED) -> Iterator[Item]:
     yield within(words, float(np.mean(covered)), len(covered), PIECES, "the whole map")
 
 
-def piece(case: tuple[int, tuple[int, int] | None]) -> dict:
+def piece(case: tuple[int, tuple[int, int] | None]) -> PlainRow:
     """A point on one piece of a map (None: all of it), which is written and read again as instrument files are."""
     seed, place = case
-    keys: dict[str, Any] = {"sq": 100e-9, "correlation_length": 8e-6, "acf": "gaussian", "seed": seed}
+    keys: Keywords = {"sq": 100e-9, "correlation_length": 8e-6, "acf": "gaussian", "seed": seed}
     whole = lubfric.generate_surface(MAP, 0.45e-6, **keys)
     heights = whole.heights
     if place is not None:
@@ -87,7 +87,7 @@ def quantities(level: str, run: Run = Run()) -> Iterator[Item]:
     yield Table("sampling-numbers", "Every quantity compared with its stated error", columns, rows)
 
 
-def beside(number: int) -> dict:
+def beside(number: int) -> PlainRow:
     """(relative deviation, stated error) by quantity of a random patch; None if none is stated, {} if refused."""
     scene = random_scene(np.random.default_rng((11, number))).with_(
         numerics={"model": "paper", "sampling": "patch", "tolerance": 0.01}
@@ -97,7 +97,7 @@ def beside(number: int) -> dict:
         tight = lubfric.friction(scene.with_(numerics={"tolerance": TIGHT}))
     except lubfric.LubfricError:
         return {}
-    row: dict = {}
+    row: PlainRow = {}
     for name in ESTIMATED:
         value = getattr(point, name)
         reference = getattr(tight, name)

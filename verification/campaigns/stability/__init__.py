@@ -5,14 +5,21 @@ The exit code is 1 when a cell of a default method is silently wrong, when a cel
 a bad input was not refused with a message, or when one of many random scenes had a wrong answer.
 """
 
+from __future__ import annotations
+
 import importlib
 from collections.abc import Iterator
 from functools import partial
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 from ... import frame
 from ...check import Check, Item
 from ...kept import Run
+from ...types import PlainRow, PlainValue
+
+if TYPE_CHECKING:
+    from .cell import Cell
 
 MAPS = {"film": "Smooth film", "contact": "Dry contact", "sharing": "Load sharing", "whole": "One gap, one pressure"}
 PARTS = (
@@ -36,12 +43,12 @@ def stability_map(level: str, name: str, run: Run = Run()) -> Iterator[Item]:
     yield draw(name, values)
 
 
-def check_cell(name: str, cell: Any) -> dict:
+def check_cell(name: str, cell: Cell[PlainValue]) -> PlainRow:
     """The check of one cell of the map ``name``, in plain types."""
     from . import cell as cells
 
     return cells.check_cell(cell, _map(name).solve, _map(name).deviations).as_dict()
 
 
-def _map(name: str):
+def _map(name: str) -> ModuleType:
     return importlib.import_module(f"verification.campaigns.stability.{name}_map")

@@ -4,7 +4,7 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Generic, TypeVar
 
 from lubfric import LubfricError
 
@@ -14,10 +14,13 @@ RIGHT = "right"
 FAILED = "reported failure"
 WRONG = "silently wrong"
 VERDICTS = (RIGHT, FAILED, WRONG)
+# What a cell has solved, and what comes of it.
+Problem = TypeVar("Problem")
+Solution = TypeVar("Solution")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Cell:
+class Cell(Generic[Problem]):
     """The ``problem`` of a map, and where it is drawn: the map and panel, and x and y on their axes.
 
     Users get the ``default`` method unasked. ``inside``: the range in which it promises to answer.
@@ -27,7 +30,7 @@ class Cell:
     panel: str
     x: float
     y: float
-    problem: Any = None
+    problem: Problem
     method: str = "default"
     default: bool = True
     inside: bool = True
@@ -43,7 +46,11 @@ def verdict(check: Check) -> str:
     return RIGHT if check.passed else FAILED if check.refused else WRONG
 
 
-def check_cell(cell: Cell, solve: Callable[[Cell], Any], deviations: Callable[[Cell, Any], dict[str, float]]) -> Check:
+def check_cell(
+    cell: Cell[Problem],
+    solve: Callable[[Cell[Problem]], Solution],
+    deviations: Callable[[Cell[Problem], Solution], dict[str, float]],
+) -> Check:
     """Solve the cell, and set the worst of the ``deviations`` of its result against 1: each is over what is allowed.
 
     A `lubfric.LubfricError` is a reported failure, and so is the analogue of the finite elements (an exception of that

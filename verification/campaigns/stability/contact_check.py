@@ -8,7 +8,7 @@ from scipy import fft
 import lubfric.contact
 from lubfric.contact import ContactResult
 
-from ...arrays import FloatArray
+from ...types import FloatArray
 
 
 def deflection(

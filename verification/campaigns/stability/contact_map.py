@@ -1,9 +1,8 @@
 """Maps of the dry rough contact: load, hardness, size, aspect ratio, mean gap, tilt, precision."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 from scipy import fft
@@ -11,6 +10,7 @@ from scipy import fft
 from lubfric import ContactResult, solve_contact
 from lubfric.contact.operator import half_space
 
+from ...types import Keywords, Law
 from ..polonsky_keer import polonsky_keer
 from .cell import Cell
 from .contact_check import contact_deviations
@@ -22,7 +22,7 @@ FREE = ("free", "free")
 BOUNDARIES = {"periodic": PERIODIC, "periodic along y": MIXED, "free": FREE}
 OWN = {"complementarity": 1e-5, "penetration": 1e-4, "sign": 1e-12, "fields": 1e-4, "load": 1e-5, "volume": 1e-4}
 SECOND = 1e-3  # of pressure and mean gap, beside plain Polonsky-Keer
-POWER: dict[str, Callable] = {  # spectral density of a field, by the wave number times its length
+POWER: dict[str, Law] = {  # spectral density of a field, by the wave number times its length
     "gaussian": lambda k: np.exp(-(k**2) / 4),
     "smooth": lambda k: np.exp(-(k**2)),
     "exponential": lambda k: (1 + k**2) ** -1.5,
@@ -95,17 +95,17 @@ def full_contact(heights: np.ndarray) -> float:
     return float(-(fft.ifft2(fft.fft2(heights) * E_PRIME * wave_numbers(heights.shape) / 4).real).min())
 
 
-def solve(cell: Cell) -> ContactResult:
+def solve(cell: Cell[Pressed]) -> ContactResult:
     """The cell by the default solver."""
     p: Pressed = cell.problem
     absurd = np.zeros(p.shape)
     absurd.flat[-1] = 1e14
     start = {"none": None, "even": np.ones(p.shape), "absurd": absurd}[p.start]
-    asked: dict[str, Any] = {"mean_pressure": p.mean_pressure, "mean_gap": p.mean_gap, "hardness": p.hardness}
+    asked: Keywords = {"mean_pressure": p.mean_pressure, "mean_gap": p.mean_gap, "hardness": p.hardness}
     return solve_contact(p.gap0, p.spacing, E_PRIME, boundary=p.boundary, tolerance=p.tolerance, start=start, **asked)
 
 
-def deviations(cell: Cell, result: ContactResult) -> dict[str, float]:
+def deviations(cell: Cell[Pressed], result: ContactResult) -> dict[str, float]:
     """Complementarity, signs, fields and load of the result, and the second opinion, over what is allowed."""
     p: Pressed = cell.problem
     physical = {"hardness": p.hardness, "mean_pressure": p.mean_pressure, "mean_gap": p.mean_gap}
@@ -128,13 +128,13 @@ def _second(result: ContactResult, p: Pressed, load: float) -> dict[str, float]:
     return {"pressure L2": off / SECOND, "mean gap beside": abs(result.mean_gap - mean) / scale / SECOND}
 
 
-def cells(*, quick: bool) -> Iterator[Cell]:
+def cells(*, quick: bool) -> Iterator[Cell[Pressed]]:
     """All contact cells."""
     for part in (loads, hardnesses, sizes, gaps, heights, tilts, precisions):
         yield from part(quick=quick)
 
 
-def loads(*, quick: bool) -> Iterator[Cell]:
+def loads(*, quick: bool) -> Iterator[Cell[Pressed]]:
     """From one touching cell to full contact and beyond, for every surface and boundary."""
     n = 24 if quick else 48
     many = (1e-24, 1e-18, 1e-12, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.3, 0.6, 0.9, 1.1, 3.0)
@@ -148,7 +148,7 @@ def loads(*, quick: bool) -> Iterator[Cell]:
                 yield Cell(map="contact: load and surface", panel=label, x=share, y=row, problem=asked)
 
 
-def hardnesses(*, quick: bool) -> Iterator[Cell]:
+def hardnesses(*, quick: bool) -> Iterator[Cell[Pressed]]:
     """Elastic to fully plastic: hardness over E', by load over hardness, until the complete area yields."""
     n = 24 if quick else 48
     many = (1e-8, 1e-4, 1e-2, 0.1, 0.3, 0.6, 0.9, 0.99, 0.9999, 1.0)
@@ -163,7 +163,7 @@ def hardnesses(*, quick: bool) -> Iterator[Cell]:
                     yield Cell(map="contact: hardness", panel=f"{kind}, {label}", x=hardness, y=share, problem=asked)
 
 
-def sizes(*, quick: bool) -> Iterator[Cell]:
+def sizes(*, quick: bool) -> Iterator[Cell[Pressed]]:
     """Odd and prime sizes down to one cell, and cells up to 50 times as long as wide."""
     few = ((1, 1), (2, 3), (31, 17), (64, 1), (36, 60))
     more = ((2, 2), (3, 5), (7, 7), (16, 16), (37, 53), (1, 61), (50, 48), (97, 12))
@@ -178,7 +178,7 @@ def sizes(*, quick: bool) -> Iterator[Cell]:
                     yield Cell(map="contact: size and aspect ratio", panel=panel, x=aspect, y=row, problem=asked)
 
 
-def gaps(*, quick: bool) -> Iterator[Cell]:
+def gaps(*, quick: bool) -> Iterator[Cell[Pressed]]:
     """A prescribed mean gap, from a millionth of the roughness to almost no touch."""
     n = 24 if quick else 48
     for label, boundary in BOUNDARIES.items():
@@ -194,7 +194,7 @@ def gaps(*, quick: bool) -> Iterator[Cell]:
                     yield Cell(map="contact: mean gap", panel=label, x=share, y=row, problem=asked)
 
 
-def heights(*, quick: bool) -> Iterator[Cell]:
+def heights(*, quick: bool) -> Iterator[Cell[Pressed]]:
     """Roughness from a picometre to slopes far beyond small-slope theory, which the equations do not know of."""
     for kind in ("exponential",) if quick else ("exponential", "noise", "gaussian"):
         for sigma in np.geomspace(1e-12, 1e-3, 4 if quick else 10).tolist():
@@ -203,7 +203,7 @@ def heights(*, quick: bool) -> Iterator[Cell]:
                 yield Cell(map="contact: roughness height", panel=kind, x=sigma, y=pressure, problem=asked)
 
 
-def tilts(*, quick: bool) -> Iterator[Cell]:
+def tilts(*, quick: bool) -> Iterator[Cell[Pressed]]:
     """Maps that do not close on themselves: tilted by so many roughness heights, and offset by a metre."""
     n = 24 if quick else 45
     for label, boundary in BOUNDARIES.items():
@@ -222,7 +222,7 @@ def tilts(*, quick: bool) -> Iterator[Cell]:
                     yield Cell(map="contact: tilt and offset", panel=panel, x=tilt, y=offset, problem=asked)
 
 
-def precisions(*, quick: bool) -> Iterator[Cell]:
+def precisions(*, quick: bool) -> Iterator[Cell[Pressed]]:
     """Heights in single and double precision, tolerances from 1e-1 to 1e-12, good and absurd starts."""
     for row, (single, start) in enumerate(((False, "none"), (True, "none"), (False, "absurd"), (False, "even"))):
         for tolerance in (1e-2, 1e-8) if quick else (0.1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12):

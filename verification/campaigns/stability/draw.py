@@ -1,9 +1,9 @@
 """Draws and counts the maps."""
 
 from collections import Counter
-from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from ... import plotting
 from ...check import Check, Figure, Table
@@ -34,9 +34,9 @@ WHOLE = ("load, N/m", "entrainment speed, m/s", "")
 COUNTED = ("case", "start from case", "surface", "grid", "input", "scene", "")  # labels of axes that number things
 
 
-def counts(cells: list[Check]) -> dict[tuple[str, str, bool], Counter]:
+def counts(cells: list[Check]) -> dict[tuple[str, str, bool], Counter[str]]:
     """Verdicts by (map, method, default)."""
-    results: dict[tuple[str, str, bool], Counter] = {}
+    results: dict[tuple[str, str, bool], Counter[str]] = {}
     for cell in cells:
         key = (cell.at["map"], cell.at["method"], bool(cell.at["default"]))
         results.setdefault(key, Counter())[verdict_of(cell)] += 1
@@ -69,7 +69,7 @@ def draw(kind: str, cells: list[Check]) -> Figure:
     return plotting.compact(plotting.finish(kind, canvas, f"Stability of the {kind} solvers", format="png"))
 
 
-def panel(ax: Any, cells: list[Check]) -> None:
+def panel(ax: Axes, cells: list[Check]) -> None:
     """All cells of one map and method."""
     from matplotlib.ticker import MaxNLocator
 

@@ -6,14 +6,13 @@ over the cell by Gauss points, with the exact pressure gradient), the load, and 
 """
 
 import math
-from typing import Any
 
 import numpy as np
 
 from lubfric.film import EHLResult
 
-from ...arrays import FloatArray
 from ...fem.solvers.fluid import Fluid
+from ...types import FloatArray, Keywords
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(12)
 
@@ -33,7 +32,7 @@ def deflection(points: np.ndarray, x: np.ndarray, p: np.ndarray, e_prime: float,
     return -4 / (math.pi * e_prime) * (at_point * flat + slope * ramp).sum(axis=1)
 
 
-def film_deviations(result: EHLResult, case: dict[str, Any]) -> dict[str, float]:
+def film_deviations(result: EHLResult, case: Keywords) -> dict[str, float]:
     """Deviations, all relative, of an `EHLResult` for the SI arguments ``case`` of its solver.
 
     - elastic: film at the nodes
@@ -67,7 +66,7 @@ def film_deviations(result: EHLResult, case: dict[str, Any]) -> dict[str, float]
     }
 
 
-def cell_flow(x: FloatArray, p: FloatArray, result: EHLResult, case: dict[str, Any]) -> np.ndarray:
+def cell_flow(x: FloatArray, p: FloatArray, result: EHLResult, case: Keywords) -> np.ndarray:
     """Mass flow through the middle of each cell over rho0 |U| [m]."""
     centre = 0.5 * (x[1:] + x[:-1])
     dx = np.diff(x)

@@ -4,14 +4,14 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
-from lubfric import LubfricError, solve_differential_deflection, solve_ehl
+from lubfric import EHLResult, LubfricError, solve_differential_deflection, solve_ehl
 from lubfric.film.formulas import moes_film
 
 from ...fem.parts import E_PRIME, RADIUS, case_of, moes_unit
+from ...types import Keywords
 from .cell import Cell
 from .film_check import film_deviations
 
@@ -30,14 +30,14 @@ PAPER = {"radius": 2e-3, "e_prime": 231e9, "viscosity": 0.36, "pressure_viscosit
 class FilmCell:
     """Arguments ``case`` of the film solvers in SI units, the tolerance, and M and L of a film to start from."""
 
-    case: dict = field(hash=False)
+    case: Keywords = field(hash=False)
     tolerance: float = TOLERANCE
     start: tuple[float, float] | None = None
 
 
-def solve(cell: Cell):
+def solve(cell: Cell[FilmCell]) -> EHLResult | float:
     """The film of the cell by its method; of the formula, the flow film [m] alone."""
-    film: FilmCell = cell.problem
+    film = cell.problem
     if cell.method == DIFFERENTIAL:
         return solve_differential_deflection(**film.case, most_nodes=NODES)
     if cell.method == MOES:
@@ -46,7 +46,7 @@ def solve(cell: Cell):
     return solve_ehl(**film.case, tolerance=film.tolerance, start=start)
 
 
-def deviations(cell: Cell, result: Any) -> dict[str, float]:
+def deviations(cell: Cell[FilmCell], result: EHLResult | float) -> dict[str, float]:
     """Return the residuals of a film, and the deviations of its thicknesses from another discretisation, over the
     allowed ones."""
     case = cell.problem.case
@@ -57,7 +57,7 @@ def deviations(cell: Cell, result: Any) -> dict[str, float]:
         tight = solve_ehl(**case, tolerance=0.1 * TOLERANCE)
         smallest = tight.min_film
         flow = tight.flow_film
-    if cell.method == MOES:
+    if isinstance(result, float):
         return {"flow_film": abs(result / flow - 1) / FORMULA}
     ratios = {name: value / OWN[name] for name, value in film_deviations(result, case).items()}
     ratios["flow"] *= min(1.0, TOLERANCE / tolerance)  # judged by the grid that was asked for
@@ -66,9 +66,9 @@ def deviations(cell: Cell, result: Any) -> dict[str, float]:
 
 
 @lru_cache(maxsize=64)
-def reference(items: tuple, tolerance: float) -> tuple[float, float]:
+def reference(items: tuple[tuple[str, object], ...], tolerance: float) -> tuple[float, float]:
     """Smallest and flow film [m] by another discretisation, or else by the tightest Newton solution that there is."""
-    ways: tuple[tuple[Callable, dict[str, Any]], ...] = (
+    ways: tuple[tuple[Callable[..., EHLResult], Keywords], ...] = (
         (solve_differential_deflection, {"tolerance": max(tolerance / 3, 1e-4), "most_nodes": NODES}),
         (solve_ehl, {"tolerance": 0.1 * tolerance}),
         (solve_ehl, {"tolerance": 0.3 * tolerance}),
@@ -87,13 +87,13 @@ def promised(M: float, L: float) -> bool:
     return 0.99e-3 <= M <= 1001 and L <= 20.01
 
 
-def cells(*, quick: bool) -> Iterator[Cell]:
+def cells(*, quick: bool) -> Iterator[Cell[FilmCell]]:
     """All film cells."""
     for part in (load_and_material, speeds, tolerances, starts, starved):
         yield from part(quick=quick)
 
 
-def load_and_material(*, quick: bool) -> Iterator[Cell]:
+def load_and_material(*, quick: bool) -> Iterator[Cell[FilmCell]]:
     """M by L for each law. Where the law is Roelands' at constant density, the paper's discretisation and Moes'
     formula are also tried; their reference is the default method with a tight tolerance."""
     loads = np.geomspace(1e-3, 1e3, 3) if quick else np.append(np.geomspace(1e-3, 1e3, 9), (3e3, 1e4))
@@ -113,7 +113,7 @@ def load_and_material(*, quick: bool) -> Iterator[Cell]:
                     )
 
 
-def speeds(*, quick: bool) -> Iterator[Cell]:
+def speeds(*, quick: bool) -> Iterator[Cell[FilmCell]]:
     """The paper's steel cylinder at speeds from 1e-8 m/s, either way, by load."""
     for speed in np.geomspace(1e-8, 10, 3 if quick else 10).tolist():
         for load in np.geomspace(1e-2, 1e4, 2 if quick else 7).tolist():
@@ -133,7 +133,7 @@ def speeds(*, quick: bool) -> Iterator[Cell]:
             )
 
 
-def tolerances(*, quick: bool) -> Iterator[Cell]:
+def tolerances(*, quick: bool) -> Iterator[Cell[FilmCell]]:
     """Tolerances from one tenth, where grids are far too coarse, to 1e-4. The error has to be within the tolerance."""
     few = ((1e-2, 5), (10, 10), (100, 20), (1000, 5))
     many: tuple[tuple[float, float], ...] = ((1e-3, 5), (1e-2, 5), (0.1, 10), (1, 0), (1, 10), (5, 5), (10, 10))
@@ -146,7 +146,7 @@ def tolerances(*, quick: bool) -> Iterator[Cell]:
             )
 
 
-def starts(*, quick: bool) -> Iterator[Cell]:
+def starts(*, quick: bool) -> Iterator[Cell[FilmCell]]:
     """Solves that start from the solution of a contact that may be a million times lighter, or of another lubricant."""
     few = ((1e-2, 5), (10, 5), (1000, 20))
     many = ((1e-3, 0.5), (1e-2, 5), (0.1, 20), (1, 5), (5, 15), (20, 5), (100, 1), (100, 20), (1000, 5), (1000, 20))
@@ -156,7 +156,7 @@ def starts(*, quick: bool) -> Iterator[Cell]:
             yield Cell(map="film: poor start", panel="cases by M, L", x=column, y=row, problem=film, method="solve_ehl")
 
 
-def starved(*, quick: bool) -> Iterator[Cell]:
+def starved(*, quick: bool) -> Iterator[Cell[FilmCell]]:
     """Lubricant that begins at a distance of the dry contact (in half-widths plus inlet lengths)."""
     for M in (0.1, 10, 1000) if quick else (1e-3, 1e-2, 0.1, 1, 3, 10, 30, 100, 300, 1000):
         for share in (0.5, 5) if quick else (0.3, 0.5, 1, 2, 5, 20):

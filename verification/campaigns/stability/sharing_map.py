@@ -8,11 +8,11 @@ coefficient and F_C/F_T may differ by twice the tolerance of the scene (1 %).
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
 import lubfric
+from lubfric.models.shared import Prepared
 
 from ...fem.parts import case_of_scene, halved
 from ..hostile.soak_judge import verdict
@@ -34,7 +34,7 @@ class SharingCell:
 
 
 @lru_cache(maxsize=4)
-def model_of(name: str, sq: float, shape: int):
+def model_of(name: str, sq: float, shape: int) -> Prepared:
     """The prepared scene. Any slope is accepted, because the solver is what is tried."""
     if name == "flat":
         roughness = {"sq": sq, "correlation_length": 0.08e-6 * shape}
@@ -46,15 +46,15 @@ def model_of(name: str, sq: float, shape: int):
     return lubfric.prepare(lubfric.load_scene(name).with_(surface=roughness, contact=grid, numerics=numerics))
 
 
-def solve(cell: Cell) -> tuple:
+def solve(cell: Cell[SharingCell]) -> tuple[Prepared, lubfric.FrictionResult]:
     """The prepared scene, and the result of `lubfric.friction` at the speed of the cell."""
-    p: SharingCell = cell.problem
+    p = cell.problem
     model = model_of(p.scene, p.sq, p.shape)
     speed = p.speed
     if p.film:
         load = model.scene.bodies.load
 
-        def below(u: Any):
+        def below(u: float) -> bool:
             return lubfric.solve_ehl(**case_of_scene(model.scene, load, u), tolerance=0.05).central_film < p.film
 
         speed = halved(1e-12, 1e4, below, 14)
@@ -64,13 +64,13 @@ def solve(cell: Cell) -> tuple:
     return model, lubfric.friction(model, speed)
 
 
-def deviations(cell: Cell, solved: tuple) -> dict[str, float]:
+def deviations(cell: Cell[SharingCell], solved: tuple[Prepared, lubfric.FrictionResult]) -> dict[str, float]:
     """Return the imbalances of the result, and the deviations of friction and asperity load from the check, over the
     allowed ones."""
     return verdict(*solved)
 
 
-def cells(*, quick: bool) -> Iterator[Cell]:
+def cells(*, quick: bool) -> Iterator[Cell[SharingCell]]:
     """All load-sharing cells: film over roughness from 0.01 to 10 by roughness; nearly all film, nearly all contact, no
     entrainment and reversed entrainment; F_C/F_T from 1e-6 to 1 - 1e-6."""
     for name in ("flat", "paper"):

@@ -7,14 +7,13 @@ and with quadratures of the laws and of 1/h³ between cells. The error of these 
 """
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
 import lubfric
 from lubfric.contact import half_space
 from lubfric.film import LineContact
-from lubfric.models.deterministic import Problem, lay_out, solve_point
+from lubfric.models.deterministic import DeterministicResult, Problem, lay_out, solve_point
 from lubfric.oil import Lubricant
 
 from ...fem.solvers.fluid import Fluid
@@ -37,7 +36,7 @@ ALLOWED = {"load": 1e-3, "gap": 1e-3, "signs": 1e-6, "flow": 0.03}
 ACROSS = 48  # cells; on 24 the quadratures of the judge differ by 4 % from sums over cells at 1e5 N/m
 
 
-def cells(*, quick: bool) -> Iterator[Cell]:
+def cells(*, quick: bool) -> Iterator[Cell[tuple[float, float, float]]]:
     """All cells. Where the solver fails is shown: the model promises no range."""
     for sq in (1e-7,) if quick else (2.5e-8, 5e-8, 1e-7, 2e-7):
         for load in (1e4, 1e5) if quick else (1e3, 1e4, 1e5, 2e5, 3e5):
@@ -55,12 +54,12 @@ def cells(*, quick: bool) -> Iterator[Cell]:
                 )
 
 
-def solve(cell: Cell):
+def solve(cell: Cell[tuple[float, float, float]]) -> DeterministicResult:
     """The film of the bearing of the cell."""
     return solve_point(bearing(*cell.problem))
 
 
-def deviations(cell: Cell, result: Any) -> dict[str, float]:
+def deviations(cell: Cell[tuple[float, float, float]], result: DeterministicResult) -> dict[str, float]:
     """`check` of the bearing of the cell."""
     return check(bearing(*cell.problem), result)
 
@@ -74,7 +73,7 @@ def bearing(sq: float, load: float, speed: float, seed: int = 1, across: int = A
     return lay_out(surface, contact, sliding=2 * speed, boundary_friction=FRICTION, hardness=HARDNESS)
 
 
-def check(problem: Any, result: Any) -> dict[str, float]:
+def check(problem: Problem, result: DeterministicResult) -> dict[str, float]:
     """Deviations over what is allowed, from the fields."""
     dx, _ = result.spacing
     p = result.pressure
@@ -90,7 +89,7 @@ def check(problem: Any, result: Any) -> dict[str, float]:
     return {name: error / ALLOWED[name] for name, error in errors.items()} | {"flow": flow_error(result)}
 
 
-def flow_error(result: Any) -> float:
+def flow_error(result: DeterministicResult) -> float:
     """Largest relative difference of the flow through sections before the first touching cell, as a part of what is
     allowed there: 3 %, and the error of the check's own quadrature (`_pressure_flow`)."""
     speed = result.speed
@@ -124,7 +123,7 @@ def _pressure_flow(p: np.ndarray, h: np.ndarray, speed: float, dx: float) -> tup
     return fine, np.abs(fine - three)
 
 
-def _mean_fluidity(p: np.ndarray, film: Any, speed: float, points: int) -> np.ndarray:
+def _mean_fluidity(p: np.ndarray, film: np.ndarray, speed: float, points: int) -> np.ndarray:
     """Mean of rho/eta_eff between neighbours along x, p linear between them, by Simpson's rule."""
     between = p[:-1, :, None] + (p[1:] - p[:-1])[:, :, None] * np.linspace(0.0, 1.0, points)
     fluidity = 1 / FLUID.eta(between) + 2 * speed / (film[..., None] * (OFFSET + COEFFICIENT * between))

@@ -10,6 +10,7 @@ from lubfric.oil import FLOW_LAWS, LIMITS
 from lubfric.quantities import KEYS
 
 from ...fem.parts import case_of_scene
+from ...types import Keywords
 
 Cells = tuple[Sequence[str], Sequence[Sequence[str]]]  # titles of the columns, rows of text
 
@@ -28,7 +29,7 @@ def stribeck() -> Cells:
 
 def roughness() -> Cells:
     """f of the built-in scene on other surfaces."""
-    surfaces: dict[str, dict] = {
+    surfaces: dict[str, Keywords] = {
         "built-in scene": {},
         "Sq 200 nm": {"sq": 200e-9},
         "Sq 50 nm": {"sq": 50e-9},

@@ -51,7 +51,7 @@ def put(docs: Path, table: Table, command: str) -> None:
 def replaced(text: str, name: str, new: str) -> str:
     """``text`` with the table ``name`` replaced; the comments around it stay."""
 
-    def one(match: re.Match) -> str:
+    def one(match: re.Match[str]) -> str:
         return f"<!-- table: {name} -->\n{new}<!-- end of table -->" if match["name"] == name else match[0]
 
     return BLOCK.sub(one, text)

@@ -52,7 +52,9 @@ def on_finest_grid(study: str, name: str) -> Cells:
 def waviness() -> Cells:
     """Small waves by both programs."""
     table = next(t for t in ran("deterministic").tables if t.name == "waviness")
-    return table.columns, [[*row[:2], f"{row[2]:g}", *(f"{value:.3f}" for value in row[3:])] for row in table.rows]
+    return table.columns, [
+        [*map(str, row[:2]), f"{row[2]:g}", *(f"{value:.3f}" for value in row[3:])] for row in table.rows
+    ]
 
 
 def load_sharing() -> Cells:

@@ -1,7 +1,6 @@
 """Wiring of the smooth film and of its shear, in steady motion."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from lubfric.film import EHLResult
 from ...check import Item, compared
 from ...fem import parts
 from ...fem.solvers.fluid import Fluid
+from ...types import Keywords
 
 OTHER = "differential deflection, called by itself"
 OWN = "own integral over the film that was found"
@@ -24,14 +24,14 @@ FIXED = {
     "grid": "given",
 }
 PAPER = {"viscosity": 0.36, "pressure_viscosity_coefficient": 25e-9}
-LAWS: dict[str, dict[str, Any]] = {
+LAWS: dict[str, Keywords] = {
     "Roelands": {},
     "Barus": {"viscosity_law": "barus"},
     "constant viscosity": {"viscosity_law": "constant", "pressure_viscosity_coefficient": 0.0},
     "Dowson-Higginson": {"density_law": "dowson-higginson"},
     "half of alpha": {"pressure_viscosity_coefficient": 12e-9},
 }
-SHEARED: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
+SHEARED: dict[str, tuple[Keywords, Keywords]] = {
     "Newtonian": ({}, {}),
     "Eyring": ({"eyring_stress": 1e6}, {}),
     "limiting stress": ({"limiting_stress_coefficient": 0.02, "limiting_stress_offset": 2e5}, {}),
@@ -51,7 +51,7 @@ def wiring_film(level: str) -> Iterator[Item]:
         yield from shear(name, oil, motion)
 
 
-def smooth(oil: dict, load: float = 300.0, shape: tuple[int, int] = (160, 12)) -> lubfric.Scene:
+def smooth(oil: Keywords, load: float = 300.0, shape: tuple[int, int] = (160, 12)) -> lubfric.Scene:
     """The paper's cylinder nearly without contact; 300 N is a Hertz pressure of 960 MPa."""
     return lubfric.load_scene("paper").with_(
         bodies={"load": load, "hardness": None},
@@ -62,13 +62,13 @@ def smooth(oil: dict, load: float = 300.0, shape: tuple[int, int] = (160, 12)) -
     )
 
 
-def film(name: str, oil: dict) -> Iterator[Item]:
+def film(name: str, oil: Keywords) -> Iterator[Item]:
     """Smallest film at 0.3 m/s."""
     s = smooth(oil)
     b = s.bodies
     point = lubfric.friction(s, 0.3)
-    body: dict[str, Any] = {"load_per_width": 300.0 / b.width, "radius": b.radius, "e_prime": b.e_prime}
-    other = lubfric.solve_differential_deflection(**body, entrainment_speed=0.3, **PAPER | oil, tolerance=3e-3)
+    body: Keywords = {"load_per_width": 300.0 / b.width, "radius": b.radius, "e_prime": b.e_prime}
+    other = lubfric.solve_differential_deflection(**body | PAPER | oil, entrainment_speed=0.3, tolerance=3e-3)
     rows = [
         ("flow film", "m", parts.film(point).flow_film, other.flow_film, 5e-3),
         ("smallest film", "m", point.min_film, other.min_film, 6e-3),
@@ -76,7 +76,7 @@ def film(name: str, oil: dict) -> Iterator[Item]:
     yield from compared(name, rows, OTHER)
 
 
-def mixed(oil: dict, motion: dict) -> lubfric.Scene:
+def mixed(oil: Keywords, motion: Keywords) -> lubfric.Scene:
     """A rough cylinder of 350 MPa, between boundary and full film."""
     return lubfric.load_scene("paper").with_(
         bodies={"load": 20.0, "radius": 1e-3, "hardness": None},
@@ -88,7 +88,7 @@ def mixed(oil: dict, motion: dict) -> lubfric.Scene:
     )
 
 
-def shear(name: str, oil: dict, motion: dict) -> Iterator[Item]:
+def shear(name: str, oil: Keywords, motion: Keywords) -> Iterator[Item]:
     """Shear force and coefficient at 0.1 m/s."""
     s = mixed(oil, motion)
     speed = 0.1
@@ -125,4 +125,4 @@ def upstream(line: EHLResult, radius: float) -> float:
     h = line.film_thickness[0]
     x = a * np.geomspace(1.0, 1e4, 4001)
     gap = h + (x**2 - a**2) / (2 * radius)
-    return float(np.trapezoid(1 / gap, x)) + 2 * radius / x[-1]
+    return float(np.trapezoid(1 / gap, x) + 2 * radius / x[-1])

@@ -4,7 +4,6 @@ import itertools
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -15,6 +14,7 @@ from lubfric.scene.roughness import Roughness
 
 from ...check import ABSOLUTE, AT_LEAST, AT_MOST, Check, Item
 from ...fem.parts import half_space
+from ...types import Keywords
 
 # of the file, along its first and second axis
 DX = 0.8e-6
@@ -62,7 +62,7 @@ def measured(folder: Path) -> Iterator[Item]:
     flat = planed(z)
     along = planed(z).T
     blocks = flat.reshape(28, 2, 20, 2).mean(axis=(1, 3))
-    cases: dict[str, tuple[dict[str, Any], dict[str, Any], np.ndarray, tuple[float, float]]] = {
+    cases: dict[str, tuple[Keywords, Keywords, np.ndarray, tuple[float, float]]] = {
         "as it is": ({}, {}, flat, (DX, DY)),
         "unit": ({"file": "um.npy", "unit": "um"}, {}, flat, (DX, DY)),
         "form": ({"file": "tilted.npy", "form": "quadratic"}, {}, planed(tilted, 2), (DX, DY)),
@@ -72,7 +72,7 @@ def measured(folder: Path) -> Iterator[Item]:
         "shape": ({}, {"shape": (40, 30)}, flat[8:48, 5:35], (DX, DY)),
     }
     for name, (surface, contact, expected, cells) in cases.items():
-        keys = {"file": "z.npy", "spacing": (DX, DY)} | surface
+        keys: Keywords = {"file": "z.npy", "spacing": (DX, DY)} | surface
         result = made(Roughness(**keys | {"file": str(folder / keys["file"])}), contact)
         heights = expected - expected.mean()
         off = (
@@ -97,7 +97,7 @@ def measured(folder: Path) -> Iterator[Item]:
             )
 
 
-def made(rough: Roughness, contact: dict) -> HalfSpaceContact:
+def made(rough: Roughness, contact: Keywords) -> HalfSpaceContact:
     """The rough contact that a scene with this surface gets."""
     s = PATCH.with_(surface=rough, contact={"shape": None, "spacing": None} | contact)
     return half_space(prepare(s))

@@ -1,7 +1,6 @@
 """Wiring of the transient: what does not change leaves the steady state alone, and what changes ends in the new one."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import lubfric
 from lubfric.estimate import FrictionResult
@@ -9,6 +8,7 @@ from lubfric.scene import Ramp
 from lubfric.time import TransientResult
 
 from ...check import Item, compared
+from ...types import Keywords
 from .film import mixed, smooth
 
 UNCHANGED = {  # unit and relative tolerance
@@ -25,7 +25,7 @@ RAMPED = {
     "min_film": ("m", 1e-2),
     "central_film": ("m", 1e-2),
 }
-OILS: dict[str, dict[str, Any]] = {
+OILS: dict[str, Keywords] = {
     "Newtonian": {},
     "Eyring": {"eyring_stress": 2e5},
     "limiting stress": {"limiting_stress_coefficient": 0.002, "limiting_stress_offset": 5e4},
@@ -46,7 +46,7 @@ def wiring_time(level: str) -> Iterator[Item]:
     yield from ramped()
 
 
-def unchanged(name: str, oil: dict) -> Iterator[Item]:
+def unchanged(name: str, oil: Keywords) -> Iterator[Item]:
     """Mixed lubrication at 0.1 m/s, a slide-roll ratio of 0.5, for a fifth of a passage of the contact."""
     s = mixed(oil, {"slide_roll_ratio": 0.5, "entrainment_speed": 0.1}).with_(numerics=TIGHT)
     steady = lubfric.friction(s)
@@ -72,8 +72,8 @@ def ramped() -> Iterator[Item]:
     def ramp(first: float, last: float) -> Ramp:
         return Ramp(start=first, end=last, begin=0.0, until=1e-4)
 
-    ramps: dict[str, Any] = {"speed": ramp(0.2, 0.3), "sliding": ramp(0.1, 0.06)}
-    bodies: dict[str, Any] = {"load": ramp(30.0, 22.0), "radius": ramp(2e-3, 1.5e-3), "viscosity": ramp(0.36, 0.25)}
+    ramps: Keywords = {"speed": ramp(0.2, 0.3), "sliding": ramp(0.1, 0.06)}
+    bodies: Keywords = {"load": ramp(30.0, 22.0), "radius": ramp(2e-3, 1.5e-3), "viscosity": ramp(0.36, 0.25)}
     plan = lubfric.Transient(duration=end, outputs=1, **ramps, **bodies)
     scene = smooth({"eyring_stress": 2e6}, 30.0, (64, 12)).with_(motion={"slide_roll_ratio": 0.5}, numerics=TIGHT)
     run = lubfric.transient(scene.with_(transient=plan))

@@ -8,22 +8,25 @@ stays (`verification.check.ListedDeviation`). A value that differs and is not li
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from ... import check, frame
 from ...catalogue import PUBLISHED
 from ...check import CAUSES, Check, ListedDeviation
 from ..references import SOURCES
 
+if TYPE_CHECKING:
+    from ...report import Report
+
 WEAK = 0.25
 
 
-def summary(report: Any) -> str:
+def summary(report: Report) -> str:
     """Return the number of checks whose bounds are so wide that agreement is weak evidence, and the number of listed
     deviations by cause."""
     weak = sum(c.tolerance > WEAK * abs(c.expected) for c in report.checks)
     lines = [f"{weak} of {len(report.checks)} have bounds wider than {WEAK:.0%}: agreement is weak evidence."]
-    deviating = [c.listed.cause for c in report.checks if c.deviates_as_listed]
+    deviating = [c.listed.cause for c in report.checks if c.listed and c.deviates_as_listed]
     if deviating:
         causes = ", ".join(f"{cause} {deviating.count(cause)}" for cause in CAUSES if cause in deviating)
         lines += [f"{len(deviating)} of {len(report.checks)} differ by more than both errors; cause: {causes}."]

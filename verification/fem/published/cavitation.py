@@ -15,6 +15,7 @@ from lubfric.oil import Lubricant
 
 from ... import plotting
 from ...check import Figure, Item
+from ...plotting import Curve
 from .. import references
 from . import against
 
@@ -130,7 +131,7 @@ def band(pocket: references.Pocket) -> Iterator[Item]:
 
 def drawn(name: str, pocket: references.Pocket, results: dict[tuple[str, int], Profile]) -> Figure:
     """Pressures on the middle line."""
-    curves: list[tuple] = [(*results[law, 1], "-", f"lubfric, density: {law}") for law in LAWS]
+    curves: list[Curve] = [(*results[law, 1], "-", f"lubfric, density: {law}") for law in LAWS]
     curves.append((PLACES, pocket.pressures, "ko", "Bertocchi", [0.02 * p + AMBIENT for p in pocket.pressures]))
     caption = f"Pressure over a pad with a pocket in which the film ruptures ({name})"
     return plotting.chart(name, caption, curves, xlabel="x over the length of the pad", ylabel="pressure (MPa)")

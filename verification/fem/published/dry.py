@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any
+from functools import partial
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from lubfric.contact import find_asperities
 
 from ... import plotting
 from ...check import Check, Figure, Item
+from ...types import Keywords
 from .. import references
 from ..exact_contact import Line
 from ..parts import pressed_cylinder
@@ -53,7 +54,7 @@ def dry(level: str) -> Iterator[Item]:
         name = f"wave, contact at p/p* = {share:g}"
         yield against("westergaard", name, area, references.westergaard_area(share), error)
     for share in (0.002, 0.01, 0.9, 0.97):
-        area, error = halved(lambda n, s=share: bisinusoid(s, n), 512)
+        area, error = halved(partial(bisinusoid, share), 512)
         side = share < 0.5
         ours, theirs = (v if side else 1 - v for v in (area, references.bisinusoid_area(share)))
         own = error * area / ours
@@ -65,7 +66,7 @@ def dry(level: str) -> Iterator[Item]:
     yield drawn(values)
 
 
-def halved(solve: Callable[..., Any], cells: int) -> tuple[float, float]:
+def halved(solve: Callable[[int], float], cells: int) -> tuple[float, float]:
     """The value with ``cells`` cells, and its relative change from half as many."""
     fine = solve(cells)
     coarse = solve(cells // 2)
@@ -109,7 +110,7 @@ def wavy(shape: np.ndarray, pressure: float, n: int) -> float:
 
 def summits() -> Check:
     """Summits of generated Gaussian surfaces."""
-    keys: dict[str, Any] = {"sq": SQ, "correlation_length": LENGTH, "acf": "gaussian"}
+    keys: Keywords = {"sq": SQ, "correlation_length": LENGTH, "acf": "gaussian"}
     maps = [lubfric.generate_surface((CELLS, CELLS), CELL, seed=seed, **keys).heights for seed in SEEDS]
     counts = [find_asperities(z, CELL, E_PRIME)(z.min() - SQ).contacts / (CELLS * CELL) ** 2 for z in maps]
     theirs = references.summit_density(LENGTH)

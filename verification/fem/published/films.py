@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from lubfric.film import moes_film
 
 from ... import plotting
 from ...check import Check, Figure, Item, listed_near
+from ...types import Option
 from .. import references
 from ..exact import Parabola
 from ..parts import ALPHA, E_PRIME, RADIUS, VISCOSITY, case_of, moes_unit
@@ -67,10 +67,10 @@ def films(level: str) -> Iterator[Item]:
     yield drawn()
 
 
-def film(m: float, l: float, density: str = "constant", law: str = "roelands", **options: Any) -> lubfric.EHLResult:
+def film(m: float, l: float, density: str = "constant", law: str = "roelands", **options: Option) -> lubfric.EHLResult:
     """A film with Moes' numbers."""
     case = case_of(m, l, law, density)
-    return lubfric.solve_ehl(**case, **({"tolerance": TOLERANCE} | options))
+    return lubfric.solve_ehl(**{**case, "tolerance": TOLERANCE, **options})
 
 
 def own(solution: lubfric.EHLResult) -> float:
@@ -130,7 +130,7 @@ def one_gap() -> Check:
 
 def drawn() -> Figure:
     """Flow films over M."""
-    canvas, ax = plotting.axes(width=6.0, height=4.0)
+    canvas, ax = plotting.panel(6.0, 4.0)
     dense = np.geomspace(2, 250, 60)
     for l, mark in ((5, "o"), (10, "s"), (16, "D")):
         (line,) = ax.loglog(dense, [references.moes(m, l) for m in dense], label=f"Moes, L = {l}")

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from lubfric.oil import Lubricant
 
 from ... import plotting
 from ...check import Check, Figure, Item, listed_near
+from ...types import Keywords
 from .. import references
 from ..parts import ALPHA, E_PRIME, RADIUS, VISCOSITY
 from . import against
@@ -25,7 +25,7 @@ EYRING = ((100, 10, 5e6, 0.01), (200, 10, 5e6, 0.2), (50, 15, 2e6, 0.05))  # M, 
 STEEL = 2.3e11  # Pa, E' of two steel bodies
 INLETS = (0.2e-3, 0.3e-3)  # m: lengths of the inlets of the bearing
 TOLERANCE = 1e-3
-FVA_3: dict[str, Any] = {  # at 50 °C: 0.0525 Pa s and 20 /GPa of Wingertszahn et al.
+FVA_3: Keywords = {  # at 50 °C: 0.0525 Pa s and 20 /GPa of Wingertszahn et al.
     "viscosity": 0.0525,
     "pressure_viscosity_coefficient": 20e-9,
     "density_law": "dowson-higginson",
@@ -89,7 +89,7 @@ def bearing() -> Iterator[Item]:
             total = 0.0
             for race in (inner, -outer):
                 radius = 1 / (2 / bearing["diameter"] + 2 * math.cos(bearing["angle"]) / race)
-                case: dict[str, Any] = {
+                case: Keywords = {
                     "load_per_width": load,
                     "radius": radius,
                     "e_prime": STEEL,
@@ -161,7 +161,7 @@ def eyring(m: float, l: float, stress: float, ratio: float) -> Check:
 
 def drawn(rolled: dict[tuple[float, float], tuple[float, float]]) -> Figure:
     """Draw the rolling torque over the published one."""
-    canvas, ax = plotting.axes(width=6.0, height=3.8)
+    canvas, ax = plotting.panel(6.0, 3.8)
     for k, l in enumerate(OILS):
         ratios = [rolled[m, l][0] / references.rolling_torque(m) for m in LOADS]
         errors = [rolled[m, l][1] * r for m, r in zip(LOADS, ratios)]

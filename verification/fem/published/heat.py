@@ -1,8 +1,7 @@
 """Heat of a film compared with Nahme, Blok and Jaeger, and two fits for the inlet."""
 
 import math
-from collections.abc import Callable, Iterator
-from typing import Any
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from lubfric.oil import Lubricant
 
 from ... import plotting
 from ...check import Figure, Item
+from ...types import Keywords, Law
 from .. import references
 from . import against
 
@@ -56,7 +56,7 @@ def nahme(number: float) -> float:
     return float(stress[0]) * 1e-6 / (0.1 * sliding)
 
 
-def flash(shape: Callable[..., Any], step: float) -> float:
+def flash(shape: Law, step: float) -> float:
     """Largest rise of a fast band of heat over q_mean sqrt(2 b)/(e1 sqrt(u1) + e2 sqrt(u2)), by steps of half-widths.
     lubfric uses at most 257 nodes."""
     t = np.arange(-1.0, 1.2, step)
@@ -71,7 +71,7 @@ def drawn(rows: list[float]) -> Figure:
     """Stress over the Nahme number."""
     dense = np.geomspace(0.03, 300, 100)
     curves = [(dense, [references.nahme(n) for n in dense], "-", "Nahme 1940"), (NUMBERS, rows, "o", "lubfric")]
-    scales: dict[str, Any] = {
+    scales: Keywords = {
         "xscale": "log",
         "yscale": "log",
         "xlabel": "Nahme number",

@@ -13,6 +13,7 @@ from lubfric.oil import named_oil
 from ... import plotting
 from ...campaigns.model.boundary_film import FILMS, RATIOS, SURFACES, shares
 from ...check import Figure, Item, ListedDeviation, beside, listed_near
+from ...plotting import Curve
 from .. import references
 from . import against
 from .friction import FVA_3, STEEL
@@ -67,7 +68,7 @@ def mixed(level: str) -> Iterator[Item]:
     for key, (law_name, law) in zip(LAWS, references.LOAD_SHARES.items(), strict=True):
         name = f"load share of the asperities, film/Sq = 1, {law_name}"
         note = "the laws differ among themselves by a factor of 2.5 there"
-        yield against(key, name, ours[at], float(law(1.0)), own[at] / ours[at], note=note)
+        yield against(key, name, ours[at], float(law(np.ones(1))[0]), own[at] / ours[at], note=note)
     yield from masjedi(level)
     yield from bearing()
     yield from gears()
@@ -250,7 +251,7 @@ def mean_friction(rpm: float, oil: tuple[float, float], f_b: float, length: floa
 def drawn(ours: np.ndarray, own: np.ndarray) -> Figure:
     """Shares over the ratio, in the band of the laws."""
     dense = np.geomspace(min(RATIOS), max(RATIOS), 100)
-    curves: list[tuple] = [(dense, law(dense), "-", name) for name, law in references.LOAD_SHARES.items()]
+    curves: list[Curve] = [(dense, law(dense), "-", name) for name, law in references.LOAD_SHARES.items()]
     curves.append((RATIOS, ours, "ko", "lubfric, three kinds of roughness", own))
     caption = "Asperity load ratio compared with four published laws"
     return plotting.chart("shares", caption, curves, xscale="log", xlabel="film/Sq", ylabel="share of the load")

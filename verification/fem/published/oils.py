@@ -43,8 +43,8 @@ def oils(level: str) -> Iterator[Item]:
         yield against("density", f"density {at}", density_ratio(oily, p)[0][0], references.density(pressure), 0)
     finite = Fluid(0.1, viscosity_law="roelands", pressure_viscosity_coefficient=2e-8, density_law="dowson-higginson")
     theirs = references.roelands(0.1, 2e-8, 1e9)
-    yield against("roelands", "viscosity at 1 GPa, finite elements", finite.eta(1e9), theirs, 0, "Pa s")
-    yield against("density", "density at 1 GPa, finite elements", finite.rho(1e9), references.density(1e9), 0)
+    yield against("roelands", "viscosity at 1 GPa, finite elements", float(finite.eta(1e9)), theirs, 0, "Pa s")
+    yield against("density", "density at 1 GPa, finite elements", float(finite.rho(1e9)), references.density(1e9), 0)
     for base, (s, t) in references.GOLD.items():
         ours = oil.gold(100 * MM2, base).value * 1e9
         yield against("gold", f"alpha of {base} by Gold at 100 mm²/s", ours, s * 100**t, 0, "1/GPa")
@@ -89,7 +89,7 @@ def estimated(key: str, name: str, estimate: Estimate, theirs: float) -> Check:
 
 def drawn(pairs: list[Pair]) -> Figure:
     """Estimates over measured coefficients."""
-    canvas, ax = plotting.axes(width=5.4, height=4.6)
+    canvas, ax = plotting.panel(5.4, 4.6)
     for method, mark in (("gold", "o"), ("so-klaus", "s")):
         rows = [
             (theirs, result.value * 1e9, result.low * 1e9, result.high * 1e9)

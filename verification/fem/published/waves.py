@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
@@ -10,6 +9,8 @@ import lubfric
 
 from ... import plotting
 from ...check import Check, Figure, Item
+from ...plotting import Curve
+from ...types import Keywords
 from .. import references
 from ..parts import case_of, line_contact
 from ..waves import at_rest, history, laid_out, response
@@ -98,7 +99,7 @@ def ripples(alpha: float, film: float, lengths: float) -> tuple[float, float]:
     k = 2 * math.pi / w["wavelength"]
     height = 0.1 * w["height"]
     peak = w["pressure"] / (1 - (5 / lengths) ** 2 / 6)  # so that the mean over five wavelengths is theirs
-    case: dict[str, Any] = {
+    case: Keywords = {
         "load_per_width": math.pi * b * peak / 2,
         "radius": w["e_prime"] * b / (4 * peak),
         "e_prime": w["e_prime"],
@@ -157,7 +158,7 @@ def sliding(speed: float, length: float) -> Check:
 def drawn(table: dict[tuple[float, int], tuple[float, float]]) -> Figure:
     """Amplitude kept in pure rolling over the wavelength."""
     dense = np.geomspace(0.1, 5, 100)
-    curves: list[tuple] = [(dense, [references.amplitude_fit(100, 11, n) for n in dense], "k-", "their fit")]
+    curves: list[Curve] = [(dense, [references.amplitude_fit(100, 11, n) for n in dense], "k-", "their fit")]
     for column, height in enumerate(HEIGHTS):
         points = {n: v for (n, c), v in table.items() if c == column}
         if points:
@@ -166,7 +167,7 @@ def drawn(table: dict[tuple[float, int], tuple[float, float]]) -> Figure:
     theirs = [row[0] for row in references.AMPLITUDES.values()]
     curves.append((list(references.AMPLITUDES), theirs, "kx", "Venner et al. 1997, height 0.1"))
     caption = "Waves in pure rolling, M = 100, L = 11: what the film keeps of them"
-    labels: dict[str, Any] = {
+    labels: Keywords = {
         "xscale": "log",
         "yscale": "log",
         "xlabel": "wavelength/b",

@@ -7,12 +7,11 @@ Two waves in x and y are one wave along (kx, ky). So the same C(|k|) serves plan
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.integrate import quad
 
-from ...arrays import FloatArray
+from ...types import FloatArray
 from .report import require
 
 SMALL = 0.5  # of 2 k d, below which sinh(2kd) - 2kd is summed as a series
@@ -46,12 +45,12 @@ class Elastic:
         return self.young * (1 - self.poisson) / ((1 + self.poisson) * (1 - 2 * self.poisson))
 
 
-def half_space_compliance(k: float, body: Elastic) -> Any:
+def half_space_compliance(k: FloatArray | float, body: Elastic) -> FloatArray:
     """``4/(E' |k|)`` in m/Pa for wavenumbers k > 0 in rad/m (Johnson 1985, Contact Mechanics, ch. 13)."""
     return 4 / (body.e_prime * np.asarray(k, dtype=float))
 
 
-def layer_compliance(k: float, thickness: float, body: Elastic) -> Any:
+def layer_compliance(k: FloatArray | float, thickness: float, body: Elastic) -> FloatArray:
     """Downward surface displacement of a bonded layer per pressure, m/Pa, at wavenumbers k >= 0 in rad/m.
 
     With s = k d and a Papkovich-Neuber (or Airy) solution whose four constants in each wave follow from no
@@ -76,7 +75,7 @@ def layer_compliance(k: float, thickness: float, body: Elastic) -> Any:
     return 4 / body.e_prime * thickness * above / below
 
 
-def sinh_excess(x: float | FloatArray) -> Any:
+def sinh_excess(x: float | FloatArray) -> FloatArray:
     """``sinh(x) - x`` for x up to 1, without cancellation, by five terms. The relative error is below 1e-11."""
     y = np.asarray(x) ** 2
     return x * y / 6 * (1 + y / 20 * (1 + y / 42 * (1 + y / 72 * (1 + y / 110))))
@@ -101,4 +100,4 @@ def curvature_number(poisson: float) -> float:
     a curvature that is larger by the fraction ``J b^2/(2 d^2)``, and its peak pressure rises by half of that. (Derived
     here; the study `layer` finds it by finite elements.)
     """
-    return quad(lambda s: s * missing(s, poisson), 0, FAR, epsabs=1e-12, epsrel=1e-10, limit=200)[0]
+    return float(quad(lambda s: s * missing(s, poisson), 0, FAR, epsabs=1e-12, epsrel=1e-10, limit=200)[0])

@@ -6,11 +6,10 @@ three: off (f = 0, g >= 0), touching (g = 0, 0 <= f <= limit) or saturated (f = 
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
-from ...arrays import BoolArray, FloatArray
+from ...types import BoolArray, FloatArray, Law
 from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED, SolveReport, require
 
 SOLVER = "primal-dual active set"
@@ -55,7 +54,7 @@ class ContactProblem:
 
 
 def solve_contact(
-    displacement: Callable[..., Any],
+    displacement: Law,
     weights: FloatArray,
     gap0: FloatArray,
     load: float,
@@ -110,7 +109,7 @@ def solve_contact(
 
 
 def checked(
-    displacement: Callable[..., Any],
+    displacement: Law,
     weights: FloatArray,
     gap0: FloatArray,
     load: float,

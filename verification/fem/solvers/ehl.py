@@ -8,13 +8,12 @@ included, starts the next finer one.
 """
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from skfem import Basis
 
+from ...types import Keywords
 from .ehl_body import Body, Layout, graded_mesh, make_body, refined_displacement
 from .ehl_film import PENALTY, FilmEquations
 from .ehl_newton import Iterate, film_thickness, newton
@@ -50,7 +49,7 @@ class LineContact:
             require(0 < value < math.inf, f"{name} = {value} {unit}", "a finite number > 0")
 
     @classmethod
-    def of(cls, case: Mapping[str, Any], sliding_speed: float = 0.0) -> "LineContact":
+    def of(cls, case: Keywords, sliding_speed: float = 0.0) -> "LineContact":
         """The contact and its fluid (`Fluid.of`) from the arguments of ``lubfric.solve_ehl``."""
         sizes = {name: case[name] for name in ("load_per_width", "radius", "e_prime", "entrainment_speed")}
         return cls(**sizes, fluid=Fluid.of(case), sliding_speed=sliding_speed)
@@ -265,11 +264,11 @@ def film_estimate(M: float, L: float) -> float:
     elastic = 2.621 * M**-0.2
     isoviscous = (rigid ** (7 / 3) + elastic ** (7 / 3)) ** (3 / 7)
     if L < 0.01:
-        return isoviscous
+        return float(isoviscous)
     piezo = ((1.287 * L ** (2 / 3)) ** -3.5 + (1.311 * M**-0.125 * L**0.75) ** -3.5) ** (-2 / 7)
     s = (7 + 8 * math.exp(-2 * elastic / rigid)) / 5
     smaller, larger = sorted((isoviscous, piezo))
-    return larger * (1 + (smaller / larger) ** s) ** (1 / s)
+    return float(larger * (1 + (smaller / larger) ** s) ** (1 / s))
 
 
 def first_guess(contact: LineContact, body: Body, film: FilmEquations, max_iterations: int) -> Iterate:

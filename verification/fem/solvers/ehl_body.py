@@ -20,7 +20,7 @@ from scipy.spatial import cKDTree
 from skfem import Basis, BilinearForm, ElementLineP2, ElementTriP2, ElementVector, MeshLine, MeshTri
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
-from ...arrays import FloatArray
+from ...types import FloatArray
 from .triangles import factorised, graded, section_stress
 
 POISSON = 0.3

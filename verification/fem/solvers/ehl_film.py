@@ -18,13 +18,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy.sparse as sp
 from skfem import Basis, BilinearForm, LinearForm
 
-from ...arrays import ComplexArray, FloatArray
+from ...types import ComplexArray, FloatArray, Numbers
 from .fluid import STEP, Fluid, slope
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ class FilmEquations:
         """ln(eta/eta0). Below zero, where only iterates are, it goes on by its tangent at zero."""
         return self.piezo * extended(self.fluid.log_viscosity, P * self.hertz_pressure)
 
-    def density(self, P: Any) -> Any:
+    def density(self, P: Numbers) -> np.ndarray:
         """rho/rho0, which also goes on by its tangent below zero."""
         return extended(self.fluid.rho, P * self.hertz_pressure)
 
@@ -116,18 +116,19 @@ class FilmEquations:
         """What a jump of v' is multiplied with at a vertex where P' and H' jump."""
         return self.penalty * size**2 * self.carried(P, H, size) * (self.density(P) * H_jump + self.wave(P, H) * P_jump)
 
-    def inflow(self, P: complex, H: complex, inlet: float) -> complex:
+    def inflow(self, P: Numbers, H: Numbers, inlet: float) -> np.ndarray:
         """The flux q at the inlet."""
         return self.density(P) * H - self.mobility(P, H) * 3 * P / abs(inlet)
 
 
-def extended(law: Callable[..., Any], p: Any) -> Any:
+def extended(law: Callable[[Numbers], np.ndarray], p: Numbers) -> np.ndarray:
     """``law`` continued below p = 0 by its tangent."""
-    above = np.real(p) > 0
+    p = np.asarray(p)
+    above = p.real > 0
     return np.where(above, law(np.where(above, p, 0.0)), law(0.0) + slope(law, 0.0) * p)
 
 
-def partials(function: Callable[..., Any], *values: float | FloatArray) -> tuple[np.ndarray, list[np.ndarray]]:
+def partials(function: Callable[..., np.ndarray], *values: float | FloatArray) -> tuple[np.ndarray, list[np.ndarray]]:
     """A function and its derivatives by each of its arguments, by complex steps."""
     slopes = [
         np.imag(function(*(v + 1j * STEP * (i == k) for i, v in enumerate(values)))) / STEP for k in range(len(values))

@@ -19,7 +19,7 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 from skfem import LinearForm
 
-from ...arrays import FloatArray
+from ...types import FloatArray
 from .ehl_body import Body
 from .ehl_film import FilmEquations, Flow, assemble
 from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, SolveReport
@@ -177,4 +177,4 @@ def step_length(film: FilmEquations, P: FloatArray, dP: FloatArray, H: FloatArra
     growth = np.abs(film.log_viscosity(np.maximum(P + dP, 0)) - film.log_viscosity(np.maximum(P, 0))).max()
     shrinking = float(np.max(-dH[H > 0] / H[H > 0], initial=0.0))
     most = 1 - SMALLEST_SHARE
-    return min(1.0, LARGEST_GROWTH / max(growth, LARGEST_GROWTH), most / max(shrinking, most))
+    return float(min(1.0, LARGEST_GROWTH / max(growth, LARGEST_GROWTH), most / max(shrinking, most)))

@@ -6,12 +6,12 @@ derivative.
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import KW_ONLY, dataclass
-from typing import Any
 
 import numpy as np
 
+from ...types import Keywords, Numbers
 from .report import require
 
 ROELANDS_PRESSURE = 1.96e8
@@ -59,7 +59,7 @@ class Fluid:
         require(self.bulk_modulus > 0, f"bulk_modulus = {self.bulk_modulus} Pa", "> 0")
 
     @classmethod
-    def of(cls, oil: Mapping[str, Any]) -> "Fluid":
+    def of(cls, oil: Keywords) -> "Fluid":
         """Return the fluid of an oil given by the keys of a scene, or by the arguments of ``lubfric.solve_ehl``."""
         alpha = oil.get("pressure_viscosity_coefficient", 0.0)
         limit = oil.get("limiting_stress_coefficient")
@@ -79,8 +79,9 @@ class Fluid:
             return self.roelands_index
         return self.pressure_viscosity_coefficient * ROELANDS_PRESSURE / (math.log(self.viscosity) + 9.67)
 
-    def log_viscosity(self, p: Any) -> Any:
+    def log_viscosity(self, p: Numbers) -> np.ndarray:
         """``ln(eta/eta0)`` at pressure p."""
+        p = np.asarray(p)
         if self.viscosity_law == "constant":
             return 0 * p
         if self.viscosity_law == "barus":
@@ -88,22 +89,23 @@ class Fluid:
         z = self.index
         return self.pressure_viscosity_coefficient * ROELANDS_PRESSURE / z * ((1 + p / ROELANDS_PRESSURE) ** z - 1)
 
-    def eta(self, p: Any) -> Any:
+    def eta(self, p: Numbers) -> np.ndarray:
         """Viscosity in Pa s."""
         return self.viscosity * np.exp(self.log_viscosity(p))
 
-    def stress(self, p: Any, rate: Any) -> Any:
+    def stress(self, p: Numbers, rate: Numbers) -> np.ndarray:
         """Shear stress in Pa at the shear rate, 1/s, of either sign."""
-        size = self.eta(p) * np.abs(rate)
+        size: np.ndarray = self.eta(p) * np.abs(rate)
         if math.isfinite(self.eyring_stress):
             ratio = size / self.eyring_stress
             size = self.eyring_stress * np.log(ratio + np.sqrt(1 + ratio**2))
         if self.limiting_stress is not None:
-            size = np.minimum(size, self.limiting_stress[0] + self.limiting_stress[1] * p)
+            size = np.minimum(size, self.limiting_stress[0] + self.limiting_stress[1] * np.asarray(p))
         return np.sign(rate) * size
 
-    def rho(self, p: Any) -> Any:
+    def rho(self, p: Numbers) -> np.ndarray:
         """Density relative to that at p = 0."""
+        p = np.asarray(p)
         if self.density_law == "constant":
             return 1 + 0 * p
         if self.density_law == "linear":
@@ -111,6 +113,7 @@ class Fluid:
         return (5.9e8 + 1.34 * p) / (5.9e8 + p)
 
 
-def slope(law: Callable[..., Any], p: Any) -> Any:
+def slope(law: Callable[[Numbers], np.ndarray], p: Numbers) -> np.ndarray:
     """The derivative of one of the laws by a complex step. It can itself be differentiated only on the real axis."""
-    return np.imag(law(np.real(p) + 1j * STEP)) / STEP
+    slopes: np.ndarray = np.imag(law(np.asarray(p).real + 1j * STEP)) / STEP
+    return slopes

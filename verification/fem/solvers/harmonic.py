@@ -14,14 +14,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy.sparse as sp
 from scipy import fft
 from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, MeshTri
 
-from ...arrays import FloatArray
+from ...types import FloatArray, Option
 from .compliance import Elastic
 from .contact import Contact, solve_contact
 from .report import require
@@ -84,7 +84,7 @@ def press(
     load_per_width: float,
     *,
     hardness: float = math.inf,
-    **options: Any,
+    **options: Option,
 ) -> Contact:
     """`contact.solve_contact` of the strip: ``gap0`` and the fields of the result are (nx, ny), the load is in N/m."""
     (nx, ny) = compliance.strip.shape
@@ -132,7 +132,7 @@ def graded_mesh(strip: HarmonicStrip) -> MeshTri:
     return graded(mesh, allowed)
 
 
-def stiffness(basis: Basis, body: Elastic, unit: float) -> tuple[Any, ...]:
+def stiffness(basis: Basis, body: Elastic, unit: float) -> tuple[sp.csr_matrix, sp.csr_matrix, sp.csr_matrix]:
     """(A, B, C) of the stiffness ``A + k B + k^2 C`` at the wavenumber ``k unit``."""
     lame = body.young * body.poisson / ((1 + body.poisson) * (1 - 2 * body.poisson))
     shear = body.young / (2 * (1 + body.poisson))

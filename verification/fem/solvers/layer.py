@@ -13,7 +13,7 @@ from scipy.sparse.linalg import SuperLU
 from skfem import Basis, ElementTriP1, ElementTriP2, ElementVector, LinearForm, MeshTri
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
-from ...arrays import FloatArray
+from ...types import FloatArray
 from .compliance import Elastic
 from .report import require
 from .triangles import factorised, graded, section_stress

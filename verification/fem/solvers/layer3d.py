@@ -15,7 +15,7 @@ import scipy.sparse as sp
 from skfem import Basis, ElementHex1, ElementHex2, ElementVector, MeshHex
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
-from ...arrays import FloatArray
+from ...types import FloatArray
 from .compliance import Elastic
 from .report import CONVERGED, ITERATION_LIMIT, SolveReport, require
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.fft
 
-from ...arrays import FloatArray
+from ...types import FloatArray
 from .layer3d import Layer3D
 
 WAVES = 1024  # Fourier modes eliminated at a time

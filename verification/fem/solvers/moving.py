@@ -9,12 +9,12 @@ line). A step then solves for pressure and approach alone, by Newton's method wi
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from skfem import LinearForm
 
-from ...arrays import BoolArray, FloatArray
+from ...types import BoolArray, FloatArray
 from .ehl import EHLSolution
 from .ehl_body import Body
 from .ehl_film import assemble
@@ -47,7 +47,12 @@ class Moment(NamedTuple):
 
 
 def march(
-    at: EHLSolution, waves: Callable[..., Any], step: float, *, tolerance: float = 1e-7, max_iterations: int = 30
+    at: EHLSolution,
+    waves: Callable[[FloatArray, float], FloatArray],
+    step: float,
+    *,
+    tolerance: float = 1e-7,
+    max_iterations: int = 30,
 ) -> Iterator[Moment]:
     """Moments that are ``step`` [b/U] apart, without end, from the smooth solution on.
 

@@ -13,14 +13,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import skfem
 from skfem import Basis, BilinearForm, Functional, LinearForm
 from skfem.helpers import dot, grad
 
-from ...arrays import BoolArray, ComplexArray, FloatArray
+from ...types import BoolArray, ComplexArray, FloatArray, Option
 from .fluid import STEP, Fluid, slope
 from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, SolveReport, require
 
@@ -72,8 +72,7 @@ class ReynoldsProblem:
     stabilisation: str = "none"
 
     def __post_init__(self) -> None:
-        mesh = f"mesh {type(self.mesh).__name__}, degree = {self.degree}"
-        require(self.element is not None, mesh, "lines, triangles or quadrilaterals, degree 1 or 2")
+        _ = self.element
         form = f"stabilisation = {self.stabilisation!r}"
         require(self.stabilisation in STABILISATIONS, form, str(STABILISATIONS))
         # the residual of its strong form drops second derivatives of p
@@ -84,10 +83,12 @@ class ReynoldsProblem:
         require(fits, f"film_thickness has a minimum of {np.min(film)} m on the mesh", "> 0")
 
     @property
-    def element(self) -> Any:
-        """The element class, or None."""
+    def element(self) -> type[skfem.Element]:
+        """Return the class of the element; refuse a mesh or a degree that has none."""
         names = [k for k in ELEMENTS if type(self.mesh).__name__.startswith(k[0]) and k[1] == self.degree]
-        return ELEMENTS[names[0]] if names else None
+        mesh = f"mesh {type(self.mesh).__name__}, degree = {self.degree}"
+        require(bool(names), mesh, "lines, triangles or quadrilaterals, degree 1 or 2")
+        return ELEMENTS[names[0]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -285,7 +286,7 @@ def solve_reynolds(
     return report.checked(ReynoldsSolution(problem=problem, basis=basis, pressure=p, reaction=r, report=report))
 
 
-def solve_refined(problem: ReynoldsProblem, refinements: int, **options: Any) -> list[ReynoldsSolution]:
+def solve_refined(problem: ReynoldsProblem, refinements: int, **options: Option) -> list[ReynoldsSolution]:
     """Solve on ``problem.mesh`` and on each of its uniform refinements, each started from the one before.
 
     Besides giving a convergence study its meshes, this keeps the active set cheap: started from nothing, a
@@ -342,7 +343,7 @@ def boundary_dofs(problem: ReynoldsProblem, basis: Basis) -> np.ndarray:
     return held
 
 
-def given_fields(problem: ReynoldsProblem, basis: Basis) -> dict[str, Any]:
+def given_fields(problem: ReynoldsProblem, basis: Basis) -> dict[str, np.ndarray]:
     """Film, its gradient and the source at the quadrature points."""
     x = basis.global_coordinates()
     fields = {"film": problem.film(np.asarray(x)), "f": 0.0 * x[0], "size": np.asarray(basis.mesh_parameters())}
@@ -354,7 +355,7 @@ def given_fields(problem: ReynoldsProblem, basis: Basis) -> dict[str, Any]:
     return fields
 
 
-def flow_scale(problem: ReynoldsProblem, basis: Basis, fields: dict[str, Any]) -> np.ndarray:
+def flow_scale(problem: ReynoldsProblem, basis: Basis, fields: dict[str, np.ndarray]) -> np.ndarray:
     """What a residual is measured against at each degree of freedom, m^2/s or m^3/s; 1 when nothing moves."""
     width = float(np.ptp(problem.mesh.p[1])) if problem.mesh.dim() > 1 else 1.0
     made = np.abs(LinearForm(lambda v, w: w.f * v).assemble(basis, f=fields["f"])).sum()

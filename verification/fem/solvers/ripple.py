@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from skfem import BilinearForm
 
-from ...arrays import FloatArray
+from ...types import FloatArray
 from .ehl import EHLSolution
 from .ehl_film import FilmEquations, assemble
 from .ehl_newton import load_weights, solve, tangent

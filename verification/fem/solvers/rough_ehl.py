@@ -28,7 +28,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy.linalg
@@ -37,7 +37,7 @@ from scipy.interpolate import RegularGridInterpolator
 from skfem import Basis, BilinearForm, ElementQuad1, LinearForm, MeshQuad
 from skfem.helpers import grad
 
-from ...arrays import FloatArray
+from ...types import FloatArray
 from .compliance import Elastic
 from .ehl import LineContact, solve_ehl
 from .fluid import slope
@@ -472,7 +472,7 @@ def solved(
     tolerance: float,
     step: Step = Step(),
     touching: np.ndarray | None = None,
-) -> tuple[np.ndarray, float, Any, float, SolveReport, np.ndarray]:
+) -> tuple[np.ndarray, float, Balance, float, SolveReport, np.ndarray]:
     """`newton`, in the order of the arguments of `film_of`."""
     p, approach, at, report, touching = newton(grid, p, approach, time, step, tolerance=tolerance, touching=touching)
     return p, approach, at, time, report, touching

@@ -11,7 +11,7 @@ import numpy as np
 import skfem
 from scipy.interpolate import LinearNDInterpolator
 
-from ...arrays import FloatArray
+from ...types import FloatArray
 from .fluid import Fluid
 from .report import require
 from .reynolds import ReynoldsProblem, ReynoldsSolution, solve_reynolds
@@ -46,7 +46,7 @@ class GivenGap:
     @property
     def width(self) -> float:
         """Half of the period [m]."""
-        return 0.5 * self.gap.shape[1] * self.dy
+        return float(0.5 * self.gap.shape[1] * self.dy)
 
     def film(self, points: FloatArray) -> np.ndarray:
         """h [m] at points (2, ...)."""

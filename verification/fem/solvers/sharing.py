@@ -295,4 +295,4 @@ def rupture(film: ehl.EHLSolution) -> float:
     def excess(at: float) -> float:
         return float(film.at(np.array([at]))[1][0]) - film.flow_film
 
-    return brentq(excess, x[thinnest], x[past_rupture], xtol=1e-6 * c.half_width)
+    return float(brentq(excess, x[thinnest], x[past_rupture], xtol=1e-6 * c.half_width))

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...arrays import ComplexArray, FloatArray
+from ...types import ComplexArray, FloatArray
 from .ehl import EHLSolution, LineContact, solution_of, solve_ehl
 from .ehl_film import FilmEquations
 from .ehl_newton import Iterate, newton

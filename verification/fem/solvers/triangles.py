@@ -11,7 +11,7 @@ from skfem import Basis, ElementTriP1, MeshTri
 from skfem.helpers import sym_grad
 from skfem.models.elasticity import lame_parameters, linear_stress
 
-from ...arrays import FloatArray
+from ...types import FloatArray
 
 if TYPE_CHECKING:
     from scipy.sparse import csc_matrix, csr_matrix

@@ -7,9 +7,9 @@ import numpy as np
 
 from lubfric.contact import ContactResult
 
-from ...arrays import FloatArray
 from ...check import AT_LEAST, Check, Item, Table, bound, compared
 from ...meshes import mesh_field
+from ...types import FloatArray
 from ..convergence import Series, convergence
 from ..exact_contact import Line
 from ..parts import pressed_cylinder
@@ -30,7 +30,7 @@ HERTZ = "Hertz line contact, closed form (Johnson 1985, Contact Mechanics, ch. 4
 DRY = "lubfric.solve_contact"
 
 
-def contact(level: str):
+def contact(level: str) -> Iterator[Item]:
     """A cylinder pressed on the elastic layer, against Hertz and against `lubfric.solve_contact`.
 
     The finite elements bring their own elasticity (plane strain, a layer, no kernel) and their own contact algorithm: a

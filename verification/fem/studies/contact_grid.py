@@ -1,13 +1,13 @@
 """Dry contact of `lubfric` against closed forms on ever finer grids, for each of the three boundary conditions."""
 
 from collections.abc import Callable, Iterator
-from typing import Any
 
 import numpy as np
 
 import lubfric
 
 from ...check import AT_LEAST, Item, Table, bound, compared
+from ...types import Keywords
 from ..convergence import Series, convergence
 from ..exact_contact import Line, Sphere, Wave
 from ..parts import pressed_cylinder
@@ -37,7 +37,7 @@ BALL = {
 WAVE = {"peak pressure": (5e-4, 2), "contact area": (2e-2, 1), "mean gap": (3e-4, 2), "pressure, L2": (1.2e-2, 1)}
 
 
-def contact_grid(level: str):
+def contact_grid(level: str) -> Iterator[Item]:
     """`lubfric.solve_contact` on smooth shapes with closed forms. Errors are shown against the cells in the contact.
 
     The shapes are a cylinder (free along x, periodic along y), a sphere (free both ways), a wave (periodic both ways),
@@ -54,7 +54,7 @@ def contact_grid(level: str):
 
 
 def family(
-    solve: Callable[..., Any],
+    solve: Callable[[int, float], tuple[float, ...]],
     cells: tuple[int, ...],
     size: str,
     at: int,
@@ -121,7 +121,7 @@ def sphere(cells: int, place: float) -> tuple[float, ...]:
     n = 2 * int(2 * across)
     x = centred(n, dx)
     square = x[:, None] ** 2 + x**2
-    options: dict[str, Any] = {"boundary": ("free", "free"), "tolerance": TOLERANCE}
+    options: Keywords = {"boundary": ("free", "free"), "tolerance": TOLERANCE}
     mean = exact.load / (n * dx) ** 2
     c = lubfric.solve_contact(square / (2 * RADIUS), dx, E_PRIME, mean_pressure=mean, **options)
     p = c.pressure
@@ -143,7 +143,7 @@ def wave(cells: int, place: float) -> tuple[float, ...]:
     exact = Wave(E_PRIME, 100e-9, 45e-6, 0.2 + 0.3 * place)
     x = (np.arange(n) + 0.5 + place) * exact.length / n
     gap0 = np.tile(-exact.amplitude * np.cos(2 * np.pi * x / exact.length)[:, None], (1, 4))
-    options: dict[str, Any] = {"mean_pressure": exact.mean_pressure, "tolerance": TOLERANCE}
+    options: Keywords = {"mean_pressure": exact.mean_pressure, "tolerance": TOLERANCE}
     c = lubfric.solve_contact(gap0, exact.length / n, E_PRIME, **options)
     p = c.pressure[:, 0]
     true = exact.pressure(x)
@@ -155,7 +155,7 @@ def wave(cells: int, place: float) -> tuple[float, ...]:
     )
 
 
-def row_of_spheres(cells: int):
+def row_of_spheres(cells: int) -> Iterator[Item]:
     """Spheres in a row, 24 radii apart. The semi-periodic operator has to let each be a point contact.
 
     The others press it down by ``(2/(pi E')) F sum 2/(n s)``, which is a constant and a curvature. The curvature widens
@@ -166,7 +166,7 @@ def row_of_spheres(cells: int):
     nx = 4 * cells
     ny = 24 * cells
     square = centred(nx, dx)[:, None] ** 2 + centred(ny, dx) ** 2
-    options: dict[str, Any] = {"boundary": ("free", "periodic"), "tolerance": 1e-6}
+    options: Keywords = {"boundary": ("free", "periodic"), "tolerance": 1e-6}
     mean = exact.load / (nx * ny * dx**2)
     p = lubfric.solve_contact(square / (2 * RADIUS), dx, E_PRIME, mean_pressure=mean, **options).pressure
     rows = [

@@ -8,8 +8,8 @@ import numpy as np
 
 import lubfric
 
-from ...arrays import BoolArray, FloatArray
 from ...check import AT_LEAST, Item, Table, bound, compared
+from ...types import BoolArray, FloatArray
 from ..convergence import Series
 from ..solvers.compliance import Elastic, missing
 from ..solvers.contact import solve_contact
@@ -28,7 +28,7 @@ NODES = {"quick": (32, 64), "default": (32, 64, 128), "full": (32, 64, 128, 256)
 REFERENCE = {"quick": 256, "default": 512, "full": 1024}
 
 
-def contact_rough(level: str):
+def contact_rough(level: str) -> Iterator[Item]:
     """A rough periodic patch pressed on a layer of bricks, against `lubfric.solve_contact`.
 
     It is a box of 50 µm with waves down to a quarter of it. The layer is 1.25 boxes thick, and its longest wave is too

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from lubfric.oil import Lubricant
 from lubfric.surface import Surface
 
 from ...check import ABSOLUTE, Check, Item, compared
+from ...types import Keywords
 from ..parts import line_contact
 from ..solvers.fluid import Fluid
 from ..solvers.rough_film import GivenGap, rough_film
@@ -34,7 +34,7 @@ CASES = {  # cells over 90 µm and speeds [m/s]
 }
 
 
-def deterministic(level: str):
+def deterministic(level: str) -> Iterator[Item]:
     """The deterministic model, compared with the smooth film, the dry contact, and finite elements.
 
     The smooth film is that of `solve_ehl`, the dry contact that of `solve_contact`. Three comparisons are with finite
@@ -82,10 +82,10 @@ def problem(cells: int, speed: float, seed: int = 1) -> Problem:
     return lay_out(surface(cells, seed), contact(speed), sliding=2 * speed, boundary_friction=0.09, hardness=6e9)
 
 
-def smooth():
+def smooth() -> Iterator[Item]:
     """A surface without roughness."""
     for speed, load in ((0.3, LOAD), (0.1, 20 * LOAD)):
-        case: dict[str, Any] = {"load_per_width": load, "entrainment_speed": speed, "density_law": "dowson-higginson"}
+        case: Keywords = {"load_per_width": load, "entrainment_speed": speed, "density_law": "dowson-higginson"}
         case |= {"radius": RADIUS, "e_prime": E_PRIME, "viscosity": VISCOSITY, "pressure_viscosity_coefficient": ALPHA}
         solution = smooth_film(line_contact(case), 2 * speed)
         film = lubfric.solve_ehl(**case, tolerance=1e-4)
@@ -113,7 +113,7 @@ def dry() -> Iterator[Item]:
     )
 
 
-def same_gap(cells: int, speed: float):
+def same_gap(cells: int, speed: float) -> Iterator[Item]:
     """Flow and load of the film by finite elements in the gap that was found."""
     case = problem(cells, speed)
     solution = solve_point(case)

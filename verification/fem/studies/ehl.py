@@ -10,6 +10,7 @@ import lubfric
 
 from ...check import AT_LEAST, Check, Field, Item, Table, bound, compared
 from ...meshes import mesh_field
+from ...types import TableRow
 from ..convergence import Series, convergence, picture
 from ..parts import case_of
 from ..published.friction import force
@@ -100,7 +101,7 @@ class Pair:
         return s.flow_film / self.line.flow_film - 1, s.min_film / self.line.min_film - 1, off
 
 
-def thinned():
+def thinned() -> Iterator[Item]:
     """Films that shear makes up to twice as thin, one mesh finer than the coarsest."""
     for M, L, law, ratio in THINNED:
         c = case_of(M, L)
@@ -127,7 +128,7 @@ def solved(point: tuple[float, float, str], refinements: int) -> Pair:
     return Pair(point, solutions, lubfric.solve_ehl(**case, tolerance=3e-5), seconds)
 
 
-def point_checks(pair: Pair, level: str):
+def point_checks(pair: Pair, level: str) -> Iterator[Item]:
     """Flow film and smallest film against `lubfric` and the table."""
     s = pair.finest
     k = pair.finest.contact.moes_film
@@ -150,7 +151,7 @@ def point_checks(pair: Pair, level: str):
 
 def summary(pairs: list[Pair]) -> Table:
     """The table of every contact on every mesh."""
-    rows: list[tuple] = []
+    rows: list[TableRow] = []
     for pair in pairs:
         k = pair.finest.contact.moes_film
         line = pair.line
@@ -230,7 +231,7 @@ def ringing() -> Iterator[Item]:
     yield bound(f"{name}, slope penalty", variation["slope penalty"], 1.6, source, "does not ring")
 
 
-def finite_body():
+def finite_body() -> Iterator[Item]:
     """What a body of side D costs against a half-space: the same mesh near the contact, with D doubled."""
     sides = np.array([60.0, 120.0, 240.0, 480.0])
     values = [solve_ehl(LineContact.of(case_of(20, 5)), refinements=1, side=side)[-1] for side in sides]

@@ -31,7 +31,7 @@ RIGID_LOAD = 1e-3  # M at which elastic deflection is 5e-7 of the film
 SECOND = "fluxes through faces, second order"
 
 
-def ehl_grid(level: str):
+def ehl_grid(level: str) -> Iterator[Item]:
     """`lubfric.solve_ehl` on its nested grids, and with inlets ever farther away.
 
     Its one knob is ``tolerance``: grids are doubled until the estimated error is below it. Films are held against a
@@ -45,7 +45,7 @@ def ehl_grid(level: str):
     yield from starved()
 
 
-def table():
+def table() -> Iterator[Item]:
     """Films of the table."""
     for (M, L), (smallest, flow) in TABLE.items():
         half_width = RADIUS * (L / (ALPHA * E_PRIME)) * math.sqrt(8 * M / math.pi)
@@ -126,7 +126,7 @@ def elastic(level: str) -> Iterator[Item]:
     yield from convergence("ehl_grid", caption, series, "1 / cells", "relative film error")
 
 
-def starved():
+def starved() -> Iterator[Item]:
     """A starved inlet at light load: the load of the closed form with the same inlet."""
     losses = []
     inlets = np.array([1.5, 3.0, 6.0, 12.0, 24.0])

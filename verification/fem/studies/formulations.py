@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from lubfric.paper import alternating, single_loop
 
 from ...campaigns.charts.measure import interleaved
 from ...check import AT_MOST, Check, Item, Table
+from ...types import Keywords, TableRow
 
 E_PRIME = 231e9
 RADIUS = 2e-3
@@ -24,7 +24,7 @@ HARDNESS = 2e9
 TOLERANCE = 1e-6
 AGREEMENT = 1e-4
 PAPER = "Akchurin et al. 2015, Appendix 2 and Sec. 2.2, doi:10.1007/s11249-015-0536-z"
-METHODS: dict[str, Callable] = {
+METHODS: dict[str, Callable[..., ContactResult]] = {
     "single loop": single_loop,
     "single loop, as printed": partial(single_loop, form="printed", max_iterations=1000),
     "single loop, stop on Eq. (23)": partial(single_loop, stop="separation"),
@@ -41,22 +41,22 @@ class FormulationCase:
 
     def __init__(self, shape: str, hardness: float | None, count: int):
         self.name = f"{shape}, {'elastic' if hardness is None else 'plastic'}"
-        roughness: dict[str, Any] = {"sq": SQ, "correlation_length": 6e-6, "acf": "gaussian", "seed": 3}
+        roughness: Keywords = {"sq": SQ, "correlation_length": 6e-6, "acf": "gaussian", "seed": 3}
         z = lubfric.generate_surface((count, count), SPACING, **roughness).heights
         x = (np.arange(count) - (count - 1) / 2) * SPACING
         film, area, pressure = body(shape, x, count * SPACING / 6)
         operator = half_space(z.shape, SPACING, E_PRIME, BOUNDARIES[shape])
-        self.load: dict[str, Any] = {"hardness": hardness, "boundary": BOUNDARIES[shape], "operator": operator}
+        self.load: Keywords = {"hardness": hardness, "boundary": BOUNDARIES[shape], "operator": operator}
         self.shape = film - z
         self.pressure = pressure
         self.direct = self.by_load()
         volume = np.sum(area * np.maximum(self.direct.gap, 0)) / area.sum()
         self.given = (z, film + volume - np.sum(area * film) / area.sum(), SPACING, E_PRIME)
-        self.options: dict[str, Any] = self.load | {"weight": area, "tolerance": TOLERANCE, "raise_on_failure": False}
+        self.options: Keywords = self.load | {"weight": area, "tolerance": TOLERANCE, "raise_on_failure": False}
 
     def by_load(self) -> ContactResult:
         """The load-controlled default."""
-        options: dict[str, Any] = {"mean_pressure": self.pressure, "tolerance": TOLERANCE}
+        options: Keywords = {"mean_pressure": self.pressure, "tolerance": TOLERANCE}
         return solve_contact(self.shape, SPACING, E_PRIME, **options, **self.load)
 
 
@@ -95,7 +95,7 @@ def formulations(level: str) -> Iterator[Item]:
             if name in MUST_AGREE:
                 source = "load-controlled contact solve"
                 note = result.report.message
-                about: dict[str, Any] = {"note": note, "seconds": seconds}
+                about: Keywords = {"note": note, "seconds": seconds}
                 yield Check(
                     f"{name}: {case.name}", off, expected=0.0, tolerance=AGREEMENT, source=source, kind=AT_MOST, **about
                 )
@@ -103,7 +103,7 @@ def formulations(level: str) -> Iterator[Item]:
     yield Table("formulations", caption, COLUMNS, rows)
 
 
-def row(case: FormulationCase, name: str, result: ContactResult, off: float, seconds: float) -> tuple:
+def row(case: FormulationCase, name: str, result: ContactResult, off: float, seconds: float) -> TableRow:
     """A line of the table."""
     r = result.report
     residuals = float(f"{r.residual:.2g}"), float(f"{off:.2g}")

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from lubfric.models.shared import Prepared
 
 from ... import plotting
 from ...check import AT_LEAST, AT_MOST, Check, Item, Table, bound, compared
+from ...types import Keywords, Option
 from ..convergence import Series, picture
 from ..exact import Parabola
 
@@ -32,7 +32,7 @@ TIGHT = {
 }
 
 
-def friction(level: str):
+def friction(level: str) -> Iterator[Item]:
     """`lubfric.friction` on the paper's cylinder (Tables 1 and 2; generated Gaussian roughness of 100 nm, 8 µm at 1/e).
 
     The friction of a full film has a closed form. The reversed motion over the mirrored surface must give the same
@@ -51,11 +51,11 @@ def friction(level: str):
 
 def surface(shape: tuple[int, int], spacing: float, seed: int = 1) -> np.ndarray:
     """Heights with the roughness of the scene, m."""
-    made: dict[str, Any] = {"sq": 100e-9, "correlation_length": LENGTH, "acf": "gaussian", "seed": seed}
+    made: Keywords = {"sq": 100e-9, "correlation_length": LENGTH, "acf": "gaussian", "seed": seed}
     return lubfric.generate_surface(shape, spacing, **made).heights
 
 
-def model(heights: np.ndarray, spacing: float, region: str = "hertz", **numerics: Any) -> Prepared:
+def model(heights: np.ndarray, spacing: float, region: str = "hertz", **numerics: Option) -> Prepared:
     """The paper's cylinder made ready for given heights, tightly solved unless ``numerics`` say otherwise."""
     scene = lubfric.load_scene("paper").with_(contact={"region": region}, numerics=TIGHT | numerics)
     return prepare(scene, lubfric.Surface(heights, (spacing, spacing)))
@@ -67,7 +67,7 @@ def blocks(heights: np.ndarray, cells: int) -> np.ndarray:
     return heights.reshape(cells, k, -1, k).mean(axis=(1, 3))
 
 
-def full_film():
+def full_film() -> Iterator[Item]:
     """Constant viscosity at high speed: a rigid isoviscous film, whose friction has a closed form."""
     made = model(np.zeros((16, 16)), 1e-6)
     made = prepare(made.scene.with_(lubricant={"viscosity_law": "constant"}), like=made)
@@ -84,7 +84,7 @@ def full_film():
     yield from compared("full film", rows, "closed form, Martin 1916")
 
 
-def mirrored():
+def mirrored() -> Iterator[Item]:
     """Backwards over the mirrored surface."""
     heights = blocks(surface((64, 64), PATCH / 64), 32)
     there = lubfric.friction(model(heights, PATCH / 32), 0.01)
@@ -128,12 +128,12 @@ def contact_cells(finest: int) -> Iterator[Item]:
     yield picture("contact_cells", caption, series, "1 / cells per correlation length", "relative error")
 
 
-def tolerance_of_the_job():
+def tolerance_of_the_job() -> Iterator[Item]:
     """Show the error of f over the requested tolerance, from which `lubfric` chooses grids and inner tolerances."""
     heights = surface((256, 256), PATCH / 256)
     spacing = PATCH / 256
     reference = [lubfric.friction(model(heights, spacing), speed).coefficient for speed in SPEEDS]
-    free: dict[str, Any] = dict.fromkeys(("film_tolerance", "balance_tolerance", "contact_tolerance"))
+    free: Keywords = dict.fromkeys(("film_tolerance", "balance_tolerance", "contact_tolerance"))
     free["grid"] = "auto"
     for tolerance in TOLERANCES:
         made = model(heights, spacing, **free | {"tolerance": tolerance})
@@ -143,7 +143,7 @@ def tolerance_of_the_job():
         yield bound(f"tolerance {tolerance:g}: error of f", error, tolerance, source)
 
 
-def area_of_the_balance():
+def area_of_the_balance() -> Iterator[Item]:
     """Strip or box: F_H at the paper's speed against the width of the patch. One surface is cut to all widths."""
     spacing = 0.9375e-6
     cells = 192
@@ -174,7 +174,7 @@ def area_of_the_balance():
     caption = "Film load at 0.001 m/s against the width of the patch, for the two readings of the area A in Eq. (8): "
     caption += "over the Hertz strip it does not depend on how wide a box was drawn."
     curves = [(widths, strip, "o-", "A: Hertz strip of the total load"), (widths, box, "o-", "A: the complete box")]
-    labels: dict[str, Any] = {
+    labels: Keywords = {
         "xlabel": "width of the patch (µm)",
         "ylabel": "$F_H$ (N)",
         "ylim": (0, 1.2 * max(*strip, *box)),
@@ -182,7 +182,7 @@ def area_of_the_balance():
     yield plotting.chart("area", caption, curves, **labels)
 
 
-def patch_size():
+def patch_size() -> Iterator[Item]:
     """Mean and scatter of f over realisations against the length of the patch along the line."""
     spacing = 0.9375e-6
     lengths = (45e-6, 90e-6, 180e-6, 360e-6)

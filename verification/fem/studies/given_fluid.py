@@ -9,7 +9,6 @@ are; what is left falls with their size.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from lubfric.film import LineContact
 from lubfric.models.deterministic import DeterministicResult, Problem, lay_out, reach, solve_point
 
 from ...check import ABSOLUTE, Check, Item
+from ...types import Keywords
 from ..solvers.compliance import Elastic
 from ..solvers.contact import Contact
 from ..solvers.harmonic import Compliance, HarmonicStrip, compliance, press
@@ -70,7 +70,7 @@ MISPLACED = 0.1  # share of touching cells
 
 def contact_given_fluid(level: str, contact: LineContact) -> Iterator[Item]:
     """Pressure and cells of the contact, its load at the same gap, and the gap of the film."""
-    bodies: dict[tuple, Compliance] = {}
+    bodies: dict[tuple[int, ...], Compliance] = {}
     for case in CASES[level]:
         problem = laid(case, contact)
         grid = (*problem.heights.shape, case.fineness)
@@ -82,13 +82,13 @@ def contact_given_fluid(level: str, contact: LineContact) -> Iterator[Item]:
 def laid(case: GivenFluidCase, contact: LineContact) -> Problem:
     """The paper's roughness under ``contact`` at the case's speed, on an even number of cells along x."""
     shape = (FINE, FINE * case.across // case.cells)
-    rough: dict[str, Any] = {"sq": 100e-9, "acf": "gaussian", "seed": 1}
+    rough: Keywords = {"sq": 100e-9, "acf": "gaussian", "seed": 1}
     fine = lubfric.generate_surface(shape, WIDTH / FINE, correlation_length=LENGTH, **rough)
     surface = fine.resampled(shape=(case.cells, case.across))
     line = replace(contact, entrainment_speed=case.speed)
     upstream, downstream = reach(line, surface.sq)
 
-    def over(ends: Any) -> Problem:
+    def over(ends: tuple[float, float]) -> Problem:
         sliding = 2 * case.speed
         laid = lay_out(surface, line, sliding=sliding, boundary_friction=0.09, hardness=case.hardness, ends=ends)
         return replace(laid, floor=case.floor)

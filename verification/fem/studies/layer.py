@@ -21,7 +21,7 @@ MULTIGRID = {"quick": 16, "default": 32, "full": 64}
 HALF_WIDTH = 5e-6  # of the narrow load, m
 
 
-def layer(level: str):
+def layer(level: str) -> Iterator[Item]:
     """An elastic layer on a rigid base by finite elements: does it give the compliance it should?
 
     It is two-dimensional (triangles, factorised) and three-dimensional (bricks; assembled and solved by multigrid, and
@@ -54,7 +54,7 @@ def plane_wave(cells: int, degree: int, depth: float = 0.5, body: Elastic = BODY
     return float(energy), float(np.abs(moved / exact - pressure).max())
 
 
-def plane_orders(level: str):
+def plane_orders(level: str) -> Iterator[Item]:
     """Plane strain: orders of P1 and P2 on one wave."""
     exact = layer_compliance(K, WAVE / 2, BODY)
     series = []
@@ -80,7 +80,7 @@ def plane_orders(level: str):
         if degree == 2:  # for P1 the two coincide
             series.append(Series("P2, nodes", WAVE / cells, errors=[f[1] for f in values], order=degree + 1))
         allowed = {1: 40, 2: 60}[degree] / cells[-1] ** order
-        yield from compared(name, [("compliance at kd = π", "m/Pa", values[-1][0], exact, allowed)], SOURCE)
+        yield from compared(name, [("compliance at kd = π", "m/Pa", values[-1][0], float(exact), allowed)], SOURCE)
     caption = "Plane-strain layer, half a wavelength thick: relative error of the compliance of a wave, from its "
     caption += "energy, and for P2 largest error of a displacement at a node."
     yield from convergence("layer_plane", caption, series, "cell length (m)", "relative error")
@@ -95,8 +95,8 @@ def plane_finite(level: str) -> Iterator[Item]:
         for s in (0.3, 1.0, 3.0) if level == "quick" else (0.3, 1.0, 3.0, 6.0):
             depth = s / (2 * np.pi)
             result = plane_wave(cells, 2, depth, body)[0]
-            exact = layer_compliance(K, depth * WAVE, body)
-            rows.append((poisson, s, result, float(exact), abs(result / exact - 1)))
+            exact = float(layer_compliance(K, depth * WAVE, body))
+            rows.append((poisson, s, result, exact, abs(result / exact - 1)))
     columns = ("Poisson's ratio", "kd", "finite elements (m/Pa)", "exact (m/Pa)", "relative error")
     yield Table("layer_finite", f"Compliance of a bonded layer, P2, {cells} cells per wavelength", columns, rows)
     worst = max(r[-1] for r in rows)
@@ -178,7 +178,7 @@ def approach(level: str) -> Iterator[Item]:
     cells = {"quick": 32, "default": 48, "full": 64}[level]
 
     def missing_compliance(cells_deep: float) -> float:
-        return 1 - plane_wave(cells, 2, cells_deep)[0] / half_space_compliance(K, BODY)
+        return float(1 - plane_wave(cells, 2, cells_deep)[0] / half_space_compliance(K, BODY))
 
     values = np.array([missing_compliance(s / (2 * np.pi)) for s in depths])
     exact = np.array([missing(s, nu) for s in depths])

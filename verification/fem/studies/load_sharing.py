@@ -4,7 +4,6 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
@@ -14,7 +13,8 @@ from lubfric.models import prepare
 from lubfric.models.shared import Prepared
 
 from ... import plotting
-from ...check import AT_LEAST, Field, Figure, Item, Table, compared
+from ...check import AT_LEAST, ComparedRow, Field, Figure, Item, Table, compared
+from ...types import Keywords
 from .. import parts
 from ..convergence import Series, convergence
 from ..solvers.compliance import Elastic
@@ -92,7 +92,7 @@ class Point:
 
     def difference(self, name: str) -> float:
         """Relative difference of a number that both have."""
-        return abs(getattr(self.main, name) / getattr(self.fem, name) - 1)
+        return float(abs(getattr(self.main, name) / getattr(self.fem, name) - 1))
 
 
 def scene() -> lubfric.Scene:
@@ -109,7 +109,7 @@ def rough(finest: int, cells: int) -> np.ndarray:
     """One surface of ``finest`` squared cells, averaged in blocks."""
     asked = scene().surface
     block = finest // cells
-    made: dict[str, Any] = {"sq": asked.sq, "acf": asked.acf, "correlation_length": CORRELATION, "seed": asked.seed}
+    made: Keywords = {"sq": asked.sq, "acf": asked.acf, "correlation_length": CORRELATION, "seed": asked.seed}
     surface = lubfric.generate_surface((finest, finest), LENGTH / finest, **made)
     return surface.heights.reshape(cells, block, cells, block).mean(axis=(1, 3))
 
@@ -196,7 +196,7 @@ def twice_integrated(z: np.ndarray) -> np.ndarray:
     return STEP * values
 
 
-def rows_of(main: lubfric.FrictionResult, fem: SharedLoad, allowed: tuple[float, float, float]) -> list[tuple]:
+def rows_of(main: lubfric.FrictionResult, fem: SharedLoad, allowed: tuple[float, float, float]) -> list[ComparedRow]:
     """Return the results of both programs. The asperity load is the total load less the film load."""
     return [
         ("coefficient", "1", main.coefficient, fem.coefficient, allowed[0]),

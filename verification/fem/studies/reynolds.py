@@ -1,12 +1,12 @@
 """Reynolds equation on a line: closed forms, rupture, piezoviscosity, and a wave Galerkin rings on."""
 
-from collections.abc import Callable, Iterator
-from typing import Any
+from collections.abc import Iterator
 
 import numpy as np
 import skfem
 
 from ...check import ABSOLUTE, AT_LEAST, Check, Item, Table, bound, compared
+from ...types import Law, TableRow
 from .. import exact
 from ..convergence import Series, convergence
 from ..solvers.fluid import Fluid
@@ -19,7 +19,7 @@ AMBIENT = 1e5
 GAS = exact.Slider(viscosity=1.8e-5, speed=200.0, length=0.01, inlet=4e-6, outlet=2e-6)
 
 
-def reynolds(level: str):
+def reynolds(level: str) -> Iterator[Item]:
     """The Reynolds solver of the finite-element side, for given films, compared with results that need no solver.
 
     A plane slider has a closed form for pressure, load and flow. Under a parabola the film ruptures; where it
@@ -34,7 +34,7 @@ def reynolds(level: str):
     yield from ringing()
 
 
-def slider(refinements: int):
+def slider(refinements: int) -> Iterator[Item]:
     """A plane slider: orders of P1 and P2, load and flow."""
     series = []
     for degree in (1, 2):
@@ -93,7 +93,7 @@ def parabola(refinements: int) -> Iterator[Item]:
     """
     e = PARABOLA
     series = []
-    rows: list[tuple] = []
+    rows: list[TableRow] = []
     for degree in (1, 2):
         runs = [ruptured(e, parabola_mesh(50, shift=shift), degree, refinements) for shift in np.arange(8) / 8]
         errors = np.sqrt(np.mean([[s.error(e.pressure) ** 2 for s in result] for result in runs], axis=0))
@@ -158,7 +158,7 @@ def piezoviscous(refinements: int) -> Iterator[Item]:
     strong = 2e-8
     alpha = 0.99 / base.pressure(np.linspace(-2, 1, 200_001)[None] * base.scale).max()
 
-    def roelands(coefficient: float) -> tuple[Fluid, Callable[..., Any]]:
+    def roelands(coefficient: float) -> tuple[Fluid, Law]:
         law = Fluid(0.04, viscosity_law="roelands", pressure_viscosity_coefficient=coefficient, roelands_index=index)
         return law, lambda q: exact.roelands_to_true(q, coefficient * 1.96e8 / index, index)
 

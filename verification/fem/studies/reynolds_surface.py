@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import skfem
 
-from ...arrays import BoolArray, FloatArray
 from ...check import Check, Item, Table, bound, compared
 from ...meshes import mesh_field
+from ...types import BoolArray, FloatArray
 from .. import exact
 from ..convergence import Series, convergence
 from ..solvers.fluid import Fluid, slope
@@ -32,7 +32,7 @@ INLET = 2e-6
 OUTLET = 1e-6
 
 
-def reynolds_surface(level: str):
+def reynolds_surface(level: str) -> Iterator[Item]:
     """The Reynolds solver on surfaces, triangles and quadrilaterals of first and second order.
 
     A manufactured pressure in a compressible Roelands oil exercises every term of the weak form, and each element must
@@ -188,13 +188,13 @@ def edged(e: exact.ExponentialPad) -> skfem.MeshQuad:
     return skfem.MeshQuad.init_tensor(crowded(e.length, e.width), crowded(e.width, e.length) - e.width / 2)
 
 
-def parabolic(refinements: int):
+def parabolic(refinements: int) -> Iterator[Item]:
     """Rupture: infinite width repeats the line; finite width agrees on both kinds of cells and loses no mass."""
     e = exact.Parabola(viscosity=VISCOSITY, speed=SPEED, radius=0.01, film_thickness=1e-6, inlet=-10.0)
     x = np.sinh(np.linspace(-np.arcsinh(10), np.arcsinh(2), 25)) * e.scale
 
     def solved(
-        mesh: MeshQuad1 | MeshTri1, degree: int, refinements: int, side: Callable[..., Any] | None = None
+        mesh: MeshQuad1 | MeshTri1, degree: int, refinements: int, side: Callable[[FloatArray], BoolArray] | None = None
     ) -> ReynoldsSolution:
         problem = ReynoldsProblem(
             mesh=mesh,

@@ -10,7 +10,6 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import islice
-from typing import Any
 
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator
@@ -19,13 +18,14 @@ from lubfric.models.deterministic import Problem, lay_out, moments, solve_point
 from lubfric.surface import Surface
 
 from ...check import ABSOLUTE, Check, Field, Item, Table
+from ...types import Keywords, PlainRow, TableRow
 from ..convergence import extrapolated_by, order_of_three
 from ..parts import line_contact
 from ..solvers.ehl import LineContact
 from ..solvers.rough_ehl import Discretisation, RoughLine, RoughStripFilm, march, solve_rough
 
-STEEL: dict[str, Any] = {"radius": 1e-2, "e_prime": 2.3e11, "viscosity": 0.04}
-OIL: dict[str, Any] = {
+STEEL: Keywords = {"radius": 1e-2, "e_prime": 2.3e11, "viscosity": 0.04}
+OIL: Keywords = {
     "pressure_viscosity_coefficient": 18e-9,
     "viscosity_law": "roelands",
     "density_law": "dowson-higginson",
@@ -76,7 +76,7 @@ class StripCase:
     floor: float | None = None
 
     @property
-    def given(self) -> dict[str, Any]:
+    def given(self) -> PlainRow:
         """The smooth contact, in the words of both programs."""
         return STEEL | OIL | {"load_per_width": self.load, "entrainment_speed": self.speed}
 
@@ -106,7 +106,7 @@ def rough_strip(level: str) -> Iterator[Item]:
     takes the finer of both; the table has all. The first load at rest is solved on three, with the order of the flow of
     each program, and both flows extrapolated to no cells.
     """
-    rows: list[tuple] = []
+    rows: list[TableRow] = []
     bodies: dict[tuple[int, int], Discretisation] = {}
     for load in LOADS:
         case = StripCase(load=load)
@@ -155,7 +155,7 @@ def mesh_study(
             grade="B",
         )
         limits.append(extrapolated_by(ORDER, sizes, flows))
-    mine, theirs = limits
+    mine, theirs = (float(limit) for limit in limits)
     yield Check(f"{name}: flow without cells", mine, expected=theirs, tolerance=ALLOWED_LIMIT, source=SOURCE)
 
 
@@ -187,10 +187,10 @@ def rows_of(
     ours: list[list[Fields]],
     grids: tuple[tuple[int, int], ...],
     elements: list[list[Fields]],
-) -> list[tuple]:
+) -> list[TableRow]:
     """The rows of the table: what each program has on each of its grids."""
     finenesses = [round((grid[0] - 1) / (INLET + OUTLET)) for grid in grids]
-    rows: list[tuple] = []
+    rows: list[TableRow] = []
     for by, counts, solutions in (("lubfric", cells, ours), ("elements", finenesses, elements)):
         for count, films in zip(counts, solutions):
             rows.append((name, by, count, *(f"{value:.5g}" for value in averages(case, films).values())))

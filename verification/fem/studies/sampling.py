@@ -2,13 +2,13 @@
 with its stated error."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
 import lubfric
 
 from ...check import ABSOLUTE, AT_MOST, Check, Item
+from ...types import Keywords
 
 SEEDS = {"quick": 30, "default": 60, "full": 100}
 # m/s, relative: of mixed lubrication
@@ -51,7 +51,7 @@ def sampling(level: str) -> Iterator[Item]:
 
 def statistics() -> Iterator[Item]:
     """Slope and structure function of one large surface: m2 = 2 Sq²/length² along each axis, and 2 Sq² (1 - acf)."""
-    keys: dict[str, Any] = {"sq": SQ, "correlation_length": LENGTH, "acf": "gaussian", "seed": 3}
+    keys: Keywords = {"sq": SQ, "correlation_length": LENGTH, "acf": "gaussian", "seed": 3}
     z = lubfric.generate_surface((CELLS, CELLS), CELL, **keys).heights
     for axis, name in enumerate("xy"):
         waves = np.fft.fftfreq(CELLS, CELL) * 2 * np.pi

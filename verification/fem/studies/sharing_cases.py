@@ -2,9 +2,8 @@
 map."""
 
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -14,7 +13,8 @@ from lubfric.models.shared import Prepared
 from lubfric.scene.roughness import Roughness
 
 from ...campaigns.wiring.maps import planed
-from ...check import AT_LEAST, Check, compared
+from ...check import AT_LEAST, Check, Item, compared
+from ...types import Keywords
 from ..parts import the
 from ..solvers.contact import solve_contact
 from ..solvers.harmonic import Compliance
@@ -34,9 +34,9 @@ OFFSET = 0.3e6
 
 LIMITED = {"eyring_stress": EYRING, "limiting_stress_coefficient": LIMIT, "limiting_stress_offset": OFFSET}
 HEAVY = {"bodies": {"radius": 1e-3, "load": 20.0, "hardness": None}}  # 350 MPa of Hertz: the laws of the oil matter
-ELASTIC: dict[str, dict] = {"bodies": {"hardness": None}}
+ELASTIC: dict[str, Keywords] = {"bodies": {"hardness": None}}
 YIELDING = "yielding cells"
-CASES: dict[str, tuple[float, dict[str, dict]]] = {  # speed [m/s], and changed sections of the scene
+CASES: dict[str, tuple[float, dict[str, Keywords]]] = {  # speed [m/s], and changed sections of the scene
     "Eyring with a limiting stress": (0.1, HEAVY | {"lubricant": LIMITED}),
     "Dowson-Higginson": (0.1, HEAVY | {"lubricant": LIMITED | {"density_law": "dowson-higginson"}}),
     "Barus": (0.1, HEAVY | {"lubricant": LIMITED | {"viscosity_law": "barus"}}),
@@ -46,7 +46,7 @@ CASES: dict[str, tuple[float, dict[str, dict]]] = {  # speed [m/s], and changed 
 }
 
 
-def sharing_cases(level: str):
+def sharing_cases(level: str) -> Iterator[Item]:
     """What `load_sharing` does at one corner, at others: f, both loads, gap and shear force of `lubfric.friction`.
 
     They are Eyring's law with a limiting shear stress, a compressible oil, Barus' law, nearly pure rolling and the
@@ -72,7 +72,7 @@ def sharing_cases(level: str):
     yield from flat(asked, refinements)
 
 
-def yielded(solution: SharedLoad, main: lubfric.FrictionResult, body: Compliance, model: Prepared):
+def yielded(solution: SharedLoad, main: lubfric.FrictionResult, body: Compliance, model: Prepared) -> Iterator[Item]:
     """Cells at the hardness, on both sides."""
     weight = model.rough_contact.weight / model.rough_contact.weight.sum()
     share = float(weight @ the(solution.pressed, "dry contact").saturated.mean(axis=1))
@@ -95,7 +95,7 @@ def yielded(solution: SharedLoad, main: lubfric.FrictionResult, body: Compliance
     )
 
 
-def measured_map(allowed: Any, refinements: int):
+def measured_map(allowed: tuple[float, float, float], refinements: int) -> Iterator[Item]:
     """A ground surface in a file: along the other axis, with other cells along it, tilted, and too rough."""
     across = 1.1e-6
     speed = 0.01
@@ -127,7 +127,7 @@ def ground(across: float) -> np.ndarray:
     return 1e-7 * (waves - 0.35 * waves**2) + 2e-3 * x + 1e-3 * y + 3e-7
 
 
-def flat(allowed: tuple[float, float, float], refinements: int):
+def flat(allowed: tuple[float, float, float], refinements: int) -> Iterator[Item]:
     """The paper's nominally flat contact on a patch of few waves."""
     nodes = 64
     speed = 0.02

@@ -6,7 +6,6 @@ both by the second order of the elements; the observed order is a check of its o
 
 import math
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -14,18 +13,19 @@ from scipy.optimize import brentq
 import lubfric
 
 from ...check import AT_LEAST, Check, Item, Table
+from ...types import Keywords, TableRow
 from ..convergence import extrapolated_by, order_of_three
 from ..solvers.ehl import LineContact
 from ..solvers.rough_ehl import Discretisation, RoughLine, RoughStripFilm, solve_rough
 
-CASE: dict[str, Any] = {
+CASE: Keywords = {
     "load_per_width": 1e5,
     "radius": 1e-2,
     "e_prime": 2.3e11,
     "viscosity": 0.04,
     "entrainment_speed": 0.5,
 }
-OIL: dict[str, Any] = {
+OIL: Keywords = {
     "pressure_viscosity_coefficient": 18e-9,
     "viscosity_law": "roelands",
     "density_law": "dowson-higginson",
@@ -49,7 +49,7 @@ def starved(level: str) -> Iterator[Item]:
     Where the lubricant begins is stated (``inlet_length``), or follows from the layer that arrives (``inlet_film``): the
     elements look for the place at which the flow is that of the layer, by a root finder of their own.
     """
-    rows: list[tuple] = []
+    rows: list[TableRow] = []
     grids = GRIDS[level]
     bodies: dict[int, Discretisation] = {}
     for place in PLACES:
@@ -105,7 +105,7 @@ def fed_with(layer: float, cells: int, bodies: dict[int, Discretisation]) -> Rou
         near = min(known, key=lambda other: abs(other - place), default=math.inf)
         start = known[near] if abs(near - place) < CLOSE else None
         known[place] = film_from(place, cells, bodies, start)
-        return known[place].flow / speed / layer - 1
+        return float(known[place].flow / speed / layer - 1)
 
     place = brentq(excess, NARROWEST, FLOODED, xtol=1e-3)
     return known.get(place) or film_from(place, cells, bodies)
@@ -128,7 +128,7 @@ def extrapolated(films: list[RoughStripFilm], grids: tuple[int, ...]) -> np.ndar
 
 
 def compared(
-    name: str, own: lubfric.EHLResult, films: list[RoughStripFilm], grids: tuple[int, ...], rows: list[tuple]
+    name: str, own: lubfric.EHLResult, films: list[RoughStripFilm], grids: tuple[int, ...], rows: list[TableRow]
 ) -> Iterator[Item]:
     """The checks of one inlet."""
     mine = (own.min_film, float(own.film_at(np.array([0.0]))[0]), own.flow_film)

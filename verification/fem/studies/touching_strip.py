@@ -13,6 +13,7 @@ itself is not compared; the load on gaps up to 1.1 floors is.
 from collections.abc import Iterator
 
 from ...check import Item, Table
+from ...types import TableRow
 from ..solvers.rough_ehl import Discretisation
 from .rough_strip import StripCase, both_programs, judged_films, picture_field, rows_of
 
@@ -35,7 +36,7 @@ def touching_strip(level: str) -> Iterator[Item]:
     Two loads at rest, the first also moving at 0.75 U, on nested grids of both programs. The check takes the finest of
     both; the table has all.
     """
-    rows: list[tuple] = []
+    rows: list[TableRow] = []
     bodies: dict[tuple[int, int], Discretisation] = {}
     for case in CASES:
         for moving in (False, True):

@@ -5,7 +5,6 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 
@@ -27,10 +26,11 @@ from lubfric.time import (
 from lubfric.time.film_setting import Setting
 
 from ...check import AT_LEAST, Check, Item, Table, bound, compared
+from ...types import Keywords, PlainRow, TableRow
 from ..convergence import Series, convergence
 from ..parts import E_PRIME, RADIUS, VISCOSITY, case_of, line_contact, the
 
-SQUEEZE: dict[str, Any] = dict(
+SQUEEZE: Keywords = dict(
     load_per_width=100.0,
     radius=0.01,
     e_prime=2.2e17,
@@ -50,7 +50,7 @@ HALVED = (
     (3, 1.963, 1.939),
     (5, 1.914, 1.621),
 )
-COARSE: dict[str, Any] = {"tolerance": 3e-3, "time_tolerance": 1e-4}
+COARSE: Keywords = {"tolerance": 3e-3, "time_tolerance": 1e-4}
 FIRST_STEPS = (1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
 HEAVIEST = 100.0  # M up to which every jump is solved; beyond, the table shows what failed
 MATRIX = {
@@ -60,7 +60,7 @@ MATRIX = {
 }
 
 
-def transient(level: str):
+def transient(level: str) -> Iterator[Item]:
     """The squeeze term of Eq. (6), taken through time by BDF2, where something independent is known.
 
     A rigid cylinder that sinks into oil has a closed form. A contact whose speed is halved at once is compared, time by
@@ -75,7 +75,7 @@ def transient(level: str):
     yield from jumps(level)
 
 
-def contact(M: float, L: float, density: str = "constant") -> tuple[dict[str, Any], FilmProblem, float]:
+def contact(M: float, L: float, density: str = "constant") -> tuple[PlainRow, FilmProblem, float]:
     """Keywords, `FilmProblem` and time b/U (at least 3 film lengths) of a contact with these Moes numbers."""
     keywords = case_of(M, L, density=density)
     problem = FilmProblem(line_contact(keywords))
@@ -229,7 +229,7 @@ def reversal() -> Iterator[Item]:
 
 def jumps(level: str) -> Iterator[Item]:
     """Tenfold jumps, with first steps over four decades: the steady state, or a reported failure."""
-    rows: list[tuple] = []
+    rows: list[TableRow] = []
     wrong = failed = 0
     for (M, L), name, factor in itertools.product(MATRIX[level], ("entrainment_speed", "load_per_width"), (0.1, 10.0)):
         loaded = name == "load_per_width"

@@ -1,17 +1,19 @@
 """Load sharing in time: the paper scene ramped, stopped, reversed; error of friction for step and grid."""
 
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 import lubfric
 from lubfric.models import prepare
+from lubfric.models.shared import Prepared
 from lubfric.scene import Harmonic, Ramp, Transient
 from lubfric.scene import Table as History
 
-from ...check import AT_LEAST, AT_MOST, Check, bound
+from ...check import AT_LEAST, AT_MOST, Check, Item, bound
 from ...pace import paced
+from ...types import FloatArray, Option
 
 LARGEST = 0.05  # m/s
 PERIODS = (2.5e-3, 1e-2, 0.2)
@@ -19,7 +21,7 @@ CELLS = {"quick": 64, "default": 128, "full": 200}
 STEADY = "lubfric.friction, the steady solver"
 
 
-def transient_mixed(level: str):
+def transient_mixed(level: str) -> Iterator[Item]:
     """Film and rough contact share the load at each moment; the film depends on its history.
 
     The scene is that of the paper, with a generated surface instead of the measured one. Slow changes must follow the
@@ -42,7 +44,9 @@ def transient_mixed(level: str):
     yield from cost()
 
 
-def run(model: Any, plan: Transient, times: Any = None, **numerics: Any):
+def run(
+    model: Prepared, plan: Transient, times: FloatArray | list[float] | None = None, **numerics: Option
+) -> lubfric.TransientResult:
     """`lubfric.transient` of a prepared model with another plan (and numerics)."""
     scene = replace(model.scene, transient=plan).with_(numerics=numerics)
     return lubfric.transient(prepare(scene, like=model), times)
@@ -53,7 +57,7 @@ def wave(amplitude: float, frequency: float, mean: float = 0.0) -> Harmonic:
     return Harmonic(mean=mean, amplitude=amplitude, frequency=frequency, phase=np.pi / 2)
 
 
-def steady(model: Any):
+def steady(model: Prepared) -> Iterator[Item]:
     """The scene held, and ramped slowly through lift-off."""
     fine = prepare(model.scene.with_(numerics={"tolerance": 2e-3}), like=model)
     held = run(fine, Transient(1.0), [0.0, 0.1, 1.0])
@@ -61,17 +65,17 @@ def steady(model: Any):
     yield Check(
         "held in time: friction", held.coefficient[-1], expected=point.coefficient, tolerance=2e-3, source=STEADY
     )
-    yield bound("held in time: drift", np.ptp(held.coefficient) / point.coefficient, 5e-4, "a steady state")
+    yield bound("held in time: drift", float(np.ptp(held.coefficient)) / point.coefficient, 5e-4, "a steady state")
     ramp = Ramp(start=0.005, end=0.15, until=4.0)
     slow = run(model, Transient(4.0, speed=ramp), np.linspace(0, 4, 13))
     curve = lubfric.stribeck(model, slow.entrainment_speed)
     off = np.max(np.abs(slow.coefficient / curve.coefficient - 1))
-    yield bound("slow ramp: largest departure from the Stribeck curve", off, 0.01, STEADY)
+    yield bound("slow ramp: largest departure from the Stribeck curve", float(off), 0.01, STEADY)
     lost = np.max(slow.mass_residual)
-    yield bound("mass of the pressurised film: largest residual", lost, 1e-3, "balance over the step")
+    yield bound("mass of the pressurised film: largest residual", float(lost), 1e-3, "balance over the step")
 
 
-def loops(model: Any):
+def loops(model: Prepared) -> Iterator[Item]:
     """Friction loops at three frequencies of a speed that pulsates without reversing, and of one that reverses."""
     opening = []
     for period in PERIODS:
@@ -100,7 +104,7 @@ def loops(model: Any):
     )
 
 
-def stop_and_start(model: Any):
+def stop_and_start(model: Prepared) -> Iterator[Item]:
     """Shut-down, standstill and start-up."""
     plan = Transient(0.02, speed=History(times=(0, 5e-3, 1e-2, 1.5e-2, 0.02), values=(0.1, 0, 0, 0.1, 0.1)))
     history = run(model, plan, np.linspace(0, 0.02, 161))
@@ -115,13 +119,13 @@ def stop_and_start(model: Any):
     yield bound(name, rest, 5e-3, "squeeze decays against the contact")
 
 
-def errors(model: Any):
+def errors(model: Prepared) -> Iterator[Item]:
     """Error of friction against time for the time tolerance and the grid."""
     times = np.linspace(0, 0.01, 26)
     speed = wave(LARGEST, 100.0)
     tight = {"balance_tolerance": 1e-5, "contact_tolerance": 1e-5}
 
-    def solved(film: float, step: float):
+    def solved(film: float, step: float) -> lubfric.TransientResult:
         return run(model, Transient(0.01, speed=speed, tolerance=step), times, film_tolerance=film, **tight)
 
     best = solved(1e-3, 1e-6).coefficient
@@ -133,7 +137,7 @@ def errors(model: Any):
         yield bound(f"default {name}: error of f", error, 1e-3, source)
 
 
-def cost():
+def cost() -> Iterator[Item]:
     """The paper's own grid, in 300 steps of a reciprocating cycle."""
     scene = lubfric.load_scene("paper").with_(transient=Transient(0.1, outputs=300, speed=wave(0.03, 10.0)))
     history, seconds = paced(lambda: lubfric.transient(scene))

@@ -19,6 +19,7 @@ import numpy as np
 from lubfric.film import LineContact
 
 from ...check import ABSOLUTE, Check, Item, Table
+from ...types import PlainRow
 from ..parts import line_contact
 from ..solvers import ehl
 from ..solvers.moving import march
@@ -41,7 +42,7 @@ class WavinessCase:
     """A smooth line contact by the arguments of `solve_ehl`, and its Eyring stress [Pa] (None: Newtonian)."""
 
     name: str
-    values: dict
+    values: PlainRow
 
     @property
     def line(self) -> LineContact:
@@ -163,7 +164,7 @@ def in_time() -> Iterator[Item]:
     unit = at.contact.film_unit
     count = 64
 
-    def waves(x: np.ndarray, time: float):
+    def waves(x: np.ndarray, time: float) -> np.ndarray:
         phase = min(time, 1.0)
         return height / unit * phase**2 * (3 - 2 * phase) * np.cos(2 * np.pi * (x - time))
 
