@@ -18,9 +18,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 from scipy.special import erf
 
-from ..types import FloatArray, Law
+from ..types import Law
+
+FloatArray = npt.NDArray[np.floating]
+
 
 UNSTATED = 0.05
 GOT = {
