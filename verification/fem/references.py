@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -21,11 +21,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import erf
 
-from ..types import Law
-
 FloatArray = npt.NDArray[np.floating]
-
-
 UNSTATED = 0.05
 GOT = {
     "printed": "printed",
