@@ -377,9 +377,8 @@ def density(pressure: float) -> float:
 
 # ---- mixed lubrication
 
-LOAD_SHARES: dict[
-    str, Law
-] = {  # of the asperities, over film/Sq; Doleschel has the film over the mean Ra of two surfaces, here alike
+# Asperity load ratio over film/Sq. Doleschel has the film over the mean Ra of two surfaces, here alike.
+LOAD_SHARES: dict[str, Callable[[FloatArray], FloatArray]] = {
     "1 - erf(Λ) (Arana)": lambda ratio: 1 - erf(ratio),
     "exp(-2.32 Λ^.97) (Zhou & Hoeprich)": lambda ratio: np.exp(-2.32 * ratio**0.97),
     "exp(-1.8 Λ^1.2) (Patir & Cheng)": lambda ratio: np.exp(-1.8 * ratio**1.2),
