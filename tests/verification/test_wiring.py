@@ -2,7 +2,8 @@
 
 import pytest
 
-from verification.campaigns.mutants import FAILED, ROOT, Mutant, table, trial
+from verification.campaigns import mutants
+from verification.campaigns.mutants import FAILED, PASSED, ROOT, Mutant, table, trial
 from verification.catalogue import STUDIES
 from verification.check import Check
 from verification.run import load
@@ -38,3 +39,27 @@ def test_a_quoted_text_is_found_however_its_lines_are_broken(tmp_path):
     assert content == "x = g(1)\n"
     with pytest.raises(ValueError, match="0 times"):
         Mutant("a.py", "f(onetwo", "g(", ()).broken(tmp_path)
+
+
+def test_a_verdict_holds_until_the_changed_function_or_its_test_changes(tmp_path):
+    def print_of(inside="x + 1", other="2", asserted="f(1) == 2"):
+        (tmp_path / "lubfric" / "a.py").write_text(f"def f(x):\n    y = {inside}\n    return y\n\n\nother = {other}\n")
+        (tmp_path / "tests" / "test_a.py").write_text(f"def test_f():\n    assert {asserted}\n")
+        return Mutant("a.py", "return y", "return -y", ("test_a.py::test_f",)).fingerprint(tmp_path)
+
+    for folder in ("lubfric", "tests"):
+        (tmp_path / folder).mkdir()
+    first = print_of()
+    assert print_of(other="3") == print_of(inside="x  +  1  # y") == first
+    assert len({first, print_of(inside="x + 2"), print_of(asserted="f(2) == 3")}) == 3
+
+
+def test_trials_that_are_up_to_date_are_not_repeated(tmp_path, monkeypatch):
+    monkeypatch.setattr(mutants, "TRIED", tmp_path / "tried.csv")
+    monkeypatch.setattr(mutants, "trial", lambda mutant, names: tried.append(mutant) or (FAILED if mutant else PASSED))
+    tried = []
+    checks = [item for item in mutants.mutants("default", ["estimate/power.py"]) if isinstance(item, Check)]
+    assert len(checks) == len(tried) > 2 and all(check.passed for check in checks)
+    tried.clear()
+    again = [item for item in mutants.mutants("default", ["estimate/power.py"]) if isinstance(item, Check)]
+    assert tried == [] and len(again) == 2 and all(check.passed for check in again)

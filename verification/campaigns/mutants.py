@@ -1,11 +1,17 @@
-"""``python -m verification mutants``: errors in the text of `lubfric`, one at a time, which tests or studies must
-detect.
+"""``python -m verification mutants [--places PLACE ...] [--budget S]``: errors in the text of `lubfric`, one at a time,
+which tests or studies must detect.
 
 The table `mutants.txt` has one mutant on a line: ``place | text | replacement | detected by``. The place is a file or
 folder below `lubfric` that contains the text once. The last field names tests, as files below `tests` or
 ``file::test``, or studies, at their quick level, separated by blanks.
+
+The table `mutants_tried.csv` keeps what came of each mutant, with a fingerprint of the function that it changes and of
+what has to detect it (`Mutant.fingerprint`). A mutant is tried again only when one of these has changed.
 """
 
+import ast
+import hashlib
+import inspect
 import json
 import os
 import re
@@ -13,16 +19,27 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+import time
+from argparse import ArgumentParser, Namespace
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from .. import frame
-from ..check import AT_LEAST, AT_MOST, Check, Item
+from ..catalogue import STUDIES
+from ..check import AT_LEAST, AT_MOST, Check, Item, Table
 from ..kept import Run
+from ..run import load, mapped
+from ..types import Keywords
+from . import table_file
 
 ROOT = Path(__file__).parents[2]
 TABLE = Path(__file__).with_suffix(".txt")
+TRIED = Path(__file__).with_name("mutants_tried.csv")
+COLUMNS = ("place", "text", "replacement", "detected by", "fingerprint", "code", "seconds")
+DIGITS = 4  # of the seconds
+# Places below `lubfric` whose mutants are tried first: the newest code has the fewest.
+FIRST = ("models/deterministic", "models/quick", "estimate")
 LONGEST = 1800  # s: a trial that takes longer is no catch
 # as pytest returns them; BROKEN: neither, such as a test that cannot be loaded
 PASSED = 0
@@ -60,6 +77,41 @@ class Mutant:
         content = contents[file]
         return file, content[: match.start()] + self.wrong + content[match.end() :]
 
+    def fingerprint(self, root: Path = ROOT) -> str:
+        """Return a hash of the mistake, of the function or top-level statement of `lubfric` that it changes, and of the
+        tests and studies that have to detect it."""
+        file, content = self.broken(root / "lubfric")
+        before = file.read_text(encoding="utf-8")
+        line = 1 + before[: _first_difference(before, content)].count("\n")
+        parts = [self.text, self.wrong, source_around(before, line) if file.suffix == ".py" else before]
+        parts += [source_of(name, root) for name in self.noticed_by]
+        return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
+
+
+def _first_difference(one: str, other: str) -> int:
+    return next((i for i, (a, b) in enumerate(zip(one, other)) if a != b), min(len(one), len(other)))
+
+
+def source_around(text: str, line: int) -> str:
+    """Return the source of the innermost function around a ``line``, else of the statement at the top level there."""
+    nodes = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.stmt)]
+    around = [node for node in nodes if node.lineno <= line <= (node.end_lineno or node.lineno)]
+    functions = [node for node in around if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))]
+    chosen = functions[-1] if functions else around[0] if around else None
+    return text if chosen is None else ast.unparse(chosen)
+
+
+def source_of(name: str, root: Path = ROOT) -> str:
+    """Return the source of a test, of a file of tests, or of the module of a study."""
+    if not is_test(name):
+        study = next(each for each in STUDIES if each.name == name)
+        return inspect.getsource(inspect.getmodule(load(study)) or load(study))
+    path, _, test = name.partition("::")
+    text = (root / "tests" / path).read_text(encoding="utf-8")
+    functions = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef)]
+    chosen = [ast.unparse(node) for node in functions if node.name == test]
+    return chosen[0] if chosen else text
+
 
 def pattern_of(text: str) -> re.Pattern[str]:
     """Return the pattern of a quoted ``text`` with any line breaks.
@@ -81,26 +133,49 @@ def table(text: str | None = None) -> list[Mutant]:
     return [Mutant(place, right, wrong, tuple(by.split())) for place, right, wrong, by in parts]
 
 
-def mutants(level: str, run: Run = Run()) -> Iterator[Item]:
-    """Try every mutant of the table. Each has to make a test or a check of a study fail, or a study end with an error
-    that `lubfric` raises on purpose. A test that cannot be loaded, and any other error, is no catch. The library as it
-    is has to pass all of them. A mutant that was tried is not tried again while `lubfric` and its line stay the same."""
-    known = table()
-    everyone = dict.fromkeys(each for mutant in known for each in mutant.noticed_by)
-    untouched = {
-        f"the library as it is: {what}": (None, tuple(each for each in everyone if is_test(each) == chosen))
-        for what, chosen in (("tests", True), ("studies", False))
-    }
-    for (_, names), code in run.solved(untouched, tried, "untouched"):
-        yield verdict(f"the library as it is: {'tests' if is_test(names[0]) else 'studies'}", code, PASSED)
-    cases = {f"{mutant.name} | {' '.join(mutant.noticed_by)}": (mutant, mutant.noticed_by) for mutant in known}
-    for (mutant, _), code in run.solved(cases, tried):
-        yield verdict(mutant.name, code, FAILED)
+def mutants(level: str, places: Sequence[str] = (), budget: float = float("inf"), run: Run = Run()) -> Iterator[Item]:
+    """Judge every mutant of the table whose trial is up to date, after new trials of the others within the ``budget``
+    of time [s].
+
+    Each has to make a test or a check of a study fail, or a study end with an error that `lubfric` raises on purpose. A
+    test that cannot be loaded, and any other error, is no catch. The library as it is has to pass the tests and studies
+    of all mutants that are tried now. ``places``: those whose place begins so.
+    """
+    chosen = [mutant for mutant in table() if not places or mutant.place.startswith(tuple(places))]
+    chosen.sort(key=lambda mutant: not mutant.place.startswith(FIRST))
+    prints = {mutant: mutant.fingerprint() for mutant in chosen}
+    known = {row["fingerprint"]: int(row["code"]) for row in table_file.rows(TRIED)}
+    missing = [mutant for mutant in chosen if prints[mutant] not in known]
+    used: dict[str, None] = {}
+    begun = time.perf_counter()
+    with mapped(run.workers) as each:
+        while missing and time.perf_counter() - begun < budget:
+            now, missing = missing[: run.workers], missing[run.workers :]
+            for mutant, (code, seconds) in zip(now, each(tried, now)):
+                values = (mutant.place, mutant.text, mutant.wrong, " ".join(mutant.noticed_by), prints[mutant])
+                row = dict(zip(COLUMNS, (*values, code, seconds)))
+                table_file.append(TRIED, COLUMNS, row, DIGITS)
+                known[prints[mutant]] = code
+                used |= dict.fromkeys(mutant.noticed_by)
+    for name, code in run.solved({name: name for name in used}, passes, "untouched"):
+        yield verdict(f"the library as it is: {name}", code, PASSED)
+    for mutant in chosen:
+        if prints[mutant] in known:
+            yield verdict(mutant.name, known[prints[mutant]], FAILED)
+    counts = [len(chosen) - len(missing), sum(known.get(each) == FAILED for each in prints.values()), len(missing)]
+    yield Table("mutants", "Mutants of the table", ("tried", "detected", "not tried"), [[str(n) for n in counts]])
 
 
-def tried(case: tuple[Mutant | None, tuple[str, ...]]) -> int:
-    """Return the outcome of a case: a mutant (None: the unchanged library), and the tests or studies."""
-    return trial(*case)
+def passes(name: str) -> int:
+    """Return the outcome of a test or study on the unchanged library."""
+    return trial(None, (name,))
+
+
+def tried(mutant: Mutant) -> tuple[int, float]:
+    """Return the outcome of a mutant, and how long its trial took [s]."""
+    begun = time.perf_counter()
+    code = trial(mutant, mutant.noticed_by)
+    return code, time.perf_counter() - begun
 
 
 def is_test(name: str) -> bool:
@@ -162,4 +237,14 @@ def verdict(name: str, code: int, wanted: int) -> Check:
     )
 
 
-COMMAND = frame.campaign("mutants", __doc__, [("mutants", "mutants:mutants", "Mistakes in the text of lubfric", {})])
+def _options(parser: ArgumentParser) -> None:
+    parser.add_argument("--places", nargs="+", default=[], metavar="PLACE", help="mutants whose place begins so")
+    parser.add_argument("--budget", type=float, default=float("inf"), metavar="S", help="time for new trials")
+
+
+def _own(part: str, options: Namespace) -> Keywords:
+    return {"places": options.places, "budget": options.budget}
+
+
+PARTS: list[tuple[str, str, str, Keywords]] = [("mutants", "mutants:mutants", "Mistakes in the text of lubfric", {})]
+COMMAND = frame.campaign("mutants", __doc__, PARTS, add_options=_options, own=_own)
