@@ -224,8 +224,95 @@ def rig_curve(draw: Draw, folder: Path) -> str:
     return f"{measured.x.size} points"
 
 
-READ = (plain_matrix, header, points, coordinates, missing, rig_curve)  # each must be read
-REFUSED = (contradiction, profile, odd_rows)  # each must be refused
+def iso_text(draw: Draw, folder: Path) -> str:
+    """ISO 25178-71 or BCR as text: any number of heights in a line, any scale."""
+    z = rough_map(draw)
+    z[draw.random(z.shape) < 0.05] = np.nan
+    scale = 10.0 ** -int(draw.integers(0, 10))
+    fields = {"ManufacID": "lab", "CreateDate": "010120261200", "NumPoints": z.shape[0], "NumProfiles": z.shape[1]}
+    fields |= {"Xscale": STEPS[0], "Yscale": STEPS[1], "Zscale": scale, "Zresolution": -1, "Compression": 0}
+    text = f"{draw.choice(['aISO-1.0', 'aISO-2.0', 'aBCR-1.0'])}\n"
+    text += "".join(f"{name.ljust(int(draw.integers(20)))} = {value}\n" for name, value in fields.items()) + "*\n"
+    words = ["BAD" if np.isnan(value) else f"{value / scale:.9e}" for value in z.T.ravel()]
+    width = int(draw.integers(1, 40))
+    text += "\n".join(" ".join(words[k : k + width]) for k in range(0, len(words), width)) + "\n*\n"
+    text += str(draw.choice(["*\n", "", "Comment = 3 ; x\n*\n", "<Name> a * b </Name>\n*\n"]))
+    path = folder / f"map{draw.choice(['.sdf', '.bcr', '.txt', '.asc'])}"
+    path.write_text(text.replace("\n", str(draw.choice(["\n", "\r\n"]))), newline="")
+    return read_map(path, z)
+
+
+def surfer_grid(draw: Draw, folder: Path) -> str:
+    """A text grid of Surfer with its origin anywhere, in any units."""
+    z = rough_map(draw)
+    z[draw.random(z.shape) < 0.05] = np.nan
+    lateral, unit = (str(draw.choice(list(UNITS))) for _ in range(2))
+    ends = []
+    for count, step in zip(z.shape, STEPS):
+        low = float(draw.uniform(-1, 1)) * count * step
+        ends.append(f"{low / UNITS[lateral]:.12g} {(low + (count - 1) * step) / UNITS[lateral]:.12g}")
+    values = z.T / UNITS[unit]
+    text = f"DSAA\n{z.shape[0]} {z.shape[1]}\n{ends[0]}\n{ends[1]}\n{np.nanmin(values):.6g} {np.nanmax(values):.6g}\n"
+    for row in np.where(np.isnan(values), 1.70141e38, values):
+        text += " ".join(f"{value:.9g}" for value in row) + "\n" + "\n" * int(draw.integers(2))
+    path = folder / f"map{draw.choice(['.grd', '.txt', '.dat'])}"
+    path.write_text(text)
+    return read_map(path, z, unit=(lateral, unit))
+
+
+def unit_elsewhere(draw: Draw, folder: Path) -> str:
+    """Lengths whose unit another line states, in any order of the lines."""
+    z = rough_map(draw)
+    lateral, unit = (str(draw.choice(list(UNITS))) for _ in range(2))
+    nx, ny = z.shape
+    steps = [step / UNITS[lateral] for step in STEPS]
+    kind = int(draw.integers(3))
+    lines = [f"x-pixels: {nx}", f"y-pixels: {ny}", f"x-unit: {lateral}", f"y-unit: {lateral}", f"z-unit: {unit}"]
+    if kind == 0:
+        lines += [f"x-length: {nx * steps[0]:.9g}", f"y-length: {ny * steps[1]:.9g}"]
+    elif kind == 1:
+        lines += [f"Step X = {steps[0]:.9g}", f"Step Y = {steps[1]:.9g}"]
+    else:
+        lines = [f"NX = {nx}", f"NY = {ny}", f"Scale X = {steps[0]:.9g}", f"Scale Y = {steps[1]:.9g}"]
+        lines += [f"Unit X = {lateral}", f"Unit Y = {lateral}", f"Unit Data = {unit}"]
+    begin = "# " if kind == 0 else ""
+    text = "".join(f"{begin}{lines[place]}\n" for place in draw.permutation(len(lines)))
+    path = folder / f"map{draw.choice(['.txt', '.asc'])}"
+    path.write_text(text + lines_of(z.T / UNITS[unit], "\t"), encoding="utf-8")
+    return read_map(path, z)
+
+
+def sign(draw: Draw, folder: Path) -> str:
+    """A header that says that the heights are inverted."""
+    z = rough_map(draw)
+    words = ["Inverted: Yes", "inverted = 1", "Replica: true", "Z axis positive down", "Inversion; on", "Depth (um)"]
+    head = header_of(draw, z, "um") + f"{draw.choice(words)}\n"
+    path = folder / "map.txt"
+    path.write_text(head + lines_of(z.T * 1e6, "\t"), encoding="utf-8")
+    return read_map(path, None)
+
+
+def thousands(draw: Draw, folder: Path) -> str:
+    """Numbers with a mark for thousands."""
+    z = np.rint(rough_map(draw) * 1e9) + 10 ** int(draw.integers(4, 6))
+    mark = str(draw.choice([",", "'", " ", "\u00a0", "\u2009", "_"]))
+    path = folder / "map.csv"
+    path.write_text("\n".join(";".join(f"{v:,.0f}".replace(",", mark) for v in row) for row in z), encoding="utf-8")
+    return read_map(path, None, spacing=STEPS, unit="nm")
+
+
+READ = (  # each must be read
+    plain_matrix,
+    header,
+    points,
+    coordinates,
+    missing,
+    rig_curve,
+    iso_text,
+    surfer_grid,
+    unit_elsewhere,
+)
+REFUSED = (contradiction, profile, odd_rows, sign, thousands)  # each must be refused
 KINDS = (*READ, *REFUSED)
 
 
