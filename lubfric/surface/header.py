@@ -233,6 +233,8 @@ def _resolve_unitless(header: Header) -> None:
         if step == quantity or nova:  # the text export of Nova says "Scale X = 0.5" of a step
             value = statement.numbers[-1 if quantity == "dy" else 0]
             header.state(step, statement, value * unit)
+    if nova and not header.program:
+        header.program = "Nova"
     header.unitless.clear()
 
 

@@ -262,11 +262,13 @@ def surfer_grid(draw: Draw, folder: Path) -> str:
 
 def unit_elsewhere(draw: Draw, folder: Path) -> str:
     """Lengths whose unit another line states, in any order of the lines."""
+    kind = int(draw.integers(3))
     z = rough_map(draw)
+    if kind == 1:
+        z = z[:, :7]  # a square table does not say along which axis its lines run
     lateral, unit = (str(draw.choice(list(UNITS))) for _ in range(2))
     nx, ny = z.shape
     steps = [step / UNITS[lateral] for step in STEPS]
-    kind = int(draw.integers(3))
     lines = [f"x-pixels: {nx}", f"y-pixels: {ny}", f"x-unit: {lateral}", f"y-unit: {lateral}", f"z-unit: {unit}"]
     if kind == 0:
         lines += [f"x-length: {nx * steps[0]:.9g}", f"y-length: {ny * steps[1]:.9g}"]
