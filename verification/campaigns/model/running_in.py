@@ -111,13 +111,16 @@ def roller() -> lubfric.Scene:
 
 def drawn(histories: list[tuple[str, np.ndarray]]) -> Figure:
     """Return Sq and lift-off speed over the distance, each over its value as made, with the published ranges."""
-    canvas, (left, right) = plotting.axes(1, 2, 9.0, 3.6)
-    for (kind, table), marker, dents in zip(histories, "os", ("after the dents", "")):
+    canvas, (left, right) = plotting.axes(1, 2, 9.0, 4.0)
+    for k, (kind, table) in enumerate(histories):
+        dented = table[:, 1]
         worn = table[:, 2:]
-        left.plot(worn[0], worn[1], f"{marker}-", label=kind)
-        right.plot(worn[0], worn[2] / table[2, 0], f"{marker}-", label=kind)
-        left.axhline(table[1, 1], linestyle=":", color="0.4", label=dents)
-        right.axhline(table[2, 1] / table[2, 0], linestyle=":", color="0.4", label=dents)
+        speed = table[2, 0]
+        style = {"linestyle": ":", "color": f"C{k}", "label": f"{kind}, dents alone"}
+        left.plot(worn[0], worn[1], f"C{k}{'os'[k]}-", label=kind)
+        right.plot(worn[0], worn[2] / speed, f"C{k}{'os'[k]}-", label=kind)
+        left.axhline(dented[1], **style)
+        right.axhline(dented[2] / speed, **style)
     left.axhspan(PUBLISHED_SQ, 1.0, color="0.9", label="published: decrease by up to 17 %")
     right.axhspan(PUBLISHED_SPEED, 1.0, color="0.9", label="published: decrease by up to 90 %")
     distance = "sliding distance in the contact (m)"

@@ -20,26 +20,18 @@ LEVEL = "default"
 
 
 @cache
-def ran(name: str) -> Outcome:
-    """The study ``name``; raises RuntimeError where it did not come to its end."""
-    outcome = run_one(next(study for study in STUDIES if study.name == name), LEVEL)
+def ran(name: str, *, published: bool = False) -> Outcome:
+    """The study ``name``, or that part of `python -m verification published`; raises RuntimeError where it did
+    not come to its end."""
+    outcome = run_one(next(study for study in (PUBLISHED if published else STUDIES) if study.name == name), LEVEL)
     if outcome.error:
         raise RuntimeError(f"{name}: {outcome.error}")
     return outcome
 
 
-@cache
-def published_checks(name: str) -> tuple[Check, ...]:
-    """The checks of a part of `python -m verification published`; raises RuntimeError where it did not end."""
-    outcome = run_one(next(part for part in PUBLISHED if part.name == name), LEVEL)
-    if outcome.error:
-        raise RuntimeError(f"{name}: {outcome.error}")
-    return outcome.checks
-
-
-def table_of(study: str, name: str) -> Cells:
+def table_of(study: str, name: str, *, published: bool = False) -> Cells:
     """Return a table of a study without changes."""
-    table = next(t for t in ran(study).tables if t.name == name)
+    table = next(t for t in ran(study, published=published).tables if t.name == name)
     return table.columns, [[str(cell) for cell in row] for row in table.rows]
 
 
@@ -98,7 +90,7 @@ def formulations() -> Cells:
 
 def publications_of(part: str) -> Cells:
     """Return the publications of a part of `python -m verification published`: how many values agree, and how well."""
-    checks = published_checks(part)
+    checks = ran(part, published=True).checks
     rows = []
     for source in SOURCES.values():
         of_source = [check for check in checks if check.source == source.text]
@@ -130,7 +122,7 @@ def differing() -> Cells:
     publication, or the two that differ least and most."""
     sources = {source.text: source for source in SOURCES.values()}
     of_source: dict[str, list[Check]] = {}
-    for check in (c for part in PUBLISHED for c in published_checks(part.name) if not c.passed):
+    for check in (c for part in PUBLISHED for c in ran(part.name, published=True).checks if not c.passed):
         of_source.setdefault(check.source, []).append(check)
     rows = []
     for source, checks in of_source.items():
@@ -183,6 +175,7 @@ TABLES: dict[str, Callable[[], Cells]] = {
     "load-sharing": load_sharing,
     **{f"published-{part.name}": partial(publications_of, part.name) for part in PUBLISHED},
     "published-differing": differing,
+    "masjedi": partial(table_of, "mixed", "masjedi", published=True),
     "rough-strip": partial(on_finest_grid, "rough_strip", "rough-strip"),
     "touching-strip": partial(on_finest_grid, "touching_strip", "touching-strip"),
     "starved": partial(table_of, "starved", "starved"),

@@ -12,7 +12,7 @@ from lubfric.oil import named_oil
 
 from ... import plotting
 from ...campaigns.model.boundary_film import FILMS, RATIOS, SURFACES, shares
-from ...check import Figure, Item, ListedDeviation, beside, listed_near
+from ...check import Figure, Item, ListedDeviation, Table, beside, listed_near
 from ...plotting import Curve
 from .. import references
 from . import against
@@ -86,8 +86,10 @@ def masjedi(level: str) -> Iterator[Item]:
     The roughness moves at a slide-roll ratio of 0.1. The value of lubfric is the load on gaps thinner than the
     boundary film, the mean of two correlation lengths, because the published length is not known; at full level it is
     the mean of three seeds. The error is half the difference between the lengths, and the relative change at rest with
-    half or twice the boundary film."""
+    half or twice the boundary film. The table has each correlation length (first seed), also with the roughness at rest
+    and by the paper's model."""
     case = references.MASJEDI_CASE
+    table = []
     width = 5e-3
     scene = lubfric.load_scene("paper").with_(
         bodies={
@@ -123,6 +125,13 @@ def masjedi(level: str) -> Iterator[Item]:
                 rows.append(float(strip.series["share"][strip.discarded :].mean()))
                 rest = strip.rest.result
                 thickness.append([rest.pressure[rest.gap < film].sum() / rest.pressure.sum() for film in films])
+                if seed == seeds[0]:
+                    by_paper = lubfric.friction(
+                        lubfric.prepare(scene.with_(numerics={"model": "paper"}), surface), speed
+                    )
+                    ours = (rows[-1], thickness[-1][1], by_paper.contact_load / scene.bodies.load)
+                    cells = (f"{ratio:g}", f"{1e6 * length:g}", f"{theirs:.2f}")
+                    table.append((*cells, *(f"{share:.2f}" for share in ours)))
             by_length.append(np.mean(rows))
         usual = float(np.mean(by_length))
         thin, rested, thick = np.mean(thickness, axis=0)
@@ -133,6 +142,8 @@ def masjedi(level: str) -> Iterator[Item]:
         errors = (error, max(0.15 * theirs, FLOOR))
         source = references.SOURCES["masjedi"].text
         yield beside(name, usual, theirs, errors, source, note=note)
+    columns = ("Sq/R", "correlation length (µm)", "published", "moving", "at rest", 'model "paper"')
+    yield Table("masjedi", "Asperity load ratio of Masjedi and Khonsari's contact", columns, table)
 
 
 def bearing() -> Iterator[Item]:
