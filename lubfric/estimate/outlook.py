@@ -1,6 +1,7 @@
 """A forecast of what a point will take: the estimates of all models that would be solved (`Model.estimate`). Nothing is
 solved."""
 
+import math
 from dataclasses import dataclass
 
 from ..models import AUTO, WorkEstimate, models_up_to
@@ -18,7 +19,7 @@ class Forecast:
     speed : of entrainment [m/s]
     touching : whether asperities touch under the expected film of the total load, as text
     error : relative standard error of f after the first strips of the cheapest model
-    strips : number of its strips that ``numerics.sampling_tolerance`` needs
+    strips : number of strips that ``numerics.sampling_tolerance`` needs, by the last model that has a line of its own
     length : of these strips [m]
     long_point_strips : number of strips by the model of long points (`lubfric.models.Model.has_long_points`); 0: it is
         not asked
@@ -50,13 +51,15 @@ def forecast(scene: Scene, sample: Sample, surface: Surface, speed: float) -> Fo
     # is good enough
     enough = [k for k in range(last) if estimates[k].model_error <= scene.numerics.model_tolerance]
     solved = range(min(enough, default=last) + 1) if scene.numerics.model == AUTO else {0, last}
+    with_line = [k for k in solved if estimates[k].strips and math.isfinite(estimates[k].length)]
+    line = estimates[max(with_line, default=0)]
     with_long_points = [k for k, model in enumerate(models) if model.has_long_points]
     return Forecast(
         speed=speed,
         touching=cheapest.touching,
         error=cheapest.sampling,
-        strips=cheapest.strips,
-        length=cheapest.length,
+        strips=line.strips,
+        length=line.length,
         long_point_strips=max((estimates[k].strips for k in with_long_points if k in solved), default=0),
         seconds=sum(estimates[k].seconds for k in solved),
         long_strip_seconds=max((estimates[k].strip_seconds for k in with_long_points), default=0.0),

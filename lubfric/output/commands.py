@@ -338,6 +338,11 @@ class RunFolder:
         if not self.failures:  # else what was saved is all that has everything
             Store(self.unfinished).clear()
             clear_checked(self.unfinished.parent)
+        others = self.unfinished.parent
+        if others.is_dir() and any(path != self.unfinished for path in others.iterdir()):
+            say(
+                f"{others} keeps the points of an interrupted run of other inputs; the command of that run continues it"
+            )
 
     def put(self, patterns: Iterable[str] = (), said: Iterable[str] = ()) -> None:
         """Put ``contents`` in the folder, remove what else of ours matches ``patterns``, and say so."""

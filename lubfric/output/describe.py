@@ -263,7 +263,8 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
     steady = scene.transient is None
     sampled = steady and sample.is_resolved
     table: list[tuple[str, ...]] = [("U [m/s]", "M", "L", "film [nm]", "lambda ratio", "asperity contact")]
-    table[0] += ("strips", "of them deterministic", "length of line [mm]", "time [s]") * sampled
+    chosen = ("of them deterministic",) * (scene.numerics.model == AUTO)
+    table[0] += ("strips", *chosen, "length of the line [mm]", "processor time [s]") * sampled
     own = (scene.motion.entrainment_speed,) if steady else ()
     for speed in sorted({*speeds[:: max(1, len(speeds) // SHOWN)], *own, speeds[-1]}):
         one = forecast(scene, sample, surface, speed)
@@ -275,7 +276,7 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
             film = *numbers, ASPERITIES[one.touching]
         counts = (
             f"{one.strips}",
-            f"{one.long_point_strips}",
+            *(f"{one.long_point_strips}" for _ in chosen),
             f"{1e3 * one.length:.2g}".replace("nan", "-"),
             f"{float(f'{one.seconds:.1g}'):g}",
         )

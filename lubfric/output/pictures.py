@@ -292,8 +292,8 @@ def _part(x: np.ndarray, y: np.ndarray, row: int) -> slice:
 
 def _partly(y: np.ndarray, part: slice) -> str:
     """Which part of the line is drawn, as text; "" for all of it."""
-    some = 1e6 * np.ptp(y[part])
-    return "" if part == slice(None) else f"; {some:.0f} of {1e6 * y[-1]:.0f} µm of the line"
+    step = 1e6 * (y[1] - y[0])
+    return "" if part == slice(None) else f"; {step * y[part].size:.0f} of {step * y.size:.0f} µm of the line"
 
 
 def _two_pressures(prepared: Prepared, point: FrictionResult, fields: Any) -> Figure:

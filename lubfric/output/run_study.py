@@ -15,13 +15,14 @@ import numpy as np
 
 from .. import studies
 from .._base import IntArray, figures, plain, validate
-from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report
+from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report, ValidityError
+from ..estimate import FrictionResult
 from ..quantities import KEYS, axis_label, counted, worded_value
-from ..units import CELSIUS, converted, numbers_of, unit_for
+from ..units import CELSIUS, converted, numbers_of, unit_for, with_interval, worded
 from .command_line import scene_of
 from .commands import answer, check_outputs, keeping, made, paced, run_folder, say
 from .progress import ProgressLine
-from .study_report import answer_lines, study_page
+from .study_report import answer_lines, point_in_words, study_page
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -45,7 +46,9 @@ def run_study(arguments: Namespace) -> None:
     begun = time.perf_counter()
     workers_of = studies.pool(workers) if arguments.cluster is None else studies.cluster(arguments.cluster)
     with ProgressLine("points") as shown, keeping(lambda: _kept(arguments.out)), workers_of as executor:
-        result = studies.study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun, shown))
+        result = studies.study(
+            plan, executor=executor, store=arguments.out, on_progress=shown.update, on_point=_point_reports(plan, begun)
+        )
     writers = {"csv": result.to_csv, "nc": result.to_netcdf, "parquet": result.to_parquet}
     with run_folder(arguments.out, begun) as folder:
         for name in names:
@@ -69,6 +72,9 @@ def run_study(arguments: Namespace) -> None:
         said = f"{result.failed} of {counted(result.solved, 'points')} failed; first: {result.failures[0]}"
         raise ConvergenceError(said, report, result)
 
+
+# Points of a study up to which each one gets a line on stderr.
+MOST_LINES = 200
 
 # Panels of the picture of a study, at most: one for each number that is varied.
 MOST_PANELS = 4
@@ -180,23 +186,43 @@ def _kept(folder: Path) -> str:
     return f"{study.solved} points are kept in {folder}, {left}"
 
 
-def _progress(begun: float, shown: ProgressLine) -> Callable[[int, int], None]:
-    """Return what reports how many points are solved: on ``shown``, and once in a while in a line."""
+def _point_reports(plan: studies.StudyPlan, begun: float) -> Callable[..., None]:
+    """Return what writes f and the power loss of each point when it is solved, with the time left: of each one in a study
+    of up to `MOST_LINES` points, else of one a second."""
     due = paced()
     first = -1
+    shape = (*plan.curve_shape, 1) if plan.chooses_speeds else plan.shape
+    places = studies.StudyResult(plan, {}, np.full(shape, ""), np.full(shape, ""))
 
-    def on_progress(done: int, total: int) -> None:
+    def on_point(done: int, total: int, index: tuple[int, ...], outcome: Any) -> None:
         nonlocal first
-        first = done if first < 0 else first  # what the store held already took no time
-        shown.update(done, total)
-        if due(end=done == total):
-            passed = time.perf_counter() - begun
-            line = f"[{done:>{len(str(total))}}/{total}] {passed:.0f} s"
-            if first < done < total:
-                line += f", about {studies.in_words(passed * (total - done) / (done - first))} left"
-            say(line)
+        first = done - 1 if first < 0 else first  # what the store held already took no time
+        if total > MOST_LINES and not due(end=done == total):
+            return
+        head = f"[{done:>{len(str(total))}}/{total}{' curves' if plan.chooses_speeds else ''}]"
+        passed = time.perf_counter() - begun
+        ends = f"{passed:.0f} s"
+        if first < done < total:
+            ends += f", about {studies.in_words(passed * (total - done) / (done - first))} left"
+        say(f"{head} {_place(places, index, outcome)}: {_in_a_line(outcome)}; {ends}")
 
-    return on_progress
+    return on_point
+
+
+def _place(places: studies.StudyResult, index: tuple[int, ...], outcome: Any) -> str:
+    """Return where a point lies, as text; of a curve that chooses its speeds with the speed of the ``outcome``."""
+    if not places.chosen:
+        return point_in_words(places, index)
+    speed = f"speed {worded(outcome.speed, 'm/s')}" if isinstance(outcome, FrictionResult) else ""
+    return ", ".join(filter(None, (studies.label(places, index[:-1]), speed)))
+
+
+def _in_a_line(outcome: FrictionResult | Exception) -> str:
+    """Return f and the power loss of a point with their intervals, or why it failed."""
+    if not isinstance(outcome, FrictionResult):
+        return f"{'refused' if isinstance(outcome, ValidityError) else 'failed'}: {outcome}"
+    f = with_interval(outcome.coefficient, *outcome.uncertainty.interval)
+    return f"f = {f}, P = {with_interval(outcome.power_loss, *outcome.power_loss_interval, unit='W')}"
 
 
 def run_fit(arguments: Namespace) -> None:

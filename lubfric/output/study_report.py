@@ -190,7 +190,7 @@ def answer_lines(result: StudyResult) -> list[str]:
             unknown = "" if np.isfinite(low) else " (interval not known)"
             if name == "coefficient" and not _slides(result, index):
                 unknown += ", the rolling resistance of one surface, without sliding"
-            rows.append(f"The {word} {what} is {shown}{unknown}, at {_point_in_words(result, index)}.")
+            rows.append(f"The {word} {what} is {shown}{unknown}, at {point_in_words(result, index)}.")
     return [*rows, *_budget_line(result)]
 
 
@@ -204,11 +204,11 @@ def _budget_line(result: StudyResult) -> list[str]:
     parts = {name: float(result[f"uncertainty_{column}"][index]) for name, column in PARTS.items()}
     parts["sampling"] *= student(float(result["uncertainty_freedom"][index])) if parts["sampling"] else 1.0
     words = ", ".join(f"{name} {percent(part)}" for name, part in parts.items())
-    place = _point_in_words(result, index).partition(":")[0]
+    place = point_in_words(result, index).partition(":")[0]
     return [f"The relative errors of f at {place}, each at 95 %, are: {words}."]
 
 
-def _point_in_words(result: StudyResult, index: tuple[int, ...]) -> str:
+def point_in_words(result: StudyResult, index: tuple[int, ...]) -> str:
     """Return where a point lies, as text; an operating point by its number in the tables and its coordinate alone."""
     if result.chosen:
         return result.place(index)

@@ -123,6 +123,10 @@ class Sample(ABC):
         joined = f"{self.first} strips, joined along the line" if self.first > 1 else "one strip"
         return [made or self.map.describe(), f"solved first: {joined}; {replace(surface, source='').describe()}"]
 
+    def line_length(self, count: int) -> float:
+        """Return the length [m] of the first ``count`` strips joined."""
+        return self.rows_of(count) * self.cells.spacing[1]
+
     @property
     def rows(self) -> int:
         """The number of cells along y of one strip."""

@@ -4,7 +4,15 @@ from .bodies import FASTEST, FRICTION, FRICTION_OVER, LARGEST_RATIO, Bodies, Con
 from .file import builtin_scenes, given_tables, load_scene, read_toml, scene_from_table, write_template
 from .history import Constant, Harmonic, History, Ramp, Table
 from .numerics import Numerics
-from .plausible import UnusualValue, other_convention, source_of, typical, unusual_values, warn_unusual_values
+from .plausible import (
+    UnusualValue,
+    likely_unit,
+    other_convention,
+    source_of,
+    typical,
+    unusual_values,
+    warn_unusual_values,
+)
 from .roughness import Roughness, named
 from .scene import Scene, check_resolved_gap, moves, moving_bodies, value_of, why_gap_not_resolved
 from .sections import ROUGH, SECTIONS

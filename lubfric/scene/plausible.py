@@ -76,13 +76,26 @@ def slip(name: str, value: Any) -> str | None:
     v = next((v for v in numbers if not low <= abs(v) <= high), None)
     if v is None or v == 0 and q.zero:
         return None
-    for unit, *advice in ([other] if isinstance(other, str) else other for other in q.meant):
-        meant = converted(v, unit, q.unit)
-        if low <= abs(meant) <= high:
-            in_si = f"{meant:.4g} {printed(q.unit)}".rstrip()
-            text = "".join(f" {words[0].upper()}{words[1:]}." for words in advice)
-            return f"did you mean {v:.4g} {printed(unit)} ({in_si})?{text}"
-    return ""
+    unit = likely_unit(name, v)
+    if not unit:
+        return ""
+    advice = next((other[1] for other in q.meant if not isinstance(other, str) and other[0] == unit), "")
+    in_si = f"{converted(v, unit, q.unit):.4g} {printed(q.unit)}".rstrip()
+    text = f" {advice[0].upper()}{advice[1:]}." if advice else ""
+    return f"did you mean {v:.4g} {printed(unit)} ({in_si})?{text}"
+
+
+def likely_unit(name: str, value: float) -> str:
+    """Return the unit in which a plain ``value`` of the key ``name`` (section.key) is usual, where it is not in that of
+    the key; "" where it is, or where none fits."""
+    q = KEYS.get(name)
+    if q is None or not q.usual:
+        return ""
+    low, high = q.usual
+    if low <= abs(value) <= high or value == 0 and q.zero:
+        return ""
+    units = (other if isinstance(other, str) else other[0] for other in q.meant)
+    return next((unit for unit in units if low <= abs(converted(value, unit, q.unit)) <= high), "")
 
 
 def unusual_values(scene: Any) -> tuple[UnusualValue, ...]:

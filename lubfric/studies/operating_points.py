@@ -12,8 +12,8 @@ import numpy as np
 from .._base import name_and_unit, read_columns, table_headings, validate
 from ..errors import InputError
 from ..quantities import KEYS, OF_CYCLE, OF_SURFACES, Quantity
-from ..scene import Scene, other_convention
-from ..units import UNITS, check_all_have_units, converted, in_si, kind_of, spelled
+from ..scene import Scene, likely_unit, other_convention
+from ..units import UNITS, check_all_have_units, converted, in_si, kind_of, printed, spelled
 from .vary import MOST_POINTS, SECTIONS, Axis, check_key
 
 POINT = "point"  # name of the dimension of a table of operating points
@@ -138,14 +138,36 @@ def _columns(table: Any) -> tuple[dict[str, list[Any]], tuple[str, ...]]:
                 check_all_have_units(f"points: {heading}", plain, [quantity.unit] * len(plain))
             columns[key] = [_value(heading, key, value, unit, quantity) for value in values]
         if not unit:
+            _check_without_unit(name.strip(), key, quantity, values)
             notes += _notes_without_unit(name, key, quantity, values)
     return columns, tuple(notes)
 
 
+def _check_without_unit(name: str, key: str, quantity: Quantity, values: Any) -> None:
+    """Raise `InputError` where a plain number of the column ``name`` is outside the range of machines, and is inside it
+    in another unit."""
+    for value in _plain_numbers(values):
+        likely = printed(likely_unit(ENTRAINMENT if key in SPEEDS else key, value))
+        if likely:
+            unit = printed(quantity.unit)
+            read_as = f"{value:.4g} {unit}".rstrip()
+            raise InputError(
+                f": the column {name} has no unit, so {value:.4g} is read as {read_as}, which no machine has",
+                "points",
+                way_out=f"write the heading {name} [{likely}]"
+                + (f", or {name} [{unit}] for {read_as}" if unit else ""),
+            )
+
+
+def _plain_numbers(values: Any) -> list[float]:
+    """Return the numbers other than 0 among the ``values`` of a column."""
+    plain = [validate.python_value(value) for value in values]
+    return [v for v in plain if isinstance(v, (int, float)) and not isinstance(v, bool) and v != 0]
+
+
 def _notes_without_unit(name: str, key: str, quantity: Quantity, values: Any) -> Iterator[str]:
     """Yield how the plain numbers of the column ``name`` without a unit were read, where that may be a mistake."""
-    plain = [validate.python_value(value) for value in values]
-    numbers = [v for v in plain if isinstance(v, (int, float)) and not isinstance(v, bool) and v != 0]
+    numbers = _plain_numbers(values)
     if not numbers:
         return
     if name in (POSITION, ANGLE):

@@ -7,7 +7,7 @@ import json
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, is_dataclass
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -85,7 +85,7 @@ class StudyResult(Shown):
         axes = tuple(axis.name for axis in self.plan.axes)
         return axes if self.paired else (*axes, POINT if self.chosen else SPEED)
 
-    @property
+    @cached_property
     def coords(self) -> dict[str, tuple[str, np.ndarray]]:
         """{key: (dimension, values along it)} of every varied key and, unless chosen, the speed [m/s]."""
         varied = {}
@@ -247,6 +247,7 @@ def study(
     executor: Any = None,
     store: str | Path | None = None,
     on_progress: Callable[..., Any] | None = None,
+    on_point: Callable[..., Any] | None = None,
     workers: int = 1,
 ) -> StudyResult:
     """Friction of a scene at every combination of given values, and at every entrainment speed or operating point.
@@ -271,6 +272,8 @@ def study(
     store : folder that receives every finished point at once. The same study, or a longer one, continues from there
         and computes nothing twice. Workers that do not see it send their points to this process, which keeps them
     on_progress : called as on_progress(done, total) when points (with "auto": curves) have ended
+    on_point : called as on_point(done, total, index, outcome) when a point is solved: ``index`` is its place in the arrays
+        of the result, ``outcome`` its `FrictionResult` or the exception. Points that ``store`` has are not among them
     workers : processes of this machine that share the points, instead of an executor. A script that requests more than
         one needs ``if __name__ == "__main__":``
 
@@ -285,27 +288,37 @@ def study(
     Faults of the program are raised unchanged.
     """
     validate.called_back("on_progress", on_progress, "done, total")
+    validate.called_back("on_point", on_point, "done, total, index, outcome")
     plan = scene if isinstance(scene, StudyPlan) else plan_study(scene, vary, speeds, points)
     if plan is scene and any(given is not None for given in (vary, speeds, points)):
         raise InputError("vary, speeds and points belong to the plan; give a scene with them, or a plan alone")
     executor = checked_executor(executor)
     if checked_workers(workers, executor) > 1:
         with pool(workers) as processes:
-            return study(plan, executor=processes, store=store, on_progress=on_progress)
+            return study(plan, executor=processes, store=store, on_progress=on_progress, on_point=on_point)
     with opened(store) as kept:
         kept.add(PLAN, tuple(getattr(plan, name) for name in PLAN_FIELDS))
-        return _result(_carried_out(plan, executor, kept, on_progress))
+        return _result(_carried_out(plan, executor, kept, on_progress, on_point))
 
 
-def _carried_out(plan: StudyPlan, executor: Any, store: Store, on_progress: Callable[..., Any] | None) -> StudyTable:
+def _carried_out(
+    plan: StudyPlan,
+    executor: Any,
+    store: Store,
+    on_progress: Callable[..., Any] | None,
+    on_point: Callable[..., Any] | None,
+) -> StudyTable:
     """Return the table of all points of a plan, those in the ``store`` and those that are solved now."""
     table = StudyTable(plan)
     table.read(store)
     total = len(plan.requested) if plan.chooses_speeds else sum(map(len, plan.requested.values()))
 
+    def done() -> int:
+        return len(table.ended) if plan.chooses_speeds else table.solved
+
     def report() -> None:
         if on_progress:
-            on_progress(len(table.ended) if plan.chooses_speeds else table.solved, total)
+            on_progress(done(), total)
 
     report()
     jobs = _jobs(plan, list(table.left()), store, TOGETHER if executor is not None else None)
@@ -322,6 +335,8 @@ def _carried_out(plan: StudyPlan, executor: Any, store: Store, on_progress: Call
                 _keep(store, point_key(key, speed), outcome)
         if outcome is None or not plan.chooses_speeds:
             report()
+        if on_point and outcome is not None:
+            on_point(done(), total, table.index_of(key, speed), outcome)
     return table
 
 

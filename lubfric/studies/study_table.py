@@ -119,6 +119,12 @@ class StudyTable:
             speeds.append(speed)
         return [(curve, speeds.index(speed)) for curve in curves]
 
+    def index_of(self, key: str, speed: float) -> tuple[int, ...]:
+        """Return where a point is in the arrays of the study: of the first curve that has it."""
+        curve, place = self._places_of(key, speed)[0]
+        along = tuple(map(int, np.unravel_index(curve, self.plan.curve_shape)))
+        return along if self.plan.paired else (*along, place)
+
     def cut(self) -> tuple[dict[str, np.ndarray], np.ndarray, np.ndarray]:
         """Return (columns, status, validity) in the shape of the study, without places that no curve used; a curve that
         has not ended has one place that is not computed."""

@@ -201,12 +201,35 @@ def test_plain_numbers_that_may_be_in_another_unit_are_questioned_at_the_plan():
 
 def test_radii_in_mm_are_questioned_at_the_plan_before_any_solve(monkeypatch):
     monkeypatch.setattr("lubfric.studies.points.outcome_of", None)
-    table = {"speed": [0.1, 0.1, 0.1], "radius": [4.0, 5.0, 5e-3]}
+    table = {"speed": [0.1, 0.1, 0.1], "radius [m]": [4.0, 5.0, 5e-3]}
     words = "2 of 3 scenes: warning: bodies.radius is 4 to 5 m, above 1 m. Did you mean 5 mm (0.005 m)?"
     assert words in lubfric.plan_study(SCENE, points=table).explain()
     strips = lubfric.load_scene("paper").with_(bodies={"hardness": None}, numerics={"model": "paper"})
     heavy = lubfric.plan_study(strips, {"bodies.hertz_pressure": [5e8, 2e9]}, [0.1])
     assert "peak film pressure is 2 GPa, above 1 GPa" in heavy.explain()
+
+
+@pytest.mark.parametrize(
+    "column, values, likely",
+    [
+        ("radius", [5e-3, 5.2], "radius [mm]"),
+        ("bodies.radius", [5.2, 5e-3], "bodies.radius [mm]"),
+        ("u1", [0.2, 1600.0], "u1 [mm/s]"),
+        ("slide_roll_ratio", [0.1, 5.0], "slide_roll_ratio [%]"),
+        ("surface.sq", [1e-7, 0.1], "surface.sq [µm]"),
+    ],
+)
+def test_a_column_without_a_unit_is_refused_where_its_numbers_suit_another_unit(column, values, likely, tmp_path):
+    table = {column: values} | ({"u2": [0.1, 0.1]} if column == "u1" else {"speed": [0.1, 0.1]})
+    (tmp_path / "t.csv").write_text("\n".join(",".join(map(str, row)) for row in (table, *zip(*table.values()))))
+    for points in (table, tmp_path / "t.csv"):
+        with pytest.raises(lubfric.InputError, match=re.escape(f"write the heading {likely}")):
+            lubfric.plan_study(SCENE, points=points)
+
+
+def test_a_stated_unit_of_a_heading_is_taken_as_it_is():
+    plan = lubfric.plan_study(SCENE, points={"speed": [0.1, 0.1], "radius [m]": [5.2, 5e-3]})
+    assert [scene.bodies.radius for scene in plan.scenes] == [5.2, 5e-3]
 
 
 def test_a_column_of_slip_in_percent_is_that_of_the_ratio(tmp_path):

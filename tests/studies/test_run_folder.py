@@ -282,13 +282,16 @@ def test_a_full_disk_is_one_line_and_the_points_are_kept(tmp_path, whole, monkey
     same(tmp_path / "out", whole)
 
 
-def test_another_unfinished_run_in_the_folder_is_kept(tmp_path, whole, monkeypatch):
+def test_another_unfinished_run_in_the_folder_is_kept_and_named(tmp_path, whole, monkeypatch, capsys):
     out = tmp_path / "out"
     monkeypatch.setattr("lubfric.studies.points.friction", signalling(signal.SIGINT, 3))
     assert main(["run", written(tmp_path), "--out", str(out)]) == 130
     assert main(["run", written(tmp_path), "--out", str(out), "--speeds", "0.3", "--fields", "0.3"]) == 0
     assert json.loads((out / "result.json").read_text())["points"][0]["speed"] == 0.3
     assert len(list((out / "unfinished").iterdir())) == 1
+    note = "keeps the points of an interrupted run of other inputs"
+    assert f"{out / 'unfinished'} {note}" in capsys.readouterr().err
     assert main(["run", written(tmp_path), "--out", str(out)]) == 0
+    assert note not in capsys.readouterr().err
     complete(out)
     same(out, whole)

@@ -92,7 +92,12 @@ def estimated_work(
         if one_strip > MOST_WORK_IN_AUTO and numerics.model == "auto":
             return WorkEstimate(strips=0, seconds=0.0, strip_seconds=one_strip)
         count = min(count, max(1, int(MOST_WORK_IN_AUTO / one_strip)))  # no more are solved
-        return WorkEstimate(strips=count, seconds=IN_MOTION * count * one_strip, strip_seconds=one_strip)
+        return WorkEstimate(
+            strips=count,
+            seconds=IN_MOTION * count * one_strip,
+            strip_seconds=one_strip,
+            length=sample.line_length(count),
+        )
     ends = 2 * sum(name != FRICTION for name, *_ in scene.ranges)
     is_smooth = smooth_over_cells(surface.heights)
     return WorkEstimate(strips=count, seconds=_work_at_rest(scene, sample, sq, speed, count, ends, is_smooth=is_smooth))

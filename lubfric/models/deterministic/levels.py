@@ -212,7 +212,7 @@ def levels_of(
     films = tuple(mean(getattr(result, name) - result.coefficient for result in results) / f for name in OTHER_FILMS)
     errors = _errors(prepared, pairs, numbers)
     errors["coefficient"] = math.hypot(*(e for e in (sampling.error, difference.error, numerical) if math.isfinite(e)))
-    length = prepared.sample.strip_length * max(estimate.line_strips, len(pairs))
+    length = prepared.sample.line_length(max(estimate.line_strips, len(pairs)))
     first = pairs[0].resolved
     at_rest = first.rest if isinstance(first, MovingStrip) else first
     oil = prepared.scene.lubricant

@@ -274,7 +274,7 @@ def solve_sample(
         balance=solved,
         solved=solved,
         rough_contact=rough_contact,
-        scatter=Scatter(length=sample.rows_of(count) * sample.cells.spacing[1]),
+        scatter=Scatter(length=sample.line_length(count)),
         sample=sample,
         first_effect=None if start is None else start.first_effect,
         count=count,

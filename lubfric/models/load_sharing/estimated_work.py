@@ -117,7 +117,7 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     return WorkEstimate(
         strips=count,
         seconds=seconds,
-        length=count * sample.strip_length,
+        length=sample.line_length(count),
         sampling=error,
         model_error=error_of_model,
         touching=touching,

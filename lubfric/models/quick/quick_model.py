@@ -349,6 +349,8 @@ class QuickModel(Model):
         if speed and surface.sq and sample.is_resolved and scene.transient is None:
             count = 1 if moves(scene) else EXPECTED_STRIPS
             seconds += work_on_strips(scene, sample, surface.sq, speed, cells_of_strips(scene, sample), count)
+        if moves(scene):
+            return replace(alone, strips=1, length=sample.line_length(1), seconds=seconds)
         return replace(alone, seconds=seconds)
 
     def methods(self, prepared: Prepared, *, has_contact: bool, has_film: bool) -> tuple[str, ...]:

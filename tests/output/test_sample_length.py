@@ -1,0 +1,46 @@
+"""The length of the sample: one number in the estimate, the result, the fields and the picture."""
+
+import re
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.output import describe_scene
+from lubfric.output.pictures import _partly
+
+PAPER = lubfric.load_scene("paper")
+ROLLING = PAPER.with_(
+    bodies={"load": 60.0, "boundary_film": 2e-8},
+    lubricant={"viscosity": 0.1, "eyring_stress": 5e6, "limiting_stress_coefficient": 0.06},
+    motion={"slide_roll_ratio": 0.2, "entrainment_speed": 0.3},
+    numerics={"model": "quick", "sampling_tolerance": 0.5, "tolerance": 0.1},
+)
+
+
+def row_of_table(text: str) -> dict[str, str]:
+    rows = [re.split(r"  +", line.strip()) for line in text.splitlines()]
+    heads = next(row for row in rows if row[0] == "U [m/s]")
+    return dict(zip(heads, next(row for row in rows if row[0] == "0.3")))
+
+
+def test_length_of_the_line_is_the_same_before_and_after_the_solve():
+    row = row_of_table(describe_scene(ROLLING))
+    point = lubfric.friction(ROLLING, fields=True)
+    assert point.decision.strips == int(row["strips"]) == 1
+    stated = point.uncertainty.length
+    assert float(row["length of the line [mm]"]) == pytest.approx(1e3 * stated, rel=0.05)
+    y = point.y
+    assert y.size * (y[1] - y[0]) == pytest.approx(stated, rel=1e-9)
+    assert f"of a line of {1e3 * stated:.3g} mm" in point.uncertainty.text
+
+
+def test_a_named_model_has_no_column_of_another():
+    assert "of them deterministic" not in row_of_table(describe_scene(ROLLING))
+    assert "of them deterministic" in row_of_table(describe_scene(ROLLING.with_(numerics={"model": "auto"})))
+
+
+def test_picture_of_a_part_counts_whole_cells():
+    y = 8e-6 * np.arange(60)
+    assert _partly(y, slice(10, 48)) == "; 304 of 480 µm of the line"
+    assert _partly(y, slice(None)) == ""

@@ -1,0 +1,63 @@
+"""Each point of a study is reported when it is solved: to ``on_point``, and by the command in a line with f and P."""
+
+import re
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+from small_study import SCENE
+
+import lubfric
+from lubfric.output import main
+from lubfric.units import with_interval
+
+SPEEDS = [0.01, 0.1]
+
+
+def reported(**arguments):
+    points = []
+    result = lubfric.study(SCENE, on_point=lambda *point: points.append(point), **arguments)
+    return result, points
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        {"vary": {"bodies.load": [3.0, 5.0], "lubricant.viscosity": [0.2, 0.3]}, "speeds": SPEEDS},
+        {"points": {"speed": SPEEDS, "load": [3.0, 5.0]}, "vary": {"lubricant.viscosity": [0.2, 0.3]}},
+        {"vary": {"bodies.load": [3.0]}, "speeds": "auto"},
+    ],
+    ids=["grid", "points", "chosen"],
+)
+def test_each_point_is_reported_once_at_its_place(arguments):
+    result, points = reported(**arguments)
+    assert len(points) == result.solved
+    for done, total, index, outcome in points:
+        assert outcome.coefficient == result["coefficient"][index]
+        assert 0 <= done <= total
+    assert len({index for _, _, index, _ in points}) == result.solved
+
+
+def test_threads_report_in_this_process_and_failures_are_outcomes():
+    with ThreadPoolExecutor(2) as executor:
+        result, points = reported(vary={"contact.spacing": [1.1e-6, 1e-4]}, speeds=SPEEDS, executor=executor)
+    failed = [index for _, _, index, outcome in points if isinstance(outcome, lubfric.LubfricError)]
+    assert sorted(failed) == [(1, 0), (1, 1)] and result.failed == 2
+
+
+def test_points_of_a_store_are_not_reported_again(tmp_path):
+    reported(speeds=SPEEDS[:1], store=tmp_path)
+    assert [index for _, _, index, _ in reported(speeds=SPEEDS, store=tmp_path)[1]] == [(1,)]
+
+
+def test_command_writes_f_and_power_of_each_point(tmp_path, capsys):
+    (tmp_path / "scene.toml").write_text(SCENE.to_toml())
+    (tmp_path / "t.csv").write_text("position [mm],speed [m/s],load [N]\n-1,0.01,3\n2,0.1,5\n")
+    out = tmp_path / "out"
+    assert main(["study", str(tmp_path / "scene.toml"), "--points", str(tmp_path / "t.csv"), "--out", str(out)]) == 0
+    lines = [line for line in capsys.readouterr().err.splitlines() if line.startswith("[")]
+    for number, (place, load, speed) in enumerate([("-1 mm", 3.0, 0.01), ("2 mm", 5.0, 0.1)], 1):
+        point = lubfric.friction(SCENE.with_(bodies={"load": load}), speed)
+        power = with_interval(point.power_loss, *point.power_loss_interval, unit="W")
+        start = f"[{number}/2] point {number} (position {place}): f = {point.coefficient:.3g}"
+        assert lines[number - 1].startswith(start[:-1]) and f"P = {power}; " in lines[number - 1]
+    assert re.search(r"; \d+ s, about \S+ s left$", lines[0]) and lines[1].endswith(" s")
