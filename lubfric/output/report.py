@@ -17,15 +17,13 @@ from ..models.shared import (
     Prepared,
     UnmodelledEffect,
     change_in_words,
-    percent,
     percent_of_sides,
     sentence,
-    student,
 )
 from ..quantities import COLUMNS, KEYS, counted
 from ..scene import Scene, short_keys
 from ..studies import KNOWN, CurveResult, Law, StribeckResult, TractionResult
-from ..time import MANY, TransientResult, in_motion
+from ..time import TransientResult, in_motion
 from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval, worded
 from .describe import TABLE_CAPTION, SceneEstimate
 from .inputs import FACTS, SECTIONS, inputs
@@ -411,19 +409,12 @@ def _largest_friction(result: TransientResult) -> int:
 
 
 def _history_budget(result: TransientResult) -> str:
-    """Return the uncertainty budget of a run in time at its largest friction coefficient."""
-    if result.time.size < 2:
+    """Return the uncertainty budget of the mean friction coefficient of a run in time."""
+    sides = result.average().budget if result.time.size > 1 else {}
+    if not sides:
         return ""
-    at = _largest_friction(result)
-    known = result.uncertainty
-    value = abs(float(result.coefficient[at])) or 1.0
-    low, high = np.broadcast_to(result.inputs, (2, result.time.size))[:, at]
-    values = {
-        "numerical": float(known.numerical[at]),
-        "sampling": float(known.sampling[at]) * student(MANY),
-        "model-form": float(known.model[at]),
-        "input": max(abs(low), abs(high)) / value,
-    }
+    values = {name: max(below, above) for name, (below, above) in sides.items()}
+    words = {name: percent_of_sides(*both, values[name]) for name, both in sides.items()}
     notes = [
         "Numerical: the sum of the film's shear stress; the local error of the steps is within transient.tolerance, and "
         "not included",
@@ -432,14 +423,7 @@ def _history_budget(result: TransientResult) -> str:
     ]
     if math.isfinite(values["model-form"]):
         notes.insert(1, "Model-form: as in steady motion at the same film and the same asperity load ratio")
-    words = {name: percent(part) for name, part in values.items()}
-    c = result.columns
-    if {"model_error_low", "model_error_high"} <= c.keys():
-        towards = float(c["model_error_low"][at])
-        away = float(c["model_error_high"][at])
-        words["model-form"] = percent_of_sides(towards, away, values["model-form"])
-    words["input"] = percent_of_sides(abs(low) / value, abs(high) / value, values["input"])
-    return _budget(values, words, f"at t = {worded(float(result.time[at]), 's')}, where f is largest", notes)
+    return _budget(values, words, "as a mean over the time in motion", notes)
 
 
 def _history_table(result: TransientResult) -> str:

@@ -4,6 +4,7 @@ Both write to a folder."""
 from __future__ import annotations
 
 import json
+import math
 import time
 from argparse import Namespace
 from collections.abc import Callable
@@ -248,7 +249,10 @@ def run_fit(arguments: Namespace) -> None:
             off = f"{100 * misfit:.2g} % of f" if measured.deviation is None else f"{misfit:.3g} deviations"
             place = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
             passed = f"{time.perf_counter() - begun:.0f} s, about {studies.in_words(left)} left"
-            say(f"curve {done} of about {total}: smallest deviation so far {off}, at {place}; {passed}")
+            state = f"fit, curve {done} of about {total}: smallest deviation so far {off}, at {place}"
+            if math.isnan(misfit):
+                state = f"search, curve {done} of about {total}: nearest values so far {place}"
+            say(f"{state}; {passed}")
 
     with keeping(lambda: f"the points solved so far are kept in {arguments.out}"):
         fitted = studies.fit(

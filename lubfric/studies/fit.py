@@ -86,8 +86,9 @@ def fit(
     executor : any `concurrent.futures.Executor`, for the points of a curve; the same bits on each
     store : folder that receives every point at once; the same fit continues from there
     on_progress : called as on_progress(done, total, left, misfit, values) after each curve: ``done`` of about
-        ``total`` curves, about ``left`` seconds left on one core, and the least root mean square misfit so far
-        (relative, or in deviations if these are given) with the ``values`` {"section.key": value} that have it
+        ``total`` curves, about ``left`` seconds left on one core, the least root mean square misfit so far of the
+        scene's own model (relative, or in deviations if these are given; NaN during the search, whose model and points
+        are others), and the nearest ``values`` {"section.key": value} so far
 
     Returns a `FitResult`.
 
@@ -261,7 +262,8 @@ class _Progress:
             total += remaining
             left += remaining * each
         least, nearest = self.least[id(self.fine if self.fine.count else curves)]
-        self.on_progress(done, total, left, least, values_at(curves.parameters, nearest))
+        misfit = least if self.fine.count else np.nan
+        self.on_progress(done, total, left, misfit, values_at(curves.parameters, nearest))
 
 
 def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[Candidate]) -> FitResult:

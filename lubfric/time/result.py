@@ -1,7 +1,7 @@
 """What a run gives: `TransientResult`, with its report, and friction over time and over the speed drawn."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -47,7 +47,9 @@ class TimeAverage:
       other asperities carry the load every `TransientResult.renewal`.
 
     ``interval`` is the 95 % interval of ``coefficient``, ``power_loss`` [W] the mean power loss of the whole run, with
-    ``power_loss_interval``. The errors of all times are taken as fully correlated: a mean of their ends.
+    ``power_loss_interval``. The errors of all times are taken as fully correlated: a mean of their ends. ``budget`` has
+    the parts of it, relative errors of ``coefficient`` below and above it at 95 %: numerical, sampling, model-form and
+    input; NaN where a part is not known at any time.
     """
 
     coefficient: float
@@ -56,6 +58,7 @@ class TimeAverage:
     moving_scatter: float
     in_motion: float = 1.0
     interval: tuple[float, float] = (math.nan, math.nan)
+    budget: dict[str, tuple[float, float]] = field(default_factory=dict)
     power_loss: float = math.nan
     power_loss_interval: tuple[float, float] = (math.nan, math.nan)
 
@@ -150,7 +153,9 @@ class TransientResult(Shown):
         weight = weight[moving]
         low, high = (float(np.average(end[moving], weights=weight)) for end in self.uncertainty.interval.T)
         mean = float(np.average(f, weights=weight))
-        sampling = float(np.average(error * np.abs(f), weights=weight)) / abs(mean)
+        size = abs(mean) or math.nan
+        parts = errors_in_time(self.columns, *np.broadcast_to(self.inputs, (2, self.time.size)))
+        sampling = float(np.average(error * np.abs(f), weights=weight)) / size
         fixed = sampling * math.sqrt(self.line_length / self.width)
         moved = float(np.sum(weight * np.abs(speed)))
         return TimeAverage(
@@ -160,6 +165,10 @@ class TransientResult(Shown):
             moving_scatter=fixed / math.sqrt(max(1.0, moved / self.renewal)),
             in_motion=share,
             interval=(low, high),
+            budget={
+                name: (_mean_known(below[moving], weight) / size, _mean_known(above[moving], weight) / size)
+                for name, (below, above) in parts.items()
+            },
             power_loss=loss,
             power_loss_interval=(ends[0], ends[1]),
         )
@@ -234,19 +243,37 @@ class TransientResult(Shown):
         raise AttributeError(f"TransientResult has no attribute {name!r}{validate.nearest(name, columns)}")
 
 
-def interval_in_time(columns: dict[str, np.ndarray], inputs_down: np.ndarray, inputs_up: np.ndarray) -> np.ndarray:
-    """Return the 95 % interval of f at every time, (nt, 2); ``inputs_down``, ``inputs_up`` (nt,) [-]: how far the range
-    of f_b moves f. A part that is not known (NaN) is not in it; NaN where sampling is not known, and at rest."""
+def _mean_known(values: np.ndarray, weight: np.ndarray) -> float:
+    """Return the mean of ``values`` (n,) with a ``weight`` each, of which those that are not known (NaN) count 0; NaN if
+    none is known."""
+    return float(np.average(np.nan_to_num(values), weights=weight)) if np.isfinite(values).any() else math.nan
+
+
+def errors_in_time(
+    columns: dict[str, np.ndarray], inputs_down: np.ndarray, inputs_up: np.ndarray
+) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Return how far each part of the uncertainty budget moves f at every time, down and up, (nt,) each; NaN where it is
+    not known. ``inputs_down``, ``inputs_up`` (nt,) [-]: how far the range of f_b moves f."""
     f = columns["coefficient"]
-    of_sample = student(MANY) * np.nan_to_num(columns["sampling_error"]) * np.abs(f)
-    numerical = np.nan_to_num(columns.get("shear_error", np.zeros(f.size))) * np.abs(f)
-    to_zero, away = (np.nan_to_num(columns.get(f"model_error_{end}", np.zeros(f.size))) for end in ("low", "high"))
-    model_down = np.where(f >= 0, to_zero, away) * np.abs(f)
-    model_up = np.where(f >= 0, away, to_zero) * np.abs(f)
-    down, up = (
-        np.sqrt(of_sample**2 + numerical**2 + model**2 + inputs**2)
-        for model, inputs in ((model_down, inputs_down), (model_up, inputs_up))
-    )
+    size = np.abs(f)
+    sampling = student(MANY) * columns["sampling_error"] * size
+    numerical = columns.get("shear_error", np.zeros(f.size)) * size
+    unknown = np.full(f.size, math.nan)
+    to_zero, away = (columns.get(f"model_error_{end}", unknown) * size for end in ("low", "high"))
+    return {
+        "numerical": (numerical, numerical),
+        "sampling": (sampling, sampling),
+        "model-form": (np.where(f >= 0, to_zero, away), np.where(f >= 0, away, to_zero)),
+        "input": (inputs_down, inputs_up),
+    }
+
+
+def interval_in_time(columns: dict[str, np.ndarray], inputs_down: np.ndarray, inputs_up: np.ndarray) -> np.ndarray:
+    """Return the 95 % interval of f at every time, (nt, 2); arguments as of `errors_in_time`. A part that is not known is
+    not in it; NaN where sampling is not known, and at rest."""
+    f = columns["coefficient"]
+    parts = errors_in_time(columns, inputs_down, inputs_up).values()
+    down, up = (np.sqrt(sum(np.nan_to_num(part[side]) ** 2 for part in parts)) for side in (0, 1))
     unknown = np.isnan(columns["sampling_error"]) | ~in_motion(columns)  # at rest there is no f
     return np.where(unknown[:, None], math.nan, np.stack([f - down, f + up], axis=1))
 

@@ -391,7 +391,8 @@ def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_f
     done, total, left, misfit, values = zip(*told)
     assert done == tuple(range(1, len(told) + 1)) and len(told) >= 2
     assert all(n < of for n, of in zip(done, total)) and all(seconds > 0 for seconds in left)
-    assert misfit[-1] < misfit[0]
+    of_fit = np.array(misfit)[np.isfinite(misfit)]  # those of the search belong to another model and other points
+    assert 0 < of_fit.size < len(misfit) and (np.diff(of_fit) <= 0).all()
     squares = found.report.residuals["sum of squares"]
     assert misfit[-1] == pytest.approx(np.sqrt(squares / read.x.size), rel=0.05)
     assert values[-1] == pytest.approx(found.values, rel=0.05) and values[0] != values[-1]

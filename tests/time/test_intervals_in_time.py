@@ -1,5 +1,7 @@
 """Runs in time: the interval and the power loss of every output and of the mean, against steady answers and sums."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scene_text import paper_scene
@@ -41,6 +43,35 @@ def test_the_mean_is_the_integral_over_the_cycle_and_its_interval_that_of_the_en
     assert held.cite().splitlines()[0] == lubfric.friction(STRIPS).cite().splitlines()[0]
 
 
+def test_the_budget_of_the_mean_is_that_of_a_steady_contact_at_one_speed(held):
+    steady = lubfric.friction(STRIPS)
+    budget = held.average().budget
+    np.testing.assert_allclose(budget["model-form"], steady.uncertainty.model_sides, rtol=0.05)
+    assert (
+        budget["sampling"][0] == budget["sampling"][1] == pytest.approx(steady.uncertainty.budget["sampling"], rel=0.2)
+    )
+    assert list(budget) == list(steady.uncertainty.budget)
+
+
+def test_the_budget_of_the_mean_is_the_mean_of_the_ends_where_one_part_is_all(held):
+    """A mean of half widths, whichever way the surfaces move, and at rest none."""
+    f = np.array([0.04, 0.06, -0.05, 0.0])
+    columns = dict.fromkeys(held.columns, np.zeros(4)) | {
+        "time": np.arange(4.0),
+        "coefficient": f,
+        "entrainment_speed": np.array([1.0, 1.0, 1.0, 0.0]),
+        "model_error_low": np.array([0.5, 0.4, 0.3, np.nan]),
+        "model_error_high": np.array([0.1, 0.2, 0.6, np.nan]),
+    }
+    weight = np.array([0.5, 1.0, 1.0])
+    mean = replace(held, columns=columns, inputs=0.0, requested=()).average()
+    below, above = mean.budget["model-form"]
+    assert mean.coefficient * (1 - below) == pytest.approx(mean.interval[0])
+    assert mean.coefficient * (1 + above) == pytest.approx(mean.interval[1])
+    assert below * 2.5 * mean.coefficient == pytest.approx(weight @ [0.02, 0.024, 0.03])
+    assert mean.budget["sampling"] == (0.0, 0.0)
+
+
 def test_a_reversal_is_told_without_the_advice_on_percent():
     plan = Transient(0.02, outputs=20, speed=Harmonic(amplitude=0.05, frequency=50.0, phase=1.5), sliding=0.05)
     scene = paper_scene(numerics={"sampling": "patch"}).with_(transient=plan)
@@ -64,6 +95,7 @@ def test_the_report_of_a_run_has_budget_table_and_sources(tmp_path):
     (tmp_path / "s.toml").write_text(paper_scene(numerics={"sampling": "patch"}).with_(transient=plan).to_toml())
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "out")]) in (0, 1)
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert "<h2>Uncertainty budget</h2><p>Relative errors of f as a mean over the time in motion" in page
     assert "<h2>Uncertainty budget</h2>" in page and "<h2>Operating points</h2>" in page
     assert "The mean power loss is" in page and "Akchurin" in page.partition("Method and sources")[2]
     header = (tmp_path / "out" / "history.csv").read_text().splitlines()[0]
