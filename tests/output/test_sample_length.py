@@ -35,6 +35,19 @@ def test_length_of_the_line_is_the_same_before_and_after_the_solve():
     assert f"of a line of {1e3 * stated:.3g} mm" in point.uncertainty.text
 
 
+@pytest.mark.parametrize("newtonian", [True, False])
+def test_load_that_rubs_is_the_same_in_the_answer_and_in_the_method(newtonian):
+    """The calibration takes a bias from the asperity load of the strips; the text has the load of the answer."""
+    oil = {"eyring_stress": None, "limiting_stress_coefficient": None} if newtonian else {}
+    scene = ROLLING.with_(motion={"slide_roll_ratio": 2.0}, lubricant=oil | {"viscosity": 0.01})
+    point = lubfric.friction(scene)
+    (text,) = [part for part in point.decision.parts if part.startswith("load on the boundary film")]
+    parts = [float(part) for part in re.findall(r"([0-9.e-]+) %", text)]
+    rubs = parts[0] + parts[2] if newtonian else parts[0]
+    assert rubs == pytest.approx(100 * point.contact_load / scene.bodies.load, rel=0.01)
+    assert ("limiting stress" in point.decision.rubbing) == newtonian == text.endswith("part of the asperity load")
+
+
 def test_a_named_model_has_no_column_of_another():
     assert "of them deterministic" not in row_of_table(describe_scene(ROLLING))
     assert "of them deterministic" in row_of_table(describe_scene(ROLLING.with_(numerics={"model": "auto"})))

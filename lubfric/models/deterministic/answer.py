@@ -55,6 +55,12 @@ UNSOLVED_CELLS = (
 )
 ONE_HEAT = "heat is found on one strip"
 BIASED = "a short patch, which balances the load by itself, is biased too: about lift-off f is some 10 % too low"
+# What rubs with f_b, by whether the lubricant is Newtonian: with a shear law a film at its limiting stress is no part of
+# the asperity load.
+RUBS = {
+    True: "gaps below the boundary film, and film at its limiting stress",
+    False: "gaps below the boundary film",
+}
 BY_FILM = "f by half the boundary film {:+.2g} %, by twice {:+.2g} %"
 BY_INLET = "f without the heat of the inlet {:+.2g} %"
 BY_FLOW = "f by a flow that is thinned half as much at the limiting stress {:+.2g} %"
@@ -213,14 +219,13 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     by_flow = (BY_FLOW.format(100 * levels.by_flow),) if levels.by_flow else ()
     by_inlet = (BY_INLET.format(100 * levels.by_inlet),) if levels.by_inlet else ()
     sample = (levels.note,) if levels.note else ()
-    notes = (*by_inlet, _division(results), by_film, *by_flow, *results[0].report.notes, *sample)
+    notes = (*by_inlet, _division(scene, levels.numbers, results), by_film, *by_flow, *results[0].report.notes, *sample)
     words = _words_of_levels(levels)
     tolerance = scene.numerics.tolerance
     known = heat.text(tolerance)
     return Decision(
         model="deterministic",
-        rubbing="{part} of the load rubs at boundary friction (gaps below the boundary film, and film at its limiting "
-        "stress)",
+        rubbing=f"{{part}} of the load rubs at boundary friction ({RUBS[scene.lubricant.newtonian]})",
         film=words,
         contact="boundary film",
         tolerance=tolerance,
@@ -280,18 +285,21 @@ def _words_of_levels(levels: Levels) -> str:
     if levels.shortest:
         strips += f", of cells {2 * times} times as short on a shorter one"
     if not levels.line_strips:
-        return f"one pressure with the contact on {strips}"
-    return f"one pressure with the contact: its difference from Eq. (8) on {strips}, of a line of {levels.line_strips}"
-
-
-def _division(results: Sequence[DeterministicResult]) -> str:
-    """The load that rubs with f_b, by its parts, as text."""
-    touching, thin, saturated = (
-        100 * mean(getattr(result.split, name) / result.load for result in results)
-        for name in ("touching", "thin", "saturated")
-    )
+        return f"solved together with the contact on {strips}"
     return (
-        f"asperity load: boundary film {thin:.3g} % (touching cells {touching:.3g} %), saturated film {saturated:.3g} %"
+        f"solved together with the contact: the difference from Eq. (8) on {strips}, of a line of {levels.line_strips}"
+    )
+
+
+def _division(scene: Scene, numbers: dict[str, float], results: Sequence[DeterministicResult]) -> str:
+    """Return the load that rubs with f_b, by its parts, as text: those of the answer, and the cells that touch on the
+    strips."""
+    thin, saturated = (100 * numbers[f"{name}_film_load"] / scene.bodies.load for name in ("boundary", "saturated"))
+    touching = 100 * mean(result.split.touching / result.load for result in results)
+    of = "asperity" if scene.lubricant.newtonian else "film"
+    return (
+        f"load on the boundary film {thin:.3g} % (touching cells {touching:.3g} %), on film at its limiting stress "
+        f"{saturated:.3g} %, which is part of the {of} load"
     )
 
 
