@@ -151,12 +151,14 @@ def named(section: str) -> Iterator[None]:
 
 def as_given(old: Roughness | None, values: dict[str, Any]) -> dict[str, Any]:
     """The fields that ``values`` change in ``old``. If a file replaces a generated map, the fields of the generated map
-    go."""
+    go, and the reverse."""
     if any(values.get(name) is not None for name in ("sk", "spk", "svk")) and "sq" not in values:
         values = {"sq": None} | values  # it follows from them
     if old is not None and old.file is None and values.get("file") is not None:
         height = {} if any(key in values for key in PER_SQ) else {"sq": None}
         return height | {name: getattr(Roughness, name) for name in GENERATED} | values
+    if old is not None and old.file is not None and values.get("file", old.file) is None:
+        return dict.fromkeys(name for name in changed(old) if name not in ("sq", *GENERATED)) | values
     return values
 
 

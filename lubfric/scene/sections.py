@@ -13,7 +13,7 @@ from .bodies import Bodies, ContactDomain, Motion
 from .numerics import Numerics, refuse_dropped
 from .plausible import naming_slips, typical
 from .roughness import NEEDED, Roughness, as_given, named
-from .short_forms import resolve, short_keys
+from .short_forms import OF_AN_OIL, OIL_DEFAULTS, is_of_oil, resolve, short_keys, without_none
 from .transient import Transient
 
 ROUGH = ("surface", "counterface")
@@ -41,10 +41,20 @@ def made_section(section: str, given: dict[str, Any], old: Any = None) -> Any:
     check_keys(section, given)
     with naming_slips(section, dict(given)), named(section):
         given = {key: read_value(section, key, value)[0] for key, value in given.items()}
+        given = _cleared(section, without_none(section, given, old), old)
         plain = {key: tuple(v) if isinstance(v, list) else v for key, v in resolve(section, given, old).items()}
         if old is None and (missing := _missing_fields(section, plain)):
             raise InputError(f"[{section}] needs {missing}")
         return SECTIONS[section](**plain) if old is None else replace(old, **plain)
+
+
+def _cleared(section: str, given: dict[str, Any], old: Any) -> dict[str, Any]:
+    """Return what is ``given`` with the default of its field in place of each None, of an oil with what is estimated. A
+    field without a default stays None."""
+    defaults = {f.name: f.default for f in fields(SECTIONS[section]) if f.default is not MISSING}
+    if section == "lubricant" and is_of_oil(given, old):
+        defaults |= dict.fromkeys(OF_AN_OIL) | OIL_DEFAULTS
+    return {key: defaults.get(key) if value is None else value for key, value in given.items()}
 
 
 def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[float, float] | None]:

@@ -34,6 +34,7 @@ PROPERTIES = {"base": "base", "density": "density", "density_slope": "density_sl
 OF_AN_OIL = PROPERTIES | {"pressure_viscosity_coefficient": "alpha", "conductivity": "conductivity"}  # key: its field
 OIL_KEYS = (*SOURCES[:-1], *PROPERTIES)  # of [lubricant], beside its fields
 AT_40 = 40 + CELSIUS
+OIL_DEFAULTS = {"base": "mineral", "density_law": "dowson-higginson"}  # where neither oil nor scene states them
 OFFSET = Lubricant.limiting_stress_offset  # where none is given
 
 
@@ -49,7 +50,7 @@ def resolve(section: str, given: dict[str, Any], old: Any = None) -> dict[str, A
     Raises `InputError` if two keys say the same thing, one lacks its partner, or a value is out of range.
     """
     forms = FORMS.get(section, ())
-    given = _without_none({key: validate.python_value(value) for key, value in given.items()}, section)
+    given = {key: validate.python_value(value) for key, value in given.items()}
     for name in dict.fromkeys(name for _, fields, _ in forms for name in fields):
         only_one(section, given, name, *("+".join(keys) for keys, fields, _ in forms if name in fields))
     for keys, _, plain in forms:
@@ -61,9 +62,12 @@ def resolve(section: str, given: dict[str, Any], old: Any = None) -> dict[str, A
     return resolve_oil(given, old) if section == "lubricant" else given
 
 
-def _without_none(given: dict[str, Any], section: str) -> dict[str, Any]:
-    """Return what is ``given`` without the keys that are None because another says the same thing: ``{"ra": 1e-7, "sq":
-    None}`` states Ra alone."""
+def without_none(section: str, given: dict[str, Any], old: Any = None) -> dict[str, Any]:
+    """Return what is ``given`` without the short forms that are None, which state nothing, and without the fields that are
+    None because another key says the same thing: ``{"ra": 1e-7, "sq": None}`` states Ra alone. Of an oil, a property that
+    is None is the one that is estimated."""
+    short = {*short_keys(section)} - ({*PROPERTIES} if section == "lubricant" and is_of_oil(given, old) else set())
+    given = {key: value for key, value in given.items() if value is not None or key not in short}
     groups = [{*keys, *fields} for keys, fields, _ in FORMS.get(section, ())]
     groups += [{*SOURCES} - {"oil"}] if section == "lubricant" else []
     needless: set[str] = set()
@@ -71,6 +75,14 @@ def _without_none(given: dict[str, Any], section: str) -> dict[str, Any]:
         if any(given.get(key) is not None for key in group):
             needless |= {key for key in group if key in given and given[key] is None}
     return {key: value for key, value in given.items() if key not in needless}
+
+
+def is_of_oil(given: dict[str, Any], old: Lubricant | None) -> bool:
+    """Return whether the lubricant that ``given`` makes of ``old`` has its numbers from an oil."""
+    if any(given.get(key) is not None for key in SOURCES):
+        return True
+    is_changed = given.get("viscosity") is not None or "oil" in given
+    return getattr(old, "oil", None) is not None and not is_changed
 
 
 def _of_radii(radii: Any, *_: Any) -> dict[str, Any]:
