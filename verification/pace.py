@@ -13,8 +13,8 @@ from scipy import fft
 from .types import T
 
 PAIR = 8e-3  # s
-CELLS = 816
-REPEATS = 15
+CELLS = 816  # in a side of the field that is transformed
+REPEATS = 15  # of the transform, of which the median counts
 
 
 def paced(work: Callable[[], T]) -> tuple[T, float]:

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 
 from .check import ABSOLUTE, AT_LEAST, AT_MOST, GRADES, RELATIVE, REPORTED, Check
 
-MANY = 100
+MANY = 100  # checks: of more, only those that fail or are listed are printed
 
 ALLOWED = {
     RELATIVE: "{expected} ± {relative}",

@@ -16,13 +16,12 @@ from ..fem.solvers.ehl import LineContact
 from ..fem.solvers.fluid import slope
 from ..types import Keywords
 
-# where the film begins and the grid ends: half-widths, or sqrt(2 R h) of the smooth film where that is longer
-INLET = (4.5, 8.0)
-OUTLET = (1.5, 1.0)
+INLET = (4.5, 8.0)  # length upstream: in Hertz half-widths, and in lengths sqrt(2 R h) of the film; the longer counts
+OUTLET = (1.5, 1.0)  # length downstream, likewise
 LARGEST_GROWTH = 3.0  # of ln(eta) at any node in one step
 MOST_THINNER = 0.7  # of the film at any node that one step takes away
 MOST = 150  # steps
-TOLERANCE = 1e-8
+TOLERANCE = 1e-8  # of the lost mass over the inflow, of the load, and of a tension over the Hertz pressure
 
 
 @dataclass(frozen=True, kw_only=True)

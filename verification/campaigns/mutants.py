@@ -41,10 +41,9 @@ DIGITS = 4  # of the seconds
 # Places below `lubfric` whose mutants are tried first: the newest code has the fewest.
 FIRST = ("models/deterministic", "models/quick", "estimate")
 LONGEST = 1800  # s: a trial that takes longer is no catch
-# as pytest returns them; BROKEN: neither, such as a test that cannot be loaded
-PASSED = 0
-FAILED = 1
-BROKEN = -1
+PASSED = 0  # as pytest returns it where all tests pass
+FAILED = 1  # as pytest returns it where a test fails
+BROKEN = -1  # neither, such as a test that cannot be loaded
 ON_PURPOSE = "lubfric.errors."
 
 

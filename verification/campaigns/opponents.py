@@ -16,7 +16,7 @@ from lubfric.contact.operator import half_space
 from ..types import Keywords
 from .polonsky_keer import polonsky_keer
 
-COARSEST = 48
+COARSEST = 48  # cells: the side of the grids of aspher is halved down to about this many
 
 Solver = Callable[[float, float], np.ndarray]
 

@@ -18,10 +18,10 @@ from ..types import Keywords, PlainRow
 from . import exact_contact
 
 T = TypeVar("T")
-ALPHA = 2.2e-8
-VISCOSITY = 0.0358
-RADIUS = 0.01
-E_PRIME = 2.2e11
+ALPHA = 2.2e-8  # 1/Pa, pressure-viscosity coefficient of a mineral oil
+VISCOSITY = 0.0358  # Pa s
+RADIUS = 0.01  # m
+E_PRIME = 2.2e11  # Pa, E' of two steel bodies
 
 
 def the(part: T | None, name: str) -> T:

@@ -22,7 +22,7 @@ import numpy.typing as npt
 from scipy.special import erf
 
 FloatArray = npt.NDArray[np.floating]
-UNSTATED = 0.05
+UNSTATED = 0.05  # relative 95 % bound of a published number whose accuracy is not stated
 GOT = {
     "printed": "printed",
     "law": "textbook law",
@@ -104,10 +104,9 @@ SELF_AFFINE = (
     SelfAffine(load=0.113, gap=0.03836, area=0.6571422, scatter=0.0004834, other_area=0.643, mean_square=0.02667),
     SelfAffine(load=0.24, mean_square=0.07607),
 )
-# Their Sq [m], longest wave [1/m], and elastic energy [J/m² for E* = 1 Pa] at a load of 0.5, where 99.98 % touch.
-SELF_AFFINE_SQ = 6e-6
-SELF_AFFINE_WAVE = 1e4
-SELF_AFFINE_ENERGY = 2.234932e-7
+SELF_AFFINE_SQ = 6e-6  # m, Sq of their surface
+SELF_AFFINE_WAVE = 1e4  # 1/m, wavenumber of its longest wave
+SELF_AFFINE_ENERGY = 2.234932e-7  # J/m² for E* = 1 Pa: elastic energy at a load of 0.5, where 99.98 % touch
 # Width of their patch in longest waves. It is not stated: `self_affine_full_contact` has their energy to 2e-5 for 16.
 # Of 8 to 32 the next best is 15 (1e-4); 8, 32 and an endless patch are 1.3, 0.5 and 0.7 % off.
 SELF_AFFINE_PATCH = 16
@@ -144,9 +143,9 @@ def summit_density(length: float) -> float:
 
 RIGID = {"smallest": 2.447484, "flow": 3.000000, "rupture": 0.4751299, "couette": 2.848722, "rolling": 2.300538}
 BLOK = {"smallest": 1.049701, "flow": 1.286670}  # of L^(2/3)
-ISOVISCOUS_ELASTIC = 2.621
-RIGID_PIEZOVISCOUS = 1.287
-ELASTIC_PIEZOVISCOUS = 1.311
+ISOVISCOUS_ELASTIC = 2.621  # film of that limit over M^(-1/5); Nijenbanning et al. 1994
+RIGID_PIEZOVISCOUS = 1.287  # film of that limit over L^(2/3); likewise
+ELASTIC_PIEZOVISCOUS = 1.311  # film of that limit over M^(-1/8) L^(3/4); likewise
 
 
 def moes(m: float, l: float) -> float:
@@ -289,9 +288,8 @@ def hooke(
 
 # ---- friction and heat
 
-# of p_h b²/M and p_h b²/M^1.5, per length, on a roller
-RIGID_TORQUE = 1.4
-ELASTIC_TORQUE = 1.45
+RIGID_TORQUE = 1.4  # of p_h b²/M per length, on a roller; Biboulet and Houpert 2010, eq. 40
+ELASTIC_TORQUE = 1.45  # of p_h b²/M^1.5 per length, on a roller; the same, eq. 42
 
 
 def rolling_torque(m: float) -> float:
@@ -305,9 +303,8 @@ def starved_torque(s: float) -> float:
     return (s**2 + 162.8 * s) / (s**2 + 193.1 * s + 1257)
 
 
-# of q_mean sqrt(2 b)/(e1 sqrt(u1) + e2 sqrt(u2))
-FLASH_HERTZ = 1.11
-FLASH_UNIFORM = 1.128
+FLASH_HERTZ = 1.11  # flash temperature over q_mean sqrt(2 b)/(e1 sqrt(u1) + e2 sqrt(u2)) under a Hertz band; Blok 1937
+FLASH_UNIFORM = 1.128  # the same under a uniform band; Jaeger 1942
 
 
 def eyring_force(stress: float, viscosity: float, alpha: float, rate: float, width: float, peak: float) -> float:

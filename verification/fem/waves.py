@@ -14,7 +14,7 @@ from lubfric.film import LineContact
 from lubfric.models.deterministic import DeterministicResult, Problem, lay_out, moments, reach, solve_point
 from lubfric.surface import Surface
 
-PRECISION = 1e-9
+PRECISION = 1e-9  # of the balances at rest
 STEP_PRECISION = 1e-6  # of a step in time
 SWEEP = 3.0  # half-widths that the film travels before anything counts
 

@@ -28,7 +28,7 @@ from lubfric.contact import candidate_cells, half_space, problem, refinement, se
 from . import page
 from .rough import E_PRIME, surface
 
-SPACING = 2e-6
+SPACING = 2e-6  # m, of the cells
 MODULES = (candidate_cells, problem, refinement, search, solve)
 KINDS = ("exponential", "gaussian", "self-affine")
 CONSTANTS = (

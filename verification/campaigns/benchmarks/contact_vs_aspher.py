@@ -36,9 +36,9 @@ from .rough import E_PRIME, surface
 
 LADDER = [10 ** (-k / 2) for k in range(4, 25)]
 LONG = 60.0  # seconds: not repeated
-SPACING = 2e-6
-LENGTH = 34e-6
-SIGMA = 240e-9
+SPACING = 2e-6  # m, of the cells
+LENGTH = 34e-6  # m, at which the autocorrelation is 1/e
+SIGMA = 240e-9  # m, Sq
 FIRST = {"lubfric": 1e-3, "aspher": 1e-2, "tamaas": 1e-4}  # tolerances that the search begins with
 
 

@@ -18,10 +18,10 @@ from lubfric import EHLResult, solve_ehl
 from ...types import Keywords, T
 from . import page
 
-ALPHA = 2.2e-8
-VISCOSITY = 0.0358
-RADIUS = 0.01
-E_PRIME = 2.2e11
+ALPHA = 2.2e-8  # 1/Pa, pressure-viscosity coefficient of a mineral oil
+VISCOSITY = 0.0358  # Pa s
+RADIUS = 0.01  # m
+E_PRIME = 2.2e11  # Pa, E' of two steel bodies
 CASES = [
     (0.01, 5.0),
     (1.0, 5.0),

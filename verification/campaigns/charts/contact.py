@@ -14,11 +14,11 @@ from ...types import Keywords, PlainRow
 from ..opponents import CONTACT
 from .measure import interleaved, point
 
-SPACING = 2e-6
-SIGMA = 240e-9
-LENGTH = 34e-6
-E_PRIME = 231e9
-DEFAULT = 1e-6
+SPACING = 2e-6  # m, of 512 cells a side; other grids have the same width
+SIGMA = 240e-9  # m, Sq
+LENGTH = 34e-6  # m, at which the autocorrelation is 1/e
+E_PRIME = 231e9  # Pa, E' of two steel bodies
+DEFAULT = 1e-6  # tolerance of `solve_contact` that users get
 LONG = 5.0  # CPU seconds: a method that took longer is not asked for a tighter tolerance
 # The measurement of a panel.
 MeasuredCase = Callable[[], list[PlainRow]]

@@ -19,7 +19,7 @@ from .measure import Quartiles, interleaved, point
 # method, setting, its quantities, quartiles of the processor seconds, unknowns
 FilmRun = tuple[str, str, Sequence[float] | FloatArray, Quartiles, int]
 POINTS = ((1, 5), (10, 10), (20, 5), (100, 20), (1000, 20))
-DEFAULT = 3e-3
+DEFAULT = 3e-3  # tolerance of `solve_ehl` that users get
 FINER = 50  # M up to which finite elements are refined once: beyond, that takes minutes
 SHEARED = (20, 5)  # below 1 GPa, where a Newtonian shear force still means something
 

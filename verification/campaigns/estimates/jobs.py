@@ -56,13 +56,11 @@ RANGES = {
 }
 # Counted work [s] at which a point, or a run, is ended: its row has what it took until then.
 MOST_WORK = 40.0
-# Longest estimate of a run that is done [s], and draws until one is short enough.
-LONGEST = 30.0
-DRAWS = 100
-# Cells in a correlation length, correlation lengths and Hertz half-widths in the side of a patch that runs in.
-CELLS_IN_LENGTH = 5.0
-LENGTHS_IN_PATCH = 10.0
-STRIPS_IN_PATCH = 4.0
+LONGEST = 30.0  # s: longest estimate of a run that is done
+DRAWS = 100  # draws, at most, until an estimate is short enough
+CELLS_IN_LENGTH = 5.0  # cells in a correlation length of a patch that runs in
+LENGTHS_IN_PATCH = 10.0  # correlation lengths in its side
+STRIPS_IN_PATCH = 4.0  # Hertz half-widths in its side
 # Length of ridges over their width [-].
 RIDGE = 5.0
 # Speeds between which that film is searched [m/s].

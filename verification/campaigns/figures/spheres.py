@@ -14,13 +14,12 @@ from ...plotting import axes, image
 from ...types import FloatArray, Keywords
 from .page import picture
 
-RADIUS = 30e-6
-HEIGHT = 500e-9
-E_PRIME = 231e9
+RADIUS = 30e-6  # m, of a sphere of the paper
+HEIGHT = 500e-9  # m, of a sphere above the plane
+E_PRIME = 231e9  # Pa, E' of the paper's steel
 SPACINGS = (14e-6, 20e-6, 30e-6, 40e-6)
-# the paper's grid: 2000 points of 115 nm
-CELL = 115e-9
-BOX = 230e-6
+CELL = 115e-9  # m: the paper's grid has 2000 points of this spacing
+BOX = 230e-6  # m, side of the paper's grid
 MEAN_OF_BOX = 8 / math.pi * math.asinh(1.0)  # u E'/(p a) at the centre of a square of side a under the pressure p
 
 

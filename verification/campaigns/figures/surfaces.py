@@ -12,9 +12,9 @@ from ...plotting import axes, image
 from .page import picture
 
 LENGTHS = (34e-6, 57e-6)
-SQ = 240e-9
-SPACING = 2e-6
-COUNT = 816
+SQ = 240e-9  # m, of the paper
+SPACING = 2e-6  # m, of the cells
+COUNT = 816  # cells in a side
 
 
 def rough(

@@ -21,7 +21,7 @@ from ...kept import Run
 if TYPE_CHECKING:
     from .case import HostileCase
 
-SEED = 1
+SEED = 1  # of the generator of cases
 HAND = tomllib.loads(Path(__file__).with_name("bad.toml").read_text(encoding="utf-8"))
 COUNTS = {"scenes": 1500, "files": 500, "calls": 900, "layouts": 1500}  # at least so many of a group
 

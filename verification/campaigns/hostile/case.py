@@ -10,8 +10,8 @@ from pathlib import Path
 
 import lubfric
 
-MOST_SECONDS = 8.0
-MOST_BYTES = 2 * 2**30
+MOST_SECONDS = 8.0  # s: a refusal that takes longer is slow
+MOST_BYTES = 2 * 2**30  # a refusal that needs more memory is large
 REFUSED = "refused"
 PASSED = "passed as it may"
 RAW = "raw error"

@@ -13,10 +13,9 @@ from lubfric.scene import Scene
 
 from ...fem.parts import halved, the
 
-# nodes of half the film; steps of the fixed point, what they keep of the last
-ACROSS = 25
-STEPS = 2000
-KEPT = 0.9
+ACROSS = 25  # nodes of half the film
+STEPS = 2000  # of the fixed point, at most
+KEPT = 0.9  # part of the last iterate that a step keeps
 SETTLED = 1e-5  # of the largest stress: what a step still moves
 
 

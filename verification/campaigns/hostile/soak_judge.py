@@ -31,15 +31,13 @@ from .soak_heat import inlet_viscosity
 ALLOWED = {"load": 2e-3, "friction sum": 1e-9, "bounds": 0.5, "friction": 2.0, "contact share": 2.0}
 PIECES = 3  # of the strips, on the scene's own cells and on those of the strips
 BY_PIECES = 0.5  # of the stated standard error: what other pieces may change
-# of a film; f over its parts below which they cancel
-LOOSE = 2e-3
-TIGHT = 1e-4
-CANCELS = 0.2
+LOOSE = 2e-3  # tolerance of a film
+TIGHT = 1e-4  # tolerance of a film whose friction is a small difference, or feels the pressure spike
+CANCELS = 0.2  # f over the sum of the sizes of its parts below which they cancel
 ROOT = 2e-4  # of ln(F_H/F_C), to which a bracketed root is closed
 ACROSS = 8001  # points of a film over a flat strip
-# of ln(F_H/F_C): the second division, and how far a secant of both is trusted
-BESIDE = 0.05
-NEAR = 0.4
+BESIDE = 0.05  # of ln(F_H/F_C): distance of the second division of the load from the first
+NEAR = 0.4  # of ln(F_H/F_C): as far is a secant of both divisions trusted
 
 
 @dataclass(frozen=True)

@@ -18,8 +18,8 @@ RANGES = {  # of the logarithms: N/m, m/s, m, Pa s, 1/Pa, m, slide-roll ratio
     "sq": (1e-8, 1e-6),
     "ratio": (0.02, 2.0),
 }
-WIDTH = 1e-2
-E_PRIME = 231e9
+WIDTH = 1e-2  # m, of a contact
+E_PRIME = 231e9  # Pa, E' of two steel bodies
 OTHERS = {"width": (1e-3, 5e-2), "e_prime": (1e9, 6e11)}  # of the logarithms: m, Pa
 OTHER_TOLERANCES = (0.002, 0.01, 0.03, 0.1)
 EYRING = {"eyring_stress": 5e6}

@@ -30,10 +30,9 @@ RATIOS = {"quick": (1.5,), "default": (1.5, 0.8, 0.3)}  # Moes' film over Sq; "f
 SEEDS = {"quick": 1, "default": 4, "full": 4}  # answers on generated surfaces; of a measured map there is one
 REFERENCE = 1001  # seed
 ASKED = {"tolerance": 0.01, "sampling_tolerance": 0.012, "model_tolerance": 0.03}  # of the reference
-# of a map from a file, and their length [m] over that of the Gaussian correlation
-CELLS = (640, 448)
-CELL = 1.8e-6
-LENGTH = 8e-6
+CELLS = (640, 448)  # of a map from a file
+CELL = 1.8e-6  # m, their length
+LENGTH = 8e-6  # m, correlation length of the Gaussian surface, which other lengths are given over
 ROLLER = "roller, 1 GPa"
 CONTACTS = {  # changes of the built-in scene, and the lengths of the surface over those of its own
     "5.5 N": ({}, 1.0),

@@ -20,10 +20,9 @@ RATIOS = (2.0, 1.4, 1.0, 0.7, 0.4, 0.2)  # smooth central film over Sq
 FILMS = (5e-9, 10e-9, 20e-9, 30e-9, 40e-9)  # m
 PRESSURES = (0.5e9, 0.75e9, 1e9)  # Pa, of Hertz
 SURFACES = {"Gaussian": 150e-9, "exponential": 100e-9, "plateau": 200e-9}  # Sq [m]
-# correlation length, cells [m] and their number
-LENGTH = 10e-6
-CELL = 2e-6
-PATCH = (128, 64)
+LENGTH = 10e-6  # m, correlation length
+CELL = 2e-6  # m, length of the cells
+PATCH = (128, 64)  # their number along and across
 
 
 def boundary_film(level: str, run: Run = Run()) -> Iterator[Item]:

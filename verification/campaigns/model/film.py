@@ -15,9 +15,8 @@ from ...pace import paced
 WIDTH = 90e-6  # m, of the patch
 GRIDS = {"quick": (1, (32, 48, 64)), "default": (2, (64, 128, 256)), "full": (5, (128, 256, 512))}
 ALLOWED = {"quick": 0.05, "default": 0.01, "full": 0.005}  # change of f from the second grid to the third
-# GB; of a curve of 25 speeds on 128 cells
-MEMORY = 6.0
-SECONDS = 30.0
+MEMORY = 6.0  # GB, allowed for a curve of 25 speeds on 128 cells
+SECONDS = 30.0  # s of processor time, allowed for the same curve
 
 
 def grids(level: str, run: Run = Run()) -> Iterator[Item]:

@@ -27,9 +27,8 @@ from ...types import FloatArray, PlainRow
 
 FILMS = (5e-9, 10e-9, 20e-9, 30e-9, 40e-9)  # m
 SWEEP = 2.5  # half-widths that the film travels before anything counts
-# of U: between them roughness moves while the lubricant passes one cell in a step
-SLOW = 0.5
-FAST = 2.0
+SLOW = 0.5  # of U: slowest roughness for which the lubricant passes one cell in a step
+FAST = 2.0  # of U: fastest such roughness
 EXACT = 1e-4  # residual of a step, times the cells along x
 FLOOR = 1e-9  # m
 BALANCES = "mass", "load", "gap", "bounds"

@@ -21,13 +21,12 @@ from .boundary_film import speed_of
 from .moved import BALANCES, passed
 
 POINTS = {"quick": 3, "default": 40, "full": 200}
-# Pa, N/m, Pa
-E_PRIME = 2.2e11
-LIGHTEST = 5e3
-HEAVIEST = 1e9
-PER_LENGTH = 2.5
-PER_HALF_WIDTH = 3.0
-COLUMNS = 12
+E_PRIME = 2.2e11  # Pa, E' of two steel bodies
+LIGHTEST = 5e3  # N/m, smallest load
+HEAVIEST = 1e9  # Pa, largest pressure of Hertz
+PER_LENGTH = 2.5  # cells in a correlation length, at least
+PER_HALF_WIDTH = 3.0  # cells in a half-width, at least
+COLUMNS = 12  # cells across the motion
 ALLOWED = {"mass": 0.05, "load": 1e-3, "gap": 1e-2, "bounds": 1e-6}  # of a solved point
 DRAWN = 0.1  # share of the lubricant out of touching cells from which a result has a warning; it is in the balance
 OILS: tuple[Keywords, ...] = ({}, {"eyring_stress": 5e6}, {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.06})

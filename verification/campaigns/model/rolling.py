@@ -30,16 +30,13 @@ CONTACTS: dict[str, tuple[float, Keywords, float, float]] = {  # pressure [Pa], 
     "roller, 0.5 GPa": (0.5e9, {}, 150e-9, 10e-6),
     "light, 0.25 GPa": (0.25e9, {}, 100e-9, 8e-6),
 }
-# cells of a map, and in a correlation length: along x, where it moves, more
-SHAPE = (128, 16)
-PER_LENGTH = (5.0, 2.5)
+SHAPE = (128, 16)  # cells of a map
+PER_LENGTH = (5.0, 2.5)  # cells in a correlation length along and across; along, where the roughness moves, more
 KINDS = "gaussian", "exponential", "plateau", "ridges across", "ridges along"
-# length of ridges over their width; height over Sq at which summits are cut off
-RIDGE = 4.0
-CUT = 0.3
-# share of points within the stated bound; and the quantile that is told
-HOLDS = 0.95
-SURE = 0.99
+RIDGE = 4.0  # length of ridges over their width
+CUT = 0.3  # height over Sq at which summits are cut off
+HOLDS = 0.95  # share of points within the stated bound, at least
+SURE = 0.99  # quantile of the errors that is reported
 
 
 # contact, kind of surface, film/Sq, slide-roll ratio

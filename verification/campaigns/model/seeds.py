@@ -23,12 +23,10 @@ from ..sampling.coverage import within
 SPEEDS = (0.06, 0.03, 0.01, 0.003)  # m/s
 TRIALS = {"quick": 2, "default": 24, "full": 200}
 STRIPS = {"quick": 4, "default": 32, "full": 160}  # of plain sampling
-# seeds
-FIRST = 640_000
-PLAIN = 650_000
-# of (sd/f)²; of f
-SECOND_ORDER = 1.3
-BIAS = 0.02
+FIRST = 640_000  # seed of the first surface of answers
+PLAIN = 650_000  # seed of the first strip of plain sampling
+SECOND_ORDER = 1.3  # of (scatter/f)²: part of it that is allowed as bias
+BIAS = 0.02  # of f: bias that is allowed besides
 COLUMNS: tuple[str, ...] = ("speed", "answers", "coverage", "interval", "stated / scatter", "bias")
 COLUMNS += ("CPU time", "plain, to that scatter", "times cheaper")
 

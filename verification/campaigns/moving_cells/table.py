@@ -39,9 +39,8 @@ MOST_HALVINGS = 2
 # Half-widths of the film whose moments count.
 WAY = 1.5
 
-# Speeds [m/s] of the needle roller beside its own, and slide-roll ratio at which no mass is followed.
-SPEEDS = (0.05, 5.0)
-SLIDING = 1.6
+SPEEDS = (0.05, 5.0)  # m/s, of the needle roller beside its own
+SLIDING = 1.6  # slide-roll ratio at which no mass is followed along the lubricant
 
 DIGITS = 6  # of a number in the table
 

@@ -62,16 +62,14 @@ REFERENCE_COLUMNS = ("contact", "kind", "seed", "f", "error", "plain", "plain_er
 # Seeds of the strips of references, far from those of answers.
 REFERENCE_SEED = 1000
 
-# Strips of a reference, and half-widths that they discard.
-REFERENCE_STRIPS = 2
-REFERENCE_DISCARDED = 4.0
+REFERENCE_STRIPS = 2  # strips of a reference
+REFERENCE_DISCARDED = 4.0  # half-widths that a strip of a reference discards
 
 # Relative error of f that no pass reaches: all of the map passes.
 WHOLE_PASS = 1e-9
 
-# Of the narrower strip on shorter cells: correlation lengths along y, and half-widths whose moments count.
-NARROW = 24
-WAY = 2.0
+NARROW = 24  # correlation lengths along y of the narrower strip on shorter cells
+WAY = 2.0  # half-widths whose moments count there
 
 # Standard errors of the reference that an answer may be off beyond its own half-width.
 OF_REFERENCE = 2.0

@@ -27,18 +27,15 @@ from . import SEED
 TRIALS = {"quick": 16, "default": 60, "full": 400}
 OTHERS = 200  # trials of other surfaces and loads, at most
 REPORTED = 1_000_000  # seeds of the truth begin so far behind those of the trials
-# of the truth; it is closed to this part of the target standard error
-PATCHES = 160
-FEWEST = 16
-CLOSE = 0.1
-# of a patch, in correlation lengths; patches on the own cells, and their length
-LENGTHS = 1900
-PIECES = 8
-PIECE = 90
+PATCHES = 160  # of the reference, at most
+FEWEST = 16  # patches of the reference, at least
+CLOSE = 0.1  # standard error of the reference over the target
+LENGTHS = 1900  # correlation lengths in a patch of the reference
+PIECES = 8  # patches on the cells of the scene
+PIECE = 90  # correlation lengths in such a patch
 CHANCE = 2.0  # standard errors of a proportion or ratio of few trials, granted beyond the bounds
-# of the reported error over the scatter from 1; of the sampling tolerance
-RATIO = 0.15
-BIAS = 0.3
+RATIO = 0.15  # distance of the reported error over the scatter from 1 that is allowed
+BIAS = 0.3  # of the sampling tolerance: bias that is allowed
 ENDLESS = "plain balances of long patches"
 SHARED = lubfric.load_scene("paper").with_(numerics={"model": "paper"})
 COLUMNS = ("case", "trials", "coverage", "bias")

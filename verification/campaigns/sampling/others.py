@@ -16,19 +16,16 @@ from ..hostile.soak_scenes import random_scene
 from . import SEED
 from .coverage import SHARED, chance, solve, within
 
-# cells; pieces
-MAP = (1600, 1600)
-CUTS = (2, 2)
+MAP = (1600, 1600)  # cells of a map
+CUTS = (2, 2)  # pieces along and across
 MAPS = {"quick": 1, "default": 2, "full": 6}
-# bounds of the coverage by pieces; their standard error
-PIECES = (0.85, 0.99)
-ASKED = 0.02
+PIECES = (0.85, 0.99)  # bounds of the coverage by pieces
+ASKED = 0.02  # target standard error
 GENERATED = ("sq", "correlation_length")  # keys that do not go with a file
 SCENES = {"quick": 4, "default": 24, "full": 100}
-# tolerance of the reference; what it may be off by; share asked for
-TIGHT = 1e-4
-FLOOR = 1e-3
-WITHIN = 0.95
+TIGHT = 1e-4  # tolerance of the reference
+FLOOR = 1e-3  # relative error of the reference that is granted
+WITHIN = 0.95  # part of the values that is within its stated error, at least
 
 
 def pieces(level: str, run: Run = Run(), seed: int = SEED) -> Iterator[Item]:

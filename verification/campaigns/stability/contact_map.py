@@ -15,7 +15,7 @@ from ..polonsky_keer import polonsky_keer
 from .cell import Cell
 from .contact_check import contact_deviations
 
-E_PRIME = 231e9
+E_PRIME = 231e9  # Pa, E' of two steel bodies
 PERIODIC = ("periodic", "periodic")
 MIXED = ("free", "periodic")
 FREE = ("free", "free")

@@ -19,15 +19,15 @@ from lubfric.oil import Lubricant
 from ...fem.solvers.fluid import Fluid
 from .cell import Cell
 
-RADIUS = 1e-2
-E_PRIME = 231e9
-WIDTH = 60e-6
-HARDNESS = 6e9
-FRICTION = 0.1
-ETA = 0.04
-ALPHA = 22e-9
-COEFFICIENT = 0.09
-OFFSET = 2e6
+RADIUS = 1e-2  # m
+E_PRIME = 231e9  # Pa, E' of two steel bodies
+WIDTH = 60e-6  # m, of the patch across the motion
+HARDNESS = 6e9  # Pa
+FRICTION = 0.1  # boundary friction coefficient
+ETA = 0.04  # Pa s, viscosity
+ALPHA = 22e-9  # 1/Pa, pressure-viscosity coefficient
+COEFFICIENT = 0.09  # limiting stress over the pressure
+OFFSET = 2e6  # Pa, limiting stress at ambient pressure
 OIL = Lubricant(
     ETA, ALPHA, density_law="dowson-higginson", limiting_stress_coefficient=COEFFICIENT, limiting_stress_offset=OFFSET
 )

@@ -12,7 +12,7 @@ from ...check import AT_LEAST, Check, Item, compared
 from ...fem import parts
 
 DRY = {"accept": True, "tolerance": 1e-3, "sampling": "patch"}
-CELL = 2e-6
+CELL = 2e-6  # m, length of the cells
 STRIP = "pressures of the strip that was found, summed anew"
 
 

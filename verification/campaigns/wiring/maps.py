@@ -16,9 +16,8 @@ from ...check import ABSOLUTE, AT_LEAST, AT_MOST, Check, Item
 from ...fem.parts import half_space
 from ...types import Keywords
 
-# of the file, along its first and second axis
-DX = 0.8e-6
-DY = 1.3e-6
+DX = 0.8e-6  # m, spacing of the file along its first axis
+DY = 1.3e-6  # m, along its second axis
 OWN = "the file, read and changed by plain NumPy"
 SIZE = (56, 40)
 PATCH = lubfric.load_scene("paper").with_(numerics={"model": "paper", "sampling": "patch", "grid": "given"})

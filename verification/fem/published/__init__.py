@@ -18,7 +18,7 @@ from ..references import SOURCES
 if TYPE_CHECKING:
     from ...report import Report
 
-WEAK = 0.25
+WEAK = 0.25  # sum of both bounds over the value from which on agreement is weak evidence
 
 
 def summary(report: Report) -> str:

@@ -20,9 +20,8 @@ from .. import references
 from . import against
 
 DEEP = 100e-6  # m: the gap around the pad; so deep that the pressure there is nearly 0
-# m, Pa: the parabola of the model is taken off the pad; nothing deflects
-CURVATURE = 1.0
-RIGID = 1e18
+CURVATURE = 1.0  # m, radius: the parabola of the model is taken off the pad
+RIGID = 1e18  # Pa, E': nothing deflects
 PLACES = (0.6, 0.75, 0.9)  # of the length, behind the pocket
 LAWS = ("constant", "dowson-higginson")
 GRIDS = {"narrow": ((100, 21), (200, 41)), "wide": ((200, 1), (400, 1))}  # cells that fit the pocket

@@ -17,19 +17,17 @@ from ..exact_contact import Line
 from ..parts import pressed_cylinder
 from . import against
 
-# Pa, m, N/m: the paper's cylinder
-E_PRIME = 231e9
-RADIUS = 2e-3
-LOAD = 5.5 / 6e-3
-# m, m, cells
-AMPLITUDE = 100e-9
-WAVELENGTH = 45e-6
-WAVE = 256
+E_PRIME = 231e9  # Pa, E' of the paper's cylinder
+RADIUS = 2e-3  # m, of the paper's cylinder
+LOAD = 5.5 / 6e-3  # N/m, of the paper's cylinder
+AMPLITUDE = 100e-9  # m, of the wave
+WAVELENGTH = 45e-6  # m
+WAVE = 256  # cells in the wave
 SHARES = (0.1, 0.3, 0.5, 0.7, 0.9)
-SQ = 100e-9
-LENGTH = 20e-6
-CELL = 1e-6
-CELLS = 768
+SQ = 100e-9  # m, of the surface whose summits are counted
+LENGTH = 20e-6  # m, its correlation length
+CELL = 1e-6  # m, its cells
+CELLS = 768  # cells in its side
 SEEDS = (1, 2, 3, 4)
 # cells of a patch of four longest waves: with the cells of Xu et al. in its shortest wave, and with half as many
 FINE_PATCH = round(400 * references.SELF_AFFINE_CELLS)

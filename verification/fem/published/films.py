@@ -20,7 +20,7 @@ from . import against
 MOES = ((5, 5), (20, 5), (100, 5), (10, 10), (50, 10), (200, 16))  # M, L
 GRUBIN = ((100, 10), (200, 10), (200, 16))  # films of at most 0.02 b²/R, as its inlet asks
 DOWSON = ((10, 5), (100, 5), (50, 10), (200, 16))
-TOLERANCE = 1e-3
+TOLERANCE = 1e-3  # of the films
 STATIC = 4e9  # Pa
 DRY_INLET = "its inlet has the gap of a dry contact; the pressure there opens it (inlet of M -> infinity: within 2 %)"
 BEYOND = "a fit used at 4.1 GPa, above the 4 GPa at which ISO 76 ends the static rating of roller bearings"

@@ -24,7 +24,7 @@ STARVED = ((10, 4, 3.0), (10, 4, 8.0), (10, 12, 4.5), (100, 12, 2.0))  # M, L, b
 EYRING = ((100, 10, 5e6, 0.01), (200, 10, 5e6, 0.2), (50, 15, 2e6, 0.05))  # M, L, stress [Pa], slide-roll ratio
 STEEL = 2.3e11  # Pa, E' of two steel bodies
 INLETS = (0.2e-3, 0.3e-3)  # m: lengths of the inlets of the bearing
-TOLERANCE = 1e-3
+TOLERANCE = 1e-3  # of the films
 FVA_3: Keywords = {  # at 50 °C: 0.0525 Pa s and 20 /GPa of Wingertszahn et al.
     "viscosity": 0.0525,
     "pressure_viscosity_coefficient": 20e-9,

@@ -16,10 +16,9 @@ from . import against
 
 OIL = Lubricant(0.1, viscosity_law="constant", temperature=313.15, temperature_coefficient=0.04, conductivity=0.13)
 NUMBERS = (0.1, 1.0, 10.0, 100.0)
-# m, J/(m² K s^½) (m/s)^½, W/m²
-HALF = 1e-4
-CARRIED = 2e4
-PEAK = 1e7
+HALF = 1e-4  # m, half-width of the band of heat
+CARRIED = 2e4  # J/(m² K s^½) (m/s)^½: effusivity times root of the speed, of both bodies together
+PEAK = 1e7  # W/m², of the heat
 
 
 def heat(level: str) -> Iterator[Item]:

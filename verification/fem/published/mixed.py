@@ -31,7 +31,7 @@ PRESSURE = 0.5e9  # Pa, of Hertz
 # Gears: a torque on the pinion [N m] (load stage 7) at three speeds [rpm], FVA 3 at a temperature [°C] of the oil.
 GEAR_TORQUE = 183.4
 GEAR_SPEEDS = (300, 900, 1800)
-GEAR_TEMPERATURE = 80.0
+GEAR_TEMPERATURE = 80.0  # °C, of the oil
 GEAR_FRICTIONS = (0.065, 0.105)  # f_b: the range that is quoted for gears and rollers without additives
 GEAR_LENGTHS = (20e-6, 40e-6)  # m: correlation lengths of ground flanks; those of C14 are not published
 GEAR_PLACES = 5  # along the path of contact

@@ -13,7 +13,7 @@ from .. import references
 from ..solvers.fluid import Fluid
 from . import against
 
-MM2 = 1e-6
+MM2 = 1e-6  # m²/s in a mm²/s
 GRADE_100 = (99.14, 10.954)  # mm²/s at 40 and 100 °C: VG 100, VI 94
 
 

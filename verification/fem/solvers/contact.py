@@ -15,7 +15,7 @@ from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED, SolveReport
 SOLVER = "primal-dual active set"
 FREE_SHARE = 0.2  # of the load off the saturated nodes that one step leaves at least on the others
 INNER = 0.01  # tolerance of the inner conjugate gradients over the tolerance asked
-INNER_LIMIT = 2000
+INNER_LIMIT = 2000  # steps of the inner conjugate gradients, at most
 ROUNDING = 1e-12  # of the load; what saturated nodes may carry beyond it
 PATIENCE = 8  # steps without fewer nodes in the wrong place, before they are moved one at a time
 

@@ -23,7 +23,7 @@ from skfem.models.elasticity import lame_parameters, linear_elasticity
 from ...types import FloatArray
 from .triangles import factorised, graded, section_stress
 
-POISSON = 0.3
+POISSON = 0.3  # ratio of the elastic body; with `YOUNG` its E' is 4
 YOUNG = 2 * (1 - POISSON**2)
 NEAR = 1e-9  # of the side: the same point
 QUARTERS = np.array([(i, j) for i in range(5) for j in range(5 - i)]).T / 4  # P2 nodes of the four parts of a triangle

@@ -14,10 +14,10 @@ import numpy as np
 from ...types import Keywords, Numbers
 from .report import require
 
-ROELANDS_PRESSURE = 1.96e8
+ROELANDS_PRESSURE = 1.96e8  # Pa; Roelands 1966
 VISCOSITY_LAWS = ("constant", "barus", "roelands")
 DENSITY_LAWS = ("constant", "linear", "dowson-higginson")
-STEP = 1e-40
+STEP = 1e-40  # of a complex step: its square is lost beside 1
 
 
 @dataclass(frozen=True)

@@ -39,7 +39,7 @@ ELEMENTS = {
     ("MeshQuad", 2): skfem.ElementQuad2,
 }
 STABILISATIONS = ("none", "supg")
-LARGEST_STEP = 3.0
+LARGEST_STEP = 3.0  # of ln(viscosity) at any node in one step
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -18,7 +18,7 @@ from .reynolds import ReynoldsProblem, ReynoldsSolution, solve_reynolds
 
 FAR = 30.0  # length upstream that is meshed, in lengths of the given gap upstream
 COARSE = 160  # cells of it, geometrically longer
-SYMMETRY = 1e-6
+SYMMETRY = 1e-6  # of the largest gap: by so much a gap may differ from its mirror image
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -18,9 +18,9 @@ from ..solvers.contact import Contact, solve_contact
 from ..solvers.layer import Layer, graded_mesh, make_layer
 from ..solvers.triangles import von_mises
 
-E_PRIME = 231e9
-RADIUS = 2e-3
-LINE_LOAD = 5.5 / 6e-3
+E_PRIME = 231e9  # Pa, E' of the paper's cylinder
+RADIUS = 2e-3  # m, of the paper's cylinder
+LINE_LOAD = 5.5 / 6e-3  # N/m, of the paper's cylinder
 BODY = Elastic.from_e_prime(E_PRIME, 0.3)
 B = float(np.sqrt(8 * LINE_LOAD * RADIUS / (np.pi * E_PRIME)))
 PEAK = 2 * LINE_LOAD / (np.pi * B)

@@ -12,11 +12,10 @@ from ..convergence import Series, convergence
 from ..exact_contact import Line, Sphere, Wave
 from ..parts import pressed_cylinder
 
-# Pa, m, m: modulus, radius, contact size of the paper
-E_PRIME = 231e9
-RADIUS = 2e-3
-SIZE = 4.5e-6
-TOLERANCE = 1e-8
+E_PRIME = 231e9  # Pa, E' of the paper's cylinder
+RADIUS = 2e-3  # m, of the paper's cylinder
+SIZE = 4.5e-6  # m, half-width or radius of the contact
+TOLERANCE = 1e-8  # of the contact: below the errors of the grid
 CELLS = {"quick": (8, 16, 32), "default": (8, 16, 32, 64, 128), "full": (8, 16, 32, 64, 128, 256)}
 SPHERE_CELLS = {"quick": (4, 8, 16), "default": (4, 8, 16, 32, 64), "full": (4, 8, 16, 32, 64, 128)}
 PLACES = 6  # positions of the contact edge within a cell

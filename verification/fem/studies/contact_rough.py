@@ -16,12 +16,12 @@ from ..solvers.contact import solve_contact
 from ..solvers.layer3d import Layer3D, graded_levels, multigrid, solve
 from ..solvers.layer_waves import fourier_compliance
 
-E_PRIME = 231e9
+E_PRIME = 231e9  # Pa, E' of two steel bodies
 BODY = Elastic.from_e_prime(E_PRIME, 0.3)
-BOX = 50e-6
-SQ = 100e-9
-MEAN_PRESSURE = 300e6
-CAP = 1.5e9
+BOX = 50e-6  # m, side of the patch
+SQ = 100e-9  # m
+MEAN_PRESSURE = 300e6  # Pa
+CAP = 1.5e9  # Pa, hardness where cells yield
 THICKNESS = 1.25  # of the box
 DRY = "lubfric.solve_contact"
 NODES = {"quick": (32, 64), "default": (32, 64, 128), "full": (32, 64, 128, 256)}

@@ -20,12 +20,12 @@ from ..waves import smooth_film
 from .given_fluid import contact_given_fluid
 from .waviness import waviness
 
-RADIUS = 2e-3
-E_PRIME = 231e9
-VISCOSITY = 0.36
-ALPHA = 25e-9
-LOAD = 917.0
-WIDTH = 90e-6
+RADIUS = 2e-3  # m, of the paper's cylinder
+E_PRIME = 231e9  # Pa, E' of the paper's cylinder
+VISCOSITY = 0.36  # Pa s, of the paper's oil
+ALPHA = 25e-9  # 1/Pa, of the paper's oil
+LOAD = 917.0  # N/m, of the paper's cylinder
+WIDTH = 90e-6  # m, side of the patch
 SPOT = 1e8  # Pa: from there on the pressure is prescribed to the finite elements
 CASES = {  # cells over 90 µm and speeds [m/s]
     "quick": ((112, (0.1,)),),

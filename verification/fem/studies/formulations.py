@@ -14,15 +14,15 @@ from ...campaigns.charts.measure import interleaved
 from ...check import AT_MOST, Check, Item, Table
 from ...types import Keywords, TableRow
 
-E_PRIME = 231e9
-RADIUS = 2e-3
-SPACING = 1e-6
-SQ = 1e-7
+E_PRIME = 231e9  # Pa, E' of the paper's cylinder
+RADIUS = 2e-3  # m, of the paper's cylinder, and of the ball
+SPACING = 1e-6  # m, of the cells
+SQ = 1e-7  # m
 BOUNDARIES = {"flat": ("periodic", "periodic"), "cylinder": ("free", "periodic"), "ball": ("free", "free")}
 COUNTS = {"quick": 64, "default": 128, "full": 256}
-HARDNESS = 2e9
-TOLERANCE = 1e-6
-AGREEMENT = 1e-4
+HARDNESS = 2e9  # Pa
+TOLERANCE = 1e-6  # that every formulation is asked for
+AGREEMENT = 1e-4  # rms difference of the pressures that is allowed, over their rms
 PAPER = "Akchurin et al. 2015, Appendix 2 and Sec. 2.2, doi:10.1007/s11249-015-0536-z"
 METHODS: dict[str, Callable[..., ContactResult]] = {
     "single loop": single_loop,

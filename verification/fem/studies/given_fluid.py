@@ -24,9 +24,8 @@ from ..solvers.harmonic import Compliance, HarmonicStrip, compliance, press
 from .load_sharing import cell_mean
 
 SOURCE = "finite-element contact given the fluid"
-# m, and cells along it on which the surface is made
-WIDTH = 90e-6
-FINE = 256
+WIDTH = 90e-6  # m, side of the surface
+FINE = 256  # cells in a side on which the surface is made
 LENGTH = 5e-6  # m, of its correlation
 MORE = 1.02  # times the load, for the slope of the gap
 
@@ -61,10 +60,9 @@ CASES = {
         GivenFluidCase(cells=64, across=64, speed=1e-4, floor=1e-9, hardness=None, fineness=2),
     ),
 }
-# of the pressure, the load at the same gap, the gap; twice as long elements: 3 times
-RMS = 5e-3
-LOAD = 5e-3
-GAP = 5e-4
+RMS = 5e-3  # rms difference of the pressure that is allowed, over its rms; elements twice as long: 3 times
+LOAD = 5e-3  # relative difference of the load at the same gap that is allowed
+GAP = 5e-4  # relative difference of the gap that is allowed
 MISPLACED = 0.1  # share of touching cells
 
 

@@ -35,9 +35,8 @@ TIGHT = {  # the model of the finite elements: no more and no less
     "grid": "given",
     "accept": True,
 }
-# of the trapezoidal rule in `twice_integrated`: its error is below 1e-15
-STEP = 0.1
-POINTS = 200
+STEP = 0.1  # of the trapezoidal rule in `twice_integrated`: its error is below 1e-15
+POINTS = 200  # of that rule on each side of zero
 SOURCE = "film and contact by finite elements, own root finder"
 
 

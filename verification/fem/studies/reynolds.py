@@ -15,7 +15,7 @@ from ..solvers.reynolds import ReynoldsProblem, ReynoldsSolution, solve_refined,
 REFINEMENTS = {"quick": 3, "default": 5, "full": 6}
 SLIDER = exact.Slider(viscosity=0.1, speed=1.0, length=0.01, inlet=2e-6, outlet=1e-6)
 PARABOLA = exact.Parabola(viscosity=0.1, speed=1.0, radius=0.01, film_thickness=1e-6, inlet=-100.0)
-AMBIENT = 1e5
+AMBIENT = 1e5  # Pa, pressure around the gas film
 GAS = exact.Slider(viscosity=1.8e-5, speed=200.0, length=0.01, inlet=4e-6, outlet=2e-6)
 
 

@@ -24,12 +24,12 @@ if TYPE_CHECKING:
 
 KINDS = {"line": skfem.MeshLine, "triangle": skfem.MeshTri, "quadrilateral": skfem.MeshQuad}
 REFINEMENTS = {"quick": 2, "default": 3, "full": 4}
-LENGTH = 0.01
-WIDTH = 0.006
-VISCOSITY = 0.1
-SPEED = 1.0
-INLET = 2e-6
-OUTLET = 1e-6
+LENGTH = 0.01  # m, of the pad along the motion
+WIDTH = 0.006  # m, of the pad
+VISCOSITY = 0.1  # Pa s
+SPEED = 1.0  # m/s, mean of both surfaces
+INLET = 2e-6  # m, film at the inlet
+OUTLET = 1e-6  # m, film at the outlet
 
 
 def reynolds_surface(level: str) -> Iterator[Item]:

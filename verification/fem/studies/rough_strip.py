@@ -34,10 +34,10 @@ LOADS = (1e5, 4e5)  # N/m: 0.61 and 1.21 GPa of Hertz
 SPEED = 0.5  # m/s
 SQ = 50e-9  # m, a quarter to a third of the film
 INLET = 3.5  # half-widths: where the film begins
-OUTLET = 1.5
+OUTLET = 1.5  # half-widths: where the grid ends
 PERIODS = (2.0, 1.0)  # of the roughness along and across, in half-widths
 WAVES = 2  # harmonics each way
-SEED = 3
+SEED = 3  # of the heights and phases of the waves
 PACE = 0.75  # speed of the roughness over that of the film: surface 1 at a slide-roll ratio of 0.5
 GRIDS = {"quick": ((64, 8), (96, 12)), "default": ((64, 8), (96, 12)), "full": ((96, 12), (144, 16))}
 # cells of lubfric in a half-width: at rest (a fraction of a second), and moving
@@ -47,20 +47,20 @@ MOVING_CELLS = {"default": (24, 36), "full": (32, 48)}
 STUDY_GRIDS = ((64, 8), (96, 12), (128, 16))
 STUDY_CELLS = (32, 64, 128)
 ORDER = 2.0  # of bilinear elements, and of the cells of lubfric
-ALLOWED_ORDER = 0.4
+ALLOWED_ORDER = 0.4  # distance of an order from that
 ALLOWED_LIMIT = 0.002  # of the flow, both extrapolated to no cells: they differ by 1e-4
 SWEEP = 3.0  # half-widths that the film travels before a moving surface counts
 MOMENTS = 8  # of a period that are compared
 NEAR = 0.8  # half-widths: where fields are compared
-PRECISION = 1e-7
-STEP_PRECISION = 1e-5
+PRECISION = 1e-7  # of the balances at rest
+STEP_PRECISION = 1e-5  # of the balances of a step in time
 SOURCE = "finite elements of one gap and one pressure"
 # Allowed: of the mean gap, the flow, the smallest gap and the viscous force; rms of the gap over Sq, of the pressure
 # over that of Hertz. The differences fall with the cell, as the table shows; these are for the finer grids.
 ALLOWED = {"mean gap": 0.01, "flow": 0.015, "smallest gap": 0.02, "viscous force": 0.05}
 THIN = 1.1  # of the floor: gaps up to which bodies count as touching; just above the floor there is no other difference
-ALLOWED_GAP = 0.05
-ALLOWED_PRESSURE = 0.03
+ALLOWED_GAP = 0.05  # rms difference of the gap, of Sq
+ALLOWED_PRESSURE = 0.03  # rms difference of the pressure, of that of Hertz
 
 Heights = Callable[[np.ndarray, np.ndarray, float], np.ndarray]
 

@@ -11,13 +11,12 @@ from ...check import ABSOLUTE, AT_MOST, Check, Item
 from ...types import Keywords
 
 SEEDS = {"quick": 30, "default": 60, "full": 100}
-# m/s, relative: of mixed lubrication
-SPEED = 0.01
-ASKED = 0.02
-SQ = 100e-9
-LENGTH = 10e-6
-CELL = 0.5e-6
-CELLS = 1024
+SPEED = 0.01  # m/s: of mixed lubrication
+ASKED = 0.02  # target standard error, relative
+SQ = 100e-9  # m
+LENGTH = 10e-6  # m, correlation length
+CELL = 0.5e-6  # m, length of the cells
+CELLS = 1024  # in a side
 STEPS = (4, 20, 40)  # cells
 GAUSS = "Gaussian surface with the autocorrelation exp(-(r/length)²)"
 

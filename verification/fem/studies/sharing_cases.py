@@ -23,13 +23,12 @@ from ..solvers.sharing import FlatBodies, SharedLoad, share_load
 from .contact_rough import BOX, layer_of, roughness
 from .load_sharing import LENGTH, SOURCE, TIGHT, averaged, cylinder, rough, rows_of, scene, strip, whole
 
-CELLS = 32
+CELLS = 32  # in a side of the patch
 TOLERANCE = {"quick": (3e-3, 1.2e-2, 5e-3), "default": (3e-3, 6e-3, 3e-3), "full": (3e-3, 6e-3, 3e-3)}
 REFINEMENTS = {"quick": 0, "default": 1, "full": 1}
-# Pa, 1, Pa: both cut the stress of a part of the film
-EYRING = 1e6
-LIMIT = 0.02
-OFFSET = 0.3e6
+EYRING = 1e6  # Pa, Eyring stress: it cuts the stress of a part of the film
+LIMIT = 0.02  # limiting stress over the pressure: it cuts that of another part
+OFFSET = 0.3e6  # Pa, limiting stress at ambient pressure
 
 
 LIMITED = {"eyring_stress": EYRING, "limiting_stress_coefficient": LIMIT, "limiting_stress_offset": OFFSET}

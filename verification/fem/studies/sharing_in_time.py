@@ -16,7 +16,7 @@ from ..solvers.transient_sharing import SharedMoment, share_in_time
 from .load_sharing import LENGTH, averaged, cylinder, rough, scene, strip
 
 FIRST = 0.03  # m/s
-LAST = 0.015
+LAST = 0.015  # m/s
 RAMP = 3.0  # b/U0 that the speed takes from the first to the last
 UNTIL = 6.0  # b/U0
 CELLS = {"quick": 16, "default": 32, "full": 32}
@@ -24,9 +24,8 @@ FINEST = 64  # cells on which the surface is made
 STEPS = {"quick": 24, "default": 48, "full": 96}
 REFINEMENTS = {"quick": 0, "default": 0, "full": 1}
 SOURCE = "film in time and rough contact by finite elements"
-# of the load; of the gap; twice as many cells, or steps, change less
-LOAD = 0.01
-GAP = 0.005
+LOAD = 0.01  # of the load: difference that is allowed; twice as many cells, or steps, change less
+GAP = 0.005  # of the gap: likewise
 
 
 def sharing_in_time(level: str) -> Iterator[Item]:

@@ -26,14 +26,12 @@ from ..solvers.moving import march
 from ..solvers.ripple import ripple
 from ..waves import history, laid_out, response
 
-# a wave; of the film
-CELLS = 40
-HEIGHT = 0.002
+CELLS = 40  # in a wave
+HEIGHT = 0.002  # of a wave over the film
 NEAR = 0.5  # half-widths: where both parts are fitted
 SOURCE = "linear response of full-system finite elements"
-# of the height of the waves, at rest and moving
-ALLOWED = 0.02
-MOVING = 0.1
+ALLOWED = 0.02  # of the height of the waves: difference at rest
+MOVING = 0.1  # of the height of the waves: difference in motion
 COLUMNS = ("case", "speed/U", "wavelength/b", "surface: lubfric", "elements", "inlet: lubfric", "elements", "rms")
 
 
