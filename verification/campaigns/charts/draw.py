@@ -9,6 +9,7 @@ from ...check import Check, Figure, Table
 LEAST = 1e-12  # of the reference: errors below are drawn there
 ORDER = ("lubfric", "default", "default, cold", "default, warm")
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C564B", "#7F7F7F", "#882255")
+OF_FRICTION = ("models", "rolling")  # charts whose error is that of f
 EQUAL = 1e-5  # error of the pressure at which methods are compared
 
 
@@ -28,7 +29,7 @@ def work_precision(name: str, points: list[Check], machine: str) -> Figure:
         for method in dict.fromkeys(p.at["method"] for p in chosen):
             curve(ax, [p for p in chosen if p.at["method"] == method], colours[method])
         apart = any(p.at.get("apart") for p in chosen)
-        ylabel = "error" if apart else "solver error"
+        ylabel = "error of f" if name in OF_FRICTION else "error" if apart else "solver error"
         ax.set(xscale="log", yscale="log", xlabel="CPU seconds", ylabel=ylabel)
         ax.set_title(label, fontsize=9)
     handles = [axes[0].plot([], [], "o-", color=c, label=m)[0] for m, c in colours.items()]

@@ -17,7 +17,7 @@ from .measure import point, quartiles
 SURFACES = "Gaussian", "exponential", "ridges along", "plateau"
 SEEDS = {True: (1,), False: (1, 2, 3)}
 WAYS: dict[str, Keywords] = {
-    "load sharing, Eqs. (8), (9)": {"model": "paper"},
+    'load sharing ("paper")': {"model": "paper"},
     "quick answer": {"model": "quick"},
     "deterministic, long cells": {"model": "deterministic", "tolerance": 0.1},
     "default": {},

@@ -18,7 +18,7 @@ from .measure import point, quartiles
 HEAVY = 7e8  # Pa: peak Hertz pressure from which on a contact is a heavy one
 KINDS = ("isotropic", "across", "along", "plateau", "heavy")
 MOTIONS = {"rest": "at rest", "rolling": "rolling"}
-BY_EQUATION = "load sharing, Eq. (9)"
+BY_EQUATION = 'load sharing ("paper")'
 QUICK = "quick answer: long cells, calibrated"
 LONG = "deterministic, long cells"
 SHORT = "deterministic, cells half as long"

@@ -22,7 +22,7 @@ from .measure import point, quartiles
 
 SEEDS = {True: (1,), False: (1, 2, 3)}
 BEFORE = Path(__file__).with_name("version_0_2_0.csv")
-MODELS = {"quick": "quick answer", "paper": "load sharing, Eqs. (8), (9)"}
+MODELS = {"quick": "quick answer", "paper": 'load sharing ("paper")'}
 
 
 def cases(*, quick: bool) -> dict[str, tuple[RollingContact, float, bool]]:

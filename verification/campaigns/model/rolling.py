@@ -179,8 +179,8 @@ def drawn(rows: list[tuple[RollingCase, PlainRow]]) -> Figure:
                 ax.plot(ratios, fast, f"C{k}--", lw=0.8)
         dense = np.geomspace(min(RATIOS), max(RATIOS), 60)
         column[1].fill_between(dense, *load_share_band(dense), color="0.85")
-        column[0].set(title=name, xscale="log", ylabel="f")
-        column[1].set(xlabel="lambda ratio (film/Sq)", ylabel="asperity load ratio (h < 20 nm)")
+        column[0].set(title=name, xscale="log", ylabel="friction coefficient f (-)")
+        column[1].set(xlabel="lambda ratio, film/Sq (-)", ylabel="asperity load ratio (h < 20 nm) (-)")
     grid[1, 1].legend(title="slide-roll ratio", fontsize=8, loc="upper right")
     return plotting.finish(
         "rolling",

@@ -9,6 +9,7 @@ from ... import plotting
 from ...check import Check, Figure, Table
 from .cell import FAILED, RIGHT, VERDICTS, WRONG
 from .cell import verdict as verdict_of
+from .contact_map import SURFACES
 
 COLOURS = {RIGHT: "#009E73", FAILED: "#E69F00", WRONG: "#D50000"}
 MARKS = {RIGHT: "s", FAILED: "X", WRONG: "D"}
@@ -25,13 +26,19 @@ AXES = {  # of a map: labels of x and y, and those of both that are linear
     "contact: roughness height": ("rms height, m", "mean pressure, Pa", ""),
     "contact: tilt and offset": ("tilt, rms heights", "offset, m", "xy"),
     "contact: precision, tolerance, start": ("tolerance", "input", "y"),
-    "sharing: flat": ("film / roughness", "rms height, m", ""),
-    "sharing: paper": ("film / roughness", "rms height, m", ""),
+    "sharing: flat": ("lambda ratio, film/Sq (-)", "Sq, m", ""),
+    "sharing: paper": ("lambda ratio, film/Sq (-)", "Sq, m", ""),
     "sharing: speed, either sign": ("entrainment speed, m/s", "scene", "y"),
-    "sharing: share of the contact": ("$F_C/F_T$", "", "y"),
+    "sharing: share of the contact": ("asperity load ratio, $F_C/F_T$ (-)", "", "y"),
 }
 WHOLE = ("load, N/m", "entrainment speed, m/s", "")
-COUNTED = ("case", "start from case", "surface", "grid", "input", "scene", "")  # labels of axes that number things
+COUNTED = ("case", "start from case", "grid", "")  # labels of axes that number things
+# labels of axes that name things, in the order of their numbers
+NAMED = {
+    "surface": SURFACES,
+    "scene": ("flat", "paper"),
+    "input": ("double precision", "single precision", "absurd start", "even start"),
+}
 
 
 def counts(cells: list[Check]) -> dict[tuple[str, str, bool], Counter[str]]:
@@ -88,6 +95,8 @@ def panel(ax: Axes, cells: list[Check]) -> None:
         one = ax.xaxis if axis == "x" else ax.yaxis
         if label in COUNTED:
             one.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
+        if label in NAMED:
+            one.set_ticks(range(len(NAMED[label])), NAMED[label], fontsize=7)
         if not label:
             one.set_ticks([])
     if name.startswith("sharing: speed"):
