@@ -115,7 +115,7 @@ def parser(command: Command) -> argparse.ArgumentParser:
     p.add_argument("--list", action="store_true", help="name the parts and stop")
     p.add_argument("--workers", type=int, default=command.workers, help="processes (default: %(default)s)")
     if command.campaign:
-        p.add_argument("--docs", type=Path, metavar="DIR", help="put its tables into the pages there that name them")
+        p.add_argument("--docs", type=Path, metavar="DIR", help="put its tables and pictures into the pages there")
     command.add_options(p)
     p.set_defaults(level=command.levels[0])
     return p
@@ -174,6 +174,7 @@ def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Name
             so_far = save(replace(so_far, outcomes=(*so_far.outcomes, reports.save_files(outcome, out))))
             if command.campaign and options.docs and not outcome.error:
                 put_tables(command, outcome, options)
+                put_pictures(command, outcome, options.docs)
     except KeyboardInterrupt:
         interrupted = True
     result = save(replace(so_far, complete=not interrupted))
@@ -201,6 +202,17 @@ def put_tables(command: Command, outcome: Outcome, options: argparse.Namespace) 
     level = "" if options.level == command.levels[0] else f" --{options.level}"
     for table in outcome.tables:
         put(options.docs, table, f"{command.program}{level} --only {outcome.study.name} --docs docs")
+
+
+def put_pictures(command: Command, outcome: Outcome, docs: Path) -> None:
+    """Put the pictures of a study where the folder ``docs`` has one of that name, with the name of the command before it
+    or without."""
+    for figure in outcome.figures:
+        for stem in (f"{command.name}-{figure.name}", figure.name):
+            file = docs / "images" / f"{stem}.{figure.format}"
+            if file.is_file():
+                file.write_bytes(figure.data)
+                break
 
 
 def tell_study(study: Study, names: tuple[str, ...]) -> None:

@@ -56,10 +56,16 @@ def test_a_campaign_judges_what_lies_in_the_folder_and_puts_its_table(tmp_path):
     (folder / "coverage.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows))
     page = tmp_path / "page.md"
     page.write_text("<!-- table: sampling-coverage -->\n<!-- end of table -->\n")
+    (tmp_path / "images").mkdir()
+    for name in ("coverage", "sampling-coverage"):
+        (tmp_path / "images" / f"{name}.png").write_bytes(b"old")
     asked = ["--quick", "--only", "coverage", "--seed", "7", "--out", str(tmp_path), "--docs", str(tmp_path)]
     assert main(["sampling", *asked]) == 0
     text = page.read_text()
     assert text.count("| 16 |") == 4 and "sampling --quick --only coverage --docs docs`" in text
+    pictures = {file.name: file.read_bytes() for file in (tmp_path / "images").iterdir()}
+    assert pictures.pop("coverage.png") == b"old" and pictures["sampling-coverage.png"].startswith(b"\x89PNG")
+    assert len(pictures) == 1
     assert (tmp_path / "coverage.png").stat().st_size > 1000
 
 
