@@ -191,6 +191,13 @@ class UncertaintyQuantities(Generic[T]):
         note="not counted against numerics.model_tolerance",
         default=0.0,
     )
+    not_given: T = quantity(
+        "-",
+        "relative change of f by the range of an input that the scene does not give",
+        column="not_given_error",
+        note="not counted against numerics.model_tolerance",
+        default=0.0,
+    )
     inputs: T = quantity("-", "relative change of f by the ranges of inputs", column="input_error", default=0.0)
 
 

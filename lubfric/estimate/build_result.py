@@ -15,7 +15,7 @@ from .choice import Choice
 from .full_load import full_load_numbers
 from .methods import MethodUse, methods_of
 from .power import PowerLoss, power_loss_of
-from .ranges import changes_by_ranges, widened
+from .ranges import changes_by_ranges, widened, with_missing_inputs
 from .result import FrictionResult
 from .uncertainty import Uncertainty, interval, number_errors_of
 
@@ -100,7 +100,8 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
         largest_in_model=answer.largest_in_model,
         notes=answer.notes,
     )
-    with_inputs = widened(of_solve, f, changes_by_ranges(prepared, answer)) if scene.ranges else of_solve
+    known = with_missing_inputs(of_solve, f, answer.not_given)
+    with_inputs = widened(known, f, changes_by_ranges(prepared, answer)) if scene.ranges else known
     return _not_negative(scene, f, with_inputs)
 
 

@@ -73,6 +73,23 @@ def _or_nan(coefficient: Callable[[Scene], float], scene: Scene) -> float:
         return math.nan
 
 
+def with_missing_inputs(old: Uncertainty, f: float, changes: dict[str, tuple[float, float]]) -> Uncertainty:
+    """Return ``old`` of ``f`` with the relative ``changes`` of f at both ends of the range of inputs that the scene does not
+    give, by their keys (`lubfric.models.ModelAnswer.not_given`). They add up as squares, up and down for themselves."""
+    if not any(any(ends) for ends in changes.values()):
+        return old
+    towards, away = (math.hypot(*(side(0.0, *ends) for ends in changes.values())) for side in (min, max))
+    below, above = (towards, away) if f >= 0 else (away, towards)
+    low, high = old.interval
+    return replace(
+        old,
+        not_given=max(towards, away),
+        not_given_sides=(towards, away),
+        missing_input=max(changes, key=lambda name: max(map(abs, changes[name]))),
+        interval=(f - math.hypot(f - low, f * below), f + math.hypot(high - f, f * above)),
+    )
+
+
 def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, ...] | str]) -> Uncertainty:
     """Return ``old`` of ``f`` with the ``changes`` of f by the two ends of inputs, by name (`changes_by_ranges`).
 

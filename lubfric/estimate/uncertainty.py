@@ -27,8 +27,10 @@ class Uncertainty(UncertaintyQuantities[float]):
         Student's t with ``freedom`` degrees of freedom
     tolerance : relative requested standard error
     notes : what a reader should know of these errors
-    model_sides, input_sides : ``model`` and ``inputs`` towards 0 and away from it; NaN where only the larger is known
+    model_sides, not_given_sides, input_sides : ``model``, ``not_given`` and ``inputs`` towards 0 and away from it; NaN
+        where only the larger is known
     largest_in_model : what the largest part of ``model`` is, and what narrows it; "" where it has one part
+    missing_input : the key of the input that the scene does not give, whose range changes f most ("": none)
     largest_input : the input whose range changes f most
     """
 
@@ -37,14 +39,16 @@ class Uncertainty(UncertaintyQuantities[float]):
     tolerance: float = math.nan
     notes: tuple[str, ...] = ()
     model_sides: tuple[float, float] = (math.nan, math.nan)
+    not_given_sides: tuple[float, float] = (math.nan, math.nan)
     input_sides: tuple[float, float] = (math.nan, math.nan)
     largest_in_model: str = ""
+    missing_input: str = ""
     largest_input: str = ""
 
     @property
     def budget(self) -> dict[str, float]:
         """The uncertainty budget: the half of the 95 % interval that each part by itself would leave, relative to f, by
-        the names "numerical", "sampling", "model-form" and "input". NaN where a part is not known.
+        the names "numerical", "sampling", "model-form", "not given" and "input". NaN where a part is not known.
 
         That of sampling is its standard error (``sampling``) times Student's t.
         """
@@ -52,13 +56,14 @@ class Uncertainty(UncertaintyQuantities[float]):
             "numerical": self.numerical,
             "sampling": student(self.freedom) * self.sampling if self.sampling else self.sampling,
             "model-form": self.model,
+            "not given": self.not_given,
             "input": self.inputs,
         }
 
     @property
     def budget_in_words(self) -> dict[str, str]:
         """The `budget` as text, by the same names: "42 %", and "-29 to +42 %" where the two sides differ."""
-        sides = {"model-form": self.model_sides, "input": self.input_sides}
+        sides = {"model-form": self.model_sides, "not given": self.not_given_sides, "input": self.input_sides}
         return {
             name: percent_of_sides(*sides.get(name, (math.nan, math.nan)), value) for name, value in self.budget.items()
         }
@@ -70,6 +75,7 @@ class Uncertainty(UncertaintyQuantities[float]):
             "numerical": "a smaller numerics.tolerance narrows it",
             "sampling": "a smaller numerics.sampling_tolerance or a larger map narrows it",
             "model-form": self.largest_in_model or "numerics.model = 'deterministic' narrows it",
+            "not given": f"{self.missing_input} narrows it",
             "input": f"a measured {self.largest_input or 'value'} narrows it",
         }
         known = {name: part for name, part in self.budget.items() if math.isfinite(part) and part > 0}
@@ -100,7 +106,9 @@ class Uncertainty(UncertaintyQuantities[float]):
         unknown = " (not included)" * math.isnan(self.model)
         words = self.budget_in_words
         inputs = f", input {words['input']}" if self.inputs != 0 else ""
-        return f"numerical {words['numerical']}, sampling {sampling}, model-form {words['model-form']}{unknown}{inputs}"
+        known = f"numerical {words['numerical']}, sampling {sampling}, model-form {words['model-form']}{unknown}"
+        missing = f", {self.missing_input} not given {words['not given']}" if self.not_given else ""
+        return f"{known}{missing}{inputs}"
 
 
 @described_in_doc

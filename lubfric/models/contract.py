@@ -99,6 +99,8 @@ class ModelAnswer:
     model_error : relative error of f by the model itself, at 95 %, below and above f; NaN: not known
     by_limit : part of ``model_error`` because the limiting stress of a Newtonian lubricant is not known
     largest_in_model : the largest part of the model error, as text; "": one part only
+    not_given : relative changes of f at both ends of the range of an input that the scene does not give, by its name in
+        words and its key; no part of ``model_error``
     errors : relative errors of the other numbers, by name
     why_no_error, reasons : why an error is not known: of those not in ``errors``, and of some by name
     length, spots, area_needed : of the sample (`lubfric.estimate.Uncertainty`)
@@ -121,6 +123,7 @@ class ModelAnswer:
     decision: Decision
     by_limit: float = 0.0
     largest_in_model: str = ""
+    not_given: dict[str, tuple[float, float]] = field(default_factory=dict)
     errors: dict[str, float] = field(default_factory=dict)
     why_no_error: str = "not known"
     reasons: dict[str, str] = field(default_factory=dict)

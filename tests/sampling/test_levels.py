@@ -62,14 +62,6 @@ def test_parts_add_up_and_the_model_is_told(found):
     assert math.isnan(found.errors.inlet_film_factor) and found.errors.reasons["inlet_film_factor"]
 
 
-def test_interval_holds_numerical_sampling_and_model(found):
-    known = found.uncertainty
-    t = scipy.stats.t.ppf(0.975, known.freedom)
-    assert known.model > 0 and known.sampling > 0
-    assert half(found) == pytest.approx(math.sqrt(known.numerical**2 + (t * known.sampling) ** 2 + known.model**2))
-    assert known.interval[1] / found.coefficient - 1 < 0.1
-
-
 def test_f_is_that_of_other_strips_one_by_one(prepared, found):
     """Eight strips of another seed, each by itself on the same cells."""
     strips = lubfric.prepare(SCENE.with_(surface={"seed": 77})).sample
@@ -212,17 +204,31 @@ def test_a_tighter_tolerance_takes_more_strips(prepared, found):
     assert abs(found.coefficient / loose.coefficient - 1) < half(loose) + half(found)
 
 
-def test_half_and_twice_the_boundary_film_and_the_law_of_the_flow_are_the_error_of_the_model():
+def test_half_and_twice_a_boundary_film_that_is_not_given_are_a_part_of_the_budget_beside_the_model():
     scene = PATCH.with_(lubricant={"limiting_stress_coefficient": 0.045}, numerics={"tolerance": 0.05})
     films = (None, 20e-9, 10e-9, 40e-9)
     open_, given, *others = (lubfric.friction(scene.with_(bodies={"boundary_film": one}), 0.01) for one in films)
     assert open_.coefficient == pytest.approx(given.coefficient, rel=1e-12)
-    changes = [abs(other.coefficient / open_.coefficient - 1) for other in others]
+    changes = [other.coefficient / open_.coefficient - 1 for other in others]
     by_flow = given.uncertainty.model
-    assert open_.uncertainty.model == pytest.approx(math.hypot(max(changes), by_flow), rel=0.05) and min(changes) > 0.01
+    assert open_.uncertainty.model == pytest.approx(by_flow, rel=1e-9) and min(map(abs, changes)) > 0.01
+    sides = -min(changes), max(changes)
+    assert open_.uncertainty.not_given_sides == pytest.approx(sides, rel=0.05)
+    assert open_.uncertainty.not_given == max(open_.uncertainty.not_given_sides)
+    assert given.uncertainty.not_given == 0 and "not given" not in given.uncertainty.text
+    assert "bodies.boundary_film not given" in open_.uncertainty.text
     assert 1e-4 < by_flow < 0.1 and "thinned half as much" in given.decision.text
     newtonian = PATCH.with_(bodies={"boundary_film": 20e-9}, numerics={"tolerance": 0.05})
     assert lubfric.friction(newtonian, 0.01).uncertainty.model == 0.0
+
+
+def test_the_interval_is_the_root_of_the_squares_of_its_parts_on_each_side(found):
+    known = found.uncertainty
+    of_sample = scipy.stats.t.ppf(0.975, known.freedom) * known.sampling
+    sides = [math.hypot(known.numerical, of_sample, *pair) for pair in zip(known.model_sides, known.not_given_sides)]
+    assert known.not_given > 1e-3 and known.sampling > 0
+    assert 1 - known.interval[0] / found.coefficient == pytest.approx(sides[0], rel=1e-9)
+    assert known.interval[1] / found.coefficient - 1 == pytest.approx(sides[1], rel=1e-9) and sides[1] < 0.1
 
 
 def test_the_flow_of_a_limit_twice_as_high_by_hand():

@@ -64,6 +64,8 @@ RUBS = {
 BY_FILM = "f by half the boundary film {:+.2g} %, by twice {:+.2g} %"
 BY_INLET = "f without the heat of the inlet {:+.2g} %"
 BY_FLOW = "f by a flow that is thinned half as much at the limiting stress {:+.2g} %"
+# The input that a scene may leave out, whose range is half to twice lubfric's own value.
+BOUNDARY_FILM_KEY = "bodies.boundary_film"
 OF_LIMIT = "the limiting stress of the oil, which is not given: lubricant.limiting_stress_coefficient narrows it"
 LIMITED = ("coefficient", "at_least_limit", "at_most_limit")
 LOOSER = "a larger numerics.tolerance"
@@ -90,9 +92,8 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
             errors["rolling_resistance"] = error
     sampling = levels.sampling.error if math.isfinite(levels.sampling.error) else math.nan
     by_scatter = student(levels.difference.freedom) * levels.difference.error
-    by_film = 0.0 if scene.bodies.boundary_film is not None else max(map(abs, levels.by_film))
+    below, above = levels.by_film
     parts_of_model = {
-        "the boundary film, whose thickness is not given: bodies.boundary_film narrows it": by_film,
         "the difference of the models from place to place: a smaller numerics.model_tolerance narrows it": by_scatter,
         "the flow of a film at its limiting stress, which theories leave open": abs(levels.by_flow),
         "heat, half of whose effect counts as its error": error_by_heat(heat, levels.by_inlet),
@@ -110,6 +111,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         model_error=(math.hypot(model, by_limit[0]), math.hypot(model, by_limit[1])),
         by_limit=max(by_limit),
         largest_in_model=max(parts_of_model, key=lambda part: parts_of_model[part]),
+        not_given={} if scene.bodies.boundary_film is not None else {BOUNDARY_FILM_KEY: (below, above)},
         report=replace(results[0].report, notes=()),
         decision=_decision(scene, results, levels, heat),
         errors=errors | dict.fromkeys(reasons, math.nan),
@@ -235,8 +237,9 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     )
 
 
-def warn_model_error(prepared: Prepared, error: float) -> Iterator[Validity]:
-    """Yield a warning where the model-form ``error`` of f, relative, is above ``numerics.model_tolerance``."""
+def warn_model_error(prepared: Prepared, error: float, remedy: str = "") -> Iterator[Validity]:
+    """Yield a warning where the model-form ``error`` of f, relative, is above ``numerics.model_tolerance``; ``remedy``: what
+    narrows it ("": a longer map, where the surface is measured)."""
     scene = prepared.scene
     tolerance = scene.numerics.model_tolerance
     is_measured = prepared.given or measured(scene)
@@ -246,8 +249,8 @@ def warn_model_error(prepared: Prepared, error: float) -> Iterator[Validity]:
             value=100 * error,
             limit=100 * tolerance,
             unit="%",
-            consequence="it comes from the boundary film, the law of the flow, heat, the scatter between the models, or cells",
-            remedy=f"give bodies.boundary_film if you know it{', or a longer map' if is_measured else ''}",
+            consequence="it comes from the law of the flow, heat, the scatter between the models, or cells",
+            remedy=remedy or f"read f with its interval{', or give a longer map' if is_measured else ''}",
         )
 
 

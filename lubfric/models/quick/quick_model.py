@@ -73,6 +73,7 @@ NOT_FLOODED = (
 )
 UNSOLVED = "f of Eq. (9) with the error of load sharing: the strips on long cells were not solved ({})"
 NARROWER = "numerics.model = 'deterministic' narrows f, at the cost that `lubfric info` estimates"
+NARROWED = "take numerics.model = 'deterministic', which narrows it"
 OF_CELLS = "the error of long cells on {} solved cases: numerics.model = 'deterministic' narrows it"
 
 
@@ -310,7 +311,7 @@ def quick_answer_of(prepared: Prepared, speed: float, strips: LongStrips) -> Mod
         largest_in_model=largest,
         warnings=(
             *warnings,
-            *warn_model_error(prepared, max(below, above)),
+            *warn_model_error(prepared, max(below, above), NARROWED),
             *(entry.warning for entry in strips.outside),
         ),
         decision=replace(answer.decision, model="quick", basis=basis, notes=(NARROWER, *answer.decision.notes)),
