@@ -28,7 +28,13 @@ SHOWN: dict[str, tuple[str, str] | None] = {
 }
 
 # Parts of the uncertainty budget, and their columns of a study.
-PARTS = {"numerical": "numerical", "sampling": "sampling", "model-form": "model", "not given": "not_given", "input": "inputs"}
+PARTS = {
+    "numerical": "numerical",
+    "sampling": "sampling",
+    "model-form": "model",
+    "not given": "not_given",
+    "input": "inputs",
+}
 
 # Where an operating point lies.
 COORDINATE = ("position", "angle", "time")

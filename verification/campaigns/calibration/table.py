@@ -13,7 +13,7 @@ from .solve import solved
 
 TABLES = Path(__file__).parent / "tables"
 DIGITS = 6  # of a number in the table
-SECONDS = {"rest": 25.0, "rolling": 25.0}  # processor time of a case, at most
+SECONDS = {"rest": 60.0, "rolling": 60.0}  # processor time of a case, at most
 
 
 def table_of(motion: str, folder: Path = TABLES) -> Path:
