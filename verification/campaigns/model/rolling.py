@@ -23,7 +23,7 @@ from .boundary_film import roller, speed_of
 from .moved import FILMS, passed
 
 RATIOS = (2.0, 1.0, 0.6, 0.3)  # smooth central film over Sq
-SLIPS = (-1.0, -0.1, 0.0, 0.1, 0.5, 1.5, 2.0)  # slide-roll ratios; at 2 surface 1 rests
+SLIPS = (-1.0, 0.0, 0.1, 0.5, 2.0)  # slide-roll ratios; at 2 surface 1 rests
 CONTACTS: dict[str, tuple[float, Keywords, float, float]] = {  # pressure [Pa], bodies, Sq and correlation length [m]
     "roller, 1 GPa": (1e9, {}, 150e-9, 10e-6),
     "gear flank, 1.2 GPa": (1.2e9, {"radius": 10e-3}, 300e-9, 20e-6),
