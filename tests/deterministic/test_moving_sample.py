@@ -19,6 +19,7 @@ from lubfric.models.deterministic import (
     mean_over_blocks,
     solve_moving_strip,
 )
+from lubfric.models.deterministic.shorter_cells import error_by_motion
 from lubfric.surface import Surface, generate_surface
 
 LENGTH = 10e-6  # m: correlation length
@@ -126,3 +127,17 @@ def test_two_rough_bodies_start_a_step_where_their_common_roughness_is():
     assert [cells((rough, speed)) for speed in (0.4, 0.6, 1.05, 2.0, -1.0)] == [0, 1, 1, 2, 0]
     assert cells((rough, 0.36), (rough, 1.64)) == 1
     assert cells((rough, 0.36), (smooth, 1.64)) == 0 and cells((smooth, 0.36), (rough, 1.64)) == 2
+
+
+def test_the_error_by_the_cells_of_moving_roughness_falls_by_second_order_and_grows_with_the_boundary_film():
+    """Half as long cells: a quarter. Its part by the boundary film is quadratic in what that film changes. Steps of
+    third order leave less, heights that change from cell to cell more."""
+
+    def error(by_film=0.0, coarse=0.25, *, third=True, is_smooth=True):
+        return error_by_motion(by_film, coarse, follows_lubricant=third, is_smooth=is_smooth)
+
+    assert error(0.3, 0.125) == pytest.approx(error(0.3) / 4)
+    by_film = [error(change) - error() for change in (0.2, 0.4)]
+    assert by_film[1] == pytest.approx(4 * by_film[0]) and by_film[0] > 0
+    assert error(third=False) > error() > 0 and error(0.3, third=False) > error(0.3)
+    assert error(is_smooth=False) > error()
