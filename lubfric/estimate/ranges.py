@@ -107,7 +107,7 @@ def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, ...] | s
         elif not f:
             notes.append(f"{begin}f {ends[0]:+.2g} to {ends[1]:+.2g}")
         elif max(map(abs, ends)) > LEAST * abs(f):
-            percents = [100 * end / f for end in ends]
+            percents = sorted(100 * end / f for end in ends)
             notes.append(f"{begin}f {' to '.join(f'{end:+.{2 + (abs(end) >= 99.5)}g}' for end in percents)} %")
     relative = max(down, up) / abs(f) if f else math.inf if max(down, up) else 0.0
     complete = len(moved) == len(changes)

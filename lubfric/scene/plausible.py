@@ -39,6 +39,9 @@ def _rows(name: str) -> dict[str, list[Any]]:
 SMALL_PERCENT = 0.1
 LARGE_RATIO = 1.0
 MOST_RATIO = 2.0  # simple sliding, which is usual
+# Sq [m] that follows from Ra or Rz, above which these were written without a unit: rough castings have some 5e-5 m. A
+# smaller one may have been written with a unit, which must not be questioned.
+NO_ROUGHNESS = 1e-3
 SLIP = "motion.slip_percent"
 RATIO = "motion.slide_roll_ratio"
 
@@ -116,8 +119,9 @@ def unusual_values(scene: Any) -> tuple[UnusualValue, ...]:
         value = _index(scene) if key == "viscosity_index" else getattr(getattr(scene, section, None), key, None)
         for number in value if isinstance(value, (list, tuple)) else (value,):
             question = None if number is None else slip(name, number)
-            if question and name.endswith(".sq") and float(f"{number:.4g}") != number:
-                question = ""  # not as it was written: it follows from Ra or Rz
+            if question and name.endswith(".sq") and not _is_as_written(number):
+                unit = printed(likely_unit(name, number))
+                question = f"did you mean ra or rz in {unit}?" if number > NO_ROUGHNESS else ""
             if question is not None:
                 unusual.append(
                     UnusualValue(
@@ -195,7 +199,14 @@ def warn_unusual_values(scene: Any) -> Iterator[None]:
         raise
 
 
+def _is_as_written(value: float) -> bool:
+    """Return whether somebody wrote this number, as its few digits show; else it follows from others."""
+    return float(f"{value:.4g}") == value
+
+
 def _read_as(value: Any, unit: str) -> str:
-    """Return a value as given, and how it is read: "12 is read as 12 m"."""
+    """Return a value as given, and how it is read: "12 is read as 12 m"; one that follows from others as it is."""
+    if isinstance(value, (int, float)) and not _is_as_written(value):
+        return f"{value:.3g} {printed(unit)}"
     shown = value if isinstance(value, str) else f"{value:.4g}" if isinstance(value, (int, float)) else f"{value}"
     return shown if unit == "-" else f"{shown} is read as {shown} {printed(unit)}"

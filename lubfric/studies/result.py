@@ -135,6 +135,9 @@ class StudyResult(Shown):
         if good.any():
             f = self["coefficient"][good]
             facts["f"] = f"{f.min():.4g} to {f.max():.4g}"
+        unknown = int(np.isnan(self["uncertainty_low"][good]).sum()) if "uncertainty_low" in self.columns else 0
+        if unknown:
+            facts["without interval"] = str(unknown)
         counts = {"failed": self.failed, "not computed": self.missing, "with warnings": self.with_warnings}
         return facts | {name: str(count) for name, count in counts.items()}
 

@@ -94,5 +94,7 @@ def test_a_height_in_another_unit_is_questioned_by_the_key_that_was_written():
     paper = lubfric.load_scene("paper")
     with pytest.raises(lubfric.InputError, match="^surface.ra = 150 is read as 150 m; did you mean 150 nm"):
         paper.with_(surface={"ra": 150})
+    with pytest.raises(lubfric.InputError, match="^surface.sq = 0.188 m; did you mean ra or rz in µm"):
+        lubfric.prepare(paper.with_(surface={"ra": 0.15}))
     (derived,) = unusual_values(paper.with_(surface={"ra": "150 um"}))
     assert derived.key == "surface.sq" and derived.question == ""  # it follows from Ra: no unit explains it

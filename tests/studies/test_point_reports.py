@@ -3,6 +3,7 @@
 import re
 from concurrent.futures import ThreadPoolExecutor
 
+import numpy as np
 import pytest
 from small_study import SCENE
 
@@ -42,6 +43,15 @@ def test_threads_report_in_this_process_and_failures_are_outcomes():
         result, points = reported(vary={"contact.spacing": [1.1e-6, 1e-4]}, speeds=SPEEDS, executor=executor)
     failed = [index for _, _, index, outcome in points if isinstance(outcome, lubfric.LubfricError)]
     assert sorted(failed) == [(1, 0), (1, 1)] and result.failed == 2
+
+
+def test_points_without_an_interval_are_counted():
+    """A single patch has no sampling error, so that its points have no interval."""
+    result, _ = reported(speeds=SPEEDS)
+    count = int(np.isnan(result["uncertainty_low"]).sum())
+    assert count > 0 and f"without interval {count}" in repr(result)
+    strips = lubfric.study(SCENE.with_(numerics={"sampling": "strips", "model": "paper"}), speeds=SPEEDS)
+    assert "without interval" not in repr(strips)
 
 
 def test_points_of_a_store_are_not_reported_again(tmp_path):
