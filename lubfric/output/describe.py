@@ -167,9 +167,11 @@ def _doubts(at: list[tuple[float | None, Validity]]) -> list[str]:
 
 
 def _plan(scene: Scene, surface: Surface) -> str:
-    what = {"flat": "a periodic contact", "cylinder": "a semi-periodic contact"}[scene.contact.geometry]
+    what = {"flat": "a periodic contact", "cylinder": "a contact that is periodic along the line"}[
+        scene.contact.geometry
+    ]
     on = "strips of the roughness" if takes_strips(scene) else "{} x {} cells".format(*surface.shape)
-    return f"{what} on {on}; requested numerical error of f: at most {100 * scene.numerics.tolerance:g} %"
+    return f"{what} on {on}; target of the numerical error of f: {100 * scene.numerics.tolerance:g} %"
 
 
 def _model(
@@ -206,8 +208,8 @@ def _model(
         ends = dict.fromkeys(f"{speed:.3g}" for speed in (resolved[0], resolved[-1]))
         to = f"with a target of {100 * scene.numerics.model_tolerance:g} % for the model-form error"
         rows = [
-            f"{DETERMINISTIC[bool(strip)]} at {' to '.join(ends)} m/s, {to}; elsewhere the load-sharing model, and "
-            "the quick answer where heat changes f by more than a fifth or the film by more than three tenths"
+            f"{DETERMINISTIC[bool(strip)]} at {' to '.join(ends)} m/s, {to}; elsewhere, and where heat changes f by more "
+            "than 20 % or the film by more than 30 %, the load-sharing model alone"
         ]
     if strip:
         takes = f"one strip of moving roughness takes about {in_words(strip)} by the deterministic model"

@@ -92,7 +92,7 @@ def test_the_roller_of_the_examples_is_an_answer(root, tmp_path):
 def test_info_tells_of_rest_of_one_gap_and_of_one_patch():
     still = describe_scene(HEAVY.with_(motion={"entrainment_speed": 0.0, "speeds": [0.0, 1.0]}))
     assert "no entrainment: all load" in still
-    assert "semi-periodic contact on 128 x 64 cells" in describe_scene(HEAVY.with_(numerics={"sampling": "patch"}))
+    assert "periodic along the line on 128 x 64 cells" in describe_scene(HEAVY.with_(numerics={"sampling": "patch"}))
     one = HEAVY.with_(numerics={"model": "deterministic"})
     assert "deterministic model (numerics.model)" in describe_scene(one.with_(motion={"slide_roll_ratio": 2.0}))
 

@@ -127,6 +127,6 @@ def test_the_method_is_what_was_solved_and_the_seeds_are_told_apart(run):
     page = (run / "out" / "report.html").read_text(encoding="utf-8")
     method = page.partition("<h2>Method and sources</h2>")[2]
     solved, _, estimate = method.partition("Estimate before the solve")
-    assert "At U = 0.3 m/s: film: " in unescape(solved) and "requested numerical error of f" not in solved
-    assert "requested numerical error of f: at most" in estimate
+    assert "At U = 0.3 m/s: film: " in unescape(solved) and "target of the numerical error of f" not in solved
+    assert "target of the numerical error of f" in estimate
     assert "seed of the scene (surface.seed), from which those of the strips follow" in page

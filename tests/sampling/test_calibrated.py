@@ -159,10 +159,10 @@ def test_a_loose_model_tolerance_lets_auto_answer_on_long_cells():
 
 
 def test_bounds_widen_outside_the_campaign_and_info_and_result_say_so():
-    text = "outside the range of the solved cases"
+    text = "outside the range of the contacts behind"
     quick_paper = PAPER.with_(numerics={"model": "quick"})
     thick = lubfric.friction(quick_paper, 0.5)
-    assert [entry.what for entry in thick.validity if text in entry.consequence] == ["Moes' film over Sq"]
+    assert [entry.what for entry in thick.validity if text in entry.consequence] == ["lambda ratio by Moes' formula"]
     assert not any(text in entry.consequence for entry in lubfric.friction(quick_paper, 0.03).validity)
     assert text not in describe_scene(quick_paper, [0.03])
     light = quick_paper.with_(bodies={"load": 0.5})

@@ -53,7 +53,7 @@ UNSOLVED_CELLS = (
     "shorter cells did not converge within the work of a point: the numerical error is twice the estimate from longer "
     "cells; a larger numerics.max_work narrows it"
 )
-ONE_HEAT = "heat is found on one strip"
+ONE_HEAT = "heat is computed on one strip"
 BIASED = "a short patch, which balances the load by itself, is biased too: about lift-off f is some 10 % too low"
 # What rubs with f_b, by whether the lubricant is Newtonian: with a shear law a film at its limiting stress is no part of
 # the asperity load.
@@ -61,9 +61,9 @@ RUBS = {
     True: "gaps below the boundary film, and film at its limiting stress",
     False: "gaps below the boundary film",
 }
-BY_FILM = "f by half the boundary film {:+.2g} %, by twice {:+.2g} %"
-BY_INLET = "f without the heat of the inlet {:+.2g} %"
-BY_FLOW = "f by a flow that is thinned half as much at the limiting stress {:+.2g} %"
+BY_FILM = "change of f with half the boundary film {:+.2g} %, with twice {:+.2g} %"
+BY_INLET = "change of f without the heat of the inlet {:+.2g} %"
+BY_FLOW = "change of f with half the thinning of the flow at the limiting stress {:+.2g} %"
 # The input that a scene may leave out, whose range is half to twice lubfric's own value.
 BOUNDARY_FILM_KEY = "bodies.boundary_film"
 OF_LIMIT = "the limiting stress of the oil, which is not given: lubricant.limiting_stress_coefficient narrows it"
@@ -272,7 +272,9 @@ def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[s
     if math.isnan(sampling):
         return TOO_SHORT.format(length / sample.correlation_lengths[1]), BIASED
     return (
-        (f"the standard error of sampling is above the requested {percent(tolerance)}",) if sampling > tolerance else ()
+        (f"the standard error of sampling, {percent(sampling)}, is above its target of {percent(tolerance)}",)
+        if sampling > tolerance
+        else ()
     )
 
 

@@ -89,7 +89,7 @@ MOST_WORK_OF_STRIPS = 120.0
 # Strips whose scatter tells an error [-]: two degrees of freedom. A convention.
 FEWEST = 3
 
-SUMMITS = "f {:+.2g} % for the summits of the sample, compared with those of the endless surface"
+SUMMITS = "f corrected by {:+.2g} %, because the summits of the sample differ from those of the endless surface"
 OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
 
 

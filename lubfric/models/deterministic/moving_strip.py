@@ -13,6 +13,7 @@ from ..._base.progress import report_progress
 from ...film import LineContact
 from ...scene import Scene
 from ...surface import Surface
+from ...units import worded
 from .linear import ACCURACY
 from .moving import SAME, Moment, RoughBody, half_width, moments, travelling
 from .problem import HERTZ_INLET, HERTZ_OUTLET, Problem, reach
@@ -190,7 +191,7 @@ def solve_moving_strip(
     count = required
     speeds = " and ".join(f"{body.speed:.4g}" for body in bodies)
     note = (
-        f"the roughness moved at {speeds} m/s, by {count} steps of {step:.3g} s after {discarded} that do not count; "
+        f"the roughness moves at {speeds} m/s: mean over {count} steps of {worded(step, 's')}, after {discarded} discarded ones; "
         f"at rest f = {rest.result.coefficient:.4g}"
     )
     result = _mean(rows[discarded : discarded + count], counted.result)
@@ -236,7 +237,7 @@ def continued_strip(
     rows = []
     for number, moment in enumerate(islice(passing, 1, 1 + sum(early)), 1):
         rows.append(_row(moment))
-        report_progress("moving roughness once more", number, sum(early))
+        report_progress("moving roughness, continued", number, sum(early))
     return _mean(rows[-early[1] :], moment.result), sum(row["work"] for row in rows)
 
 

@@ -20,8 +20,8 @@ from ...scene import Scene, moves
 from ..shared import Validity, peak_hertz_pressure
 
 OUTSIDE = (
-    "this is outside the range of the solved cases behind the error of long cells, which is widened with the distance, "
-    "up to three times in ln f"
+    "this is outside the range of the contacts behind the calibration of the quick answer, so that its model-form "
+    "error is widened, at most three times"
 )
 
 # Factor on the bounds far outside the range of the campaign.
@@ -98,7 +98,7 @@ class Outside:
             limit=factor * self.limit,
             unit="GPa" if self.unit == "Pa" else self.unit,
             consequence=OUTSIDE,
-            remedy="take numerics.model = 'deterministic', which needs no such cases",
+            remedy="set numerics.model = 'deterministic', which needs no calibration",
         )
 
 
@@ -113,7 +113,7 @@ def out_of_range(
         "slip": ("slide-roll ratio", abs(scene.motion.slide_roll_ratio), ""),
     }
     if sq and speed:
-        values["lambda"] = ("Moes' film over Sq", scene.line_contact(abs(speed)).moes_film / sq, "")
+        values["lambda"] = ("lambda ratio by Moes' formula", scene.line_contact(abs(speed)).moes_film / sq, "")
     outside = []
     for name, (what, value, unit) in values.items():
         low, high = known[name]

@@ -72,9 +72,9 @@ NOT_FLOODED = (
     "f of Eq. (9) with the error of load sharing: the campaign behind the calibration has flooded contacts only"
 )
 UNSOLVED = "f of Eq. (9) with the error of load sharing: the strips on long cells were not solved ({})"
-NARROWER = "numerics.model = 'deterministic' narrows f, at the cost that `lubfric info` estimates"
+NARROWER = "numerics.model = 'deterministic' reduces the error of f, at the cost that `lubfric info` estimates"
 NARROWED = "take numerics.model = 'deterministic', which narrows it"
-OF_CELLS = "the error of long cells on {} solved cases: numerics.model = 'deterministic' narrows it"
+OF_CELLS = "the error of long cells, calibrated on {} contacts: numerics.model = 'deterministic' reduces it"
 
 
 @dataclass(frozen=True, kw_only=True)

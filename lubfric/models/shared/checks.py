@@ -123,9 +123,11 @@ def warn_pressure(scene: Scene, peak: float) -> Iterator[Validity]:
     law = scene.lubricant.viscosity_law
     hertz_peak = peak_hertz_pressure(scene)
     limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(law, math.inf)
-    consequence = f"the {law} viscosity law is an extrapolation there"
+    consequence = f"the viscosity law ({law}) is extrapolated there"
     is_local = peak > SPIKE * hertz_peak
-    remedy = "use a measured limiting stress (lubricant.limiting_stress_coefficient), which bounds the film's friction"
+    remedy = (
+        "give a measured limiting stress (lubricant.limiting_stress_coefficient), which bounds the friction of the film"
+    )
     severe = peak > NO_LIQUID
     if severe:
         limit = NO_LIQUID
@@ -154,7 +156,7 @@ def warn_thickness(scene: Scene, film: float) -> Iterator[Validity]:
     radius = scene.bodies.radius
     if not film > THICK * radius:
         return
-    why = "the film is not thin against the cylinder"
+    why = "the film is not thin compared with the cylinder"
     yield Validity(
         what="film over radius",
         value=film / radius,
@@ -187,7 +189,7 @@ def warn_inlet(scene: Scene, line: LineContact, flow: float, friction: float) ->
             limit=100 * tolerance,
             unit="%",
             consequence=why,
-            remedy="omit it for a full inlet",
+            remedy="omit lubricant.inlet_length for a fully flooded inlet",
         )
 
 
@@ -205,7 +207,7 @@ def warn_deflection(scene: Scene, mean_gap: float, remedy: str = ANOTHER) -> Ite
 def warn_ends(share: float, length: float) -> Iterator[Validity]:
     """Entries for the ``share`` of the contact's load on the edge columns of a patch of ``length`` [m] along x."""
     if share > ON_ENDS:
-        why = f"its ends, {worded(length, 'm')} apart, cut the contact off"
+        why = f"the ends of the patch, {worded(length, 'm')} apart, cut the contact off"
         what = "share of the contact load on the edge columns of the patch"
         yield Validity(
             what=what, value=100 * share, limit=100 * ON_ENDS, unit="%", consequence=why, remedy=LONGER, severe=True
