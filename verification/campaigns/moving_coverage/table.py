@@ -62,8 +62,11 @@ REFERENCE_COLUMNS = ("contact", "kind", "seed", "f", "error", "plain", "plain_er
 # Seeds of the strips of references, far from those of answers.
 REFERENCE_SEED = 1000
 
-REFERENCE_STRIPS = 2  # strips of a reference
-REFERENCE_DISCARDED = 4.0  # half-widths that a strip of a reference discards
+# Surfaces of a reference: of its strips, and of the narrower strips on shorter cells.
+REFERENCE_SEEDS = 3
+
+# Half-widths that a strip of a reference discards.
+REFERENCE_DISCARDED = 4.0
 
 # Relative error of f that no pass reaches: all of the map passes.
 WHOLE_PASS = 1e-9
@@ -268,9 +271,16 @@ KINDS = {"strip": reference_strip, "cells": change_by_cells, "tight": tight_stri
 
 def extend(seeds: int, budget: float, folder: Path = EXTENDED) -> Iterator[PlainRow]:
     """Solve what the tables have not, as long as the processor time of this process is below ``budget`` [s], and append
-    each row as it is solved. References come after the first three answers of each contact."""
-    known = {(row["contact"], row["seed"]) for row in table_file.rows(folder / ANSWERS)}
+    each row as it is solved: all references, then the answers of so many ``seeds``."""
     kept = {(row["contact"], row["kind"], row["seed"]) for row in table_file.rows(folder / REFERENCES)}
+    for kind, number in (*((kind, k) for k in range(REFERENCE_SEEDS) for kind in ("strip", "cells")), ("tight", 0)):
+        for contact in contacts():
+            if time.process_time() > budget:
+                return
+            if (contact.name, kind, str(number)) not in kept and (contact.heavy or kind != "tight"):
+                row = {"contact": contact.name, "kind": kind, "seed": number} | _timed(KINDS[kind], contact, number)
+                yield _appended(folder / REFERENCES, REFERENCE_COLUMNS, row)
+    known = {(row["contact"], row["seed"]) for row in table_file.rows(folder / ANSWERS)}
     for seed in range(seeds):
         for contact in contacts():
             if time.process_time() > budget:
@@ -278,20 +288,6 @@ def extend(seeds: int, budget: float, folder: Path = EXTENDED) -> Iterator[Plain
             if (contact.name, str(seed)) not in known:
                 row = {"contact": contact.name, "seed": seed} | _timed(answer, contact, seed)
                 yield _appended(folder / ANSWERS, ANSWER_COLUMNS, row)
-        if seed != min(2, seeds - 1):
-            continue
-        for kind, number in (
-            ("strip", 0),
-            ("cells", 0),
-            *(("strip", k) for k in range(1, REFERENCE_STRIPS)),
-            ("tight", 0),
-        ):
-            for contact in contacts():
-                if time.process_time() > budget:
-                    return
-                if (contact.name, kind, str(number)) not in kept and (contact.heavy or kind != "tight"):
-                    row = {"contact": contact.name, "kind": kind, "seed": number} | _timed(KINDS[kind], contact, number)
-                    yield _appended(folder / REFERENCES, REFERENCE_COLUMNS, row)
 
 
 def _timed(solve: Callable[[RollingContact, int], PlainRow], contact: RollingContact, seed: int) -> PlainRow:
