@@ -118,7 +118,7 @@ def test_only_the_ends_of_ranges_are_solved(motion, monkeypatch):
 
     at_rest = lubfric.models.deterministic.solve_strip
 
-    def without_motion(scene, bodies, speed, for_continuation, target, **options):
+    def without_motion(scene, bodies, speed, target, **options):
         """Stand in for the march in time, which takes a minute here: only the number of solves counts."""
         return at_rest(scene, bodies[0].surface, speed, slope=True, **options)
 

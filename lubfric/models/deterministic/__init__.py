@@ -17,6 +17,8 @@ from .moving_strip import (
     MovingStrip,
     SampleTarget,
     cells_in_a_step,
+    compared_moments,
+    continued_moments,
     continued_strip,
     effort_for,
     effort_of,

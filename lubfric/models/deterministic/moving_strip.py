@@ -18,7 +18,7 @@ from .linear import ACCURACY
 from .moving import SAME, Moment, RoughBody, half_width, moments, travelling
 from .problem import HERTZ_INLET, HERTZ_OUTLET, Problem, reach
 from .result import DeterministicResult, LoadSplit
-from .state import RUPTURED, State
+from .state import State
 from .strip import Strip, problem_of, solve_strip, work_of_steps
 from .summits import SummitControl, summits_over_time
 from .time_and_place import TimeAndPlace, mean_over_blocks
@@ -36,6 +36,9 @@ AT_REST = 12.0  # steps in time that the strip at rest is worth, on two lengths 
 SMALLEST_SQUARE = 1e-30
 SLOW = 0.5  # of U: where all roughness is slower, the fastest passes one cell in a step; else the lubricant does
 FAST = 2.0  # of U: where some roughness is faster, it passes one cell in a step
+
+# Half-widths that the lubricant travels in the moments on longer cells that are compared with those of a strip.
+COMPARED = 1.0
 CONTINUED = 0.4  # half-widths: distance that the lubricant travels in the moments of a continuation that count
 FEWEST = 8  # moments of a continuation that count, at least
 PILOT = 1.5  # half-widths travelled by the roughness that counts, after which the error of the mean is known first
@@ -107,8 +110,7 @@ class MovingStrip(Strip):
       ``discarded`` of which count nothing: the film had not passed the contact yet. ``series``: of each the numbers
       `SERIES`: ``share``, of the load that rubs with f_b, ``peak_pressure`` [Pa] of any cell.
     - ``sample``: friction and load of all places at the moments that count, with the control of the `SampleTarget`.
-    - ``state_after_discard``: the state of the last moment that is discarded, from which `continued_strip` starts;
-      ``early``: the means over the moments that a continuation counts (None: the strip was not solved for one).
+    - ``state_after_discard``: the state of the last moment that is discarded, from which `continued_strip` starts.
       ``effort`` and ``ends`` [m], of the grid up and down stream: with which it was solved.
     """
 
@@ -120,7 +122,6 @@ class MovingStrip(Strip):
     effort: MovingEffort
     ends: tuple[float, float]
     state_after_discard: State = field(repr=False)
-    early: DeterministicResult | None = field(default=None, repr=False)
 
     @property
     def follows_lubricant(self) -> bool:
@@ -142,7 +143,6 @@ def solve_moving_strip(
     slope: bool = False,
     effort: MovingEffort | None = None,
     most_steps: int | None = None,
-    for_continuation: bool = False,
     target: SampleTarget | None = None,
 ) -> MovingStrip:
     """Move the rough ``bodies`` through the film at U = ``speed`` [m/s], by the length of the fastest map, or until the
@@ -156,7 +156,6 @@ def solve_moving_strip(
     factors, start, slope : as in `solve_strip`, for the roughness at rest, from which the motion starts
     effort : None: `effort_for` the contact
     most_steps : moments that count, at most (None: a complete pass of the map)
-    for_continuation : whether `MovingStrip.early` is needed; a short map is followed beyond a pass for it
     target : None: the complete map passes
     """
     effort = effort_of(scene, bodies, speed, factors) if effort is None else effort
@@ -165,27 +164,23 @@ def solve_moving_strip(
     step, discarded, count = _steps_of(scene, bodies, speed, rest.problem.spacing[0], effort)
     count = count if most_steps is None else min(count, most_steps)
     travelled = _travelled(bodies, speed, step, half_width(rest.problem.line))
-    early = continued_moments(rest.problem.line, rest.problem.spacing[0], abs(speed) * step, effort)
     passing = _passing(rest.problem, bodies, speed, step, effort, rest.result.state, 0.0)
     summits_at = _summits(rest.problem, bodies, speed, target)
     rows: list[dict[str, Any]] = []
-    early_result: DeterministicResult | None = None
     state_after_discard = rest.result.state
     required = count if target is None else min(count, _pilot(rest.problem.line, bodies, step))
-    last = discarded + max(required, sum(early) if for_continuation else 0)
+    last = discarded + required
     for number, moment in enumerate(islice(passing, 1, None), 1):
         rows.append(_row(moment) | {"summits_at": summits_at(number * step)})
         report_progress("moving roughness", number, last)
         if number == discarded:
             state_after_discard = moment.at.state
-        if for_continuation and number == discarded + sum(early):
-            early_result = _mean(rows[-early[1] :], moment.result)
         if number == discarded + required:
             counted = moment
             sample = _sample(rows[discarded:], moment.result, travelled)
             if target is not None:
                 required = _required_moments(sample, target, required, count)
-                last = max(last, discarded + required)
+                last = discarded + required
         if number == last:
             break
     count = required
@@ -208,55 +203,35 @@ def solve_moving_strip(
         effort=effort,
         ends=_ends(scene, bodies, speed, effort),
         state_after_discard=state_after_discard,
-        early=early_result,
     )
 
 
 def continued_strip(
-    scene: Scene, bodies: Sequence[RoughBody], speed: float, strip: MovingStrip, *, longer: bool = False
+    scene: Scene, bodies: Sequence[RoughBody], speed: float, strip: MovingStrip
 ) -> tuple[DeterministicResult, float]:
-    """Return the means over time of ``strip`` with the inputs of another ``scene`` that has the same bodies and motion;
-    ``longer``: on cells twice as long along y, which must divide the map. And the counted work
-    [s].
+    """Return the means over time of ``strip`` with the inputs of another ``scene`` that has the same bodies and motion,
+    and the counted work [s].
 
-    It continues from `MovingStrip.state_after_discard`, and counts once more when the film has passed the contact: the
-    same moments as `MovingStrip.early`, at which the roughness is in the same places. So their ratio does not depend
-    on the few places that pass in that time. Raises `ConvergenceError`.
+    It starts at `MovingStrip.state_after_discard`, and counts once more when the film has passed the contact
+    (`continued_moments`). Its first step begins anew, which changes f by 1 to 2 % in these moments. So it is compared
+    with a continuation at the inputs of the ``strip``, in which the roughness is in the same places: the ratio of both
+    does not depend on the few places that pass in that time. Raises `ConvergenceError`.
     """
     rest = strip.rest
     cell = rest.problem.spacing[0]
     (dx, dy) = bodies[0].surface.spacing
-    factors = (round(cell / dx), round(rest.problem.spacing[1] / dy) * (2 if longer else 1))
+    factors = (round(cell / dx), round(rest.problem.spacing[1] / dy))
     surface, upper = _together(bodies)
     problem = problem_of(scene, surface, speed, factors, upper, strip.ends)
-    state = _on_longer_cells(strip.state_after_discard) if longer else strip.state_after_discard
     step = float(strip.times[0])
-    early = continued_moments(rest.problem.line, cell, abs(speed) * step, strip.effort)
+    (discarded, counted) = continued_moments(rest.problem.line, cell, abs(speed) * step, strip.effort)
     begun = float(strip.times[strip.discarded - 1])
-    passing = _passing(problem, bodies, speed, step, strip.effort, state, begun)
+    passing = _passing(problem, bodies, speed, step, strip.effort, strip.state_after_discard, begun)
     rows = []
-    for number, moment in enumerate(islice(passing, 1, 1 + sum(early)), 1):
+    for number, moment in enumerate(islice(passing, 1, 1 + discarded + counted), 1):
         rows.append(_row(moment))
-        report_progress("moving roughness, continued", number, sum(early))
-    return _mean(rows[-early[1] :], moment.result), sum(row["work"] for row in rows)
-
-
-def _on_longer_cells(state: State) -> State:
-    """Return the means of ``state`` over pairs of cells along y, to start from."""
-
-    def means(field: np.ndarray) -> np.ndarray:
-        return 0.5 * (field[:, ::2] + field[:, 1::2])
-
-    yielded = state.yielded[:, ::2] & state.yielded[:, 1::2]
-    kind = state.kind[:, 1::2]
-    return State(
-        pressure=np.where(kind == RUPTURED, 0.0, means(state.pressure)),
-        fill=np.where(kind == RUPTURED, means(state.fill), 1.0),
-        dent=np.where(yielded, means(state.dent), 0.0),
-        kind=kind,
-        yielded=yielded,
-        approach=state.approach,
-    )
+        report_progress("moving roughness, continued", number, discarded + counted)
+    return _mean(rows[-counted:], moment.result), sum(row["work"] for row in rows)
 
 
 def _required_moments(sample: TimeAndPlace, target: SampleTarget, required: int, most: int) -> int:
@@ -306,6 +281,12 @@ def _sample(rows: Sequence[dict[str, Any]], result: DeterministicResult, travell
         spacing=result.spacing[1],
         mean_load=result.load,
     )
+
+
+def compared_moments(strip: MovingStrip) -> int:
+    """Return the number of moments of ``strip`` that are compared with those on longer cells (`COMPARED`)."""
+    way = abs(strip.problem.speed) * float(strip.times[0])
+    return min(strip.times.size - strip.discarded, math.ceil(COMPARED * half_width(strip.problem.line) / way))
 
 
 def continued_moments(line: LineContact, cell: float, way: float, effort: MovingEffort) -> tuple[int, int]:
@@ -465,5 +446,6 @@ def moving_work(
     step, discarded, count = _steps(line, cell, fastest, length, effort)
     once_more = sum(continued_moments(line, cell, line.entrainment_speed * step, effort))
     expected = math.ceil(EXPECTED * half_width(line) / (abs(fastest) * step))
-    steps = discarded + max(min(count, expected), once_more) + (continuations + ON_LONGER) * once_more
+    compared = min(count, expected, math.ceil(COMPARED * half_width(line) / (line.entrainment_speed * step)))
+    steps = discarded + min(count, expected) + continuations * once_more + ON_LONGER * (discarded + compared)
     return AT_REST * work_of_steps(cells, STEPS, KRYLOV) + steps * work_of_steps(cells, STEPS, KRYLOV)

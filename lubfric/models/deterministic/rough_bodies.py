@@ -90,7 +90,10 @@ def moving_point_work(scene: Scene, sample: Sample, sq: float, speed: float, fac
     ends = reach(line, sq, inlet=effort.inlet, outlet=effort.outlet)
     cells = sum(ends) / (fx * dx) * sample.strip_length / (fy * dy)
     fastest = abs(speed) * max(abs(ratio) for _, ratio in moving_bodies(scene))
-    continuations = 2 * sum(name not in (FRICTION, HARDNESS) for name, *_ in scene.ranges)
+    solved_ends = 2 * sum(name not in (FRICTION, HARDNESS) for name, *_ in scene.ranges)
+    continuations = (
+        solved_ends + 1 if solved_ends else 0
+    )  # with the one at the prepared inputs, which they are compared with
     return moving_work(line, sq, fx * dx, fastest, sample.cells.columns * dx, cells, continuations)
 
 

@@ -201,17 +201,25 @@ def changes_of(strips: Sequence[Strip]) -> list[float]:
 
 
 def change_of(coarse: DeterministicResult, fine: DeterministicResult) -> float:
-    """Relative change of f from a ``coarse`` to a ``fine`` grid, with the standard error of its mean over places.
+    """Return the `change_of_places` from a ``coarse`` to a ``fine`` grid."""
+    return change_of_places((coarse.friction_at, coarse.load_at), (fine.friction_at, fine.load_at), fine.load)
+
+
+def change_of_places(
+    coarse: tuple[np.ndarray, np.ndarray], fine: tuple[np.ndarray, np.ndarray], mean_load: float
+) -> float:
+    """Return the relative change of f from a ``coarse`` to a ``fine`` grid, with the standard error of its mean over
+    places; of each the friction and the load [N/m] of its places along y, whose ``mean_load`` is that of both.
 
     Places change by themselves, some up and some down. On a short map the mean may be small by chance; the scatter of
     the places shows by how much. Friction that goes with a place's load is omitted, since their mean load is kept.
     """
-    count = max(coarse.load_at.size // BLOCK, 2)
-    load = _blocks(fine.load_at, count) - _blocks(coarse.load_at, count)
-    friction = _blocks(fine.friction_at, count) - _blocks(coarse.friction_at, count)
+    count = max(coarse[0].size // BLOCK, 2)
+    friction, load = (_blocks(after, count) - _blocks(before, count) for before, after in zip(coarse, fine))
     own = friction - load * ((friction @ load) / max(load @ load, 1e-300))
-    scatter = float(np.std(own)) / math.sqrt(count - 1) / fine.load
-    return math.hypot(fine.coefficient - coarse.coefficient, scatter) / abs(fine.coefficient)
+    scatter = float(np.std(own)) / math.sqrt(count - 1) / mean_load
+    before, after = (float(np.mean(places[0])) / mean_load for places in (coarse, fine))
+    return math.hypot(after - before, scatter) / abs(after)
 
 
 def _blocks(values: np.ndarray, count: int) -> np.ndarray:

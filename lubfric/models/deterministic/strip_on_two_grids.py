@@ -10,10 +10,10 @@ from ...samples import Sample
 from ...scene import Scene, moves
 from ...surface import Surface
 from ..shared import Prepared
-from .moving_strip import MovingStrip, SampleTarget, continued_strip, solve_moving_strip, strip_at_rest
+from .moving_strip import MovingStrip, SampleTarget, compared_moments, solve_moving_strip, strip_at_rest
 from .result import DeterministicResult
 from .rough_bodies import bodies_of, strip_surface, summit_control
-from .strip import Strip, change_of, solve_strip
+from .strip import Strip, change_of, change_of_places, solve_strip
 
 # Cells in a correlation length, at least.
 PER_LENGTH = 2.0
@@ -31,24 +31,26 @@ MOVING = 4.0
 class StripOnTwoGrids:
     """One strip of the sample.
 
-    ``resolved``: by the deterministic model; ``longer``: on longer cells (`longer_than`), from which it started, its
-    roughness at rest; ``mirrored``: whether the second half along y is the mirror image of the first;
-    ``early_on_longer``: of moving roughness, what `MovingStrip.early` is on the longer cells (None: the map has none).
+    ``resolved``: by the deterministic model; ``longer``: on longer cells (`longer_than`), from which it started; of moving
+    roughness, followed there from rest over the first moments (or only at rest, where that had no solution);
+    ``mirrored``: whether the second half along y is the mirror image of the first.
     """
 
     resolved: Strip
     longer: Strip
     mirrored: bool = False
-    early_on_longer: DeterministicResult | None = None
 
     @property
     def change_by_cells(self) -> float:
-        """The change of f (`change_of`) from the longer cells to those of the strip. Where the roughness moves, it is
-        that of the same moments on both."""
+        """The change of f (`change_of_places`) from the longer cells to those of the strip. Where the roughness moves, it
+        is that of the same moments on both, each followed from rest."""
         strip = self.resolved
-        if isinstance(strip, MovingStrip) and strip.early is not None and self.early_on_longer is not None:
-            return change_of(self.early_on_longer, strip.early)
-        return change_of(self.longer.result, strip.rest.result if isinstance(strip, MovingStrip) else strip.result)
+        longer = self.longer
+        if isinstance(strip, MovingStrip) and isinstance(longer, MovingStrip):
+            moments = min(strip.sample.friction.shape[0], longer.sample.friction.shape[0])
+            before, after = (sample.means_of_places(moments) for sample in (longer.sample, strip.sample))
+            return change_of_places(before, after, strip.sample.mean_load)
+        return change_of(longer.result, strip.rest.result if isinstance(strip, MovingStrip) else strip.result)
 
 
 def cells_of(scene: Scene, sample: Sample) -> tuple[int, int]:
@@ -91,29 +93,28 @@ def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int
     longer_cells = longer_than(surface, factors, moving=moves(scene))
     longer: Strip
     strip: Strip
-    early_on_longer: DeterministicResult | None = None
     if moves(scene):
         bodies = bodies_of(prepared, index, speed)
         longer = strip_at_rest(scene, bodies, speed, factors=longer_cells)
-        strip = solve_moving_strip(
-            scene,
-            bodies,
-            speed,
-            factors=factors,
-            start=longer,
-            for_continuation=True,
-            target=None if prepared.sample.is_only_map else sample_target(prepared),
-        )
+        target = None if prepared.sample.is_only_map else sample_target(prepared)
+        strip = solve_moving_strip(scene, bodies, speed, factors=factors, start=longer, target=target)
         if isinstance(strip, MovingStrip) and longer_cells[1] > factors[1]:
             with suppress(ConvergenceError):  # then the change at rest is all that is known
-                early_on_longer, work = continued_strip(scene, bodies, speed, strip, longer=True)
-                strip = replace(strip, work=strip.work + work)
+                longer = solve_moving_strip(
+                    scene,
+                    bodies,
+                    speed,
+                    factors=longer_cells,
+                    start=longer,
+                    effort=strip.effort,
+                    most_steps=compared_moments(strip),
+                )
     else:
         longer = solve_strip(scene, surface, speed, factors=longer_cells)
         strip = solve_strip(scene, surface, speed, factors=factors, start=longer, slope=find_slope)
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + longer.work)
     is_mirrored = prepared.sample.distinct_rows(surface.heights) < surface.shape[1]
-    return StripOnTwoGrids(strip, longer, is_mirrored, early_on_longer)
+    return StripOnTwoGrids(strip, longer, is_mirrored)
 
 
 def sample_target(prepared: Prepared) -> SampleTarget:

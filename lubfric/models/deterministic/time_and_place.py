@@ -61,6 +61,10 @@ class TimeAndPlace:
             mean_load=self.mean_load,
         )
 
+    def means_of_places(self, moments: int) -> tuple[np.ndarray, np.ndarray]:
+        """Return the mean friction and load [N/m] of each place over the first ``moments``."""
+        return self.friction[:moments].mean(axis=0), self.load[:moments].mean(axis=0)
+
     def block_counts(self, correlation_length: float) -> tuple[int, int]:
         """Return the numbers of blocks in time and along y, for a ``correlation_length`` [m] along y."""
         (moments, places) = self.friction.shape
