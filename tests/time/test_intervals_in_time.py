@@ -50,7 +50,7 @@ def test_the_budget_of_the_mean_is_that_of_a_steady_contact_at_one_speed(held):
     assert (
         budget["sampling"][0] == budget["sampling"][1] == pytest.approx(steady.uncertainty.budget["sampling"], rel=0.2)
     )
-    assert list(budget) == list(steady.uncertainty.budget)
+    assert set(budget) == set(steady.uncertainty.budget) - {"not given"}
 
 
 def test_the_budget_of_the_mean_is_the_mean_of_the_ends_where_one_part_is_all(held):
