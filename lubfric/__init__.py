@@ -9,11 +9,14 @@ from importlib import import_module
 
 _STUB = __loader__.get_data(f"{__file__.removesuffix('c')}i").decode()  # type: ignore[name-defined]  # by import itself
 _LINES = [line.split() for line in _STUB.splitlines() if line.startswith("from .")]
+_RENAMED = {"Validity": "Violation"}  # today's name by the old one
 _HOME = {words[3]: words[1] for words in _LINES}  # "from .room import name as name"
 __all__ = sorted(name for name, home in _HOME.items() if name != "__version__" and home != ".")
 
 
 def __getattr__(name: str) -> object:
+    if name in _RENAMED:
+        raise AttributeError(f"lubfric.{name} is called lubfric.{_RENAMED[name]} now")
     if name not in _HOME:
         raise AttributeError(f"module 'lubfric' has no attribute {name!r}")
     home = _HOME[name].lstrip(".")

@@ -22,7 +22,7 @@ from .film import EHLResult as EHLResult
 from .film import solve_ehl as solve_ehl
 from .models import prepare as prepare
 from .models.shared import Prepared as Prepared
-from .models.shared import Validity as Validity
+from .models.shared import Violation as Violation
 from .oil import Lubricant as Lubricant
 from .paper import solve_differential_deflection as solve_differential_deflection
 from .running_in import run_in as run_in

@@ -92,14 +92,14 @@ class WorkLimitError(ConvergenceError):
 class ValidityError(LubfricError, ValueError):
     """A converged solution is outside the range of the model, so that its coefficient is no answer.
 
-    ``entries`` are the `lubfric.Validity` entries that refuse it. ``result`` is the complete result (or ``None``), so
+    ``violations`` are the `lubfric.Violation`s that refuse it. ``result`` is the complete result (or ``None``), so
     that nothing computed is lost. With ``numerics.accept = true`` it is returned instead. The error survives pickling.
     """
 
-    def __init__(self, message: str, entries: Any = (), result: Any = None):
-        super().__init__(message, entries, result)
+    def __init__(self, message: str, violations: Any = (), result: Any = None):
+        super().__init__(message, violations, result)
         self.message = message
-        self.entries = entries
+        self.violations = violations
         self.result = result
 
 

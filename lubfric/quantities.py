@@ -91,7 +91,7 @@ class Quantities(Generic[T]):
     )
     real_contact_area_fraction: T = quantity("-", "real contact area over nominal area", "A_c/A", error="area")
     real_contact_area: T = quantity("m2", "real contact area", "A_c", error="area", note="on the whole line")
-    plastic_area_fraction: T = quantity("-", "plastic area over nominal area", "A_p/A", error="spots")
+    plastic_area_fraction: T = quantity("-", "plastic area over nominal area", "A_p/A", error="contacts")
     min_film: T = quantity(
         "m", "smallest film thickness", "h_min", error="film", note="under the load F_H; NaN at U = 0"
     )
@@ -178,16 +178,16 @@ class UncertaintyQuantities(Generic[T]):
     line_scatter: T = quantity(
         "-", "relative standard deviation of f between lines as wide as that of the scene", default=math.nan
     )
-    spots: T = quantity(
+    effective_contacts: T = quantity(
         "-", "effective number of asperity contacts: so many equal ones would scatter as much", default=math.nan
     )
     length: T = quantity("m", "length of the line of rough surface", column="line_length", default=math.nan)
     area_needed: T = quantity("-", "how many times more of a measured map is needed", note="1: enough", default=1.0)
     model: T = quantity("-", "relative error of f by the model, at 95 %", column="model_error", default=math.nan)
-    fluid: T = quantity(
+    by_limit: T = quantity(
         "-",
         "part of the model-form error: the limiting stress of a Newtonian lubricant is not known",
-        column="fluid_error",
+        column="limit_error",
         note="not counted against numerics.model_tolerance",
         default=0.0,
     )
@@ -295,7 +295,7 @@ def worded_value(name: str, value: Any) -> str:
 
 def depending_on(error: str) -> tuple[str, ...]:
     """Names of the quantities whose error depends on that: "split" (the division of the load), "shear", "area",
-    "spots", "film", "heat"."""
+    "contacts", "film", "heat"."""
     return tuple(name for name, q in QUANTITIES.items() if q.error == error)
 
 

@@ -129,7 +129,7 @@ class TestModel:
             cheaper = None
             seconds = []
             for model in MODELS:
-                cheaper = model.estimate(scene, sample, sample.first_map(), 0.03, cheaper)
+                cheaper = model.estimate_work(scene, sample, sample.first_map(), 0.03, cheaper)
                 seconds.append(cheaper.seconds)
                 assert cheaper.strips >= 1
             if scene is PAPER:
@@ -171,7 +171,9 @@ class Highest(SampleSolution):
             sampling=self.sampling_error,
             model_error=(0.5, 0.5),
             report=Report("highest summit", CONVERGED, iterations=1, residual=0.0, tolerance=1.0, residuals={}),
-            decision=Decision(model="highest summit", film="none", contact="none", tolerance=0.01, strips=self.count),
+            decision=Decision(
+                model="highest summit", film_in_words="none", contact_in_words="none", tolerance=0.01, strips=self.count
+            ),
             length=self.count * self.sample.strip_length,
         )
 

@@ -5,7 +5,7 @@ import base64
 import io
 from dataclasses import MISSING, fields
 from html import escape
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -38,11 +38,13 @@ class Renamed:
 
     _RENAMED: ClassVar[dict[str, str]] = {}  # today's name by the old one
 
-    def __getattr__(self, name: str) -> Any:
-        kind = type(self)
-        if name in kind._RENAMED:
-            raise AttributeError(f"{kind.__name__}.{name} is called {kind._RENAMED[name]} now")
-        raise AttributeError(f"{kind.__name__!r} object has no attribute {name!r}")
+    if not TYPE_CHECKING:  # to a type checker, an old name is one that the class does not have
+
+        def __getattr__(self, name: str) -> Any:
+            kind = type(self)
+            if name in kind._RENAMED:
+                raise AttributeError(f"{kind.__name__}.{name} is called {kind._RENAMED[name]} now")
+            raise AttributeError(f"{kind.__name__!r} object has no attribute {name!r}")
 
 
 class Shown:

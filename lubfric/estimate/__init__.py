@@ -9,15 +9,15 @@ The way of a point, in the order of the modules:
    makes the interval, `ranges` adds what the ranges of the inputs change, `power`, `full_load` and `methods` give power,
    lambda ratio and papers.
 
-`outlook` estimates beforehand what a point will take. Nothing here knows how a model solves: the contract is
+`work_of_point` estimates beforehand what a point will take. Nothing here knows how a model solves: the contract is
 `lubfric.models.contract`, and a test holds that no module imports a model at run time.
 """
 
 from .friction import LEAST_LIMIT, TIMES_ESTIMATE, friction
 from .full_load import full_load_numbers
 from .methods import MethodUse, methods_of
-from .outlook import Forecast, forecast
 from .power import power_of_forces
-from .result import FrictionResult, cited, together
+from .result import FrictionResult, cite_together, cited
 from .sampled import sampled
 from .uncertainty import Uncertainty, UncertaintyCurve, curve_of, interval
+from .work_of_point import PointWorkEstimate, estimated_work_of_point

@@ -43,7 +43,7 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
     loss = _power_loss(scene, speed, choice.model, answer, numbers, uncertainty)
     numbers["power_loss"] = loss.value
     errors = answer.errors | {"power_loss": loss.error}
-    warnings = (*answer.warnings, *warn_error(answer.numerical, scene.numerics.tolerance, answer.recommendation))
+    violations = (*answer.violations, *warn_error(answer.numerical, scene.numerics.tolerance, answer.recommendation))
     decision = answer.decision
     if choice.why:
         decision = replace(decision, notes=(*decision.notes, choice.why))
@@ -59,7 +59,7 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
     report = answer.report
     if fine and answer.fine_fields is not None:  # last: work that is spent here is none that the interval needs
         fields, report = _fine_fields(answer.fine_fields, fields, report)
-    notes = (*report.notes, decision.text, *(entry.text for entry in warnings), uncertainty.text)
+    notes = (*report.notes, decision.text, *(violation.text for violation in violations), uncertainty.text)
     numbers["seconds"] = time.perf_counter() - begun
     return FrictionResult(
         **numbers,
@@ -68,7 +68,7 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
         errors=number_errors_of(errors, answer.why_no_error, answer.reasons),
         decision=decision,
         power_loss_interval=loss.interval,
-        validity=warnings,
+        validity=violations,
         unmodelled_effects=unmodelled_effects(
             scene, prepared.surface.sq, speed, known, includes_motion=choice.model.includes_motion
         ),
@@ -89,14 +89,14 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
         sampling=sampling,
         interval=interval(f, answer.numerical, sampling, answer.sampling.freedom, *answer.model_error),
         line_scatter=sampling * math.sqrt(answer.length / scene.bodies.width),
-        spots=answer.spots,
+        effective_contacts=answer.effective_contacts,
         length=answer.length,
         freedom=float(answer.sampling.freedom),
         tolerance=scene.numerics.sampling_tolerance,
         area_needed=answer.area_needed,
         model=max(answer.model_error),
         model_sides=answer.model_error,
-        fluid=answer.by_limit,
+        by_limit=answer.by_limit,
         largest_in_model=answer.largest_in_model,
         notes=answer.notes,
     )

@@ -73,7 +73,7 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
     for model in models[1:]:
         solution = choice.solution
         why = solution.why_sufficient()
-        if why or any(entry.severe for entry in solution.warnings()):
+        if why or any(violation.severe for violation in solution.violations()):
             return Choice(model=choice.model, solution=solution, why=why)
         if why := model.why_declined(prepared, speed, solution):
             return Choice(model=choice.model, solution=solution, why=why)

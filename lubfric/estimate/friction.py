@@ -13,8 +13,8 @@ from ..models.shared import Prepared, refused
 from ..scene import FASTEST, Scene, warn_unusual_values
 from .build_result import result_of
 from .choice import choose
-from .outlook import forecast
 from .result import FrictionResult
+from .work_of_point import estimated_work_of_point
 
 # Times the estimate of a point: the counted work that it may take where numerics.max_work does not say.
 TIMES_ESTIMATE = 10.0
@@ -96,4 +96,6 @@ def most_work(prepared: Prepared, speed: float) -> float:
     scene = prepared.scene
     if scene.numerics.max_work is not None:
         return scene.numerics.max_work
-    return max(LEAST_LIMIT, TIMES_ESTIMATE * forecast(scene, prepared.sample, prepared.surface, speed).seconds)
+    return max(
+        LEAST_LIMIT, TIMES_ESTIMATE * estimated_work_of_point(scene, prepared.sample, prepared.surface, speed).seconds
+    )

@@ -12,7 +12,7 @@ import numpy as np
 from .._base import Renamed, Shown, figures, packaged, validate
 from ..errors import InputError, Report
 from ..models import ContactFields, ModelDetails
-from ..models.shared import Decision, UnmodelledEffect, Validity
+from ..models.shared import Decision, UnmodelledEffect, Violation
 from ..quantities import PointQuantities, described_in_doc, in_words
 from .bibtex import bibtex
 from .uncertainty import NumberErrors, Uncertainty
@@ -40,7 +40,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     errors : relative errors of every other number (`NumberErrors`), for example ``errors.contact_load``
     decision : how much was modelled, and the numbers it was judged by; ``decision.text`` describes it
     power_loss_interval : 95 % interval of the power loss [W], (low, high)
-    validity : the assumptions that do not hold (`lubfric.Validity`). A severe one is there only where it was accepted
+    validity : the assumptions that do not hold (`lubfric.Violation`). A severe one is there only where it was accepted
     unmodelled_effects : effects that are not modelled, the likely change of f by it (relative; NaN: not known), and
         what to do, the largest first; nothing that would change f by less than the tolerance
         (`lubfric.models.shared.unmodelled_effects`)
@@ -55,7 +55,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     errors: NumberErrors
     decision: Decision
     power_loss_interval: tuple[float, float] = (math.nan, math.nan)
-    validity: tuple[Validity, ...] = ()
+    validity: tuple[Violation, ...] = ()
     unmodelled_effects: tuple[UnmodelledEffect, ...] = ()
     methods: tuple[str, ...] = ()
     fields: ContactFields | None = None
@@ -72,7 +72,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         facts["f"] = f"{self.coefficient:.5g}{_interval(self.uncertainty.interval)}"
         facts[""] = self.report.status
         if self.validity:
-            facts["warnings"] = "; ".join(entry.what for entry in self.validity)
+            facts["warnings"] = "; ".join(violation.what for violation in self.validity)
         return facts
 
     def cite(self, format: str = "text") -> str:
@@ -155,6 +155,6 @@ def cited(methods: Iterable[str], format: str = "text") -> str:
     return bibtex(lines) if format == "bibtex" else "\n".join(lines)
 
 
-def together(points: Iterable[FrictionResult], format: str = "text") -> str:
+def cite_together(points: Iterable[FrictionResult], format: str = "text") -> str:
     """Return the papers of several results, each once, in the ``format`` of `cited`."""
     return cited((name for point in points for name in point.methods), format)

@@ -7,14 +7,18 @@ from typing import Any
 
 import numpy as np
 
-from ..models.shared import percent, percent_of_sides, student, too_few
+from .._base import Renamed
+from ..models.shared import has_too_few_contacts, percent, percent_of_sides, student
 from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuantities, described_in_doc
 from ..units import interval_in_words, with_interval
+
+# Today's names by the old ones.
+RENAMED = {"spots": "effective_contacts", "fluid": "by_limit", "few_spots": "has_few_contacts"}
 
 
 @described_in_doc
 @dataclass(frozen=True, kw_only=True)
-class Uncertainty(UncertaintyQuantities[float]):
+class Uncertainty(Renamed, UncertaintyQuantities[float]):
     """The uncertainty of the friction coefficient of one operating point. docs/uncertainty.md says what is not
     included.
 
@@ -44,6 +48,7 @@ class Uncertainty(UncertaintyQuantities[float]):
     largest_in_model: str = ""
     missing_input: str = ""
     largest_input: str = ""
+    _RENAMED = RENAMED
 
     @property
     def budget(self) -> dict[str, float]:
@@ -85,9 +90,9 @@ class Uncertainty(UncertaintyQuantities[float]):
         return f"largest part: {name} {self.budget_in_words[name]}, {recommendations[name]}"
 
     @property
-    def few_spots(self) -> bool:
-        """Whether `too_few` asperity contacts carry the load."""
-        return too_few(self.spots, self.sampling, self.tolerance)
+    def has_few_contacts(self) -> bool:
+        """Whether `has_too_few_contacts` asperity contacts carry the load."""
+        return has_too_few_contacts(self.effective_contacts, self.sampling, self.tolerance)
 
     @property
     def text(self) -> str:
@@ -113,7 +118,7 @@ class Uncertainty(UncertaintyQuantities[float]):
 
 @described_in_doc
 @dataclass(frozen=True, kw_only=True)
-class UncertaintyCurve(UncertaintyQuantities[np.ndarray]):
+class UncertaintyCurve(Renamed, UncertaintyQuantities[np.ndarray]):
     """`Uncertainty` of many operating points: arrays (n,), NaN where a point failed.
 
     Attributes
@@ -126,6 +131,7 @@ class UncertaintyCurve(UncertaintyQuantities[np.ndarray]):
     interval: np.ndarray
     model_sides: np.ndarray
     text: tuple[str, ...]
+    _RENAMED = RENAMED
 
 
 def curve_of(points: Sequence[Any]) -> UncertaintyCurve:

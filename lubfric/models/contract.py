@@ -22,7 +22,16 @@ from ..errors import Report
 from ..samples import Sample
 from ..scene import Scene
 from ..surface import Surface
-from .shared import ControlVariate, Decision, ExpectedWarnings, Heat, Prepared, StandardError, Validity, required_strips
+from .shared import (
+    ControlVariate,
+    Decision,
+    ExpectedViolations,
+    Heat,
+    Prepared,
+    StandardError,
+    Violation,
+    required_strips,
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,10 +112,10 @@ class ModelAnswer:
         words and its key; no part of ``model_error``
     errors : relative errors of the other numbers, by name
     why_no_error, reasons : why an error is not known: of those not in ``errors``, and of some by name
-    length, spots, area_needed : of the sample (`lubfric.estimate.Uncertainty`)
+    length, effective_contacts, area_needed : of the sample (`lubfric.estimate.Uncertainty`)
     notes : what a reader should know of these errors
     report, decision : of the solve; what was modelled
-    warnings : limits of the model that are exceeded
+    violations : limits of the model that are exceeded
     recommendation : what to do where the numerical error exceeds the tolerance
     fields : of the solve; None if there are none
     fine_fields : solves a part of the surface again on cells fine enough to look at; None: ``fields`` are all there is
@@ -128,10 +137,10 @@ class ModelAnswer:
     why_no_error: str = "not known"
     reasons: dict[str, str] = field(default_factory=dict)
     length: float = math.nan
-    spots: float = math.nan
+    effective_contacts: float = math.nan
     area_needed: float = 1.0
     notes: tuple[str, ...] = ()
-    warnings: tuple[Validity, ...] = ()
+    violations: tuple[Violation, ...] = ()
     recommendation: str = "a larger numerics.tolerance"
     fields: ContactFields | None = None
     fine_fields: Callable[[], ContactFields] | None = None
@@ -219,7 +228,7 @@ class SampleSolution(ABC):
         """Return the heat of inlet, film and surfaces; None if the model knows none."""
         return None
 
-    def warnings(self) -> tuple[Validity, ...]:
+    def violations(self) -> tuple[Violation, ...]:
         """Return the limits of the model that are exceeded, without the rest of the answer."""
         return ()
 
@@ -259,7 +268,7 @@ class Model(ABC):
         """Return what the model is, and how wide its interval, as text for a ``scene`` that names it."""
         return f"{self.name} model (numerics.model)"
 
-    def expected_warnings(self, scene: Scene, speeds: list[float]) -> ExpectedWarnings:
+    def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:
         """Return the limits of the model that will be exceeded at ``speeds`` [m/s], by closed forms before the solve,
         each with its speed (None: at all speeds)."""
         return ()
@@ -278,7 +287,7 @@ class Model(ABC):
         """Return the number of strips that are solved first."""
         return sample.first
 
-    def estimate(
+    def estimate_work(
         self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
     ) -> WorkEstimate:
         """Return what a point at ``speed`` [m/s] will take, without a solve.

@@ -7,7 +7,7 @@ from typing import Any
 from .._base import validate, with_default_errors
 from ..contact import RoughContact
 from ..errors import InputError
-from ..samples import Sample, sample_of, together
+from ..samples import Sample, combined_maps, sample_of
 from ..samples import check_grid as check_map
 from ..scene import Bodies, Scene, warn_unusual_values
 from ..surface import Surface
@@ -52,10 +52,10 @@ def prepare(
         validate.instance("like", like, Prepared, "what lubfric.prepare returned")
         _check_likeness(scene, like.scene, maps, contact)
         if _same_contact(scene, like.scene):
-            prepared = replace(like, scene=scene, known=beforehand(scene, like.surface))
+            prepared = replace(like, scene=scene, violations=beforehand(scene, like.surface))
             prepared.memo.keep_surface_of(like.memo)
             return prepared
-        maps = (like.surface, *like.sample.bodies) if like.given else ()
+        maps = (like.surface, *like.sample.bodies) if like.is_given else ()
         contact = None if like.has_own_contact else like.rough_contact
     with warn_unusual_values(scene):
         sample = sample_of(scene, maps, contact=contact)
@@ -82,15 +82,15 @@ def _on_sample(scene: Scene, sample: Sample, *, is_given: bool) -> Prepared:
         surface=surface,
         rough_contact=rough_contact,
         sample=sample,
-        known=beforehand(scene, surface),
-        given=is_given,
+        violations=beforehand(scene, surface),
+        is_given=is_given,
     )
     prepared.memo.keep_surface_of(memo)
     return prepared
 
 
 def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -> tuple[Surface, ...]:
-    """The maps that were given to `prepare`, `together`."""
+    """The maps that were given to `prepare`, `combined_maps`."""
     for name, one in (("surface", surface), ("counterface", counterface)):
         if one is not None:
             validate.instance(name, one, Surface, "a lubfric.Surface")
@@ -98,7 +98,7 @@ def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -
         return () if surface is None else (surface,)
     if surface is None or scene.counterface is None or scene.counterface.sq == 0:
         raise InputError("counterface needs a surface beside it, the maps of both bodies, and a rough [counterface]")
-    return together(surface, counterface)
+    return combined_maps(surface, counterface)
 
 
 def prepared_with(scene: Scene | Prepared, tolerance: float | None, model: str | None) -> Prepared:

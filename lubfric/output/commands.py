@@ -26,7 +26,7 @@ import numpy as np
 from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, figures, plain, read_json, validate
 from ..errors import InputError, OutputError
 from ..models import prepare
-from ..models.shared import Prepared, Validity, warn_unusual
+from ..models.shared import Prepared, Violation, warn_unusual
 from ..quantities import KEYS, Quantity, described
 from ..scene import Scene
 from ..studies import Law, Store, fingerprint_without_files, fits
@@ -165,8 +165,8 @@ def run_begun(
     begun = time.perf_counter()
     names = [*names, "fields.npz", "surface.png", "report.html", RESOLVED, RESULT]
     check_outputs(arguments, arguments.out, names, OUTPUTS)
-    for entry in warn_unusual(scene):
-        say(entry.text)
+    for violation in warn_unusual(scene):
+        say(violation.text)
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)
     estimate = estimate_scene(scene, prepared.sample, prepared.surface, **places)
@@ -188,7 +188,7 @@ def read_record(folder: Path) -> dict[str, Any]:
     if not os.path.lexists(path):
         raise InputError(f"{folder} holds no {RESULT}; {again}")
     record = read_json(path, again)
-    numbers = {name: kind | None if kind is float else kind for name, kind in get_type_hints(Validity).items()}
+    numbers = {name: kind | None if kind is float else kind for name, kind in get_type_hints(Violation).items()}
     kind = {"scene": {"name": str}, "points": [{"validity": [numbers]}]}
     if not isinstance(record, dict) or not fits({"points": []} | record, kind):
         raise InputError(f"{path} is damaged, or no record of a run; {again}")

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError
-from ..estimate import forecast
+from ..estimate import estimated_work_of_point
 from ..models import AUTO, candidates, model_named
 from ..models.deterministic import MOST_WORK_IN_AUTO
 from ..models.shared import (
     ExpectedEffect,
-    Validity,
+    Violation,
     beforehand,
     effect_in_words,
     expected_effects,
@@ -26,7 +26,7 @@ from ..samples import (
     sample_of,
     takes_strips,
 )
-from ..scene import CHANGING, Scene, moves, warn_unusual_values, why_gap_not_resolved
+from ..scene import CHANGING, Scene, has_moving_roughness, warn_unusual_values, why_gap_not_resolved
 from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import check_run, estimated_run, periods, run_model_of, sampled_times, scene_at, speeds_of_run
@@ -116,10 +116,10 @@ def estimate_scene(
         model.append(f"cost: {cost}; 'lubfric run' takes {COMMAND_SECONDS:g} s more for start, pictures and files")
     model_asked_first = candidates(scene.numerics.model)[0]
     at = [
-        *((None, entry) for entry in beforehand(scene, surface)),
-        *model_asked_first.expected_warnings(scene, sorted(set(speeds))),
+        *((None, violation) for violation in beforehand(scene, surface)),
+        *model_asked_first.expected_violations(scene, sorted(set(speeds))),
     ]
-    refusals = _doubts([(speed, entry) for speed, entry in at if entry.severe])
+    refusals = _doubts([(speed, violation) for speed, violation in at if violation.severe])
     whole = sample.map
     notes = [note for note in whole.notes if "nm as measured" in note]
     effects = expected_effects(
@@ -160,10 +160,10 @@ def _fastest_moment(scene: Scene) -> Scene:
     return max(moments, key=lambda moment: abs(moment.motion.entrainment_speed))
 
 
-def _doubts(at: list[tuple[float | None, Validity]]) -> list[str]:
-    """Entries as text; ``at``: pairs of a speed [m/s], None for what is of bodies and map, and an entry."""
-    fixed = [entry.text for speed, entry in at if speed is None]
-    return [*fixed, *gathered([(speed, (entry,)) for speed, entry in at if speed is not None])]
+def _doubts(at: list[tuple[float | None, Violation]]) -> list[str]:
+    """Return the violations as text; ``at``: pairs of a speed [m/s], None for what is of bodies and map, and a violation."""
+    fixed = [violation.text for speed, violation in at if speed is None]
+    return [*fixed, *gathered([(speed, (violation,)) for speed, violation in at if speed is not None])]
 
 
 def _plan(scene: Scene, surface: Surface) -> str:
@@ -184,14 +184,14 @@ def _model(
     if scene.transient is not None:
         run = run_model_of(scene)
         rows = [run.described(scene)]
-        if moves(scene) and not run.moves_roughness:
+        if has_moving_roughness(scene) and not run.moves_roughness:
             rows.append("moving roughness is treated as stationary; numerics.model = 'deterministic' moves it")
         return rows, 0.0
     moving = sorted({abs(u) for u in speeds if u != 0})
     points = [(scene, speed) for speed in moving[:: max(1, len(moving) // SOME)]]
     if len(ratios):
         points = [(scene.with_(motion={"slide_roll_ratio": ratio}), speeds[0]) for ratio in ratios]
-    forecasts = [forecast(at, sample, surface, speed) for at, speed in points]
+    forecasts = [estimated_work_of_point(at, sample, surface, speed) for at, speed in points]
     resolved = [one.speed for one in forecasts if one.long_point_strips]
     strip = max((one.long_strip_seconds for one in forecasts), default=0.0)
     if name != AUTO:
@@ -269,7 +269,7 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
     table[0] += ("strips", *chosen, "length of the line [mm]", "processor time [s]") * sampled
     own = (scene.motion.entrainment_speed,) if steady else ()
     for speed in sorted({*speeds[:: max(1, len(speeds) // SHOWN)], *own, speeds[-1]}):
-        one = forecast(scene, sample, surface, speed)
+        one = estimated_work_of_point(scene, sample, surface, speed)
         film = ("", "", "0", "0", "no entrainment" + ": all load" * steady)
         if speed != 0:
             line = scene.line_contact(abs(speed))

@@ -19,7 +19,7 @@ FIELDS = (
     "film",
     "shear",
 )  # of `lubfric.models.ContactFields`, all on the same cells
-OF_STRIP = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "spots", "wet")  # of a `DeterministicResult`
+OF_STRIP = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "rubbing", "wet")  # of a `DeterministicResult`
 
 
 def fields_bytes(points: list[FrictionResult]) -> bytes:

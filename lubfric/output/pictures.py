@@ -108,14 +108,14 @@ def plot_stribeck(
     path: Path,
     columns: dict[str, np.ndarray],
     title: str,
-    entries: Sequence[Sequence[Any]],
+    violations: Sequence[Sequence[Any]],
     measured: Any = None,
     options: PictureOptions = PictureOptions(),
 ) -> None:
     """Draw f, the load ratios and the film over the entrainment speed.
 
-    ``columns``: arrays by name as `lubfric._base.read_table` gives them; speeds that failed are omitted. ``entries``:
-    for each row, the assumptions that are violated (`lubfric.Validity`). ``measured``: a `lubfric.Measured` over
+    ``columns``: arrays by name as `lubfric._base.read_table` gives them; speeds that failed are omitted. ``violations``:
+    for each row, the assumptions that are violated (`lubfric.Violation`). ``measured``: a `lubfric.Measured` over
     speed, drawn with the curve.
     """
     panels = [name for name in PANELS if name in options.panels]
@@ -133,7 +133,7 @@ def plot_stribeck(
         if measured is not None:
             measured.draw(top)
             top.set_ylim(bottom=min(top.get_ylim()[0], 1.1 * measured.coefficient.min()))
-        _mark(figure, top, speed, c["coefficient"], [entries[i] for i in order])
+        _mark(figure, top, speed, c["coefficient"], [violations[i] for i in order])
         top.set(xlabel="")
     figure.suptitle(title)
     if "load" in axes:
@@ -175,7 +175,7 @@ def plot_traction(
     path: Path,
     columns: dict[str, np.ndarray],
     title: str,
-    entries: Sequence[Sequence[Any]],
+    violations: Sequence[Sequence[Any]],
     measured: Any = None,
     options: PictureOptions = PictureOptions(),
 ) -> None:
@@ -192,7 +192,7 @@ def plot_traction(
     interval_band(top, ratio, c)
     parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
     figures.friction_lines(top, ratio, parts, marker="o", ms=4)
-    _mark(figure, top, ratio, c["coefficient"], [entries[i] for i in order])
+    _mark(figure, top, ratio, c["coefficient"], [violations[i] for i in order])
     figure.suptitle(title)
     top.set_ylabel(figures.FRICTION)
     for bottom in others:
@@ -209,11 +209,13 @@ def plot_traction(
     figure.savefig(path)
 
 
-def _mark(figure: Figure, axes: Axes, speed: FloatArray, coefficient: FloatArray, entries: list[Sequence[Any]]) -> None:
+def _mark(
+    figure: Figure, axes: Axes, speed: FloatArray, coefficient: FloatArray, violations: list[Sequence[Any]]
+) -> None:
     """Ring the points at which an assumption is violated, unless it is at all of them, and cross out those at which f
     is meaningless. The text below says which. Then the key of all lines."""
-    severe = np.array([any(entry.severe for entry in violated) for violated in entries], dtype=bool)
-    minor = np.array([len(violated) > 0 for violated in entries], dtype=bool) & ~severe
+    severe = np.array([any(violation.severe for violation in violated) for violated in violations], dtype=bool)
+    minor = np.array([len(violated) > 0 for violated in violations], dtype=bool) & ~severe
     everywhere = minor.all()
     for chosen, marker, color, label in (
         (minor & (not everywhere), "o", figures.GREY, "with warnings"),
@@ -221,9 +223,11 @@ def _mark(figure: Figure, axes: Axes, speed: FloatArray, coefficient: FloatArray
     ):
         if chosen.any():
             axes.plot(speed[chosen], coefficient[chosen], marker, ms=9, mfc="none", mec=color, label=label)
-    counts = Counter(what for violated in entries for what in {entry.what for entry in violated})
+    counts = Counter(what for violated in violations for what in {violation.what for violation in violated})
     if counts:
-        named = (what if n == len(entries) else f"{what} ({n} of {len(entries)} points)" for what, n in counts.items())
+        named = (
+            what if n == len(violations) else f"{what} ({n} of {len(violations)} points)" for what, n in counts.items()
+        )
         figure.supxlabel(f"warnings: {'; '.join(named)}", fontsize="small", color=figures.GREY, wrap=True)
     figures.key_above(axes)
 

@@ -190,7 +190,7 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding
             f"{point.lambda_ratio:.3g}."
         )
     share = point.contact_load / (point.contact_load + point.film_load)
-    rubbing = point.decision.rubbing.format(part=f"{100 * share:.3g} %")
+    rubbing = point.decision.contact_load_in_words.format(part=f"{100 * share:.3g} %")
     if math.isfinite(point.mean_gap):
         rubbing += f"; the mean separation of the surfaces is {plain_number(point.mean_gap, 'm')}"
     sentences.append(f"{rubbing}.")

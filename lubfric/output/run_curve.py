@@ -23,13 +23,13 @@ from ..estimate import FrictionResult
 from ..models import models_up_to
 from ..models.shared import (
     Prepared,
-    Validity,
+    Violation,
     at_value,
     effect_in_words,
 )
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..samples import takes_strips
-from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene, given_tables, moves
+from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene, given_tables, has_moving_roughness
 from ..units import number_of, numbers_of
 from .commands import RunFolder, check_outputs, made, read_record, run_begun, say
 from .describe import SceneEstimate
@@ -107,7 +107,9 @@ def _default_workers(scene: Scene, speeds: str | list[float]) -> int:
     """Return the number of processes of a curve: all processors but one, and two at least, where that pays. The numbers do
     not depend on it."""
     several_speeds = speeds != studies.AUTO and len(speeds) >= WORTH and takes_strips(scene)
-    long_points = moves(scene) and any(model.has_long_points for model in models_up_to(scene.numerics.model))
+    long_points = has_moving_roughness(scene) and any(
+        model.has_long_points for model in models_up_to(scene.numerics.model)
+    )
     if not (several_speeds or long_points) or studies.processors() == 1:
         return 1
     return max(2, studies.processors() - 1)
@@ -202,7 +204,7 @@ def _law(curve: studies.CurveResult) -> studies.Law | str:
     """The curve over the speed as a formula, or why there is none."""
     if not isinstance(curve, studies.StribeckResult):
         return ""
-    if any(entry.severe for i in range(len(curve.points)) for entry in curve.entries(i)):
+    if any(violation.severe for i in range(len(curve.points)) for violation in curve.violations(i)):
         return "some of its points are outside the range of the model"
     try:
         return curve.law()
@@ -220,7 +222,10 @@ def _point(curve: studies.CurveResult, index: int) -> dict[str, Any]:
     there are none."""
     name = curve.SWEPT[0]
     point = curve.points[index]
-    swept = {name: getattr(curve, name)[index], "validity": [asdict(entry) for entry in curve.entries(index)]}
+    swept = {
+        name: getattr(curve, name)[index],
+        "validity": [asdict(violation) for violation in curve.violations(index)],
+    }
     if point is None:
         return swept | {"error": str(curve.errors[index])}
     more = {
@@ -309,12 +314,14 @@ def _plot(
 ) -> None:
     """The picture of the table of a curve; ``points``: those of its record."""
     unknown = {"value": math.nan, "limit": math.nan}  # numbers that are not finite are null in a record
-    known = [[{k: v for k, v in entry.items() if v is not None} for entry in point["validity"]] for point in points]
-    entries = [[Validity(**unknown | entry) for entry in each] for each in known]
+    known = [
+        [{k: v for k, v in violation.items() if v is not None} for violation in point["validity"]] for point in points
+    ]
+    violations = [[Violation(**unknown | violation) for violation in each] for each in known]
     title = figures.plain_words(title)
     if "ratio" in columns:
         title = f"{title}, U = {columns['speed'][np.isfinite(columns['coefficient'])][0]:g} m/s"
-    (plot_traction if "ratio" in columns else plot_stribeck)(path, columns, title, entries, measured, options)
+    (plot_traction if "ratio" in columns else plot_stribeck)(path, columns, title, violations, measured, options)
 
 
 def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
@@ -324,7 +331,7 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
     points = [(value, p.uncertainty) for value, p in zip(getattr(curve, name), curve.points) if p is not None]
     noted = [point for point in points if point[1].notes]
     said = []
-    few = [value for value, known in points if known.few_spots]
+    few = [value for value, known in points if known.has_few_contacts]
     if noted:
         at, worst = max(noted, key=lambda p: p[1].sampling if math.isfinite(p[1].sampling) else math.inf)
         others = counted(len(noted) - 1, f"more {plural}")
@@ -333,7 +340,7 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
         if few and few != [at]:
             where = ", ".join(at_value(value, unit, plural) for value in few)
             said.append(f"few asperity contacts carry the load {where}: these intervals are too narrow")
-    if scene.numerics.accept and any(e.severe for i in range(len(curve.points)) for e in curve.entries(i)):
+    if scene.numerics.accept and any(e.severe for i in range(len(curve.points)) for e in curve.violations(i)):
         said.append("accepted outside the range of the model (--accept): the coefficients that are marked mean nothing")
     return said
 

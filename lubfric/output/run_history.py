@@ -72,4 +72,4 @@ def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, *,
 
 def _table(result: TransientResult) -> bytes:
     columns = {heading(name): result.columns[name] for name in OF_MOMENT}
-    return table_bytes(columns | {"validity": [in_a_cell(entries) for entries in result.entries]})
+    return table_bytes(columns | {"validity": [in_a_cell(violations) for violations in result.violations]})

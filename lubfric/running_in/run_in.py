@@ -26,7 +26,7 @@ from .._base.progress import progress_to, report_progress
 from ..contact import dent_by_pass, operator_under
 from ..errors import InputError, WorkLimitError
 from ..models import AUTO, PaperModel, QuickModel, model_named
-from ..samples import contact_maps, cylinder_of, measured, whole_maps
+from ..samples import contact_maps, cylinder_of, is_measured, whole_maps
 from ..scene import Scene
 from ..surface import Surface
 from ..units import converted, printed, unit_for
@@ -349,7 +349,7 @@ def _whole(scene: Scene, surface: Surface | None) -> Surface:
                 "body against a smooth one (a scene without counterface), or give a map as surface"
             )
         surface = whole_maps(scene)[0]
-        if measured(scene):
+        if is_measured(scene):
             spacing = scene.contact.spacing
             surface = surface if spacing is None else surface.resampled(spacing=spacing)
             surface = surface.periodic(axes=(scene.contact.geometry == "flat", True))

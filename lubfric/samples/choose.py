@@ -5,7 +5,7 @@ from ..scene import Scene
 from ..surface import Surface
 from .cells import correlation_lengths, length_or_half
 from .contract import Sample
-from .maps import contact_maps, measured, rough_bodies
+from .maps import contact_maps, is_measured, rough_bodies
 from .patch import UnresolvedSample, single_patch
 from .strips import strips_of
 
@@ -32,7 +32,7 @@ def sample_of(
         return strips_of(scene, read)
     surface, *bodies = contact_maps(scene, maps, read=read)
     if contact is not None or not _resolved(scene):
-        return UnresolvedSample(surface=surface, given=contact)
+        return UnresolvedSample(surface=surface, given_contact=contact)
     return single_patch(scene, _lengths(scene, surface, is_given=bool(maps)), surface, tuple(bodies))
 
 
@@ -42,7 +42,7 @@ def _resolved(scene: Scene) -> bool:
 
 def _lengths(scene: Scene, surface: Surface, *, is_given: bool) -> tuple[float, float]:
     """Return the correlation lengths [m] of a patch: those of the scene, or of the map itself."""
-    if measured(scene) or is_given:
+    if is_measured(scene) or is_given:
         return length_or_half(surface, 0), length_or_half(surface, 1)
     along_x, along_y = zip(*(correlation_lengths(rough) for rough, _ in rough_bodies(scene)))
     return max(along_x), max(along_y)

@@ -26,7 +26,7 @@ def contact_maps(
     scene: Scene, given: tuple[Surface, ...] = (), *, read: tuple[Surface, ...] = ()
 ) -> tuple[Surface, ...]:
     """Generate the heights of ``scene``, or read, turn, scale and cut them and make them periodic; those of both
-    bodies become one map, which each body follows alone (`together`). Maps that are ``given`` are used unchanged.
+    bodies become one map, which each body follows alone (`combined_maps`). Maps that are ``given`` are used unchanged.
 
     Under a cylinder a measured map is cut, about its middle, to the length of ``contact.shape`` (default: 6 Hertz
     half-widths on each side), and is used unchanged along y, like a given one. A flat contact is periodic along both
@@ -34,7 +34,7 @@ def contact_maps(
     returned, if that was called before.
     """
     maps = given or read or whole_maps(scene)
-    if not given and measured(scene):
+    if not given and is_measured(scene):
         maps = tuple(_cut_to_contact(scene, one) for one in maps)
     if not np.isfinite(maps[0].heights).all():
         missing = f"{100 * maps[0].missing_fraction:.3g} % of the heights are unmeasured (NaN)"
@@ -49,18 +49,18 @@ def rough_bodies(scene: Scene) -> list[tuple[Roughness, str]]:
     return [(rough, name) for rough, name in bodies if rough is not None]
 
 
-def measured(scene: Scene) -> bool:
+def is_measured(scene: Scene) -> bool:
     """Whether any of its maps comes from a file."""
     return any(rough.file is not None for rough, _ in rough_bodies(scene))
 
 
-def extended(scene: Scene) -> bool:
+def is_extended(scene: Scene) -> bool:
     """Return whether a map that is too short is continued by its mirror image."""
     return any(rough.extension == "mirror" for rough, _ in rough_bodies(scene))
 
 
 def whole_maps(scene: Scene) -> tuple[Surface, ...]:
-    """The heights of both bodies `together`, or of the only one: measured ones whole and on their own grid, generated
+    """The heights of both bodies `combined_maps`, or of the only one: measured ones whole and on their own grid, generated
     ones on the contact grid. A generated one that faces a measured one is made as large as that. If it were
     repeated instead, a few of its summits would represent all."""
     bodies = rough_bodies(scene)
@@ -76,10 +76,10 @@ def whole_maps(scene: Scene) -> tuple[Surface, ...]:
             with named(name):
                 maps_by_body[name] = generated_map(rough, domain, name)
     maps = [maps_by_body[name] for _, name in bodies]
-    return (maps[0],) if len(maps) == 1 else together(maps[0], _beside(scene, maps[1]))
+    return (maps[0],) if len(maps) == 1 else combined_maps(maps[0], _beside(scene, maps[1]))
 
 
-def together(first: Surface, second: Surface) -> tuple[Surface, ...]:
+def combined_maps(first: Surface, second: Surface) -> tuple[Surface, ...]:
     """The maps of two bodies as one (`Surface.combined`), and each alone as part of that, with the other one flat."""
     flat = [replace(one, heights=np.zeros(one.shape)) for one in (first, second)]
     return first.combined(second), first.combined(flat[1]), flat[0].combined(second)
@@ -201,7 +201,7 @@ def _cut_to_contact(scene: Scene, surface: Surface) -> Surface:
     """The middle of a map, cut to the contact grid, and made periodic on the axes on which the contact is."""
     domain = scene.contact
     cylinder = scene.contact.geometry == "cylinder"
-    mirrored = extended(scene)
+    mirrored = is_extended(scene)
     reach = REACH * scene.bodies.half_width
     if domain.spacing is not None:
         surface = surface.resampled(spacing=domain.spacing)

@@ -86,10 +86,10 @@ class SinglePatch(OnlyMap):
 @dataclass(frozen=True, kw_only=True)
 class UnresolvedSample(FieldsOnly, OnlyMap):
     """The map ``surface`` of a contact that is not solved on its cells: a contact curve, independent asperities, or the
-    ``given`` one from outside."""
+    ``given_contact`` one from outside."""
 
     surface: Surface
-    given: RoughContact | None = None
+    given_contact: RoughContact | None = None
     first: int = 1
     available: int = 1
     pieces: int = 1
@@ -120,8 +120,8 @@ class UnresolvedSample(FieldsOnly, OnlyMap):
     def contact(
         self, scene: Scene, count: int, operator: Callable[[tuple[int, int], tuple[float, float]], HalfSpace]
     ) -> RoughContact:
-        if self.given is not None:
-            return self.given
+        if self.given_contact is not None:
+            return self.given_contact
         heights = self.surface.heights - self.surface.heights.mean()
         make = flat_contact_of if scene.contact.geometry == "flat" else independent_asperities_of
         return make(scene, heights, self.surface.spacing)

@@ -17,7 +17,7 @@ import numpy as np
 from .._base import FieldsOnly, FloatArray, validate
 from ..errors import InputError
 from ..quantities import counted
-from ..scene import ROUGH, Roughness, Scene, moves
+from ..scene import ROUGH, Roughness, Scene, has_moving_roughness
 from ..surface import Surface, surface_generator
 from .cells import (
     COLUMNS_MULTIPLE,
@@ -34,7 +34,7 @@ from .cells import (
     starts_of,
 )
 from .contract import PIECE, Sample
-from .maps import extended, measured, rough_bodies, statistics, whole_maps
+from .maps import is_extended, is_measured, rough_bodies, statistics, whole_maps
 
 # Correlation lengths along y of a strip: ten blocks of nine lengths (models/shared/statistics.py).
 STRIP = 90.0
@@ -213,7 +213,7 @@ def strips_of(scene: Scene, read: tuple[Surface, ...] = ()) -> Sample:
     """Return strips of the scene's surface, generated or measured; on native cells if ``numerics.grid`` is given.
     ``read``: the measured maps, if `whole_maps` read them before."""
     strips: Sample
-    strips = measured_strips(scene, *(read or whole_maps(scene))) if measured(scene) else generated_strips(scene)
+    strips = measured_strips(scene, *(read or whole_maps(scene))) if is_measured(scene) else generated_strips(scene)
     return strips.native() if scene.numerics.grid == "given" else strips
 
 
@@ -236,7 +236,7 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
         cells = choose_cells(spacing, shortest, half_width, max(patch.shape[0] * spacing[0], reach_of(scene, sq)))
     narrow = WIDE * lengths[0] / half_width
     long = STRIP if narrow > 1 else STRIP / 2
-    if moves(scene):  # other places pass through the contact in time
+    if has_moving_roughness(scene):  # other places pass through the contact in time
         long = min(STRIP, PASSING * max(1.0, narrow))
     length = min(long * lengths[1], MOST_CELLS / 2 / cells.columns * cells.spacing[1])
     available = int(min(MOST / long, MOST_CELLS / (cells.columns * cells.rows(length))))
@@ -264,7 +264,7 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
     if scene.contact.spacing is not None:
         maps = tuple(one.resampled(spacing=scene.contact.spacing) for one in maps)
     reach = reach_of(scene, maps[0].sq)
-    surface, *parts = (one.continued(reach) for one in maps) if extended(scene) else maps
+    surface, *parts = (one.continued(reach) for one in maps) if is_extended(scene) else maps
     lengths = length_or_half(surface, 0), length_or_half(surface, 1)
     cells = _cells_of_map(scene, surface, lengths, reach)
     starts = _window_starts(scene, surface, lengths, cells.columns * cells.coarsening[0])
@@ -314,7 +314,7 @@ def _window_starts(scene: Scene, surface: Surface, lengths: tuple[float, float],
     dx = surface.spacing[0]
     step = max(1, round(max(APART * lengths[0], 2 * half_width) / dx))
     starts = starts_of(surface.shape[0], columns, step, 0)
-    if len(starts) >= ENOUGH or extended(scene):
+    if len(starts) >= ENOUGH or is_extended(scene):
         return starts
     overhang = min(max(0, math.floor(0.5 * columns - half_width / dx)), surface.shape[0])
     return starts_of(surface.shape[0], columns, step, overhang)

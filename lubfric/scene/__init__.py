@@ -14,7 +14,7 @@ from .plausible import (
     warn_unusual_values,
 )
 from .roughness import Roughness, named
-from .scene import Scene, check_resolved_gap, moves, moving_bodies, value_of, why_gap_not_resolved
+from .scene import Scene, check_resolved_gap, has_moving_roughness, moving_bodies, value_of, why_gap_not_resolved
 from .sections import ROUGH, SECTIONS
 from .short_forms import MOST_SPEEDS, SOURCES, short_keys, speeds_of_range
 from .transient import HISTORIES, Transient, checked_history, read_history

@@ -271,7 +271,7 @@ def moving_bodies(scene: Scene) -> list[tuple[str, float]]:
     return [(name, speed) for name, speed, rough in bodies if rough is not None and rough.sq != 0.0]
 
 
-def moves(scene: Scene) -> bool:
+def has_moving_roughness(scene: Scene) -> bool:
     """Whether roughness moves through the film."""
     return any(speed != 0 for _, speed in moving_bodies(scene))
 

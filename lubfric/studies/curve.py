@@ -6,19 +6,19 @@ from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
-from .._base import Shown, table_bytes, validate
+from .._base import Renamed, Shown, table_bytes, validate
 from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, Report, ValidityError, returned
-from ..estimate import FrictionResult, UncertaintyCurve, curve_of, together
+from ..estimate import FrictionResult, UncertaintyCurve, cite_together, curve_of
 from ..models.shared import (
-    Validity,
-    entries_of,
+    Violation,
     gathered,
     in_a_cell,
+    violations_of,
 )
 from ..quantities import NUMBERS, OF_UNCERTAINTY, counted, heading
 
 
-class CurveResult(Shown):
+class CurveResult(Renamed, Shown):
     """Base of the results of curves: ``points`` (None where failed), ``errors`` {index: exception}, ``report``.
     ``result["contact_load"]`` is an array of that number of all points, NaN where one failed.
 
@@ -30,6 +30,7 @@ class CurveResult(Shown):
     points: tuple[FrictionResult | None, ...]
     errors: dict[int, Exception]
     report: Report
+    _RENAMED = {"entries": "violations"}
 
     def __getitem__(self, name: str) -> np.ndarray:
         return columns_of(self.points)[validate.choice("column", name, NUMBERS)]
@@ -52,26 +53,26 @@ class CurveResult(Shown):
         rows = [missing if point is None else point.power_loss_interval for point in self.points]
         return np.array(rows).reshape(-1, 2)
 
-    def entries(self, index: int) -> tuple[Validity, ...]:
+    def violations(self, index: int) -> tuple[Violation, ...]:
         """The assumptions that are violated at a point, refused or not."""
-        return entries_of(self.points[index], self.errors.get(index))
+        return violations_of(self.points[index], self.errors.get(index))
 
     @property
     def validity_cells(self) -> list[str]:
-        """The entries of each point in one cell of a table."""
-        return [in_a_cell(self.entries(i)) for i in range(len(self.points))]
+        """The violations of each point in one cell of a table."""
+        return [in_a_cell(self.violations(i)) for i in range(len(self.points))]
 
     @property
     def validity(self) -> tuple[str, ...]:
         """One sentence for each assumption that is violated somewhere."""
         name, _, unit, plural = self.SWEPT
         values = getattr(self, name).tolist()
-        return gathered([(value, self.entries(i)) for i, value in enumerate(values)], unit, plural)
+        return gathered([(value, self.violations(i)) for i, value in enumerate(values)], unit, plural)
 
     def cite(self, format: str = "text") -> str:
         """Return the papers behind what was used at any of the points, the model's first: one a line, or with
         ``format`` "bibtex" as BibTeX entries."""
-        return together((point for point in self.points if point is not None), format)
+        return cite_together((point for point in self.points if point is not None), format)
 
     def _facts(self) -> dict[str, str]:
         name, symbol, unit, plural = self.SWEPT
@@ -136,7 +137,7 @@ def checked_curve(result: R, *, raise_on_failure: bool) -> R:
     errors = result.errors
     refused = [error for error in errors.values() if isinstance(error, ValidityError)]
     if errors and len(refused) == len(errors):
-        raise ValidityError("; ".join(result.validity), tuple(e for error in refused for e in error.entries), result)
+        raise ValidityError("; ".join(result.validity), tuple(e for error in refused for e in error.violations), result)
     if errors:
         raise ConvergenceError(f"{result.report.message}; first: {errors[min(errors)]}", result.report, result)
     return returned(result)

@@ -9,9 +9,9 @@ from textwrap import shorten
 from typing import Any
 
 from ..errors import InputError
-from ..estimate import forecast
+from ..estimate import estimated_work_of_point
 from ..models import candidates, prepare
-from ..models.shared import Prepared, Validity, beforehand, sentence, warn_unusual
+from ..models.shared import Prepared, Violation, beforehand, sentence, warn_unusual
 from ..quantities import counted, worded_value
 from .choose import CHOSEN, first_speeds
 from .operating_points import POINT
@@ -32,7 +32,9 @@ def curve_seconds(prepared: Prepared, speeds: Sequence[float]) -> float:
     """Processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses), within a factor
     of about 4."""
     at = speeds or first_speeds(prepared.scene, prepared.surface.sq)
-    seconds = [forecast(prepared.scene, prepared.sample, prepared.surface, speed).seconds for speed in at]
+    seconds = [
+        estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed).seconds for speed in at
+    ]
     return sum(seconds) * (1.0 if speeds else CHOSEN / len(at))
 
 
@@ -47,22 +49,22 @@ def estimated_study(plan: Any, store: str | Path | None = None) -> float:
 def warnings_of(plan: Any) -> list[str]:
     """Return what is known before the solve to be doubtful of a `StudyPlan`, in sentences: how plain numbers were read,
     and unusual values of its scenes. Nothing is made or solved."""
-    entries = [warn_unusual(scene) for scene in plan.scenes]
-    return [*(f"warning: {sentence(note)}" for note in plan.notes), *_in_sentences(entries, "scenes")]
+    violations = [warn_unusual(scene) for scene in plan.scenes]
+    return [*(f"warning: {sentence(note)}" for note in plan.notes), *_in_sentences(violations, "scenes")]
 
 
-def _in_sentences(entries: Sequence[Sequence[Validity]], plural: str) -> list[str]:
-    """Return a sentence for each assumption that fails in ``entries`` (of each scene), with its smallest and largest
-    value; ``plural``: the name of what there is one of for each of ``entries``."""
-    groups: dict[tuple[str, bool], dict[int, Validity]] = {}
-    for place, of_scene in enumerate(entries):
-        for entry in of_scene:
-            groups.setdefault((entry.what, entry.severe), {})[place] = entry
+def _in_sentences(violations: Sequence[Sequence[Violation]], plural: str) -> list[str]:
+    """Return a sentence for each assumption that fails in ``violations`` (of each scene), with its smallest and largest
+    value; ``plural``: the name of what there is one of for each of ``violations``."""
+    groups: dict[tuple[str, bool], dict[int, Violation]] = {}
+    for place, of_scene in enumerate(violations):
+        for violation in of_scene:
+            groups.setdefault((violation.what, violation.severe), {})[place] = violation
     lines = []
     for group in groups.values():
-        ordered = sorted(group.values(), key=lambda entry: entry.value)
-        values = dict.fromkeys(f"{entry.value:.3g}" for entry in (ordered[0], ordered[-1]))
-        some = f"in {len(group)} of {len(entries)} {plural}: " if len(group) < len(entries) else ""
+        ordered = sorted(group.values(), key=lambda violation: violation.value)
+        values = dict.fromkeys(f"{violation.value:.3g}" for violation in (ordered[0], ordered[-1]))
+        some = f"in {len(group)} of {len(violations)} {plural}: " if len(group) < len(violations) else ""
         lines.append(f"{some}{ordered[-1].text_of(' to '.join(values))}")
     return lines
 
@@ -74,28 +76,28 @@ def _seconds_left(plan: Any, table: StudyTable) -> tuple[float, list[str], list[
     some = left[:: -(-len(left) // SAMPLED)] if left else []
     seconds = 0.0
     failed = []
-    entries: list[tuple[Validity, ...]] = []
+    violations: list[tuple[Violation, ...]] = []
     for scene, speeds in some:
         try:
             begun = time.process_time()  # of the map, which takes its time as well
             prepared = prepare(scene)
             one = curve_seconds(prepared, speeds) + time.process_time() - begun
             seconds += one * len(left) / len(some)
-            entries.append(_expected(prepared, speeds))
+            violations.append(_expected(prepared, speeds))
         except InputError as error:
             failed.append(f"  cannot be solved: {error}")
-    return seconds, failed, _in_sentences(entries, "scenes checked")
+    return seconds, failed, _in_sentences(violations, "scenes checked")
 
 
-def _expected(prepared: Prepared, speeds: Sequence[float]) -> tuple[Validity, ...]:
+def _expected(prepared: Prepared, speeds: Sequence[float]) -> tuple[Violation, ...]:
     """Return what is expected not to hold of a scene at ``speeds`` [m/s] (none: at those that it chooses), but its unusual
     values."""
     scene = prepared.scene
     at = list(speeds) or list(first_speeds(scene, prepared.surface.sq))
-    expected = candidates(scene.numerics.model)[0].expected_warnings(scene, at)
-    unusual = {entry.what for entry in warn_unusual(scene)}
-    known = (*beforehand(scene, prepared.surface), *(entry for _, entry in expected))
-    return tuple(entry for entry in known if entry.what not in unusual)
+    expected = candidates(scene.numerics.model)[0].expected_violations(scene, at)
+    unusual = {violation.what for violation in warn_unusual(scene)}
+    known = (*beforehand(scene, prepared.surface), *(violation for _, violation in expected))
+    return tuple(violation for violation in known if violation.what not in unusual)
 
 
 def in_words(seconds: float) -> str:

@@ -313,7 +313,7 @@ def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[C
         predicted=predicted,
         slopes=end.jac * measured.scale[:, None],
         report=report,
-        entries=tuple(point.validity for point in points),
+        violations=tuple(point.validity for point in points),
         sampling=np.array([point.uncertainty.sampling for point in points]),
         tests=residual_tests(measured.x, end.fun, p, numerical, stated=stated),
         starts=starts,

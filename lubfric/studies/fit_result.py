@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._base import Shown, figures
+from .._base import Renamed, Shown, figures
 from ..errors import Report
 from ..models.shared import (
-    Validity,
+    Violation,
     gathered,
     percent,
 )
@@ -40,7 +40,7 @@ MOST_MINIMA = 3
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class FitResult(Shown):
+class FitResult(Renamed, Shown):
     """Parameters found by `lubfric.fit`, how well the data determine them, and whether the fit describes the data.
 
     The covariance is ``s² (JᵀJ)⁻¹``, with s² the sum over n - p if no deviations are given, else 1, and in both cases
@@ -56,7 +56,7 @@ class FitResult(Shown):
     unit : the parameters as positions between their bounds, 0 to 1, (p,)
     unit_covariance : covariance of ``unit``, (p, p)
     slopes : df/d(unit) at the measured points, (n, p)
-    entries : the assumptions that do not hold at each of the points (`lubfric.Validity`). A severe one is there only
+    violations : the assumptions that do not hold at each of the points (`lubfric.Violation`). A severe one is there only
         where it was accepted; ``validity`` gathers them
     tests : what the residuals say of the fit (`lubfric.studies.fit_checks.ResidualTests`)
     starts : number of starts that were spread over the bounds
@@ -74,7 +74,8 @@ class FitResult(Shown):
     predicted: np.ndarray
     slopes: np.ndarray
     report: Report
-    entries: tuple[tuple[Validity, ...], ...] = ()
+    violations: tuple[tuple[Violation, ...], ...] = ()
+    _RENAMED = {"entries": "violations"}
     sampling: np.ndarray = field(default_factory=lambda: np.empty(0))
     tests: ResidualTests | None = None
     starts: int = 0
@@ -117,7 +118,7 @@ class FitResult(Shown):
     def validity(self) -> tuple[str, ...]:
         """One sentence for each assumption that does not hold at some of the points."""
         unit, name = ("m/s", "speeds") if self.measured.over == SPEED else ("", "slide-roll ratios")
-        return gathered(list(zip(self.measured.x.tolist(), self.entries)), unit, name)
+        return gathered(list(zip(self.measured.x.tolist(), self.violations)), unit, name)
 
     @property
     def at_bounds(self) -> tuple[str, ...]:

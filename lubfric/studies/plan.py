@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from .._base import FieldsOnly, validate, with_default_errors
 from ..errors import InputError
-from ..samples import measured, whole_maps
+from ..samples import is_measured, whole_maps
 from ..scene import Scene, load_scene, read_toml, speeds_of_range
 from .choose import CHOSEN, MOST, requested_speeds
 from .explain import explain, warnings_of
@@ -169,7 +169,7 @@ def _scene_keys(scene: Scene, axes: tuple[Axis, ...]) -> Iterator[str]:
     digests: dict[str, str] = {}
     for varied in scenes_of(scene, axes):
         maps = None
-        if measured(varied):
+        if is_measured(varied):
             rough = repr((varied.surface, varied.counterface, varied.contact))
             if rough not in digests:
                 digests[rough] = _digest_of_maps(varied)

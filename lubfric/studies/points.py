@@ -12,7 +12,7 @@ from ..estimate import FrictionResult, friction
 from ..models import prepare, prepare_on_maps
 from ..models.shared import Prepared, in_a_cell
 from ..quantities import NUMBERS
-from ..samples import measured, whole_maps
+from ..samples import is_measured, whole_maps
 from ..scene import Scene
 from .choose import chosen, each_once, first_speeds
 from .store import OUTCOME, Store, digest, fingerprint_without_files, point_key, shared
@@ -94,7 +94,7 @@ def outcome_of(prepared: Prepared, speed: float, *, fields: bool | str = False) 
         return point if fields else point.without_fields()
     except ValidityError as error:
         result = None if error.result is None else error.result.without_fields()
-        return ValidityError(error.message, error.entries, result)
+        return ValidityError(error.message, error.violations, result)
     except LubfricError as error:
         return error
 
@@ -106,7 +106,7 @@ class MapError(InputError):
 def _prepared_as_planned(scene: Scene, key: str) -> Prepared:
     """Return ``scene`` made ready. Raises `MapError` unless its files hold the maps that the ``key`` of its plan was
     made of."""
-    if not measured(scene):
+    if not is_measured(scene):
         return prepare(scene)
     try:
         read = whole_maps(scene)
@@ -128,7 +128,7 @@ def scene_key(scene: Scene, maps: str | None) -> str:
 def key_of(prepared: Prepared) -> str:
     """Return the key of a scene that was made ready: a hash of the scene, and of the heights and the contact where
     these were read from a file or given to `lubfric.prepare`."""
-    if prepared.given or measured(prepared.scene):
+    if prepared.is_given or is_measured(prepared.scene):
         return fingerprint_without_files(prepared)
     return scene_key(prepared.scene, None)
 

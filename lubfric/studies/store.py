@@ -14,7 +14,7 @@ from .._base import LOCK, FolderLock, clear_checked, clear_parts, files, read_ch
 from ..errors import ConvergenceError, InputError, LubfricError, OutputError, Report, ValidityError
 from ..estimate import FrictionResult
 from ..film import EHLResult
-from ..models.shared import Validity
+from ..models.shared import Violation
 from ..scene import Scene
 from .arithmetic import arithmetic
 from .codec import classes_of, decode, encode
@@ -39,7 +39,7 @@ class Failure:
     error: str
     message: str
     report: Report | None = None
-    entries: tuple[Validity, ...] = ()
+    violations: tuple[Violation, ...] = ()
     result: FrictionResult | None = None
 
 
@@ -148,7 +148,11 @@ def point_key(scene_key: str, speed: float, *, fields: bool | str = False) -> st
 def _failure(error: LubfricError) -> Failure:
     if isinstance(error, ValidityError):
         return Failure(
-            error="ValidityError", message=error.message, report=None, entries=tuple(error.entries), result=error.result
+            error="ValidityError",
+            message=error.message,
+            report=None,
+            violations=tuple(error.violations),
+            result=error.result,
         )
     return Failure(error=type(error).__name__, message=str(error), report=getattr(error, "report", None))
 
@@ -156,7 +160,7 @@ def _failure(error: LubfricError) -> Failure:
 def _error(stored: Failure) -> LubfricError:
     kind = ERRORS.get(stored.error, LubfricError)
     if kind is ValidityError:
-        return ValidityError(stored.message, stored.entries, stored.result)
+        return ValidityError(stored.message, stored.violations, stored.result)
     return ConvergenceError(stored.message, stored.report) if kind is ConvergenceError else kind(stored.message)
 
 

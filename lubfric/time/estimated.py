@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from ..estimate import Forecast, forecast
+from ..estimate import PointWorkEstimate, estimated_work_of_point
 from ..samples import Sample
 from ..scene import Harmonic, History, Scene, Table
 from ..surface import Surface
@@ -29,12 +29,12 @@ CELL_STEP = 1.5e-7
 
 @dataclass(frozen=True, kw_only=True)
 class RunEstimate:
-    """About how many ``steps`` a run takes, and its processor ``seconds``; ``widest``: the forecast at the speed that
+    """About how many ``steps`` a run takes, and its processor ``seconds``; ``widest``: the work estimate at the speed that
     needs most strips of the roughness, whose sample all times share (None: the run has one strip)."""
 
     steps: float
     seconds: float
-    widest: Forecast | None = None
+    widest: PointWorkEstimate | None = None
 
 
 def estimated_deterministic(scene: Scene, sample: Sample, surface: Surface) -> RunEstimate:
@@ -50,17 +50,17 @@ def estimated_load_sharing(scene: Scene, sample: Sample, surface: Surface) -> Ru
     from the tolerance of a step with the order of the march, 2.
     """
     plan = transient_of(scene)
-    forecasts = [forecast(scene, sample, surface, speed) for speed in speeds_of_run(scene) or [0.0]]
+    points = [estimated_work_of_point(scene, sample, surface, speed) for speed in speeds_of_run(scene) or [0.0]]
     widest = None
     cells = surface.heights.size
     if not sample.is_only_map:
-        widest = max(forecasts, key=lambda forecast: forecast.strips)
+        widest = max(points, key=lambda point: point.strips)
         cells = round(sample.cells.columns * widest.length / sample.cells.spacing[1])
     tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")
     swings = max((periods(history, plan.duration) or 1.0 for history in plan.histories), default=0.5)
     changing = STEPS_OF_SWING * swings * (STEP_TOLERANCE / tolerance) ** (1 / 3)
     steps = max(plan.outputs, changing) + STEPS_OF_START
-    seconds = sum(forecast.seconds for forecast in forecasts) + steps * (FILM_STEP + CELL_STEP * cells)
+    seconds = sum(point.seconds for point in points) + steps * (FILM_STEP + CELL_STEP * cells)
     return RunEstimate(steps=steps, seconds=seconds, widest=widest)
 
 

@@ -6,7 +6,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ..models.shared import Prepared, Validity
+from ..models.shared import Prepared, Violation
 from ..scene import Scene
 from .march import Memory, Progress, Step
 
@@ -18,12 +18,12 @@ class Output:
     Attributes
     ----------
     numbers : the numbers of the moment by name (`lubfric.quantities.OF_MOMENT`); one that is missing was not computed
-    entries : the assumptions that do not hold then
+    violations : the assumptions that do not hold then
     pressure, film_thickness : of the film over x [Pa], [m], (nx,); means over y where it is solved on rough surfaces
     """
 
     numbers: dict[str, float]
-    entries: tuple[Validity, ...]
+    violations: tuple[Violation, ...]
     pressure: np.ndarray
     film_thickness: np.ndarray
 

@@ -17,7 +17,7 @@ from ..film import ShearForce, above_carried, rolling_error, smallest, spike_err
 from ..models.load_sharing import moment_error, moment_model_error
 from ..models.shared import (
     Heat,
-    Validity,
+    Violation,
     inlet_at,
     point_heat,
     typical_heat,
@@ -42,7 +42,7 @@ AT_REST = 1e-6
 LOAD_STEP = 0.05
 
 
-def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[str, float], tuple[Validity, ...]]:
+def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[str, float], tuple[Violation, ...]]:
     """The numbers after the last step, by name, and the assumptions that do not hold then."""
     solution = now.solution
     time = now.time
@@ -95,8 +95,8 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         "time_error": now.error,
         "inlet_film_factor": film_factor,
         "flash_temperature_rise": heat.flash,
-        "film_temperature_rise": heat.film,
-        "heat_change": heat.change if heat.evaluated else math.nan,
+        "film_temperature_rise": heat.film_rise,
+        "heat_change": heat.change if heat.is_evaluated else math.nan,
         "min_film": smallest(setting.grid.x, t.H) * p.film_unit,
         "central_film": central_film,
         "mean_film": state.mean_film,
@@ -114,24 +114,24 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         "steps": now.steps,
     }
     peclet = heat.peclet if heat.heated else math.inf
-    heat = replace(heat, inlet=inlet, used=film_factor < 1.0, heated=None, peclet=peclet)
+    heat = replace(heat, inlet=inlet, is_used=film_factor < 1.0, heated=None, peclet=peclet)
     return row, tuple([*_violated(model, scene, row, shear, heat), *warn_typical_heat(scene, heat.typical)])
 
 
 def _violated(
     model: LoadSharingSolver, scene: Scene, row: dict[str, Any], shear: ShearForce, heat: Heat
-) -> Iterator[Validity]:
+) -> Iterator[Violation]:
     """The assumptions of the steady model and of a run that do not hold at one moment."""
     speed = row["entrainment_speed"]
     film = row["central_film"]
     force = abs(row["friction_force"])
     prepared = model.prepared
-    yield from prepared.known
+    yield from prepared.violations
     yield from warn_ends(row["edge_load"], prepared.surface.size[0])
     yield from warn_motion(scene, speed, film)
     yield from warn_film(scene, film, row["max_pressure"], shear, row["film_load"], force, heat)
     if row["shear_error"] > scene.numerics.tolerance:
-        yield Validity(
+        yield Violation(
             what="estimated error of f by the sum of the film's shear stress",
             value=row["shear_error"],
             limit=scene.numerics.tolerance,

@@ -23,14 +23,14 @@ class RunModel:
     ----------
     start : makes a scene ready, and returns the `TimeModel` with its state at t = 0
     check : raises `InputError` for a scene that the run does not take, and solves nothing
-    estimate : steps and processor time of a run, with its sample and the map that is solved first
+    estimate_work : steps and processor time of a run, with its sample and the map that is solved first
     described : what computes the run of a scene, and which model-form error its interval has, as text
     moves_roughness : whether the roughness moves through the film
     """
 
     start: Callable[[Scene | Prepared], Start]
     check: Callable[[Scene], None]
-    estimate: Callable[[Scene, Sample, Surface], RunEstimate]
+    estimate_work: Callable[[Scene, Sample, Surface], RunEstimate]
     described: Callable[[Scene], str]
     moves_roughness: bool
 
@@ -44,14 +44,14 @@ def _load_sharing_in_words(scene: Scene) -> str:
 LOAD_SHARING = RunModel(
     start=start_load_sharing,
     check=check_load_sharing,
-    estimate=estimated_load_sharing,
+    estimate_work=estimated_load_sharing,
     described=_load_sharing_in_words,
     moves_roughness=False,
 )
 DETERMINISTIC = RunModel(
     start=start_deterministic,
     check=check_deterministic,
-    estimate=estimated_deterministic,
+    estimate_work=estimated_deterministic,
     described=lambda _: "deterministic model at all times (numerics.model); the interval has no model-form error",
     moves_roughness=True,
 )
@@ -76,4 +76,4 @@ def check_run(scene: Scene) -> None:
 
 def estimated_run(scene: Scene, sample: Sample, surface: Surface) -> RunEstimate:
     """Return the estimate of the run of ``scene``; ``sample`` and ``surface`` as `lubfric.prepare` makes them."""
-    return run_model_of(scene).estimate(scene, sample, surface)
+    return run_model_of(scene).estimate_work(scene, sample, surface)

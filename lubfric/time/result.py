@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._base import FloatArray, Shown, figures, validate
+from .._base import FloatArray, Renamed, Shown, figures, validate
 from ..errors import Report
 from ..estimate import MethodUse, UncertaintyCurve, cited, methods_of
 from ..models import candidates
 from ..models.shared import (
     Prepared,
-    Validity,
+    Violation,
     gathered,
     percent,
     student,
@@ -64,7 +64,7 @@ class TimeAverage:
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
-class TransientResult(Shown):
+class TransientResult(Renamed, Shown):
     """Numbers of a run over time: one array (nt,) for each name of `lubfric.quantities.OF_MOMENT`, also as attributes.
 
     Attributes
@@ -84,7 +84,7 @@ class TransientResult(Shown):
     pressure, film_thickness : of the smooth film at the output times, (nt, nx) [Pa, m]; in the deterministic model,
         means over y
     report : how the run ended
-    entries : the assumptions that do not hold at each output (`lubfric.Validity`); ``validity`` gathers them
+    violations : the assumptions that do not hold at each output (`lubfric.Violation`); ``validity`` gathers them
     inputs : how far the range of f_b moves f down and up at every time [-], (2, nt)
     not_in : inputs, as text, whose ranges are not in ``uncertainty``: a run is solved with their values alone
     requested : the output times [s] of the run, whether or not they were reached
@@ -99,7 +99,8 @@ class TransientResult(Shown):
     pressure: np.ndarray
     film_thickness: np.ndarray
     report: Report
-    entries: tuple[tuple[Validity, ...], ...] = ()
+    violations: tuple[tuple[Violation, ...], ...] = ()
+    _RENAMED = {"entries": "violations"}
     inputs: np.ndarray | float = 0.0
     not_in: tuple[str, ...] = ()
     line_length: float = math.nan
@@ -121,7 +122,7 @@ class TransientResult(Shown):
         end = worded(float(times[-1]), "s")
         if not self.report.converged:
             return f"Not converged: {self.report.message.partition(': ')[2]}."
-        severe = [any(entry.severe for entry in entries) for entries in self.entries]
+        severe = [any(violation.severe for violation in violations) for violations in self.violations]
         if any(severe):
             return (
                 f"Refused: all {count} outputs to t = {end} are solved, but at {sum(severe)} of them an assumption "
@@ -176,7 +177,7 @@ class TransientResult(Shown):
     @property
     def validity(self) -> tuple[str, ...]:
         """One sentence for each assumption that does not hold at some time."""
-        return gathered(list(zip(self.time.tolist(), self.entries)), "s", "outputs")
+        return gathered(list(zip(self.time.tolist(), self.violations)), "s", "outputs")
 
     @property
     def uncertainty(self) -> UncertaintyCurve:
@@ -196,7 +197,7 @@ class TransientResult(Shown):
             sampling=error,
             interval=interval_in_time(self.columns, down, up),
             line_scatter=error * math.sqrt(self.line_length / self.width),
-            spots=unknown,
+            effective_contacts=unknown,
             length=np.full(f.size, self.line_length),
             area_needed=unknown,
             model=np.fmax(*sides),
@@ -240,6 +241,8 @@ class TransientResult(Shown):
         columns = self.__dict__.get("columns", {})
         if name in columns:
             return columns[name]
+        if name in self._RENAMED:
+            raise AttributeError(f"TransientResult.{name} is called {self._RENAMED[name]} now")
         raise AttributeError(f"TransientResult has no attribute {name!r}{validate.nearest(name, columns)}")
 
 
@@ -341,7 +344,7 @@ def collect(
         pressure=np.array([output.pressure for output in outputs]).reshape(shape),
         film_thickness=np.array([output.film_thickness for output in outputs]).reshape(shape),
         report=replace(report, notes=(*report.notes, *model.notes, *not_in)),
-        entries=tuple(output.entries for output in outputs),
+        violations=tuple(output.violations for output in outputs),
         inputs=inputs,
         not_in=not_in,
         line_length=prepared.surface.size[1],

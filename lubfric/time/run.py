@@ -17,7 +17,7 @@ from ..estimate import LEAST_LIMIT, TIMES_ESTIMATE
 from ..models.deterministic import State
 from ..models.shared import (
     Prepared,
-    Validity,
+    Violation,
     refused,
     scene_of,
 )
@@ -30,7 +30,7 @@ from .registry import estimated_run, run_model_of
 from .result import TransientResult, collect
 from .scene_in_time import transient_of
 
-CLASSES = classes_of(Progress, Output, ContactStep, Validity, State)  # that a state or an output may hold
+CLASSES = classes_of(Progress, Output, ContactStep, Violation, State)  # that a state or an output may hold
 STATE = tuple[int, Progress]  # what is kept of a run: how many outputs there are, and its progress
 
 
@@ -100,8 +100,8 @@ def raise_if_failed(result: TransientResult, *, accept: bool) -> None:
     """Raise `ConvergenceError` where the run did not end, and `ValidityError` where f means nothing at some time, unless
     ``accept``. Both carry the ``result``."""
     result.report.raise_if_failed(result)
-    severe = sorted((e for entries in result.entries for e in entries if e.severe), key=lambda e: e.value)
-    worst = {entry.what: entry for entry in severe}  # of each kind
+    severe = sorted((e for violations in result.violations for e in violations if e.severe), key=lambda e: e.value)
+    worst = {violation.what: violation for violation in severe}  # of each kind
     refused(tuple(worst.values()), accept=accept, result=result)
 
 

@@ -4,14 +4,16 @@ and its state at t = 0, which is steady, at rest with all load on the contact, o
 import math
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import cast
 
 import numpy as np
 
+from ..contact import HalfSpaceContact
 from ..errors import CONVERGED, ConvergenceError, InputError, LubfricError, WorkLimitError
 from ..estimate import sampled
 from ..models import prepare
 from ..models.load_sharing import BalancedSample, PaperModel, PaperSolution, solve_balance
-from ..models.shared import Prepared, on_stack, scene_of
+from ..models.shared import Prepared, contact_on_strips, scene_of
 from ..samples import (
     Sample,
 )
@@ -216,9 +218,10 @@ def strip_of_run(prepared: Prepared) -> RunStrip:
 
 
 def _made(prepared: Prepared, sample: Sample, count: int) -> Prepared:
-    contact = on_stack(prepared, sample, count)
-    surface = replace(prepared.surface, heights=contact.heights, spacing=contact.spacing, mask=None)
-    return replace(prepared, surface=surface, rough_contact=contact, sample=sample)
+    """Return ``prepared`` on the first ``count`` strips of ``sample``, joined to one strip."""
+    rough_contact = cast(HalfSpaceContact, contact_on_strips(prepared, sample, count))
+    surface = replace(prepared.surface, heights=rough_contact.heights, spacing=rough_contact.spacing, mask=None)
+    return replace(prepared, surface=surface, rough_contact=rough_contact, sample=sample)
 
 
 def speeds_of_run(scene: Scene) -> list[float]:
@@ -246,9 +249,9 @@ def _needs(prepared: Prepared, sample: Sample, speeds: list[float]) -> np.ndarra
             continue
         plastic = balanced.solved.contact_state.plastic_area_fraction
         corrected = balanced.balance.contact_state.plastic_area_fraction
-        area = balanced.effect.area if balanced.response is not None else math.nan
+        area = balanced.effect.area_factor if balanced.response is not None else math.nan
         same = balanced.sample.cells.coarsening == sample.cells.coarsening
-        by_cells = balanced.change("gap") if same else math.inf
+        by_cells = balanced.change("gap_change") if same else math.inf
         rows.append((balanced.count, by_cells, area, corrected / plastic if plastic else math.nan))
     return np.array(rows, dtype=float).T
 

@@ -41,10 +41,10 @@ from ..models.deterministic import (
     shifted,
     solve_point,
     strip_heat,
-    strip_of,
+    surface_and_factors,
     work_of_steps,
 )
-from ..models.shared import Prepared, Validity, block_error, warn_motion, warn_thickness
+from ..models.shared import Prepared, Violation, block_error, warn_motion, warn_thickness
 from ..quantities import OF_MOMENT
 from ..scene import Constant, Scene, moving_bodies
 from .film_setting import WET
@@ -212,10 +212,10 @@ class TransientDeterministic:
         """Return the numbers and fields after the last step; the fields are means over y."""
         back = self.back(progress.time)
         terms = progress.solution.terms
-        numbers, entries = deterministic_moment(self, progress)
+        numbers, violations = deterministic_moment(self, progress)
         return Output(
             numbers=numbers,
-            entries=entries,
+            violations=violations,
             pressure=terms.state.pressure.mean(axis=1)[::back],
             film_thickness=terms.balance.film.mean(axis=1)[::back],
         )
@@ -276,7 +276,7 @@ def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
     if not sample.is_resolved:
         raise InputError(" needs a contact of cells under a cylinder", "numerics.model")
     check_deterministic(scene)
-    surface, factors = strip_of(prepared, 0)
+    surface, factors = surface_and_factors(prepared, 0)
     maps = maps_of(prepared, 0)
     if len(maps) == 1 and plan.sliding is not None and len(moving_bodies(scene)) > 1:
         raise InputError(" moves two rough bodies apart", "transient.sliding", "a map of each (lubfric.prepare)")
@@ -304,7 +304,7 @@ def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
 
 def deterministic_moment(
     solver: TransientDeterministic, now: Progress
-) -> tuple[dict[str, float], tuple[Validity, ...]]:
+) -> tuple[dict[str, float], tuple[Violation, ...]]:
     """The numbers after the last step, by name, and the assumptions that do not hold then. As of `OF_MOMENT`, of the
     rough gap; NaN where this model has no such number."""
     at = now.solution.terms
@@ -351,12 +351,12 @@ def deterministic_moment(
     }
     film = result.central_gap
     heat = strip_heat(scene, result)
-    entries = [*solver.prepared.known, *warn_motion(scene, speed, film), *warn_thickness(scene, film)]
+    violations = [*solver.prepared.violations, *warn_motion(scene, speed, film), *warn_thickness(scene, film)]
     lost = max(heat.change, 1 - heat.inlet.factor if heat.inlet else 0.0)
     if lost > scene.numerics.tolerance:
         remedy = "numerics.model = 'paper', which has the heat in time; heat = 'off' states that this is meant"
-        entries.append(
-            Validity(
+        violations.append(
+            Violation(
                 what="loss of film or f by heat",
                 value=lost,
                 limit=scene.numerics.tolerance,
@@ -365,4 +365,4 @@ def deterministic_moment(
                 remedy=remedy,
             )
         )
-    return row, tuple(entries)
+    return row, tuple(violations)

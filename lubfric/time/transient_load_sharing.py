@@ -57,10 +57,10 @@ class TransientLoadSharing(LoadSharingSolver):
         """Return the numbers and fields after the last step."""
         unit = self.setting.problem
         terms = progress.solution.terms
-        numbers, entries = load_sharing_moment(self, progress)
+        numbers, violations = load_sharing_moment(self, progress)
         return Output(
             numbers=numbers,
-            entries=entries,
+            violations=violations,
             pressure=terms.P * unit.pressure_unit,
             film_thickness=terms.H * unit.film_unit,
         )

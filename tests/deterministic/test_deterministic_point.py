@@ -82,7 +82,7 @@ def test_a_solution_keeps_every_balance_by_sums_of_its_fields():
     assert np.abs(np.maximum(elastic, LIGHT.floor) - found.gap).max() < 1e-13
     assert found.pressure.min() >= 0
     tau = found.shear * found.wet
-    assert (tau.sum() + 0.09 * found.pressure[found.spots].sum()) * dx / found.pressure.shape[1] == pytest.approx(
+    assert (tau.sum() + 0.09 * found.pressure[found.rubbing].sum()) * dx / found.pressure.shape[1] == pytest.approx(
         found.boundary + found.couette, rel=2e-2
     )  # the film far upstream is not in the fields
     assert found.report.residual <= 1e-5 and max(found.report.residuals.values()) == found.report.residual
@@ -110,7 +110,7 @@ def test_neither_start_nor_floor_changes_the_answer():
     near = solve_point(LIGHT, start=solve_point(rough(48, 917.0, 0.012)).state)
     assert near.report.iterations < FOUND.report.iterations
     assert solve_point(replace(LIGHT, floor=0.5e-9)).coefficient == pytest.approx(FOUND.coefficient, rel=1e-3)
-    assert fast.split.spots < FOUND.split.spots < 917.0
+    assert fast.split.rubbing < FOUND.split.rubbing < 917.0
 
 
 @pytest.mark.parametrize("speed", [0.1, 0.001])
@@ -129,7 +129,7 @@ def test_a_nearly_smooth_film_at_one_gigapascal_opens_touching_cells_together():
     line = contact(3e5, 1e-3, oil, 1e-2)
     found = solve_point(lay_out(surface, line, sliding=2e-3, boundary_friction=0.1, hardness=6e9))
     assert "from the dry contact" in found.report.notes[0] and found.report.iterations <= 18
-    assert found.touching.any() and found.drawn < 0.1
+    assert found.touching.any() and found.share_given_off < 0.1
 
 
 def test_the_gap_of_touching_bodies_matters_where_they_give_off_the_lubricant():
@@ -140,7 +140,7 @@ def test_the_gap_of_touching_bodies_matters_where_they_give_off_the_lubricant():
     ):
         found = solve_point(problem)
         moved = abs(solve_point(replace(problem, floor=0.5e-9)).coefficient / found.coefficient - 1)
-        assert (found.drawn > 0.1) == drawn and least <= moved < most
+        assert (found.share_given_off > 0.1) == drawn and least <= moved < most
 
 
 @pytest.mark.parametrize(

@@ -30,9 +30,9 @@ def test_the_words_of_a_result_keep_their_meaning(point):
     assert point.boundary_force == pytest.approx(0.09 * point.contact_load)
     (dx, dy) = found.spacing
     ny = found.pressure.shape[1]
-    spots = found.pressure[found.spots].sum() * dx * dy * b.width / (ny * dy)
-    assert spots == pytest.approx(point.contact_load)
-    assert point.real_contact_area == pytest.approx(found.spots.sum() * dx * dy * b.width / (ny * dy))
+    rubbing = found.pressure[found.rubbing].sum() * dx * dy * b.width / (ny * dy)
+    assert rubbing == pytest.approx(point.contact_load)
+    assert point.real_contact_area == pytest.approx(found.rubbing.sum() * dx * dy * b.width / (ny * dy))
     assert point.balance is None and np.isnan(point.volume_residual) and point.report.converged
     assert point.decision.model == "deterministic" and "one pressure" in point.report.notes[0]
 

@@ -140,8 +140,8 @@ def test_where_summits_close_cells_hardly_any_lubricant_is_given_off():
     problem = lay_out(surface, line, sliding=0.025, boundary_friction=0.1)
     passing = moments(travelling(problem, [RoughBody(surface, 0.0625)]), CELL / 0.05)
     found = [moment.result for moment in islice(passing, 1, 13)]
-    given, enters = (sum(getattr(one, name) for one in found) for name in ("given", "flow_film"))
-    assert found[-1].split.spots > 0.9 * found[-1].load and given < 3e-3 * enters
+    given, enters = (sum(getattr(one, name) for one in found) for name in ("given_off", "flow_film"))
+    assert found[-1].split.rubbing > 0.9 * found[-1].load and given < 3e-3 * enters
 
 
 @pytest.mark.parametrize("others", [(), (RoughBody(rough(4, sq=0.03e-6), 0.45, upper=True),)])
@@ -373,7 +373,7 @@ def test_means_are_those_of_what_counts_and_are_drawn(tmp_path):
         f[discarded:].mean(), rel=1e-12
     )
     share = strip.series["share"][discarded:]
-    assert strip.result.split.spots / strip.result.load == pytest.approx(share.mean()) and share[-1] < share.mean()
+    assert strip.result.split.rubbing / strip.result.load == pytest.approx(share.mean()) and share[-1] < share.mean()
     assert strip.times[discarded - 1] * 0.3 >= 2.5 * scene.bodies.half_width
     assert strip.work > strip.rest.work and "after" in strip.result.report.notes[0]
     assert strip.deviations.mean() == pytest.approx(0.0, abs=1e-9 * strip.result.load)

@@ -7,7 +7,7 @@ import pytest
 
 import lubfric
 from lubfric.film import Effort, solve_line_contact
-from lubfric.models.deterministic import changes_of, estimate, solve_strip
+from lubfric.models.deterministic import changes_of, error_by_cells, solve_strip
 from lubfric.surface import Surface
 
 SCENE = lubfric.load_scene("paper")
@@ -89,9 +89,9 @@ def test_the_estimate_tells_what_half_of_the_cells_change():
         kind = {"sq": 1e-7, "correlation_length": 8e-6, "acf": "gaussian"}
         fine = lubfric.generate_surface((192, 256), 0.45e-6, **kind, seed=seed)
         strips = [solved(0.02, (n, n), surface=fine) for n in (8, 4, 2)]
-        told = estimate(changes_of(strips[:2]))
+        told = error_by_cells(changes_of(strips[:2]))
         ratios.append(abs(strips[2].result.coefficient / strips[1].result.coefficient - 1) / told)
     assert max(ratios) < 2 and sum(ratio < 1 for ratio in ratios) >= 2
     cases = (0.5, 3, 0.015), (0.3, 2, 0.003 * 0.96), (0.7, 1, 0.0098), (1.5, 1, 0.03)
     for ratio, left, told in cases:  # a series that ends
-        assert estimate((0.01, 0.01 * ratio), left) == pytest.approx(told)
+        assert error_by_cells((0.01, 0.01 * ratio), left) == pytest.approx(told)

@@ -42,7 +42,7 @@ def test_switched_off_it_is_the_point_of_the_plain_numbers(model):
     for name in ("inlet_film_factor", "flash_temperature_rise", "film_temperature_rise"):
         assert np.isnan(getattr(off, name)) and off.errors.reasons[name] == "not computed: numerics.heat = 'off'"
     assert "is not given" in lubfric.friction(numbers, 1.0).errors.reasons["flash_temperature_rise"]
-    assert off.decision.heat == ""
+    assert off.decision.heat_in_words == ""
 
 
 @pytest.mark.parametrize("speed, ratio", [(1.0, 0.3), (0.05, 2.0)])
@@ -77,7 +77,7 @@ def test_the_film_is_thinner_by_the_inlet_factor(model):
 def test_what_is_left_out_is_part_of_the_numerical_error(model):
     auto = at(model, 0.3, 0.01)
     on = at(model, 0.3, 0.01, numerics={"heat": "on"})
-    assert "flash not included" in auto.decision.heat and "flash not included" not in on.decision.heat
+    assert "flash not included" in auto.decision.heat_in_words and "flash not included" not in on.decision.heat_in_words
     assert auto.uncertainty.numerical >= abs(on.coefficient / auto.coefficient - 1) > 1e-3
     for name in ("shear_force", "couette_force"):
         assert getattr(auto.errors, name) >= abs(getattr(on, name) / getattr(auto, name) - 1), name

@@ -53,7 +53,7 @@ def test_info_looks_at_what_is_solved():
     small = lubfric.load_scene("paper").with_(contact={"shape": (100, 100)})
     for sampling, told in (("strips", False), ("patch", True)):
         scene = small.with_(numerics={"sampling": sampling})
-        known = [entry.what for entry in lubfric.prepare(scene).known]
+        known = [entry.what for entry in lubfric.prepare(scene).violations]
         assert ("Few asperities" in describe_scene(scene)) == told == any("width of the map" in what for what in known)
     patch = small.with_(numerics={"sampling": "patch", "model": "auto"})
     assert lubfric.friction(patch).decision.model == "deterministic" and "deterministic model" in describe_scene(patch)

@@ -15,8 +15,8 @@ from lubfric.models.load_sharing import least_error, starved_error
 from lubfric.models.quick import (
     QuickModel,
     error_models,
+    factors_of_long_cells,
     features,
-    long_cells,
     numbers_of_strip,
     solve_at_rest,
     solve_moving,
@@ -49,7 +49,7 @@ def test_long_cells_divide_the_map_and_resolve_roughness_and_contact(dx, dy, row
     """On a map that resolves both; the cells of another are its own. Cells one longer would be too long."""
     scene = PAPER.with_(motion={"slide_roll_ratio": slip})
     half_width = scene.bodies.half_width
-    (fx, fy) = long_cells(scene, (dx * 1e-6, dy * 1e-6), rows, (length * 1e-6, length * 1e-6))
+    (fx, fy) = factors_of_long_cells(scene, (dx * 1e-6, dy * 1e-6), rows, (length * 1e-6, length * 1e-6))
     assert fx >= 1 <= fy and rows % fy == 0
     longest = min(length * 1e-6 / (2.5 if slip == 2 else 2.0), half_width / 2)
     assert fx == 1 or fx * dx * 1e-6 <= longest * (1 + 1e-6)
@@ -177,7 +177,7 @@ STRIP = {
 
 
 def half_width(motion="rest", **numbers):
-    return error_models()[motion].half_width(features(STRIP | numbers, 0.09))
+    return error_models()[motion].log_half_width(features(STRIP | numbers, 0.09))
 
 
 def test_the_bounds_grow_with_what_cells_and_boundary_film_change():
@@ -192,7 +192,7 @@ def test_the_bounds_grow_where_no_case_is_alike():
     """x C x of the coefficients: at a hundred times the change by cells of any case it is no longer small."""
     model = error_models()["rest"]
     x = features(STRIP, 0.09)
-    assert model.half_width(x | {"cells": 10.0}) > 1.5 * model.half_width(x)
+    assert model.log_half_width(x | {"cells": 10.0}) > 1.5 * model.log_half_width(x)
 
 
 def test_the_fit_finds_a_known_bias_and_spread():
@@ -253,14 +253,14 @@ def test_a_newtonian_answer_holds_solved_answers_at_the_ends_of_what_oils_have(n
     for limit in (0.05, 0.10):
         solved = lubfric.friction(PAPER.with_(lubricant={"limiting_stress_coefficient": limit}), 0.03)
         assert low < solved.coefficient < high
-    assert 0.15 < newtonian.uncertainty.fluid <= newtonian.uncertainty.model
+    assert 0.15 < newtonian.uncertainty.by_limit <= newtonian.uncertainty.model
     assert "limiting stress of the oil is not known" in newtonian.uncertainty.text
 
 
 def test_a_stated_limit_of_f_b_takes_the_band_away_and_leaves_f(newtonian):
     stated = lubfric.friction(PAPER.with_(lubricant={"limiting_stress_coefficient": "f_b"}), 0.03)
     assert stated.coefficient == newtonian.coefficient
-    assert stated.uncertainty.fluid == 0.0
+    assert stated.uncertainty.by_limit == 0.0
     assert stated.uncertainty.model < newtonian.uncertainty.model
 
 
@@ -333,7 +333,7 @@ def test_f_is_not_negative_where_one_surface_stands_still():
 
 
 def test_every_model_of_the_scene_has_an_estimate_and_a_run_in_time():
-    from lubfric.estimate import forecast
+    from lubfric.estimate import estimated_work_of_point
     from lubfric.quantities import CHOICES
     from lubfric.time import run_model_of
 
@@ -341,7 +341,7 @@ def test_every_model_of_the_scene_has_an_estimate_and_a_run_in_time():
     for model in CHOICES["numerics.model"]:
         assert run_model_of(PAPER.with_(numerics={"model": model})).described
         prepared = lubfric.prepare(PAPER.with_(numerics={"model": model}))
-        seconds[model] = forecast(prepared.scene, prepared.sample, prepared.surface, 0.03).seconds
+        seconds[model] = estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, 0.03).seconds
     assert seconds["paper"] < seconds["quick"] < seconds["deterministic"]
     long_cells = seconds["quick"] - seconds["paper"]  # "deterministic" does not solve it, "auto" does
     assert seconds["auto"] == pytest.approx(seconds["deterministic"] + long_cells)
@@ -454,4 +454,4 @@ def test_the_former_name_of_the_quick_model_is_accepted(tmp_path):
 
 def test_the_unknown_limit_of_a_newtonian_oil_counts():
     result = lubfric.friction(PAPER, 0.03, model="quick")
-    assert 0.1 < result.uncertainty.fluid <= result.uncertainty.model
+    assert 0.1 < result.uncertainty.by_limit <= result.uncertainty.model

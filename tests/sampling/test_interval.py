@@ -8,7 +8,7 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.estimate import forecast, sampled
+from lubfric.estimate import estimated_work_of_point, sampled
 from lubfric.models import DeterministicModel, PaperModel
 from lubfric.output import describe_scene
 from verification.campaigns.hostile.soak_force import friction_force
@@ -52,7 +52,7 @@ def test_the_error_asked_is_reached_and_more_strips_are_used():
     assert tight.uncertainty.sampling <= 0.02 < loose.uncertainty.sampling <= 0.1
     assert tight.decision.strips > loose.decision.strips == 2
     assert tight.uncertainty.length / loose.uncertainty.length == pytest.approx(tight.decision.strips / 2)
-    assert "few asperity contacts" not in tight.uncertainty.text and tight.uncertainty.spots >= 10
+    assert "few asperity contacts" not in tight.uncertainty.text and tight.uncertainty.effective_contacts >= 10
     scatter = tight.uncertainty.sampling * math.sqrt(tight.uncertainty.length / PAPER.bodies.width)
     assert tight.uncertainty.line_scatter == pytest.approx(scatter)
 
@@ -166,7 +166,7 @@ def test_a_forecast_is_right_to_a_factor_of_four():
     """And it knows from where on the film is so thick that load sharing is enough, near pure rolling later."""
     prepared = lubfric.prepare(PAPER)
     for speed in (0.003, 0.01, 0.03):
-        told = forecast(PAPER, prepared.sample, prepared.surface, speed)
+        told = estimated_work_of_point(PAPER, prepared.sample, prepared.surface, speed)
         found = lubfric.friction(prepared, speed).uncertainty
         assert 0.25 < told.length / found.length < 4
         assert speed > 0.02 or 0.25 < told.error / found.sampling < 4
@@ -174,7 +174,9 @@ def test_a_forecast_is_right_to_a_factor_of_four():
     for ratio, speed in ((0.02, 0.3), (0.02, 0.7), (1.0, 0.3), (1.0, 0.5), (2.0, 0.15), (2.0, 0.2)):
         scene = PAPER.with_(motion={"slide_roll_ratio": ratio}, numerics={"model": "auto"})
         error = lubfric.friction(scene, speed, model="paper").uncertainty.model
-        assert (forecast(scene, prepared.sample, prepared.surface, speed).long_point_strips > 0) == (error > 0.05)
+        assert (estimated_work_of_point(scene, prepared.sample, prepared.surface, speed).long_point_strips > 0) == (
+            error > 0.05
+        )
 
 
 @pytest.mark.parametrize("sampling, speeds", [("strips", [0.003, 0.03]), ("patch", [0.01, 0.03])])
@@ -184,8 +186,8 @@ def test_the_work_of_the_deterministic_model_is_forecast_to_a_factor_of_two(samp
     cheaper = prepared.scene.with_(numerics={"model": "quick"})
     told = counted = 0.0
     for speed in speeds:
-        one = forecast(prepared.scene, prepared.sample, prepared.surface, speed)
-        told -= forecast(cheaper, prepared.sample, prepared.surface, speed).seconds
+        one = estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed)
+        told -= estimated_work_of_point(cheaper, prepared.sample, prepared.surface, speed).seconds
         control = sampled(prepared, speed, PaperModel()).control()
         levels = sampled(prepared, speed, DeterministicModel(), control=control).levels
         solved = [*(pair.resolved for pair in levels.pairs), *levels.shortest]
@@ -202,5 +204,5 @@ def test_ridges_that_yield_are_solved_though_no_spots_can_be_counted(tmp_path):
     surface = {"file": tmp_path / "ridges.npy", "spacing": 0.45e-6}
     scene = PAPER.with_(surface=surface, bodies={"hardness": 6e8}, numerics={"sampling": "patch"})
     point = lubfric.friction(scene, 0.003)
-    assert point.plastic_area_fraction > 0 and point.uncertainty.spots == 0
+    assert point.plastic_area_fraction > 0 and point.uncertainty.effective_contacts == 0
     assert 0 <= point.errors.plastic_area_fraction < 1

@@ -14,12 +14,12 @@ from lubfric.estimate import sampled
 from lubfric.models import DeterministicModel, PaperModel
 from lubfric.models.deterministic import (
     StripOnTwoGrids,
-    cells_of,
     change_by_flow,
+    factors_of,
     levels,
     moving_point_work,
     solve_strip,
-    strip_of,
+    surface_and_factors,
 )
 from lubfric.models.deterministic import (
     shorter_cells as shorter,
@@ -27,7 +27,7 @@ from lubfric.models.deterministic import (
 from lubfric.models.deterministic.strip_on_two_grids import solve_pair
 from lubfric.models.load_sharing import solve_balance
 from lubfric.models.load_sharing.control_variate import control_variate_of
-from lubfric.models.shared import ControlVariate, StandardError, on_strip
+from lubfric.models.shared import ControlVariate, StandardError, contact_on_strip
 
 FINE = lubfric.load_scene("paper").with_(numerics={"film_deflection": "scaled"})
 SCENE = FINE.with_(  # its cells are those of the second level; the limit of the oil is given, so that its range does not count
@@ -180,7 +180,7 @@ def test_where_roughness_moves_cells_along_the_motion_are_a_quarter_of_a_correla
     for motion, most in ((ROLLING, 0.25), ({}, 0.5)):
         prepared = lubfric.prepare(FINE.with_(motion=motion))
         strips = prepared.sample
-        factors = strip_of(prepared, 0)[1]
+        factors = surface_and_factors(prepared, 0)[1]
         along, across = (
             f * cell / one for f, cell, one in zip(factors, strips.cells.spacing, strips.correlation_lengths)
         )
@@ -192,9 +192,9 @@ def test_cells_along_y_are_twice_as_long_where_the_rows_of_a_strip_allow_it():
     for scene in (FINE, FINE.with_(contact={"spacing": 0.48e-6}), FINE.with_(contact={"spacing": 0.53e-6}), PATCH):
         strips = lubfric.prepare(scene).sample
         assert strips.rows == strips.strip(0).shape[1]
-        assert strips.is_only_map or cells_of(scene, strips)[1] == 2
+        assert strips.is_only_map or factors_of(scene, strips)[1] == 2
     odd = lubfric.prepare(PATCH.with_(contact={"shape": (40, 33)})).sample
-    assert odd.rows == odd.strip(0).shape[1] == 33 and cells_of(PATCH, odd)[1] == 1
+    assert odd.rows == odd.strip(0).shape[1] == 33 and factors_of(PATCH, odd)[1] == 1
 
 
 def test_a_tighter_tolerance_takes_more_strips(prepared, found):
@@ -237,7 +237,7 @@ def test_the_flow_of_a_limit_twice_as_high_by_hand():
     prepared = lubfric.prepare(scene)
     pair = solve_pair(prepared, 0.03, None, 0)
     twice = {"limiting_stress_coefficient": 0.09, "limiting_stress_offset": 2 * scene.lubricant.limiting_stress_offset}
-    surface, factors = strip_of(prepared, 0)
+    surface, factors = surface_and_factors(prepared, 0)
     other = solve_strip(scene.with_(lubricant=twice), surface, 0.03, factors=factors).result
     dx = other.spacing[0]
     ny = other.pressure.shape[1]
@@ -324,9 +324,9 @@ def test_standard_error_of_the_sum_by_monte_carlo(prepared, monkeypatch, n, betw
         pairs, of_line = synthetic(rng, 24, between=between)
         with_line, without = (levels._sum(model, pairs[:n], one) for one in (of_line, None))
         sums.append(with_line.numbers["coefficient"])
-        stated.append(with_line.whole.error)
+        stated.append(with_line.error.error)
         means.append(without.numbers["coefficient"])
-        alone.append(without.whole.error)
+        alone.append(without.error.error)
     assert math.sqrt(np.mean(np.square(stated))) == pytest.approx(np.std(sums), rel=0.15)
     assert 0.85 < math.sqrt(np.mean(np.square(alone))) / np.std(means) < 1.35
 
@@ -341,7 +341,7 @@ def test_a_line_knows_how_its_strips_differ_when_each_is_balanced_alone(prepared
     scene = prepared.scene
     assert line.count > 6 and line.deviations(1, 24).mean() == pytest.approx(0.0, abs=1e-12)
     for index in range(line.count):
-        strip = on_strip(prepared, prepared.sample, index)
+        strip = contact_on_strip(prepared, prepared.sample, index)
         one = solve_balance(scene, 0.005, strip, prepared.surface.sq)
         loads = one.contact_load, one.film_load
         rows.append((one.forces.coefficient, *loads, one.contact_state.mean_gap, one.forces.boundary))
@@ -362,6 +362,6 @@ def test_the_work_of_moving_roughness_is_estimated_within_a_factor_of_two(bodies
     oil = {"eyring_stress": 5e6, "limiting_stress_coefficient": None}
     prepared = lubfric.prepare(scene.with_(lubricant=oil))
     estimate = moving_point_work(
-        prepared.scene, prepared.sample, prepared.surface.sq, speed, cells_of(prepared.scene, prepared.sample)
+        prepared.scene, prepared.sample, prepared.surface.sq, speed, factors_of(prepared.scene, prepared.sample)
     )
     assert 0.5 < solve_pair(prepared, speed, None, 0).resolved.work / estimate < 2

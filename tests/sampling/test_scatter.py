@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from lubfric.models.load_sharing import effective_spots
+from lubfric.models.load_sharing import effective_contacts
 from lubfric.models.shared import StandardError, block_error
 
 
@@ -62,8 +62,8 @@ def test_effective_spots_count_equal_loads(count):
     """Loads 4 cells apart, each of a spot: 1.75 correlation lengths."""
     loads = np.zeros(400)
     loads[: 4 * count : 4] = 3.0
-    assert effective_spots(loads, 1.0, 4 / 1.75) == pytest.approx(count)
-    assert effective_spots(np.zeros(4), 1.0, 1.0) == 0.0
+    assert effective_contacts(loads, 1.0, 4 / 1.75) == pytest.approx(count)
+    assert effective_contacts(np.zeros(4), 1.0, 1.0) == 0.0
 
 
 def test_there_are_no_more_blocks_than_places():

@@ -588,7 +588,7 @@ def test_a_stated_limit_of_f_b_leaves_f_and_narrows_what_is_not_known(mode):
     uncertain, certain = (
         lubfric.stribeck(s, [0.01]).points[0] if mode == "sweep" else lubfric.friction(s) for s in (scene, stated)
     )
-    assert certain.uncertainty.fluid == 0 < uncertain.uncertainty.fluid
+    assert certain.uncertainty.by_limit == 0 < uncertain.uncertainty.by_limit
     assert certain.uncertainty.model < uncertain.uncertainty.model
 
 

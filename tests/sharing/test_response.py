@@ -67,4 +67,4 @@ def test_an_error_of_the_gap_counts_as_it_moves_a_light_contact(load_ratio):
 def test_without_a_film_nothing_is_divided_again():
     response = lubfric.friction(SCENE, 0.0).balance.response
     assert response.rates is None and response.relative("coefficient", 1e-6) == 0.0
-    assert response.slopes.gap < 0 < response.slopes.touched and response.gap_for("coefficient", 0.01) == np.inf
+    assert response.slopes.gap < 0 < response.slopes.contact_length and response.gap_for("coefficient", 0.01) == np.inf

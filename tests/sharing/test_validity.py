@@ -10,7 +10,7 @@ from scene_text import paper_scene
 import lubfric
 from lubfric.film import ShearForce
 from lubfric.models.shared import (
-    Validity,
+    Violation,
     gathered,
     gathered_texts,
     in_a_cell,
@@ -29,7 +29,7 @@ FRICTION = 0.09 * PAPER.bodies.load
 
 def test_the_paper_scene_needs_none():
     model = lubfric.prepare(PAPER)
-    assert model.known == () and lubfric.friction(model, 0.003).validity == ()
+    assert model.violations == () and lubfric.friction(model, 0.003).validity == ()
 
 
 @pytest.mark.parametrize(
@@ -77,7 +77,7 @@ def test_a_map_that_is_noise_along_an_axis_is_refused_with_what_to_do(axis):
     kept = lubfric.friction(lubfric.prepare(scene.with_(numerics={"accept": True}), surface), 0.1)
     assert [e.what[-1] for e in kept.validity if "noise" in e.text] == ["xy"[axis]]
     steep = lubfric.prepare(PAPER.with_(surface={"sq": 3e-6}))
-    assert any("rms slope" in entry.what for entry in steep.known)
+    assert any("rms slope" in entry.what for entry in steep.violations)
 
 
 def test_the_reynolds_number_is_that_of_the_film():
@@ -103,7 +103,7 @@ def test_the_ordinary_bearing_without_a_shear_law_is_refused():
     error = caught.value
     assert isinstance(error, lubfric.LubfricError)
     assert error.result.coefficient > 1 and error.result.report.converged
-    assert error.entries[0].severe and error.entries[0] in error.result.validity
+    assert error.violations[0].severe and error.violations[0] in error.result.validity
     again = pickle.loads(pickle.dumps(error))
     assert str(again) == str(error) and again.result.coefficient == error.result.coefficient
     accepted = lubfric.friction(heavy().with_(numerics={"accept": True}), 1.0)
@@ -121,7 +121,7 @@ def test_a_sweep_marks_the_point_and_keeps_the_rest():
         lubfric.stribeck(heavy(), [0.5, 1.0])
     curve = caught.value.result
     assert set(curve.errors) == {0, 1} and np.isnan(curve.coefficient[0])
-    assert curve.entries(0)[0].what and any("2 speeds, 0.5 to 1 m/s" in text for text in curve.validity)
+    assert curve.violations(0)[0].what and any("2 speeds, 0.5 to 1 m/s" in text for text in curve.validity)
     rolling = lubfric.stribeck(heavy().with_(motion={"slide_roll_ratio": 1e-9}), [0.5, 1.0])
     assert not rolling.errors and not any("not valid" in text for text in rolling.validity)
     accepted = lubfric.stribeck(heavy().with_(numerics={"accept": True}), [0.5, 1.0])
@@ -172,7 +172,7 @@ def test_cells_too_long_for_the_roughness_are_a_warning():
 
 
 def entry(value, what="slip", *, severe=False):
-    return Validity(what=what, value=value, limit=5.0, unit="%", consequence="it slides", remedy="less", severe=severe)
+    return Violation(what=what, value=value, limit=5.0, unit="%", consequence="it slides", remedy="less", severe=severe)
 
 
 def test_a_warning_of_several_speeds_gives_the_smallest_and_the_largest_value_with_their_speeds():

@@ -351,8 +351,8 @@ def test_warnings_of_the_fitted_curve_are_told():
     speeds = np.array([0.01, 0.03, 0.1])
     curve = lubfric.stribeck(scene, speeds)
     found = lubfric.fit(scene, lubfric.Measured(speeds, curve.coefficient), {"lubricant.viscosity": (0.3, 0.4)})
-    assert [bool(told) for told in found.entries] == [bool(curve.entries(i)) for i in range(3)]
-    assert any(entry.severe for entry in found.entries[2]) and "not valid" in found.explain()
+    assert [bool(told) for told in found.violations] == [bool(curve.violations(i)) for i in range(3)]
+    assert any(entry.severe for entry in found.violations[2]) and "not valid" in found.explain()
 
 
 def test_a_parameter_given_twice_is_refused(capsys):

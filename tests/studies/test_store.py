@@ -20,7 +20,7 @@ import lubfric
 from lubfric._base import FolderLock, read_checked, write_checked, write_whole
 from lubfric.errors import Report
 from lubfric.models import prepare
-from lubfric.models.shared import Validity
+from lubfric.models.shared import Violation
 from lubfric.output import command_line as cli
 from lubfric.studies import Store, classes_of, decode, digest, encode, fingerprint, opened
 
@@ -142,7 +142,7 @@ def test_a_record_of_another_version_does_not_count(tmp_path, name):
 
 
 def test_every_outcome_comes_back_as_it_was(tmp_path):
-    entry = Validity(what="f", value=2.0, limit=1.0, unit="", consequence="too much", remedy="less", severe=True)
+    entry = Violation(what="f", value=2.0, limit=1.0, unit="", consequence="too much", remedy="less", severe=True)
     store = Store(tmp_path)
     model = prepare(SCENE)
     point = lubfric.friction(model, 0.01).without_fields()
@@ -253,7 +253,7 @@ def test_only_classes_of_the_table_are_built():
     stored = b"".join(encode(report))
     assert decode(stored, classes_of(Report)) == report
     with pytest.raises(ValueError):
-        decode(stored, classes_of(Validity))
+        decode(stored, classes_of(Violation))
     with pytest.raises(TypeError, match="cannot be stored"):
         encode(object())
 

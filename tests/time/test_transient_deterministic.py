@@ -72,7 +72,7 @@ def test_heat_that_it_leaves_out_is_told_with_its_size():
     hot, cold = (
         run(Transient(1e-6, outputs=1), **scene, numerics={"accept": True, "heat": heat}) for heat in ("auto", "off")
     )
-    told = [e.value for entries in hot.entries for e in entries if e.what == "loss of film or f by heat"]
+    told = [e.value for entries in hot.violations for e in entries if e.what == "loss of film or f by heat"]
     steady = lubfric.friction(SCENE.with_(**scene, numerics={"heat": "on", "model": "paper"}))
     assert told == pytest.approx(2 * [1 - steady.inlet_film_factor], rel=1e-9) and told[0] > 0.2
     assert not any("by heat" in text for text in cold.validity)

@@ -106,9 +106,9 @@ def test_heat_that_a_plain_viscosity_leaves_out_is_told_with_its_size():
     warm = lubfric.friction(BASE.with_(lubricant=lubfric.Lubricant(BASE.lubricant.viscosity, **known)))
     share = 1 - warm.coefficient / steady.coefficient
     off = in_time(plain.with_(numerics={"heat": "off"}))
-    for entries in (steady.validity, moving.entries[-1], off.entries[-1]):
-        told = [e.value / 100 for e in entries if e.what == "reduction of f by the heat of the film"]
-        assert (told == []) if entries is off.entries[-1] else (0.02 < share < told[0] < 2 * share), (share, told)
+    for violations in (steady.validity, moving.violations[-1], off.violations[-1]):
+        told = [e.value / 100 for e in violations if e.what == "reduction of f by the heat of the film"]
+        assert (told == []) if violations is off.violations[-1] else (0.02 < share < told[0] < 2 * share), (share, told)
     with pytest.raises(lubfric.InputError, match="heat = 'on' needs"):
         plain.with_(numerics={"heat": "on"})
 
@@ -122,7 +122,7 @@ def test_what_no_oil_carries_is_refused_with_the_run_attached():
     with pytest.raises(lubfric.ValidityError, match="no oil carries") as caught:
         in_time(NEWTONIAN)
     result = caught.value.result
-    assert result.coefficient[-1] > 0.5 and any(entry.severe for entry in result.entries[-1])
+    assert result.coefficient[-1] > 0.5 and any(entry.severe for entry in result.violations[-1])
     told = in_time(NEWTONIAN.with_(numerics={"accept": True}))
     assert told.coefficient[-1] == result.coefficient[-1] and told.validity == result.validity
 

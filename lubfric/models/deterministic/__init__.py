@@ -14,7 +14,7 @@ from .moving_strip import (
     STEPS,
     TIGHT,
     MovingEffort,
-    MovingStrip,
+    MovingStripSolution,
     SampleTarget,
     cells_in_a_step,
     compared_moments,
@@ -45,16 +45,16 @@ from .shorter_cells import SHORT
 from .solve import dry_contact, solve_point
 from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, residuals
 from .strip import (
-    Strip,
+    StripSolution,
     change_by_flow,
     change_of,
     changes_of,
-    estimate,
+    error_by_cells,
     solve_strip,
     thinned_less,
     work_of,
     work_of_steps,
 )
-from .strip_on_two_grids import StripOnTwoGrids, cells_of, numbers_of, strip_of
+from .strip_on_two_grids import StripOnTwoGrids, factors_of, numbers_of, surface_and_factors
 from .summits import SummitControl, attenuated, control_of
 from .time_and_place import TimeAndPlace, mean_over_blocks

@@ -10,8 +10,8 @@ import numpy as np
 
 from ...errors import ConvergenceError
 from ...quantities import depending_on
-from ...samples import measured
-from ...scene import Scene, moves, value_of
+from ...samples import is_measured
+from ...scene import Scene, has_moving_roughness, value_of
 from ..contract import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
     TOO_SHORT,
@@ -19,11 +19,11 @@ from ..shared import (
     Heat,
     Prepared,
     StandardError,
-    Validity,
+    Violation,
+    contact_on_piece,
     error_by_heat,
     limit_bounds,
     limit_in_words,
-    on_piece,
     peak_hertz_pressure,
     percent,
     smooth_rolling_resistance,
@@ -36,17 +36,17 @@ from ..shared import (
 )
 from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
 from .levels import Levels, mean
-from .moving_strip import MovingStrip, continued_strip
+from .moving_strip import MovingStripSolution, continued_strip
 from .result import DeterministicResult
 from .rough_bodies import HARDNESS, bodies_of, map_of
-from .strip import Strip, solve_strip
-from .strip_on_two_grids import strip_of
+from .strip import StripSolution, solve_strip
+from .strip_on_two_grids import surface_and_factors
 
 # Half-widths of the Hertz strip along y that are solved again for a picture.
-DRAWN_LENGTH = 10.0
+PICTURED_LENGTH = 10.0
 
 # Correlation lengths along y of the same, at least.
-LEAST_DRAWN = 8.0
+LEAST_PICTURED_LENGTH = 8.0
 MODEL_ERROR = "model-form error of f"
 FEW_STRIPS = "not known from fewer than three strips"
 UNSOLVED_CELLS = (
@@ -71,7 +71,7 @@ LIMITED = ("coefficient", "at_least_limit", "at_most_limit")
 LOOSER = "a larger numerics.tolerance"
 
 # Share of the lubricant out of touching cells above which a warning reports it.
-DRAWN = 0.1
+MOST_GIVEN_OFF = 0.1
 
 # Share of the load on a Newtonian film that is sheared beyond f_b p above which a warning reports it.
 CUT = 0.1
@@ -85,7 +85,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     heat = strip_heat(scene, results[0])
     numbers = warmed(scene, levels.numbers, heat) | {"speed": speed}
     errors = dict(levels.errors)
-    if moves(scene):
+    if has_moving_roughness(scene):
         with suppress(ConvergenceError):  # then it is that of the strips, whose error is not known
             resistance, error = smooth_rolling_resistance(scene, speed, numbers["film_load"])
             numbers["rolling_resistance"] = resistance
@@ -103,7 +103,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     parts_of_model[OF_LIMIT] = max(by_limit)
     reasons = dict.fromkeys(depending_on("heat"), heat.reason(scene) or ONE_HEAT)
     finest = levels.pieces[0][-1] if sample.is_only_map and levels.pieces else levels.pairs[0].resolved
-    start = levels.pairs[0].resolved if moves(scene) else finest
+    start = levels.pairs[0].resolved if has_moving_roughness(scene) else finest
     return ModelAnswer(
         numbers=numbers,
         numerical=levels.numerical,
@@ -123,13 +123,13 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
             *filter(None, [limit_in_words(by_limit)]),
             *([UNSOLVED_CELLS] if levels.has_unsolved_cells else []),
         ),
-        warnings=(
-            *_entries(prepared, numbers, results, heat),
+        violations=(
+            *_violations(prepared, numbers, results, heat),
             *warn_model_error(prepared, model),
         ),
         recommendation=_recommendation(prepared),
         fields=fields_of(finest, sample.in_words(1)),
-        fine_fields=None if moves(scene) else partial(fine_fields_of, prepared, speed),
+        fine_fields=None if has_moving_roughness(scene) else partial(fine_fields_of, prepared, speed),
         details=finest.result,
         at_inputs=lambda: _at_inputs(prepared, start, speed),
         ends_without_change=partial(_stays_elastic, start, scene),
@@ -143,11 +143,11 @@ def _by_limit(scene: Scene, results: Sequence[DeterministicResult]) -> tuple[flo
     return limit_bounds(scene, saturated, f, (low, high))
 
 
-def fields_of(strip: Strip, where: str) -> ContactFields:
+def fields_of(strip: StripSolution, where: str) -> ContactFields:
     """Return the fields of ``strip``; of roughness that moves those of its last moment."""
     result = strip.result
     heights = strip.problem.heights
-    moment = ", the last moment of its motion" if isinstance(strip, MovingStrip) else ""
+    moment = ", the last moment of its motion" if isinstance(strip, MovingStripSolution) else ""
     return ContactFields(
         solve=f"deterministic model on {where}{moment}",
         x=result.x,
@@ -166,8 +166,12 @@ def fine_fields_of(prepared: Prepared, speed: float) -> ContactFields:
     sample = prepared.sample
     half_width = prepared.scene.bodies.half_width
     cells = sample.coarsening_to_look_at(half_width)
-    rough_contact = on_piece(
-        prepared, sample, 0, cells, max(LEAST_DRAWN, DRAWN_LENGTH * half_width / sample.correlation_lengths[1])
+    rough_contact = contact_on_piece(
+        prepared,
+        sample,
+        0,
+        cells,
+        max(LEAST_PICTURED_LENGTH, PICTURED_LENGTH * half_width / sample.correlation_lengths[1]),
     )
     strip = solve_strip(prepared.scene, map_of(prepared, rough_contact), speed)
     where = sample.piece_in_words()
@@ -176,36 +180,36 @@ def fine_fields_of(prepared: Prepared, speed: float) -> ContactFields:
     )
 
 
-def _stays_elastic(strip: Strip, scene: Scene, name: str, ends: tuple[Scene, ...]) -> bool:
+def _stays_elastic(strip: StripSolution, scene: Scene, name: str, ends: tuple[Scene, ...]) -> bool:
     """Return whether the input of this ``name`` is a hardness that no cell of ``strip`` reaches at any moment, neither in
     its scene nor at the ``ends`` of the range."""
     return name == HARDNESS and all(strip.peak_pressure < value_of(one, HARDNESS) for one in (scene, *ends))
 
 
-def _at_inputs(prepared: Prepared, strip: Strip, speed: float) -> AtInputs:
+def _at_inputs(prepared: Prepared, strip: StripSolution, speed: float) -> AtInputs:
     """Return f at other inputs, on the cells of ``strip``, which is solved at the prepared ones.
 
     Where the roughness moves, the middle is a continuation like the ends: beside the strip itself, a continuation begins
     its steps in time anew, which changed f of a needle roller by 1.5 %.
     """
-    if isinstance(strip, MovingStrip):
+    if isinstance(strip, MovingStripSolution):
         middle = _at_end(prepared, strip, speed, prepared.scene)
     else:
         middle = _with_heat(prepared.scene, strip.result)
     return AtInputs(middle=middle, coefficient=partial(_at_end, prepared, strip, speed), in_processes=True)
 
 
-def _at_end(prepared: Prepared, strip: Strip, speed: float, scene: Scene) -> float:
+def _at_end(prepared: Prepared, strip: StripSolution, speed: float, scene: Scene) -> float:
     """Return f at ``speed`` [m/s] of a ``scene`` that differs from the prepared one in inputs only, by the deterministic
     model on the cells of ``strip``, which is solved at the prepared one and from which it begins.
 
     These are the cells of the answer, because the change of f by the stress of an oil is up to three times as large on
     cells twice as long. Where the roughness moves, it is a continuation of the strip (`continued_strip`).
     """
-    if isinstance(strip, MovingStrip):
+    if isinstance(strip, MovingStripSolution):
         result, _ = continued_strip(scene, bodies_of(prepared, 0, speed), speed, strip)
         return _with_heat(scene, result)
-    surface, _ = strip_of(prepared, 0)
+    surface, _ = surface_and_factors(prepared, 0)
     spacing = strip.problem.spacing
     factors = (round(spacing[0] / surface.spacing[0]), round(spacing[1] / surface.spacing[1]))
     return _with_heat(scene, solve_strip(scene, surface, speed, factors=factors, start=strip).result)
@@ -227,30 +231,30 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     known = heat.text(tolerance)
     return Decision(
         model="deterministic",
-        rubbing=f"{{part}} of the load rubs at boundary friction ({RUBS[scene.lubricant.newtonian]})",
-        film=words,
-        contact="boundary film",
+        contact_load_in_words=f"{{part}} of the load rubs at boundary friction ({RUBS[scene.lubricant.newtonian]})",
+        film_in_words=words,
+        contact_in_words="boundary film",
         tolerance=tolerance,
         strips=len(results),
-        heat=known,
+        heat_in_words=known,
         notes=notes,
     )
 
 
-def warn_model_error(prepared: Prepared, error: float, remedy: str = "") -> Iterator[Validity]:
+def warn_model_error(prepared: Prepared, error: float, remedy: str = "") -> Iterator[Violation]:
     """Yield a warning where the model-form ``error`` of f, relative, is above ``numerics.model_tolerance``; ``remedy``: what
     narrows it ("": a longer map, where the surface is measured)."""
     scene = prepared.scene
     tolerance = scene.numerics.model_tolerance
-    is_measured = prepared.given or measured(scene)
+    has_map = prepared.is_given or is_measured(scene)
     if error > tolerance:
-        yield Validity(
+        yield Violation(
             what=MODEL_ERROR,
             value=100 * error,
             limit=100 * tolerance,
             unit="%",
             consequence="it comes from the law of the flow, heat, the scatter between the models, or cells",
-            remedy=remedy or f"read f with its interval{', or give a longer map' if is_measured else ''}",
+            remedy=remedy or f"read f with its interval{', or give a longer map' if has_map else ''}",
         )
 
 
@@ -258,9 +262,9 @@ def _recommendation(prepared: Prepared) -> str:
     """What makes the error by the cells smaller: shorter ones, if the map has them."""
     scene = prepared.scene
     sample = prepared.sample
-    if not sample.cells.is_native and (moves(scene) or not sample.is_only_map):
+    if not sample.cells.is_native and (has_moving_roughness(scene) or not sample.is_only_map):
         return f"numerics.grid = 'given' for shorter cells, or {LOOSER}"
-    if prepared.given or measured(scene):
+    if prepared.is_given or is_measured(scene):
         return f"{LOOSER}, or a map with shorter cells"
     return f"a finer contact.spacing with numerics.grid = 'given', or {LOOSER}"
 
@@ -289,11 +293,9 @@ def _words_of_levels(levels: Levels) -> str:
         strips += f", the effect of cells {times} times as short on {len(pieces)} piece{'s' if len(pieces) > 1 else ''}"
     if levels.shortest:
         strips += f", of cells {2 * times} times as short on a shorter one"
-    if not levels.line_strips:
+    if not levels.control_strips:
         return f"solved together with the contact on {strips}"
-    return (
-        f"solved together with the contact: the difference from Eq. (8) on {strips}, of a line of {levels.line_strips}"
-    )
+    return f"solved together with the contact: the difference from Eq. (8) on {strips}, of a line of {levels.control_strips}"
 
 
 def _division(scene: Scene, numbers: dict[str, float], results: Sequence[DeterministicResult]) -> str:
@@ -308,26 +310,28 @@ def _division(scene: Scene, numbers: dict[str, float], results: Sequence[Determi
     )
 
 
-def _entries(
+def _violations(
     prepared: Prepared, numbers: dict[str, float], results: Sequence[DeterministicResult], heat: Heat
-) -> Iterator[Validity]:
-    """Entries for all assumptions that are violated; those about bodies and map first."""
+) -> Iterator[Violation]:
+    """Yield the violations of the strips, those about bodies and map first."""
     scene = prepared.scene
     speed = numbers["speed"]
     film = numbers["central_film"]
-    yield from prepared.known
+    yield from prepared.violations
     yield from warn_motion(scene, speed, film)
     flow = mean(result.flow_film for result in results)
     friction = abs(numbers["coefficient"]) * scene.bodies.load
     yield from warn_inlet(scene, scene.line_contact(abs(speed)), flow, friction)
-    for entry in warn_pressure(scene, max(peak_hertz_pressure(scene), *(result.top_pressure for result in results))):
-        yield replace(entry, severe=False)  # of one cell: no stress there is above the limit, whatever the pressure
+    for violation in warn_pressure(
+        scene, max(peak_hertz_pressure(scene), *(result.top_pressure for result in results))
+    ):
+        yield replace(violation, severe=False)  # of one cell: no stress there is above the limit, whatever the pressure
     yield from warn_thickness(scene, film)
     cut = mean(result.split.capped / result.load for result in results)
     if cut > CUT:
         consequence = "a Newtonian film would be sheared above f_b p there; its stress was limited to that"
         remedy = 'give lubricant.limiting_stress_coefficient (or "f_b" if that is meant) or eyring_stress'
-        yield Validity(
+        yield Violation(
             what="share of the load on a saturated film",
             value=cut,
             limit=CUT,
@@ -335,14 +339,14 @@ def _entries(
             consequence=consequence,
             remedy=remedy,
         )
-    drawn = mean(result.drawn for result in results)
-    if drawn > DRAWN:
+    share = mean(result.share_given_off for result in results)
+    if share > MOST_GIVEN_OFF:
         consequence = "f depends by about 1 % on the gap of 1 nm that touching cells keep"
         remedy = "treat f as known to 2 %; almost no lubricant passes through the contact"
-        yield Validity(
+        yield Violation(
             what="share of the lubricant that comes from touching cells",
-            value=drawn,
-            limit=DRAWN,
+            value=share,
+            limit=MOST_GIVEN_OFF,
             unit="",
             consequence=consequence,
             remedy=remedy,
@@ -350,7 +354,7 @@ def _entries(
     yield from warn_heat(scene, heat)
     if why := why_too_hot(heat):
         parts = (1 - heat.film_factor) / (1 - LEAST_FILM), heat.change / MOST_CHANGE
-        yield Validity(
+        yield Violation(
             what="heat over the most that was checked",
             value=max(parts),
             limit=1.0,

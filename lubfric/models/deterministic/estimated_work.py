@@ -5,7 +5,7 @@ import math
 from dataclasses import replace
 
 from ...samples import Sample
-from ...scene import FRICTION, Scene, moves, why_gap_not_resolved
+from ...scene import FRICTION, Scene, has_moving_roughness, why_gap_not_resolved
 from ...surface import Surface
 from ..contract import WorkEstimate
 from ..shared import FREEDOM_NOT_COUNTED, SAFETY, peak_hertz_pressure, smooth_over_cells, student
@@ -15,7 +15,7 @@ from .linear import HIGH_PRESSURE
 from .problem import reach
 from .rough_bodies import MOST_WORK_IN_AUTO, moving_point_work
 from .shorter_cells import SHORT
-from .strip_on_two_grids import cells_of
+from .strip_on_two_grids import factors_of
 
 # Newton steps on a strip, about.
 STEPS = 9
@@ -74,8 +74,8 @@ def estimated_work(
     sq = surface.sq
     if speed == 0 or sq == 0 or not sample.is_resolved:
         return NOTHING
-    both = cells_of(scene, sample)
-    one_strip = moving_point_work(scene, sample, sq, speed, both) if moves(scene) else 0.0
+    both = factors_of(scene, sample)
+    one_strip = moving_point_work(scene, sample, sq, speed, both) if has_moving_roughness(scene) else 0.0
     if scene.transient is not None or why_gap_not_resolved(scene):
         return WorkEstimate(strips=0, seconds=0.0, strip_seconds=one_strip)
     scatter = 0.0
@@ -86,9 +86,9 @@ def estimated_work(
     allowed = math.hypot(
         DIFFERENCE * numerics.model_tolerance / student(FREEDOM_NOT_COUNTED), numerics.sampling_tolerance
     )
-    unlike = UNLIKE_IN_MOTION if moves(scene) else UNLIKE
+    unlike = UNLIKE_IN_MOTION if has_moving_roughness(scene) else UNLIKE
     count = min(max(1, math.ceil(SAFETY * (unlike * scatter / allowed) ** 2)), sample.available)
-    if moves(scene):
+    if has_moving_roughness(scene):
         if one_strip > MOST_WORK_IN_AUTO and numerics.model == "auto":
             return WorkEstimate(strips=0, seconds=0.0, strip_seconds=one_strip)
         count = min(count, max(1, int(MOST_WORK_IN_AUTO / one_strip)))  # no more are solved
@@ -108,7 +108,7 @@ def _work_at_rest(
 ) -> float:
     """Return the counted work [s] of ``count`` strips whose roughness rests, of shorter cells, and of so many ``ends``
     of input ranges; ``is_smooth``: whether the heights are smooth over a cell."""
-    (fx, fy) = cells_of(scene, sample)
+    (fx, fy) = factors_of(scene, sample)
     (dx, dy) = sample.cells.spacing
     (ux, uy) = sample.cells.coarsening
     cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * sample.strip_length / (fy * dy)
@@ -154,7 +154,7 @@ def work_on_strips(
 ) -> float:
     """Return the counted work [s] of ``count`` strips on cells ``factors`` times as long as those of ``sample``, and of the
     ends of input ranges; ``sq`` [m]: of the surface."""
-    if moves(scene):  # the ends of ranges are solved at rest, which takes little
+    if has_moving_roughness(scene):  # the ends of ranges are solved at rest, which takes little
         return IN_MOTION * count * moving_point_work(replace(scene, ranges=()), sample, sq, speed, factors)
     (fx, fy) = factors
     (dx, dy) = sample.cells.spacing

@@ -33,17 +33,17 @@ def strip_heat(scene: Scene, result: DeterministicResult) -> Heat:
     inlet, used = inlet_at(scene, result.speed)
     sliding = abs(scene.motion.slide_roll_ratio * result.speed)
     if inlet is None or sliding == 0:
-        return Heat(inlet=inlet, used=used)
+        return Heat(inlet=inlet, is_used=used)
     wet = result.wet
     cells = result.wet.sum(axis=1)
     covered = np.where(cells[:, None] > 0, wet / np.maximum(cells, 1)[:, None], 1 / wet.shape[1])
     p, h = ((field * covered).sum(axis=1) for field in (result.pressure, result.gap))
-    around = surroundings(scene, result.speed, wet.mean(axis=1), (result.shear * result.spots).mean(axis=1))
+    around = surroundings(scene, result.speed, wet.mean(axis=1), (result.shear * result.rubbing).mean(axis=1))
     film = heated_film(scene.lubricant, result.x, p, h, around)
     hot = np.abs(heated_stress(scene.lubricant, result.pressure, result.gap, sliding, film.wall[:, None])[0])
     lost = float(((result.shear - hot) * wet).mean(axis=1).sum()) * result.spacing[0]
     change = lost / max(abs(result.coefficient) * result.load, 1e-300)
-    return Heat(inlet=inlet, used=used, change=change, heated=film, peclet=peclet_at(scene, result.speed))
+    return Heat(inlet=inlet, is_used=used, change=change, heated=film, peclet=peclet_at(scene, result.speed))
 
 
 def warmed(scene: Scene, numbers: dict[str, float], heat: Heat) -> dict[str, float]:
@@ -56,7 +56,7 @@ def warmed(scene: Scene, numbers: dict[str, float], heat: Heat) -> dict[str, flo
         "couette_force": numbers["couette_force"] - lost,
         "inlet_film_factor": heat.inlet_film_factor,
         "flash_temperature_rise": heat.flash,
-        "film_temperature_rise": heat.film,
+        "film_temperature_rise": heat.film_rise,
     }
 
 

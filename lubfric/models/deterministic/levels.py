@@ -28,7 +28,7 @@ from ..shared import (
     required_strips,
     student,
 )
-from .moving_strip import MovingStrip
+from .moving_strip import MovingStripSolution
 from .result import DeterministicResult
 from .rough_bodies import summit_control
 from .shorter_cells import (
@@ -37,7 +37,7 @@ from .shorter_cells import (
     on_shorter_cells,
 )
 from .strip import (
-    Strip,
+    StripSolution,
     change_by_flow,
     thinned_less,
 )
@@ -100,7 +100,7 @@ class Levels:
     - ``numbers``: of the deterministic model on an infinite line contact, by name; ``errors``: their relative standard
       errors. ``by_film``: relative change of f by half and by twice the boundary film; ``by_flow``: by another law of
       the flow; ``by_inlet``: without the heat of the inlet.
-    - ``line_strips``: number of strips of the first level (0: it was omitted); ``pairs``: the strips of the second;
+    - ``control_strips``: number of strips of the first level (0: it was omitted); ``pairs``: the strips of the second;
       ``pieces``: of the third, each on shorter and shorter cells; ``shortest``: that of the fourth (empty: none).
     - relative errors of f: ``sampling``, standard, by the number of strips; ``difference``, standard, by that between
       the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips; ``has_unsolved_cells``:
@@ -113,10 +113,10 @@ class Levels:
     by_film: tuple[float, ...]
     by_flow: float
     by_inlet: float
-    line_strips: int
+    control_strips: int
     pairs: tuple[StripOnTwoGrids, ...]
-    pieces: tuple[tuple[Strip, ...], ...]
-    shortest: tuple[Strip, ...]
+    pieces: tuple[tuple[StripSolution, ...], ...]
+    shortest: tuple[StripSolution, ...]
     sampling: StandardError
     difference: StandardError
     numerical: float
@@ -127,25 +127,25 @@ class Levels:
 
 @dataclass(frozen=True, kw_only=True)
 class TwoLevelEstimate:
-    """The first two levels: ``line_strips``, ``numbers`` as in `Levels`; standard errors of f: ``whole``, and the part
+    """The first two levels: ``control_strips``, ``numbers`` as in `Levels`; standard errors of f: ``error``, and the part
     of it that is the ``difference`` between the models; ``between``: standard deviation of f between strips;
     ``note``: what the control of moving roughness changed."""
 
-    line_strips: int
+    control_strips: int
     numbers: dict[str, float]
-    whole: StandardError
+    error: StandardError
     difference: StandardError
     between: float
     note: str = ""
 
-    def wanted(self, numerics: Numerics, count: int, most: int) -> int:
+    def required_strips(self, numerics: Numerics, count: int, most: int) -> int:
         """Number of strips of the second level, at most ``most``, that the tolerances need; there are ``count``."""
         f = abs(self.numbers["coefficient"])
         tolerance = numerics.sampling_tolerance
-        if not self.line_strips:
-            return required_strips(count, 1, most, self.whole, f * tolerance, growth=GROWTH, spare=SPARE)
+        if not self.control_strips:
+            return required_strips(count, 1, most, self.error, f * tolerance, growth=GROWTH, spare=SPARE)
         allowed = f * DIFFERENCE * numerics.model_tolerance / student(self.difference.freedom)
-        errors = (self.whole, math.hypot(f * tolerance, allowed)), (self.difference, allowed)
+        errors = (self.error, math.hypot(f * tolerance, allowed)), (self.difference, allowed)
         return max(required_strips(count, 1, most, error, limit, growth=GROWTH, spare=SPARE) for error, limit in errors)
 
 
@@ -174,15 +174,17 @@ def two_levels(
     numerics = prepared.scene.numerics if numerics is None else numerics
     load = prepared.scene.bodies.load
     most = max(1, min(prepared.sample.available, int(MOST_WORK_OF_STRIPS / pairs[0].resolved.work)))
-    moving = [pair.resolved for pair in pairs if isinstance(pair.resolved, MovingStrip)]
+    moving = [pair.resolved for pair in pairs if isinstance(pair.resolved, MovingStripSolution)]
     if moving:
         estimate = _of_moving(prepared, pairs, moving)
-        return estimate, max(estimate.wanted(numerics, len(pairs), most), len(pairs))
+        return estimate, max(estimate.required_strips(numerics, len(pairs), most), len(pairs))
     estimates = [_sum(prepared, pairs, line) for line in (control, None) if line is None or len(pairs) <= line.count]
-    estimates = [each for each in estimates if not each.line_strips or 0 <= each.numbers["contact_load"] <= load]
-    counts = [each.wanted(numerics, len(pairs), most) for each in estimates]
+    estimates = [each for each in estimates if not each.control_strips or 0 <= each.numbers["contact_load"] <= load]
+    counts = [each.required_strips(numerics, len(pairs), most) for each in estimates]
     chosen = next(
-        k for k, each in enumerate(estimates) if not each.line_strips or counts[k] <= min(counts[-1], each.line_strips)
+        k
+        for k, each in enumerate(estimates)
+        if not each.control_strips or counts[k] <= min(counts[-1], each.control_strips)
     )
     return estimates[chosen], max(counts[chosen], len(pairs))
 
@@ -205,16 +207,16 @@ def levels_of(
     results = [pair.resolved.result for pair in pairs]
     numbers = with_divided_contact_load(prepared.scene, numbers, results)
     f = abs(numbers["coefficient"])
-    of_strips = add_errors(estimate.whole, replace(by_cells, error=by_cells.error * f))
+    of_strips = add_errors(estimate.error, replace(by_cells, error=by_cells.error * f))
     difference = StandardError(min(estimate.difference.error, of_strips.error) / f, estimate.difference.freedom)
     by_chance = math.sqrt((of_strips.error / f) ** 2 - difference.error**2)
     sampling = replace(of_strips, error=math.hypot(by_chance, BALANCED * (estimate.between / f) ** 2))
     films = tuple(mean(getattr(result, name) - result.coefficient for result in results) / f for name in OTHER_FILMS)
     errors = _errors(prepared, pairs, numbers)
     errors["coefficient"] = math.hypot(*(e for e in (sampling.error, difference.error, numerical) if math.isfinite(e)))
-    length = prepared.sample.line_length(max(estimate.line_strips, len(pairs)))
+    length = prepared.sample.line_length(max(estimate.control_strips, len(pairs)))
     first = pairs[0].resolved
-    at_rest = first.rest if isinstance(first, MovingStrip) else first
+    at_rest = first.rest if isinstance(first, MovingStripSolution) else first
     oil = prepared.scene.lubricant
     flow, inlet = (change_by_flow(at_rest, other) for other in (thinned_less(at_rest.problem.lubricant), oil))
     return Levels(
@@ -223,7 +225,7 @@ def levels_of(
         by_film=films,
         by_flow=flow,
         by_inlet=inlet,
-        line_strips=estimate.line_strips,
+        control_strips=estimate.control_strips,
         pairs=tuple(pairs),
         pieces=pieces,
         has_unsolved_cells=has_unsolved_cells,
@@ -266,9 +268,9 @@ def _sum(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], line: ControlVari
     if line is None:
         whole = _scatter(pairs, prepared.sample)
         return TwoLevelEstimate(
-            line_strips=0,
+            control_strips=0,
             numbers=numbers,
-            whole=whole,
+            error=whole,
             difference=StandardError(0.0, 1),
             between=whole.error * math.sqrt(count),
         )
@@ -279,15 +281,17 @@ def _sum(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], line: ControlVari
     whole = add_errors(_scatter(pairs, prepared.sample, line, unsolved), others)
     between = float(np.std(line.numbers["coefficient"]))
     return TwoLevelEstimate(
-        line_strips=line.count,
+        control_strips=line.count,
         numbers=numbers,
-        whole=whole,
+        error=whole,
         difference=_scatter(pairs, prepared.sample, line, 1.0),
         between=between,
     )
 
 
-def _of_moving(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], strips: Sequence[MovingStrip]) -> TwoLevelEstimate:
+def _of_moving(
+    prepared: Prepared, pairs: Sequence[StripOnTwoGrids], strips: Sequence[MovingStripSolution]
+) -> TwoLevelEstimate:
     """Return the mean over ``strips`` whose roughness moves, with the control of their summits (`summits`)."""
     rows = [numbers_of(prepared, strip.result) for strip in strips]
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
@@ -310,9 +314,9 @@ def _of_moving(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], strips: Seq
     between = friction.plain.error * math.sqrt(len(strips))
     note = SUMMITS.format(100 * friction.correction / friction.value) if friction.correction else ""
     return TwoLevelEstimate(
-        line_strips=0,
+        control_strips=0,
         numbers=numbers,
-        whole=friction.error,
+        error=friction.error,
         difference=StandardError(0.0, 1),
         between=between,
         note=note,

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ...samples import Sample
-from ...scene import Scene, check_resolved_gap, moves, why_gap_not_resolved
+from ...scene import Scene, check_resolved_gap, has_moving_roughness, why_gap_not_resolved
 from ...surface import Surface
 from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
 from ..shared import (
     ControlVariate,
-    ExpectedWarnings,
+    ExpectedViolations,
     Prepared,
     StandardError,
     expected_on_hertz,
@@ -23,7 +23,7 @@ from .estimated_work import estimated_work
 from .heat import why_too_hot
 from .levels import Levels, TwoLevelEstimate, levels_of, solve_strips, two_levels
 from .rough_bodies import why_too_costly
-from .strip_on_two_grids import StripOnTwoGrids, cells_of
+from .strip_on_two_grids import StripOnTwoGrids, factors_of
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,18 +33,18 @@ class DeterministicSolution(SampleSolution):
     prepared: Prepared
     sample: Sample
     speed: float
-    strips: tuple[StripOnTwoGrids, ...]
+    pairs: tuple[StripOnTwoGrids, ...]
     estimate: TwoLevelEstimate
     wanted: int
 
     @property
     def count(self) -> int:  # type: ignore[override]
         """The number of strips."""
-        return len(self.strips)
+        return len(self.pairs)
 
     @property
     def sampling_error(self) -> StandardError:
-        whole = self.estimate.whole
+        whole = self.estimate.error
         return StandardError(whole.error / abs(self.estimate.numbers["coefficient"]), whole.freedom)
 
     def required_strips(self) -> int:
@@ -53,7 +53,7 @@ class DeterministicSolution(SampleSolution):
     @cached_property
     def levels(self) -> Levels:
         """The sum over levels, with the effect of shorter cells, which takes solves of its own."""
-        return levels_of(self.prepared, self.speed, self.strips, self.estimate)
+        return levels_of(self.prepared, self.speed, self.pairs, self.estimate)
 
     def corrected(self) -> DeterministicSolution:
         _ = self.levels  # solved here, so that shorter cells that do not converge are a failure of the solve
@@ -81,13 +81,13 @@ class DeterministicModel(Model):
     def check(self, scene: Scene, *, is_joint: bool) -> None:
         check_resolved_gap(scene, is_joint=is_joint)
 
-    def expected_warnings(self, scene: Scene, speeds: list[float]) -> ExpectedWarnings:
+    def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:
         return expected_on_hertz(scene)
 
     def first_strips(self, sample: Sample) -> int:
         return 1
 
-    def estimate(
+    def estimate_work(
         self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
     ) -> WorkEstimate:
         return estimated_work(scene, sample, surface, speed, cheaper)
@@ -99,7 +99,9 @@ class DeterministicModel(Model):
         return rolling_model_error(lambda_ratio)
 
     def takes_control(self, prepared: Prepared) -> bool:
-        return not prepared.sample.is_only_map and not moves(prepared.scene)  # its summits control what moves
+        return not prepared.sample.is_only_map and not has_moving_roughness(
+            prepared.scene
+        )  # its summits control what moves
 
     def solve(
         self,
@@ -114,13 +116,13 @@ class DeterministicModel(Model):
         """Solve the first ``count`` strips.
 
         The strips are those of ``prepared.sample``, whatever cells ``sample`` has, because this model chooses its own
-        (`cells_of`).
+        (`factors_of`).
         """
-        solved = start.strips if isinstance(start, DeterministicSolution) else ()
+        solved = start.pairs if isinstance(start, DeterministicSolution) else ()
         strips = solve_strips(prepared, speed, count, solved)
         estimate, wanted = two_levels(prepared, strips, control)
         return DeterministicSolution(
-            prepared=prepared, sample=sample, speed=speed, strips=strips, estimate=estimate, wanted=wanted
+            prepared=prepared, sample=sample, speed=speed, pairs=strips, estimate=estimate, wanted=wanted
         )
 
     def why_unable(self, prepared: Prepared, speed: float) -> str:
@@ -130,4 +132,4 @@ class DeterministicModel(Model):
         why = why_gap_not_resolved(prepared.scene, is_joint=prepared.is_joint) or why_too_hot(cheaper.heat())
         if why:
             return f"load sharing alone: {why}"
-        return why_too_costly(prepared, speed, cells_of(prepared.scene, prepared.sample))
+        return why_too_costly(prepared, speed, factors_of(prepared.scene, prepared.sample))

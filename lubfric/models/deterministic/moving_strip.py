@@ -19,7 +19,7 @@ from .moving import SAME, Moment, RoughBody, half_width, moments, travelling
 from .problem import HERTZ_INLET, HERTZ_OUTLET, Problem, reach
 from .result import DeterministicResult, LoadSplit
 from .state import State
-from .strip import Strip, problem_of, solve_strip, work_of_steps
+from .strip import StripSolution, problem_of, solve_strip, work_of_steps
 from .summits import SummitControl, summits_over_time
 from .time_and_place import TimeAndPlace, mean_over_blocks
 
@@ -102,7 +102,7 @@ class SampleTarget:
 
 
 @dataclass(frozen=True, kw_only=True)
-class MovingStrip(Strip):
+class MovingStripSolution(StripSolution):
     """A strip whose roughness moved through the film; ``result`` has the means over time, and the fields of the last
     moment.
 
@@ -114,7 +114,7 @@ class MovingStrip(Strip):
       ``effort`` and ``ends`` [m], of the grid up and down stream: with which it was solved.
     """
 
-    rest: Strip
+    rest: StripSolution
     times: np.ndarray
     discarded: int
     series: dict[str, np.ndarray] = field(repr=False)
@@ -139,12 +139,12 @@ def solve_moving_strip(
     speed: float,
     *,
     factors: tuple[int, int] = (1, 1),
-    start: Strip | None = None,
+    start: StripSolution | None = None,
     slope: bool = False,
     effort: MovingEffort | None = None,
     most_steps: int | None = None,
     target: SampleTarget | None = None,
-) -> MovingStrip:
+) -> MovingStripSolution:
     """Move the rough ``bodies`` through the film at U = ``speed`` [m/s], by the length of the fastest map, or until the
     ``target`` is reached. Their speeds are along the motion.
 
@@ -159,7 +159,7 @@ def solve_moving_strip(
     target : None: the complete map passes
     """
     effort = effort_of(scene, bodies, speed, factors) if effort is None else effort
-    near = start.rest if isinstance(start, MovingStrip) else start
+    near = start.rest if isinstance(start, MovingStripSolution) else start
     rest = strip_at_rest(scene, bodies, speed, factors=factors, start=near, slope=slope, effort=effort)
     step, discarded, count = _steps_of(scene, bodies, speed, rest.problem.spacing[0], effort)
     count = count if most_steps is None else min(count, most_steps)
@@ -190,7 +190,7 @@ def solve_moving_strip(
         f"at rest f = {rest.result.coefficient:.4g}"
     )
     result = _mean(rows[discarded : discarded + count], counted.result)
-    return MovingStrip(
+    return MovingStripSolution(
         problem=counted.at.problem,
         result=replace(result, report=replace(result.report, notes=(note,))),
         slope=rest.slope,
@@ -207,12 +207,12 @@ def solve_moving_strip(
 
 
 def continued_strip(
-    scene: Scene, bodies: Sequence[RoughBody], speed: float, strip: MovingStrip
+    scene: Scene, bodies: Sequence[RoughBody], speed: float, strip: MovingStripSolution
 ) -> tuple[DeterministicResult, float]:
     """Return the means over time of ``strip`` with the inputs of another ``scene`` that has the same bodies and motion,
     and the counted work [s].
 
-    It starts at `MovingStrip.state_after_discard`, and counts once more when the film has passed the contact
+    It starts at `MovingStripSolution.state_after_discard`, and counts once more when the film has passed the contact
     (`continued_moments`). Its first step begins anew, which changes f by 1 to 2 % in these moments. So it is compared
     with a continuation at the inputs of the ``strip``, in which the roughness is in the same places: the ratio of both
     does not depend on the few places that pass in that time. Raises `ConvergenceError`.
@@ -221,7 +221,7 @@ def continued_strip(
     cell = rest.problem.spacing[0]
     (dx, dy) = bodies[0].surface.spacing
     factors = (round(cell / dx), round(rest.problem.spacing[1] / dy))
-    surface, upper = _together(bodies)
+    surface, upper = _combined(bodies)
     problem = problem_of(scene, surface, speed, factors, upper, strip.ends)
     step = float(strip.times[0])
     (discarded, counted) = continued_moments(rest.problem.line, cell, abs(speed) * step, strip.effort)
@@ -283,7 +283,7 @@ def _sample(rows: Sequence[dict[str, Any]], result: DeterministicResult, travell
     )
 
 
-def compared_moments(strip: MovingStrip) -> int:
+def compared_moments(strip: MovingStripSolution) -> int:
     """Return the number of moments of ``strip`` that are compared with those on longer cells (`COMPARED`)."""
     way = abs(strip.problem.speed) * float(strip.times[0])
     return min(strip.times.size - strip.discarded, math.ceil(COMPARED * half_width(strip.problem.line) / way))
@@ -302,18 +302,18 @@ def strip_at_rest(
     speed: float,
     *,
     factors: tuple[int, int] = (1, 1),
-    start: Strip | None = None,
+    start: StripSolution | None = None,
     slope: bool = False,
     effort: MovingEffort | None = None,
-) -> Strip:
+) -> StripSolution:
     """Solve the strip of `solve_moving_strip` with its roughness at rest, unchanged at time 0."""
-    surface, upper = _together(bodies)
+    surface, upper = _combined(bodies)
     effort = effort_of(scene, bodies, speed, factors) if effort is None else effort
     ends = _ends(scene, bodies, speed, effort)
     return solve_strip(scene, surface, speed, factors=factors, start=start, slope=slope, upper=upper, ends=ends)
 
 
-def _together(bodies: Sequence[RoughBody]) -> tuple[Surface, Surface | None]:
+def _combined(bodies: Sequence[RoughBody]) -> tuple[Surface, Surface | None]:
     """Return the sum of the maps, and the part of it that is surface 2 (None: that is smooth)."""
     heights = np.sum([body.surface.heights for body in bodies], axis=0)
     upper = next((body.surface for body in bodies if body.upper), None)
@@ -323,7 +323,7 @@ def _together(bodies: Sequence[RoughBody]) -> tuple[Surface, Surface | None]:
 def _ends(scene: Scene, bodies: Sequence[RoughBody], speed: float, effort: MovingEffort) -> tuple[float, float]:
     """Return the lengths [m] of the grid up and down stream of the line of contact."""
     line = scene.line_contact(abs(speed))
-    return reach(line, _together(bodies)[0].sq, inlet=effort.inlet, outlet=effort.outlet)
+    return reach(line, _combined(bodies)[0].sq, inlet=effort.inlet, outlet=effort.outlet)
 
 
 def _passing(
@@ -375,8 +375,8 @@ def _row(moment: Moment) -> dict[str, Any]:
     result = moment.result
     row = {name: getattr(result, name) for name in AVERAGED} | vars(result.split)
     return row | {
-        "share": result.split.spots / result.load,
-        "contact_load_at": (result.pressure * result.spots).sum(axis=0) * result.spacing[0],
+        "share": result.split.rubbing / result.load,
+        "contact_load_at": (result.pressure * result.rubbing).sum(axis=0) * result.spacing[0],
         "peak_pressure": float(moment.at.state.pressure.max()),
         "work": work_of_steps(moment.at.gap.size, moment.work.factorisations, moment.work.krylov),
     }
@@ -395,7 +395,7 @@ def effort_of(
 ) -> MovingEffort:
     """Return the `effort_for` the contact of ``scene`` at ``speed`` [m/s], on cells ``factors`` times as long as those of
     the maps."""
-    surface, _ = _together(bodies)
+    surface, _ = _combined(bodies)
     return effort_for(scene.line_contact(abs(speed)), surface.sq, factors[0] * surface.spacing[0])
 
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..._base import figures
-from .moving_strip import Moment, MovingStrip, half_width
+from .moving_strip import Moment, MovingStripSolution, half_width
 
 MOST = 8  # moments side by side
 TIME = "time since the roughness began to move (ms)"
@@ -35,7 +35,7 @@ def animate_moments(path: Path | str, moments: Sequence[Moment], frames_per_seco
     figures.animated(path, figure, draw, range(len(moments)), frames_per_second, 90)
 
 
-def plot_passing(path: Path | str, strip: MovingStrip) -> None:
+def plot_passing(path: Path | str, strip: MovingStripSolution) -> None:
     """Film, share of the load that rubs with f_b, and f over time; what does not count is grey."""
     figure = figures.new_figure(figsize=(7, 6.5))
     film, share, f = figure.subplots(3, 1, sharex=True)
@@ -50,7 +50,7 @@ def plot_passing(path: Path | str, strip: MovingStrip) -> None:
     share.plot(t, series["share"], color=figures.RED, lw=1)
     f.plot(t, series["coefficient"], color=figures.BLUE, lw=1)
     rest = strip.rest.result
-    share.axhline(rest.split.spots / rest.load, color=figures.GREY, ls="--", lw=0.8, label="roughness at rest")
+    share.axhline(rest.split.rubbing / rest.load, color=figures.GREY, ls="--", lw=0.8, label="roughness at rest")
     f.axhline(rest.coefficient, color=figures.GREY, ls="--", lw=0.8)
     for axes, label in ((film, "gap (nm)"), (share, "share of the load\nthat rubs with f_b (-)"), (f, "f (-)")):
         axes.axvspan(0, t[strip.discarded - 1], color=figures.GREY, alpha=0.2, lw=0)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..._base import FloatArray
+from ..._base import FloatArray, Renamed
 from ...errors import Report
 from ...oil import Lubricant, shear_stress
 from ..contract import ModelDetails
@@ -36,17 +36,17 @@ class LoadSplit:
     saturated: float
 
     @property
-    def spots(self) -> float:
+    def rubbing(self) -> float:
         """The load that rubs with f_b [N/m]."""
         return self.thin + self.capped
 
 
 @dataclass(frozen=True, kw_only=True)
-class DeterministicResult(ModelDetails):
+class DeterministicResult(Renamed, ModelDetails):
     """One operating point: fields on cells (nx, ny), x along the motion; forces per width [N/m].
 
     - pressure [Pa]: of film and contact together. gap [m]: between the rough surfaces, at least the floor. fill [-]:
-      the filled part of the gap, below 1 only where the film has ruptured. touching (bool): h = floor. spots (bool):
+      the filled part of the gap, below 1 only where the film has ruptured. touching (bool): h = floor. rubbing (bool):
       where the stress is f_b p. wet (bool): fluid under pressure outside the asperity contacts. shear [Pa]: on surface
       2, by the sliding. dent [m]: plastic depth.
     - boundary: f_b p over the asperity contacts. couette: shear of the film by the sliding. rolling: by the gradient
@@ -76,7 +76,7 @@ class DeterministicResult(ModelDetails):
     fill: np.ndarray
     shear: np.ndarray
     touching: np.ndarray
-    spots: np.ndarray
+    rubbing: np.ndarray
     wet: np.ndarray
     dent: np.ndarray
     coefficient: float
@@ -96,32 +96,39 @@ class DeterministicResult(ModelDetails):
     flow_film: float
     min_gap: float
     mean_gap: float
-    spot_fraction: float
-    spot_length: float
+    rubbing_fraction: float
+    rubbing_length: float
     top_pressure: float
     plastic_fraction: float
-    given: float
+    given_off: float
     central_gap: float
     approach: float
     inlet_load: float
     report: Report
     state: State = field(repr=False)
+    _RENAMED = {
+        "spots": "rubbing",
+        "spot_fraction": "rubbing_fraction",
+        "spot_length": "rubbing_length",
+        "given": "given_off",
+        "drawn": "share_given_off",
+    }
 
     @property
-    def drawn(self) -> float:
+    def share_given_off(self) -> float:
         """See above. In motion of the means over time: at moments nothing enters."""
-        return self.given / (self.given + max(self.flow_film, 0.0)) if self.given > 0 else 0.0
+        return self.given_off / (self.given_off + max(self.flow_film, 0.0)) if self.given_off > 0 else 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class SurfaceShear:
-    """How the fields shear surface 2: bools (nx, ny) of the gaps that are ``thin``, of all ``spots`` where the
+    """How the fields shear surface 2: bools (nx, ny) of the gaps that are ``thin``, of all ``rubbing`` where the
     stress is f_b p, and of the ``wet`` rest, fluid under its own law; the ``stress`` [Pa] (nx, ny); and of every column
-    along x the forces [N/m] (ny,) on spots (``boundary``) and in the film (``couette``, ``rolling``), with those
+    along x the forces [N/m] (ny,) on rubbing (``boundary``) and in the film (``couette``, ``rolling``), with those
     upstream of the grid; ``rolling_resistance`` [N/m] (ny,): of both surfaces together, against U."""
 
     thin: np.ndarray
-    spots: np.ndarray
+    rubbing: np.ndarray
     wet: np.ndarray
     stress: np.ndarray
     boundary: np.ndarray
@@ -141,14 +148,14 @@ def surface_shear(at: Iterate, law: np.ndarray, film: float) -> SurfaceShear:
     p = at.state.pressure
     h = at.balance.film
     inlet = at.balance.inlet
-    limit = problem.boundary_friction * p * (problem.sliding > 0)  # in pure rolling spots do not slide
+    limit = problem.boundary_friction * p * (problem.sliding > 0)  # in pure rolling rubbing do not slide
     dx = problem.spacing[0]
     fluid = at.state.kind == FLUID
     thin = (at.state.kind == TOUCHING) | fluid & (h < film)
-    spots = thin | fluid & (p > PRESSED) & (law > limit) if problem.lubricant.newtonian else thin
-    wet = fluid & ~spots
+    rubbing = thin | fluid & (p > PRESSED) & (law > limit) if problem.lubricant.newtonian else thin
+    wet = fluid & ~rubbing
     both = (wet[1:] & wet[:-1]) | (wet[:-1] & (p[1:] == 0)) | (wet[1:] & (p[:-1] == 0))
-    stress = np.where(spots, limit, np.where(wet, law, 0.0))
+    stress = np.where(rubbing, limit, np.where(wet, law, 0.0))
     couette = (stress * wet).sum(axis=0) * dx + problem.lubricant.viscosity * problem.sliding * inlet.shearing
     by_gradient = (0.25 * (h[1:] + h[:-1]) * (p[1:] - p[:-1]) * both).sum(axis=0) + inlet.rolling
 
@@ -158,10 +165,10 @@ def surface_shear(at: Iterate, law: np.ndarray, film: float) -> SurfaceShear:
 
     return SurfaceShear(
         thin=thin,
-        spots=spots,
+        rubbing=rubbing,
         wet=wet,
         stress=stress,
-        boundary=(limit * spots).sum(axis=0) * dx,
+        boundary=(limit * rubbing).sum(axis=0) * dx,
         couette=couette,
         rolling=problem.sense * (by_gradient - on_flanks(problem.upper)),
         rolling_resistance=2.0 * by_gradient - on_flanks(problem.heights),
@@ -180,7 +187,7 @@ def with_limit(problem: Problem, sheared: SurfaceShear, pressure: np.ndarray, la
     ``pressure`` [Pa] instead of f_b times it; ``law`` [Pa]: the stress without a limit."""
     if not problem.lubricant.newtonian:
         return 0.0
-    films = (sheared.wet | (sheared.spots & ~sheared.thin)) & (pressure > PRESSED)
+    films = (sheared.wet | (sheared.rubbing & ~sheared.thin)) & (pressure > PRESSED)
     change = np.where(films, np.minimum(law, limit * pressure) - sheared.stress, 0.0)
     return float(change.sum()) * problem.spacing[0] / pressure.shape[1] / problem.load
 
@@ -199,8 +206,8 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
         law = shear_stress(problem.sheared or problem.lubricant, p, problem.sliding / h)
     sheared, *others = (surface_shear(at, law, times * problem.boundary_film) for times in (1.0, 0.5, 2.0))
     coefficients = [float(one.friction.mean()) / problem.load for one in (sheared, *others)]
-    spots = sheared.spots
-    capped = spots & ~sheared.thin
+    rubbing = sheared.rubbing
+    capped = rubbing & ~sheared.thin
     saturated = capped | (sheared.wet & at_its_limit(problem.sheared or problem.lubricant, p, law))
     loads = (float(p[where].sum()) * dx / p.shape[1] for where in (touching, sheared.thin, capped, saturated))
     in_hertz = np.abs(problem.x) <= max(problem.line.half_width, 0.5001 * problem.spacing[0])
@@ -212,7 +219,7 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
         fill=state.fill,
         shear=sheared.stress,
         touching=touching,
-        spots=spots,
+        rubbing=rubbing,
         wet=sheared.wet,
         dent=state.dent,
         coefficient=coefficients[0],
@@ -232,11 +239,11 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
         flow_film=float(inlet.flow.mean()) / problem.speed,
         min_gap=float(h.min()),
         mean_gap=float(h[in_hertz].mean()),
-        spot_fraction=float(spots[in_hertz].mean()),
-        spot_length=float(spots.sum()) * dx / p.shape[1],
+        rubbing_fraction=float(rubbing[in_hertz].mean()),
+        rubbing_length=float(rubbing.sum()) * dx / p.shape[1],
         top_pressure=float(p[fluid & ~sheared.thin].max(initial=0.0)),
         plastic_fraction=float((state.yielded & (state.dent > 0))[in_hertz].mean()),
-        given=float(np.where(touching, np.maximum(at.residual, 0.0), 0.0)[in_hertz].sum())
+        given_off=float(np.where(touching, np.maximum(at.residual, 0.0), 0.0)[in_hertz].sum())
         * dx
         / (p.shape[1] * problem.speed),
         central_gap=float(np.interp(0.0, problem.x, h.mean(axis=1))),

@@ -7,14 +7,14 @@ from ...samples import Sample
 from ...scene import (
     FRICTION,
     Scene,
-    moves,
+    has_moving_roughness,
     moving_bodies,
 )
 from ...surface import Surface
 from ..shared import (
     Prepared,
     ReferenceKey,
-    on_strip,
+    contact_on_strip,
 )
 from .moving import RoughBody
 from .moving_strip import effort_for, moving_work
@@ -37,9 +37,9 @@ CONTROL_CELLS = 4_000_000
 
 def strip_surface(prepared: Prepared, index: int) -> Surface:
     """The map of strip ``index``; of a patch at rest all of it, on its own cells."""
-    if prepared.sample.is_only_map and not moves(prepared.scene):
+    if prepared.sample.is_only_map and not has_moving_roughness(prepared.scene):
         return prepared.surface
-    return map_of(prepared, on_strip(prepared, prepared.sample, index))
+    return map_of(prepared, contact_on_strip(prepared, prepared.sample, index))
 
 
 def map_of(prepared: Prepared, rough_contact: HalfSpaceContact) -> Surface:
@@ -101,7 +101,7 @@ def why_too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -
     """Return why "auto" leaves moving roughness to load sharing; "" if it does not."""
     scene = prepared.scene
     sample = prepared.sample
-    work = moving_point_work(scene, sample, prepared.surface.sq, speed, factors) if moves(scene) else 0.0
+    work = moving_point_work(scene, sample, prepared.surface.sq, speed, factors) if has_moving_roughness(scene) else 0.0
     if work <= MOST_WORK_IN_AUTO:
         return ""
     return (

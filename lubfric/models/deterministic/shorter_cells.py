@@ -15,33 +15,33 @@ import numpy as np
 from ..._base import limited_work, work_left
 from ...errors import ConvergenceError, LubfricError
 from ...samples import Sample
-from ...scene import moves
+from ...scene import has_moving_roughness
 from ..shared import (
     Prepared,
     ReferenceKey,
     StandardError,
     block_error,
-    on_piece,
+    contact_on_piece,
     smooth_over_cells,
     speed_of,
 )
-from .moving_strip import MovingStrip
+from .moving_strip import MovingStripSolution
 from .rough_bodies import (
     MOST_WORK_IN_AUTO,
     map_of,
 )
 from .strip import (
-    Strip,
+    StripSolution,
     changes_of,
-    estimate,
+    error_by_cells,
     solve_strip,
 )
 from .strip_on_two_grids import (
     StripOnTwoGrids,
-    cells_of,
+    factors_of,
     longer_than,
     numbers_of,
-    strip_of,
+    surface_and_factors,
 )
 
 CELLS = 0.7  # of numerics.sampling_tolerance: standard error that the effect of the cells may leave
@@ -90,7 +90,7 @@ PIECES_SHARE = 0.6
 # Factor on the estimated effect of shorter cells where these were not solved.
 UNSOLVED = 2.0
 
-Piece = tuple[Strip, ...]  # on shorter and shorter cells
+Piece = tuple[StripSolution, ...]  # on shorter and shorter cells
 ShorterCells = tuple[tuple[Piece, ...], Piece, StandardError, float, bool]
 
 # What `on_shorter_cells` returns where none are solved, and another model states the error by the cells.
@@ -110,22 +110,25 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     scene = prepared.scene
     sample = prepared.sample
     by_longer = sum(pair.change_by_cells for pair in pairs) / len(pairs)
-    factors = zip(cells_of(scene, sample), sample.cells.coarsening)
+    factors = zip(factors_of(scene, sample), sample.cells.coarsening)
     halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
     strips = [pair.resolved for pair in pairs]
-    by_motion = _by_motion(prepared, strips) if moves(scene) else 0.0
-    left = max(math.hypot(estimate([by_longer]), by_motion), SOLVED)  # along y and along x, where roughness moves
+    by_motion = _by_motion(prepared, strips) if has_moving_roughness(scene) else 0.0
+    left = max(math.hypot(error_by_cells([by_longer]), by_motion), SOLVED)  # along y and along x, where roughness moves
     enough = left <= scene.numerics.tolerance and not (sample.is_only_map and scene.numerics.grid == "given")
     enough = enough and (sample.is_only_map or smooth_over_cells(sample.strip(0).heights))
-    own = sample.cells.is_native and cells_of(scene, sample) == (1, 1)
-    if enough or own or moves(scene):
+    own = sample.cells.is_native and factors_of(scene, sample) == (1, 1)
+    if enough or own or has_moving_roughness(scene):
         return (), (), StandardError(0.0, 1), left, False
     if sample.is_only_map:
         patch = _refined(prepared, speed, 0, pairs[0])
-        return (patch,), (), StandardError(0.0, 1), max(estimate(changes_of(patch)), SOLVED), False
+        return (patch,), (), StandardError(0.0, 1), max(error_by_cells(changes_of(patch)), SOLVED), False
     try:
         with limited_work(PIECES_SHARE * work_left()):
-            if sample.strip_length < SHORT * sample.correlation_lengths[1] and strip_of(prepared, 0)[1] != (1, 1):
+            if sample.strip_length < SHORT * sample.correlation_lengths[1] and surface_and_factors(prepared, 0)[1] != (
+                1,
+                1,
+            ):
                 pieces, error = _pieces(prepared, speed, pairs[0])
             elif _by_boundary_film(strips) > SPEED_MATTERS:
                 pieces, error = _pieces(prepared, speed, None)
@@ -135,7 +138,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
         return (), (), StandardError(0.0, 1), UNSOLVED * left, True
     changes = [piece[-1].result.coefficient / piece[1].result.coefficient - 1 for piece in pieces]
     change = abs(float(np.mean(changes)))  # its error is reported
-    left = max(estimate((by_longer, change), max(halvings - 1, 1)), SOLVED)
+    left = max(error_by_cells((by_longer, change), max(halvings - 1, 1)), SOLVED)
     spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
     short = (
         SHORTEST * sample.correlation_lengths[1] / (pieces[0][-1].result.load_at.size * pieces[0][-1].result.spacing[1])
@@ -151,14 +154,14 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     coarse, fine = (strip.result for strip in shortest[-2:])
     further = abs(1 - coarse.coefficient / fine.coefficient)
     scatter = math.sqrt(max(changes_of(shortest[-2:])[0] ** 2 - further**2, 0.0))  # of its mean over places
-    left = math.hypot(max(estimate((change, further), max(halvings - 2, 1)), OFF * further, SOLVED), scatter)
+    left = math.hypot(max(error_by_cells((change, further), max(halvings - 2, 1)), OFF * further, SOLVED), scatter)
     return pieces, shortest, error, left, False
 
 
-def _by_motion(prepared: Prepared, strips: Sequence[Strip]) -> float:
+def _by_motion(prepared: Prepared, strips: Sequence[StripSolution]) -> float:
     """Return the `error_by_motion` of ``strips``, at least."""
-    follows = all(isinstance(strip, MovingStrip) and strip.follows_lubricant for strip in strips)
-    smooth = smooth_over_cells(strip_of(prepared, 0)[0].heights)
+    follows = all(isinstance(strip, MovingStripSolution) and strip.follows_lubricant for strip in strips)
+    smooth = smooth_over_cells(surface_and_factors(prepared, 0)[0].heights)
     return error_by_motion(_by_boundary_film(strips), _coarse(prepared), follows_lubricant=follows, is_smooth=smooth)
 
 
@@ -175,7 +178,7 @@ def error_by_motion(by_film: float, coarse: float, *, follows_lubricant: bool, i
     return (roughness + MOVING_THIN[order] * by_film**2) * coarse**2
 
 
-def _by_boundary_film(strips: Sequence[Strip]) -> float:
+def _by_boundary_film(strips: Sequence[StripSolution]) -> float:
     """Return the relative change of f by twice the boundary film."""
     results = [strip.result for strip in strips]
     return sum(abs(result.at_twice_film / result.coefficient - 1) for result in results) / len(results)
@@ -184,10 +187,12 @@ def _by_boundary_film(strips: Sequence[Strip]) -> float:
 def _coarse(prepared: Prepared) -> float:
     """Length along x of the cells of the deterministic model over the correlation length."""
     sample = prepared.sample
-    return cells_of(prepared.scene, sample)[0] * sample.cells.spacing[0] / sample.correlation_lengths[0]
+    return factors_of(prepared.scene, sample)[0] * sample.cells.spacing[0] / sample.correlation_lengths[0]
 
 
-def changed(prepared: Prepared, numbers: dict[str, float], pieces: Sequence[Sequence[Strip]]) -> dict[str, float]:
+def changed(
+    prepared: Prepared, numbers: dict[str, float], pieces: Sequence[Sequence[StripSolution]]
+) -> dict[str, float]:
     """``numbers`` of a point as shorter cells change them: each by its ratio on ``pieces``, each on the longer and the
     shorter cells; the loads by that of their ratio, and the force of the film such that the forces add up to f."""
     if not pieces:
@@ -227,7 +232,7 @@ def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...]
         except LubfricError:  # at that speed: heat may leave no film there
             return None
 
-    def cells(made: tuple[tuple[tuple[Strip, Strip, Strip], ...], StandardError] | None) -> int:
+    def cells(made: tuple[tuple[tuple[StripSolution, StripSolution, StripSolution], ...], StandardError] | None) -> int:
         return sum(one.problem.heights.size for piece in made[0] for one in piece) if made else 0
 
     pieces = prepared.memo.get(
@@ -268,7 +273,7 @@ def _refined(
     second solve)."""
     scene = prepared.scene
     sample = prepared.sample
-    surface, factors = strip_of(prepared, index)
+    surface, factors = surface_and_factors(prepared, index)
     enough = scene.numerics.tolerance if sample.is_only_map and scene.numerics.grid != "given" else 0.0
     if first is not None:
         ladder = [first.longer, first.resolved]
@@ -276,13 +281,13 @@ def _refined(
         cells = tuple(f * n for f, n in zip(factors, sample.cells.coarsening))
         last = max(1, cells[0] // times), max(1, cells[1] // times)
         factors = cells[0] // last[0], cells[1] // last[1]
-        surface = map_of(prepared, on_piece(prepared, sample, index, last, length=length))
-        longer: Strip | None = None
+        surface = map_of(prepared, contact_on_piece(prepared, sample, index, last, length=length))
+        longer: StripSolution | None = None
         with suppress(ConvergenceError):  # it is a start only, and cells so long may have no solution
             longer = solve_strip(scene, surface, speed, factors=longer_than(surface, factors), most=AS_START)
         strip = solve_strip(scene, surface, speed, factors=factors, start=longer, slope=slope is None)
         ladder = [strip if longer is None else longer, strip]
-    while factors != (1, 1) and (len(ladder) == 2 or estimate(changes_of(ladder)) > enough):
+    while factors != (1, 1) and (len(ladder) == 2 or error_by_cells(changes_of(ladder)) > enough):
         factors = max(1, factors[0] // 2), max(1, factors[1] // 2)
         ladder.append(solve_strip(scene, surface, speed, factors=factors, start=ladder[-1]))
     slope = ladder[1].slope if slope is None else slope

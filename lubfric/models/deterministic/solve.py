@@ -237,13 +237,13 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
     if problem.spacing == coarse.spacing:
         return smooth, 0.0
     new = dry_contact(problem)
-    spots = result.split.spots / result.load
+    rubbing_share = result.split.rubbing / result.load
 
     def near(one: State) -> bool:
         left, others = (max(residuals(evaluated(problem, at)).values()) for at in (one, dry_start(problem, new)))
         return left <= WORSE * others
 
-    if spots < SHARP and near(smooth):
+    if rubbing_share < SHARP and near(smooth):
         return smooth, 0.0
     bare = dry_contact(coarse)
 
@@ -251,12 +251,12 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
         sunk = np.where((kind == RUPTURED) & (pressure <= 0), RUPTURED, FLUID), np.maximum(-new.gap, 0.0)
         return state(pressure, *sunk, old.approach + bare.approach - new.approach)
 
-    if spots >= SHARP:
+    if rubbing_share >= SHARP:
         film = _interpolated(np.where(bare.pressure > 0, 0.0, old.pressure), along, across)
         sharp = on_dry(np.where(new.pressure > 0, new.pressure, 0.5 * film))
         if near(sharp):
             return sharp, 0.0
-    if spots > WET:
+    if rubbing_share > WET:
         return None, 0.0
     return on_dry(new.pressure + _interpolated(old.pressure - bare.pressure, along, across)), WHOLE
 

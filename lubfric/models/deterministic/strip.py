@@ -46,7 +46,7 @@ BLOCK = 2
 
 
 @dataclass(frozen=True)
-class Strip:
+class StripSolution:
     """A strip that is solved: its ``problem`` and ``result``, and the counted ``work`` of both solves (`work_of`).
 
     slope: dF/dw [-] of friction and load at one h0, from a second solve at a load 3 % larger; NaN without that.
@@ -77,13 +77,13 @@ def solve_strip(
     speed: float,
     *,
     factors: tuple[int, int] = (1, 1),
-    start: Strip | None = None,
+    start: StripSolution | None = None,
     slope: bool = False,
     tolerance: float = ENOUGH,
     upper: Surface | None = None,
     ends: tuple[float, float] | None = None,
     most: int = MOST,
-) -> Strip:
+) -> StripSolution:
     """Solve ``surface``, a strip that is periodic along y, under the bodies of ``scene`` at ``speed`` [m/s], not 0.
 
     The cells are those of the map, or ``factors`` (fx, fy) times as long: they take every fx-th and fy-th height where
@@ -113,10 +113,10 @@ def solve_strip(
         second = solve_point(heavier, start=result.state, tolerance=tolerance)
         work += work_of(second)
         rise = (second.coefficient * second.load - result.coefficient * result.load) / (second.load - result.load)
-    return Strip(problem, result, rise, work)
+    return StripSolution(problem, result, rise, work)
 
 
-def change_by_flow(strip: Strip, lubricant: Lubricant) -> float:
+def change_by_flow(strip: StripSolution, lubricant: Lubricant) -> float:
     """Relative change of f of ``strip`` if another ``lubricant`` flowed in its film, with the shear stress that it has.
     Raises `ConvergenceError`."""
     problem = strip.problem
@@ -178,7 +178,7 @@ def problem_of(
     )
 
 
-def estimate(changes: Sequence[float], left: float = math.inf) -> float:
+def error_by_cells(changes: Sequence[float], left: float = math.inf) -> float:
     """Relative error of f on the last of several grids, each twice as fine as the one before, by its ``changes`` from
     grid to grid (`change_of`).
 
@@ -195,7 +195,7 @@ def estimate(changes: Sequence[float], left: float = math.inf) -> float:
     return changes[-1] * (ratio / (1 - ratio) if endless else sum(ratio ** (k + 1) for k in range(int(left))))
 
 
-def changes_of(strips: Sequence[Strip]) -> list[float]:
+def changes_of(strips: Sequence[StripSolution]) -> list[float]:
     """The `change_of` f from each of ``strips`` to the next."""
     return [change_of(coarse.result, fine.result) for coarse, fine in zip(strips[:-1], strips[1:])]
 

@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 from ...errors import ConvergenceError
 from ...quantities import NUMBERS
 from ...samples import Sample
-from ...scene import Scene, moves
+from ...scene import Scene, has_moving_roughness
 from ...surface import Surface
 from ..shared import Prepared
-from .moving_strip import MovingStrip, SampleTarget, compared_moments, solve_moving_strip, strip_at_rest
+from .moving_strip import MovingStripSolution, SampleTarget, compared_moments, solve_moving_strip, strip_at_rest
 from .result import DeterministicResult
 from .rough_bodies import bodies_of, strip_surface, summit_control
-from .strip import Strip, change_of, change_of_places, solve_strip
+from .strip import StripSolution, change_of, change_of_places, solve_strip
 
 # Cells in a correlation length, at least.
 PER_LENGTH = 2.0
@@ -36,8 +36,8 @@ class StripOnTwoGrids:
     ``mirrored``: whether the second half along y is the mirror image of the first.
     """
 
-    resolved: Strip
-    longer: Strip
+    resolved: StripSolution
+    longer: StripSolution
     mirrored: bool = False
 
     @property
@@ -46,31 +46,33 @@ class StripOnTwoGrids:
         is that of the same moments on both, each followed from rest."""
         strip = self.resolved
         longer = self.longer
-        if isinstance(strip, MovingStrip) and isinstance(longer, MovingStrip):
+        if isinstance(strip, MovingStripSolution) and isinstance(longer, MovingStripSolution):
             moments = min(strip.sample.friction.shape[0], longer.sample.friction.shape[0])
             before, after = (sample.means_of_places(moments) for sample in (longer.sample, strip.sample))
             return change_of_places(before, after, strip.sample.mean_load)
-        return change_of(longer.result, strip.rest.result if isinstance(strip, MovingStrip) else strip.result)
+        return change_of(longer.result, strip.rest.result if isinstance(strip, MovingStripSolution) else strip.result)
 
 
-def cells_of(scene: Scene, sample: Sample) -> tuple[int, int]:
+def factors_of(scene: Scene, sample: Sample) -> tuple[int, int]:
     """Length of the cells of the deterministic model in cells of the ``sample``, along x and y: 2, or 1 where 2 would
     leave less than `PER_LENGTH` (or `MOVING`) in a correlation length or `PER_HALF_WIDTH` in half the Hertz strip, or
     does not divide the rows of a strip."""
     (lx, ly) = sample.correlation_lengths
     (dx, dy) = sample.cells.spacing
-    longest = min(lx / (MOVING if moves(scene) else PER_LENGTH), scene.bodies.half_width / PER_HALF_WIDTH)
+    longest = min(
+        lx / (MOVING if has_moving_roughness(scene) else PER_LENGTH), scene.bodies.half_width / PER_HALF_WIDTH
+    )
     along = longest >= 2 * dx * (1 - 1e-9)
     across = ly / PER_LENGTH >= 2 * dy * (1 - 1e-9) and sample.rows % 2 == 0
     return 1 + along, 1 + across
 
 
-def strip_of(prepared: Prepared, index: int) -> tuple[Surface, tuple[int, int]]:
+def surface_and_factors(prepared: Prepared, index: int) -> tuple[Surface, tuple[int, int]]:
     """Strip ``index`` and the length of the cells of the deterministic model in its own; of a patch at rest all of it,
     on the map's own cells."""
     sample = prepared.sample
-    fx, fy = cells_of(prepared.scene, sample)
-    ux, uy = sample.cells.coarsening if sample.is_only_map and not moves(prepared.scene) else (1, 1)
+    fx, fy = factors_of(prepared.scene, sample)
+    ux, uy = sample.cells.coarsening if sample.is_only_map and not has_moving_roughness(prepared.scene) else (1, 1)
     return strip_surface(prepared, index), (fx * ux, fy * uy)
 
 
@@ -88,17 +90,17 @@ def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int
     place show it). Raises `ConvergenceError`.
     """
     scene = prepared.scene
-    surface, factors = strip_of(prepared, index)
+    surface, factors = surface_and_factors(prepared, index)
     find_slope = slope is None
-    longer_cells = longer_than(surface, factors, moving=moves(scene))
-    longer: Strip
-    strip: Strip
-    if moves(scene):
+    longer_cells = longer_than(surface, factors, moving=has_moving_roughness(scene))
+    longer: StripSolution
+    strip: StripSolution
+    if has_moving_roughness(scene):
         bodies = bodies_of(prepared, index, speed)
         longer = strip_at_rest(scene, bodies, speed, factors=longer_cells)
         target = None if prepared.sample.is_only_map else sample_target(prepared)
         strip = solve_moving_strip(scene, bodies, speed, factors=factors, start=longer, target=target)
-        if isinstance(strip, MovingStrip) and longer_cells[1] > factors[1]:
+        if isinstance(strip, MovingStripSolution) and longer_cells[1] > factors[1]:
             with suppress(ConvergenceError):  # then the change at rest is all that is known
                 longer = solve_moving_strip(
                     scene,
@@ -131,7 +133,7 @@ def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, flo
     bodies = prepared.scene.bodies
     sq = prepared.surface.sq
     width = bodies.width
-    contact_load = result.split.spots * width
+    contact_load = result.split.rubbing * width
     return dict.fromkeys(NUMBERS, math.nan) | {
         "speed": result.speed,
         "coefficient": result.coefficient,
@@ -144,8 +146,8 @@ def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, flo
         "boundary_force": result.boundary * width,
         "boundary_film_load": result.split.thin * width,
         "saturated_film_load": result.split.saturated * width,
-        "real_contact_area_fraction": result.spot_fraction,
-        "real_contact_area": result.spot_length * width,
+        "real_contact_area_fraction": result.rubbing_fraction,
+        "real_contact_area": result.rubbing_length * width,
         "plastic_area_fraction": result.plastic_fraction,
         "min_film": result.min_gap,
         "central_film": result.central_gap,

@@ -21,6 +21,6 @@ from .limits import limits_exceeded
 from .methods import methods_of_load_sharing
 from .paper_model import PaperModel, PaperSolution
 from .point import Point
-from .response import Response, Slopes, loads_at, quantities, touched_length, with_contact_area_scaled
-from .scatter import Scatter, effective_spots, moment_error
+from .response import Response, Slopes, contact_length, loads_at, quantities, with_contact_area_scaled
+from .scatter import Scatter, effective_contacts, moment_error
 from .undetected import summit_radius, undetected_load

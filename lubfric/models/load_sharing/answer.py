@@ -10,13 +10,13 @@ from ...contact import ContactResult, HalfSpaceContact
 from ...oil import estimate_in_words
 from ...scene import Scene
 from ..contract import AtInputs, ContactFields, ModelAnswer
-from ..shared import Validity, contact_of, contact_on, exponents, on_piece
+from ..shared import Violation, contact_at_inputs, contact_on_piece, contact_on_strips, exponents
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
 from .decision import decided
 from .errors_of import errors_of
 from .limits import limits_exceeded
-from .response import quantities, touched_length
+from .response import contact_length, quantities
 from .scatter import film_stress
 
 CLOSER = "f is good to that error; a tighter numerics.tolerance or a larger map makes it smaller"
@@ -28,7 +28,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
     numbers = _numbers(balanced)
     errors = errors_of(scene, balanced)
     factors, _ = _cells(balanced)
-    sample = {"coarsening": factors, "strips": balanced.count, "change_by_cells": balanced.change("gap")}
+    sample = {"coarsening": factors, "strips": balanced.count, "change_by_cells": balanced.change("gap_change")}
     oil = scene.lubricant.oil
     temperature = scene.lubricant.temperature
     estimated = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
@@ -44,10 +44,13 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         why_no_error=errors.why_not,
         reasons=errors.reasons,
         length=balanced.scatter.length,
-        spots=balanced.scatter.spots,
+        effective_contacts=balanced.scatter.effective_contacts,
         area_needed=errors.area_needed,
         notes=errors.notes,
-        warnings=(*limits_of(balanced), *_finer(balanced.change("finer_grid_change"), scene.numerics.tolerance)),
+        violations=(
+            *violations_of_sample(balanced),
+            *_finer(balanced.change("finer_grid_change"), scene.numerics.tolerance),
+        ),
         recommendation=CLOSER,
         fields=fields_of(balanced),
         fine_fields=None if balanced.on_cells is None else partial(fine_fields_of, balanced),
@@ -59,8 +62,8 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
     )
 
 
-def limits_of(balanced: BalancedSample) -> tuple[Validity, ...]:
-    """Return an entry for every limit of load sharing that ``balanced`` exceeds."""
+def violations_of_sample(balanced: BalancedSample) -> tuple[Violation, ...]:
+    """Return the limits of load sharing that ``balanced`` exceeds."""
     return limits_exceeded(balanced.prepared, balanced.speed, balanced.balance, _cells(balanced)[1])
 
 
@@ -84,7 +87,7 @@ def fine_fields_of(balanced: BalancedSample) -> ContactFields:
     scene = prepared.scene
     sample = balanced.sample
     cells = sample.coarsening_to_look_at(scene.bodies.half_width)
-    rough_contact = on_piece(prepared, sample, 0, cells)
+    rough_contact = contact_on_piece(prepared, sample, 0, cells)
     balance = balanced.balance
     if balance.film is None:
         state = rough_contact.close(rough_contact.x**2 / (2 * scene.bodies.radius), balance.contact_load)
@@ -127,12 +130,12 @@ def _at_inputs(balanced: BalancedSample) -> AtInputs:
     prepared = balanced.prepared
     sample = prepared.sample
     surface = prepared.surface
-    rough_contact = contact_on(prepared, sample, sample.first)
+    rough_contact = contact_on_strips(prepared, sample, sample.first)
     start = solve_balance(prepared.scene, balanced.speed, rough_contact, surface.sq)
 
     def coefficient(scene: Scene) -> float:
         is_as_hard = scene.bodies.hardness == prepared.scene.bodies.hardness
-        there = rough_contact if is_as_hard else contact_of(prepared, sample, sample.first, scene)
+        there = rough_contact if is_as_hard else contact_at_inputs(prepared, sample, sample.first, scene)
         return solve_balance(scene, balanced.speed, there, surface.sq, start).forces.coefficient
 
     return AtInputs(middle=coefficient(prepared.scene), coefficient=coefficient)
@@ -147,7 +150,7 @@ def _cells(balanced: BalancedSample) -> tuple[tuple[int, int], float]:
     return factors, balanced.rough_contact.on_the_ends(balanced.solved.contact_state) / factors[0]
 
 
-def _finer(change: float, tolerance: float) -> tuple[Validity, ...]:
+def _finer(change: float, tolerance: float) -> tuple[Violation, ...]:
     """A warning where cells half as long as the map's own would change f by more than ``tolerance``."""
     if not change > tolerance:
         return ()
@@ -155,7 +158,7 @@ def _finer(change: float, tolerance: float) -> tuple[Validity, ...]:
     remedy = "use a map on shorter cells"
     consequence = "the map is too coarse for its roughness; the interval of f does not include that"
     return (
-        Validity(
+        Violation(
             what=what, value=100 * change, limit=100 * tolerance, unit="%", consequence=consequence, remedy=remedy
         ),
     )
@@ -171,12 +174,12 @@ def _numbers(balanced: BalancedSample) -> dict[str, float]:
     film = balance.film
     loads = (balance.film_load, balance.contact_load)
     separated = balance.contact_load == 0
-    touched = touched_length(contact_state) * balanced.effect.touched / balanced.effect.area
+    length = contact_length(contact_state) * balanced.effect.length_factor / balanced.effect.area_factor
     numbers = quantities(balance.forces, film, loads, contact_state.mean_film if separated else contact_state.mean_gap)
     return numbers | {
         "speed": balanced.speed,
         "real_contact_area_fraction": contact_state.real_contact_area_fraction,
-        "real_contact_area": touched * scene.bodies.width,
+        "real_contact_area": length * scene.bodies.width,
         "plastic_area_fraction": contact_state.plastic_area_fraction,
         "film_to_roughness_ratio": numbers["central_film"] / sq if sq > 0 else math.inf,
         "load_residual": (sum(loads) - scene.bodies.load) / scene.bodies.load,

@@ -246,7 +246,7 @@ def _beginning(point: Point, sq: float, start: Balance | None) -> tuple[float, f
         contact_state=start.contact_state,
         film_load=start.film_load,
         contact_load=start.contact_load,
-        touched=start.contact_state,
+        last_touching=start.contact_state,
     )
     if start.film.entrainment_speed == point.speed:
         return start.log_load_ratio, start.slope, NEXT_STEP, trial

@@ -24,12 +24,11 @@ from ..shared import (
     ReferenceKey,
     StandardError,
     add_errors,
-    contact_on,
-    on_piece,
-    on_stack,
+    contact_on_piece,
+    contact_on_strips,
+    has_too_few_contacts,
     required_strips,
     speed_of,
-    too_few,
 )
 from .balance import (
     Balance,
@@ -113,7 +112,7 @@ class BalancedSample:
         return self.solved.response
 
     @property
-    def gap_error(self) -> StandardError:
+    def gap_scatter(self) -> StandardError:
         """Standard error of the mean gap [m] at given load: from place to place, and of the effect of the cells."""
         return add_errors(self.scatter.gap, self.effect.error)
 
@@ -124,15 +123,15 @@ class BalancedSample:
             return 0.0
         if self.response is None:
             return self.undetected
-        of_gap = self.gap_error.error
+        of_gap = self.gap_scatter.error
         if not math.isfinite(of_gap):  # a contact without places, or of too few blocks
             return math.nan
         to_first_order = self.response.per_gap("coefficient") * of_gap
         beyond_first_order = self.response.relative("coefficient", of_gap) / to_first_order if to_first_order else 1.0
-        return self.friction_error.error * beyond_first_order
+        return self.friction_scatter.error * beyond_first_order
 
     @property
-    def friction_error(self) -> StandardError:
+    def friction_scatter(self) -> StandardError:
         """Relative standard error of f, to first order: from place to place, and of the effect of the cells."""
         cells = self.effect.error
         response = self.response
@@ -145,7 +144,7 @@ class BalancedSample:
         the scene's own cells nothing is corrected, so that loads and fields belong together."""
         if self.sample.cells.is_native:
             return 0.0
-        return self.effect.gap + self.left_by_root
+        return self.effect.gap_change + self.left_by_root
 
     @property
     def left_by_root(self) -> float:
@@ -165,7 +164,7 @@ class BalancedSample:
     @property
     def sampling_error(self) -> StandardError:
         """The relative standard error of f because the sample is finite."""
-        return StandardError(self.sampling, self.friction_error.freedom if self.response is not None else 0)
+        return StandardError(self.sampling, self.friction_scatter.freedom if self.response is not None else 0)
 
     @property
     def point(self) -> Point:
@@ -187,16 +186,16 @@ class BalancedSample:
 
     def required_strips(self) -> int:
         tolerance = self.prepared.scene.numerics.sampling_tolerance
-        spots = self.scatter.spots
-        few = self.response is not None and too_few(spots, self.sampling, tolerance)
-        enough = min(FEW / spots, (self.sampling / (MATTERS * tolerance)) ** 2) if few else 0.0
+        contacts = self.scatter.effective_contacts
+        few = self.response is not None and has_too_few_contacts(contacts, self.sampling, tolerance)
+        at_least = min(FEW / contacts, (self.sampling / (MATTERS * tolerance)) ** 2) if few else 0.0
         error = self.sampling_error
-        count = required_strips(self.count, self.sample.first, self.sample.available, error, tolerance, enough)
+        count = required_strips(self.count, self.sample.first, self.sample.available, error, tolerance, at_least)
         return count if count == self.count else min(self.sample.available, fft.next_fast_len(count, real=True))
 
     def takes_more_strips_first(self) -> bool:
         """Where few asperity contacts graze each other, more strips are cheaper than shorter cells."""
-        return self.count == self.sample.first and self.response is not None and self.scatter.spots < FEW
+        return self.count == self.sample.first and self.response is not None and self.scatter.effective_contacts < FEW
 
     @cached_property
     def is_too_coarse(self) -> bool:
@@ -212,11 +211,13 @@ class BalancedSample:
         allowed = budget.CONTACT_GRID * scene.numerics.tolerance
         if response is not None:
             moved = abs(response.log_load_ratio_per_gap * self.corrected_gap)
-            if max(abs(self.corrected_gap), abs(self.effect.film)) > LARGEST * solved.contact_state.mean_gap:
+            if max(abs(self.corrected_gap), abs(self.effect.film_change)) > LARGEST * solved.contact_state.mean_gap:
                 return True
             by_contact = solved.forces.boundary / max(solved.forces.total, 1e-300)
             part = max(by_contact, solved.contact_load / scene.bodies.load)  # of the friction, or of the load
-            if self.count == sample.available or self.scatter.spots >= FEW:  # else it is known to a factor anyway
+            if (
+                self.count == sample.available or self.scatter.effective_contacts >= FEW
+            ):  # else it is known to a factor anyway
                 part = math.inf
             if moved > FARTHEST and part * math.expm1(min(moved, 30.0)) > allowed:
                 return True
@@ -225,7 +226,7 @@ class BalancedSample:
         if self.count > sample.first or clearance > CLOSE * self.prepared.surface.sq:
             return False
         depth = lost_summits(self.prepared, self.point, solved, sample) - clearance
-        native = on_piece(self.prepared, sample, 0, (1, 1))
+        native = contact_on_piece(self.prepared, sample, 0, (1, 1))
         return depth > 0 and hidden_contact(scene, native, solved.forces, depth) > allowed
 
     def corrected(self) -> BalancedSample:
@@ -243,9 +244,9 @@ class BalancedSample:
         state = solved.contact_state
         area = solved.contact_state.real_contact_area_fraction
         by_load = response.slopes.area_factor(loads[1] - solved.contact_load, scene.bodies.width, area)
-        plastic = max(state.plastic_area_fraction + effect.plastic, 0.0)
-        state = with_contact_area_scaled(replace(state, plastic_area_fraction=plastic), effect.area * by_load)
-        mean = weighted_mean(film.film_at(self.rough_contact.x), self.rough_contact.weight) + effect.film
+        plastic = max(state.plastic_area_fraction + effect.plastic_change, 0.0)
+        state = with_contact_area_scaled(replace(state, plastic_area_fraction=plastic), effect.area_factor * by_load)
+        mean = weighted_mean(film.film_at(self.rough_contact.x), self.rough_contact.weight) + effect.film_change
         state = replace(state, mean_gap=mean, mean_film=mean)
         balance = replace(
             solved,
@@ -264,7 +265,7 @@ def solve_sample(
     """Solve the first ``count`` strips of ``sample`` at ``speed`` [m/s], joined to one line with one film and one
     approach. ``start``: the solution of fewer of them. Raises `ConvergenceError`."""
     scene = prepared.scene
-    rough_contact = contact_on(prepared, sample, count)
+    rough_contact = contact_on_strips(prepared, sample, count)
     begin = _reference(prepared, speed, sample) if start is None else start.start
     coarse = not sample.cells.is_native
     solved = solve_balance(scene, speed, rough_contact, prepared.surface.sq, begin, correctable=coarse)
@@ -312,7 +313,7 @@ def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | No
     def make() -> Balance | None:
         there = speed_of(scene, nearest * sq) * math.copysign(1.0, speed)
         try:
-            return solve_balance(scene, there, on_stack(prepared, sample, sample.first), sq)
+            return solve_balance(scene, there, contact_on_strips(prepared, sample, sample.first), sq)
         except LubfricError:
             return None
 

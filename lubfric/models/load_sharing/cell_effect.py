@@ -23,7 +23,7 @@ from ..shared import (
     StandardError,
     add_errors,
     block_error,
-    on_piece,
+    contact_on_piece,
 )
 from .balance import (
     Balance,
@@ -32,7 +32,7 @@ from .point import (
     Point,
 )
 from .response import (
-    touched_length,
+    contact_length,
 )
 from .scatter import (
     gap_influence,
@@ -68,26 +68,26 @@ BY_LOAD = 2.0
 class CellStep:
     """The change when the cells of a piece become native, at one film and one contact load.
 
-    - ``gap`` [m]: change of the mean gap beyond that of the mean film, whose columns change with the cells; ``error``:
+    - ``gap_change`` [m]: change of the mean gap beyond that of the mean film, whose columns change with the cells; ``error``:
       its standard error.
     - ``remaining_change`` [m]: estimated change of the gap still to come on native cells (0: they were reached).
     - ``finer_grid_change`` [m]: estimated change of the gap on cells half as long as native ones (NaN: native cells
       were not reached).
-    - ``film`` [m]: change of the mean film.
-    - ``area``: factor on the contact area; ``area_error``: its relative standard error and remaining change.
-    - ``touched``: factor on the contact area of the complete line, which may touch beyond A.
-    - ``plastic``: to be added to the plastic area fraction; ``edge_load_share``: share of the load on the edge columns.
+    - ``film_change`` [m]: change of the mean film.
+    - ``area_factor``: factor on the contact area; ``area_error``: its relative standard error and remaining change.
+    - ``length_factor``: factor on the contact area of the complete line, which may touch beyond A.
+    - ``plastic_change``: to be added to the plastic area fraction; ``edge_load_share``: share of the load on the edge columns.
     """
 
-    gap: float
+    gap_change: float
     error: StandardError
     remaining_change: float
     finer_grid_change: float
-    film: float
-    area: float
+    film_change: float
+    area_factor: float
     area_error: float
-    touched: float
-    plastic: float
+    length_factor: float
+    plastic_change: float
     edge_load_share: float
 
 
@@ -95,15 +95,15 @@ class CellStep:
 class CellEffect:
     """The mean `CellStep` of several pieces, which were solved at ``contact_load`` [N]."""
 
-    gap: float = 0.0
+    gap_change: float = 0.0
     error: StandardError = StandardError(0.0, 1)
     remaining_change: float = 0.0
     finer_grid_change: float = math.nan
-    film: float = 0.0
-    area: float = 1.0
+    film_change: float = 0.0
+    area_factor: float = 1.0
     area_error: float = 0.0
-    touched: float = 1.0
-    plastic: float = 0.0
+    length_factor: float = 1.0
+    plastic_change: float = 0.0
     edge_load_share: float = 0.0
     contact_load: float = 0.0
 
@@ -113,8 +113,8 @@ class CellEffect:
         if not self.contact_load:
             return self
         moved = abs(math.log(contact_load / self.contact_load))
-        rest = self.remaining_change + BY_LOAD * moved * (abs(self.gap) + self.error.error)
-        return replace(self, remaining_change=rest, area_error=self.area_error + abs(1 - self.area) * moved)
+        rest = self.remaining_change + BY_LOAD * moved * (abs(self.gap_change) + self.error.error)
+        return replace(self, remaining_change=rest, area_error=self.area_error + abs(1 - self.area_factor) * moved)
 
 
 def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, sample: Sample) -> CellEffect:
@@ -133,7 +133,16 @@ def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, sample: 
     def mean(name: str) -> float:
         return sum(getattr(step, name) for step in steps) / len(steps)
 
-    names = ("gap", "remaining_change", "finer_grid_change", "film", "area", "touched", "plastic", "edge_load_share")
+    names = (
+        "gap_change",
+        "remaining_change",
+        "finer_grid_change",
+        "film_change",
+        "area_factor",
+        "length_factor",
+        "plastic_change",
+        "edge_load_share",
+    )
     values = {name: mean(name) for name in names}
     return CellEffect(error=error, area_error=_error_of_area(steps), contact_load=balance.contact_load, **values)
 
@@ -144,7 +153,7 @@ def _error_of_area(steps: Sequence[CellStep]) -> float:
     within = sum(step.area_error for step in steps) / len(steps) / math.sqrt(len(steps))
     if math.isfinite(within):
         return within
-    factors = np.array([step.area for step in steps])
+    factors = np.array([step.area_factor for step in steps])
     return float(factors.std(ddof=1) / factors.mean() / math.sqrt(factors.size)) if factors.size >= FEWEST else math.nan
 
 
@@ -168,7 +177,7 @@ def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, in
     states: list[ContactState] = []
     rest = math.inf
     for factors in ladder:
-        rough_contact = on_piece(prepared, sample, index, factors)
+        rough_contact = contact_on_piece(prepared, sample, index, factors)
         if rest <= enough and rough_contact.heights.size > MOST_CELLS:
             break
         start = states[-1] if states else None
@@ -187,15 +196,15 @@ def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, in
     if not own:
         area_error = math.hypot(area_error, _ratio(places[-1][1], places[-2][1], step, length)[0] - 1)
     return CellStep(
-        gap=float(difference.mean()),
+        gap_change=float(difference.mean()),
         error=block_error(difference, step, length),
         remaining_change=0.0 if own else rest,
         finer_grid_change=predicted_next_change(changes[-1:-3:-1]) if own else math.nan,
-        film=states[-1].mean_film - states[0].mean_film,
-        area=area,
+        film_change=states[-1].mean_film - states[0].mean_film,
+        area_factor=area,
         area_error=area_error,
-        touched=touched_length(states[-1]) / touched_length(states[0]),
-        plastic=states[-1].plastic_area_fraction - states[0].plastic_area_fraction,
+        length_factor=contact_length(states[-1]) / contact_length(states[0]),
+        plastic_change=states[-1].plastic_area_fraction - states[0].plastic_area_fraction,
         edge_load_share=rough_contact.on_the_ends(states[-1]),
     )
 
@@ -228,7 +237,7 @@ def mean_error(steps: Sequence[CellStep]) -> StandardError:
     if all(math.isfinite(step.error.error) for step in steps):
         within = add_errors(*(step.error for step in steps))
         return StandardError(within.error / len(steps), within.freedom)
-    gaps = np.array([step.gap for step in steps])
+    gaps = np.array([step.gap_change for step in steps])
     few = gaps.size < FEWEST
     scatter = float(np.sqrt(np.mean(gaps**2))) if few else float(np.std(gaps, ddof=1))
     return StandardError(scatter / math.sqrt(gaps.size), gaps.size if few else gaps.size - 1)
@@ -260,7 +269,7 @@ def lost_summits(prepared: Prepared, point: Point, balance: Balance, sample: Sam
     to the film above it."""
     assert balance.film is not None
     own, coarse = (
-        point.pressed(on_piece(prepared, sample, 0, factors), balance.film, 0.0, None).mean_gap
+        point.pressed(contact_on_piece(prepared, sample, 0, factors), balance.film, 0.0, None).mean_gap
         for factors in ((1, 1), sample.cells.coarsening)
     )
     return own - coarse

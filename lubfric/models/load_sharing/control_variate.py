@@ -17,7 +17,7 @@ from ..shared import (
     ControlVariate,
     Prepared,
     StandardError,
-    on_strip,
+    contact_on_strip,
 )
 from .balanced_sample import BalancedSample
 from .scatter import (
@@ -43,7 +43,7 @@ def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlV
     response = balanced.response
     load = prepared.scene.bodies.load
     rough_contact: Any = balanced.rough_contact  # of cells, as there are strips
-    rows = on_strip(prepared, prepared.sample, 0).heights.shape[1]
+    rows = contact_on_strip(prepared, prepared.sample, 0).heights.shape[1]
     starts = (
         np.arange(balanced.count) * rough_contact.heights.shape[1] // balanced.count
     )  # a measured line may have some more
@@ -69,4 +69,4 @@ def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlV
         numbers[name] = value * response.rates[name] * moved
     numbers["shear_force"] = load * numbers["coefficient"] - numbers["boundary_force"]
     numbers["couette_force"] = numbers["shear_force"] - numbers["rolling_force"]
-    return ControlVariate(places, numbers, StandardError(balanced.sampling, balanced.friction_error.freedom))
+    return ControlVariate(places, numbers, StandardError(balanced.sampling, balanced.friction_scatter.freedom))

@@ -28,12 +28,12 @@ def decided(scene: Scene, rough_contact: RoughContact, balance: Balance, clearan
             notes = (*notes, text)
     return Decision(
         model="paper",
-        film=f"none, {balance.why_no_film}" if film is None else "full EHL",
-        contact=rough_contact.name if touching else f"none, clearance {clearance:.2g} Sq",
+        film_in_words=f"none, {balance.why_no_film}" if film is None else "full EHL",
+        contact_in_words=rough_contact.name if touching else f"none, clearance {clearance:.2g} Sq",
         tolerance=tolerance,
         film_tolerance=0.0 if balance.settings is None else balance.settings.film_tolerance,
-        cells=grid if touching else None,
-        heat=heat,
+        shape=grid if touching else None,
+        heat_in_words=heat,
         notes=notes,
         **sample,
     )

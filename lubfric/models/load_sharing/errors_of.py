@@ -4,8 +4,8 @@ import math
 from dataclasses import dataclass
 
 from ...quantities import depending_on
-from ...scene import Scene, budget, moves, why_gap_not_resolved
-from ..shared import FEW, FREEDOM_NOT_COUNTED, TOO_SHORT, StandardError, error_by_heat, percent, too_few
+from ...scene import Scene, budget, has_moving_roughness, why_gap_not_resolved
+from ..shared import FEW, FREEDOM_NOT_COUNTED, TOO_SHORT, StandardError, error_by_heat, has_too_few_contacts, percent
 from .balance import Balance
 from .balanced_sample import BalancedSample
 from .error_of_eq8 import least_error, load_sharing_error, starved_error
@@ -64,7 +64,7 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
         why = "no contact was met: it has no relative error"
         errors |= {"film_load": 0.0}
     else:
-        error = balanced.friction_error
+        error = balanced.friction_scatter
         mean_film = balance.contact_state.mean_film
         relative += response.per_film(forces, mean_film) * of_film
         relative += response.relative("coefficient", of_gap)
@@ -132,7 +132,7 @@ def _contact_errors(
     balance = balanced.balance
     response = balanced.response
     assert response is not None
-    scattered = balanced.gap_error.error if math.isfinite(balanced.gap_error.error) else 0.0
+    scattered = balanced.gap_scatter.error if math.isfinite(balanced.gap_scatter.error) else 0.0
     gap_error = math.hypot(scattered, gap_error + film_error * balance.contact_state.mean_film)
     errors = {name: response.relative(name, gap_error) for name in response.rates or ()}
     errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
@@ -142,8 +142,12 @@ def _contact_errors(
     for name, error in _area_errors(scene, balance, balanced.scatter).items():
         errors[name] = math.hypot(by_load, error, area_error)
     if balance.contact_state.plastic_area_fraction > 0:
-        change = balanced.effect.plastic / balance.contact_state.plastic_area_fraction
-        counted = balanced.scatter.spots**-0.5 if balanced.scatter.spots else PLASTIC * math.hypot(by_load, area_error)
+        change = balanced.effect.plastic_change / balance.contact_state.plastic_area_fraction
+        counted = (
+            balanced.scatter.effective_contacts**-0.5
+            if balanced.scatter.effective_contacts
+            else PLASTIC * math.hypot(by_load, area_error)
+        )
         errors["plastic_area_fraction"] = math.hypot(counted, change)
     return errors
 
@@ -154,7 +158,7 @@ def _area_errors(scene: Scene, balance: Balance, scatter: Scatter) -> dict[str, 
     length = float(
         balance.contact_state.contact_fraction.sum() * (balance.contact_state.x[1] - balance.contact_state.x[0])
     )
-    pairs = (fraction, scatter.area.error), (length, scatter.touched.error)
+    pairs = (fraction, scatter.area.error), (length, scatter.contact_length.error)
     finite = [(value, error if math.isfinite(error) else 0.0) for value, error in pairs]
     names = depending_on("area")
     return {name: error / value if value > 0 else math.nan for name, (value, error) in zip(names, finite, strict=True)}
@@ -205,7 +209,7 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
     share = balance.contact_load / scene.bodies.load
     forces = balance.forces
     load = scene.bodies.load
-    parts = forces.boundary, forces.shear.total, forces.shear.rolling if moves(scene) else 0.0
+    parts = forces.boundary, forces.shear.total, forces.shear.rolling if has_moving_roughness(scene) else 0.0
     ratio = film / sq if sq else math.inf
     down, up = load_sharing_error(ratio, share, *(part / load for part in parts))
     if share > 0 and sq:
@@ -229,7 +233,7 @@ def moment_model_error(
     """
     if why_gap_not_resolved(scene):
         return UNKNOWN
-    moving = rolling if moves(scene) else 0.0
+    moving = rolling if has_moving_roughness(scene) else 0.0
     down, up = load_sharing_error(film_to_roughness_ratio, share, boundary, shear, moving)
     least = least_error(film_to_roughness_ratio) if 0 < share < 1 and math.isfinite(film_to_roughness_ratio) else 0.0
     return min(max(down, least), 1.0), max(up, least)
@@ -261,9 +265,9 @@ def _notes(balanced: BalancedSample, scene: Scene, sampling: float) -> tuple[str
         )
     elif sampling > tolerance:
         notes.append(f"more than the requested {percent(tolerance)}")
-    if too_few(balanced.scatter.spots, sampling, tolerance):
+    if has_too_few_contacts(balanced.scatter.effective_contacts, sampling, tolerance):
         notes.append(
-            f"few asperity contacts carry the load (as {balanced.scatter.spots:.2g} equal ones would, fewer than {FEW:g}): the "
+            f"few asperity contacts carry the load (as {balanced.scatter.effective_contacts:.2g} equal ones would, fewer than {FEW:g}): the "
             "interval is too narrow more often than it says"
         )
     return tuple(notes)

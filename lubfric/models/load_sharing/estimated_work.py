@@ -6,7 +6,7 @@ import math
 from ...film import LineContact, flooded_inlet
 from ...oil import shear_stress
 from ...samples import Sample
-from ...scene import Scene, moves
+from ...scene import Scene, has_moving_roughness
 from ...surface import Surface
 from ..contract import WorkEstimate
 from ..shared import SAFETY, smooth_over_cells
@@ -131,7 +131,11 @@ def expected_model_error(scene: Scene, film: float, sq: float, speed: float) -> 
         return 0.0
     if speed == 0:
         return math.nan
-    rolling = rolling_share(scene.line_contact(speed), scene.bodies.mean_hertz_pressure) if moves(scene) else 0.0
+    rolling = (
+        rolling_share(scene.line_contact(speed), scene.bodies.mean_hertz_pressure)
+        if has_moving_roughness(scene)
+        else 0.0
+    )
     return load_sharing_error(film / sq, 0.0, 0.0, 1.0, rolling)[1]
 
 

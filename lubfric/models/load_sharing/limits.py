@@ -4,7 +4,7 @@ import math
 
 from ..shared import (
     Prepared,
-    Validity,
+    Violation,
     typical_heat,
     warn_deflection,
     warn_ends,
@@ -17,22 +17,26 @@ from ..shared import (
 from .balance import Balance
 
 
-def limits_exceeded(prepared: Prepared, speed: float, balance: Balance, ends: float) -> tuple[Validity, ...]:
-    """Entries for every assumption that ``balance`` violates. Those about bodies and map (`Prepared.known`) come
+def limits_exceeded(prepared: Prepared, speed: float, balance: Balance, ends: float) -> tuple[Violation, ...]:
+    """Return the limits of load sharing that ``balance`` exceeds, those about bodies and map (`Prepared.violations`)
     first. ``ends``: the share of the contact's load on the edge columns of its patch."""
     scene = prepared.scene
     film = balance.film
     thickness = film.central_film if film is not None else math.nan
-    entries = [*prepared.known, *warn_motion(scene, speed, thickness), *warn_ends(ends, prepared.surface.size[0])]
-    entries += warn_patches(scene, prepared.surface.heights, balance.contact_state.real_contact_area_fraction)
+    violations = [
+        *prepared.violations,
+        *warn_motion(scene, speed, thickness),
+        *warn_ends(ends, prepared.surface.size[0]),
+    ]
+    violations += warn_patches(scene, prepared.surface.heights, balance.contact_state.real_contact_area_fraction)
     if film is not None:
         peak = float(film.pressure.max())
         friction = balance.forces
         force = abs(friction.coefficient) * scene.bodies.load
-        entries += warn_inlet(scene, film.line, film.flow_film, force)
-        entries += warn_film(scene, thickness, peak, friction.shear, balance.film_load, force, friction.heat)
+        violations += warn_inlet(scene, film.line, film.flow_film, force)
+        violations += warn_film(scene, thickness, peak, friction.shear, balance.film_load, force, friction.heat)
         typical = typical_heat(scene, film, balance.contact_state, balance.contact_load, force, friction.shear)
-        entries += warn_typical_heat(scene, typical)
+        violations += warn_typical_heat(scene, typical)
         if scene.numerics.film_deflection == "hydrodynamic" and balance.contact_load > 0:
-            entries += warn_deflection(scene, balance.contact_state.mean_gap)
-    return tuple(entries)
+            violations += warn_deflection(scene, balance.contact_state.mean_gap)
+    return tuple(violations)

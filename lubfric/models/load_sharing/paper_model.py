@@ -10,15 +10,15 @@ from ...surface import Surface
 from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
 from ..shared import (
     ControlVariate,
-    ExpectedWarnings,
+    ExpectedViolations,
     Heat,
     Prepared,
     StandardError,
-    Validity,
+    Violation,
     expected_in_film,
     rolling_model_error,
 )
-from .answer import answer_of, limits_of
+from .answer import answer_of, violations_of_sample
 from .balanced_sample import BalancedSample, solve_sample
 from .control_variate import control_for
 from .errors_of import model_error_of_eq8
@@ -80,8 +80,8 @@ class PaperSolution(SampleSolution):
     def heat(self) -> Heat:
         return self.balanced.balance.forces.heat
 
-    def warnings(self) -> tuple[Validity, ...]:
-        return limits_of(self.balanced)
+    def violations(self) -> tuple[Violation, ...]:
+        return violations_of_sample(self.balanced)
 
     def answer(self) -> ModelAnswer:
         return answer_of(self.balanced)
@@ -99,10 +99,10 @@ class PaperModel(Model):
         width = "its model-form error is not known and not in the interval"
         return f"load-sharing model of the paper (numerics.model): fast; {width if why_gap_not_resolved(scene) else 'its interval is wide'}"
 
-    def expected_warnings(self, scene: Scene, speeds: list[float]) -> ExpectedWarnings:
+    def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:
         return expected_in_film(scene, speeds)
 
-    def estimate(
+    def estimate_work(
         self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
     ) -> WorkEstimate:
         return estimated_work(scene, sample, surface, speed)

@@ -26,7 +26,7 @@ class Settings:
 
 @dataclass(frozen=True, kw_only=True)
 class Trial:
-    """Film and contact at one division of the load [N]. ``touched``: the last contact that touched; ``cells``: of the
+    """Film and contact at one division of the load [N]. ``last_touching``: the last contact that touched; ``film_cells``: of the
     films so far: from the second on all keep to one grid, because otherwise the root of the balance would have a jump.
     """
 
@@ -34,8 +34,8 @@ class Trial:
     contact_state: ContactState
     film_load: float
     contact_load: float
-    touched: ContactState | None = None
-    cells: int = 0
+    last_touching: ContactState | None = None
+    film_cells: int = 0
 
 
 @dataclass(frozen=True)
@@ -76,17 +76,18 @@ class Point:
 
     def trial(self, film_load: float, contact_load: float, last: Trial | None = None) -> Trial:
         """The film of ``film_load`` [N], and under it the contact that carries ``contact_load`` [N], from ``last``."""
-        start, touched, cells = (last.film, last.touched, last.cells) if last else (None, None, 0)
+        start, last_touching, cells = (last.film, last.last_touching, last.film_cells) if last else (None, None, 0)
         film = self.film(film_load, start, cells)
-        contact_state = self.pressed(self.rough_contact, film, contact_load, touched)
-        touched, cells = contact_state if contact_load > 0 else touched, max(film.cells, cells) if last else 0
+        contact_state = self.pressed(self.rough_contact, film, contact_load, last_touching)
+        if contact_load > 0:
+            last_touching = contact_state
         return Trial(
             film=film,
             contact_state=contact_state,
             film_load=film_load,
             contact_load=contact_load,
-            touched=touched,
-            cells=cells,
+            last_touching=last_touching,
+            film_cells=max(film.cells, cells) if last else 0,
         )
 
     def pressed(

@@ -32,13 +32,13 @@ def loads_at(load: float, log_load_ratio: float) -> tuple[float, float]:
 class Slopes:
     """Derivatives of a rough contact by its load per width P [N/m], at a given film.
 
-    ``gap`` [m²/N]: the mean gap over A; ``area`` [m/N]: the contact area fraction of A; ``touched`` [m²/N]: the contact
+    ``gap`` [m²/N]: the mean gap over A; ``area`` [m/N]: the contact area fraction of A; ``contact_length`` [m²/N]: the contact
     area per length.
     """
 
     gap: float
     area: float
-    touched: float
+    contact_length: float
 
     def area_factor(self, more: float, width: float, area: float) -> float:
         """By which factor a contact area fraction grows under ``more`` load [N] on the ``width`` [m]."""
@@ -121,7 +121,7 @@ def respond(
     slopes = Slopes(
         (more.mean_gap - state.mean_gap) * width / step,
         (more.real_contact_area_fraction - state.real_contact_area_fraction) * width / step,
-        (touched_length(more) - touched_length(state)) * width / step,
+        (contact_length(more) - contact_length(state)) * width / step,
     )
     total = scene.bodies.load
     film_load = total - load
@@ -165,7 +165,7 @@ def quantities(
         "mean_gap": mean_gap,
         "inlet_film_factor": friction.heat.inlet_film_factor,
         "flash_temperature_rise": friction.heat.flash,
-        "film_temperature_rise": friction.heat.film,
+        "film_temperature_rise": friction.heat.film_rise,
     }
 
 
@@ -178,7 +178,7 @@ def with_contact_area_scaled(state: ContactState, factor: float) -> ContactState
     )
 
 
-def touched_length(state: ContactState) -> float:
+def contact_length(state: ContactState) -> float:
     """Contact area per length of the line [m]."""
     return float(state.contact_fraction.sum() * (state.x[1] - state.x[0]))
 

@@ -48,7 +48,7 @@ def gap_influence(hertz_mean_gap: FloatArray, line_load: FloatArray, slope: floa
     return hertz_mean_gap - slope * (line_load - line_load.mean())
 
 
-def effective_spots(line_load: FloatArray, step: float, correlation_length: float) -> float:
+def effective_contacts(line_load: FloatArray, step: float, correlation_length: float) -> float:
     """(sum P)²/sum P² over short blocks, about one asperity contact each: the number of equally loaded asperity
     contacts that would carry the load as unevenly as these."""
     size = max(1, round(SPOT * correlation_length / step))
@@ -60,16 +60,16 @@ def effective_spots(line_load: FloatArray, step: float, correlation_length: floa
 @dataclass(frozen=True, kw_only=True)
 class Scatter:
     """Standard errors of what a sample of ``length`` [m] represents: at given load of its mean gap [m], its contact
-    area fraction of A [-] and its contact area per length [m]; in balance, of f, relative. ``spots``:
-    `effective_spots`.
+    area fraction of A [-] and its contact area per length [m]; in balance, of f, relative. ``effective_contacts``:
+    `effective_contacts`.
     """
 
     length: float
     gap: StandardError = StandardError(math.inf, 0)
     area: StandardError = StandardError(math.inf, 0)
-    touched: StandardError = StandardError(math.inf, 0)
+    contact_length: StandardError = StandardError(math.inf, 0)
     friction: StandardError = StandardError(math.inf, 0)
-    spots: float = 0.0
+    effective_contacts: float = 0.0
 
 
 def scatter_of(scene: Scene, rough_contact: HalfSpaceContact, balance: Balance, sample: Sample, count: int) -> Scatter:
@@ -98,9 +98,9 @@ def scatter_of(scene: Scene, rough_contact: HalfSpaceContact, balance: Balance, 
         length=by_place.size * step,
         gap=at_given_load(hertz_mean_gap(rough_contact, state)[rows], slopes.gap),
         area=at_given_load(rough_contact.weight @ touching / rough_contact.weight.sum(), slopes.area),
-        touched=at_given_load(touching.sum(axis=0) * rough_contact.spacing[0], slopes.touched),
+        contact_length=at_given_load(touching.sum(axis=0) * rough_contact.spacing[0], slopes.contact_length),
         friction=of_friction,
-        spots=effective_spots(by_place, step, sample.correlation_lengths[1]),
+        effective_contacts=effective_contacts(by_place, step, sample.correlation_lengths[1]),
     )
 
 
@@ -113,11 +113,13 @@ def friction_influence(scene: Scene, rough_contact: HalfSpaceContact, balance: B
     if response is None or not response.rates or film is None or state.fields is None:
         return np.zeros(rough_contact.heights.shape[1])
     touching = state.fields.pressure > 0
-    touched = max(float(touching.sum(axis=0).mean()) * rough_contact.spacing[0], 1e-300)
+    touching_length = max(float(touching.sum(axis=0).mean()) * rough_contact.spacing[0], 1e-300)
     lost = film_stress(scene, rough_contact, film) @ touching * rough_contact.spacing[0]
     by_load = response.rates["coefficient"] * response.log_load_ratio_per_gap
     force = balance.forces.total / scene.bodies.width
-    slope = by_load * response.slopes.gap - response.slopes.touched * float(lost.mean()) / touched / force
+    slope = (
+        by_load * response.slopes.gap - response.slopes.contact_length * float(lost.mean()) / touching_length / force
+    )
     values = by_load * hertz_mean_gap(rough_contact, state) - lost / force
     return gap_influence(values, line_load(rough_contact, state), slope)
 

@@ -6,5 +6,5 @@
 """
 
 from .calibrated_error import ErrorModel, error_model_of, error_models, out_of_range, widening
-from .long_strips import features, long_cells, numbers_of_strip, solve_at_rest, solve_moving
+from .long_strips import factors_of_long_cells, features, numbers_of_strip, solve_at_rest, solve_moving
 from .quick_model import QuickModel, QuickSolution

@@ -16,8 +16,8 @@ from functools import cache
 import numpy as np
 
 from ..._base import packaged
-from ...scene import Scene, moves
-from ..shared import Validity, peak_hertz_pressure
+from ...scene import Scene, has_moving_roughness
+from ..shared import Violation, peak_hertz_pressure
 
 OUTSIDE = (
     "this is outside the range of the contacts behind the calibration of the quick answer, so that its model-form "
@@ -52,7 +52,7 @@ class ErrorModel:
         """Return the bias at the features ``x``."""
         return sum(factor * x[name] for name, factor in self.bias.items())
 
-    def half_width(self, x: Mapping[str, float]) -> float:
+    def log_half_width(self, x: Mapping[str, float]) -> float:
         """Return the half-width of the 95 % interval of ln f at the features ``x``."""
         spread = math.exp(sum(factor * x[name] for name, factor in self.spread.items()))
         direction = np.array([x[name] for name in self.bias])
@@ -72,14 +72,14 @@ def error_models() -> dict[str, ErrorModel]:
 
 def error_model_of(scene: Scene) -> ErrorModel:
     """Return the error model for ``scene``."""
-    return error_models()["rolling" if moves(scene) else "rest"]
+    return error_models()["rolling" if has_moving_roughness(scene) else "rest"]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Outside:
     """A number of a contact that is outside of the range of the campaign.
 
-    what, value, limit, unit : as of `lubfric.models.shared.Validity`; distance : in ln, from the range
+    what, value, limit, unit : as of `lubfric.models.shared.Violation`; distance : in ln, from the range
     """
 
     what: str
@@ -89,10 +89,10 @@ class Outside:
     distance: float
 
     @property
-    def warning(self) -> Validity:
+    def violation(self) -> Violation:
         """What a result, and `lubfric info` before it, says of it."""
         factor = 1e-9 if self.unit == "Pa" else 1.0
-        return Validity(
+        return Violation(
             what=self.what,
             value=factor * self.value,
             limit=factor * self.limit,

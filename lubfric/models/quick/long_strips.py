@@ -10,14 +10,14 @@ from contextlib import suppress
 from dataclasses import replace
 
 from ...errors import ConvergenceError
-from ...scene import Scene, moves
+from ...scene import Scene, has_moving_roughness
 from ...surface import Surface
 from ..deterministic import (
-    MovingStrip,
+    MovingStripSolution,
     RoughBody,
     SampleTarget,
-    Strip,
     StripOnTwoGrids,
+    StripSolution,
     solve_moving_strip,
     solve_strip,
 )
@@ -58,10 +58,12 @@ LEAST_BELOW = 0.02
 MOST_ROLLING = 1.5
 
 
-def long_cells(scene: Scene, spacing: Sequence[float], rows: int, lengths: Sequence[float]) -> tuple[int, int]:
+def factors_of_long_cells(
+    scene: Scene, spacing: Sequence[float], rows: int, lengths: Sequence[float]
+) -> tuple[int, int]:
     """Return the length of the long cells in those of a map of this ``spacing`` [m] with so many ``rows`` along y, along
     both axes; ``lengths`` [m]: the correlation lengths. Along y it divides the map."""
-    per_length = MOVING if moves(scene) else AT_REST
+    per_length = MOVING if has_moving_roughness(scene) else AT_REST
     longest_x = min(lengths[0] / per_length[0], scene.bodies.half_width / PER_HALF_WIDTH)
     longest_y = lengths[1] / per_length[1]
     along = max(1, math.floor(longest_x / spacing[0] * (1 + 1e-9)))
@@ -77,7 +79,7 @@ def solve_at_rest(
     cells twice as long, where it has those and they have a solution (else both are the same). ``slope``: of friction over
     load, which is put into the strip (NaN: none; None: found by a second solve). Raises `ConvergenceError`."""
     (fx, fy) = factors
-    longer: Strip | None = None
+    longer: StripSolution | None = None
     if surface.shape[1] % (2 * fy) == 0:
         with suppress(ConvergenceError):
             longer = solve_strip(scene, surface, speed, factors=(2 * fx, 2 * fy))
@@ -106,7 +108,7 @@ def numbers_of_strip(pair: StripOnTwoGrids) -> dict[str, float]:
     and ln of the sliding part of f over that on longer cells, ``by_cells``, or, of moving roughness, at rest, ``by_motion``
     (NaN: not known)."""
     result = pair.resolved.result
-    is_moving = isinstance(pair.resolved, MovingStrip)
+    is_moving = isinstance(pair.resolved, MovingStripSolution)
     longer = pair.longer.result
     sliding = result.coefficient - result.rolling / result.load
     before = longer.coefficient - longer.rolling / longer.load

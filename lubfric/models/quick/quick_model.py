@@ -15,7 +15,7 @@ import numpy as np
 
 from ...errors import ConvergenceError
 from ...samples import Sample
-from ...scene import Numerics, Scene, moves, why_gap_not_resolved
+from ...scene import Numerics, Scene, has_moving_roughness, why_gap_not_resolved
 from ...surface import Surface
 from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
 from ..deterministic import (
@@ -36,18 +36,18 @@ from ..deterministic import answer_of as deterministic_answer
 from ..load_sharing import PaperModel, PaperSolution, methods_of_load_sharing
 from ..shared import (
     ControlVariate,
-    ExpectedWarnings,
+    ExpectedViolations,
     Heat,
     Prepared,
     StandardError,
-    Validity,
+    Violation,
     expected_on_hertz,
     percent,
     rolling_model_error,
     why_no_rough_film,
 )
 from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, widening
-from .long_strips import features, long_cells, numbers_of_strip, solve_at_rest, solve_moving
+from .long_strips import factors_of_long_cells, features, numbers_of_strip, solve_at_rest, solve_moving
 
 # Strips at rest, at most: each adds .2 s.
 MOST_STRIPS = 4
@@ -89,7 +89,7 @@ class LongStrips:
     levels: Levels
     model: ErrorModel
     bias: float
-    half_width: float
+    log_half_width: float
     widening: float
     outside: tuple[Outside, ...]
 
@@ -134,7 +134,7 @@ class LongStrips:
         if f == 0:
             return math.inf, math.inf
         of_rolling = self.widening * self.model.rolling_error(rolling, sliding)
-        down, up = (sliding * abs(math.expm1(side * self.half_width)) for side in (-1, 1))
+        down, up = (sliding * abs(math.expm1(side * self.log_half_width)) for side in (-1, 1))
         return math.hypot(down, of_rolling) / abs(f), math.hypot(up, of_rolling) / abs(f)
 
 
@@ -142,44 +142,51 @@ class LongStrips:
 class QuickSolution(SampleSolution):
     """A few strips by the deterministic model on long cells, which are solved when they are needed.
 
-    ``known_line``: the line by load sharing, where it is solved: the control of strips whose roughness rests.
+    ``known_paper_solution``: the line by load sharing, where it is solved: the control of strips whose roughness rests.
     """
 
     prepared: Prepared
     sample: Sample
     count: int
     speed: float
-    known_line: PaperSolution | None = None
+    known_paper_solution: PaperSolution | None = None
 
     @cached_property
-    def line(self) -> PaperSolution:
+    def paper_solution(self) -> PaperSolution:
         """The line by load sharing."""
-        return self.known_line or PaperModel().solve(self.prepared, self.sample, self.count, self.speed).corrected()
+        return (
+            self.known_paper_solution
+            or PaperModel().solve(self.prepared, self.sample, self.count, self.speed).corrected()
+        )
 
     @property
     def sampling_error(self) -> StandardError:
-        return StandardError(0.0, 1) if self.known_line is None else self.known_line.sampling_error
+        return StandardError(0.0, 1) if self.known_paper_solution is None else self.known_paper_solution.sampling_error
 
     def required_strips(self) -> int:
-        return self.count if self.known_line is None else self.known_line.required_strips()
+        return self.count if self.known_paper_solution is None else self.known_paper_solution.required_strips()
 
     def is_too_coarse(self) -> bool:
-        return self.known_line is not None and self.known_line.is_too_coarse()
+        return self.known_paper_solution is not None and self.known_paper_solution.is_too_coarse()
 
     def takes_more_strips_first(self) -> bool:
-        return self.known_line is not None and self.known_line.takes_more_strips_first()
+        return self.known_paper_solution is not None and self.known_paper_solution.takes_more_strips_first()
 
     def corrected(self) -> QuickSolution:
-        return self if self.known_line is None else replace(self, known_line=self.known_line.corrected())
+        return (
+            self
+            if self.known_paper_solution is None
+            else replace(self, known_paper_solution=self.known_paper_solution.corrected())
+        )
 
     def control(self) -> ControlVariate | None:
-        return self.line.control()
+        return self.paper_solution.control()
 
     def heat(self) -> Heat:
-        return self.line.heat()
+        return self.paper_solution.heat()
 
-    def warnings(self) -> tuple[Validity, ...]:
-        return self.line.warnings()
+    def violations(self) -> tuple[Violation, ...]:
+        return self.paper_solution.violations()
 
     @property
     def why_by_equation(self) -> str:
@@ -194,7 +201,7 @@ class QuickSolution(SampleSolution):
     @cached_property
     def _solved(self) -> LongStrips | str:
         """The strips on long cells, or why they have no solution, as text."""
-        control = None if self.known_line is None else self.known_line.control()
+        control = None if self.known_paper_solution is None else self.known_paper_solution.control()
         try:
             return solve_long_strips(self.prepared, self.speed, control)
         except ConvergenceError as error:
@@ -226,7 +233,7 @@ class QuickSolution(SampleSolution):
     def _answer(self) -> ModelAnswer:
         """The answer: `why_sufficient` needs its error before it is requested."""
         if why := self.why_by_equation:
-            answer = self.line.answer()
+            answer = self.paper_solution.answer()
             return replace(answer, notes=(*answer.notes, why))
         return quick_answer_of(self.prepared, self.speed, self.strips)
 
@@ -241,7 +248,7 @@ def solve_long_strips(prepared: Prepared, speed: float, control: ControlVariate 
         model_tolerance=max(scene.numerics.model_tolerance, LEAST_TOLERANCE),
     )
     pairs = [_solve_strip(prepared, speed, 0, numerics, None)]
-    most = 1 if moves(scene) else MOST_STRIPS
+    most = 1 if has_moving_roughness(scene) else MOST_STRIPS
     while True:
         estimate, wanted = two_levels(prepared, pairs, control, numerics)
         if len(pairs) >= min(wanted, most):
@@ -252,22 +259,22 @@ def solve_long_strips(prepared: Prepared, speed: float, control: ControlVariate 
     x = {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
     model = error_model_of(scene)
     outside = out_of_range(scene, prepared.surface.sq, speed, model.range)
-    factor = widening(entry.distance for entry in outside)
+    factor = widening(part.distance for part in outside)
     return LongStrips(
         levels=levels_of(prepared, speed, pairs, estimate, with_shorter_cells=False),
         model=model,
         bias=model.bias_at(x),
-        half_width=factor * model.half_width(x),
+        log_half_width=factor * model.log_half_width(x),
         widening=factor,
         outside=outside,
     )
 
 
-def cells_of_strips(scene: Scene, sample: Sample) -> tuple[int, int]:
+def long_factors_of(scene: Scene, sample: Sample) -> tuple[int, int]:
     """Return the length of the long cells in those of ``sample``, of a patch at rest in those of the map."""
-    (fx, fy) = sample.cells.coarsening if sample.is_only_map and not moves(scene) else (1, 1)
+    (fx, fy) = sample.cells.coarsening if sample.is_only_map and not has_moving_roughness(scene) else (1, 1)
     (dx, dy) = sample.cells.spacing
-    return long_cells(scene, (dx / fx, dy / fy), sample.rows * fy, sample.correlation_lengths)
+    return factors_of_long_cells(scene, (dx / fx, dy / fy), sample.rows * fy, sample.correlation_lengths)
 
 
 def _solve_strip(
@@ -277,9 +284,9 @@ def _solve_strip(
     scene = prepared.scene
     sample = prepared.sample
     surface = strip_surface(prepared, index)
-    factors = long_cells(scene, surface.spacing, surface.shape[1], sample.correlation_lengths)
+    factors = factors_of_long_cells(scene, surface.spacing, surface.shape[1], sample.correlation_lengths)
     is_mirrored = sample.distinct_rows(surface.heights) < surface.shape[1]
-    if not moves(scene):
+    if not has_moving_roughness(scene):
         return replace(solve_at_rest(scene, surface, speed, factors, slope), mirrored=is_mirrored)
     target = None
     if not sample.is_only_map:
@@ -304,15 +311,17 @@ def quick_answer_of(prepared: Prepared, speed: float, strips: LongStrips) -> Mod
         largest = OF_CELLS.format(strips.model.cases)
     basis = f"deterministic model on long cells, calibrated on {strips.model.cases} solved cases"
     below, above = (math.hypot(part, bound) for part, bound in zip(answer.model_error, bounds))
-    warnings = (entry for entry in answer.warnings if entry.what != MODEL_ERROR)  # which was without the cells
+    warnings = (
+        violation for violation in answer.violations if violation.what != MODEL_ERROR
+    )  # which was without the cells
     return replace(
         answer,
         model_error=(min(below, 1.0), above),
         largest_in_model=largest,
-        warnings=(
+        violations=(
             *warnings,
             *warn_model_error(prepared, max(below, above), NARROWED),
-            *(entry.warning for entry in strips.outside),
+            *(part.violation for part in strips.outside),
         ),
         decision=replace(answer.decision, model="quick", basis=basis, notes=(NARROWER, *answer.decision.notes)),
     )
@@ -333,24 +342,24 @@ class QuickModel(Model):
         unknown = "; its model-form error is not known and not in the interval" if why_gap_not_resolved(scene) else ""
         return f"deterministic model on long cells, calibrated (numerics.model): fast, with the error of solved cases{unknown}"
 
-    def expected_warnings(self, scene: Scene, speeds: list[float]) -> ExpectedWarnings:
+    def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:
         known = error_model_of(scene).range
         at_all = out_of_range(scene, None, 0.0, known)
-        entries: list[tuple[float | None, Validity]] = [(None, entry.warning) for entry in at_all]
+        violations: list[tuple[float | None, Violation]] = [(None, part.violation) for part in at_all]
         for speed in speeds:
             outside = out_of_range(scene, _stated_sq(scene), speed, known)
-            entries += [(speed, entry.warning) for entry in outside if entry not in at_all]
-        return (*expected_on_hertz(scene), *entries)
+            violations += [(speed, part.violation) for part in outside if part not in at_all]
+        return (*expected_on_hertz(scene), *violations)
 
-    def estimate(
+    def estimate_work(
         self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
     ) -> WorkEstimate:
-        alone = PaperModel().estimate(scene, sample, surface, speed, None)
-        seconds = alone.seconds if cheaper is None and not moves(scene) else 0.0
+        alone = PaperModel().estimate_work(scene, sample, surface, speed, None)
+        seconds = alone.seconds if cheaper is None and not has_moving_roughness(scene) else 0.0
         if speed and surface.sq and sample.is_resolved and scene.transient is None:
-            count = 1 if moves(scene) else EXPECTED_STRIPS
-            seconds += work_on_strips(scene, sample, surface.sq, speed, cells_of_strips(scene, sample), count)
-        if moves(scene):
+            count = 1 if has_moving_roughness(scene) else EXPECTED_STRIPS
+            seconds += work_on_strips(scene, sample, surface.sq, speed, long_factors_of(scene, sample), count)
+        if has_moving_roughness(scene):
             return replace(alone, strips=1, length=sample.line_length(1), seconds=seconds)
         return replace(alone, seconds=seconds)
 
@@ -381,9 +390,9 @@ class QuickModel(Model):
         control: ControlVariate | None = None,
     ) -> QuickSolution:
         """Solve the line by load sharing where it is a control of the strips, which follow when they are needed."""
-        if moves(prepared.scene):
+        if has_moving_roughness(prepared.scene):
             return QuickSolution(prepared=prepared, sample=sample, count=count, speed=speed)
-        line = start.known_line if isinstance(start, QuickSolution) else None
+        line = start.known_paper_solution if isinstance(start, QuickSolution) else None
         return _beside(PaperModel().solve(prepared, sample, count, speed, start=line))
 
 
@@ -396,5 +405,5 @@ def _stated_sq(scene: Scene) -> float | None:
 def _beside(line: PaperSolution) -> QuickSolution:
     """Return the strips beside a ``line`` that is solved."""
     return QuickSolution(
-        prepared=line.prepared, sample=line.sample, count=line.count, speed=line.speed, known_line=line
+        prepared=line.prepared, sample=line.sample, count=line.count, speed=line.speed, known_paper_solution=line
     )

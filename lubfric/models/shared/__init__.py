@@ -22,7 +22,7 @@ from .checks import (
     warn_typical_heat,
 )
 from .checks_before import (
-    ExpectedWarnings,
+    ExpectedViolations,
     beforehand,
     expected_in_film,
     expected_on_hertz,
@@ -38,11 +38,10 @@ from .memo import Key, Memo, ReferenceKey, StackKey
 from .prepared import (
     Prepared,
     cells_of_contact,
-    contact_of,
-    contact_on,
-    on_piece,
-    on_stack,
-    on_strip,
+    contact_at_inputs,
+    contact_on_piece,
+    contact_on_strip,
+    contact_on_strips,
     operator_on,
     scene_of,
     why_no_rough_film,
@@ -57,13 +56,13 @@ from .statistics import (
     StandardError,
     add_errors,
     block_error,
+    has_too_few_contacts,
     means_of_blocks,
     percent,
     percent_of_sides,
     required_strips,
     smooth_over_cells,
     student,
-    too_few,
 )
 from .unknown_limit import LIMIT_RANGE, SATURATED, limit_bounds, limit_in_words
 from .unmodelled import (
@@ -74,4 +73,4 @@ from .unmodelled import (
     expected_effects,
     unmodelled_effects,
 )
-from .validity import Validity, at_value, entries_of, gathered, gathered_texts, in_a_cell, refused, sentence
+from .violation import Violation, at_value, gathered, gathered_texts, in_a_cell, refused, sentence, violations_of

@@ -12,7 +12,7 @@ from ...film import FAST, LARGEST, SLIDING, LineContact, ShearForce
 from ...oil import CELSIUS, NO_LIQUID
 from ...units import worded
 from .heat import TYPICAL, Heat
-from .validity import Validity
+from .violation import Violation
 
 if TYPE_CHECKING:
     from ...scene import Scene
@@ -62,8 +62,8 @@ SHARE = 0.2
 FRICTION = 0.2
 
 
-def warn_motion(scene: Scene, speed: float, film: float) -> Iterator[Validity]:
-    """Entries for sliding, inertia and turbulence at ``speed`` [m/s] and a film thickness [m] (NaN: no film)."""
+def warn_motion(scene: Scene, speed: float, film: float) -> Iterator[Violation]:
+    """Yield the violations by sliding, inertia and turbulence at ``speed`` [m/s] and a film thickness [m] (NaN: no film)."""
     ratio = abs(scene.motion.slide_roll_ratio)
     if ratio > OPPOSED * (1 + 1e-12):
         why = "the surfaces move against one another: heat and dimples of such films are not modelled"
@@ -73,7 +73,7 @@ def warn_motion(scene: Scene, speed: float, film: float) -> Iterator[Validity]:
             advice = (
                 "give numerics.heat = 'off' if the sliding is meant; else check transient.speed and transient.sliding"
             )
-        yield Validity(what=what, value=ratio, limit=OPPOSED, unit="", consequence=why, remedy=advice)
+        yield Violation(what=what, value=ratio, limit=OPPOSED, unit="", consequence=why, remedy=advice)
     if math.isfinite(film) and film > 0:
         oil = scene.lubricant.oil
         temperature = scene.lubricant.temperature
@@ -85,7 +85,7 @@ def warn_motion(scene: Scene, speed: float, film: float) -> Iterator[Validity]:
             why = "the film is turbulent or near it"
             what = "Reynolds number"
             remedy = "a laminar film needs less speed or more viscosity"
-            yield Validity(
+            yield Violation(
                 what=what,
                 value=reynolds,
                 limit=limit,
@@ -97,15 +97,15 @@ def warn_motion(scene: Scene, speed: float, film: float) -> Iterator[Validity]:
         elif inertia > INERTIA:
             why = "Reynolds' equation leaves inertia out"
             what = "inertia over viscous forces in the film"
-            yield Validity(
+            yield Violation(
                 what=what, value=inertia, limit=INERTIA, unit="", consequence=why, remedy="less speed or more viscosity"
             )
 
 
 def warn_film(
     scene: Scene, thickness: float, peak: float, shear: ShearForce, film_load: float, force: float, heat: Heat
-) -> Iterator[Validity]:
-    """Entries for a film of central ``thickness`` [m] and ``peak`` pressure [Pa]; the rest: `warn_shear`, `warn_heat`."""
+) -> Iterator[Violation]:
+    """Yield the violations by a film of central ``thickness`` [m] and ``peak`` pressure [Pa]; the rest: `warn_shear`, `warn_heat`."""
     yield from warn_pressure(scene, max(peak, peak_hertz_pressure(scene)))
     yield from warn_thickness(scene, thickness)
     yield from warn_shear(scene, shear, film_load, force)
@@ -118,8 +118,8 @@ def peak_hertz_pressure(scene: Scene) -> float:
     return 4 / math.pi * scene.bodies.mean_hertz_pressure
 
 
-def warn_pressure(scene: Scene, peak: float) -> Iterator[Validity]:
-    """Entries for the highest film pressure ``peak`` [Pa]."""
+def warn_pressure(scene: Scene, peak: float) -> Iterator[Violation]:
+    """Yield the violations by the highest film pressure ``peak`` [Pa]."""
     law = scene.lubricant.viscosity_law
     hertz_peak = peak_hertz_pressure(scene)
     limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(law, math.inf)
@@ -140,7 +140,7 @@ def warn_pressure(scene: Scene, peak: float) -> Iterator[Validity]:
     if scene.lubricant.density_law == "constant" and hertz_peak < limit:
         consequence += "; a constant density causes such a spike"
         remedy = f"give lubricant.density_law = 'dowson-higginson', which lowers it; {remedy}"
-    yield Validity(
+    yield Violation(
         what="highest local film pressure" if is_local else "peak film pressure",
         value=peak / 1e9,
         limit=limit / 1e9,
@@ -151,13 +151,13 @@ def warn_pressure(scene: Scene, peak: float) -> Iterator[Validity]:
     )
 
 
-def warn_thickness(scene: Scene, film: float) -> Iterator[Validity]:
-    """Entries for the central film thickness ``film`` [m]."""
+def warn_thickness(scene: Scene, film: float) -> Iterator[Violation]:
+    """Yield the violations by the central film thickness ``film`` [m]."""
     radius = scene.bodies.radius
     if not film > THICK * radius:
         return
     why = "the film is not thin compared with the cylinder"
-    yield Validity(
+    yield Violation(
         what="film over radius",
         value=film / radius,
         limit=THICK,
@@ -167,8 +167,8 @@ def warn_thickness(scene: Scene, film: float) -> Iterator[Validity]:
     )
 
 
-def warn_inlet(scene: Scene, line: LineContact, flow: float, friction: float) -> Iterator[Validity]:
-    """Entries for a film of ``line``, a `LineContact`, that a given inlet changes: its ``flow`` film [m] over that of a
+def warn_inlet(scene: Scene, line: LineContact, flow: float, friction: float) -> Iterator[Violation]:
+    """Yield the violations by a film of ``line``, a `LineContact`, that a given inlet changes: its ``flow`` film [m] over that of a
     full one, by Moes; or what the lubricant farther out would add to ``friction`` |f| F_T [N] by rolling, 12 eta U R/x
     a width from x on: ∫ h/2 dp/dx dx, where the film is far thicker than where it rolls in."""
     oil = scene.lubricant
@@ -179,11 +179,13 @@ def warn_inlet(scene: Scene, line: LineContact, flow: float, friction: float) ->
     if not oil.floods and flow <= (1 - tolerance) * flooded:
         consequence = "inlet_length or inlet_film makes the inlet starved; f depends on their values"
         what = "film over that of a fully flooded inlet (Moes)"
-        yield Validity(what=what, value=flow / flooded, limit=1.0, unit="", consequence=consequence, remedy="omit both")
+        yield Violation(
+            what=what, value=flow / flooded, limit=1.0, unit="", consequence=consequence, remedy="omit both"
+        )
     elif lost > tolerance * friction:
         what = "rolling friction of the inlet beyond inlet_length, relative to f"
         why = "f depends on where the lubricant begins"
-        yield Validity(
+        yield Violation(
             what=what,
             value=100 * lost / friction,
             limit=100 * tolerance,
@@ -193,29 +195,29 @@ def warn_inlet(scene: Scene, line: LineContact, flow: float, friction: float) ->
         )
 
 
-def warn_deflection(scene: Scene, mean_gap: float, remedy: str = ANOTHER) -> Iterator[Validity]:
-    """Entries for a film that only its own pressure deflects, over a contact with that ``mean_gap`` [m]: the possible
+def warn_deflection(scene: Scene, mean_gap: float, remedy: str = ANOTHER) -> Iterator[Violation]:
+    """Yield the violations by a film that only its own pressure deflects, over a contact with that ``mean_gap`` [m]: the possible
     error of its share of the load."""
     change = scene.bodies.strip_rise / max(mean_gap, 1e-300)
     if not change > STRIP_SHARE:
         return
     why = "a film flattened by its own pressure alone takes too much of the load: f does not tend to f_b"
     what = "rise of the undeformed cylinder over the Hertz strip, relative to the mean gap,"
-    yield Validity(what=what, value=change, limit=STRIP_SHARE, unit="", consequence=why, remedy=remedy)
+    yield Violation(what=what, value=change, limit=STRIP_SHARE, unit="", consequence=why, remedy=remedy)
 
 
-def warn_ends(share: float, length: float) -> Iterator[Validity]:
-    """Entries for the ``share`` of the contact's load on the edge columns of a patch of ``length`` [m] along x."""
+def warn_ends(share: float, length: float) -> Iterator[Violation]:
+    """Yield the violations by the ``share`` of the contact's load on the edge columns of a patch of ``length`` [m] along x."""
     if share > ON_ENDS:
         why = f"the ends of the patch, {worded(length, 'm')} apart, cut the contact off"
         what = "share of the contact load on the edge columns of the patch"
-        yield Validity(
+        yield Violation(
             what=what, value=100 * share, limit=100 * ON_ENDS, unit="%", consequence=why, remedy=LONGER, severe=True
         )
 
 
-def warn_patches(scene: Scene, heights: FloatArray, area: float) -> Iterator[Validity]:
-    """Entries for asperities that are patches of ``heights`` [m] (nx, ny), whose contact area is the fraction ``area``:
+def warn_patches(scene: Scene, heights: FloatArray, area: float) -> Iterator[Violation]:
+    """Yield the violations by asperities that are patches of ``heights`` [m] (nx, ny), whose contact area is the fraction ``area``:
     half of their base area, since they are paraboloids."""
     if scene.contact.model != "patches" or area == 0:
         return
@@ -223,7 +225,7 @@ def warn_patches(scene: Scene, heights: FloatArray, area: float) -> Iterator[Val
     if count:
         why = "a ridge without ends counts as one asperity, blunter on a longer map; f depends on the length of the map"
         what = "number of asperities that extend across the whole map"
-        yield Validity(
+        yield Violation(
             what=what,
             value=count,
             limit=0,
@@ -238,8 +240,8 @@ def meaningless(shear: ShearForce) -> bool:
     return not shear.excess <= 0.5 * abs(shear.couette)
 
 
-def warn_shear(scene: Scene, shear: ShearForce, film_load: float, friction_force: float) -> Iterator[Validity]:
-    """Entries for the ``shear`` (`ShearForce`) of a film that carries ``film_load``; ``friction_force``: f F_T; both in
+def warn_shear(scene: Scene, shear: ShearForce, film_load: float, friction_force: float) -> Iterator[Violation]:
+    """Yield the violations by the ``shear`` (`ShearForce`) of a film that carries ``film_load``; ``friction_force``: f F_T; both in
     N, or both per width.
 
     If the share of the friction that no oil carries is above the tolerance on f, that is a warning; above 0.2 the point
@@ -254,7 +256,7 @@ def warn_shear(scene: Scene, shear: ShearForce, film_load: float, friction_force
     remedy = "give lubricant.eyring_stress (some 5e6 Pa) and limiting_stress_coefficient (some 0.05 to 0.1)"
     if share > tolerance:
         severe = share > SHARE
-        yield Validity(
+        yield Violation(
             what="share of f from shear stresses that no oil carries",
             value=share,
             limit=SHARE if severe else tolerance,
@@ -267,17 +269,17 @@ def warn_shear(scene: Scene, shear: ShearForce, film_load: float, friction_force
     elif friction > FRICTION and abs(shear.couette) > tolerance * friction_force:
         what = "friction coefficient of the film"
         why = "more than any lubricant gives"
-        yield Validity(what=what, value=friction, limit=FRICTION, unit="", consequence=why, remedy=remedy)
+        yield Violation(what=what, value=friction, limit=FRICTION, unit="", consequence=why, remedy=remedy)
 
 
-def warn_heat(scene: Scene, heat: Heat) -> Iterator[Validity]:
+def warn_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
     """``heat``: `lubfric.models.shared.Heat` of a point."""
     tolerance = scene.numerics.tolerance
-    if heat.used and heat.inlet is not None:
+    if heat.is_used and heat.inlet is not None:
         spread = abs(heat.inlet.other / max(heat.inlet.factor, 1e-12) - 1)
         extrapolated = abs(scene.motion.slide_roll_ratio) > SLIDING or heat.inlet.thermal_number > LARGEST
         if extrapolated and spread > tolerance:
-            yield Validity(
+            yield Violation(
                 what="difference of two published inlet heating factors",
                 value=spread,
                 limit=tolerance,
@@ -286,8 +288,8 @@ def warn_heat(scene: Scene, heat: Heat) -> Iterator[Validity]:
                 "neither factor was made for such sliding",
                 remedy="a measured film; numerics.heat = 'off' gives the isothermal bound",
             )
-    if heat.slow and heat.change > tolerance:
-        yield Validity(
+    if heat.is_slow and heat.change > tolerance:
+        yield Violation(
             what="Péclet number of the faster surface",
             value=heat.peclet,
             limit=FAST,
@@ -298,12 +300,12 @@ def warn_heat(scene: Scene, heat: Heat) -> Iterator[Validity]:
         )
 
 
-def warn_typical_heat(scene: Scene, change: float) -> Iterator[Validity]:
-    """Entries for heat that is omitted because the lubricant does not say how its viscosity falls with the
+def warn_typical_heat(scene: Scene, change: float) -> Iterator[Violation]:
+    """Yield the violations by heat that is omitted because the lubricant does not say how its viscosity falls with the
     temperature. ``change``: the share of f that a typical oil would lose by it (`typical_heat`)."""
     if change > scene.numerics.tolerance:
         temperature, coefficient = TYPICAL
-        yield Validity(
+        yield Violation(
             what="reduction of f by the heat of the film",
             value=100 * change,
             limit=100 * scene.numerics.tolerance,
@@ -315,11 +317,11 @@ def warn_typical_heat(scene: Scene, change: float) -> Iterator[Validity]:
         )
 
 
-def warn_error(error: float | None, tolerance: float, remedy: str) -> Iterator[Validity]:
+def warn_error(error: float | None, tolerance: float, remedy: str) -> Iterator[Violation]:
     """A warning if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known)."""
     if error is not None and error > tolerance:
         why = "the error of the solve is above the requested tolerance"
-        yield Validity(
+        yield Violation(
             what="estimated numerical error of f",
             value=100 * error,
             limit=100 * tolerance,

@@ -12,7 +12,7 @@ from ...oil import carried_stress, shear_stress
 from ...scene import Bodies, Scene, unusual_values
 from ...surface import Surface, correlation_length, rms_slope
 from .checks import peak_hertz_pressure, warn_motion, warn_pressure, warn_shear
-from .validity import Validity
+from .violation import Violation
 
 # Nodes across the Hertz strip of the estimate of the shear: their sum is off by 6e-5 with an Eyring stress.
 NODES = 201
@@ -43,17 +43,17 @@ FEW = 10
 YIELDED = 4.5e9
 
 
-def beforehand(scene: Scene, surface: Surface) -> tuple[Validity, ...]:
-    """Return the entries for values far from the usual, for the bodies and for the map."""
+def beforehand(scene: Scene, surface: Surface) -> tuple[Violation, ...]:
+    """Return the violations for values far from the usual, for the bodies and for the map."""
     cells = [_cells_of_length(surface, axis) for axis in (0, 1)]
-    map_entries = warn_map(rms_slope(surface)[2], surface.shape[1] / cells[1], cells)
-    return (*warn_unusual(scene), *warn_bodies(scene.bodies), *map_entries)
+    of_map = warn_map(rms_slope(surface)[2], surface.shape[1] / cells[1], cells)
+    return (*warn_unusual(scene), *warn_bodies(scene.bodies), *of_map)
 
 
-def warn_unusual(scene: Scene) -> tuple[Validity, ...]:
-    """Return the entries for values far from the usual."""
+def warn_unusual(scene: Scene) -> tuple[Violation, ...]:
+    """Return the violations for values far from the usual."""
     return tuple(
-        Validity(
+        Violation(
             what=value.key,
             value=value.value,
             limit=value.limit,
@@ -76,14 +76,14 @@ def _cells_of_length(surface: Surface, axis: int) -> float:
         return math.nan
 
 
-def warn_bodies(bodies: Bodies) -> Iterator[Validity]:
+def warn_bodies(bodies: Bodies) -> Iterator[Violation]:
     """Half-space and elasticity of the Hertz contact."""
     wide = bodies.half_width / bodies.radius
     if wide > WIDE:
         remedy = "check bodies.load, e_prime and radius; a lighter load or a stiffer body"
         why = "the contact is about as wide as the body, which is then no half-space"
         what = "contact half-width over radius"
-        yield Validity(
+        yield Violation(
             what=what,
             value=wide,
             limit=WIDEST if wide > WIDEST else WIDE,
@@ -95,7 +95,7 @@ def warn_bodies(bodies: Bodies) -> Iterator[Validity]:
     if bodies.width < 2 * bodies.half_width:
         why = "the contact is wider than long: no line contact"
         what = "line length over contact width"
-        yield Validity(
+        yield Violation(
             what=what,
             value=bodies.width / (2 * bodies.half_width),
             limit=1.0,
@@ -107,7 +107,7 @@ def warn_bodies(bodies: Bodies) -> Iterator[Validity]:
     if bodies.hardness is None and peak > YIELDED:
         why = "hard steel yields at this pressure, but the bodies are modelled as elastic"
         what = "peak Hertz pressure"
-        yield Validity(
+        yield Violation(
             what=what,
             value=peak / 1e9,
             limit=YIELDED / 1e9,
@@ -117,14 +117,14 @@ def warn_bodies(bodies: Bodies) -> Iterator[Validity]:
         )
 
 
-def warn_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterator[Validity]:
-    """Entries for the map. ``slope``: its rms slope [-]; ``lengths``: its width over its correlation length across the
+def warn_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterator[Violation]:
+    """Yield the violations by the map. ``slope``: its rms slope [-]; ``lengths``: its width over its correlation length across the
     motion; ``cells``: in its correlation length along x and y. NaN: not known."""
     if slope > STEEP:
         remedy = "check the units of heights and spacing; filter the map at the scale that matters"
         why = "the half-space assumes small slopes; contact area and pressures are wrong"
         what = "rms slope of the map"
-        yield Validity(
+        yield Violation(
             what=what,
             value=slope,
             limit=STEEPEST if slope > STEEPEST else STEEP,
@@ -135,7 +135,7 @@ def warn_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Itera
         )
     if lengths < FEW:
         why = "few asperities: another patch of the same surface would give another f"
-        yield Validity(
+        yield Violation(
             what="width of the map over its correlation length",
             value=lengths,
             limit=FEW,
@@ -147,7 +147,7 @@ def warn_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Itera
         if count < NOISE:
             what = f"cells in a correlation length along {axis}"
             remedy = f"a shorter step along {axis}, {FILTERED}"
-            yield Validity(
+            yield Violation(
                 what=what,
                 value=count,
                 limit=NOISE,
@@ -159,27 +159,29 @@ def warn_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Itera
 
 
 # Limits that will be exceeded, each with the speed [m/s] at which it is; None: at all speeds.
-ExpectedWarnings = tuple[tuple[float | None, Validity], ...]
+ExpectedViolations = tuple[tuple[float | None, Violation], ...]
 
 
-def expected_on_hertz(scene: Scene) -> ExpectedWarnings:
+def expected_on_hertz(scene: Scene) -> ExpectedViolations:
     """Return the limits of the oil that the peak Hertz pressure exceeds at all speeds, none of them severe."""
-    return tuple((None, replace(entry, severe=False)) for entry in warn_pressure(scene, peak_hertz_pressure(scene)))
+    return tuple(
+        (None, replace(violation, severe=False)) for violation in warn_pressure(scene, peak_hertz_pressure(scene))
+    )
 
 
-def expected_in_film(scene: Scene, speeds: list[float]) -> ExpectedWarnings:
+def expected_in_film(scene: Scene, speeds: list[float]) -> ExpectedViolations:
     """Return the limits that the film expected under the total load exceeds at ``speeds`` [m/s]."""
-    entries: list[tuple[float | None, Validity]] = []
+    violations: list[tuple[float | None, Violation]] = []
     for speed in speeds:
         if speed != 0:
             film = scene.line_contact(speed).expected_film
-            entries += [(speed, entry) for entry in warn_motion(scene, speed, film)]
-            entries += [(speed, entry) for entry in _warn_film(scene, speed, film)]
-    return tuple(entries)
+            violations += [(speed, violation) for violation in warn_motion(scene, speed, film)]
+            violations += [(speed, violation) for violation in _warn_film(scene, speed, film)]
+    return tuple(violations)
 
 
-def _warn_film(scene: Scene, speed: float, film: float) -> list[Validity]:
-    """Entries for a ``film`` [m] of even thickness under the Hertz pressure."""
+def _warn_film(scene: Scene, speed: float, film: float) -> list[Violation]:
+    """Yield the violations by a ``film`` [m] of even thickness under the Hertz pressure."""
     bodies = scene.bodies
     lubricant = scene.lubricant
     w = scene.bodies.load / scene.bodies.width

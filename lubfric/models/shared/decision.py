@@ -2,36 +2,44 @@
 
 from dataclasses import dataclass
 
+from ..._base import Renamed
 from .statistics import percent
 
 
 @dataclass(frozen=True, kw_only=True)
-class Decision:
+class Decision(Renamed):
     """The models of film and contact, and the sample, of one operating point.
 
-    - ``model``: its name in ``numerics.model``; ``film``, ``contact``: as text.
+    - ``model``: its name in ``numerics.model``; ``film_in_words``, ``contact_in_words``: as text.
     - ``tolerance``: the requested one, on f; ``film_tolerance``: of the film (0: no film).
-    - ``cells``: (nx, ny) of the contact (None: none was solved on cells); ``coarsening``: length of its cells in cells
+    - ``shape``: (nx, ny) of the contact (None: none was solved on cells); ``coarsening``: length of its cells in cells
       of the scene's map, along each axis; ``strips``: number of strips of the surface that were solved.
     - ``change_by_cells``: relative change of f by the scene's own cells, for which it is corrected.
-    - ``heat``: which heat was modelled, as text ("": none can be).
+    - ``heat_in_words``: which heat was modelled, as text ("": none can be).
     - ``basis``: what the model-form error rests on, as text; first in ``text`` ("": the error formulas of the model).
-    - ``rubbing``: what the ``contact_load`` of this model is, as text with a place for its part of the load.
+    - ``contact_load_in_words``: what the ``contact_load`` of this model is, as text with a place for its part of the load.
     """
 
     model: str
-    film: str
-    contact: str
+    film_in_words: str
+    contact_in_words: str
     tolerance: float
     film_tolerance: float = 0.0
-    cells: tuple[int, int] | None = None
+    shape: tuple[int, int] | None = None
     coarsening: tuple[int, int] = (1, 1)
     strips: int = 1
     change_by_cells: float = 0.0
-    heat: str = ""
+    heat_in_words: str = ""
     notes: tuple[str, ...] = ()
     basis: str = ""
-    rubbing: str = "The asperities carry {part} of the load"
+    contact_load_in_words: str = "The asperities carry {part} of the load"
+    _RENAMED = {
+        "film": "film_in_words",
+        "contact": "contact_in_words",
+        "cells": "shape",
+        "heat": "heat_in_words",
+        "rubbing": "contact_load_in_words",
+    }
 
     @property
     def text(self) -> str:
@@ -41,14 +49,16 @@ class Decision:
     @property
     def parts(self) -> tuple[str, ...]:
         """The parts of the ``text``: what the error rests on, film, contact, sample, heat and notes."""
-        film = f"film: {self.film}" + (f", tolerance {percent(self.film_tolerance)}" if self.film_tolerance else "")
-        parts = self.basis, film, f"contact: {self.contact}", self._cells(), self.heat, *self.notes
+        film = f"film: {self.film_in_words}" + (
+            f", tolerance {percent(self.film_tolerance)}" if self.film_tolerance else ""
+        )
+        parts = self.basis, film, f"contact: {self.contact_in_words}", self._cells(), self.heat_in_words, *self.notes
         return tuple(part for part in parts if part)
 
     def _cells(self) -> str:
-        if self.cells is None:
+        if self.shape is None:
             return ""
-        text = f"{self.strips} strip{'s' if self.strips > 1 else ''} of {self.cells[0]} x {self.cells[1]} cells in all"
+        text = f"{self.strips} strip{'s' if self.strips > 1 else ''} of {self.shape[0]} x {self.shape[1]} cells in all"
         if self.coarsening == (1, 1):
             return f"{text}, the map's own"
         fx, fy = self.coarsening

@@ -55,7 +55,7 @@ class Heat:
     """
 
     inlet: InletHeat | None = None
-    used: bool = False
+    is_used: bool = False
     change: float = 0.0
     heated: FilmHeat | None = None
     peclet: float = math.inf
@@ -64,7 +64,7 @@ class Heat:
     @property
     def film_factor(self) -> float:
         """Factor on the film by the heat of the inlet; 1 if that is omitted."""
-        return self.inlet.factor if self.used and self.inlet is not None else 1.0
+        return self.inlet.factor if self.is_used and self.inlet is not None else 1.0
 
     @property
     def flash(self) -> float:
@@ -72,7 +72,7 @@ class Heat:
         return self.heated.flash if self.heated else math.nan
 
     @property
-    def film(self) -> float:
+    def film_rise(self) -> float:
         """Largest mean rise of the film over the surfaces [K]; NaN if it was not computed."""
         return self.heated.film if self.heated else math.nan
 
@@ -82,7 +82,7 @@ class Heat:
         return math.nan if self.inlet is None else self.film_factor
 
     @property
-    def evaluated(self) -> bool:
+    def is_evaluated(self) -> bool:
         """Whether the change of f by the temperatures was evaluated."""
         return math.isfinite(self.peclet)
 
@@ -96,7 +96,7 @@ class Heat:
             return "not computed: how the viscosity falls with the temperature is not given (lubricant.grade gives it)"
         if self.inlet is None:
             return "not computed: without entrainment there is no film"
-        if not self.evaluated:
+        if not self.is_evaluated:
             return "not computed: nothing slides, or the film is far outside its range"
         return f"not computed: heat changes f by at most {100 * self.change:.2g} %, less than the tolerance allows"
 
@@ -106,7 +106,7 @@ class Heat:
         return self.change if self.heated is None else 0.0
 
     @property
-    def slow(self) -> bool:
+    def is_slow(self) -> bool:
         """Whether the surfaces move too slowly for the formula of the flash temperature, which is then too high."""
         return self.peclet < FAST
 
@@ -116,13 +116,13 @@ class Heat:
             return ""
         limit = f"{100 * budget.HEAT * tolerance:.2g} %"
         inlet = f"inlet not included, film -{100 * (1 - self.inlet.factor):.2g} %"
-        if self.used:
+        if self.is_used:
             inlet = f"inlet, film x {self.inlet.factor:.3g} ({self.inlet.other:.3g} by another factor)"
         if self.heated is None:
             return (
                 f"heat: {inlet}; film and flash not included, at most {100 * self.change:.2g} % of f ({limit} allowed)"
             )
-        return f"heat: {inlet}; flash {self.flash:.2g} K and film {self.film:.2g} K, f {-100 * self.change:+.2g} %"
+        return f"heat: {inlet}; flash {self.flash:.2g} K and film {self.film_rise:.2g} K, f {-100 * self.change:+.2g} %"
 
 
 def inlet_at(scene: Scene, speed: float) -> tuple[InletHeat | None, bool]:
@@ -184,14 +184,14 @@ def point_heat(
     warm = film_lubricant(scene, film.entrainment_speed).viscosity if used else None
     pressed = float(film.pressure.max()) > NO_LIQUID  # a rigid film far above its range, on the way to one that is not
     if scene.motion.slide_roll_ratio == 0 or pressed or not shear.excess < math.inf:
-        return Heat(inlet=inlet, used=used), warm, None
+        return Heat(inlet=inlet, is_used=used), warm, None
     lubricant = scene.lubricant
     numerics = scene.numerics
     nodes, change_by = _nodes(scene, film, contact_state, contact_load, force)
     change = change_by(isothermal_heat(lubricant, *nodes).stress)
     peclet = peclet_at(scene, film.entrainment_speed)
     if numerics.heat != "on" and change <= budget.HEAT * numerics.tolerance:
-        return Heat(inlet=inlet, used=used, change=change, heated=None, peclet=peclet), warm, None
+        return Heat(inlet=inlet, is_used=used, change=change, heated=None, peclet=peclet), warm, None
     heated = heated_film(lubricant, *nodes)
     (x, *_, around) = nodes
     change = change_by(heated.stress)
@@ -199,7 +199,7 @@ def point_heat(
     def stress(at: FloatArray, pressure: FloatArray, thickness: FloatArray) -> FloatArray:
         return heated_stress(lubricant, pressure, thickness, around.sliding, np.interp(at, x, heated.wall))[0]
 
-    return Heat(inlet=inlet, used=used, change=change, heated=heated, peclet=peclet), warm, stress
+    return Heat(inlet=inlet, is_used=used, change=change, heated=heated, peclet=peclet), warm, stress
 
 
 def _nodes(
@@ -230,13 +230,13 @@ def _nodes(
     return (x, p, h, around), change_by
 
 
-def surroundings(scene: Scene, speed: float, wet: FloatArray, spots: FloatArray) -> Surroundings:
+def surroundings(scene: Scene, speed: float, wet: FloatArray, boundary_stress: FloatArray) -> Surroundings:
     """What is around the nodes of a film at U = ``speed`` [m/s]: ``wet``, the share of the width that it covers, and
-    the stress of contact ``spots`` [Pa], each (n,)."""
+    the ``boundary_stress`` [Pa] of the asperity contacts beside it, each (n,)."""
     speed, ratio = abs(speed), scene.motion.slide_roll_ratio
     surfaces = (speed * abs(1 - 0.5 * ratio), speed * abs(1 + 0.5 * ratio))
     carried = sum(e * math.sqrt(u) for e, u in zip(scene.bodies.effusivity, surfaces))
-    return Surroundings(carried, ratio * speed, wet, spots * abs(ratio * speed))
+    return Surroundings(carried, ratio * speed, wet, boundary_stress * abs(ratio * speed))
 
 
 def typical_heat(

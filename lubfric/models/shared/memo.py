@@ -50,19 +50,19 @@ class StripKey(Key[HalfSpaceContact]):
 class PieceMapKey(Key[Surface]):
     """The map of piece ``index``, some ``length`` correlation lengths long, on native cells."""
 
-    coarsening: tuple[int, int]
+    sample_coarsening: tuple[int, int]
     index: int
     length: float
 
 
 @dataclass(frozen=True)
 class PieceKey(Key[HalfSpaceContact]):
-    """The contact on piece ``index``, on ``cells`` so many native ones long."""
+    """The contact on piece ``index``, on ``coarsening`` so many native ones long."""
 
-    coarsening: tuple[int, int]
+    sample_coarsening: tuple[int, int]
     index: int
     length: float
-    cells: tuple[int, int]
+    coarsening: tuple[int, int]
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,6 @@
 import math
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import cast
 
 import numpy as np
 
@@ -17,7 +16,7 @@ from ...samples import (
 from ...scene import Scene
 from ...surface import Surface
 from .memo import Memo, OperatorKey, PieceKey, PieceMapKey, StackKey, StripKey
-from .validity import Validity
+from .violation import Violation
 
 OWN = HalfSpaceContact, FlatContact, AsperityContact
 
@@ -33,18 +32,18 @@ class Prepared(FieldsOnly, Renamed, Shown):
     surface : the height map whose statistics hold: of strips the one that is solved first, of an only map that map on
         native cells
     rough_contact : the rough contact that is solved first, on the cells of ``sample``
-    known : assumptions of the model that bodies and map violate, known before any solve
+    violations : assumptions of the model that bodies and map violate, known before any solve
     sample : what represents the infinite rough line contact
-    given : whether a map or a contact was given to `lubfric.prepare`, so that there is no more of it
+    is_given : whether a map or a contact was given to `lubfric.prepare`, so that there is no more of it
     """
 
     scene: Scene
     surface: Surface
     rough_contact: RoughContact
     sample: Sample
-    known: tuple[Validity, ...] = ()
-    given: bool = False
-    _RENAMED = {"contact": "rough_contact"}
+    violations: tuple[Violation, ...] = ()
+    is_given: bool = False
+    _RENAMED = {"contact": "rough_contact", "known": "violations", "given": "is_given"}
 
     @property
     def has_own_contact(self) -> bool:
@@ -54,7 +53,7 @@ class Prepared(FieldsOnly, Renamed, Shown):
     @property
     def is_joint(self) -> bool:
         """Whether one map was given for all bodies, and nobody knows what of it is whose."""
-        return self.given and not self.sample.bodies
+        return self.is_given and not self.sample.bodies
 
     @cached_property
     def memo(self) -> Memo:
@@ -74,30 +73,25 @@ def why_no_rough_film(prepared: Prepared, speed: float) -> str:
     return "the surfaces are smooth" if prepared.surface.sq == 0 else ""
 
 
-def contact_on(prepared: Prepared, sample: Sample, count: int) -> RoughContact:
+def contact_on_strips(prepared: Prepared, sample: Sample, count: int) -> RoughContact:
     """Return the contact on the first ``count`` strips of ``sample``; of an unresolved one the only contact.
 
     ``sample``: that of ``prepared``, on any cells; the memo knows its cells and the number of strips, and no more.
     """
 
     def make() -> RoughContact:
-        return contact_of(prepared, sample, count, prepared.scene)
+        return contact_at_inputs(prepared, sample, count, prepared.scene)
 
     return prepared.memo.get(StackKey(sample.cells.coarsening, count), make, cells_of_contact)
 
 
-def contact_of(prepared: Prepared, sample: Sample, count: int, scene: Scene) -> RoughContact:
+def contact_at_inputs(prepared: Prepared, sample: Sample, count: int, scene: Scene) -> RoughContact:
     """Return the contact of ``scene``, which differs from the prepared one in inputs only, on the first ``count`` strips
     of ``sample``."""
     return sample.contact(scene, count, partial(operator_on, prepared.memo, prepared.scene))
 
 
-def on_stack(prepared: Prepared, sample: Sample, count: int) -> HalfSpaceContact:
-    """Return the contact on the first ``count`` strips of ``sample``, which is resolved."""
-    return cast(HalfSpaceContact, contact_on(prepared, sample, count))
-
-
-def on_strip(prepared: Prepared, sample: Sample, index: int) -> HalfSpaceContact:
+def contact_on_strip(prepared: Prepared, sample: Sample, index: int) -> HalfSpaceContact:
     """Return the contact on strip ``index`` of ``sample`` alone."""
 
     def make() -> HalfSpaceContact:
@@ -107,7 +101,7 @@ def on_strip(prepared: Prepared, sample: Sample, index: int) -> HalfSpaceContact
     return prepared.memo.get(StripKey(sample.cells.coarsening, index), make, lambda contact: contact.heights.size)
 
 
-def on_piece(
+def contact_on_piece(
     prepared: Prepared, sample: Sample, index: int, cells: tuple[int, int], length: float = PIECE
 ) -> HalfSpaceContact:
     """Return the contact on piece ``index`` of ``sample`` (`Sample.piece`), on ``cells`` so many native ones long."""

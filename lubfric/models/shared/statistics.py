@@ -154,10 +154,10 @@ def required_strips(
     return min(available, math.ceil(min(max(times, spare[1]), most) * count - 1e-9))
 
 
-def too_few(spots: float, reached: float, target: float) -> bool:
+def has_too_few_contacts(effective_contacts: float, reached: float, target: float) -> bool:
     """Whether so few asperity contacts carry the load that an interval is too narrow more often than it says, and the
     standard error ``reached`` is not small compared with ``target``. 0 contacts: nothing touches."""
-    return 0 < spots < FEW and reached > MATTERS * target
+    return 0 < effective_contacts < FEW and reached > MATTERS * target
 
 
 def student(freedom: float) -> float:

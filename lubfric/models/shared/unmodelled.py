@@ -15,7 +15,7 @@ import numpy as np
 
 from ...film import flooded_inlet, hertz, starved_inlet
 from ...oil import carried_stress, shear_stress
-from ...scene import Scene, moves
+from ...scene import Scene, has_moving_roughness
 from .heat import TYPICAL
 
 # Film over that of a full inlet, of the example of a starved one. A convention, not measured.
@@ -173,7 +173,7 @@ def _of_film(
         effects.append(
             (words, change(scene, WORN * sq), "give a height map measured after running-in, or use lubfric.run_in")
         )
-        if moves(scene) and not includes_motion and line.expected_film < THICK * sq:
+        if has_moving_roughness(scene) and not includes_motion and line.expected_film < THICK * sq:
             effects.append(
                 ("motion of the roughness through the contact", math.nan, "numerics.model = 'deterministic' models it")
             )

@@ -2,7 +2,7 @@
 
 import time
 
-from lubfric.models.quick import long_cells, numbers_of_strip, solve_at_rest, solve_moving
+from lubfric.models.quick import factors_of_long_cells, numbers_of_strip, solve_at_rest, solve_moving
 
 from .case import Case
 
@@ -13,7 +13,7 @@ def quick(case: Case) -> dict[str, float]:
     facts = case.facts
     (nx, ny) = case.surface.shape
     lengths = (facts["length_x"], facts["length_y"])
-    factors = long_cells(case.scene, case.surface.spacing, ny, lengths)
+    factors = factors_of_long_cells(case.scene, case.surface.spacing, ny, lengths)
     if facts["motion"] == "rolling":
         pair = solve_moving(case.scene, case.bodies, case.speed, factors)
     else:

@@ -10,7 +10,7 @@ from types import FrameType
 import numpy as np
 
 import lubfric
-from lubfric.models.deterministic import DeterministicResult, Strip, solve_moving_strip, solve_strip
+from lubfric.models.deterministic import DeterministicResult, StripSolution, solve_moving_strip, solve_strip
 
 from ...types import PlainRow
 from .case import Case
@@ -105,7 +105,7 @@ def deterministic(case: Case) -> dict[str, float]:
         moving = solve_moving_strip(scene, case.bodies, case.speed)
         rest = moving.rest.result.coefficient
         return numbers(moving.result) | {"f_rest": rest, "f_coarse": math.nan, "work": moving.work}
-    first: Strip | None = None
+    first: StripSolution | None = None
     with suppress(lubfric.ConvergenceError):
         first = solve_strip(scene, case.surface, case.speed, factors=(COARSE, COARSE))
     strip = solve_strip(scene, case.surface, case.speed, start=first)
@@ -131,5 +131,5 @@ def numbers(result: DeterministicResult) -> dict[str, float]:
         "central": result.central_gap,
         "min_gap": result.min_gap,
         "top_pressure": result.top_pressure,
-        "drawn": result.drawn,
+        "drawn": result.share_given_off,
     }

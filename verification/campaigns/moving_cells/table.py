@@ -69,7 +69,7 @@ def followed(contact: RollingContact, seed: int, halvings: int) -> PlainRow:
         "f": result.coefficient,
         "half": result.at_half_film,
         "twice": result.at_twice_film,
-        "share": result.split.spots / result.load,
+        "share": result.split.rubbing / result.load,
         "mean_gap": result.mean_gap,
         "min_gap": result.min_gap,
         "coarse": cell / prepared.sample.correlation_lengths[0],

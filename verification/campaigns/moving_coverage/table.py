@@ -20,7 +20,7 @@ from lubfric.models import DeterministicModel, prepare
 from lubfric.models.deterministic import (
     TIGHT,
     DeterministicSolution,
-    MovingStrip,
+    MovingStripSolution,
     RoughBody,
     SampleTarget,
     effort_of,
@@ -28,7 +28,7 @@ from lubfric.models.deterministic import (
     solve_moving_strip,
 )
 from lubfric.models.deterministic.rough_bodies import bodies_of, summit_control
-from lubfric.models.deterministic.strip_on_two_grids import strip_of
+from lubfric.models.deterministic.strip_on_two_grids import surface_and_factors
 from lubfric.models.shared import Prepared, student
 from lubfric.scene import Scene, moving_bodies
 from lubfric.surface import generate_surface
@@ -187,23 +187,23 @@ def answer(contact: RollingContact, seed: int) -> PlainRow:
     solution = sampled(prepare(with_seed(contact, seed)), contact.speed, DeterministicModel())
     assert isinstance(solution, DeterministicSolution)
     parts = solution.answer()
-    first = solution.strips[0].resolved
-    assert isinstance(first, MovingStrip)
+    first = solution.pairs[0].resolved
+    assert isinstance(first, MovingStripSolution)
     return {
         "f": parts.numbers["coefficient"],
         "sampling": parts.sampling.error,
         "freedom": parts.sampling.freedom,
         "numerical": parts.numerical,
-        "strips": len(solution.strips),
+        "strips": len(solution.pairs),
         "steps": first.times.size - first.discarded,
-        "work": sum(pair.resolved.work for pair in solution.strips),
+        "work": sum(pair.resolved.work for pair in solution.pairs),
     }
 
 
 def reference_strip(contact: RollingContact, seed: int) -> PlainRow:
     """Return f of a whole pass of one strip and its standard error, on the cells of the answers."""
     prepared = prepare(with_seed(contact, REFERENCE_SEED + seed))
-    _, factors = strip_of(prepared, 0)
+    _, factors = surface_and_factors(prepared, 0)
     bodies = bodies_of(prepared, 0, contact.speed)
     effort = replace(effort_of(prepared.scene, bodies, contact.speed, factors), discarded=REFERENCE_DISCARDED)
     control = summit_control(prepared)
@@ -219,7 +219,7 @@ def tight_strip(contact: RollingContact, seed: int) -> PlainRow:
     """Return f of a whole pass of one strip in tight steps, without a control: as version 0.2.0 took it, but on its cells
     of today."""
     prepared = prepare(with_seed(contact, REFERENCE_SEED + seed))
-    _, factors = strip_of(prepared, 0)
+    _, factors = surface_and_factors(prepared, 0)
     bodies = bodies_of(prepared, 0, contact.speed)
     strip = solve_moving_strip(prepared.scene, bodies, contact.speed, factors=factors, effort=TIGHT)
     mean = mean_over_blocks([strip.sample], "friction", prepared.sample.correlation_lengths[1], None)
@@ -233,7 +233,7 @@ def narrow_strip(
     y, and the length of the cells of an answer in these."""
     scene = with_seed(contact, REFERENCE_SEED + seed)
     prepared = prepare(scene)
-    _, (fx, fy) = strip_of(prepared, 0)
+    _, (fx, fy) = surface_and_factors(prepared, 0)
     (dx, dy) = prepared.sample.cells.spacing
     factors = (fx * 2 ** halvings[0], fy * 2 ** halvings[1])
     columns = factors[0] * math.ceil(6 * scene.bodies.half_width / (fx * dx))

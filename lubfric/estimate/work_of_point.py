@@ -1,4 +1,4 @@
-"""A forecast of what a point will take: the estimates of all models that would be solved (`Model.estimate`). Nothing is
+"""An estimate of what a point will take: the estimates of all models that would be solved (`Model.estimate_work`). Nothing is
 solved."""
 
 import math
@@ -11,7 +11,7 @@ from ..surface import Surface
 
 
 @dataclass(frozen=True, kw_only=True)
-class Forecast:
+class PointWorkEstimate:
     """What a point will take, to an order of magnitude.
 
     Attributes
@@ -38,13 +38,13 @@ class Forecast:
     long_strip_seconds: float = 0.0
 
 
-def forecast(scene: Scene, sample: Sample, surface: Surface, speed: float) -> Forecast:
+def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, speed: float) -> PointWorkEstimate:
     """Return what a point of ``scene`` at ``speed`` [m/s] will take on ``sample``; ``surface``: the map that is solved
     first."""
     models = models_up_to(AUTO)
     estimates: list[WorkEstimate] = []
     for model in models:
-        estimates.append(model.estimate(scene, sample, surface, speed, estimates[-1] if estimates else None))
+        estimates.append(model.estimate_work(scene, sample, surface, speed, estimates[-1] if estimates else None))
     cheapest = estimates[0]
     last = len(models_up_to(scene.numerics.model)) - 1
     # a model named in the scene has the cheapest one beside it as its control; AUTO tries one after the other until one
@@ -54,7 +54,7 @@ def forecast(scene: Scene, sample: Sample, surface: Surface, speed: float) -> Fo
     with_line = [k for k in solved if estimates[k].strips and math.isfinite(estimates[k].length)]
     line = estimates[max(with_line, default=0)]
     with_long_points = [k for k, model in enumerate(models) if model.has_long_points]
-    return Forecast(
+    return PointWorkEstimate(
         speed=speed,
         touching=cheapest.touching,
         error=cheapest.sampling,

@@ -1,4 +1,4 @@
-"""`Validity`: one assumption of the model that is violated; and those of many points as a few sentences."""
+"""`Violation`: one assumption of the model that is violated; and those of many points as a few sentences."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 
 from ...errors import ValidityError
 
-# The value in the text of an entry.
+# The value in the text of a violation.
 _NUMBER = re.compile(r" is (-?[0-9.]+(?:e[-+]?[0-9]+)?)")
 # What is between the texts of a cell.
 BETWEEN = " | "
@@ -19,7 +19,7 @@ MOST_PLACES = 12
 
 
 @dataclass(frozen=True, kw_only=True)
-class Validity:
+class Violation:
     """An assumption of the model that is violated.
 
     Attributes
@@ -68,42 +68,42 @@ def sentence(text: str) -> str:
     return f"{first}{text[1:]}{'' if text.endswith(('.', '?')) else '.'}"
 
 
-def refused(entries: tuple[Validity, ...], *, accept: bool, result: object = None) -> None:
-    """Raise `ValidityError` with ``result`` if one of ``entries`` is severe, unless ``accept``."""
-    severe = [entry for entry in entries if entry.severe]
+def refused(violations: tuple[Violation, ...], *, accept: bool, result: object = None) -> None:
+    """Raise `ValidityError` with ``result`` if one of ``violations`` is severe, unless ``accept``."""
+    severe = [violation for violation in violations if violation.severe]
     if severe and not accept:
-        said = " ".join(entry.text for entry in severe)
+        said = " ".join(violation.text for violation in severe)
         advice = "numerics.accept = true (on the command line --accept) keeps the result, marked."
         raise ValidityError(f"{said} {advice}", tuple(severe), result)
 
 
-def entries_of(point: Any, error: Exception | None) -> tuple[Validity, ...]:
+def violations_of(point: Any, error: Exception | None) -> tuple[Violation, ...]:
     """Violated assumptions at ``point`` of a curve (None: failed), or at the result that ``error`` refused."""
     refused = error.result if point is None and isinstance(error, ValidityError) else None
     checked = point if refused is None else refused
     return () if checked is None else checked.validity
 
 
-def in_a_cell(entries: Iterable[Validity]) -> str:
-    """The texts of ``entries`` in one cell of a table."""
-    return BETWEEN.join(entry.text for entry in entries)
+def in_a_cell(violations: Iterable[Violation]) -> str:
+    """The texts of ``violations`` in one cell of a table."""
+    return BETWEEN.join(violation.text for violation in violations)
 
 
 def gathered(
-    points: list[tuple[float, tuple[Validity, ...]]], unit: str = "m/s", name: str = "speeds"
+    points: list[tuple[float, tuple[Violation, ...]]], unit: str = "m/s", name: str = "speeds"
 ) -> tuple[str, ...]:
     """Return one sentence for each assumption that is violated anywhere: at how many points, from where to where, and
     the smallest and the largest value with their places; what it does and what to do: of the worst value.
 
-    ``points``: pairs (value of the swept quantity, entries of that point).
+    ``points``: pairs (value of the swept quantity, violations of that point).
     """
-    groups: dict[tuple[str, bool], list[tuple[float, Validity]]] = {}
-    for value, entries in points:
-        for entry in entries:
-            groups.setdefault((entry.what, entry.severe), []).append((value, entry))
+    groups: dict[tuple[str, bool], list[tuple[float, Violation]]] = {}
+    for value, violations in points:
+        for violation in violations:
+            groups.setdefault((violation.what, violation.severe), []).append((value, violation))
     lines = []
     for group in groups.values():
-        worst = max((entry for _, entry in group), key=_distance)
+        worst = max((violation for _, violation in group), key=_distance)
         values = sorted(value for value, _ in group)
         if len(group) == 1:
             lines.append(f"{at_value(values[0], unit, name)}: {worst.text}")
@@ -113,10 +113,10 @@ def gathered(
     return tuple(lines)
 
 
-def _from_to(group: list[tuple[float, Validity]], unit: str) -> str:
+def _from_to(group: list[tuple[float, Violation]], unit: str) -> str:
     """Return the smallest and the largest value of a ``group`` with their places, or the one value of all."""
     least, most = (find(group, key=lambda pair: pair[1].value) for find in (min, max))
-    ends = [f"{entry.value:.3g}" for _, entry in (least, most)]
+    ends = [f"{violation.value:.3g}" for _, violation in (least, most)]
     if ends[0] == ends[1]:
         return ends[0]
     places = [f"at {place:.4g} {unit}".rstrip() for place, _ in (least, most)]
@@ -169,9 +169,9 @@ def at_value(value: float, unit: str, name: str) -> str:
     return f"at {value:.6g} {unit}" if unit else f"at a {name.removesuffix('s')} of {value:.6g}"
 
 
-def _distance(entry: Validity) -> float:
+def _distance(violation: Violation) -> float:
     """The ratio by which the value is beyond its limit."""
-    if entry.limit == 0 or entry.value == 0:
-        return abs(entry.value - entry.limit)
-    ratio = abs(entry.value / entry.limit)
+    if violation.limit == 0 or violation.value == 0:
+        return abs(violation.value - violation.limit)
+    ratio = abs(violation.value / violation.limit)
     return max(ratio, 1 / ratio)
