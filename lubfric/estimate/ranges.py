@@ -21,9 +21,9 @@ def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tupl
     """Return the changes of f [-] by the two ends of each of the `Scene.ranges`, by name; text: why it is not known.
 
     f is linear in f_b at a given division of the load. At both ends of every other range it is solved again, by the
-    model of the ``answer`` (`ModelAnswer.at_inputs`). The changes are relative to the middle on the same cells. An end
-    that cannot be solved, and the hardness of a contact that is not lubfric's own, are not known. An input that the
-    model knows to change nothing is not solved (`ModelAnswer.ends_without_change`).
+    model of the ``answer`` (`ModelAnswer.at_inputs`), unless the model knows their changes from its solution
+    (`ModelAnswer.changes_without_solve`). The changes are relative to the middle on the same cells. An end that cannot be
+    solved, and the hardness of a contact that is not lubfric's own, are not known.
     """
     scene = prepared.scene
     changes: dict[str, tuple[float, ...] | str] = {}
@@ -37,8 +37,8 @@ def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tupl
             changes[name] = "the contact is not lubfric's own"
         elif answer.at_inputs is None:
             changes[name] = "the model does not solve its ends"
-        elif answer.ends_without_change(name, tuple(ends)):
-            changes[name] = (0.0, 0.0)
+        elif (known := answer.changes_without_solve(name, tuple(ends))) is not None:
+            changes[name] = tuple(answer.numbers["coefficient"] * change for change in known)
         else:
             changes[name] = "an end was not solved"  # unless it is
             solved[name] = ends

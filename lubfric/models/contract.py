@@ -121,7 +121,8 @@ class ModelAnswer:
     fine_fields : solves a part of the surface again on cells fine enough to look at; None: ``fields`` are all there is
     details : what the model keeps of its solve, for those who know it
     at_inputs : makes what solves f again at other inputs; None: the model cannot
-    ends_without_change : names of inputs of which neither end changes anything, found without a solve
+    changes_without_solve : relative changes of f by the two ends of an input of this name, where they are known from the
+        solution; None: they have to be solved
     """
 
     numbers: dict[str, float]
@@ -146,7 +147,7 @@ class ModelAnswer:
     fine_fields: Callable[[], ContactFields] | None = None
     details: ModelDetails | None = None
     at_inputs: Callable[[], AtInputs] | None = None
-    ends_without_change: Callable[[str, tuple[Scene, ...]], bool] = lambda name, ends: False
+    changes_without_solve: Callable[[str, tuple[Scene, ...]], tuple[float, ...] | None] = lambda name, ends: None
 
 
 @dataclass(frozen=True, kw_only=True)

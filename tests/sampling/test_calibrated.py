@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lubfric
-from lubfric.models.deterministic import RoughBody, lay_out, solve_point, solve_strip
+from lubfric.models.deterministic import RoughBody, answer, lay_out, solve_point, solve_strip
 from lubfric.models.load_sharing import least_error, starved_error
 from lubfric.models.quick import (
     QuickModel,
@@ -149,6 +149,31 @@ def test_the_ends_of_an_input_are_those_of_the_quick_model():
     solved = [lubfric.friction(scene.with_(lubricant={"eyring_stress": end}), 0.3).coefficient for end in ends]
     spread = max(abs(f / ranged.coefficient - 1) for f in solved)
     assert ranged.uncertainty.inputs == pytest.approx(spread, rel=0.1)
+
+
+def test_the_stress_of_an_oil_in_rolling_is_solved_in_motion_only_where_its_flow_matters(monkeypatch):
+    """The shear of the moments that are solved gives what whole solves at the ends give, and continuations."""
+    calls = []
+    followed = answer.continued_strip
+    monkeypatch.setattr(answer, "continued_strip", lambda *some, **more: calls.append(1) or followed(*some, **more))
+    scene = HEAVIER.with_(
+        bodies={"boundary_film": 2e-8},
+        lubricant={"limiting_stress_coefficient": None},
+        motion={"slide_roll_ratio": 0.02},
+        numerics={"model": "quick", "sampling_tolerance": 0.5, "tolerance": 0.1},
+    )
+    ends = (3e6, 1e7)
+    prepared = lubfric.prepare(scene.with_(lubricant={"eyring_stress": [5e6, *ends]}))
+    ranged = lubfric.friction(prepared, 0.3)
+    assert not calls
+    solved = [lubfric.friction(scene.with_(lubricant={"eyring_stress": end}), 0.3).coefficient for end in ends]
+    sides = [abs(f / ranged.coefficient - 1) for f in solved]
+    assert min(sides) > 0.1
+    assert ranged.uncertainty.input_sides == pytest.approx(sides, rel=0.1)
+    monkeypatch.setattr(answer, "FLOW_MATTERS", 0.0)
+    followed_ends = lubfric.friction(prepared, 0.3)
+    assert len(calls) == 3 and followed_ends.coefficient == ranged.coefficient
+    assert followed_ends.uncertainty.input_sides == pytest.approx(sides, rel=0.1)
 
 
 def test_a_loose_model_tolerance_lets_auto_answer_on_long_cells():

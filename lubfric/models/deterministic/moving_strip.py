@@ -2,7 +2,7 @@
 time."""
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from itertools import islice
 from typing import Any
@@ -11,13 +11,14 @@ import numpy as np
 
 from ..._base.progress import report_progress
 from ...film import LineContact
+from ...oil import Lubricant
 from ...scene import Scene
 from ...surface import Surface
 from ...units import worded
 from .linear import ACCURACY
 from .moving import SAME, Moment, RoughBody, half_width, moments, travelling
 from .problem import HERTZ_INLET, HERTZ_OUTLET, Problem, reach
-from .result import DeterministicResult, LoadSplit
+from .result import DeterministicResult, LoadSplit, change_with_oil
 from .state import State
 from .strip import StripSolution, problem_of, solve_strip, work_of_steps
 from .summits import SummitControl, summits_over_time
@@ -46,6 +47,8 @@ MORE = (1.25, 2.5)  # factors by which the moments that count may grow from one 
 EXPECTED = 5.0  # half-widths that count, for the estimate of the work (bearing 2 to 3, gear flank 6, needle roller 10)
 SPARE = 1.1  # times the moments that the error needs
 SERIES = "coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film", "peak_pressure"
+# Inputs that change the shear stress of a film, but hardly its pressure and gap (`MovingStripSolution.with_oils`).
+OF_SHEAR = "lubricant.eyring_stress", "lubricant.limiting_stress_coefficient"
 AVERAGED = tuple(f.name for f in fields(DeterministicResult) if f.type is float) + ("load_at", "friction_at")
 
 
@@ -112,6 +115,8 @@ class MovingStripSolution(StripSolution):
     - ``sample``: friction and load of all places at the moments that count, with the control of the `SampleTarget`.
     - ``state_after_discard``: the state of the last moment that is discarded, from which `continued_strip` starts.
       ``effort`` and ``ends`` [m], of the grid up and down stream: with which it was solved.
+    - ``with_oils``: f if the films of all moments that count were sheared as the oils at both ends of the range of an
+      input (`OF_SHEAR`), by its name.
     """
 
     rest: StripSolution
@@ -122,6 +127,7 @@ class MovingStripSolution(StripSolution):
     effort: MovingEffort
     ends: tuple[float, float]
     state_after_discard: State = field(repr=False)
+    with_oils: dict[str, tuple[float, ...]] = field(default_factory=dict)
 
     @property
     def follows_lubricant(self) -> bool:
@@ -166,12 +172,16 @@ def solve_moving_strip(
     travelled = _travelled(bodies, speed, step, half_width(rest.problem.line))
     passing = _passing(rest.problem, bodies, speed, step, effort, rest.result.state, 0.0)
     summits_at = _summits(rest.problem, bodies, speed, target)
+    oils = oils_at_ends(scene)
     rows: list[dict[str, Any]] = []
+    sheared: list[dict[str, list[float]]] = []
     state_after_discard = rest.result.state
     required = count if target is None else min(count, _pilot(rest.problem.line, bodies, step))
     last = discarded + required
     for number, moment in enumerate(islice(passing, 1, None), 1):
         rows.append(_row(moment) | {"summits_at": summits_at(number * step)})
+        if number > discarded:
+            sheared.append(with_oils(moment.result, moment.at.problem.sliding, oils))
         report_progress("moving roughness", number, last)
         if number == discarded:
             state_after_discard = moment.at.state
@@ -203,7 +213,25 @@ def solve_moving_strip(
         effort=effort,
         ends=_ends(scene, bodies, speed, effort),
         state_after_discard=state_after_discard,
+        with_oils={name: tuple(np.mean([each[name] for each in sheared[:count]], axis=0).tolist()) for name in oils},
     )
+
+
+def oils_at_ends(scene: Scene) -> dict[str, tuple[Lubricant, ...]]:
+    """Return the lubricants of ``scene`` at both ends of the ranges of `OF_SHEAR`, by name."""
+    if scene.lubricant.newtonian or scene.motion.slide_roll_ratio == 0:
+        return {}
+    return {name: tuple(end.lubricant for end in ends) for name, *ends in scene.at_ends() if name in OF_SHEAR}
+
+
+def with_oils(
+    result: DeterministicResult, sliding: float, oils: Mapping[str, Sequence[Lubricant]]
+) -> dict[str, list[float]]:
+    """Return f of ``result``, which slides at ``sliding`` [m/s], if its films were sheared as the ``oils``, by their names."""
+    return {
+        name: [result.coefficient + change_with_oil(result, sliding, oil) for oil in both]
+        for name, both in oils.items()
+    }
 
 
 def continued_strip(

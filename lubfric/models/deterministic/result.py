@@ -175,6 +175,20 @@ def surface_shear(at: Iterate, law: np.ndarray, film: float) -> SurfaceShear:
     )
 
 
+def change_with_oil(result: "DeterministicResult", sliding: float, lubricant: Lubricant) -> float:
+    """Return the change of f [-] of a ``result`` if its films had the shear stress of another ``lubricant``, which is not
+    Newtonian, as that of the result is not, at the same pressures and gaps; ``sliding``: sliding speed [m/s]."""
+    stress = stress_with_oil(result, sliding, lubricant)
+    return float((stress - result.shear).sum()) * result.spacing[0] / result.pressure.shape[1] / result.load
+
+
+def stress_with_oil(result: "DeterministicResult", sliding: float, lubricant: Lubricant) -> np.ndarray:
+    """Return the shear stress [Pa] (nx, ny) of the same."""
+    with np.errstate(over="ignore"):
+        law = shear_stress(lubricant, result.pressure, sliding / result.gap)
+    return np.where(result.wet, law, result.shear)
+
+
 def at_its_limit(lubricant: Lubricant, pressure: np.ndarray, stress: np.ndarray) -> np.ndarray:
     """Return where the ``stress`` [Pa] of ``lubricant`` is its limiting stress at the ``pressure`` [Pa]."""
     if lubricant.limit is None:
