@@ -1,12 +1,26 @@
 """The linear solver of a Newton step."""
 
+from itertools import islice
+
 import numpy as np
 import pytest
 from scipy.sparse import diags, eye, kron
 from scipy.sparse.linalg import splu
 
 import lubfric
-from lubfric.models.deterministic import System, TimeHistory, evaluated, gmres, lay_out, nested_dissection, solve_point
+from lubfric.models.deterministic import (
+    RoughBody,
+    System,
+    TimeHistory,
+    evaluated,
+    gmres,
+    lay_out,
+    linear,
+    moments,
+    nested_dissection,
+    solve_point,
+    travelling,
+)
 
 
 def system(size=60, seed=1):
@@ -96,3 +110,21 @@ def test_the_linear_system_is_the_derivative_of_residual_and_load(in_time):
     off = image[:-1][apart] - rate.ravel()[apart]
     assert np.abs(off).max() < 1e-3 * np.abs(rate).max()
     assert image[-1] == pytest.approx(load_rate, rel=1e-4)
+
+
+def test_coefficients_that_the_lu_omits_do_not_change_a_step_in_time():
+    """The system itself keeps them: a step to a tight residual is the same with all of them in the LU."""
+    step = PROBLEM.spacing[0] / PROBLEM.speed
+    ends = []
+    for omitted in (0.0, 0.03):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(linear, "NEGLIGIBLE", omitted)
+            passing = moments(
+                travelling(PROBLEM, [RoughBody(MAP, 0.05)]),
+                step,
+                start=SOLVED.state,
+                tolerance=1e-9,
+                linear_accuracy=1e-6,
+            )
+            ends.append([moment.at.state.pressure for moment in islice(passing, 2)][-1])
+    assert ends[1] == pytest.approx(ends[0], rel=1e-6, abs=1e-6 * ends[0].max())
