@@ -113,9 +113,9 @@ def positive(name: str, value: Any, unit: str, *, minimum: float = 0.0, maximum:
 def _within(name: str, value: float, unit: str, above: float, minimum: float, maximum: float, least: float) -> float:
     largest = SANE.get(unit, (LEAST, LARGEST))[1]
     minimum, maximum = max(minimum, -largest), min(maximum, largest)
-    low = f"({above:g}" if above >= minimum else f"[{minimum:g}"
+    low = f"above {above:g}, up to" if above >= minimum else f"{minimum:g} to"
     shown_unit = "" if unit == "-" else f" {unit}"
-    allowed = f"a finite number in {low}, {maximum:g}]{shown_unit}"
+    allowed = f"{low} {maximum:g}{shown_unit}"
     value = in_plain(name, value, unit) if isinstance(value, str) else value
     try:
         x = _real(value)

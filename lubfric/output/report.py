@@ -58,7 +58,7 @@ BUDGET = {
     "numerical": "numerical (grids and solvers)",
     "sampling": "sampling (finite surface)",
     "model-form": "model-form (equations)",
-    "not given": "not given (boundary film)",
+    "not given": "boundary film (not given)",
     "input": "input (stated ranges)",
 }
 # A number smaller than this times the largest of its column is 0 in a table.
@@ -229,7 +229,7 @@ def _budget(values: dict[str, float], words: dict[str, str], place: str, notes: 
     """Return an uncertainty budget (`lubfric.estimate.Uncertainty.budget`) as bars of its parts, relative to f; ``words``:
     the parts as text."""
     longest = max([value for value in values.values() if math.isfinite(value)], default=0.0) or 1.0
-    shown = {name: label for name, label in BUDGET.items() if name in values}
+    shown = {name: label for name, label in BUDGET.items() if name in values and (name != "not given" or values[name])}
     rows = "".join(
         f'<span>{label}</span><span><i style="width:{100 * min(values[name] / longest, 1.0):.1f}%"></i></span>'
         f"<span>{escape(words[name])}</span>"

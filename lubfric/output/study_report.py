@@ -209,7 +209,9 @@ def _budget_line(result: StudyResult) -> list[str]:
     index = tuple(map(int, np.unravel_index(int(np.nanargmax(f)), f.shape)))
     parts = {name: float(result[f"uncertainty_{column}"][index]) for name, column in PARTS.items()}
     parts["sampling"] *= student(float(result["uncertainty_freedom"][index])) if parts["sampling"] else 1.0
-    words = ", ".join(f"{name} {percent(part)}" for name, part in parts.items())
+    names = {"not given": "boundary film not given"}
+    shown = {names.get(name, name): part for name, part in parts.items() if name != "not given" or part}
+    words = ", ".join(f"{name} {percent(part)}" for name, part in shown.items())
     place = point_in_words(result, index).partition(":")[0]
     return [f"The relative errors of f at {place}, each at 95 %, are: {words}."]
 

@@ -109,7 +109,9 @@ class Bodies(Shown):
             table = "a FrictionTable, by boundary_friction_coefficient = { sliding_speed = [...], values = [...] }"
             validate.instance("bodies.boundary_friction_table", self.boundary_friction_table, FrictionTable, table)
         if self.hardness is not None and self.mean_hertz_pressure >= self.hardness:
-            said = f" = {self.load:g} N is above hardness x Hertz area"
+            said = (
+                f" = {self.load:g} N is above the product of hardness and Hertz area: the bodies would yield everywhere"
+            )
             most = self.hardness * 2 * self.half_width * self.width
             raise InputError(said, "bodies.load", f"below {most:g} N", also=("bodies.hardness",))
         for name, unit in (("conductivity", "W/(m K)"), ("volumetric_heat", "J/(m^3 K)")):

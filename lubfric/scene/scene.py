@@ -96,7 +96,7 @@ class Scene(Shown):
             value = value_of(self, name)
             if not low <= value <= high or low == high:
                 said = f" = {value:g} in {low:g} to {high:g}"
-                allowed = "the lower number first, the value between them"
+                allowed = "[low, high] or [value, low, high], with the value between both ends"
                 raise InputError(said, name, allowed)
             for end in (low, high):
                 replace(getattr(self, section), **{key: end})  # refuses an end that is no value of it

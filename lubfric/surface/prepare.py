@@ -99,7 +99,7 @@ def harmonic_fill(heights: np.ndarray, mask: np.ndarray, spacing: tuple[float, f
         return heights
     fraction = np.count_nonzero(missing) / mask.size
     if fraction > MOST_MISSING:
-        raise InputError(f" = {fraction:.3g} is out of range", "missing fraction", f"[0, {MOST_MISSING}] (-)")
+        raise InputError(f" = {fraction:.3g} is out of range", "missing fraction", f"0 to {MOST_MISSING}")
     number = np.arange(mask.size).reshape(mask.shape)
     gone = missing.ravel()
     ends = [(number[:-1].ravel(), number[1:].ravel()), (number[:, :-1].ravel(), number[:, 1:].ravel())]

@@ -36,7 +36,9 @@ from .march import Progress, Step
 from .scene_in_time import scene_at, sliding_at
 
 NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest
-STEADY_ONLY = "a transient has no other deflection: compare with the steady f by film_deflection = 'scaled'"
+STEADY_ONLY = (
+    "a run in time has no other deflection; compare it with the steady f, which has numerics.film_deflection = 'scaled'"
+)
 # m/s; of ln F_H
 AT_REST = 1e-6
 LOAD_STEP = 0.05

@@ -51,7 +51,7 @@ def test_paper_tables():
     "changes, words",
     [
         ({"bodis__load": "5.5"}, ["bodis", "did you mean 'bodies'"]),
-        ({"bodies__load": "-1.0"}, ["bodies.load", "-1", "[1e-12", " N"]),
+        ({"bodies__load": "-1.0"}, ["bodies.load", "-1", "1e-12 to", " N"]),
         ({"bodies__load": "'heavy'"}, ["bodies.load", "'heavy'"]),
         ({"bodies__hardness": "1e8"}, ["bodies.load", "hardness", "allowed: below", " N"]),
         ({"lubricant__viscosity": "0.0"}, ["viscosity", "0", "Pa s"]),

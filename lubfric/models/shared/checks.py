@@ -66,7 +66,7 @@ def warn_motion(scene: Scene, speed: float, film: float) -> Iterator[Violation]:
     """Yield the violations by sliding, inertia and turbulence at ``speed`` [m/s] and a film thickness [m] (NaN: no film)."""
     ratio = abs(scene.motion.slide_roll_ratio)
     if ratio > OPPOSED * (1 + 1e-12):
-        why = "the surfaces move against one another: heat and dimples of such films are not modelled"
+        why = "the surfaces move in opposite directions: heat and dimples of such films are not modelled"
         what = "slide-roll ratio"
         advice = "in percent? give motion.slip_percent; 2 is simple sliding"
         if scene.transient is not None:  # the ratio follows from the speeds of the moment
@@ -284,8 +284,8 @@ def warn_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
                 value=spread,
                 limit=tolerance,
                 unit="",
-                consequence=f"the film is between {heat.inlet.factor:.2g} and {heat.inlet.other:.2g} of the isothermal one, "
-                "neither factor was made for such sliding",
+                consequence=f"the film is between {heat.inlet.factor:.2g} and {heat.inlet.other:.2g} times as thick as the "
+                "isothermal one; neither factor was derived for such sliding",
                 remedy="a measured film; numerics.heat = 'off' gives the isothermal bound",
             )
     if heat.is_slow and heat.change > tolerance:
