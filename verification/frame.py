@@ -33,7 +33,7 @@ class Command:
     levels : those it offers, the default one first
     workers : processes it starts unasked: for its studies, or those of a campaign for the cases of a part
     add_options : adds its own options to the parser
-    own : more keywords of a study of this name, from the parsed options
+    more_keywords : of a study of this name, from the parsed options
     finished : writes what else belongs to the report, and returns text for the terminal
     campaign : its studies are given a `kept.Run`, and its tables are put where the pages of ``--docs`` name them
     """
@@ -46,7 +46,7 @@ class Command:
     levels: tuple[str, ...] = LEVELS
     workers: int = 1
     add_options: Callable[[argparse.ArgumentParser], None] = lambda parser: None
-    own: Callable[[str, argparse.Namespace], Keywords] = lambda name, options: {}
+    more_keywords: Callable[[str, argparse.Namespace], Keywords] = lambda name, options: {}
     finished: Callable[[reports.Report, argparse.Namespace], str] = lambda report, options: ""
     campaign: bool = False
 
@@ -77,12 +77,12 @@ def campaign(
     parts: Sequence[tuple[str, str, str, Keywords]],
     levels: tuple[str, ...] = LEVELS,
     add_options: Callable[[argparse.ArgumentParser], None] = lambda parser: None,
-    own: Callable[[str, argparse.Namespace], Keywords] = lambda part, options: {},
+    more_keywords: Callable[[str, argparse.Namespace], Keywords] = lambda part, options: {},
 ) -> Command:
     """A command whose ``parts`` are (name, "module:function" in `verification.campaigns`, title, keywords).
 
-    Each is ``function(level, run=..., **keywords)`` with a `kept.Run`, and yields what a study does. ``own(name,
-    options)`` are more keywords.
+    Each is ``function(level, run=..., **keywords)`` with a `kept.Run`, and yields what a study does.
+    ``more_keywords(name, options)`` are those that the parsed options give a part.
     """
     studies = tuple(
         Study(part, f"verification.campaigns.{target}", title=title, levels=levels, options=keys)
@@ -90,7 +90,14 @@ def campaign(
     )
     folder = f"out/{name}"
     return Command(
-        name, summary, studies=studies, out=folder, levels=levels, add_options=add_options, own=own, campaign=True
+        name,
+        summary,
+        studies=studies,
+        out=folder,
+        levels=levels,
+        add_options=add_options,
+        more_keywords=more_keywords,
+        campaign=True,
     )
 
 
@@ -99,7 +106,7 @@ def _prepared(command: Command, study: Study, options: argparse.Namespace) -> St
     if not command.campaign:
         return study
     run = kept.Run(options.out / f"kept-{options.level}", options.workers, study.name)
-    return replace(study, options=study.options | command.own(study.name, options) | {"run": run})
+    return replace(study, options=study.options | command.more_keywords(study.name, options) | {"run": run})
 
 
 def parser(command: Command) -> argparse.ArgumentParser:

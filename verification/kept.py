@@ -70,7 +70,7 @@ def code() -> str:
 def rows_of(file: Path) -> PlainRow:
     """The rows of ``file`` by case. It is made if it is missing; an unfinished last line is cut off."""
     file.parent.mkdir(parents=True, exist_ok=True)
-    whole = file.read_bytes() if file.is_file() else b""
-    whole = whole[: whole.rfind(b"\n") + 1]
-    file.write_bytes(whole)
-    return dict(json.loads(line) for line in whole.splitlines())
+    content = file.read_bytes() if file.is_file() else b""
+    content = content[: content.rfind(b"\n") + 1]
+    file.write_bytes(content)
+    return dict(json.loads(line) for line in content.splitlines())

@@ -87,8 +87,8 @@ class Mutant:
         return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
 
 
-def _first_difference(one: str, other: str) -> int:
-    return next((i for i, (a, b) in enumerate(zip(one, other)) if a != b), min(len(one), len(other)))
+def _first_difference(text: str, other: str) -> int:
+    return next((i for i, (a, b) in enumerate(zip(text, other)) if a != b), min(len(text), len(other)))
 
 
 def source_around(text: str, line: int) -> str:
@@ -246,4 +246,4 @@ def _own(part: str, options: Namespace) -> Keywords:
 
 
 PARTS: list[tuple[str, str, str, Keywords]] = [("mutants", "mutants:mutants", "Mistakes in the text of lubfric", {})]
-COMMAND = frame.campaign("mutants", __doc__, PARTS, add_options=_options, own=_own)
+COMMAND = frame.campaign("mutants", __doc__, PARTS, add_options=_options, more_keywords=_own)

@@ -95,13 +95,13 @@ def lubfric_solver(heights: np.ndarray, spacing: float, e_prime: float, threads:
     operator = half_space(heights.shape, spacing, e_prime, workers=threads)
 
     def solve(load: float, tolerance: float) -> np.ndarray:
-        asked: Keywords = {
+        options: Keywords = {
             "mean_pressure": load,
             "tolerance": tolerance,
             "operator": operator,
             "raise_on_failure": False,
         }
-        return solve_contact(heights.max() - heights, spacing, e_prime, **asked).pressure
+        return solve_contact(heights.max() - heights, spacing, e_prime, **options).pressure
 
     return solve
 

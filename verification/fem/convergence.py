@@ -85,24 +85,24 @@ class Series:
 
 def convergence(name: str, caption: str, series: Sequence[Series], size: str, error: str) -> Iterator[Item]:
     """The checks on the orders, and the picture of all series against ``size``."""
-    for one in series:
-        if one.check:
-            yield one.check_order()
+    for each in series:
+        if each.check:
+            yield each.check_order()
     yield picture(name, caption, series, size, error)
 
 
 def picture(name: str, caption: str, series: Sequence[Series], size: str, error: str) -> Figure:
     """Errors against mesh size, log-log, each with its fitted order and a dotted line of the expected one."""
     canvas, ax = panel(6.4, 3.6 + 0.2 * ((len(series) + 1) // 2))
-    for one in series:
-        sizes = np.asarray(one.sizes, dtype=float)
-        errors = np.asarray(one.errors, dtype=float)
-        text = f"{one.label}: order {fitted_order(sizes, errors):.2f}"
-        text += "" if one.order is None else f" (expected {one.order:g})"
+    for each in series:
+        sizes = np.asarray(each.sizes, dtype=float)
+        errors = np.asarray(each.errors, dtype=float)
+        text = f"{each.label}: order {fitted_order(sizes, errors):.2f}"
+        text += "" if each.order is None else f" (expected {each.order:g})"
         (line,) = ax.loglog(sizes, errors, "o-", label=text)
-        if one.order is not None:
+        if each.order is not None:
             finest = np.argmin(sizes)
-            expected = errors[finest] * (sizes / sizes[finest]) ** one.order
+            expected = errors[finest] * (sizes / sizes[finest]) ** each.order
             ax.loglog(sizes, expected, ":", color=line.get_color(), linewidth=1.0)
     ax.set(xlabel=size, ylabel=error)
     canvas.legend(loc="outside lower center", ncols=1 if len(series) == 1 else 2, frameon=False)

@@ -87,9 +87,9 @@ def pressed_cylinder(
     dx = line.half_width / across
     n = 2 * int(2 * across)
     x = (np.arange(n) - (n - 1) / 2) * dx
-    asked: Keywords = {"mean_pressure": line.load / (n * dx), "boundary": ("free", "periodic"), "tolerance": 1e-8}
+    settings: Keywords = {"mean_pressure": line.load / (n * dx), "boundary": ("free", "periodic"), "tolerance": 1e-8}
     gap0 = np.tile(x[:, None] ** 2 / (2 * line.radius), (1, 4))
-    return x, solve_contact(gap0, dx, line.e_prime, hardness=hardness, **asked)
+    return x, solve_contact(gap0, dx, line.e_prime, hardness=hardness, **settings)
 
 
 def case_of_scene(scene: Scene, load: float, speed: float) -> PlainRow:

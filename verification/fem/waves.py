@@ -84,7 +84,7 @@ def response(smooth: Smooth, k: float, height: float) -> tuple[np.ndarray, np.nd
     small."""
     if not smooth.speed:
         two = [at_rest(smooth, k, height, phase) for phase in (0.0, math.pi / 2)]
-        parts = [((one.gap - smooth.film.gap)[:, 0], (one.pressure - smooth.film.pressure)[:, 0]) for one in two]
+        parts = [((film.gap - smooth.film.gap)[:, 0], (film.pressure - smooth.film.pressure)[:, 0]) for film in two]
         gap, pressure = (cos + 1j * sin for cos, sin in zip(*parts))
         return gap / height, pressure / height
     times, gaps, pressures = history(smooth, k, height)

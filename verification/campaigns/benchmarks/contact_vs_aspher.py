@@ -51,16 +51,16 @@ def loosest(
 ) -> tuple[float, float, float]:
     """(tolerance, error, seconds): loosest of the ladder, from ``first`` on, that meets the target, or the best of
     it."""
-    best = (np.nan, np.inf, np.nan)
+    closest = (np.nan, np.inf, np.nan)
     for tolerance in LADDER:
         if tolerance > first * 1.01:
             continue
         error, seconds = measured(solve, load, tolerance, reference)
-        if error < best[1]:
-            best = (tolerance, error, seconds)
+        if error < closest[1]:
+            closest = (tolerance, error, seconds)
         if error <= target or tolerance < 1e-11:
-            return best
-    return best
+            return closest
+    return closest
 
 
 def measured(solve: Solver, load: float, tolerance: float, reference: np.ndarray) -> tuple[float, float]:

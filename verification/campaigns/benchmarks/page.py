@@ -17,10 +17,10 @@ def add_option(parser: ArgumentParser) -> None:
 
 
 def write(
-    name: str, columns: Sequence[str], rows: Sequence[Sequence[str]], asked: tuple[ArgumentParser, Namespace]
+    name: str, columns: Sequence[str], rows: Sequence[Sequence[str]], command_line: tuple[ArgumentParser, Namespace]
 ) -> None:
     """Write the table ``name`` into the folder of ``--docs``, if it was given; ``asked``: the parser and its result."""
-    parser, options = asked
+    parser, options = command_line
     if options.docs:
         put(options.docs, Table(name, name, columns, rows), command(name, parser, options))
 

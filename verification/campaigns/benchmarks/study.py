@@ -67,27 +67,33 @@ def main() -> None:
     page.add_option(parser)
     arguments = parser.parse_args()
     folder = arguments.out or Path(tempfile.mkdtemp())
-    whole = plan(arguments.points)
-    together = list(product(*(axis.values for axis in whole.axes)))[::FEW]
-    keys = tuple(key for axis in whole.axes for key in axis.keys)
-    few = lubfric.plan_study(whole.scene, {keys: [sum(row, ()) for row in together]}, whole.speeds)
+    full_plan = plan(arguments.points)
+    together = list(product(*(axis.values for axis in full_plan.axes)))[::FEW]
+    keys = tuple(key for axis in full_plan.axes for key in axis.keys)
+    few = lubfric.plan_study(full_plan.scene, {keys: [sum(row, ()) for row in together]}, full_plan.speeds)
     used = time.process_time()
     lubfric.study(few, store=folder / "few")
     here = (time.process_time() - used) / few.points
     begun = time.perf_counter()
     with ProcessPoolExecutor(arguments.workers) as executor:
-        result = lubfric.study(whole, executor=executor, store=folder / "all")
+        result = lubfric.study(full_plan, executor=executor, store=folder / "all")
     wall = time.perf_counter() - begun
     children = resource.getrusage(resource.RUSAGE_CHILDREN)
-    there = (children.ru_utime + children.ru_stime) / whole.points
+    there = (children.ru_utime + children.ru_stime) / full_plan.points
     begun = time.perf_counter()
     again = lubfric.open_study(folder / "all")
     opened = time.perf_counter() - begun
     size = sum(path.stat().st_size for path in (folder / "all").rglob("*"))
     rows = [
-        ("points", f"{whole.points} on {arguments.workers} processes, {result.failed} failed, {again.missing} missing"),
-        ("wall time", f"{wall:.1f} s, {whole.points / wall:.0f} points a second"),
-        ("processor time", f"{1e3 * there:.2f} ms a point: {there * whole.points / wall:.2f} cores' worth were had"),
+        (
+            "points",
+            f"{full_plan.points} on {arguments.workers} processes, {result.failed} failed, {again.missing} missing",
+        ),
+        ("wall time", f"{wall:.1f} s, {full_plan.points / wall:.0f} points a second"),
+        (
+            "processor time",
+            f"{1e3 * there:.2f} ms a point: {there * full_plan.points / wall:.2f} cores' worth were had",
+        ),
         ("processor time of a tenth of the curves, serial over there", f"{here / there:.1%}"),
         ("memory of a process", f"{children.ru_maxrss / 1024:.0f} MiB at most"),
         ("store", f"{size / 1e6:.1f} MB, opened in {opened:.2f} s"),

@@ -103,8 +103,8 @@ def deterministic(case: Case) -> dict[str, float]:
     scene = case.scene
     if case.facts["motion"] == "rolling":
         moving = solve_moving_strip(scene, case.bodies, case.speed)
-        rest = moving.rest.result.coefficient
-        return numbers(moving.result) | {"f_rest": rest, "f_coarse": math.nan, "work": moving.work}
+        at_rest = moving.rest.result.coefficient
+        return numbers(moving.result) | {"f_rest": at_rest, "f_coarse": math.nan, "work": moving.work}
     first: StripSolution | None = None
     with suppress(lubfric.ConvergenceError):
         first = solve_strip(scene, case.surface, case.speed, factors=(COARSE, COARSE))

@@ -78,8 +78,8 @@ def methods(z: np.ndarray, pressure: float, boundary: str, mean_gap: float) -> d
         return result.pressure
 
     def in_one_loop(tolerance: float) -> np.ndarray:
-        asked: Keywords = {"tolerance": tolerance, "max_iterations": 600}
-        return single_loop(z, mean_gap, spacing, E_PRIME, **asked, **by_gap).pressure
+        settings: Keywords = {"tolerance": tolerance, "max_iterations": 600}
+        return single_loop(z, mean_gap, spacing, E_PRIME, **settings, **by_gap).pressure
 
     def in_turns(tolerance: float) -> np.ndarray:
         return alternating(z, mean_gap, spacing, E_PRIME, tolerance=tolerance, **by_gap).pressure
@@ -103,8 +103,8 @@ def panel(
     """Every method at every tolerance against one tight solution."""
     z = heights(n, acf)
     values = []
-    asked: Keywords = {"mean_pressure": load, "boundary": BOUNDARIES[boundary]}
-    tight = solve_contact(z.max() - z, 512 * SPACING / n, E_PRIME, tolerance=1e-11, raise_on_failure=False, **asked)
+    settings: Keywords = {"mean_pressure": load, "boundary": BOUNDARIES[boundary]}
+    tight = solve_contact(z.max() - z, 512 * SPACING / n, E_PRIME, tolerance=1e-11, raise_on_failure=False, **settings)
     solvers = methods(z, load, boundary, tight.mean_gap)
     for tolerance in tolerances:
         calls = {name: partial(attempt, solve, tolerance) for name, solve in solvers.items()}

@@ -43,8 +43,8 @@ def measured(chosen: tuple[AnswerCase, str, bool]) -> list[PlainRow]:
     one_map = case.surface in MEASURED
     seeds = (1,) if one_map else SEEDS[quick]
     for sampling, model in ASKED[quick]:
-        asked = {"sampling_tolerance": sampling, "model_tolerance": model} | WAYS[way]
-        rows = [row for row in (solved(case, seed, asked) for seed in seeds) if "failure" not in row]
+        numerics = {"sampling_tolerance": sampling, "model_tolerance": model} | WAYS[way]
+        rows = [row for row in (solved(case, seed, numerics) for seed in seeds) if "failure" not in row]
         if rows:
             off = float(np.sqrt(np.mean([(row["f"] / truth - 1) ** 2 for row in rows])))
             at = {"default": way == "default" and sampling == 0.02, "apart": True}

@@ -67,7 +67,7 @@ def both_models(case: tuple[str, float, int, Sequence[float], FloatArray, int]) 
     r = BASE | ASSUMPTIONS[label]
     surface = (r["acf"], r["level"], length, seed, count)
     models = [[pressed(load, *surface, model) for model in (r["model"], HALF_SPACE)] for load in loads]
-    return [[friction_over_speed(ready, r["law"], speeds).tolist() for ready in both] for both in models]
+    return [[friction_over_speed(ready, r["law"], speeds).tolist() for ready in pair] for pair in models]
 
 
 def signed_deviation(asperity: np.ndarray, half_space: np.ndarray) -> tuple[float, int]:
@@ -129,10 +129,10 @@ def deviation_map(level: str, run: Run = Run()) -> Iterator[Item]:
     rows = []
     for (label, length, seed, *_), row in run.solved(cases, both_models):
         values = [signed_deviation(*np.array(pair, dtype=float)) for pair in row]
-        d[label, length, seed] = [100 * one for one, _ in values]
-        for load, (one, worst) in zip(loads, values):
+        d[label, length, seed] = [100 * value for value, _ in values]
+        for load, (value, worst) in zip(loads, values):
             at = float(speeds[worst]) if worst >= 0 else math.nan
-            rows.append((label, seed, length, load, load * 4 / math.pi, 100 * one, at))
+            rows.append((label, seed, length, load, load * 4 / math.pi, 100 * value, at))
     most = max(max(d[BASE_LABEL, length, 1]) for length in LENGTHS)
     source = "Fig. 6 of the paper: the asperity model lies above"
     yield Check(
@@ -188,11 +188,11 @@ def _verdict(
     dips = max(int(np.sum(np.diff(of_length) < 0)) for of_length in base)
     grows = dips <= 1 and all(of_length[-1] >= max(of_length) for of_length in base)
     growth = " and d grows with load" + (", but for one step" if dips else "") if grows else ""
-    most, where = max((one, p) for of_length in base for one, p in zip(of_length, loads))
+    most, where = max((value, p) for of_length in base for value, p in zip(of_length, loads))
     ratio = [b / a for a, b in zip(*base)]
     pairs = {label: zip(*(d[label, length, 1] for length in LENGTHS)) for label in labels}
-    shrinking = [label for label, both in pairs.items() if all(0 < b < a for a, b in both)]
-    seeds = [one for (*_, seed), values in d.items() if seed > 1 for one in values]
+    shrinking = [label for label, pair in pairs.items() if all(0 < b < a for a, b in pair)]
+    seeds = [value for (*_, seed), values in d.items() if seed > 1 for value in values]
     agrees = (
         "With summits on a surface of exponential autocorrelation the asperity model gives the higher friction"
         f"{growth}: at most {most:.0f} % at {where / 1e6:g} MPa (other seeds: {min(seeds):.0f} to {max(seeds):.0f} %). "

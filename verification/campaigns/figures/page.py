@@ -41,6 +41,6 @@ def wrapped(text: str) -> str:
     """Every paragraph and item of a list in lines of at most 118 characters."""
     lines = []
     for part in text.split("\n"):
-        rest = "  " if part.startswith("- ") else ""
-        lines += textwrap.wrap(part, 118, subsequent_indent=rest, break_on_hyphens=False) or [""]
+        indent = "  " if part.startswith("- ") else ""
+        lines += textwrap.wrap(part, 118, subsequent_indent=indent, break_on_hyphens=False) or [""]
     return "\n".join(lines)

@@ -87,9 +87,9 @@ def sphere_array(level: str, run: Run = Run()) -> Iterator[Item]:
         ax.set(title=title, xlabel="approach below first touch, 500 nm - $h_s$ (nm)", ylabel="load per asperity (mN)")
         ax.set_ylim(0, 21)
         ax.legend(title="spacing")
-    both = ("approach without mean deflection [m]", "approach with mean deflection [m]")
+    conventions = ("approach without mean deflection [m]", "approach with mean deflection [m]")
     last = "asperity model at the approach without mean deflection [N]"
-    headings = ("spacing [m]", "load per asperity [N]", *both, last)
+    headings = ("spacing [m]", "load per asperity [N]", *conventions, last)
     yield Check(
         "asperity model against Hertz, any spacing",
         worst,

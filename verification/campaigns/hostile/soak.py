@@ -41,13 +41,13 @@ def soak(level: str, run: Run = Run()) -> Iterator[Item]:
 
 def summarized(chunks: list[PlainRow]) -> Iterator[Item]:
     """Checks and tables of the chunks."""
-    scenes = [one for row in chunks for one in row["scenes"]]
-    ended = Counter(one["ended"] for one in scenes)
-    closed = [one for one in scenes if one["ratio"] is not None]
+    scenes = [entry for row in chunks for entry in row["scenes"]]
+    ended = Counter(entry["ended"] for entry in scenes)
+    closed = [entry for entry in scenes if entry["ratio"] is not None]
     none: Keywords = {"ratio": math.inf, "words": "nothing was judged"}
-    worst = max(closed, key=lambda one: one["ratio"], default=none)
-    wrong = [one["words"] for one in closed if not one["ratio"] <= 1]
-    raw = [one["words"] for one in scenes if one["ended"] == RAW]
+    worst = max(closed, key=lambda entry: entry["ratio"], default=none)
+    wrong = [entry["words"] for entry in closed if not entry["ratio"] <= 1]
+    raw = [entry["words"] for entry in scenes if entry["ended"] == RAW]
     yield Check(
         "raw errors", len(raw), expected=0, tolerance=0, source="none is allowed", kind=AT_MOST, note="; ".join(raw[:3])
     )
@@ -73,9 +73,9 @@ def summarized(chunks: list[PlainRow]) -> Iterator[Item]:
         "growth of memory", growth(chunks), expected=MOST_GROWTH, tolerance=0, source="flat", kind=AT_MOST, unit="MiB"
     )
     words = f"{len(scenes)} scenes: {ended[ANSWERED]} answered, {ended[REFUSED]} refused, {len(closed)} closed again"
-    why = Counter(one["words"] for one in scenes if one["ended"] == REFUSED)
+    why = Counter(entry["words"] for entry in scenes if entry["ended"] == REFUSED)
     yield Table("soak", words, ("why", "refused"), why.most_common(12))
-    features = Counter(feature for one in scenes for feature in one["features"])
+    features = Counter(feature for entry in scenes for feature in entry["features"])
     yield Table("soak-features", "What the answered scenes had", ("feature", "scenes"), features.most_common())
     rows = [(row["first"], row["process"], round(row["memory"], 1)) for row in chunks[:: max(1, len(chunks) // 12)]]
     yield Table("soak-memory", "Resident memory of the process", ("scenes before", "process", "MiB"), rows)

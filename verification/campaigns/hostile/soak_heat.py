@@ -56,8 +56,8 @@ def inlet_viscosity(scene: Scene, speed: float) -> float:
     def film(eta: float) -> float:
         return moes(bodies.load / bodies.width, bodies.radius, bodies.e_prime, u, eta, alpha)
 
-    whole = thinner * film(oil.viscosity)
-    return halved(1e-9 * oil.viscosity, oil.viscosity, lambda eta: film(eta) < whole, 80)
+    total = thinner * film(oil.viscosity)
+    return halved(1e-9 * oil.viscosity, oil.viscosity, lambda eta: film(eta) < total, 80)
 
 
 def heated_stress(
@@ -95,8 +95,8 @@ def heated_stress(
         log_eta, beta = _viscosity(oil, log_ratio, wall)
         excess = beta[:, None] * (rise - rise[:, :1])
         thin = np.exp(excess)
-        whole = 2 * np.trapezoid(thin, z, axis=1)
-        rate = slide / (h * whole)
+        total = 2 * np.trapezoid(thin, z, axis=1)
+        rate = slide / (h * total)
         mean = wall + tau * slide * h / (12 * k)
         new = np.exp(log_eta) * rate
         if oil.eyring_stress:
@@ -106,7 +106,7 @@ def heated_stress(
             limit = oil.limiting_stress_offset + oil.limiting_stress_coefficient * p
             new = np.minimum(new, limit * np.exp(585 * (1 / mean - 1 / ambient)))
         moved, tau = float(np.max(np.abs(new - tau))), KEPT * tau + (1 - KEPT) * new
-        source = (tau * slide * h / k)[:, None] * thin / whole[:, None]
+        source = (tau * slide * h / k)[:, None] * thin / total[:, None]
         rise = KEPT * rise + (1 - KEPT) * _twice_integrated(source, z)
         heat = free * tau * slide + spots
         hotter = ambient + memory @ (0.5 * (heat[1:] + heat[:-1]))

@@ -133,9 +133,9 @@ class Judge:
             mean_film = float(smooth @ weight / weight.sum())
         if load <= 1e-9 * bodies.load:
             return float((weight @ (gap0 - gap0.min()).mean(axis=1)) / weight.sum()), mean_film, np.zeros(x.size)
-        asked: Keywords = {"mean_pressure": pressure, "hardness": bodies.hardness, "tolerance": 1e-6}
+        settings: Keywords = {"mean_pressure": pressure, "hardness": bodies.hardness, "tolerance": 1e-6}
         boundary = ("periodic" if flat else "free", "periodic")
-        dry = solve_contact(gap0, strip.spacing, bodies.e_prime, boundary=boundary, **asked)
+        dry = solve_contact(gap0, strip.spacing, bodies.e_prime, boundary=boundary, **settings)
         gap = np.maximum(dry.gap, 0)
         touching = dry.pressure > 0
         columns = np.full(x.size, touching.mean()) if flat else touching.mean(axis=1)

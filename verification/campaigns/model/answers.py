@@ -77,7 +77,7 @@ class AnswerCase:
         rough: Keywords | Roughness
         if self.surface in GENERATED:
             acf, lengths = GENERATED[self.surface]
-            rough = {"acf": acf, "correlation_length": tuple(times * one for one in lengths), "seed": seed}
+            rough = {"acf": acf, "correlation_length": tuple(times * length for length in lengths), "seed": seed}
             rough["oversize"] = 1 if lengths[0] < 20e-6 else 3  # ridges along are longer than a light contact
             patch: Keywords = {"spacing": 0.45e-6 * times}
         else:
@@ -173,7 +173,7 @@ def compared(
     name: str, result: list[tuple[tuple[str, str], list[tuple[float, float, float]]]], failed: int, source: str
 ) -> Iterator[Item]:
     """Table, checks and picture of answers ``result``: the groups of each, and by both ways what is `interval_error`."""
-    every = {way: np.array([both[k] for _, both in result]).reshape(-1, 3) for k, way in enumerate(WAYS)}
+    every = {way: np.array([sides[k] for _, sides in result]).reshape(-1, 3) for k, way in enumerate(WAYS)}
     names = [
         name
         for name in dict.fromkeys(itertools.chain(*zip(*(groups for groups, _ in result))))

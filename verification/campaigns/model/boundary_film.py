@@ -73,8 +73,8 @@ def drawn(names: list[str], values: np.ndarray) -> Figure:
     dense = np.geomspace(min(RATIOS), max(RATIOS), 100)
     for ax, film in zip(grid, chosen):
         ax.fill_between(dense, *load_share_band(dense), color="0.8", label="four published laws")
-        for k, (name, one) in enumerate(zip(names, values[:, :, FILMS.index(film)])):
-            ax.plot(RATIOS, one, "osD"[k // len(PRESSURES)] + ("-", "--", ":")[k % len(PRESSURES)], label=name)
+        for k, (name, at_film) in enumerate(zip(names, values[:, :, FILMS.index(film)])):
+            ax.plot(RATIOS, at_film, "osD"[k // len(PRESSURES)] + ("-", "--", ":")[k % len(PRESSURES)], label=name)
         ax.set(xscale="log", xlabel="lambda ratio (film/Sq)", title=f"h < {film * 1e9:g} nm")
     grid[0].set_ylabel("asperity load ratio")
     canvas.legend(*grid[-1].get_legend_handles_labels(), loc="outside right upper", fontsize=8, frameon=False)

@@ -39,31 +39,31 @@ def passed(scene: Scene, bodies: Sequence[RoughBody], speed: float) -> PlainRow:
     gap [m], ``shares`` of the load on gaps below each of `FILMS`, and ``drawn``, the share of the lubricant that
     touching cells give off; the same at rest, from which it starts; ``off``: how far the `BALANCES` are from 0."""
     heights = np.sum([body.surface.heights for body in bodies], axis=0)
-    whole = lubfric.Surface(heights, bodies[0].surface.spacing, periodic_axes=(True, True))
+    both_maps = lubfric.Surface(heights, bodies[0].surface.spacing, periodic_axes=(True, True))
     upper = next((body.surface for body in bodies if body.upper), None)
-    rest = solve_strip(scene, whole, speed, upper=upper)
-    problem = rest.problem
-    first = row(problem, rest.result, given(evaluated(problem, rest.result.state)))
+    at_rest = solve_strip(scene, both_maps, speed, upper=upper)
+    problem = at_rest.problem
+    first = row(problem, at_rest.result, given(evaluated(problem, at_rest.result.state)))
     fastest = max(abs(body.speed) for body in bodies)
     if fastest == 0:
-        return first | {"rest": first, "off": balances(problem, rest.result, [], 0.0, first["given"]), "steps": 0}
+        return first | {"rest": first, "off": balances(problem, at_rest.result, [], 0.0, first["given"]), "steps": 0}
     line = problem.line
     dx = problem.spacing[0]
     U = line.entrainment_speed
     width = max(line.half_width, math.sqrt(2 * line.radius * line.moes_film))
     step = dx / (U if SLOW <= fastest / U <= FAST else fastest)
     start = math.ceil(SWEEP * width / (U * step))
-    count = max(4, round(whole.size[0] / (fastest * step)))
+    count = max(4, round(both_maps.size[0] / (fastest * step)))
     moving = moments(
         travelling(problem, bodies),
         step,
-        start=rest.result.state,
+        start=at_rest.result.state,
         tolerance=EXACT * problem.x.size,
         shift=int(line.half_width > 8 * dx),
     )
     result, sources = zip(*((moment.result, given(moment.at)) for moment in islice(moving, start, start + count + 1)))
-    rows = [row(problem, *both) for both in zip(result[1:], sources[1:])]
-    mean: PlainRow = {name: np.mean([one[name] for one in rows], axis=0).tolist() for name in rows[0]}
+    rows = [row(problem, *moment) for moment in zip(result[1:], sources[1:])]
+    mean: PlainRow = {name: np.mean([each[name] for each in rows], axis=0).tolist() for name in rows[0]}
     mean["drawn"] = share(mean["given"], mean["enters"])
     at = travelling(problem, bodies)((start + count) * step)
     out = float(np.mean(sources[2:]))
@@ -110,17 +110,17 @@ def balances(
     results = passing or (result,) * 4
     U = line.entrainment_speed
     carried = bool(passing) and abs(U * step / dx - 1) < 1e-9
-    masses = [held(line, one, one.gap) for one in results]
+    masses = [held(line, each, each.gap) for each in results]
     rises = -x[0] * dx / line.radius, (dx - x[0]) * dx / line.radius
     kept = _kept_along(masses, rises) if carried else _kept(masses)
     counted = results[3:] if carried else results[2:]  # what the moments before leave needs three of them, or two
-    left = [held(line, one, 1.5 * one.gap - 0.5 * np.roll(one.gap, 1, 0))[-1] for one in counted]
+    left = [held(line, each, 1.5 * each.gap - 0.5 * np.roll(each.gap, 1, 0))[-1] for each in counted]
     out_of = [m[-1] for m in kept[:-1]] if carried else left
-    lost = [U * (one.flow_film - behind.mean()) for one, behind in zip(counted, out_of)]
+    lost = [U * (each.flow_film - behind.mean()) for each, behind in zip(counted, out_of)]
     gained = float((kept[-1] - kept[0]).mean(axis=1).sum()) * dx / step if passing else 0.0  # in all steps
     source = out * len(counted)
     missing = float(np.sum(lost)) + source - gained
-    enters = U * float(np.sum([one.flow_film for one in counted])) + source
+    enters = U * float(np.sum([each.flow_film for each in counted])) + source
     p = result.pressure.mean(axis=1)
     face = x[:, None] - x[None, :]
     a = face + dx / 2

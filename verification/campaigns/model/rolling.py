@@ -49,12 +49,12 @@ def cases(level: str) -> dict[str, RollingCase]:
     others = list(CONTACTS)[2:]
     values = [(name, "gaussian", ratio, slip) for name in mapped for ratio in RATIOS for slip in SLIPS]
     if level == "quick":
-        values = [one for one in values[: len(values) // 2] if one[2] >= 1 and abs(one[3]) == 0.1]
+        values = [case for case in values[: len(values) // 2] if case[2] >= 1 and abs(case[3]) == 0.1]
     else:
         more = [(name, "exponential") for name in (mapped[0], others[-1])] + [(name, "gaussian") for name in others]
         more += [(mapped[0], kind) for kind in KINDS[2:]]
-        values = [(*one, ratio, slip) for one in more for ratio in RATIOS[1::2] for slip in (-0.1, 0.5)] + values
-    return {"; ".join(map(str, one)): one for one in values}
+        values = [(*case, ratio, slip) for case in more for ratio in RATIOS[1::2] for slip in (-0.1, 0.5)] + values
+    return {"; ".join(map(str, case)): case for case in values}
 
 
 def solved(case: RollingCase) -> PlainRow:

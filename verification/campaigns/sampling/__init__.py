@@ -25,4 +25,4 @@ def _own(part: str, options: Namespace) -> PlainRow:
     return {} if part == "quantities" else {"seed": options.seed}
 
 
-COMMAND = frame.campaign("sampling", __doc__, PARTS, add_options=_options, own=_own)
+COMMAND = frame.campaign("sampling", __doc__, PARTS, add_options=_options, more_keywords=_own)

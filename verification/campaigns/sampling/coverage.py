@@ -167,13 +167,13 @@ def endless(case_and_seed: tuple[CoverageCase, int]) -> tuple[float, float]:
     coarse = (spacing[0] * factors[0], spacing[1] * factors[1])
     assert scene.contact.shape is not None  # of a case
     across = 4 * math.ceil(scene.contact.shape[0] / (4 * factors[0]))
-    change, own = _change(scene, case.speed, seed + 500, across)
+    change, change_error = _change(scene, case.speed, seed + 500, across)
     columns = 64 * round(LENGTHS * along / coarse[1] / 64)
     values: list[float] = []
     while len(values) < FEWEST or (len(values) < PATCHES and _error(values) > CLOSE * case.target):
         surface = _surface(scene, (across, columns), coarse, seed + len(values))
         values.append(_plain(scene, surface, case.speed))
-    return float(np.mean(values)) * (1 + change), math.hypot(_error(values), own)
+    return float(np.mean(values)) * (1 + change), math.hypot(_error(values), change_error)
 
 
 def cells_of(scene: Scene) -> tuple[tuple[float, float], tuple[int, int], float]:

@@ -32,11 +32,11 @@ def pieces(level: str, run: Run = Run(), seed: int = SEED) -> Iterator[Item]:
     """Count how often the interval of a quarter of a map contains the friction of the complete map."""
     maps = range(seed + 90_000, seed + 90_000 + MAPS[level])
     places = (None, *np.ndindex(CUTS))
-    cases = {f"{one}, piece {place}": (one, place) for one in maps for place in places}
+    cases = {f"{number}, piece {place}": (number, place) for number in maps for place in places}
     rows = [row for _, row in run.solved(cases, piece)]
     covered = []
-    for whole, *parts in np.array(rows).reshape(len(maps), len(places)).tolist():
-        covered += [part["low"] <= whole["f"] <= part["high"] for part in parts]
+    for complete, *parts in np.array(rows).reshape(len(maps), len(places)).tolist():
+        covered += [part["low"] <= complete["f"] <= part["high"] for part in parts]
     words = "pieces of a map: coverage"
     yield within(words, float(np.mean(covered)), len(covered), PIECES, "the whole map")
 
@@ -45,8 +45,8 @@ def piece(case: tuple[int, tuple[int, int] | None]) -> PlainRow:
     """A point on one piece of a map (None: all of it), which is written and read again as instrument files are."""
     seed, place = case
     keys: Keywords = {"sq": 100e-9, "correlation_length": 8e-6, "acf": "gaussian", "seed": seed}
-    whole = lubfric.generate_surface(MAP, 0.45e-6, **keys)
-    heights = whole.heights
+    complete = lubfric.generate_surface(MAP, 0.45e-6, **keys)
+    heights = complete.heights
     if place is not None:
         nx = heights.shape[0] // CUTS[0]
         ny = heights.shape[1] // CUTS[1]
@@ -54,7 +54,7 @@ def piece(case: tuple[int, tuple[int, int] | None]) -> PlainRow:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "piece.npy"
         np.save(file, heights)
-        named = {"file": str(file), "spacing": tuple(whole.spacing), "unit": "m"} | dict.fromkeys(GENERATED)
+        named = {"file": str(file), "spacing": tuple(complete.spacing), "unit": "m"} | dict.fromkeys(GENERATED)
         return solve(SHARED.with_(surface=named, contact={"shape": None, "spacing": None}), 0.02, ASKED)
 
 

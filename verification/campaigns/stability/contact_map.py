@@ -101,8 +101,8 @@ def solve(cell: Cell[Pressed]) -> ContactResult:
     absurd = np.zeros(p.shape)
     absurd.flat[-1] = 1e14
     start = {"none": None, "even": np.ones(p.shape), "absurd": absurd}[p.start]
-    asked: Keywords = {"mean_pressure": p.mean_pressure, "mean_gap": p.mean_gap, "hardness": p.hardness}
-    return solve_contact(p.gap0, p.spacing, E_PRIME, boundary=p.boundary, tolerance=p.tolerance, start=start, **asked)
+    pressed: Keywords = {"mean_pressure": p.mean_pressure, "mean_gap": p.mean_gap, "hardness": p.hardness}
+    return solve_contact(p.gap0, p.spacing, E_PRIME, boundary=p.boundary, tolerance=p.tolerance, start=start, **pressed)
 
 
 def deviations(cell: Cell[Pressed], result: ContactResult) -> dict[str, float]:
@@ -142,10 +142,10 @@ def loads(*, quick: bool) -> Iterator[Cell[Pressed]]:
         for row, kind in enumerate(SURFACES):
             flat = full_contact(surface(kind, n, n))
             for share in (1e-9, 1e-2, 1.5) if quick else many:
-                asked = Pressed(
+                pressed = Pressed(
                     kind=kind, shape=(n, n), boundary=boundary, mean_pressure=share * flat, second=boundary == PERIODIC
                 )
-                yield Cell(map="contact: load and surface", panel=label, x=share, y=row, problem=asked)
+                yield Cell(map="contact: load and surface", panel=label, x=share, y=row, problem=pressed)
 
 
 def hardnesses(*, quick: bool) -> Iterator[Cell[Pressed]]:
@@ -157,10 +157,10 @@ def hardnesses(*, quick: bool) -> Iterator[Cell[Pressed]]:
             for hardness in np.geomspace(1e-5, 1, 3 if quick else 6).tolist():
                 for share in (1e-4, 0.5, 1.0) if quick else many:
                     limit = hardness * E_PRIME
-                    asked = Pressed(
+                    pressed = Pressed(
                         kind=kind, shape=(n, n), boundary=boundary, mean_pressure=share * limit, hardness=limit
                     )
-                    yield Cell(map="contact: hardness", panel=f"{kind}, {label}", x=hardness, y=share, problem=asked)
+                    yield Cell(map="contact: hardness", panel=f"{kind}, {label}", x=hardness, y=share, problem=pressed)
 
 
 def sizes(*, quick: bool) -> Iterator[Cell[Pressed]]:
@@ -171,11 +171,11 @@ def sizes(*, quick: bool) -> Iterator[Cell[Pressed]]:
         for aspect in (1.0, 50.0) if quick else (0.02, 0.1, 1.0, 10.0, 50.0):
             for label, boundary in BOUNDARIES.items():
                 for pressure in (1e8,) if quick else (1e6, 1e9, 3e10):
-                    asked = Pressed(
+                    pressed = Pressed(
                         kind="exponential", shape=shape, boundary=boundary, mean_pressure=pressure, aspect=aspect
                     )
                     panel = f"{label}, {pressure / 1e6:g} MPa"
-                    yield Cell(map="contact: size and aspect ratio", panel=panel, x=aspect, y=row, problem=asked)
+                    yield Cell(map="contact: size and aspect ratio", panel=panel, x=aspect, y=row, problem=pressed)
 
 
 def gaps(*, quick: bool) -> Iterator[Cell[Pressed]]:
@@ -188,10 +188,10 @@ def gaps(*, quick: bool) -> Iterator[Cell[Pressed]]:
             hardness = None if row % 2 else 0.05 * E_PRIME
             for share in (1e-3, 0.5, 0.99) if quick else (1e-6, 1e-4, 1e-2, 0.1, 0.3, 0.6, 0.9, 0.999):
                 if hardness is None or share >= 1e-2:
-                    asked = Pressed(
+                    pressed = Pressed(
                         kind=kind, shape=(n, n), boundary=boundary, mean_gap=share * touching, hardness=hardness
                     )
-                    yield Cell(map="contact: mean gap", panel=label, x=share, y=row, problem=asked)
+                    yield Cell(map="contact: mean gap", panel=label, x=share, y=row, problem=pressed)
 
 
 def heights(*, quick: bool) -> Iterator[Cell[Pressed]]:
@@ -199,8 +199,8 @@ def heights(*, quick: bool) -> Iterator[Cell[Pressed]]:
     for kind in ("exponential",) if quick else ("exponential", "noise", "gaussian"):
         for sigma in np.geomspace(1e-12, 1e-3, 4 if quick else 10).tolist():
             for pressure in (1e6, 1e9) if quick else (1e3, 1e6, 1e8, 1e10):
-                asked = Pressed(kind=kind, shape=(40, 40), mean_pressure=pressure, sigma=sigma, second=True)
-                yield Cell(map="contact: roughness height", panel=kind, x=sigma, y=pressure, problem=asked)
+                pressed = Pressed(kind=kind, shape=(40, 40), mean_pressure=pressure, sigma=sigma, second=True)
+                yield Cell(map="contact: roughness height", panel=kind, x=sigma, y=pressure, problem=pressed)
 
 
 def tilts(*, quick: bool) -> Iterator[Cell[Pressed]]:
@@ -210,7 +210,7 @@ def tilts(*, quick: bool) -> Iterator[Cell[Pressed]]:
         for tilt in (0.0, 100.0) if quick else (0.0, 1.0, 10.0, 100.0, 1000.0):
             for offset in (0.0, 1e-3) if quick else (0.0, 1e-3, 1.0):
                 for pressure in (1e8,) if quick else (1e6, 1e8, 1e10):
-                    asked = Pressed(
+                    pressed = Pressed(
                         kind="exponential",
                         shape=(n, n),
                         boundary=boundary,
@@ -219,7 +219,7 @@ def tilts(*, quick: bool) -> Iterator[Cell[Pressed]]:
                         offset=offset,
                     )
                     panel = f"{label}, {pressure / 1e6:g} MPa"
-                    yield Cell(map="contact: tilt and offset", panel=panel, x=tilt, y=offset, problem=asked)
+                    yield Cell(map="contact: tilt and offset", panel=panel, x=tilt, y=offset, problem=pressed)
 
 
 def precisions(*, quick: bool) -> Iterator[Cell[Pressed]]:
@@ -227,7 +227,7 @@ def precisions(*, quick: bool) -> Iterator[Cell[Pressed]]:
     for row, (single, start) in enumerate(((False, "none"), (True, "none"), (False, "absurd"), (False, "even"))):
         for tolerance in (1e-2, 1e-8) if quick else (0.1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12):
             for pressure in (2e8,) if quick else (1e5, 2e8, 5e9):
-                asked = Pressed(
+                pressed = Pressed(
                     kind="exponential",
                     shape=(48, 48),
                     mean_pressure=pressure,
@@ -236,4 +236,4 @@ def precisions(*, quick: bool) -> Iterator[Cell[Pressed]]:
                     start=start,
                 )
                 panel = f"{pressure / 1e6:g} MPa"
-                yield Cell(map="contact: precision, tolerance, start", panel=panel, x=tolerance, y=row, problem=asked)
+                yield Cell(map="contact: precision, tolerance, start", panel=panel, x=tolerance, y=row, problem=pressed)

@@ -92,13 +92,13 @@ def panel(ax: Axes, cells: list[Check]) -> None:
             scale = "log" if min(c.at[axis] for c in cells) > 0 else "symlog"
             ax.set(**{f"{axis}scale": scale})
         ax.set(**{f"{axis}label": label})
-        one = ax.xaxis if axis == "x" else ax.yaxis
+        drawn_axis = ax.xaxis if axis == "x" else ax.yaxis
         if label in COUNTED:
-            one.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
+            drawn_axis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
         if label in NAMED:
-            one.set_ticks(range(len(NAMED[label])), NAMED[label], fontsize=7)
+            drawn_axis.set_ticks(range(len(NAMED[label])), NAMED[label], fontsize=7)
         if not label:
-            one.set_ticks([])
+            drawn_axis.set_ticks([])
     if name.startswith("sharing: speed"):
         ax.set_xscale("symlog", linthresh=1e-10)
         ax.set_xticks([-1, -1e-4, -1e-8, 1e-8, 1e-4, 1])

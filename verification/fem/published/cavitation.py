@@ -107,8 +107,8 @@ def cavitation(level: str) -> Iterator[Item]:
         at = {key: np.interp(PLACES, *profile) for key, profile in results.items()}
         fine, coarse = (np.mean([at[law, n] for law in LAWS], axis=0) for n in (1, 0))
         laws = np.abs(at["constant", 1] - at["dowson-higginson", 1]) / 2
-        own = np.hypot(laws, np.abs(fine - coarse) / 2) + AMBIENT
-        for place, ours, error, theirs in zip(PLACES, 2 * fine - coarse, own, pocket.pressures):
+        own_errors = np.hypot(laws, np.abs(fine - coarse) / 2) + AMBIENT
+        for place, ours, error, theirs in zip(PLACES, 2 * fine - coarse, own_errors, pocket.pressures):
             label = f"{name} pocket, pressure at {place:g} of the length"
             yield against("bertocchi", label, ours, theirs, error / ours, "MPa", error=0.02 + AMBIENT / theirs)
         yield drawn(name, pocket, results)

@@ -55,9 +55,9 @@ def dry(level: str) -> Iterator[Item]:
         area, error = halved(partial(bisinusoid, share), 512)
         side = share < 0.5
         ours, theirs = (v if side else 1 - v for v in (area, references.bisinusoid_area(share)))
-        own = error * area / ours
+        own_error = error * area / ours
         what = "contact" if side else "no contact"
-        yield against("jgh", f"bisinusoid, {what} at p/p* = {share:g}", ours, theirs, own)
+        yield against("jgh", f"bisinusoid, {what} at p/p* = {share:g}", ours, theirs, own_error)
     yield summits()
     if level != "quick":
         yield from self_affine()
@@ -130,8 +130,8 @@ def self_affine() -> Iterator[Item]:
             scatter = max(2 * theirs.scatter / theirs.area, PRINTED)
             yield against("xu", f"{at}: area on their cells", *mean(areas, theirs.area), error=scatter)
         if theirs.other_area:
-            corrected, other, own = mean(areas - edges, theirs.other_area)
-            yield against("xu", f"{at}: area", corrected, other, own + 0.1 * edges.mean() / corrected)
+            corrected, other, own_error = mean(areas - edges, theirs.other_area)
+            yield against("xu", f"{at}: area", corrected, other, own_error + 0.1 * edges.mean() / corrected)
         if theirs.mean_square:
             square = theirs.mean_square / slope**2
             yield against("xu", f"{at}: mean square pressure", *mean(squares, square), error=0.02)
@@ -141,9 +141,9 @@ def self_affine() -> Iterator[Item]:
     )
     for name, k, cut in (("area", 1, 2), ("mean square pressure", 3, None)):
         values = [f[k] - (f[cut] if cut else 0) for f in (wide, narrow)]
-        ours, published, own = mean(values[0], references.CHALLENGE[name])
+        ours, published, own_error = mean(values[0], references.CHALLENGE[name])
         yield against(
-            "challenge", f"contact challenge: {name}", ours, published, own + abs(values[1].mean() / ours - 1)
+            "challenge", f"contact challenge: {name}", ours, published, own_error + abs(values[1].mean() / ours - 1)
         )
 
 
@@ -169,8 +169,8 @@ def pressed(heights: np.ndarray, load: float) -> tuple[float, float, float, floa
 
 def mean(values: Sequence[float], theirs: float) -> tuple[float, float, float]:
     """Mean, their value, and twice the standard error of the mean, relative."""
-    one = float(np.mean(values))
-    return one, theirs, 2 * float(np.std(values, ddof=1)) / math.sqrt(len(values)) / one
+    average = float(np.mean(values))
+    return average, theirs, 2 * float(np.std(values, ddof=1)) / math.sqrt(len(values)) / average
 
 
 def drawn(rows: list[tuple[float, float]]) -> Figure:

@@ -126,9 +126,9 @@ def rolling(m: float, l: float, inlet: float | None = None) -> tuple[float, floa
 def starved(m: float, l: float, inlet: float) -> tuple[float, float, float]:
     """Torque with an inlet [b] over the flooded one, the gap there over the smallest film, and the relative error."""
     full = film(m, l, "dowson-higginson", "barus")
-    (whole, first) = rolling(m, l)
+    (flooded, first) = rolling(m, l)
     (part, second) = rolling(m, l, inlet)
-    return part / whole, float(full.film_at(np.array([-inlet * full.half_width]))[0]) / full.min_film, first + second
+    return part / flooded, float(full.film_at(np.array([-inlet * full.half_width]))[0]) / full.min_film, first + second
 
 
 def rigid() -> Iterator[Item]:

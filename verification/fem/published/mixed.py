@@ -54,21 +54,21 @@ def mixed(level: str) -> Iterator[Item]:
     """
     values = np.array([shares((kind, PRESSURE)) for kind in SURFACES])[:, :, FILMS.index(BOUNDARY_FILM)]
     ours = values.mean(axis=0)
-    own = 2 * values.std(axis=0, ddof=1) / np.sqrt(len(values))
+    own_errors = 2 * values.std(axis=0, ddof=1) / np.sqrt(len(values))
     low, high = references.load_share_band(RATIOS)
-    for ratio, one, error, a, b in zip(RATIOS, ours, own, low, high):
+    for ratio, value, error, a, b in zip(RATIOS, ours, own_errors, low, high):
         name = f"load share of the asperities, film/Sq = {ratio:g}"
         half = (b - a) / (a + b)
         note = "not independent: the boundary film of 20 nm was chosen as the nearest to these laws"
         if ratio * min(SURFACES.values()) <= BOUNDARY_FILM:
             note = "the film itself is 20 to 40 nm, so nearly all of it is below the boundary film; lubfric's roughness is at rest"
         listed = listed_near(0.938, "ours", note, within=0.03) if ratio == 0.2 else None
-        yield against("shares", name, one, (a + b) / 2, error / one, note=note, error=half, listed=listed)
+        yield against("shares", name, value, (a + b) / 2, error / value, note=note, error=half, listed=listed)
     at = RATIOS.index(1.0)
     for key, (law_name, law) in zip(LAWS, references.LOAD_SHARES.items(), strict=True):
         name = f"load share of the asperities, film/Sq = 1, {law_name}"
         note = "the laws differ among themselves by a factor of 2.5 there"
-        yield against(key, name, ours[at], float(law(np.ones(1))[0]), own[at] / ours[at], note=note)
+        yield against(key, name, ours[at], float(law(np.ones(1))[0]), own_errors[at] / ours[at], note=note)
     yield from masjedi(level)
     yield from bearing()
     yield from gears()
@@ -77,7 +77,7 @@ def mixed(level: str) -> Iterator[Item]:
     mean = scene.bodies.load / scene.bodies.width / (2 * line.half_width)
     yield against("paper", "mean Hertz pressure", mean, references.PAPER["mean Hertz pressure"], 0.0, "Pa", error=5e-3)
     yield against("paper", "half-width", line.half_width, references.PAPER["half-width"], 0.0, "m", error=0.012)
-    yield drawn(ours, own)
+    yield drawn(ours, own_errors)
 
 
 def masjedi(level: str) -> Iterator[Item]:
@@ -123,8 +123,8 @@ def masjedi(level: str) -> Iterator[Item]:
                 body = RoughBody(surface, (1 - SLIP / 2) * speed)
                 strip = solve_moving_strip(scene, (body,), speed)
                 rows.append(float(strip.series["share"][strip.discarded :].mean()))
-                rest = strip.rest.result
-                thickness.append([rest.pressure[rest.gap < film].sum() / rest.pressure.sum() for film in films])
+                steady = strip.rest.result
+                thickness.append([steady.pressure[steady.gap < film].sum() / steady.pressure.sum() for film in films])
                 if seed == seeds[0]:
                     by_paper = lubfric.friction(
                         lubfric.prepare(scene.with_(numerics={"model": "paper"}), surface), speed
@@ -259,10 +259,10 @@ def mean_friction(rpm: float, oil: tuple[float, float], f_b: float, length: floa
     return float(np.average(frictions, weights=weights)), float(np.average(errors, weights=weights))
 
 
-def drawn(ours: np.ndarray, own: np.ndarray) -> Figure:
+def drawn(ours: np.ndarray, own_errors: np.ndarray) -> Figure:
     """Shares over the ratio, in the band of the laws."""
     dense = np.geomspace(min(RATIOS), max(RATIOS), 100)
     curves: list[Curve] = [(dense, law(dense), "-", name) for name, law in references.LOAD_SHARES.items()]
-    curves.append((RATIOS, ours, "ko", "lubfric, three kinds of roughness", own))
+    curves.append((RATIOS, ours, "ko", "lubfric, three kinds of roughness", own_errors))
     caption = "Asperity load ratio compared with four published laws"
     return plotting.chart("shares", caption, curves, xscale="log", xlabel="film/Sq", ylabel="share of the load")

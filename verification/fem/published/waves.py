@@ -116,8 +116,10 @@ def ripples(alpha: float, film: float, lengths: float) -> tuple[float, float]:
     near = np.abs(at.film.x) < 2.5 * w["wavelength"]
     x = at.film.x[near]
     columns = np.stack([x**0, x / b, (x / b) ** 2, np.cos(k * x), np.sin(k * x)], axis=1)
-    both = np.stack([(solution.gap - at.film.gap)[near, 0], (solution.pressure - at.film.pressure)[near, 0]], axis=1)
-    film_wave, pressure_wave = np.hypot(*np.linalg.lstsq(columns, both, rcond=None)[0][3:])
+    responses = np.stack(
+        [(solution.gap - at.film.gap)[near, 0], (solution.pressure - at.film.pressure)[near, 0]], axis=1
+    )
+    film_wave, pressure_wave = np.hypot(*np.linalg.lstsq(columns, responses, rcond=None)[0][3:])
     return film_wave / height * w["height"], pressure_wave / height * w["height"]
 
 

@@ -97,8 +97,8 @@ def graded_mesh(width: float, thickness: float, strip: float, fine: float, growt
         return fine + growth * np.hypot(np.maximum(corners[0] - strip, 0), corners[1]).min(axis=0)
 
     mesh = graded(mesh, allowed)
-    both = np.hstack([mesh.p, [[-1], [1]] * mesh.p]) + 0.0  # no -0.0, which unique would tell from 0.0
-    points, shared = np.unique(both, axis=1, return_inverse=True)
+    mirrored = np.hstack([mesh.p, [[-1], [1]] * mesh.p]) + 0.0  # no -0.0, which unique would tell from 0.0
+    points, shared = np.unique(mirrored, axis=1, return_inverse=True)
     cells = np.hstack([mesh.t, mesh.t + mesh.p.shape[1]])
     return MeshTri(np.ascontiguousarray(points), np.ascontiguousarray(shared[cells]))
 

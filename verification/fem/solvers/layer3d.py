@@ -147,9 +147,16 @@ def rigid_body_modes(layer: Layer3D) -> np.ndarray:
     q = layer.degree
     z = np.interp(np.arange(1, layer.planes + 1) / q, np.arange(layer.levels.size), layer.levels)
     x, y, z = (c - c.mean() for c in np.broadcast_arrays(x[None], y[None], z[:, None, None]))
-    one = np.ones_like(x)
-    none = np.zeros_like(x)
-    modes = [(one, none, none), (none, one, none), (none, none, one), (none, -z, y), (z, none, -x), (-y, x, none)]
+    ones = np.ones_like(x)
+    zeros = np.zeros_like(x)
+    modes = [
+        (ones, zeros, zeros),
+        (zeros, ones, zeros),
+        (zeros, zeros, ones),
+        (zeros, -z, y),
+        (z, zeros, -x),
+        (-y, x, zeros),
+    ]
     B = np.array([np.stack(m, axis=-1).ravel() for m in modes]).T
     return B / np.linalg.norm(B, axis=0)
 

@@ -135,12 +135,12 @@ def rough(level: str) -> Iterator[Item]:
     """The rough patch, elastic and capped, on several grids."""
     rows = []
     for name, limit in (("elastic", None), ("capped", CAP)):
-        best = half_space_patch(REFERENCE[level], limit)
+        reference = half_space_patch(REFERENCE[level], limit)
         patches = [press_patch(layer_of(n, 2), limit) for n in NODES[level]]
-        off = [patch_difference(p, best) for p in patches]
-        for by, p, o in (*(("finite elements", *each) for each in zip(patches, off)), ("lubfric", best, 0.0)):
+        off = [patch_difference(p, reference) for p in patches]
+        for by, p, o in (*(("finite elements", *each) for each in zip(patches, off)), ("lubfric", reference, 0.0)):
             rows.append((f"{name}, {by}", f"{p.gap.shape[0]}²", p.area, p.plastic_area, p.mean_gap / SQ, o))
-        yield from patch_checks(name, patches, best, off)
+        yield from patch_checks(name, patches, reference, off)
     caption = f"Rough patch, Sq = {SQ * 1e9:g} nm, box {BOX * 1e6:g} µm, mean pressure {MEAN_PRESSURE / 1e6:g} MPa, "
     caption += f"cap {CAP / 1e9:g} GPa; triquadratic bricks"
     columns = ("solver", "nodes", "contact area", "area at the cap", "mean gap / Sq", "pressure difference")
@@ -153,22 +153,22 @@ def at_nodes(values: FloatArray, nodes: int) -> np.ndarray:
     return values[::every, ::every]
 
 
-def patch_difference(p: Patch, best: Patch) -> float:
+def patch_difference(p: Patch, reference: Patch) -> float:
     """Relative L2 difference of the pressures at the nodes of the coarser grid."""
-    other = at_nodes(best.pressure, p.pressure.shape[0])
+    other = at_nodes(reference.pressure, p.pressure.shape[0])
     return float(np.sqrt(np.sum(p.weights * (p.pressure - other) ** 2) / np.sum(p.weights * other**2)))
 
 
-def patch_checks(name: str, patches: list[Patch], best: Patch, off: list[float]) -> Iterator[Item]:
+def patch_checks(name: str, patches: list[Patch], reference: Patch, off: list[float]) -> Iterator[Item]:
     """Compare area, mean gap and pressure with `lubfric`."""
     finest = patches[-1]
     nodes = patches[-1].gap.shape[0]
     label = f"rough patch, {name}, {nodes}²"
-    other = f"{DRY}, {best.gap.shape[0]}²"
+    other = f"{DRY}, {reference.gap.shape[0]}²"
     rows = [
-        ("contact area", "1", finest.area, best.area, 0.02),
-        ("mean gap", "m", finest.mean_gap, best.mean_gap, 5e-3),
-        ("area at the cap", "1", finest.plastic_area, best.plastic_area, 4 / nodes),
+        ("contact area", "1", finest.area, reference.area, 0.02),
+        ("mean gap", "m", finest.mean_gap, reference.mean_gap, 5e-3),
+        ("area at the cap", "1", finest.plastic_area, reference.plastic_area, 4 / nodes),
     ]
     yield from compared(label, rows if np.isfinite(finest.limit) else rows[:2], other)
     sizes = [1 / p.gap.shape[0] for p in patches]

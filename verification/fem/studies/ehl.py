@@ -109,10 +109,10 @@ def thinned() -> Iterator[Item]:
         _, fem = solve_thinned(LineContact.of(c), law, sliding)
         eyring = law.critical if law.exponent is None else None
         carreau = None if law.exponent is None else (law.critical, law.exponent)
-        own = lubfric.solve_ehl(**c, tolerance=1e-3, sliding=sliding, eyring_stress=eyring, carreau=carreau)
+        ours = lubfric.solve_ehl(**c, tolerance=1e-3, sliding=sliding, eyring_stress=eyring, carreau=carreau)
         rows = [
-            ("flow film", "m", fem.flow_film, own.flow_film, 1e-3),
-            ("smallest film", "m", fem.min_film, own.min_film, 1e-2),
+            ("flow film", "m", fem.flow_film, ours.flow_film, 1e-3),
+            ("smallest film", "m", fem.min_film, ours.min_film, 1e-2),
         ]
         name = f"Eyring {law.critical:g} Pa" if carreau is None else f"Carreau {law.critical:g} Pa, {law.exponent:g}"
         yield from compared(f"M = {M}, L = {L}, {name}, slide-roll ratio {ratio:g}", rows, "lubfric.solve_ehl, 1e-3")

@@ -134,9 +134,13 @@ def starved() -> Iterator[Item]:
     for inlet in inlets:
         begins = inlet * math.sqrt(2 * RADIUS * flooded.min_film)
         f = film(RIGID_LOAD, 5.0, law="constant", tolerance=1e-4, inlet_length=begins)
-        own = inlet * math.sqrt(flooded.min_film / f.min_film)  # in units of sqrt(2 R h) of this film
+        scaled_inlet = inlet * math.sqrt(flooded.min_film / f.min_film)  # in units of sqrt(2 R h) of this film
         load = Parabola(
-            viscosity=VISCOSITY, speed=f.entrainment_speed, radius=RADIUS, film_thickness=f.min_film, inlet=-own
+            viscosity=VISCOSITY,
+            speed=f.entrainment_speed,
+            radius=RADIUS,
+            film_thickness=f.min_film,
+            inlet=-scaled_inlet,
         ).load
         rows = [("load", "N/m", f.load, load, 1e-3)]
         source = "closed form with the same inlet, Martin 1916"

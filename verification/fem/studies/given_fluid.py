@@ -156,6 +156,6 @@ def contact_by_elements(problem: Problem, solution: DeterministicResult, body: C
     gap0 = problem.rigid_gap + np.where(solution.touching, 0.0, solution.dent) + body.apply(fluid) - problem.floor
     once, more = (press(body, gap0, n * left, hardness=problem.hardness) for n in (1.0, MORE))
     apart = (once.pressure == 0) & (more.pressure == 0) & ~solution.touching
-    gap, thinner = (float(one.gap[apart].mean()) for one in (once, more))
+    gap, thinner = (float(contact.gap[apart].mean()) for contact in (once, more))
     wanted = float(solution.gap[apart].mean()) - problem.floor
     return once, 1.0 + (MORE - 1.0) * (wanted - gap) / (thinner - gap)

@@ -160,10 +160,10 @@ def assembled(level: str) -> Iterator[Item]:
             solved = solve(multigrid(grid, space), force, tolerance=1e-9, max_iterations=300)
             off = float(np.abs(solved.surface - waves).max() / np.abs(waves).max())
             rows.append((f"Q{degree}", grid.unknowns, name, solved.report.iterations, solved.report.residual, off))
-        best = next(r for r in rows if r[0] == f"Q{degree}")
+        first_row = next(r for r in rows if r[0] == f"Q{degree}")
         name = f"Q{degree}, {n}² nodes: multigrid against wave by wave"
         source = "the same layer, another elimination"
-        yield bound(name, best[-1], 1e-7, source, f"{best[1]} unknowns, {best[3]} iterations to 1e-9")
+        yield bound(name, first_row[-1], 1e-7, source, f"{first_row[1]} unknowns, {first_row[3]} iterations to 1e-9")
     name = "Q1: iterations with rigid-body modes over those with translations alone"
     yield bound(name, rows[0][3] / rows[1][3], 0.9, "smoothed aggregation needs the near-null space")
     caption = "Conjugate gradients with smoothed aggregation on the assembled layer under random forces"

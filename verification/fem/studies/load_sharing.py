@@ -106,9 +106,14 @@ def elastic() -> Elastic:
 
 def rough(finest: int, cells: int) -> np.ndarray:
     """One surface of ``finest`` squared cells, averaged in blocks."""
-    asked = scene().surface
+    rough_surface = scene().surface
     block = finest // cells
-    made: Keywords = {"sq": asked.sq, "acf": asked.acf, "correlation_length": CORRELATION, "seed": asked.seed}
+    made: Keywords = {
+        "sq": rough_surface.sq,
+        "acf": rough_surface.acf,
+        "correlation_length": CORRELATION,
+        "seed": rough_surface.seed,
+    }
     surface = lubfric.generate_surface((finest, finest), LENGTH / finest, **made)
     return surface.heights.reshape(cells, block, cells, block).mean(axis=(1, 3))
 
@@ -211,10 +216,10 @@ def side_by_side(points: list[Point]) -> Table:
     for p in points:
         f = p.fem
         m = p.main
-        own = (f.coefficient, f.contact_load, f.film_load, f.mean_gap * 1e9, f.area, f.couette, f.rolling)
+        by_elements = (f.coefficient, f.contact_load, f.film_load, f.mean_gap * 1e9, f.area, f.couette, f.rolling)
         loads = (m.coefficient, m.contact_load, m.film_load)
         forces = (m.couette_force, m.rolling_force)
-        rows.append((p.speed, p.cells, "finite elements", *own))
+        rows.append((p.speed, p.cells, "finite elements", *by_elements))
         rows.append((p.speed, p.cells, "lubfric", *loads, m.mean_gap * 1e9, m.real_contact_area_fraction, *forces))
     caption = "Load sharing side by side; the area is the share of the Hertz strip in contact."
     return Table("load_sharing", caption, COLUMNS, rows)
@@ -258,10 +263,10 @@ def pressure_figure(p: Point) -> Figure:
     canvas, (left, middle, right) = plotting.axes(1, 3, width=9.6, height=3.4)
     half = LENGTH / 2 * 1e6
     contact = parts.contact_fields(p.main)
-    own = parts.the(p.fem.pressed, "dry contact").pressure
+    by_elements = parts.the(p.fem.pressed, "dry contact").pressure
     shown = {"origin": "lower", "extent": (-half, half, -half, half), "cmap": "magma_r", "vmin": 0}
-    for ax, pressure, title in ((left, own, "finite elements"), (middle, contact.pressure, "lubfric")):
-        image = ax.imshow(pressure.T / 1e9, vmax=own.max() / 1e9, **shown)
+    for ax, pressure, title in ((left, by_elements, "finite elements"), (middle, contact.pressure, "lubfric")):
+        image = ax.imshow(pressure.T / 1e9, vmax=by_elements.max() / 1e9, **shown)
         ax.set(title=title, xlabel="x (µm)", xlim=(-half / 2, half / 2))
         ax.grid(visible=False)
     left.set_ylabel("y (µm)")

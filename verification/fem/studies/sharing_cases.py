@@ -53,7 +53,7 @@ def sharing_cases(level: str) -> Iterator[Item]:
     and scaled, on cells that are not square. Last is the nominally flat contact, whose patch is pressed on an
     elastic layer of bricks.
     """
-    asked = TOLERANCE[level]
+    allowed = TOLERANCE[level]
     refinements = REFINEMENTS[level]
     body = strip(CELLS, 1)
     heights = rough(CELLS, CELLS)
@@ -63,12 +63,12 @@ def sharing_cases(level: str) -> Iterator[Item]:
         model = averaged(prepare(s, lubfric.Surface(heights, (LENGTH / CELLS,) * 2)))
         solution = share_load(cylinder(s, speed, body, heights), refinements=refinements)
         main = lubfric.friction(model, speed)
-        yield from compared(name, rows_of(main, solution, asked), SOURCE)
+        yield from compared(name, rows_of(main, solution, allowed), SOURCE)
         if name == YIELDING:
             yield from yielded(solution, main, body, model)
     if level != "quick":
-        yield from measured_map(asked, refinements)
-    yield from flat(asked, refinements)
+        yield from measured_map(allowed, refinements)
+    yield from flat(allowed, refinements)
 
 
 def yielded(solution: SharedLoad, main: lubfric.FrictionResult, body: Compliance, model: Prepared) -> Iterator[Item]:

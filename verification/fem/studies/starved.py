@@ -55,8 +55,8 @@ def starved(level: str) -> Iterator[Item]:
     for place in PLACES:
         films = [film_from(place, n, bodies) for n in grids]
         name = f"lubricant begins at {place:g} b"
-        own = lubfric.solve_ehl(**CASE, **OIL, inlet_length=place * half_width(), tolerance=1e-4)
-        yield from compared(name, own, films, grids, rows)
+        ours = lubfric.solve_ehl(**CASE, **OIL, inlet_length=place * half_width(), tolerance=1e-4)
+        yield from compared(name, ours, films, grids, rows)
         if place == PLACES[0]:
             yield order_of(films, grids)
     flooded = lubfric.solve_ehl(**CASE, **OIL, tolerance=1e-4).flow_film
@@ -64,8 +64,8 @@ def starved(level: str) -> Iterator[Item]:
         layer = share * flooded
         films = [fed_with(layer, n, bodies) for n in grids[1:]]
         name = f"a layer of {share:g} of the flooded flow arrives"
-        own = lubfric.solve_ehl(**CASE, **OIL, inlet_film=layer, tolerance=1e-4)
-        yield from compared(name, own, films, grids[1:], rows)
+        ours = lubfric.solve_ehl(**CASE, **OIL, inlet_film=layer, tolerance=1e-4)
+        yield from compared(name, ours, films, grids[1:], rows)
     caption = "Starved inlets: films by lubfric, and by finite elements extrapolated to no cells"
     yield Table("starved", caption, ("case", "by", "smallest film (nm)", "film at x = 0 (nm)", "flow film (nm)"), rows)
 
@@ -128,10 +128,10 @@ def extrapolated(films: list[RoughStripFilm], grids: tuple[int, ...]) -> np.ndar
 
 
 def compared(
-    name: str, own: lubfric.EHLResult, films: list[RoughStripFilm], grids: tuple[int, ...], rows: list[TableRow]
+    name: str, ours: lubfric.EHLResult, films: list[RoughStripFilm], grids: tuple[int, ...], rows: list[TableRow]
 ) -> Iterator[Item]:
     """The checks of one inlet."""
-    mine = (own.min_film, float(own.film_at(np.array([0.0]))[0]), own.flow_film)
+    mine = (ours.min_film, float(ours.film_at(np.array([0.0]))[0]), ours.flow_film)
     theirs = extrapolated(films, grids)
     for by, values in (("lubfric", mine), ("finite elements", theirs)):
         rows.append((name, by, *(f"{1e9 * value:.2f}" for value in values)))

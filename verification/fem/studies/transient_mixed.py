@@ -114,9 +114,9 @@ def stop_and_start(model: Prepared) -> Iterator[Item]:
     high = np.interp(0.04, history.entrainment_speed[up], history.coefficient[up])
     name = "start-up friction over shut-down friction at 0.04 m/s"
     yield Check(name, high / low, expected=1.1, tolerance=0.0, source="the film lags", kind=AT_LEAST)
-    rest = history.film_load[(history.time > 9e-3) & (history.time <= 1e-2)][-1] / history.load[0]
+    remaining = history.film_load[(history.time > 9e-3) & (history.time <= 1e-2)][-1] / history.load[0]
     name = "after 5 ms of rest the contact carries the load: share left to the film"
-    yield bound(name, rest, 5e-3, "squeeze decays against the contact")
+    yield bound(name, remaining, 5e-3, "squeeze decays against the contact")
 
 
 def errors(model: Prepared) -> Iterator[Item]:
@@ -128,12 +128,12 @@ def errors(model: Prepared) -> Iterator[Item]:
     def solved(film: float, step: float) -> lubfric.TransientResult:
         return run(model, Transient(0.01, speed=speed, tolerance=step), times, film_tolerance=film, **tight)
 
-    best = solved(1e-3, 1e-6).coefficient
+    reference = solved(1e-3, 1e-6).coefficient
     for name, film, step, source in (
         ("step tolerance (3e-5)", 1e-3, 3e-5, "tolerance 1e-6"),
         ("film tolerance (3e-3)", 3e-3, 1e-6, "film tolerance 1e-3"),
     ):
-        error = np.max(np.abs(solved(film, step).coefficient - best))
+        error = np.max(np.abs(solved(film, step).coefficient - reference))
         yield bound(f"default {name}: error of f", error, 1e-3, source)
 
 

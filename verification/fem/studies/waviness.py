@@ -137,8 +137,8 @@ def compared(
     )[-1]
     judge = solution.body.line.probes(x[None, near] / b) @ ripple(solution, length * b, speed)
     rms = float(np.sqrt(np.mean(np.abs(mine[near] - judge) ** 2)))
-    (own, other), (theirs, their_other) = (parts(film, x[near] / b, length, speed) for film in (mine[near], judge))
-    return own, theirs, other, their_other, rms
+    (ours, other), (theirs, their_other) = (parts(film, x[near] / b, length, speed) for film in (mine[near], judge))
+    return ours, theirs, other, their_other, rms
 
 
 def parts(film: np.ndarray, x: np.ndarray, length: float, speed: float) -> tuple[float, float]:
@@ -169,19 +169,19 @@ def in_time() -> Iterator[Item]:
     near = np.abs(smooth.film.x) < NEAR * b
     pick = at.body.line.probes(smooth.film.x[None, near] / b)
     mine = gaps[:, near]
-    whole = list(itertools.islice(march(at, waves, 1 / count), 5 * count))[-count:]
-    judge = np.array([pick @ m.H for m in whole]) * unit
+    marched = list(itertools.islice(march(at, waves, 1 / count), 5 * count))[-count:]
+    judge = np.array([pick @ m.H for m in marched]) * unit
     turns = (
         np.exp(2j * np.pi * times * STEEL.line.entrainment_speed / b),
-        np.exp(2j * np.pi * np.array([m.time for m in whole])),
+        np.exp(2j * np.pi * np.array([m.time for m in marched])),
     )
-    one, two = (2 / turn.size / height * turn @ film for turn, film in zip(turns, (mine, judge)))
+    ours, theirs = (2 / turn.size / height * turn @ film for turn, film in zip(turns, (mine, judge)))
     source = "full-system finite elements in time"
-    size = float(np.sqrt(np.mean(np.abs(two) ** 2)))
-    rms = float(np.sqrt(np.mean(np.abs(one - two) ** 2)))
+    size = float(np.sqrt(np.mean(np.abs(theirs) ** 2)))
+    rms = float(np.sqrt(np.mean(np.abs(ours - theirs) ** 2)))
     yield Check(
         "a wave in time: amplitude in the film",
-        np.sqrt(np.mean(np.abs(one) ** 2)),
+        np.sqrt(np.mean(np.abs(ours) ** 2)),
         expected=size,
         tolerance=0.02,
         source=source,
