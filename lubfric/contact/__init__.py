@@ -5,21 +5,20 @@ from .asperity import AsperityResult, asperity_contact, find_asperities, separat
 from .asperity_find import ridges
 from .cylinder import LoadedCylinder
 from .dents import dent_by_pass, operator_under
-from .flat import ContactCurve, FlatContact, asperity_curve, contact_curve, flat_contact
+from .flat import FlatContact, asperity_curve, contact_curve, flat_contact
 from .half_space import BOUNDARY, HalfSpaceContact, half_space_contact
 from .kernels import bessel_cells, line_coefficients, love_coefficients, semiperiodic_coefficients
-from .operator import HalfSpace, even_transform, half_space
+from .operator import HalfSpace, half_space
 from .problem import ContactProblem, TrialContact, contact_problem, on_grid
 from .refinement import (
     ContactResult,
     SearchResult,
-    contact_residuals,
     contact_result,
     evaluate,
     length_scale,
     refine,
     trial_contact,
 )
-from .rough_contract import ContactState, RoughContact, area_weight, centred_axis, weighted_mean
+from .rough_contract import ContactState, RoughContact, centred_axis, weighted_mean
 from .solve import solve_contact
 from .wear import Passage, archard_compliance, passage

@@ -24,6 +24,6 @@ from .make import (
     named_oil,
 )
 from .oil import Oil
-from .pressure import BASES, Estimate, MeasuredCoefficients, gold, so_klaus
-from .shear_laws import FLOW_LAWS, LIMITS, Eyring, LimitingStress, ShearLaw
-from .viscosity import CELSIUS, ViscosityTable, Walther, checked_temperature, viscosity_at_100, viscosity_index, walther
+from .pressure import BASES, Estimate, gold
+from .shear_laws import FLOW_LAWS, LIMITS, Eyring, ShearLaw
+from .viscosity import CELSIUS, Walther, checked_temperature, viscosity_at_100, viscosity_index, walther

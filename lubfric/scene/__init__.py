@@ -1,11 +1,10 @@
 """The scene: bodies, surfaces, lubricant, motion and numerics, from a file or from Python."""
 
-from .bodies import FASTEST, FRICTION, FRICTION_OVER, LARGEST_RATIO, Bodies, ContactDomain, FrictionTable, Motion
+from .bodies import FASTEST, FRICTION, FRICTION_OVER, LARGEST_RATIO, Bodies, ContactDomain, Motion
 from .file import builtin_scenes, given_tables, load_scene, read_toml, scene_from_table, write_template
 from .history import Constant, Harmonic, History, Ramp, Table
 from .numerics import Numerics
 from .plausible import (
-    UnusualValue,
     likely_unit,
     other_convention,
     source_of,

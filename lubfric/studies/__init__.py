@@ -11,7 +11,7 @@ from .fit_input import Measured, read_measured
 from .fit_result import FitResult
 from .interpolate import Interpolant, Samples, knee_of
 from .law import Law, law_of
-from .operating_points import DURATION, ENDS, RATIO, OperatingPoints, mean_over_cycle, operating_points
+from .operating_points import DURATION, ENDS, RATIO, mean_over_cycle
 from .plan import StudyPlan, load_study, plan_study
 from .result import StudyResult, open_study, study
 from .store import Store, digest, fingerprint, fingerprint_without_files, opened, point_key

@@ -1,10 +1,9 @@
 """Height maps: read, prepared, generated, filtered and measured."""
 
-from .bearing import Bearing, material_ratio
 from .generate import ACFS, generate_surface, honing_of, surface_generator
 from .header import UNITS
 from .height_map import Surface
-from .honed import Honing, honed_sq
+from .honed import honed_sq
 from .prepare import FORMS, outliers
 from .read import INSTRUMENTS, SUFFIXES, read_surface, units_of
 from .statistics import PER_SQ, autocorrelation, check_slopes, correlation_length, rms_slope

@@ -1,14 +1,14 @@
 """Runs in time: the march, the film of smooth bodies in time, and two models of the mixed contact."""
 
-from .estimated import RunEstimate, periods
-from .film import TransientFilm, solve_transient_ehl
+from .estimated import periods
+from .film import solve_transient_ehl
 from .film_equations import Spring, StepEquations, outside, outside_shear
 from .film_grid import make_fixed_grid, symmetric_nodes
-from .film_setting import FIRST_STEP, TIME_SHARE, WET, LineHistory, make_setting
-from .march import Memory, Plan, Progress, Step, advance, checked_times, plan_of, report_of, steps
-from .model import Output, Start, TimeModel
+from .film_setting import LineHistory, make_setting
+from .march import Memory, Progress, Step, advance, plan_of, report_of, steps
+from .model import Start, TimeModel
 from .registry import check_run, estimated_run, run_model_of
-from .result import MANY, TransientResult, band_label, friction_over_time, in_motion, time_scale
+from .result import TransientResult, band_label, friction_over_time, in_motion, time_scale
 from .run import raise_if_failed, run_in_time, transient
 from .scene_in_time import sampled_times, scene_at
 from .start import speeds_of_run

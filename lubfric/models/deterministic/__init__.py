@@ -3,8 +3,8 @@
 from .answer import MODEL_ERROR, answer_of, warn_model_error
 from .estimated_work import work_on_strips
 from .flow import derivatives, mass_balance
-from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
-from .levels import DIFFERENCE, Levels, levels_of, mean, two_levels
+from .heat import strip_heat, why_too_hot
+from .levels import Levels, levels_of, two_levels
 from .linear import System, gmres, nested_dissection
 from .model import DeterministicModel, DeterministicSolution
 from .moving import Moment, RoughBody, moments, travelling
@@ -22,9 +22,7 @@ from .moving_strip import (
     continued_strip,
     effort_for,
     effort_of,
-    moving_work,
     solve_moving_strip,
-    strip_at_rest,
 )
 from .newton import Work, march, newton
 from .pictures import animate_moments, plot_moments, plot_passing
@@ -32,27 +30,21 @@ from .problem import BOUNDARY_FILM, Problem, lay_out, reach, shifted
 from .result import DeterministicResult, assemble
 from .rheology import mean_fluidity, thinning
 from .rough_bodies import (
-    HARDNESS,
     MOST_WORK_IN_AUTO,
     bodies_of,
     maps_of,
     moving_point_work,
     strip_surface,
     summit_control,
-    why_too_costly,
 )
-from .shorter_cells import SHORT
 from .solve import dry_contact, solve_point
 from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, residuals
 from .strip import (
     StripSolution,
     change_by_flow,
-    change_of,
     changes_of,
     error_by_cells,
     solve_strip,
-    thinned_less,
-    work_of,
     work_of_steps,
 )
 from .strip_on_two_grids import StripOnTwoGrids, factors_of, numbers_of, surface_and_factors

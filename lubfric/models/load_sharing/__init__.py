@@ -12,15 +12,11 @@
 from .answer import answer_of
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
-from .control_variate import control_for
-from .decision import decided
 from .error_of_eq8 import least_error, load_sharing_error, starved_error
 from .errors_of import moment_model_error
-from .forces import Forces, forces
-from .limits import limits_exceeded
 from .methods import methods_of_load_sharing
 from .paper_model import PaperModel, PaperSolution
 from .point import Point
-from .response import Response, Slopes, contact_length, loads_at, quantities, with_contact_area_scaled
-from .scatter import Scatter, effective_contacts, moment_error
+from .response import Response, Slopes, quantities
+from .scatter import effective_contacts, moment_error
 from .undetected import summit_radius, undetected_load

@@ -5,6 +5,6 @@
 - `quick_model`: ``"quick"``, the model that answers by them, beside the balance of ``"paper"``.
 """
 
-from .calibrated_error import ErrorModel, error_model_of, error_models, out_of_range, widening
+from .calibrated_error import error_models, widening
 from .long_strips import factors_of_long_cells, features, numbers_of_strip, solve_at_rest, solve_moving
-from .quick_model import QuickModel, QuickSolution
+from .quick_model import QuickModel

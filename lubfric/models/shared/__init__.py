@@ -34,7 +34,7 @@ from .control_variate import ControlVariate
 from .decision import Decision
 from .film_speed import exponents, speed_of
 from .heat import Heat, error_by_heat, film_lubricant, inlet_at, peclet_at, point_heat, surroundings, typical_heat
-from .memo import Key, Memo, ReferenceKey, StackKey
+from .memo import Memo, ReferenceKey, StackKey
 from .prepared import (
     Prepared,
     cells_of_contact,
@@ -64,7 +64,7 @@ from .statistics import (
     smooth_over_cells,
     student,
 )
-from .unknown_limit import LIMIT_RANGE, SATURATED, limit_bounds, limit_in_words
+from .unknown_limit import LIMIT_RANGE, limit_bounds, limit_in_words
 from .unmodelled import (
     ExpectedEffect,
     UnmodelledEffect,
