@@ -212,6 +212,7 @@ def _nearest_scene(path: Path, names: tuple[str, ...]) -> str:
 def write_template(path: Path) -> None:
     """Write a scene that is complete, commented and ready to run to ``path``; raises `InputError` if something is there
     already."""
+    path = validate.folder("file", path)
     if os.path.lexists(path):
         raise InputError(f"{path} exists; give another name, so that no scene is lost")
     if not path.parent.is_dir():

@@ -66,7 +66,7 @@ class Store:
 
     A record is a complete file with a checksum, which appears at once when it is complete. So any number of processes
     may add, and what was added outlives every failure of them. A record that was cut off or overwritten counts as
-    absent.
+    absent, and so does one that was renamed, because it begins with its key.
     """
 
     def __init__(self, root: str | Path | None, classes: dict[str, type] = CLASSES):
@@ -79,7 +79,7 @@ class Store:
         outlives a loss of power. Raises `OutputError` when that fails."""
         if self.folder is not None:
             stored = _failure(outcome) if isinstance(outcome, LubfricError) else outcome
-            write_checked(self._path(key), *encode(stored), sync=sync)
+            write_checked(self._path(key), _name(key), *encode(stored), sync=sync)
 
     def get(self, key: str, kind: Any = Any) -> Any:
         """What was added under ``key``, of the type ``kind``; None for what is absent. A record that cannot be read, is
@@ -88,7 +88,9 @@ class Store:
             return None
         try:
             content = read_checked(self._path(key)) if self._path(key).is_file() else None
-            record = decode(content or b"", self.classes, kind)
+            if not (content or b"").startswith(_name(key)):
+                raise ValueError("cut off, overwritten, or the record of another key")
+            record = decode((content or b"")[len(_name(key)) :], self.classes, kind)
         except (ValueError, OutputError):
             warnings.warn(f"{self._path(key)} is damaged and does not count: it is to be solved again", stacklevel=2)
             return None
@@ -131,6 +133,11 @@ def opened(folder: str | Path | None, classes: dict[str, type] = CLASSES, name: 
         clear_parts(folder)
         clear_parts(folder / POINTS)
         yield Store(os.path.abspath(folder), classes)
+
+
+def _name(key: str) -> bytes:
+    """Return the first line of the record of ``key``."""
+    return key.encode() + b"\n"
 
 
 def shared(folder: str | Path | None) -> bool:

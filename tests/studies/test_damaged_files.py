@@ -92,11 +92,11 @@ def damage(path, rng):
     elif not record:
         path.write_bytes(damaged_json(path.read_text(), rng).encode())
     else:
-        content = read_checked(path)
+        key, line, content = read_checked(path).partition(b"\n")
         end = 8 + int.from_bytes(content[:8], "little")
         tree = damaged_json(content[8:end], rng).encode()
         content = len(tree).to_bytes(8, "little") + tree + content[end:]
-        write_checked(path, content if kind > 2 else damaged_bytes(content, rng), sync=False)
+        write_checked(path, key, line, content if kind > 2 else damaged_bytes(content, rng), sync=False)
 
 
 @contextmanager

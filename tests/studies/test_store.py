@@ -136,9 +136,23 @@ def test_a_record_of_another_version_does_not_count(tmp_path, name):
         decode(content, classes_of(Report))
     store = Store(tmp_path)
     store.add("a", (1,))
-    write_checked(*(tmp_path / "points").iterdir(), content)
+    write_checked(*(tmp_path / "points").iterdir(), b"a\n" + content)
     with pytest.warns(UserWarning, match="damaged and does not count"):
         assert store.known(["a", "b"]) == {}
+
+
+def test_a_record_that_was_renamed_does_not_count(tmp_path):
+    """Files of two points that take each other's place, as after a repair of a file system: each key keeps its own."""
+    store = Store(tmp_path)
+    store.add("a", (1,))
+    store.add("b", (2,))
+    for old, new in (("a", "c"), ("b", "a"), ("c", "b")):
+        (tmp_path / "points" / f"{old}.bin").rename(tmp_path / "points" / f"{new}.bin")
+    with pytest.warns(UserWarning, match="damaged and does not count"):
+        assert store.known(["a", "b"]) == {}
+    store.add("a", (1,))
+    with pytest.warns(UserWarning, match="damaged and does not count"):
+        assert store.known(["a", "b"]) == {"a": (1,)}
 
 
 def test_every_outcome_comes_back_as_it_was(tmp_path):
