@@ -3,7 +3,7 @@ as one line, or as the call that makes them."""
 
 import base64
 import io
-from dataclasses import MISSING, fields
+from dataclasses import MISSING, fields, is_dataclass
 from html import escape
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -24,6 +24,28 @@ class FrozenArrays:
         for value in self.__dict__.values():
             if isinstance(value, np.ndarray):
                 value.flags.writeable = False
+
+
+def share_read_only(value: Any) -> None:
+    """Put read-only views in place of the arrays in a dataclass, and in those that it or a tuple, list or dict holds.
+
+    What a solve hands out may also be kept for the next solve. A caller who writes into it, to change its unit for
+    instance, would change every later answer.
+    """
+    if isinstance(value, dict):
+        value = tuple(value.values())
+    if isinstance(value, (tuple, list)):
+        for part in value:
+            share_read_only(part)
+    elif is_dataclass(value) and not isinstance(value, type):
+        for field in fields(value):
+            part = getattr(value, field.name, None)
+            if isinstance(part, np.ndarray):
+                view = part.view()
+                view.flags.writeable = False
+                object.__setattr__(value, field.name, view)
+            else:
+                share_read_only(part)
 
 
 class FieldsOnly:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+from .._base import share_read_only
 from ..errors import ConvergenceError, InputError, Report
 from ..models import ContactFields, Model, ModelAnswer
 from ..models.shared import Prepared, unmodelled_effects, warn_error
@@ -59,6 +60,7 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
     report = answer.report
     if fine and answer.fine_fields is not None:  # last: work that is spent here is none that the interval needs
         fields, report = _fine_fields(answer.fine_fields, fields, report)
+    share_read_only((fields, compared_fields, details))
     notes = (*report.notes, decision.text, *(violation.text for violation in violations), uncertainty.text)
     numbers["seconds"] = time.perf_counter() - begun
     return FrictionResult(

@@ -1,9 +1,10 @@
 """A point is a function of its scene and speed alone: the same bits alone, in a sweep, in any order, after others, in
 another process and in a study."""
 
+import contextlib
 import pickle
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import fields
+from dataclasses import fields, is_dataclass
 
 import numpy as np
 import pytest
@@ -137,3 +138,28 @@ def test_a_like_scene_is_prepared_as_if_alone(scene_of):
 def test_fields_are_kept_and_change_no_number():
     shown = lubfric.friction(LINE, 0.01, fields=True)
     assert bits(shown) == alone("line", LINE, (0.01,))[0.01] and shown.pressure.shape == shown.heights.shape
+
+
+@pytest.mark.parametrize("name", ["patch", "summits", "flat"])
+def test_whoever_writes_into_a_result_changes_no_later_answer(name):
+    """``result.fields.x *= 1e6``, for a picture in um, once changed f of the prepared scene from .0527 to .0180."""
+    prepared = lubfric.prepare(SCENES[name])
+    expected = lubfric.friction(prepared, 0.03).coefficient
+    result = lubfric.friction(prepared, 0.03, fields=name != "flat")
+    count = 0
+    for array in arrays_in((result.fields, result.compared_fields, result.details)):
+        with contextlib.suppress(ValueError):  # read-only
+            array *= 1e6
+        count += 1
+    assert count > 5
+    assert lubfric.friction(prepared, 0.03).coefficient == expected
+
+
+def arrays_in(value):
+    """Arrays of floats in dataclasses and collections."""
+    if isinstance(value, np.ndarray):
+        return [value] if value.dtype.kind == "f" else []
+    parts = value.values() if isinstance(value, dict) else value if isinstance(value, (tuple, list)) else ()
+    if is_dataclass(value):
+        parts = [getattr(value, field.name) for field in fields(value)]
+    return [array for part in parts for array in arrays_in(part)]
