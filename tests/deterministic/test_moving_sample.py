@@ -19,7 +19,7 @@ from lubfric.models.deterministic import (
     mean_over_blocks,
     solve_moving_strip,
 )
-from lubfric.models.deterministic.shorter_cells import error_by_motion
+from lubfric.models.deterministic.shorter_cells import error_along_x, error_along_y
 from lubfric.surface import Surface, generate_surface
 
 LENGTH = 10e-6  # m: correlation length
@@ -134,10 +134,12 @@ def test_the_error_by_the_cells_of_moving_roughness_falls_by_second_order_and_gr
     third order leave less, heights that change from cell to cell more."""
 
     def error(by_film=0.0, coarse=0.25, *, third=True, is_smooth=True):
-        return error_by_motion(by_film, coarse, follows_lubricant=third, is_smooth=is_smooth)
+        return error_along_x(by_film, coarse, follows_lubricant=third, is_smooth=is_smooth)
 
     assert error(0.3, 0.125) == pytest.approx(error(0.3) / 4)
     by_film = [error(change) - error() for change in (0.2, 0.4)]
     assert by_film[1] == pytest.approx(4 * by_film[0]) and by_film[0] > 0
     assert error(third=False) > error() > 0 and error(0.3, third=False) > error(0.3)
     assert error(is_smooth=False) > error()
+    assert error_along_y(0.3, 0.25) == pytest.approx(4 * error_along_y(0.3, 0.125))
+    assert error(0.4) > error_along_y(0.4, 0.25) > error_along_y(0.2, 0.25) > 0

@@ -31,7 +31,15 @@ def test_the_limit_is_that_of_second_order(tmp_path):
     """f = .05 + .004 h² on cells of h = 1, 1/2, 1/4."""
     for halvings in range(3):
         f = 0.05 + 0.004 / 4**halvings
-        row = {"contact": "gear flank", "seed": 0, "halvings": halvings, "f": f, "twice": 1.2 * f, "failure": ""}
+        row = {
+            "contact": "gear flank",
+            "seed": 0,
+            "axis": "x",
+            "halvings": halvings,
+            "f": f,
+            "twice": 1.2 * f,
+            "failure": "",
+        }
         row |= {"coarse": 0.25, "follows": 1}
         table_file.append(tmp_path / "table.csv", COLUMNS, row, 12)
     (strip,) = errors(tmp_path / "table.csv")

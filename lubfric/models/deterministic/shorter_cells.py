@@ -56,16 +56,24 @@ PIECES_WORK = 30.0
 # the lubricant, of third. One change may be small by chance: cells of an eighth of a correlation length instead of a
 # quarter move f of nine Gaussian maps by 0 to 2 % by steps of second order; steps of third order leave 0 to 0.8 % on four
 # contacts (verification/campaigns/moving_cells has the table).
-MOVING = (0.5, 0.3)
+ALONG_X = (0.5, 0.3)
 
 # Factor on the first where heights change from cell to cell (`smooth_over_cells`): cells of a ninth of a correlation
 # length and shorter move f of an exponential surface by -2.6 % (the same table).
-MOVING_UNSMOOTH = 2.0
+UNSMOOTH = 2.0
 
 # Times (cell along x/correlation length)² and the square of the relative change of f by twice the boundary film: the same
 # error where f hangs on that film. By steps of second order cells of an eighth instead of a quarter move f of a needle
 # roller by -20 %, where that change is 58 %; of third order f is 6.5 % too high, where it is 61 % (the same table).
-MOVING_THIN = (8.0, 2.5)
+ALONG_X_THIN = (8.0, 2.5)
+
+# The same along y, where cells are twice as long: the change from cells longer still may be small by chance, and has the
+# other sign on a needle roller (+1.4 %, then -4 to -7 %; the same table).
+ALONG_Y = 0.05
+
+# The same along y where f hangs on the boundary film: 3 to 11 % (mean 7 %) on three maps of the needle roller and 3 to 7 %
+# on two of a light contact, whose f changes by 57 to 86 % (the same table).
+ALONG_Y_THIN = 0.6
 
 AS_START = 100  # LU factorisations of a piece on longer cells, from which it starts, at most
 SOLVED = 2e-3  # of f: what the tolerance of a strip may move
@@ -113,8 +121,10 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     factors = zip(factors_of(scene, sample), sample.cells.coarsening)
     halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
     strips = [pair.resolved for pair in pairs]
-    by_motion = _by_motion(prepared, strips) if has_moving_roughness(scene) else 0.0
-    left = max(math.hypot(error_by_cells([by_longer]), by_motion), SOLVED)  # along y and along x, where roughness moves
+    left = max(
+        _error_in_motion(prepared, strips, by_longer) if has_moving_roughness(scene) else error_by_cells([by_longer]),
+        SOLVED,
+    )
     enough = left <= scene.numerics.tolerance and not (sample.is_only_map and scene.numerics.grid == "given")
     enough = enough and (sample.is_only_map or smooth_over_cells(sample.strip(0).heights))
     own = sample.cells.is_native and factors_of(scene, sample) == (1, 1)
@@ -158,14 +168,23 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     return pieces, shortest, error, left, False
 
 
-def _by_motion(prepared: Prepared, strips: Sequence[StripSolution]) -> float:
-    """Return the `error_by_motion` of ``strips``, at least."""
+def _error_in_motion(prepared: Prepared, strips: Sequence[StripSolution], by_longer: float) -> float:
+    """Return the relative error of f by the cells of ``strips`` whose roughness moves; ``by_longer``: its change from cells
+    twice as long along y.
+
+    The errors along x and y add up, and not their squares: cells that are too long along either let too little film
+    through the narrow gaps of the inlet, so that both errors have one sign on a needle roller, a light contact and a gear
+    flank.
+    """
     follows = all(isinstance(strip, MovingStripSolution) and strip.follows_lubricant for strip in strips)
     smooth = smooth_over_cells(surface_and_factors(prepared, 0)[0].heights)
-    return error_by_motion(_by_boundary_film(strips), _coarse(prepared), follows_lubricant=follows, is_smooth=smooth)
+    by_film = _by_boundary_film(strips)
+    (coarse_x, coarse_y) = _coarse(prepared)
+    along_x = error_along_x(by_film, coarse_x, follows_lubricant=follows, is_smooth=smooth)
+    return along_x + max(error_along_y(by_film, coarse_y), error_by_cells([by_longer]))
 
 
-def error_by_motion(by_film: float, coarse: float, *, follows_lubricant: bool, is_smooth: bool) -> float:
+def error_along_x(by_film: float, coarse: float, *, follows_lubricant: bool, is_smooth: bool) -> float:
     """Return the relative error of f by the cells along x where roughness moves: larger where f hangs on the boundary
     film, because shorter cells leave fewer gaps that are so thin.
 
@@ -174,8 +193,14 @@ def error_by_motion(by_film: float, coarse: float, *, follows_lubricant: bool, i
     the cells.
     """
     order = int(follows_lubricant)
-    roughness = MOVING[order] * (1.0 if is_smooth else MOVING_UNSMOOTH)
-    return (roughness + MOVING_THIN[order] * by_film**2) * coarse**2
+    roughness = ALONG_X[order] * (1.0 if is_smooth else UNSMOOTH)
+    return (roughness + ALONG_X_THIN[order] * by_film**2) * coarse**2
+
+
+def error_along_y(by_film: float, coarse: float) -> float:
+    """Return the least relative error of f by the cells along y where roughness moves; arguments as of
+    `error_along_x`."""
+    return (ALONG_Y + ALONG_Y_THIN * by_film**2) * coarse**2
 
 
 def _by_boundary_film(strips: Sequence[StripSolution]) -> float:
@@ -184,10 +209,16 @@ def _by_boundary_film(strips: Sequence[StripSolution]) -> float:
     return sum(abs(result.at_twice_film / result.coefficient - 1) for result in results) / len(results)
 
 
-def _coarse(prepared: Prepared) -> float:
-    """Length along x of the cells of the deterministic model over the correlation length."""
+def _coarse(prepared: Prepared) -> tuple[float, float]:
+    """Return the lengths along x and y of the cells of the deterministic model over the correlation lengths."""
     sample = prepared.sample
-    return factors_of(prepared.scene, sample)[0] * sample.cells.spacing[0] / sample.correlation_lengths[0]
+    (coarse_x, coarse_y) = (
+        factor * cell / length
+        for factor, cell, length in zip(
+            factors_of(prepared.scene, sample), sample.cells.spacing, sample.correlation_lengths, strict=True
+        )
+    )
+    return coarse_x, coarse_y
 
 
 def changed(

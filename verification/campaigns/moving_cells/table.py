@@ -1,5 +1,5 @@
-"""The table: f of narrow strips on the cells of an answer and on shorter ones along x, over the same way, with the same
-roughness at the same places; and what the answer states as its error by them."""
+"""The table: f of narrow strips on the cells of an answer and on shorter ones along x or along y, over the same way, with
+the same roughness at the same places; and what the answer states as its error by them."""
 
 import math
 import time
@@ -10,7 +10,8 @@ from pathlib import Path
 import lubfric
 from lubfric.models.deterministic import effort_of, solve_moving_strip
 from lubfric.models.deterministic.moving import half_width
-from lubfric.models.deterministic.shorter_cells import error_by_motion
+from lubfric.models.deterministic.shorter_cells import error_along_x, error_along_y
+from lubfric.models.deterministic.strip import error_by_cells
 
 from ...types import PlainRow
 from .. import table_file
@@ -20,6 +21,7 @@ TABLE = Path(__file__).parent / "table.csv"
 COLUMNS = (
     "contact",
     "seed",
+    "axis",
     "halvings",
     "f",
     "half",
@@ -33,8 +35,8 @@ COLUMNS = (
     "failure",
 )
 
-# Halvings of the cells along x on which the maps are made.
-MOST_HALVINGS = 2
+# Halvings of the cells along x and y on which the maps are made, by the axis along which cells are halved.
+HALVINGS = {"x": (2, 0), "y": (0, 1)}
 
 # Half-widths of the film whose moments count.
 WAY = 1.5
@@ -55,12 +57,14 @@ def cases() -> tuple[RollingContact, ...]:
     return (*every.values(), *others, replace(light, name="light contact, sliding", scene=scene))
 
 
-def followed(contact: RollingContact, seed: int, halvings: int) -> PlainRow:
-    """Return the row of ``contact`` on the surface ``seed`` and cells halved so often along x."""
-    prepared, bodies, (fx, fy) = narrow_strip(contact, seed, (MOST_HALVINGS, 0))
+def followed(contact: RollingContact, seed: int, axis: str, halvings: int) -> PlainRow:
+    """Return the row of ``contact`` on the surface ``seed`` and cells halved so often along ``axis``; doubled for -1."""
+    prepared, bodies, (fx, fy) = narrow_strip(contact, seed, HALVINGS[axis])
     scene = prepared.scene
-    factors = (fx // 2**halvings, fy)
+    factors = (round(fx / 2**halvings), fy) if axis == "x" else (fx, round(fy / 2**halvings))
     cell = factors[0] * bodies[0].surface.spacing[0]
+    along = "xy".index(axis)
+    length = factors[along] * bodies[0].surface.spacing[along]
     steps = round(WAY * half_width(scene.line_contact(contact.speed)) / cell)
     effort = effort_of(scene, bodies, contact.speed, (fx, fy))  # that of the answer
     strip = solve_moving_strip(scene, bodies, contact.speed, factors=factors, effort=effort, most_steps=steps)
@@ -72,26 +76,30 @@ def followed(contact: RollingContact, seed: int, halvings: int) -> PlainRow:
         "share": result.split.rubbing / result.load,
         "mean_gap": result.mean_gap,
         "min_gap": result.min_gap,
-        "coarse": cell / prepared.sample.correlation_lengths[0],
+        "coarse": length / prepared.sample.correlation_lengths[along],
         "follows": int(strip.follows_lubricant),
     }
 
 
 def extend(halvings: int, seeds: int, budget: float, file: Path = TABLE) -> Iterator[PlainRow]:
     """Solve what the table has not, the longest cells first, as long as the processor time of this process is below
-    ``budget`` [s], and append each row as it is solved."""
-    known = {(row["contact"], row["seed"], row["halvings"]) for row in table_file.rows(file)}
-    for count in range(halvings + 1):
-        for seed in range(seeds):
+    ``budget`` [s], and append each row as it is solved. Along y the longest cells are twice those of an answer."""
+    known = {(row["contact"], row["seed"], row["axis"], row["halvings"]) for row in table_file.rows(file)}
+    levels = [
+        ("y", -1),
+        *((axis, count) for count in range(halvings + 1) for axis in "xy" if count <= HALVINGS[axis]["xy".index(axis)]),
+    ]
+    for seed in range(seeds):
+        for axis, count in levels:
             for contact in cases():
-                if (contact.name, str(seed), str(count)) in known:
+                if (contact.name, str(seed), axis, str(count)) in known:
                     continue
                 if time.process_time() > budget:
                     return
                 begun = time.process_time()
-                row: PlainRow = {"contact": contact.name, "seed": seed, "halvings": count}
+                row: PlainRow = {"contact": contact.name, "seed": seed, "axis": axis, "halvings": count}
                 try:
-                    row |= followed(contact, seed, count) | {"failure": ""}
+                    row |= followed(contact, seed, axis, count) | {"failure": ""}
                 except lubfric.LubfricError as error:
                     row["failure"] = f"{type(error).__name__}: {error}".replace("\n", " ")[:120]
                 row["seconds"] = time.process_time() - begun
@@ -100,37 +108,45 @@ def extend(halvings: int, seeds: int, budget: float, file: Path = TABLE) -> Iter
 
 
 def errors(file: Path = TABLE) -> Iterator[PlainRow]:
-    """Yield of each strip the error of f on the cells of an answer, relative, and the ``stated`` one.
+    """Yield of each strip and axis the error of f on the cells of an answer, relative, and the ``stated`` one.
 
     The limit of f is that of second order from the two shortest cells, because the flow by the pressure is of second
     order; ``order`` [-]: the seen one (NaN: from fewer than three lengths of cells, or where they do not converge).
     """
-    strips: dict[tuple[str, str], dict[int, dict[str, str]]] = {}
+    strips: dict[tuple[str, str, str], dict[int, dict[str, str]]] = {}
     for row in table_file.rows(file):
         if not row["failure"]:
-            strips.setdefault((row["contact"], row["seed"]), {})[int(row["halvings"])] = row
-    for (contact, seed), rows in strips.items():
-        f = [float(rows[count]["f"]) for count in range(len(rows)) if count in rows]
-        if len(f) < 2:
+            strips.setdefault((row["contact"], row["seed"], row["axis"]), {})[int(row["halvings"])] = row
+    for (contact, seed, axis), rows in strips.items():
+        f = {count: float(rows[count]["f"]) for count in sorted(rows)}
+        if 0 not in f or 1 not in f:
             continue
-        limit = f[-1] + (f[-1] - f[-2]) / 3.0
-        changes = [after - before for before, after in zip(f, f[1:])]
-        seen = changes[0] / changes[1] if len(changes) > 1 and changes[1] else math.nan
+        shortest = max(f)
+        limit = f[shortest] + (f[shortest] - f[shortest - 1]) / 3.0
+        changes = [f[count] - f[count - 1] for count in f if count - 1 in f]
+        seen = changes[-2] / changes[-1] if len(changes) > 1 and changes[-1] else math.nan
         yield {
             "contact": contact,
             "seed": seed,
+            "axis": axis,
             "lengths": len(f),
             "f": f[0],
             "limit": limit,
             "error": f[0] / limit - 1,
             "order": math.log2(seen) if seen > 0 else math.nan,
-            "stated": _stated(rows[0]),
+            "stated": _stated(rows, axis),
         }
 
 
-def _stated(row: dict[str, str]) -> float:
-    """Return the error by the cells along x that an answer states, at least."""
-    by_film = abs(float(row["twice"]) / float(row["f"]) - 1.0)
+def _stated(rows: dict[int, dict[str, str]], axis: str) -> float:
+    """Return the error by the cells along ``axis`` that an answer states, at least."""
+    row = rows[0]
+    f = float(row["f"])
+    by_film = abs(float(row["twice"]) / f - 1.0)
+    coarse = float(row["coarse"])
+    if axis == "y":
+        by_longer = abs(1.0 - float(rows[-1]["f"]) / f) if -1 in rows else 0.0
+        return max(error_along_y(by_film, coarse), error_by_cells([by_longer]))
     follows = row["follows"] == "1"
     is_smooth = "exponential" not in row["contact"]
-    return error_by_motion(by_film, float(row["coarse"]), follows_lubricant=follows, is_smooth=is_smooth)
+    return error_along_x(by_film, coarse, follows_lubricant=follows, is_smooth=is_smooth)
