@@ -119,6 +119,8 @@ def rough_strip(level: str) -> Iterator[Item]:
                 continue
             name = f"{load:g} N/m, {'moving' if moving else 'at rest'}"
             is_studied = level != "quick" and load == LOADS[0]
+            cells: tuple[int, ...]
+            grids: tuple[tuple[int, int], ...]
             if is_studied:
                 cells = MOVING_STUDY_CELLS if moving else STUDY_CELLS
                 grids = STUDY_GRIDS
