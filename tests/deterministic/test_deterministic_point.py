@@ -265,8 +265,28 @@ def test_a_film_between_soft_rollers_is_solved_from_a_cold_start():
         return lay_out(surface, line, sliding=2 * speed, boundary_friction=0.1, hardness=1.8e8, factors=(2, 2))
 
     found = solve_point(at(2.6e-3))
-    assert "in time from the dry contact" in found.report.notes[0] and found.report.iterations <= 250
+    assert "in time from the dry contact" in found.report.notes[0] and found.report.iterations <= 150
     slower = solve_point(at(2.0e-3), tolerance=1e-4)
     again = solve_point(at(2.6e-3), start=slower.state, tolerance=1e-4)
     assert "from a neighbouring state" in again.report.notes[0]
     assert again.coefficient == pytest.approx(found.coefficient, rel=3e-3)
+
+
+def test_a_starved_film_is_solved_from_a_cold_start():
+    """60 nm arrive on 80 nm of roughness. On cells of 2 um, lifted by half of Moes' film the dry contact led to the solution
+    in 50 steps or nowhere. To the film that a thicker one leads to, by another way."""
+    oil = Lubricant(0.006, 1.6e-8, eyring_stress=5e6, limiting_stress_coefficient=0.06)
+    surface = lubfric.generate_surface((120, 48), 2e-6, sq=80e-9, correlation_length=8e-6, acf="gaussian", seed=3)
+
+    def at(arriving):
+        starved = replace(oil, inlet_film=arriving)
+        line = LineContact(load_per_width=1e5, radius=12e-3, e_prime=2.27e11, entrainment_speed=1.0, lubricant=starved)
+        return lay_out(surface, line, sliding=2.0, boundary_friction=0.11, factors=(2, 2))
+
+    cold = solve_point(at(60e-9), tolerance=1e-4)
+    assert "from the dry contact" in cold.report.notes[0]
+    thicker = solve_point(at(64e-9), tolerance=1e-4)
+    again = solve_point(at(60e-9), start=thicker.state, tolerance=1e-4)
+    assert "from a neighbouring state" in again.report.notes[0]
+    assert again.coefficient == pytest.approx(cold.coefficient, rel=3e-3)
+    assert cold.coefficient > thicker.coefficient

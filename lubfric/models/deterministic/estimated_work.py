@@ -12,7 +12,7 @@ from ..shared import FREEDOM_NOT_COUNTED, SAFETY, peak_hertz_pressure, smooth_ov
 from .counted_work import work_of_steps
 from .levels import DIFFERENCE
 from .linear import HIGH_PRESSURE
-from .problem import reach
+from .problem import are_soft, reach
 from .rough_bodies import MOST_WORK_IN_AUTO, moving_point_work
 from .shorter_cells import SHORT
 from .strip_on_two_grids import factors_of
@@ -39,17 +39,13 @@ AGAIN = 4
 # (3 to 5 in four of five points of `python -m verification.campaigns.estimates`).
 ROUGH = 3.5
 
-# Factor on the work at rest where the bodies are soft (`_is_soft`): Newton's method does not converge from the dry contact,
+# Factor on the work at rest where the bodies are soft (`are_soft`): Newton's method does not converge from the dry contact,
 # and steps in time take 60 to 500 factorisations, where a steel contact takes 5 to 20 (28 strips of E' 0.1 to 200 GPa;
 # points of 0.26 and 19 GPa took 33 and 36 times what they would otherwise be estimated to).
 SOFT = 30.0
 
 # The same where a given film arrives at the inlet: 60 nm on 80 nm of roughness took 6 to 9 times as long.
 STARVED = 8.0
-
-# Pressure-viscosity coefficient times Hertz pressure below which pressure hardly thickens the lubricant: no strip above 0.7
-# took so long, and one of 0.7 did at 19 GPa.
-ISOVISCOUS = 1.0
 
 # Processor time of moving roughness over its counted work: 0.6 in a step of a roller of 1 GPa, in whose matrices cuts are one
 # cell wide, and ranges, maps and pictures on top.
@@ -124,7 +120,7 @@ def _work_at_rest(
     short = is_piece and fx * ux >= 4 <= fy * uy
     shorter = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if short else 0.0
     seconds = count * work_of_steps(cells, STEPS) + work_of_steps(finer, _finer_steps(scene, sq, speed)) + again
-    if _is_soft(scene, sq):
+    if are_soft(scene.line_contact(abs(speed)), sq):
         return SOFT * seconds + shorter
     if scene.lubricant.inlet_film is not None:
         return STARVED * seconds + shorter
@@ -138,15 +134,6 @@ def _finer_steps(scene: Scene, sq: float, speed: float) -> int:
         return FINER_STEPS
     ratio = scene.line_contact(abs(speed)).moes_film / sq
     return next(steps for least, steps in FINER_STEPS_HEAVY if ratio >= least)
-
-
-def _is_soft(scene: Scene, sq: float) -> bool:
-    """Return whether pressure hardly thickens the lubricant and the bodies flatten by more than their roughness of ``sq``
-    [m]."""
-    bodies = scene.bodies
-    flattened = bodies.half_width**2 / (2 * bodies.radius)
-    thickened = scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene)
-    return thickened < ISOVISCOUS and sq < flattened
 
 
 def work_on_strips(

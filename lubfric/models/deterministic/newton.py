@@ -83,12 +83,13 @@ def newton(
     least: float = 0.0,
     history: TimeHistory | None = None,
     linear_accuracy: float = ACCURACY,
+    patience: int = PATIENCE,
 ) -> NewtonResult:
     """At most ``most`` steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
 
     Before every step each cell gets the equation that its state requires (`update_active_sets`). A step leaves every
     cell at least a fifth of its gap, and is halved while the mass residual of the fluid cells grows. The method gives
-    up after a step shorter than ``least`` of the whole; when a number is not finite; or when for `PATIENCE` steps
+    up after a step shorter than ``least`` of the whole; when a number is not finite; or when for ``patience`` steps
     neither the residual has fallen nor the residual that the full step would have led to. (The latter falls first,
     while a heavily loaded film finds its shape in short steps.) ``history``: of an implicit step in time (None: the
     film is steady); ``linear_accuracy``: of the linear system of a step (`System.solve`).
@@ -104,7 +105,7 @@ def newton(
         work.history.append(result.residual)
         if not math.isfinite(result.residual) or result.residual <= tolerance or len(residual_history) > most:
             return result
-        if _stalled(residual_history) and _stalled(promised):
+        if _stalled(residual_history, patience) and _stalled(promised, patience):
             return result
         try:
             step, iterations = System(at).solve(linear_accuracy)
@@ -121,8 +122,8 @@ def newton(
             return result
 
 
-def _stalled(history: list[float]) -> bool:
-    return len(history) > PATIENCE and not min(history[-PATIENCE:]) <= PROGRESS * min(history[:-PATIENCE])
+def _stalled(history: list[float], patience: int) -> bool:
+    return len(history) > patience and not min(history[-patience:]) <= PROGRESS * min(history[:-patience])
 
 
 def _advanced(at: Iterate, step: Change) -> tuple[Iterate, float, float]:
