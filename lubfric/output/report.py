@@ -225,9 +225,9 @@ def _lift_off(curve: CurveResult) -> list[str]:
     ]
 
 
-def _budget(values: dict[str, float], words: dict[str, str], place: str, notes: Iterable[str]) -> str:
-    """Return an uncertainty budget (`lubfric.estimate.Uncertainty.budget`) as bars of its parts, relative to f; ``words``:
-    the parts as text."""
+def _budget(values: dict[str, float], words: dict[str, str], subject: str, notes: Iterable[str]) -> str:
+    """Return the uncertainty budget of ``subject`` (`lubfric.estimate.Uncertainty.budget`) as bars of its parts, relative
+    to f; ``words``: the parts as text."""
     longest = max([value for value in values.values() if math.isfinite(value)], default=0.0) or 1.0
     shown = {name: label for name, label in BUDGET.items() if name in values and (name != "not given" or values[name])}
     rows = "".join(
@@ -239,14 +239,14 @@ def _budget(values: dict[str, float], words: dict[str, str], place: str, notes: 
     )
     lines = _list([sentence(note) for note in notes if note])
     return (
-        f"<h2>Uncertainty budget</h2><p>Relative errors of f {escape(place)}, each at 95 %; the interval of f combines "
+        f"<h2>Uncertainty budget</h2><p>Relative errors of {escape(subject)}, each at 95 %; the interval of f combines "
         f'them.</p><div class="budget">{rows}</div>{lines}'
     )
 
 
 def _point_budget(point: FrictionResult, place: str) -> str:
     known = point.uncertainty
-    return _budget(known.budget, known.budget_in_words, place, (known.largest_part, *known.notes))
+    return _budget(known.budget, known.budget_in_words, f"f {place}", (known.largest_part, *known.notes))
 
 
 def _operating_table(curve: CurveResult) -> str:
@@ -425,7 +425,7 @@ def _history_budget(result: TransientResult) -> str:
     ]
     if math.isfinite(values["model-form"]):
         notes.insert(1, "Model-form: as in steady motion at the same film and the same asperity load ratio")
-    return _budget(values, words, "as a mean over the time in motion", notes)
+    return _budget(values, words, "the mean friction coefficient", notes)
 
 
 def _history_table(result: TransientResult) -> str:

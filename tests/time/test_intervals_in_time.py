@@ -95,7 +95,7 @@ def test_the_report_of_a_run_has_budget_table_and_sources(tmp_path):
     (tmp_path / "s.toml").write_text(paper_scene(numerics={"sampling": "patch"}).with_(transient=plan).to_toml())
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "out")]) in (0, 1)
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
-    assert "<h2>Uncertainty budget</h2><p>Relative errors of f as a mean over the time in motion" in page
+    assert "<h2>Uncertainty budget</h2><p>Relative errors of the mean friction coefficient," in page
     assert "<h2>Uncertainty budget</h2>" in page and "<h2>Operating points</h2>" in page
     assert "The mean power loss is" in page and "Akchurin" in page.partition("Method and sources")[2]
     header = (tmp_path / "out" / "history.csv").read_text().splitlines()[0]

@@ -77,7 +77,9 @@ class TimeAndPlace:
         in_time, along_y = self.block_counts(correlation_length)
         way = self.friction.shape[0] // in_time * self.travelled / TIME_LENGTH
         width = self.friction.shape[1] // along_y * self.spacing / correlation_length
-        return max(1 - ENDS / way, 0.1) * max(1 - ENDS / width, 0.1)
+        # where a rough body rests, time is one block without neighbours, and all that scatters does so from place to place
+        of_time = max(1 - ENDS / way, 0.1) if way > 0 else 1.0
+        return of_time * max(1 - ENDS / width, 0.1)
 
 
 @dataclass(frozen=True)
