@@ -12,6 +12,7 @@ from .._base import Shown, changed, validate
 from ..errors import InputError
 from ..film import LineContact
 from ..oil import Lubricant
+from ..quantities import worded_value
 from .bodies import Bodies, ContactDomain, Motion
 from .history import History
 from .numerics import Numerics
@@ -251,8 +252,14 @@ def why_gap_not_resolved(scene: Scene, *, is_joint: bool = False) -> str:
     it takes all. ``is_joint``: one map was given to `lubfric.prepare`, for all its bodies."""
     refusals = _not_taken(scene, is_joint=is_joint)
     return next(
-        (f"{name} = {value!r} (the deterministic model has {instead})" for name, value, instead in refusals), ""
+        (f"{_stated(name, value)} (the deterministic model allows {instead})" for name, value, instead in refusals), ""
     )
+
+
+def _stated(name: str, value: Any) -> str:
+    """Return a key with its ``value`` as text, a number with its unit."""
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return f"{name} = {worded_value(name, value) if is_number else repr(value)}"
 
 
 def check_resolved_gap(scene: Scene, *, is_joint: bool = False) -> None:

@@ -57,3 +57,18 @@ def test_picture_of_a_part_counts_whole_cells():
     y = 8e-6 * np.arange(60)
     assert _partly(y, slice(10, 48)) == "; 304 of 480 µm of the line"
     assert _partly(y, slice(None)) == ""
+
+
+def test_warnings_recommend_nothing_that_the_scene_has():
+    """Simple sliding is at the edge of the calibration, and a given limiting stress is not recommended again."""
+    scene = ROLLING.with_(motion={"slide_roll_ratio": 2.0}, bodies={"load": 400.0})
+    text = describe_scene(scene)
+    assert "peak film pressure is" in text and "give a measured limiting stress" not in text
+    assert "slide-roll ratio is 2" not in text
+    without = describe_scene(scene.with_(lubricant={"limiting_stress_coefficient": None}))
+    assert "give a measured limiting stress" in without
+
+
+def test_the_reason_against_the_deterministic_model_has_the_unit_of_its_key():
+    scene = ROLLING.with_(lubricant={"shear_modulus": "100 MPa"}, numerics={"model": "auto"})
+    assert "lubricant.shear_modulus = 100 MPa (the deterministic model allows None" in describe_scene(scene)

@@ -9,7 +9,7 @@ has the numbers.
 """
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 
@@ -23,6 +23,9 @@ OUTSIDE = (
     "this is outside the range of the contacts behind the calibration of the quick answer, so that its model-form "
     "error is widened, at most three times"
 )
+
+# Distance in ln, below which the bounds widen by so little that nothing is reported: a hundredth of their width.
+NEGLIGIBLE = 0.01
 
 # Factor on the bounds far outside the range of the campaign.
 WIDEST = 3.0
@@ -125,6 +128,11 @@ def out_of_range(
         distance = low - value if is_slow else abs(math.log(value / limit))
         outside.append(Outside(what=what, value=value, limit=limit, unit=unit, distance=distance))
     return tuple(outside)
+
+
+def reported(outside: Iterable[Outside]) -> Iterator[Outside]:
+    """Yield what is so far outside of the range of the campaign that a warning reports it."""
+    return (part for part in outside if part.distance > NEGLIGIBLE)
 
 
 def widening(distances: Iterable[float]) -> float:

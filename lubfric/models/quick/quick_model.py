@@ -46,7 +46,7 @@ from ..shared import (
     rolling_model_error,
     why_no_rough_film,
 )
-from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, widening
+from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, reported, widening
 from .long_strips import factors_of_long_cells, features, numbers_of_strip, solve_at_rest, solve_moving
 
 # Strips at rest, at most: each adds .2 s.
@@ -321,7 +321,7 @@ def quick_answer_of(prepared: Prepared, speed: float, strips: LongStrips) -> Mod
         violations=(
             *warnings,
             *warn_model_error(prepared, max(below, above), NARROWED),
-            *(part.violation for part in strips.outside),
+            *(part.violation for part in reported(strips.outside)),
         ),
         decision=replace(answer.decision, model="quick", basis=basis, notes=(NARROWER, *answer.decision.notes)),
     )
@@ -345,10 +345,10 @@ class QuickModel(Model):
     def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:
         known = error_model_of(scene).range
         at_all = out_of_range(scene, None, 0.0, known)
-        violations: list[tuple[float | None, Violation]] = [(None, part.violation) for part in at_all]
+        violations: list[tuple[float | None, Violation]] = [(None, part.violation) for part in reported(at_all)]
         for speed in speeds:
             outside = out_of_range(scene, _stated_sq(scene), speed, known)
-            violations += [(speed, part.violation) for part in outside if part not in at_all]
+            violations += [(speed, part.violation) for part in reported(outside) if part not in at_all]
         return (*expected_on_hertz(scene), *violations)
 
     def estimate_work(

@@ -127,6 +127,8 @@ def warn_pressure(scene: Scene, peak: float) -> Iterator[Violation]:
     is_local = peak > SPIKE * hertz_peak
     remedy = (
         "give a measured limiting stress (lubricant.limiting_stress_coefficient), which bounds the friction of the film"
+        if scene.lubricant.limiting_stress_coefficient is None
+        else "none is needed where the film is at its limiting stress, which bounds its friction"
     )
     severe = peak > NO_LIQUID
     if severe:
