@@ -392,7 +392,7 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
     heights = 1e9 * (np.quantile(surface.measured, 1 - higher) - surface.measured.mean())
     bearing.plot(100 * higher, heights, color=figures.BLUE)
     bearing.set(xlim=(0, 100), xlabel="bearing area (%)", ylabel="height (nm)")
-    bearing.set_title(f"complete map: Sq = {1e9 * surface.sq:.4g} nm, Ssk = {surface.ssk:.3g}", fontsize=10)
+    bearing.set_title(f"complete map:\nSq = {1e9 * surface.sq:.4g} nm, Ssk = {surface.ssk:.3g}", fontsize=10)
     figure.savefig(path)
 
 

@@ -1,0 +1,34 @@
+"""Titles and labels of the pictures of a run lie inside the picture."""
+
+import pytest
+from matplotlib.figure import Figure
+
+import lubfric
+from lubfric.output.pictures import plot_surface
+
+PAPER = lubfric.load_scene("paper")
+NARROW = {"shape": (40, 400), "spacing": 1e-6}
+WIDE = {"shape": (500, 300), "spacing": 1e-6}
+
+
+def cut_texts(figure: Figure) -> list[str]:
+    """The texts of ``figure`` that reach out of it."""
+    figure.canvas.draw()
+    whole = figure.bbox
+    cut = []
+    for axes in figure.axes:
+        for text in (axes.title, axes.xaxis.label, axes.yaxis.label):
+            box = text.get_window_extent()
+            if text.get_text() and not (whole.x0 <= box.x0 and box.x1 <= whole.x1 and box.y1 <= whole.y1):
+                cut.append(text.get_text())
+    return cut
+
+
+@pytest.mark.parametrize("shape", [NARROW, WIDE], ids=["narrow", "wide"])
+def test_titles_of_the_surface_are_complete(tmp_path, monkeypatch, shape):
+    figures: list[Figure] = []
+    save = Figure.savefig
+    monkeypatch.setattr(Figure, "savefig", lambda self, *a, **k: figures.append(self) or save(self, *a, **k))
+    scene = PAPER.with_(contact=shape, surface={"sq": 433.6e-9}, numerics={"sampling": "patch"})
+    plot_surface(tmp_path / "surface.png", lubfric.prepare(scene))
+    assert [cut_texts(figure) for figure in figures] == [[]]
