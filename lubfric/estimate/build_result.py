@@ -6,10 +6,12 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from .._base import share_read_only
 from ..errors import ConvergenceError, InputError, Report
 from ..models import ContactFields, Model, ModelAnswer
-from ..models.shared import Prepared, unmodelled_effects, warn_error
+from ..models.shared import Prepared, largest_sliding_friction, unmodelled_effects, warn_error
 from ..quantities import NUMBERS
 from ..scene import Scene
 from .choice import Choice
@@ -19,6 +21,11 @@ from .power import PowerLoss, power_loss_of
 from .ranges import changes_by_ranges, widened, with_missing_inputs
 from .result import FrictionResult
 from .uncertainty import Uncertainty, interval, number_errors_of
+
+AT_MOST = (
+    "the interval ends at the largest f that the limits of the shear stress allow, {} by sliding: f_b, or the stress of the oil "
+    "in the thinnest film"
+)
 
 # Slide-roll ratio, without its sign, at which one surface stands still: (u_2 - u_1)/U with u_1 = 0.
 ONE_STANDS_STILL = 2.0
@@ -104,7 +111,21 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
     )
     known = with_missing_inputs(of_solve, f, answer.not_given)
     with_inputs = widened(known, f, changes_by_ranges(prepared, answer)) if scene.ranges else known
-    return _not_negative(scene, f, with_inputs)
+    return _not_negative(scene, f, within_stress_limits(scene, answer, with_inputs))
+
+
+def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Uncertainty:
+    """Return ``uncertainty`` with an interval no part of which is beyond the largest f that the limits of the shear stress
+    allow (`lubfric.models.shared.largest_friction`), unless f itself is."""
+    f = answer.numbers["coefficient"]
+    rolling = abs(answer.numbers.get("rolling_force", 0.0)) / scene.bodies.load
+    sliding = largest_sliding_friction(scene, answer.numbers["speed"])
+    most = max(sliding + answer.rolling_times * np.nan_to_num(rolling), abs(f))
+    low, high = uncertainty.interval
+    if not (high > most or low < -most):
+        return uncertainty
+    ends = max(low, -most), min(high, most)
+    return replace(uncertainty, interval=ends, notes=(*uncertainty.notes, AT_MOST.format(f"{sliding:.3g}")))
 
 
 def _not_negative(scene: Scene, f: float, uncertainty: Uncertainty) -> Uncertainty:

@@ -45,12 +45,12 @@ def test_without_heat_it_is_the_isothermal_answer():
     found, cold = (solved(0.3, model="deterministic", **how) for how in (kept, {"heat": "off"}))
     assert found.coefficient != cold.coefficient
     assert found.coefficient == pytest.approx(cold.coefficient, rel=3e-4)
-    assert found.uncertainty.model == pytest.approx(cold.uncertainty.model, rel=2e-3)
+    assert found.uncertainty.model == pytest.approx(cold.uncertainty.model, abs=3e-4)
 
 
 def test_what_heat_does_to_f_is_partly_in_the_interval():
     hot, cold = (solved(0.3, model="deterministic", heat=heat) for heat in ("on", "off"))
-    assert hot.uncertainty.model >= 0.5 * abs(cold.coefficient / hot.coefficient - 1) > 0
+    assert hot.uncertainty.model >= 0.5 * (1 - hot.coefficient / cold.coefficient) > 0
     assert "another factor" in hot.decision.text and "change of f without the heat of the inlet" in hot.decision.text
     assert np.isnan([cold.inlet_film_factor, cold.film_temperature_rise]).all() and cold.decision.heat_in_words == ""
     assert "numerics.heat = 'off'" in cold.errors.reasons["film_temperature_rise"]

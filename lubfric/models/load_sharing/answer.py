@@ -8,12 +8,13 @@ import numpy as np
 
 from ...contact import ContactResult, HalfSpaceContact
 from ...oil import estimate_in_words
-from ...scene import Scene
+from ...scene import Scene, has_moving_roughness
 from ..contract import AtInputs, ContactFields, ModelAnswer
 from ..shared import Violation, contact_at_inputs, contact_on_piece, contact_on_strips, exponents
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
 from .decision import decided
+from .error_of_eq8 import OF_ROLLING
 from .errors_of import errors_of
 from .limits import limits_exceeded
 from .response import contact_length, quantities
@@ -38,6 +39,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         numerical=errors.numerical,
         sampling=errors.sampling,
         model_error=errors.model,
+        rolling_times=OF_ROLLING if has_moving_roughness(scene) else 2.0,
         report=replace(report, notes=(*report.notes, *estimated)),
         decision=decided(scene, balanced.rough_contact, balanced.balance, numbers["clearance"], **sample),
         errors=errors.errors,

@@ -45,14 +45,17 @@ MIDDLE_BY_CELLS = 0.05
 # Change of f by the boundary film, from half to twice its thickness, that counts at most.
 MOST_BY_FILM = 4.0
 
-# The least of it: below it the cells of the boundary film are few and show nothing.
-LEAST_BY_FILM = 0.01
-
-# The middle of it.
-MIDDLE_BY_FILM = 0.1
+# Change below which the cells of the boundary film are few and show little. Chosen with the features, by the likelihood.
+LITTLE_BY_FILM = 0.1
 
 # Distance of the sliding part of f from f_b, over f_b, at least: where f is f_b, no cell changes it.
 LEAST_BELOW = 0.02
+
+# The same, from which on it says nothing more in rolling. Chosen with the features, by the likelihood.
+NEAR_FRICTION = 0.3
+
+# What is added to it, so that its ln is finite.
+LEAST_NEAR = 0.01
 
 # Part of f by the gradient of the pressure over the sliding part that counts at most: f may be a small difference.
 MOST_ROLLING = 1.5
@@ -130,11 +133,12 @@ def features(numbers: Mapping[str, float], friction: float) -> dict[str, float]:
 
     - "one"; "cells", by_cells between ± `MOST_BY_CELLS`, and "ln cells" of its size;
     - "film": c/(1 + c) of the change c of f by twice the boundary film instead of half of it, over the sliding part of f,
-      and "ln film", of c;
+      and "ln film", ln(1 + c/`LITTLE_BY_FILM`);
     - "rolling": part of f by the gradient of the pressure, over the sliding part;
-    - "ln below": ln of how far the sliding part of f is below f_b, over f_b.
+    - "ln below": ln of how far the sliding part of f is below f_b, over f_b; "ln near": the same, to `NEAR_FRICTION` only.
     """
     sliding = max(numbers["coefficient"] - numbers["rolling"], 1e-9)
+    below = 1 - sliding / friction
     by_cells = numbers["by_cells"]
     size = MOST_BY_CELLS if math.isnan(by_cells) else min(abs(by_cells), MOST_BY_CELLS)
     by_film = min(abs(numbers["at_twice_film"] - numbers["at_half_film"]) / sliding, MOST_BY_FILM)
@@ -143,7 +147,8 @@ def features(numbers: Mapping[str, float], friction: float) -> dict[str, float]:
         "cells": 0.0 if math.isnan(by_cells) else math.copysign(size, by_cells),
         "ln cells": math.log(max(size, LEAST_BY_CELLS) / MIDDLE_BY_CELLS),
         "film": by_film / (1 + by_film),
-        "ln film": math.log(max(by_film, LEAST_BY_FILM) / MIDDLE_BY_FILM),
+        "ln film": math.log(1 + by_film / LITTLE_BY_FILM),
         "rolling": min(abs(numbers["rolling"]) / sliding, MOST_ROLLING),
-        "ln below": math.log(max(1 - sliding / friction, LEAST_BELOW)),
+        "ln below": math.log(max(below, LEAST_BELOW)),
+        "ln near": math.log((min(max(below, 0.0), NEAR_FRICTION) + LEAST_NEAR) / NEAR_FRICTION),
     }

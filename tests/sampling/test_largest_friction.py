@@ -1,0 +1,81 @@
+"""The largest f that the limits of the shear stress allow."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad
+
+import lubfric
+from lubfric.models.shared import largest_of_oil, largest_sliding_friction, peak_hertz_pressure
+
+PAPER = lubfric.load_scene("paper")
+
+
+def oil(**keys):
+    return PAPER.with_(lubricant=keys).lubricant
+
+
+@given(st.floats(0.02, 0.2), st.floats(1e7, 2e9), st.floats(1e-4, 10.0))
+def test_a_newtonian_oil_carries_f_b_or_the_most_that_oils_carry(friction, peak, sliding):
+    assert largest_of_oil(oil(), friction, peak, sliding, 1e-8) == max(friction, 0.10)
+    stated = oil(limiting_stress_coefficient="f_b")
+    assert largest_of_oil(stated, friction, peak, sliding, 1e-8) == friction
+
+
+@given(st.floats(0.02, 0.2), st.floats(0.03, 0.12), st.floats(1e8, 2e9))
+def test_an_oil_with_a_limit_carries_the_larger_of_both_at_its_limit(friction, limit, peak):
+    """Sheared so fast that all but the lowest pressures are at the limit."""
+    most = largest_of_oil(oil(limiting_stress_coefficient=limit), friction, peak, 1e3, 1e-8)
+    assert most == pytest.approx(max(friction, limit), rel=2e-3)
+
+
+@pytest.mark.parametrize("stress", [5e6, 2e7, 1e8])
+def test_an_eyring_film_by_quadrature(stress):
+    """Over the Hertz pressure, by scipy; above the mean pressure the ratio of an Eyring stress to the pressure has its
+    largest value somewhere, here on 1e5 pressures."""
+    lubricant = oil(eyring_stress=stress, viscosity_law="barus", viscosity=0.02, pressure_viscosity_coefficient=1e-8)
+    (friction, peak, sliding, film) = (0.1, 6e8, 0.05, 1e-8)
+
+    def of_oil(p):
+        return stress * np.arcsinh(0.02 * np.exp(1e-8 * p) * sliding / film / stress)
+
+    def both(x):
+        p = peak * math.sqrt(1 - x * x)
+        return max(of_oil(p), friction * p)
+
+    mean = quad(both, -1, 1, limit=400)[0] / (peak * math.pi / 2)
+    higher = np.geomspace(math.pi / 4 * peak, 3e9, 100_000)
+    ratio = float(np.max(of_oil(higher) / higher))
+    most = largest_of_oil(lubricant, friction, peak, sliding, film)
+    assert most == pytest.approx(max(mean, ratio), rel=5e-3)
+
+
+def test_ranges_count_with_their_largest_end_and_pure_rolling_has_no_bound():
+    scene = PAPER.with_(bodies={"boundary_friction_coefficient": [0.11, 0.08, 0.14]})
+    assert largest_sliding_friction(scene, 0.01) == 0.14
+    assert largest_sliding_friction(scene.with_(motion={"slide_roll_ratio": 0.0}), 0.01) == math.inf
+    limited = scene.with_(lubricant={"limiting_stress_coefficient": [0.12, 0.10, 0.16]})
+    expected = largest_of_oil(oil(limiting_stress_coefficient=0.16), 0.14, peak_hertz_pressure(scene), 0.02, 1e-8)
+    assert largest_sliding_friction(limited, 0.01) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("model", ["paper", "quick"])
+def test_no_interval_reaches_beyond_f_b_where_asperities_carry_nearly_all(model):
+    """The film hardly moves: f is f_b, and its upper end the upper end of f_b's range, with the sentence that says why."""
+    scene = PAPER.with_(
+        bodies={"boundary_friction_coefficient": [0.11, 0.08, 0.14]},
+        numerics={"model": model, "sampling_tolerance": 0.2, "tolerance": 0.1},
+        lubricant={"limiting_stress_coefficient": "f_b"},
+    )
+    result = lubfric.friction(scene, 0.002)
+    assert 0.9 < result.coefficient / 0.11 <= 1.0001
+    rolling = 16 * abs(result.rolling_force) / scene.bodies.load
+    assert result.uncertainty.interval[1] <= 0.14 + rolling
+    assert result.uncertainty.interval[0] < 0.085
+    reaches = (
+        result.coefficient * (1 + math.hypot(result.uncertainty.model, result.uncertainty.inputs)) > 0.14 + rolling
+    )
+    assert ("limits of the shear stress" in result.uncertainty.text) == reaches
