@@ -13,8 +13,11 @@ def main() -> None:
     p = extending.parser("verification.campaigns.moving_coverage", __doc__)
     p.add_argument("--seeds", type=int, default=10, help="surfaces of each contact (default: %(default)s)")
     p.add_argument("--folder", type=Path, default=EXTENDED, help="of both tables (default: %(default)s)")
+    p.add_argument("--contacts", nargs="+", default=[], help="names (default: all)")
+    p.add_argument("--answers", action="store_true", help="no references")
     options = p.parse_args()
-    extending.show(extend(options.seeds, options.budget, options.folder))
+    rows = extend(options.seeds, options.budget, options.folder, options.contacts, references=not options.answers)
+    extending.show(rows)
     extending.show(covered(options.folder))
 
 

@@ -8,7 +8,7 @@ axes. That change is found on a narrower strip, over the same way.
 
 import math
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -51,6 +51,8 @@ ANSWER_COLUMNS = (
     "sampling",
     "freedom",
     "numerical",
+    "by_longer",
+    "by_film",
     "strips",
     "steps",
     "work",
@@ -187,16 +189,20 @@ def answer(contact: RollingContact, seed: int) -> PlainRow:
     solution = sampled(prepare(with_seed(contact, seed)), contact.speed, DeterministicModel())
     assert isinstance(solution, DeterministicSolution)
     parts = solution.answer()
-    first = solution.pairs[0].resolved
+    pairs = solution.pairs
+    first = pairs[0].resolved
     assert isinstance(first, MovingStripSolution)
+    results = [pair.resolved.result for pair in pairs]
     return {
         "f": parts.numbers["coefficient"],
         "sampling": parts.sampling.error,
         "freedom": parts.sampling.freedom,
         "numerical": parts.numerical,
-        "strips": len(solution.pairs),
+        "by_longer": float(np.mean([pair.change_by_cells for pair in pairs])),
+        "by_film": float(np.mean([abs(result.at_twice_film / result.coefficient - 1) for result in results])),
+        "strips": len(pairs),
         "steps": first.times.size - first.discarded,
-        "work": sum(pair.resolved.work for pair in solution.pairs),
+        "work": sum(pair.resolved.work for pair in pairs),
     }
 
 
@@ -269,12 +275,16 @@ def change_by_cells(contact: RollingContact, seed: int) -> PlainRow:
 KINDS = {"strip": reference_strip, "cells": change_by_cells, "tight": tight_strip}
 
 
-def extend(seeds: int, budget: float, folder: Path = EXTENDED) -> Iterator[PlainRow]:
+def extend(
+    seeds: int, budget: float, folder: Path = EXTENDED, names: Sequence[str] = (), *, references: bool = True
+) -> Iterator[PlainRow]:
     """Solve what the tables have not, as long as the processor time of this process is below ``budget`` [s], and append
-    each row as it is solved: all references, then the answers of so many ``seeds``."""
+    each row as it is solved: all references (none without ``references``), then the answers of so many ``seeds``; of the
+    contacts whose name is in ``names``, or all."""
+    chosen = [contact for contact in contacts() if not names or contact.name in names]
     kept = {(row["contact"], row["kind"], row["seed"]) for row in table_file.rows(folder / REFERENCES)}
     for kind, number in (*((kind, k) for k in range(REFERENCE_SEEDS) for kind in ("strip", "cells")), ("tight", 0)):
-        for contact in contacts():
+        for contact in chosen if references else ():
             if time.process_time() > budget:
                 return
             if (contact.name, kind, str(number)) not in kept and (contact.heavy or kind != "tight"):
@@ -282,7 +292,7 @@ def extend(seeds: int, budget: float, folder: Path = EXTENDED) -> Iterator[Plain
                 yield _appended(folder / REFERENCES, REFERENCE_COLUMNS, row)
     known = {(row["contact"], row["seed"]) for row in table_file.rows(folder / ANSWERS)}
     for seed in range(seeds):
-        for contact in contacts():
+        for contact in chosen:
             if time.process_time() > budget:
                 return
             if (contact.name, str(seed)) not in known:
