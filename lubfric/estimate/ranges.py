@@ -34,13 +34,13 @@ def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tupl
             slope = load_ratio * (scene.motion.slide_roll_ratio != 0)
             changes[name] = tuple(slope * (value_of(end, name) - value_of(scene, name)) for end in ends)
         elif name == HARDNESS and not prepared.has_own_contact:
-            changes[name] = "the contact is not lubfric's own"
+            changes[name] = "the contact was given by the caller"
         elif answer.at_inputs is None:
-            changes[name] = "the model does not solve its ends"
+            changes[name] = "this model does not solve the ends of its range"
         elif (known := answer.changes_without_solve(name, tuple(ends))) is not None:
             changes[name] = tuple(answer.numbers["coefficient"] * change for change in known)
         else:
-            changes[name] = "an end was not solved"  # unless it is
+            changes[name] = "the solve at an end of its range did not converge"  # unless it is
             solved[name] = ends
     for name, relative in _changes_at(answer, solved).items():
         if all(map(math.isfinite, relative)):

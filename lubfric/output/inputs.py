@@ -104,7 +104,7 @@ def _lubricant(scene: Scene) -> list[str]:
             "shear: Newtonian at any stress (no lubricant.eyring_stress, no lubricant.limiting_stress_coefficient)"
         )
     known = oil.heats and oil.temperature_coefficient is not None
-    heat = "isothermal, because the fall of the viscosity with the temperature is not given"
+    heat = "isothermal, because the temperature coefficient of the viscosity is not given"
     if known:
         heat = "film and inlet, where it changes f by more than its part of the tolerance"
         heat = "isothermal (numerics.heat = 'off')" if scene.numerics.heat == "off" else heat

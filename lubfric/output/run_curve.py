@@ -162,7 +162,7 @@ def _write(
         law = _law(curve)
         if isinstance(law, studies.Law):
             contents |= {"law.json": law.json.encode(), "law.c": law.c.encode()}
-    with folder.reporting("doubts about f are not said"):
+    with folder.reporting("the uncertainty of f was not reported"):
         unusual_values = _doubts(prepared.scene, curve)
     given: dict[str, Any] = {}
     with folder.reporting("report.html is without the inputs as they were given"):

@@ -60,7 +60,7 @@ def run_study(arguments: Namespace) -> None:
             where = f"{result.with_warnings} of {counted(result.solved, 'points')}"
             say(f"warnings at {where}: column validity of study.csv")
         rows: list[str] = []
-        with folder.reporting("the least and the largest f are not said"):
+        with folder.reporting("the smallest and the largest f were not reported"):
             rows = answer_lines(result)
         folder.add("report.html", study_page, result, folder.contents, rows)
         folder.put()

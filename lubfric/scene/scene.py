@@ -73,7 +73,7 @@ class Scene(Shown):
         if self.numerics.heat == "on" and not self.lubricant.heats:
             by_numbers = "lubricant.temperature [K] and temperature_coefficient [1/K]"
             ways = f"give an oil (lubricant.grade, nu40, oil) or {by_numbers}, or heat = 'auto'"
-            said = " = 'on' needs to know how the viscosity falls with the temperature"
+            said = " = 'on' needs the temperature coefficient of the viscosity"
             raise InputError(said, "numerics.heat", way_out=ways)
         sliding = self.motion.slide_roll_ratio * self.motion.entrainment_speed
         friction = self.bodies.boundary_friction(sliding, self.lubricant.temperature)

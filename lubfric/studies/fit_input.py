@@ -61,7 +61,7 @@ class Measured:
         if self.deviation is not None and np.any(self.deviation <= 0):
             raise InputError("deviation holds values that are not positive; give positive ones, or omit it")
         if self.deviation is None and np.any(self.coefficient <= 0):
-            said = " holds values that are not positive, whose relative deviation means nothing"
+            said = " holds values that are not positive, for which a relative deviation is not defined"
             raise InputError(said, "coefficient", "> 0, or give a deviation")
         if self.branch is not None:
             branch = np.array(self.branch)

@@ -250,7 +250,7 @@ def _expected_lengths(
         length = first_crossing(np.arange(half) * spacing[axis], line[:half] / acf[0, 0], level)
         if abs(length / lengths[axis] - 1) > LENGTH_TOLERANCE:
             size = f"{shape[0] * spacing[0]:g} x {shape[1] * spacing[1]:g} m"
-            said = f" = {lengths[axis]:g} m cannot be had: a periodic map of {size} with this cutoff has {length:g} m"
+            said = f" = {lengths[axis]:g} m is not possible: a periodic map of {size} with this cutoff has {length:g} m"
             allowed = f"within {LENGTH_TOLERANCE:.0%} (generate a larger map and crop it)"
             raise InputError(said, f"correlation_length along {'xy'[axis]}", allowed)
         cutoffs.append(length)

@@ -163,7 +163,9 @@ def test_a_contact_of_the_users_own_is_kept_at_the_ends():
     )
     assert plain.uncertainty.inputs > 0 and math.isnan(known.uncertainty.inputs)
     assert known.uncertainty.interval == pytest.approx(plain.uncertainty.interval, nan_ok=True)
-    assert "hardness in its range: not in the interval, as the contact is not lubfric's own" in known.uncertainty.text
+    assert (
+        "hardness in its range: not in the interval, as the contact was given by the caller" in known.uncertainty.text
+    )
 
 
 def test_a_range_is_in_the_columns_of_a_curve():

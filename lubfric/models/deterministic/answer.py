@@ -52,7 +52,7 @@ MODEL_ERROR = "model-form error of f"
 FEW_STRIPS = "not known from fewer than three strips"
 UNSOLVED_CELLS = (
     "shorter cells did not converge within the work of a point: the numerical error is twice the estimate from longer "
-    "cells; a larger numerics.max_work narrows it"
+    "cells; a larger numerics.max_work reduces it"
 )
 ONE_HEAT = "heat is computed on one strip"
 BIASED = "a short patch, which balances the load by itself, is biased too: about lift-off f is some 10 % too low"
@@ -101,8 +101,8 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     below, above = levels.by_film
     parts_of_model = {
         "the difference of the models from place to place: a smaller numerics.model_tolerance narrows it": by_scatter,
-        "the flow of a film at its limiting stress, which theories leave open": abs(levels.by_flow),
-        "heat, half of whose effect counts as its error": error_by_heat(heat, levels.by_inlet),
+        "the flow of a film at its limiting stress, on which published theories differ": abs(levels.by_flow),
+        "heat, of whose effect half is counted as error": error_by_heat(heat, levels.by_inlet),
     }
     model = math.hypot(*parts_of_model.values())
     by_limit = _by_limit(scene, results)
@@ -389,7 +389,7 @@ def _violations(
     if why := why_too_hot(heat):
         parts = (1 - heat.film_factor) / (1 - LEAST_FILM), heat.change / MOST_CHANGE
         yield Violation(
-            what="heat over the most that was checked",
+            what="effect of heat over the largest that was checked",
             value=max(parts),
             limit=1.0,
             unit="",

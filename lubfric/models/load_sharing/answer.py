@@ -20,7 +20,7 @@ from .limits import limits_exceeded
 from .response import contact_length, quantities
 from .scatter import film_stress
 
-CLOSER = "f is good to that error; a tighter numerics.tolerance or a larger map makes it smaller"
+CLOSER = "f has that error; a smaller numerics.tolerance or a larger map reduces it"
 
 
 def answer_of(balanced: BalancedSample) -> ModelAnswer:

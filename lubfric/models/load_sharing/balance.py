@@ -115,7 +115,7 @@ def solve_balance(
     if speed == 0:
         return _dry(scene, rough_contact, "no entrainment")
     if sq > 0 and scene.lubricant.inlet_film is None and scene.line_contact(speed).rigid_film < NOTHING * sq:
-        return _dry(scene, rough_contact, "the film carries less than the load is rounded to")
+        return _dry(scene, rough_contact, "the film carries less than the rounding error of the load")
     alone: EHLResult | None = None
     notes: tuple[str, ...] = ()
     if not _certainly_touching(scene, speed, rough_contact):
@@ -163,7 +163,7 @@ def _film_alone(point: Point) -> Balance:
             break
         point = replace(point, settings=replace(point.settings, film_cells=cells))
         trial = point.trial(load, 0.0, trial)
-    notes = ("separated: the film clears the summits",)
+    notes = ("separated: the film is thicker than the highest summits",)
     report = _report(point.scene, CONVERGED, (0.0,), trial.contact_state, trial.film, notes)
     return Balance(
         film_load=load,

@@ -19,7 +19,7 @@ NO_CELLS = "not known: this contact has no places along y to compare"
 # Errors below and above f where the model has none.
 NONE = (0.0, 0.0)
 UNKNOWN = (math.nan, math.nan)
-EMPTY = "the film that arrives does not fill the gap: Eq. (8) takes it for none, and f may be lower"
+EMPTY = "the film that arrives does not fill the gap: Eq. (8) neglects it, and f may be lower"
 NOT_STUDIED = "the error of the model itself is not known for this contact"
 MODEL_UNKNOWN = "the error of the model itself is not known and not in the interval: {}"
 MISSED = "not known: the patch is too short along y to estimate the undetected contact"
@@ -61,7 +61,7 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
     elif response is None:
         relative += forces.film_sensitivity * of_film
         errors = _given_load(forces, of_film)
-        why = "no contact was met: it has no relative error"
+        why = "without asperity contact it has no relative error"
         errors |= {"film_load": 0.0}
     else:
         error = balanced.friction_scatter

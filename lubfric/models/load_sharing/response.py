@@ -125,7 +125,7 @@ def respond(
     )
     total = scene.bodies.load
     film_load = total - load
-    if film_of is None or film_load <= 0:  # 0 where the film carries less than the load is rounded to
+    if film_of is None or film_load <= 0:  # 0 where the film carries less than the rounding error of the load
         return Response(slopes)
     log_load_ratio = math.log(film_load / load)
 

@@ -93,7 +93,7 @@ class Heat:
         if scene.numerics.heat == "off":
             return "not computed: numerics.heat = 'off'"
         if not scene.lubricant.heats:
-            return "not computed: how the viscosity falls with the temperature is not given (lubricant.grade gives it)"
+            return "not computed: the temperature coefficient of the viscosity is not given (lubricant.grade gives it)"
         if self.inlet is None:
             return "not computed: without entrainment there is no film"
         if not self.is_evaluated:
