@@ -9,7 +9,7 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from itertools import islice
 from queue import SimpleQueue
 from typing import Any
@@ -130,6 +130,24 @@ def _attempt(job: Callable[[], Iterable[Any]]) -> tuple[bool, Any]:
         return False, error
 
 
+def begin_beside(work: Callable[[], None]) -> threading.Thread | None:
+    """Begin ``work`` that can be done without, in a thread. Return the thread, or None where the system has none left.
+
+    What goes wrong in it, such as memory that is not enough, ends it without a word.
+    """
+
+    def quietly() -> None:
+        with suppress(Exception):
+            work()
+
+    thread = threading.Thread(target=quietly, daemon=True)
+    try:
+        thread.start()
+    except RuntimeError:
+        return None
+    return thread
+
+
 def processors() -> int:
     """How many processors this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
@@ -192,4 +210,4 @@ def _follow(parent: int) -> None:
         os._exit(1)
 
     if os.getppid() == parent:  # not where workers are started by a server of their own
-        threading.Thread(target=watch, daemon=True).start()
+        begin_beside(watch)

@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any, get_type_hints
 import numpy as np
 
 from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, figures, plain, read_json, validate
+from .._base.processes import begin_beside
 from ..errors import InputError, OutputError
 from ..models import prepare
 from ..models.shared import Prepared, Violation, warn_unusual
@@ -177,7 +178,7 @@ def run_begun(
         say(row)
     saying = keeping(kept) if kept else nullcontext()
     with saying, run_folder(arguments.out, begun, fingerprint_without_files(prepared, *key)) as folder:
-        threading.Thread(target=figures.make_ready, daemon=True).start()  # while it is solved
+        begin_beside(figures.make_ready)  # while it is solved
         yield folder, prepared, estimate
 
 

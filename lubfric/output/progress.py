@@ -10,6 +10,7 @@ from contextlib import suppress
 from importlib import import_module
 from typing import Any
 
+from .._base.processes import begin_beside
 from ..studies import in_words
 
 REFRESH = 1.0  # s between two drawings of the line
@@ -40,9 +41,8 @@ class ProgressLine:
         if sys.stderr is not None and sys.stderr.isatty():
             with suppress(ImportError):
                 self._bar = import_module("tqdm").tqdm(unit=f" {self.unit}", file=sys.stderr, leave=False, total=0)
-            self._thread = threading.Thread(target=self._draw_often, daemon=True)
-            self._thread.start()
-            _active = self
+            self._thread = begin_beside(self._draw_often)
+            _active = self if self._thread is not None else None
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -6,6 +6,7 @@ import resource
 import signal
 import subprocess
 import sys
+import threading
 import time
 import zipfile
 from pathlib import Path
@@ -16,6 +17,7 @@ import pytest
 import lubfric
 from lubfric import InputError
 from lubfric._base import read_table, table_bytes
+from lubfric._base.processes import begin_beside
 from lubfric.output import main
 
 COMMAND = [sys.executable, "-m", "lubfric"]
@@ -168,3 +170,19 @@ def test_another_word_for_the_same_thing_takes_its_place():
         scene.with_(surface={"ra": 8e-8, "sq": 1e-7})
     with pytest.raises(InputError, match="sq|correlation"):
         scene.with_(surface={"sq": None})
+
+
+def test_what_can_be_done_without_ends_without_a_word(monkeypatch, capfd):
+    """Fonts are loaded and progress is drawn in threads: too little memory for them, or none for the thread, is no
+    traceback beside the message of the command."""
+
+    def fails():
+        raise MemoryError
+
+    begin_beside(fails).join()
+    with monkeypatch.context() as host:
+        host.setattr(
+            threading.Thread, "start", lambda self: (_ for _ in ()).throw(RuntimeError("can't start new thread"))
+        )
+        assert begin_beside(fails) is None
+    assert capfd.readouterr() == ("", "")
