@@ -90,6 +90,11 @@ def with_missing_inputs(old: Uncertainty, f: float, changes: dict[str, tuple[flo
     )
 
 
+def _signed(percentage: float) -> str:
+    """Return a change in percent with its sign, to two digits, or three from 100 % on."""
+    return f"{percentage:+.{2 + (abs(percentage) >= 99.5)}g}" if percentage else "0"
+
+
 def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, ...] | str]) -> Uncertainty:
     """Return ``old`` of ``f`` with the ``changes`` of f by the two ends of inputs, by name (`changes_by_ranges`).
 
@@ -107,8 +112,9 @@ def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, ...] | s
         elif not f:
             notes.append(f"{begin}f {ends[0]:+.2g} to {ends[1]:+.2g}")
         elif max(map(abs, ends)) > LEAST * abs(f):
-            percents = sorted(100 * end / f for end in ends)
-            notes.append(f"{begin}f {' to '.join(f'{end:+.{2 + (abs(end) >= 99.5)}g}' for end in percents)} %")
+            changes_of_f = (0.0, *(100 * end / f for end in ends))  # at the value itself it is 0
+            percents = (min(changes_of_f), max(changes_of_f))
+            notes.append(f"{begin}f {' to '.join(map(_signed, percents))} %")
     relative = max(down, up) / abs(f) if f else math.inf if max(down, up) else 0.0
     complete = len(moved) == len(changes)
     towards, away = (down, up) if f >= 0 else (up, down)

@@ -26,6 +26,7 @@ LOOK = """<script>window.onload = () => {
     drawn: images.every(i => i.complete && i.naturalWidth > 300), images: images.length,
     beyond: wide.scrollWidth - wide.clientWidth, width: wide.clientWidth, answer: texts(".answer")[0],
     folded: [...page.querySelectorAll("details")].map(d => d.open),
+    longest: Math.max(...[...page.querySelectorAll(".budget i")].map(i => i.offsetWidth)),
     bars: [...page.querySelectorAll(".budget i")].map(i => i.style.width)})}</script></body>"""
 pytestmark = pytest.mark.skipif(BROWSER is None, reason="no browser")
 
@@ -71,6 +72,7 @@ def test_it_opens_whole_and_runs_nothing(run, width):
     known = point["uncertainty"]
     of_sample = stdtrit(known["freedom"], 0.975) * known["sampling"]
     errors = [known["numerical"], of_sample, known["model"], known["inputs"]]
+    assert seen["longest"] > 200  # px: on a phone it has a row of its own
     np.testing.assert_allclose(bars, [100 * error / max(errors) for error in errors], atol=0.06)
 
 

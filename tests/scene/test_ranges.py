@@ -9,6 +9,7 @@ from scene_text import paper_scene
 from toys import Spring
 
 import lubfric
+from lubfric.estimate.ranges import widened
 from lubfric.output.inputs import inputs
 from lubfric.scene import Table
 
@@ -101,6 +102,15 @@ def test_the_deterministic_answer_has_its_ranges_too():
     by_friction = f(scene.with_(bodies={FRICTION: [0.08, 0.1]}), 0.03)
     share = 0.01 * by_friction.contact_load / scene.bodies.load / by_friction.coefficient
     assert by_friction.uncertainty.inputs == pytest.approx(share)
+
+
+def test_a_range_is_stated_from_its_lowest_to_its_highest_f():
+    """At the value itself the change is 0, so that ends which both lower f leave 0 as the upper end."""
+    known = f(SMALL.with_(numerics={"model": "paper"}))
+    plain = replace(known.uncertainty, notes=())
+    changes = {"bodies.hardness": (-0.0005, -0.001), "lubricant.eyring_stress": (0.002, -0.001)}
+    notes = widened(plain, 0.1, changes).notes
+    assert notes == ("hardness in its range: f -1 to 0 %", "eyring_stress in its range: f -1 to +2 %")
 
 
 @pytest.mark.parametrize("motion", [{}, {"slide_roll_ratio": 0.3}])
