@@ -197,15 +197,16 @@ def film_shear(
         rupture=float(x[-1] if speed > 0 else x[0]),
     )
     of_point = film, contact_step.state, contact_step.load, abs(boundary + isothermal.total), isothermal
-    heat, _, heated = point_heat(scene, *of_point)
+    point = point_heat(scene, *of_point)
+    heated = point.stress
     if heated is None:
-        return isothermal, replace(heat, typical=typical_heat(scene, *of_point))
+        return isothermal, replace(point.heat, typical=typical_heat(scene, *of_point))
     along = math.copysign(1.0, speed)
 
     def hot(x: FloatArray, pressure: FloatArray, thickness: FloatArray) -> FloatArray:
         return math.copysign(1.0, sliding) * np.abs(heated(x * along, pressure, thickness))
 
-    return _summed(model, time, solution, hot), heat
+    return _summed(model, time, solution, hot), point.heat
 
 
 def _summed(

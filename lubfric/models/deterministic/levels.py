@@ -1,13 +1,13 @@
-"""Friction of an infinite line contact by the deterministic model, as a sum over levels of cost.
+"""Friction of an infinite line contact by the deterministic model, from levels of cost.
 
-    f = mean over strips (f deterministic - difference of that strip from a line of Eq. (8))    a few strips
-      * mean f on cells half as long / mean f on the cells of the strips        fewer pieces, half as long as a strip
-      * the same once more, from these cells on                                 one piece, a sixth as long
+    f = mean over strips of (f by the deterministic model - control)              a few strips
+      * mean f on cells half as long / mean f on the cells of the strips          pieces, half as long as a strip
+      * mean f on cells a quarter as long / mean f on cells half as long          one piece, a sixth as long as a strip
 
-The line is the first level: its many strips show what is chance of the few
-(`lubfric.models.load_sharing.control_variate`). These are few where both models scatter alike, as they do about
-lift-off on most surfaces. Where they do not, the line is omitted. Which of the two needs fewer strips is read off
-those that are solved (M. B. Giles, Oper. Res. 56 (2008) 607-617, doi:10.1287/opre.1070.0496).
+The first level is the control: by how much each strip differs from the many strips that Eq. (8) joins
+(`lubfric.models.load_sharing.control_variate`). It shows what is chance in the few. These are few where both models
+scatter alike, as they do about lift-off on most surfaces. Where they do not, the control is omitted. Which of the two
+needs fewer strips is read off those that are solved (M. B. Giles, Oper. Res. 56 (2008) 607-617, doi:10.1287/opre.1070.0496).
 """
 
 import math
@@ -60,7 +60,7 @@ DIFFERENCE = 0.95
 # campaigns of strips, whose numbers are not kept; half and twice change nothing there.
 ALONE = 1.3
 
-# Scatter between strips, over that of blocks, of the difference of f from a line of load sharing [-]. From the same
+# Scatter between strips, over that of blocks, of the difference of f from the control [-]. From the same
 # campaigns; with it the stated sampling error is 1.06 times the scatter of 200 surfaces in mixed lubrication
 # (docs/measurements.md, answers-seeds). Half narrows the interval by 32 %, twice takes twice the time.
 LINED = 1.2
@@ -95,17 +95,25 @@ OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
 
 @dataclass(frozen=True, kw_only=True)
 class Levels:
-    """The sum over levels.
+    """What all levels say of one operating point.
 
-    - ``numbers``: of the deterministic model on an infinite line contact, by name; ``errors``: their relative standard
-      errors. ``by_film``: relative change of f by half and by twice the boundary film; ``by_flow``: by another law of
-      the flow; ``by_inlet``: without the heat of the inlet.
-    - ``control_strips``: number of strips of the first level (0: it was omitted); ``pairs``: the strips of the second;
-      ``pieces``: of the third, each on shorter and shorter cells; ``shortest``: that of the fourth (empty: none).
-    - relative errors of f: ``sampling``, standard, by the number of strips; ``difference``, standard, by that between
-      the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips; ``has_unsolved_cells``:
-      whether shorter cells were needed and did not converge; ``note``: what the control of moving roughness changed
-      (empty: nothing).
+    Attributes
+    ----------
+    numbers : of the deterministic model on an infinite line contact, by name
+    errors : their relative standard errors, by name
+    by_film : relative changes of f by half and by twice the boundary film
+    by_flow : relative change of f by another law of the flow
+    by_inlet : relative change of f without the heat of the inlet
+    control_strips : number of strips of the first level, the control; 0: it was omitted
+    pairs : the strips of the second level
+    pieces : those of the third, each on shorter and shorter cells
+    shortest : the piece of the fourth; (): none
+    sampling : relative standard error of f, by the number of strips
+    difference : relative standard error of f, by the difference between the models
+    numerical : relative error of f, by the cells of the last level
+    length : of all strips [m]
+    has_unsolved_cells : whether shorter cells were needed and did not converge
+    note : what the control of moving roughness changed, as text; "": nothing
     """
 
     numbers: dict[str, float]
@@ -127,9 +135,15 @@ class Levels:
 
 @dataclass(frozen=True, kw_only=True)
 class TwoLevelEstimate:
-    """The first two levels: ``control_strips``, ``numbers`` as in `Levels`; standard errors of f: ``error``, and the part
-    of it that is the ``difference`` between the models; ``between``: standard deviation of f between strips;
-    ``note``: what the control of moving roughness changed."""
+    """f and the other numbers by the first two levels.
+
+    Attributes
+    ----------
+    control_strips, numbers, note : as in `Levels`
+    error : standard error of f [-]
+    difference : the part of it that is the difference between the models [-]
+    between : standard deviation of f between strips [-]
+    """
 
     control_strips: int
     numbers: dict[str, float]
@@ -178,7 +192,9 @@ def two_levels(
     if moving:
         estimate = _of_moving(prepared, pairs, moving)
         return estimate, max(estimate.required_strips(numerics, len(pairs), most), len(pairs))
-    estimates = [_sum(prepared, pairs, line) for line in (control, None) if line is None or len(pairs) <= line.count]
+    estimates = [
+        _of_pairs(prepared, pairs, each) for each in (control, None) if each is None or len(pairs) <= each.count
+    ]
     estimates = [each for each in estimates if not each.control_strips or 0 <= each.numbers["contact_load"] <= load]
     counts = [each.required_strips(numerics, len(pairs), most) for each in estimates]
     chosen = next(
@@ -197,23 +213,24 @@ def levels_of(
     *,
     with_shorter_cells: bool = True,
 ) -> Levels:
-    """Return the sum over levels at ``speed`` [m/s]: the ``estimate`` from these strips, changed by shorter cells if the
+    """Return what all levels say at ``speed`` [m/s]: the ``estimate`` from these strips, changed by shorter cells if the
     change of f from longer ones is not within ``numerics.tolerance``; without ``with_shorter_cells`` the error by the cells
     is for others to state. Raises `ConvergenceError`."""
     shorter = on_shorter_cells(prepared, speed, pairs) if with_shorter_cells else NO_SHORTER_CELLS
-    pieces, shortest, by_cells, numerical, has_unsolved_cells = shorter
-    numbers = changed(prepared, estimate.numbers, [(piece[1], piece[-1]) for piece in pieces])
-    numbers = changed(prepared, numbers, [shortest[-2:]] if shortest else [])
+    numbers = changed(prepared, estimate.numbers, [(piece[1], piece[-1]) for piece in shorter.pieces])
+    numbers = changed(prepared, numbers, [shorter.shortest[-2:]] if shorter.shortest else [])
     results = [pair.resolved.result for pair in pairs]
     numbers = with_divided_contact_load(prepared.scene, numbers, results)
     f = abs(numbers["coefficient"])
-    of_strips = add_errors(estimate.error, replace(by_cells, error=by_cells.error * f))
+    of_strips = add_errors(estimate.error, replace(shorter.scatter, error=shorter.scatter.error * f))
     difference = StandardError(min(estimate.difference.error, of_strips.error) / f, estimate.difference.freedom)
     by_chance = math.sqrt((of_strips.error / f) ** 2 - difference.error**2)
     sampling = replace(of_strips, error=math.hypot(by_chance, BALANCED * (estimate.between / f) ** 2))
     films = tuple(mean(getattr(result, name) - result.coefficient for result in results) / f for name in OTHER_FILMS)
     errors = _errors(prepared, pairs, numbers)
-    errors["coefficient"] = math.hypot(*(e for e in (sampling.error, difference.error, numerical) if math.isfinite(e)))
+    errors["coefficient"] = math.hypot(
+        *(e for e in (sampling.error, difference.error, shorter.error) if math.isfinite(e))
+    )
     length = prepared.sample.line_length(max(estimate.control_strips, len(pairs)))
     first = pairs[0].resolved
     at_rest = first.rest if isinstance(first, MovingStripSolution) else first
@@ -227,12 +244,12 @@ def levels_of(
         by_inlet=inlet,
         control_strips=estimate.control_strips,
         pairs=tuple(pairs),
-        pieces=pieces,
-        has_unsolved_cells=has_unsolved_cells,
-        shortest=shortest,
+        pieces=shorter.pieces,
+        has_unsolved_cells=shorter.has_unsolved,
+        shortest=shorter.shortest,
         sampling=sampling,
         difference=difference,
-        numerical=numerical,
+        numerical=shorter.error,
         length=length,
         note=estimate.note,
     )
@@ -260,31 +277,31 @@ def with_divided_contact_load(
     return numbers | parts
 
 
-def _sum(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], line: ControlVariate | None) -> TwoLevelEstimate:
-    """The first two levels; ``line``: the first (None: without it)."""
+def _of_pairs(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], control: ControlVariate | None) -> TwoLevelEstimate:
+    """Return the estimate from strips whose roughness rests; ``control``: the first level (None: without it)."""
     rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
     count = len(pairs)
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
-    if line is None:
-        whole = _scatter(pairs, prepared.sample)
+    if control is None:
+        error = _scatter(pairs, prepared.sample)
         return TwoLevelEstimate(
             control_strips=0,
             numbers=numbers,
-            error=whole,
+            error=error,
             difference=StandardError(0.0, 1),
-            between=whole.error * math.sqrt(count),
+            between=error.error * math.sqrt(count),
         )
-    for name, differences in line.numbers.items():
+    for name, differences in control.numbers.items():
         numbers[name] -= mean(differences[:count])
-    unsolved = 1 - count / line.count
-    others = replace(line.sampling, error=math.sqrt(unsolved) * line.sampling.error * abs(numbers["coefficient"]))
-    whole = add_errors(_scatter(pairs, prepared.sample, line, unsolved), others)
-    between = float(np.std(line.numbers["coefficient"]))
+    unsolved = 1 - count / control.count
+    others = replace(control.sampling, error=math.sqrt(unsolved) * control.sampling.error * abs(numbers["coefficient"]))
+    error = add_errors(_scatter(pairs, prepared.sample, control, unsolved), others)
+    between = float(np.std(control.numbers["coefficient"]))
     return TwoLevelEstimate(
-        control_strips=line.count,
+        control_strips=control.count,
         numbers=numbers,
-        error=whole,
-        difference=_scatter(pairs, prepared.sample, line, 1.0),
+        error=error,
+        difference=_scatter(pairs, prepared.sample, control, 1.0),
         between=between,
     )
 
@@ -338,10 +355,10 @@ def _errors(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], numbers: dict[
 
 
 def _scatter(
-    pairs: Sequence[StripOnTwoGrids], sample: Sample, line: ControlVariate | None = None, share: float = 0.0
+    pairs: Sequence[StripOnTwoGrids], sample: Sample, control: ControlVariate | None = None, share: float = 0.0
 ) -> StandardError:
     """Standard error of the mean over ``pairs`` of f by the deterministic model less ``share`` times the differences of
-    these strips from the ``line``. (On a line of N strips, of which n are pairs, all of the sum scatters as with 1 -
+    these strips by the ``control``. (On a line of N strips, of which n are pairs, all of the sum scatters as with 1 -
     n/N: Eq. (8) on the pairs is part of the line.)
 
     Strips show their scatter themselves, but few of them badly. Blocks within them show it at once, but off by up to a
@@ -351,11 +368,11 @@ def _scatter(
     count = len(pairs)
     places = [pair.resolved.deviations for pair in pairs]
     f = np.array([pair.resolved.result.coefficient for pair in pairs])
-    if line is not None:
-        places = [values - share * line.deviations(k, values.size) for k, values in enumerate(places)]
-        f -= share * line.numbers["coefficient"][:count]
+    if control is not None:
+        places = [values - share * control.deviations(k, values.size) for k, values in enumerate(places)]
+        f -= share * control.numbers["coefficient"][:count]
     within = _block_error(places, sample, pairs[0])
-    by_blocks = count * (within.error * (LINED if line else ALONE)) ** 2
+    by_blocks = count * (within.error * (LINED if control else ALONE)) ** 2
     if count == 1:
         return StandardError(math.sqrt(by_blocks), min(within.freedom, FREEDOM))
     by_strips = float(np.var(f, ddof=1))

@@ -8,13 +8,13 @@ curve share them; these follow from the scene alone.
 import math
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..._base import limited_work, work_left
 from ...errors import ConvergenceError, LubfricError
-from ...samples import Sample
+from ...samples import PIECE, Sample
 from ...scene import has_moving_roughness
 from ..shared import (
     Prepared,
@@ -44,7 +44,8 @@ from .strip_on_two_grids import (
     surface_and_factors,
 )
 
-CELLS = 0.7  # of numerics.sampling_tolerance: standard error that the effect of the cells may leave
+# Part of numerics.sampling_tolerance: standard error that the effect of the cells may leave [-].
+CELLS = 0.7
 
 # Pieces, at most.
 MOST_PIECES = 32
@@ -79,17 +80,23 @@ ALONG_Y = 0.05
 # of the needle roller and 3 to 7 % on two of a light contact, where that change is 57 to 86 %.
 ALONG_Y_THIN = 0.6
 
-AS_START = 100  # LU factorisations of a piece on longer cells, from which it starts, at most
-SOLVED = 2e-3  # of f: what the tolerance of a strip may move
-SHORT = 60.0  # correlation lengths: a strip that is shorter serves as a piece
+# LU factorisations of a piece on longer cells, from which it starts, at most.
+AS_START = 100
 
-# Correlation lengths of a piece of the third level.
-LENGTH = 42.0
+# Relative error of f that the tolerance of a strip may leave [-]: twice the change of f by it (`strip.ENOUGH`).
+SOLVED = 2e-3
 
-# Correlation lengths of the piece of the last level.
+# Correlation lengths: a strip that is shorter serves as a piece.
+SHORT = 60.0
+
+# Correlation lengths of the piece of the last level: a third of `PIECE`. Not measured.
 SHORTEST = 14.0
-OFF = 0.5  # of what a piece as short as that changes: how far that may be from the mean
-FIXED = 2.0  # ratio of the expected films at neighbouring fixed speeds
+
+# Part of what so short a piece changes by which it may be off the mean [-]. A convention, not measured.
+OFF = 0.5
+
+# Ratio of the expected films at neighbouring fixed speeds [-]. A convention, not measured.
+FIXED = 2.0
 
 # Relative change of f by twice the boundary film above which pieces are solved at the speed of the point itself: a soft
 # roller whose film is just thicker (f 0.0037, 0.013 by twice) was corrected to 0.0111 by pieces at half the speed, whose
@@ -102,74 +109,115 @@ PIECES_SHARE = 0.6
 # Factor on the estimated effect of shorter cells where these were not solved.
 UNSOLVED = 2.0
 
-Piece = tuple[StripSolution, ...]  # on shorter and shorter cells
-ShorterCells = tuple[tuple[Piece, ...], Piece, StandardError, float, bool]
+# A piece of the surface, solved on shorter and shorter cells.
+Piece = tuple[StripSolution, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShorterCells:
+    """What the third and the fourth level show of the effect of shorter cells.
+
+    Attributes
+    ----------
+    pieces : those of the third level; (): it is not needed, or not solved
+    shortest : the piece of the fourth level; (): it is not needed, or not solved
+    scatter : standard error of the mean relative change of f on ``pieces``, from place to place
+    error : relative error of f that the last cells leave
+    has_unsolved : whether shorter cells were needed, and did not converge or would have taken too much work
+    """
+
+    pieces: tuple[Piece, ...] = ()
+    shortest: Piece = ()
+    scatter: StandardError = StandardError(0.0, 1)
+    error: float
+    has_unsolved: bool = False
+
 
 # What `on_shorter_cells` returns where none are solved, and another model states the error by the cells.
-NO_SHORTER_CELLS: ShorterCells = ((), (), StandardError(0.0, 1), SOLVED, False)
+NO_SHORTER_CELLS = ShorterCells(error=SOLVED)
 
 
 def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]) -> ShorterCells:
-    """Solve the third and fourth level for ``pairs``, as far as needed, if the roughness rests: the pieces of both,
-    the standard error of the mean relative change of f on those of the third, and the relative error that the last
-    cells leave. Where pieces do not converge, or take too much work, there are none, that error is `UNSOLVED` times
-    what the change from longer cells lets expect, and the last value is True. Raises `ConvergenceError` for a
-    single patch only.
+    """Solve the third and fourth level for ``pairs``, as far as ``numerics.tolerance`` needs them, if the roughness
+    rests.
 
-    There is a fourth level where the third leaves more than ``numerics.tolerance``, and `MOST_WORK_IN_AUTO` allows it. What it
-    estimates from one short piece may be off by half.
+    - The third level is needed where the estimated error by the cells of the strips is above the tolerance, or where the
+      heights are not smooth over a cell. Where it is not solved, the error is `UNSOLVED` times the estimate.
+    - The fourth level is needed where the third leaves more than the tolerance, and solved where `MOST_WORK_IN_AUTO`
+      allows it. What it estimates from one short piece may be off by half.
+    - A single patch has one piece: all of it, on shorter and shorter cells. Raises `ConvergenceError` if that does not
+      converge.
     """
     scene = prepared.scene
     sample = prepared.sample
+    tolerance = scene.numerics.tolerance
+    is_moving = has_moving_roughness(scene)
     by_longer = sum(pair.change_by_cells for pair in pairs) / len(pairs)
-    factors = zip(factors_of(scene, sample), sample.cells.coarsening)
-    halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
     strips = [pair.resolved for pair in pairs]
-    left = max(
-        _error_in_motion(prepared, strips, by_longer) if has_moving_roughness(scene) else error_by_cells([by_longer]),
-        SOLVED,
-    )
-    enough = left <= scene.numerics.tolerance and not (sample.is_only_map and scene.numerics.grid == "given")
-    enough = enough and (sample.is_only_map or smooth_over_cells(sample.strip(0).heights))
-    own = sample.cells.is_native and factors_of(scene, sample) == (1, 1)
-    if enough or own or has_moving_roughness(scene):
-        return (), (), StandardError(0.0, 1), left, False
+    by_cells = _error_in_motion(prepared, strips, by_longer) if is_moving else error_by_cells([by_longer])
+    error = max(by_cells, SOLVED)
+    if is_moving or _are_enough(prepared, error):
+        return ShorterCells(error=error)
     if sample.is_only_map:
         patch = _refined(prepared, speed, 0, pairs[0])
-        return (patch,), (), StandardError(0.0, 1), max(error_by_cells(changes_of(patch)), SOLVED), False
+        return ShorterCells(pieces=(patch,), error=max(error_by_cells(changes_of(patch)), SOLVED))
     try:
         with limited_work(PIECES_SHARE * work_left()):
-            if sample.strip_length < SHORT * sample.correlation_lengths[1] and surface_and_factors(prepared, 0)[1] != (
-                1,
-                1,
-            ):
-                pieces, error = _pieces(prepared, speed, pairs[0])
-            elif _by_boundary_film(strips) > SPEED_MATTERS:
-                pieces, error = _pieces(prepared, speed, None)
-            else:
-                pieces, error = _at_fixed_speed(prepared, speed)
+            pieces, scatter = _third_level(prepared, speed, pairs)
     except ConvergenceError:
-        return (), (), StandardError(0.0, 1), UNSOLVED * left, True
+        return ShorterCells(error=UNSOLVED * error, has_unsolved=True)
     changes = [piece[-1].result.coefficient / piece[1].result.coefficient - 1 for piece in pieces]
     change = abs(float(np.mean(changes)))  # its error is reported
-    left = max(error_by_cells((by_longer, change), max(halvings - 1, 1)), SOLVED)
-    spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
-    short = (
-        SHORTEST * sample.correlation_lengths[1] / (pieces[0][-1].result.load_at.size * pieces[0][-1].result.spacing[1])
-    )
-    dear = spent + 4 * min(short, 1.0) * pieces[0][-1].work > MOST_WORK_IN_AUTO  # a short map is all of both pieces
-    if left <= scene.numerics.tolerance or halvings < 2 or dear:
-        return pieces, (), error, left, False
+    factors = zip(factors_of(scene, sample), sample.cells.coarsening)
+    halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to native ones
+    error = max(error_by_cells((by_longer, change), max(halvings - 1, 1)), SOLVED)
+    if error <= tolerance or halvings < 2 or _is_costly(sample, pairs, pieces):
+        return ShorterCells(pieces=pieces, scatter=scatter, error=error)
     try:
         with limited_work(PIECES_SHARE * work_left()):
             shortest = _refined(prepared, speed, 0, None, pairs[0].resolved.slope, times=4, length=SHORTEST)
     except ConvergenceError:
-        return pieces, (), error, UNSOLVED * left, True
+        return ShorterCells(pieces=pieces, scatter=scatter, error=UNSOLVED * error, has_unsolved=True)
     coarse, fine = (strip.result for strip in shortest[-2:])
     further = abs(1 - coarse.coefficient / fine.coefficient)
-    scatter = math.sqrt(max(changes_of(shortest[-2:])[0] ** 2 - further**2, 0.0))  # of its mean over places
-    left = math.hypot(max(error_by_cells((change, further), max(halvings - 2, 1)), OFF * further, SOLVED), scatter)
-    return pieces, shortest, error, left, False
+    of_mean = math.sqrt(max(changes_of(shortest[-2:])[0] ** 2 - further**2, 0.0))  # scatter of it over places
+    error = math.hypot(max(error_by_cells((change, further), max(halvings - 2, 1)), OFF * further, SOLVED), of_mean)
+    return ShorterCells(pieces=pieces, shortest=shortest, scatter=scatter, error=error)
+
+
+def _are_enough(prepared: Prepared, error: float) -> bool:
+    """Return whether the cells of the strips, with this estimated ``error`` of f, are short enough, or native."""
+    scene = prepared.scene
+    sample = prepared.sample
+    if sample.cells.is_native and factors_of(scene, sample) == (1, 1):
+        return True
+    if error > scene.numerics.tolerance:
+        return False
+    if sample.is_only_map:
+        return scene.numerics.grid != "given"
+    return smooth_over_cells(sample.strip(0).heights)
+
+
+def _third_level(
+    prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]
+) -> tuple[tuple[Piece, ...], StandardError]:
+    """Return the pieces of the third level, and the standard error of their mean relative change of f."""
+    sample = prepared.sample
+    is_short = sample.strip_length < SHORT * sample.correlation_lengths[1]
+    if is_short and surface_and_factors(prepared, 0)[1] != (1, 1):
+        return _pieces(prepared, speed, pairs[0])
+    if _by_boundary_film([pair.resolved for pair in pairs]) > SPEED_MATTERS:
+        return _pieces(prepared, speed, None)
+    return _at_fixed_speed(prepared, speed)
+
+
+def _is_costly(sample: Sample, pairs: Sequence[StripOnTwoGrids], pieces: Sequence[Piece]) -> bool:
+    """Return whether the fourth level would take a point beyond `MOST_WORK_IN_AUTO`."""
+    finest = pieces[0][-1]
+    spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
+    length = finest.result.load_at.size * finest.result.spacing[1]
+    share = min(SHORTEST * sample.correlation_lengths[1] / length, 1.0)  # a short map is all of both pieces
+    return spent + 4 * share * finest.work > MOST_WORK_IN_AUTO
 
 
 def _error_in_motion(prepared: Prepared, strips: Sequence[StripSolution], by_longer: float) -> float:
@@ -299,7 +347,7 @@ def _refined(
     slope: float | None = None,
     *,
     times: int = 2,
-    length: float = LENGTH,
+    length: float = PIECE,
 ) -> Piece:
     """A piece of the surface of this ``length`` in correlation lengths, on cells twice as long as those of the strips,
     on the same, and on shorter and shorter ones, at last so many ``times`` as short. ``first``: the strip that is it,

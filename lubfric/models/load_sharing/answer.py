@@ -28,8 +28,11 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
     scene = balanced.prepared.scene
     numbers = _numbers(balanced)
     errors = errors_of(scene, balanced)
-    factors, _ = _cells(balanced)
-    sample = {"coarsening": factors, "strips": balanced.count, "change_by_cells": balanced.change("gap_change")}
+    sample = {
+        "coarsening": balanced.sample.cells.coarsening,
+        "strips": balanced.count,
+        "change_by_cells": balanced.change("gap_change"),
+    }
     oil = scene.lubricant.oil
     temperature = scene.lubricant.temperature
     estimated = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
@@ -66,7 +69,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
 
 def violations_of_sample(balanced: BalancedSample) -> tuple[Violation, ...]:
     """Return the limits of load sharing that ``balanced`` exceeds."""
-    return limits_exceeded(balanced.prepared, balanced.speed, balanced.balance, _cells(balanced)[1])
+    return limits_exceeded(balanced.prepared, balanced.speed, balanced.balance, edge_load_share(balanced))
 
 
 def fields_of(balanced: BalancedSample) -> ContactFields | None:
@@ -143,13 +146,13 @@ def _at_inputs(balanced: BalancedSample) -> AtInputs:
     return AtInputs(middle=coefficient(prepared.scene), coefficient=coefficient)
 
 
-def _cells(balanced: BalancedSample) -> tuple[tuple[int, int], float]:
-    """Length of the cells that were solved, in cells of the map, along each axis; and the share of the load on the edge
-    columns, on the map's own cells."""
-    factors = balanced.sample.cells.coarsening
-    if balanced.sample.is_only_map and factors != (1, 1):
-        return factors, balanced.effect.edge_load_share
-    return factors, balanced.rough_contact.on_the_ends(balanced.solved.contact_state) / factors[0]
+def edge_load_share(balanced: BalancedSample) -> float:
+    """Return the share of the load on the edge columns of the sample, on native cells: as it was found on these, or
+    about as much smaller as they are shorter."""
+    sample = balanced.sample
+    if sample.is_only_map and not sample.cells.is_native:
+        return balanced.effect.edge_load_share
+    return balanced.rough_contact.on_the_ends(balanced.solved.contact_state) / sample.cells.coarsening[0]
 
 
 def _finer(change: float, tolerance: float) -> tuple[Violation, ...]:

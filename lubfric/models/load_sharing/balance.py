@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
 
 from ..._base import Renamed, Root, increasing_root
 from ...contact import ContactState, RoughContact
@@ -45,6 +44,9 @@ FARTHEST = 1.0
 # Step in ln(F_H/F_C) at which Newton's method ends: it gives a start only.
 NEAR = 1e-3
 
+# Part of the load on the film, at most, at which the root is looked for without a start. Not measured: a start only.
+MOST_FILM_SHARE = 0.9
+
 # Rounds, each with tighter tolerances, at most.
 ROUNDS = 6
 
@@ -58,11 +60,19 @@ NOTHING = 1e-14
 
 @dataclass(frozen=True, kw_only=True)
 class Balance(Renamed, ModelDetails):
-    """One operating point, loads in N.
+    """One operating point by Eq. (8).
 
-    ``film`` is None where no film carries load, and ``why_no_film`` says why: without entrainment, or where a given film
-    in the inlet does not fill the gap. ``response`` is None if the film carries everything. ``notes``: choices that a
-    reader should know.
+    Attributes
+    ----------
+    film_load, contact_load : loads of film and contact [N]
+    film : None: none carries load
+    contact_state : the rough contact at its load
+    forces : friction, and the heat behind it
+    report : of the root
+    response : how the balance reacts to an error of its gap; None: the film carries everything
+    settings : tolerances with which it was solved; None: no film was
+    notes : choices that a reader should know
+    why_no_film : why none carries load, as text: no entrainment, or a given film that does not fill the gap; "": one does
     """
 
     kind = "balance"
@@ -102,7 +112,7 @@ def solve_balance(
     *,
     correctable: bool = False,
 ) -> Balance:
-    """The balance of ``scene`` at ``speed`` [m/s] on ``rough_contact``, whose heights have the standard deviation ``sq`` [m].
+    """Return the balance of ``scene`` at ``speed`` [m/s] on ``rough_contact``, whose heights have the standard deviation ``sq`` [m].
 
     Without entrainment the contact carries the total load. The film of the total load is solved first; if it separates
     the surfaces, no contact is solved. Otherwise the residual (gap - film)/(gap + film) of the volume increases with
@@ -184,43 +194,38 @@ def _certainly_touching(scene: Scene, speed: float, rough_contact: RoughContact)
 
 
 def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult | None) -> Balance:
-    """Film and contact, solved again until the settings are those that the balance shows to be needed. Where a balance
-    cannot be closed as tightly as needed, because f jumps with single cells, the last one is kept and its error reported."""
-    log_load_ratio, slope, step, last = _beginning(point, sq, start)
-    if last is None and alone is not None:
-        last = Trial(
-            film=alone,
-            contact_state=point.rough_contact.close(alone.film_at(point.rough_contact.x), 0.0),
-            film_load=0.0,
-            contact_load=0.0,
-        )
-    value: float | None = None
+    """Return film and contact in balance, solved again until the settings are those that the balance shows to be needed.
+
+    ``alone``: the film of the total load, if it is solved. Where a balance cannot be closed as tightly as needed, because
+    f jumps with single cells, the last one is kept and its error reported.
+    """
+    near = _beginning(point, sq, start)
+    if near.last is None and alone is not None:
+        unloaded = point.rough_contact.close(alone.film_at(point.rough_contact.x), 0.0)
+        near = replace(near, last=Trial(film=alone, contact_state=unloaded, film_load=0.0, contact_load=0.0))
     closed: Balance | None = None
-    response = None
-    if start is not None and start.response is not None and start.film is not None:
-        if start.film.entrainment_speed == point.speed:
-            response = start.log_load_ratio, start.response
+    response: Response | None = None
+    response_at = math.nan  # its ln(F_H/F_C)
+    if start is not None and start.film is not None and start.film.entrainment_speed == point.speed:
+        response = start.response
+        response_at = start.log_load_ratio
     for _ in range(ROUNDS):
-        point, root = _seen_root(point, log_load_ratio, slope, step, (value, last))
-        trial = root.payload
+        point, root = _seen_root(point, near)
+        trial: Trial | None = root.payload
         if trial is None:
             return _dry(point.scene, point.rough_contact, "the film in the inlet does not fill the gap")
-        if response is None or abs(root.x - response[0]) > SETTLED:
-            response = root.x, _response(point, trial)
-        balance = _balance(point, root, response[1])
+        if response is None or abs(root.x - response_at) > SETTLED:
+            response = _response(point, trial)
+            response_at = root.x
+        balance = _balance(point, root, response)
         closed = balance if root.status == CONVERGED else closed
         settings = _needed(point, balance)
         if settings == point.settings or root.status != CONVERGED:
             break
         same = replace(settings, balance_tolerance=point.settings.balance_tolerance)
         value = root.value if same == point.settings else None
-        point, log_load_ratio, slope, step, last = (
-            replace(point, settings=settings),
-            root.x,
-            balance.slope,
-            NEXT_STEP,
-            trial,
-        )
+        point = replace(point, settings=settings)
+        near = RootStart(log_load_ratio=root.x, slope=balance.slope, last=trial, value=value)
     return closed or balance
 
 
@@ -234,13 +239,33 @@ def _response(point: Point, trial: Trial) -> Response:
     )
 
 
-def _beginning(point: Point, sq: float, start: Balance | None) -> tuple[float, float | None, float, Trial | None]:
-    """Where the root is looked for: ln(F_H/F_C), the slope of the residual there (None: not known), the first step, and
-    the trial to start from. Without ``start``: where the rigid isoviscous film is two Sq thick."""
+@dataclass(frozen=True, kw_only=True)
+class RootStart:
+    """Where the root of the volume residual is looked for.
+
+    Attributes
+    ----------
+    log_load_ratio : ln(F_H/F_C)
+    slope : of the residual there; None: not known
+    step : first step of ln(F_H/F_C)
+    last : the trial to start from; None: there is none
+    value : the residual of that trial, where it is the same with today's settings; None: it is solved again
+    """
+
+    log_load_ratio: float
+    slope: float | None = None
+    step: float = NEXT_STEP
+    last: Trial | None = None
+    value: float | None = None
+
+
+def _beginning(point: Point, sq: float, start: Balance | None) -> RootStart:
+    """Return where the root is looked for from the balance ``start``; without one (None) where the rigid isoviscous film
+    is two Sq thick."""
     if start is None or start.film is None or start.response is None:
         thickness = max(2 * sq, 1e-12)
-        share = min(point.line(point.scene.bodies.load).rigid_film / thickness, 0.9)
-        return math.log(share / (1 - share)), None, FIRST_STEP, None
+        share = min(point.line(point.scene.bodies.load).rigid_film / thickness, MOST_FILM_SHARE)
+        return RootStart(log_load_ratio=math.log(share / (1 - share)), step=FIRST_STEP)
     trial = Trial(
         film=start.film,
         contact_state=start.contact_state,
@@ -249,8 +274,9 @@ def _beginning(point: Point, sq: float, start: Balance | None) -> tuple[float, f
         last_touching=start.contact_state,
     )
     if start.film.entrainment_speed == point.speed:
-        return start.log_load_ratio, start.slope, NEXT_STEP, trial
-    return *predicted(point, start), NEXT_STEP, trial
+        return RootStart(log_load_ratio=start.log_load_ratio, slope=start.slope, last=trial)
+    log_load_ratio, slope = predicted(point, start)
+    return RootStart(log_load_ratio=log_load_ratio, slope=slope, last=trial)
 
 
 def predicted(point: Point, start: Balance) -> tuple[float, float | None]:
@@ -281,21 +307,18 @@ def predicted(point: Point, start: Balance) -> tuple[float, float | None]:
     return log_load_ratio, 0.5 * steepness
 
 
-def _seen_root(
-    point: Point, log_load_ratio: float, slope: float | None, step: float, first: tuple[float | None, Trial | None]
-) -> tuple[Point, Root]:
-    """The root, and ``point`` with a contact so tight that its gap at the root is known as closely as it is closed: a
-    root of the errors of a loose contact is none."""
+def _seen_root(point: Point, near: RootStart) -> tuple[Point, Root]:
+    """Return the root, and ``point`` with a contact so tight that its gap at the root is known as closely as it is
+    closed: a root of the errors of a loose contact is none."""
     while True:
-        root = _root(point, log_load_ratio, slope, step, first)
+        root = _root(point, near)
         now = point.settings.contact_tolerance
         volume = point.settings.balance_tolerance
         tighter = now if root.payload is None else _contact_tolerance(point, root.payload.contact_state, volume)
         if tighter == now:
             return point, root
         point = replace(point, settings=replace(point.settings, contact_tolerance=tighter))
-        log_load_ratio = root.x
-        first = (None, root.payload)
+        near = replace(near, log_load_ratio=root.x, last=root.payload, value=None)
 
 
 def _contact_tolerance(point: Point, contact_state: ContactState, volume: float) -> float | None:
@@ -309,9 +332,9 @@ def _contact_tolerance(point: Point, contact_state: ContactState, volume: float)
     return now if (now or own) <= budget.SLACK * enough else 0.5 * enough
 
 
-def _root(
-    point: Point, log_load_ratio: float, slope: float | None, step: float, first: tuple[float | None, Trial | None]
-) -> Root:
+def _root(point: Point, near: RootStart) -> Root:
+    """Return the root of the volume residual over ln(F_H/F_C); its payload is the `Trial` there, None where a given film
+    does not fill the gap."""
     load = point.scene.bodies.load
     most = point.rough_contact.capacity
     lowest = max(math.log((load - most) / most), BOUNDS[0]) if most < load else BOUNDS[0]
@@ -320,12 +343,17 @@ def _root(
         trial = point.trial(*loads_at(load, x), last)
         return trial.contact_state.volume_residual, trial
 
-    tolerance = point.settings.balance_tolerance
-    fed = point.scene.lubricant.inlet_film is not None
-    lowest = max(lowest, EMPTY) if fed else lowest
-    known: dict[str, Any] = {"slope": slope, "first": first, "bounds": (lowest, BOUNDS[1])}
-    root = increasing_root(residual, log_load_ratio, step=step, tolerance=tolerance, **known)
-    return replace(root, payload=None) if fed and root.x == EMPTY and root.value > 0 else root
+    is_fed = point.scene.lubricant.inlet_film is not None
+    root = increasing_root(
+        residual,
+        near.log_load_ratio,
+        step=near.step,
+        tolerance=point.settings.balance_tolerance,
+        slope=near.slope,
+        first=(near.value, near.last),
+        bounds=(max(lowest, EMPTY) if is_fed else lowest, BOUNDS[1]),
+    )
+    return replace(root, payload=None) if is_fed and root.x == EMPTY and root.value > 0 else root
 
 
 def _balance(point: Point, root: Root, response: Response) -> Balance:

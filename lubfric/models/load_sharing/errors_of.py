@@ -27,10 +27,18 @@ MISSED = "not known: the patch is too short along y to estimate the undetected c
 
 @dataclass(frozen=True, kw_only=True)
 class PointErrors:
-    """Relative errors of f by source, and of the other numbers, by name.
+    """Relative errors of f by source, and of the other numbers by name.
 
-    ``why_not``: why an error is not known; ``reasons``: why that of some numbers is not, by name; ``notes``: what a
-    reader should know of them; ``model``: below and above f; ``area_needed``: `lubfric.estimate.Uncertainty`.
+    Attributes
+    ----------
+    numerical : of f, by solvers and grids
+    sampling : of f, because the sample is finite
+    model : of f, by the model, below and above f
+    errors : of all numbers, by name
+    why_not : why an error is not known
+    reasons : why that of some numbers is not, by name
+    notes : what a reader should know of them
+    area_needed : as in `lubfric.estimate.Uncertainty`
     """
 
     numerical: float
@@ -43,11 +51,31 @@ class PointErrors:
     area_needed: float
 
 
+@dataclass(frozen=True, kw_only=True)
+class SolverErrors:
+    """The errors of solvers and grids.
+
+    Attributes
+    ----------
+    film : of the film, relative
+    gap : of the mean gap at given load [m], by the closing of the volume and by the cells of the contact
+    shear : of the film's shear stress, relative to f: by its sum over nodes, by the heat that it omits, and by where the
+        surfaces touch
+    area : of the contact area, relative
+    """
+
+    film: float
+    gap: float
+    shear: float
+    area: float
+
+
 def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
     """Return the errors of ``balanced``."""
     balance = balanced.balance
     response = balanced.response
-    (of_film, of_gap, relative, of_area) = _numerical(balanced)
+    solver = solver_errors_of(balanced)
+    relative = solver.shear
     forces = balance.forces
     scatter = balanced.scatter
     sampling = balanced.sampling
@@ -59,16 +87,16 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
         why = f"{balance.why_no_film}: there is no film"
         errors |= dict.fromkeys((*depending_on("split"), *depending_on("shear")), 0.0)
     elif response is None:
-        relative += forces.film_sensitivity * of_film
-        errors = _given_load(forces, of_film)
+        relative += forces.film_sensitivity * solver.film
+        errors = _given_load(forces, solver.film)
         why = "without asperity contact it has no relative error"
         errors |= {"film_load": 0.0}
     else:
         error = balanced.friction_scatter
         mean_film = balance.contact_state.mean_film
-        relative += response.per_film(forces, mean_film) * of_film
-        relative += response.relative("coefficient", of_gap)
-        errors = _contact_errors(scene, balanced, of_film, of_gap, of_area)
+        relative += response.per_film(forces, mean_film) * solver.film
+        relative += response.relative("coefficient", solver.gap)
+        errors = _contact_errors(scene, balanced, solver)
     notes = _notes(balanced, scene, sampling)
     if not math.isfinite(sampling):
         sampling = math.nan
@@ -92,10 +120,8 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
     )
 
 
-def _numerical(balanced: BalancedSample) -> tuple[float, float, float, float]:
-    """The errors of solvers and grids: of the film, relative; of the mean gap at given load [m], by the closing of the
-    volume and by the cells of the contact; of the film's shear stress, by its sum over nodes and by the heat that
-    it omits, relative to f; of the contact area, relative."""
+def solver_errors_of(balanced: BalancedSample) -> SolverErrors:
+    """Return the errors of ``balanced`` by solvers and grids."""
     balance = balanced.balance
     effect = balanced.effect
     solved = balanced.solved
@@ -117,12 +143,15 @@ def _numerical(balanced: BalancedSample) -> tuple[float, float, float, float]:
     if solved.contact_state.area_error and forces.total:
         open_ = max(1 - solved.contact_state.real_contact_area_fraction, solved.contact_state.area_error)
         by_area = solved.contact_state.area_error / open_ * forces.shear.magnitude / forces.total
-    return film, gap, forces.quadrature + forces.heat.left_out + by_area, effect.area_error + read
+    return SolverErrors(
+        film=film,
+        gap=gap,
+        shear=forces.quadrature + forces.heat.left_out + by_area,
+        area=effect.area_error + read,
+    )
 
 
-def _contact_errors(
-    scene: Scene, balanced: BalancedSample, film_error: float, gap_error: float, area_error: float
-) -> dict[str, float]:
+def _contact_errors(scene: Scene, balanced: BalancedSample, solver: SolverErrors) -> dict[str, float]:
     """Relative errors where film and contact share the load, by the names of `FrictionResult`: the root of the sum of
     squares of the standard error by the surface and of the estimated error by solvers and grids.
 
@@ -133,20 +162,20 @@ def _contact_errors(
     response = balanced.response
     assert response is not None
     scattered = balanced.gap_scatter.error if math.isfinite(balanced.gap_scatter.error) else 0.0
-    gap_error = math.hypot(scattered, gap_error + film_error * balance.contact_state.mean_film)
+    gap_error = math.hypot(scattered, solver.gap + solver.film * balance.contact_state.mean_film)
     errors = {name: response.relative(name, gap_error) for name in response.rates or ()}
     errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
-    for name, at_given_load in _given_load(balance.forces, film_error).items():
+    for name, at_given_load in _given_load(balance.forces, solver.film).items():
         errors[name] = errors.get(name, 0.0) + at_given_load
     by_load = errors.get("contact_load", 0.0)
     for name, error in _area_errors(scene, balance, balanced.scatter).items():
-        errors[name] = math.hypot(by_load, error, area_error)
+        errors[name] = math.hypot(by_load, error, solver.area)
     if balance.contact_state.plastic_area_fraction > 0:
         change = balanced.effect.plastic_change / balance.contact_state.plastic_area_fraction
         counted = (
             balanced.scatter.effective_contacts**-0.5
             if balanced.scatter.effective_contacts
-            else PLASTIC * math.hypot(by_load, area_error)
+            else PLASTIC * math.hypot(by_load, solver.area)
         )
         errors["plastic_area_fraction"] = math.hypot(counted, change)
     return errors

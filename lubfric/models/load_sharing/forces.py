@@ -20,11 +20,16 @@ HERTZ_NODES = 101
 
 @dataclass(frozen=True, kw_only=True)
 class Forces:
-    """The forces [N] that resist sliding: f = (boundary + shear.total)/F_T.
+    """The forces that resist sliding: f = (boundary + shear.total)/F_T.
 
-    ``quadrature``: estimated error of the shear force by its sum over nodes, relative to f F_T. A pressure spike that
-    the grid does not resolve shows here, and not in the film. ``heat``: of inlet, film and surfaces, and what it
-    changes.
+    Attributes
+    ----------
+    coefficient : f [-]
+    boundary : boundary friction of the asperity contacts [N]
+    shear : shear of the film
+    quadrature : estimated error of the shear force by its sum over nodes, relative to f F_T. A pressure spike that the
+        grid does not resolve shows here, and not in the film
+    heat : of inlet, film and surfaces, and what it changes
     """
 
     coefficient: float
@@ -45,7 +50,7 @@ class Forces:
 
 
 def forces(scene: Scene, film: EHLResult | None, contact_state: ContactState, contact_load: float) -> Forces:
-    """The forces of ``film`` (None: none) and of a contact that carries ``contact_load`` [N]."""
+    """Return the forces of ``film`` (None: none) and of a contact that carries ``contact_load`` [N]."""
     bodies = scene.bodies
     boundary = bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0) * contact_load
     if film is None:
@@ -53,9 +58,9 @@ def forces(scene: Scene, film: EHLResult | None, contact_state: ContactState, co
     elastic = _elastic(scene, film, contact_state, contact_load)
     shear = _shear(scene, film, contact_state, elastic)
     boundary *= shear.asperity_share
-    heat, warm, stress = point_heat(scene, film, contact_state, contact_load, abs(boundary + shear.total), shear)
-    if warm is not None or stress is not None:
-        shear = _shear(scene, film, contact_state, elastic, warm, stress)
+    point = point_heat(scene, film, contact_state, contact_load, abs(boundary + shear.total), shear)
+    if point.inlet_viscosity is not None or point.stress is not None:
+        shear = _shear(scene, film, contact_state, elastic, point.inlet_viscosity, point.stress)
     total = abs(boundary + shear.total)
     quadrature = shear.quadrature / total if 0 < total < np.inf else 0.0
     return Forces(
@@ -63,7 +68,7 @@ def forces(scene: Scene, film: EHLResult | None, contact_state: ContactState, co
         boundary=boundary,
         shear=shear,
         quadrature=quadrature,
-        heat=heat,
+        heat=point.heat,
     )
 
 

@@ -49,9 +49,14 @@ EXPONENT = 0.7
 class Heat:
     """Heat of an operating point.
 
-    inlet: factors of inlet heating (None: not known), used: whether the film is solved with them; change: of f by the
-    temperatures of film and surfaces, relative (an upper estimate if they are omitted, ``heated`` None); peclet: u b
-    rho c/(2 k) of the faster surface; typical: `typical_heat` of a moment in time.
+    Attributes
+    ----------
+    inlet : factors of inlet heating; None: not known
+    is_used : whether the film is solved with them
+    change : relative change of f by the temperatures of film and surfaces; an upper estimate where ``heated`` is None
+    heated : the heated film; None: its temperatures are omitted
+    peclet : u b rho c/(2 k) of the faster surface [-]; infinite: ``change`` was not evaluated
+    typical : of a moment in time, what `typical_heat` gives
     """
 
     inlet: InletHeat | None = None
@@ -171,42 +176,90 @@ def film_lubricant(scene: Scene, speed: float) -> Lubricant:
     return replace(lubricant, viscosity=lubricant.viscosity * math.exp(share))
 
 
+@dataclass(frozen=True, kw_only=True)
+class PointHeat:
+    """The heat of a film and a contact that share the load, and what it does to the shear of the film.
+
+    Attributes
+    ----------
+    heat : of inlet, film and surfaces
+    inlet_viscosity : viscosity [Pa s] of the warm inlet with which the film was solved; None: as given
+    stress : stress(x, pressure, thickness) [Pa] of the heated film, at positions x [m] running downstream; None: it is
+        isothermal
+    """
+
+    heat: Heat
+    inlet_viscosity: float | None = None
+    stress: Callable[..., Any] | None = None
+
+
 def point_heat(
     scene: Scene, film: Any, contact_state: ContactState, contact_load: float, force: float, shear: ShearForce
-) -> tuple[Heat, float | None, Callable[..., Any] | None]:
-    """Heat of ``film`` with a ``contact_state`` that carries ``contact_load`` [N]; the viscosity [Pa s] of the warm inlet
-    with which it was solved (None: as given); and the stress [Pa] of the heated film, stress(x, pressure, film) at
-    positions x [m] running downstream (None: isothermal). ``force``: |f F_T| [N] and ``shear`` (`ShearForce`)
-    without the heat of the film."""
+) -> PointHeat:
+    """Return the heat of ``film`` with a ``contact_state`` that carries ``contact_load`` [N].
+
+    ``force``: |f F_T| [N], and ``shear``: of the film, both without the heat of the film.
+    """
     inlet, used = inlet_at(scene, film.entrainment_speed)
     if inlet is None:
-        return Heat(), None, None
-    warm = film_lubricant(scene, film.entrainment_speed).viscosity if used else None
+        return PointHeat(heat=Heat())
+    viscosity = film_lubricant(scene, film.entrainment_speed).viscosity if used else None
     pressed = float(film.pressure.max()) > NO_LIQUID  # a rigid film far above its range, on the way to one that is not
     if scene.motion.slide_roll_ratio == 0 or pressed or not shear.excess < math.inf:
-        return Heat(inlet=inlet, is_used=used), warm, None
+        return PointHeat(heat=Heat(inlet=inlet, is_used=used), inlet_viscosity=viscosity)
     lubricant = scene.lubricant
     numerics = scene.numerics
-    nodes, change_by = _nodes(scene, film, contact_state, contact_load, force)
-    change = change_by(isothermal_heat(lubricant, *nodes).stress)
+    nodes = _nodes(scene, film, contact_state, contact_load, force)
+    change = nodes.change_by(isothermal_heat(lubricant, *nodes.of_film).stress)
     peclet = peclet_at(scene, film.entrainment_speed)
     if numerics.heat != "on" and change <= budget.HEAT * numerics.tolerance:
-        return Heat(inlet=inlet, is_used=used, change=change, heated=None, peclet=peclet), warm, None
-    heated = heated_film(lubricant, *nodes)
-    (x, *_, around) = nodes
-    change = change_by(heated.stress)
+        omitted = Heat(inlet=inlet, is_used=used, change=change, peclet=peclet)
+        return PointHeat(heat=omitted, inlet_viscosity=viscosity)
+    heated = heated_film(lubricant, *nodes.of_film)
+    change = nodes.change_by(heated.stress)
 
     def stress(at: FloatArray, pressure: FloatArray, thickness: FloatArray) -> FloatArray:
-        return heated_stress(lubricant, pressure, thickness, around.sliding, np.interp(at, x, heated.wall))[0]
+        wall = np.interp(at, nodes.x, heated.wall)
+        return heated_stress(lubricant, pressure, thickness, nodes.around.sliding, wall)[0]
 
-    return Heat(inlet=inlet, is_used=used, change=change, heated=heated, peclet=peclet), warm, stress
+    heat = Heat(inlet=inlet, is_used=used, change=change, heated=heated, peclet=peclet)
+    return PointHeat(heat=heat, inlet_viscosity=viscosity, stress=stress)
 
 
-def _nodes(
-    scene: Scene, film: EHLResult, contact_state: ContactState, contact_load: float, force: float
-) -> tuple[tuple[FloatArray, FloatArray, FloatArray, Surroundings], Callable[..., Any]]:
-    """Nodes running downstream, pressure and film there, and the `Surroundings`; and the function that shows by what
-    share of ``force`` [N] a stress [Pa] (n,) makes the friction less than the isothermal stress does."""
+@dataclass(frozen=True, kw_only=True)
+class FilmNodes:
+    """The nodes of a film, running downstream (n,).
+
+    Attributes
+    ----------
+    x, pressure, thickness : position [m], pressure [Pa] and film thickness [m]
+    around : what is around them
+    cold : size of the shear stress of the isothermal film [Pa]
+    width : of the contact [m]
+    force : |f F_T| [N]
+    """
+
+    x: FloatArray
+    pressure: FloatArray
+    thickness: FloatArray
+    around: Surroundings
+    cold: FloatArray
+    width: float
+    force: float
+
+    @property
+    def of_film(self) -> tuple[FloatArray, FloatArray, FloatArray, Surroundings]:
+        """What `heated_film` and `isothermal_heat` take."""
+        return self.x, self.pressure, self.thickness, self.around
+
+    def change_by(self, stress: FloatArray) -> float:
+        """Return by what share of the force a ``stress`` [Pa] (n,) makes the friction less than the isothermal one."""
+        lost = np.trapezoid(self.around.wet * (self.cold - np.abs(stress)), self.x)
+        return float(self.width * lost) / max(self.force, 1e-300)
+
+
+def _nodes(scene: Scene, film: EHLResult, contact_state: ContactState, contact_load: float, force: float) -> FilmNodes:
+    """Return the nodes of ``film``, around which the contact carries ``contact_load`` [N]."""
     bodies = scene.bodies
     motion = scene.motion
     speed = abs(film.entrainment_speed)
@@ -221,17 +274,19 @@ def _nodes(
     sliding = motion.slide_roll_ratio * speed
     half = bodies.half_width
     pressed = 2 * contact_load / (math.pi * half * bodies.width) * np.sqrt(np.maximum(1 - (x / half) ** 2, 0.0))
-    around = surroundings(scene, speed, wet, bodies.boundary_friction_coefficient * pressed)
-    cold = np.abs(shear_stress(scene.lubricant, p, sliding / h))
-
-    def change_by(stress: FloatArray) -> float:
-        return float(bodies.width * np.trapezoid(wet * (cold - np.abs(stress)), x)) / max(force, 1e-300)
-
-    return (x, p, h, around), change_by
+    return FilmNodes(
+        x=x,
+        pressure=p,
+        thickness=h,
+        around=surroundings(scene, speed, wet, bodies.boundary_friction_coefficient * pressed),
+        cold=np.abs(shear_stress(scene.lubricant, p, sliding / h)),
+        width=bodies.width,
+        force=force,
+    )
 
 
 def surroundings(scene: Scene, speed: float, wet: FloatArray, boundary_stress: FloatArray) -> Surroundings:
-    """What is around the nodes of a film at U = ``speed`` [m/s]: ``wet``, the share of the width that it covers, and
+    """Return what is around the nodes of a film at U = ``speed`` [m/s]: ``wet``, the share of the width that it covers, and
     the ``boundary_stress`` [Pa] of the asperity contacts beside it, each (n,)."""
     speed, ratio = abs(speed), scene.motion.slide_roll_ratio
     surfaces = (speed * abs(1 - 0.5 * ratio), speed * abs(1 + 0.5 * ratio))
@@ -254,8 +309,8 @@ def typical_heat(
     temperature = lubricant.temperature or TYPICAL[0]
     coefficient = lubricant.temperature_coefficient or TYPICAL[1]
     like = replace(lubricant, temperature=temperature, temperature_coefficient=coefficient)
-    nodes, change_by = _nodes(scene, film, contact_state, contact_load, force)
-    return change_by(isothermal_heat(like, *nodes).stress)
+    nodes = _nodes(scene, film, contact_state, contact_load, force)
+    return nodes.change_by(isothermal_heat(like, *nodes.of_film).stress)
 
 
 def peclet_at(scene: Scene, speed: float) -> float:
