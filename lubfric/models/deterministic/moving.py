@@ -40,6 +40,15 @@ EXACT = 1e-3  # the residual of a step (`residuals`), unless another is given
 MOST = 160  # LU factorisations of a step, at most
 PARTS = 4  # Euler steps that lead to a step that Newton's method does not solve
 SMOOTH = 0.4  # half-widths over which the pressure is smoothed to tell what goes with the roughness
+
+# Part of the last change of the pressure with the roughness that a step begins with [-]. With none a needle roller at .05
+# m/s takes 9 % more Newton steps, a flank with a slide-roll ratio of 1.28 5 to 30 %.
+EXTRAPOLATED = 0.5
+
+# Steps in time after a start from rest that begin without it [-]: the change from rest to motion does not go on. Without
+# them the first steps of random contacts took 46, 29, 12, 11 Newton steps instead of 20, 7, 7, 7, those of a needle
+# roller 38 and 59 instead of 19 and 13.
+SUDDEN = 2
 SAME = 1e-9  # relative: the lubricant passes one cell in a step
 
 
@@ -107,7 +116,8 @@ def moments(
         problem = problem_at(count * step)
         history = _history(problem, (at, before, earlier), step, imbalance)
         how: dict[str, Any] = {"tolerance": tolerance, "most": MOST // 4, "linear_accuracy": linear_accuracy}
-        near = (_moved(at.state, before.state, shift, smooth),) if shift else ()
+        rate = EXTRAPOLATED if count > SUDDEN else 0.0
+        near = (_moved(at.state, before.state, shift, smooth, rate),) if shift else ()
         for state in (*near, at.state):
             result = newton(problem, state, work, history=history, **how)
             if result.residual <= tolerance:
@@ -182,10 +192,10 @@ def _in_parts(
     return at.state
 
 
-def _moved(state: State, before: State, cells: int, smooth: int) -> State:
+def _moved(state: State, before: State, cells: int, smooth: int, rate: float) -> State:
     """Return ``state`` with all that goes with the roughness moved by so many ``cells`` along x: dents, kinds of
-    cells, and what the pressure has in addition to its mean over y and ``smooth`` cells along x. Half of its change
-    since the moment ``before`` is added."""
+    cells, and what the pressure has in addition to its mean over y and ``smooth`` cells along x. The part ``rate``
+    of its change since the moment ``before`` is added."""
 
     def moved(values: np.ndarray, times: int = 1) -> np.ndarray:
         return np.concatenate([np.repeat(values[:1], times * cells, axis=0), values[: -times * cells]])
@@ -193,7 +203,8 @@ def _moved(state: State, before: State, cells: int, smooth: int) -> State:
     mean, old = (
         uniform_filter1d(each.pressure.mean(axis=1, keepdims=True), smooth, axis=0) for each in (state, before)
     )
-    rough = 1.5 * moved(state.pressure - mean) - 0.5 * moved(before.pressure - old, 2)
+    now = moved(state.pressure - mean)
+    rough = now + rate * (now - moved(before.pressure - old, 2))
     kind = moved(state.kind)
     return replace(
         state,

@@ -24,9 +24,7 @@ from .strip import StripSolution, problem_of, solve_strip, work_of_steps
 from .summits import SummitControl, summits_over_time
 from .time_and_place import TimeAndPlace, mean_over_blocks
 
-RESOLVED = (
-    8  # cells in the Hertz half-width, from which on steps may be loose, and the pressure moves with the roughness
-)
+RESOLVED = 8  # cells in the Hertz half-width, from which on steps may be loose
 STEPS = 4.0  # LU factorisations in a step in time, about: for the estimate of the work
 KRYLOV = 25.0  # GMRES iterations in a step in time, about
 SMALL_WAVES = 3.0  # film of the smooth contact over Sq, from which on waves are small
@@ -375,7 +373,7 @@ def _passing(
         tolerance=effort.residual * problem.x.size,
         carries_imbalance=effort.carries_imbalance,
         linear_accuracy=effort.linear,
-        shift=cells_in_a_step(bodies, step, cell) if problem.line.half_width > RESOLVED * cell else 0,
+        shift=cells_in_a_step(bodies, step, cell),
     )
 
 
