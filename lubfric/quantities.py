@@ -233,6 +233,7 @@ OF_MOMENT = {  # of a run in time, in the order of its table
     "shear_error": Quantity("-", "estimated relative error of f by the sum of the film's shear stress"),
     "model_error_low": Quantity("-", "relative model-form error of f towards 0, at 95 %, as in steady motion"),
     "model_error_high": Quantity("-", "relative model-form error of f away from 0, at 95 %, as in steady motion"),
+    "largest_friction": Quantity("-", "largest f that the limits of the shear stress allow"),
     **INTERVAL,
     "time_error": Quantity("-", "local error of the last step over its tolerance"),
     "heat_change": Quantity("-", "relative change of f by the heat of film and surfaces"),

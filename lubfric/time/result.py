@@ -10,16 +10,19 @@ from .._base import FloatArray, Renamed, Shown, figures, validate
 from ..errors import Report
 from ..estimate import MethodUse, UncertaintyCurve, cited, methods_of
 from ..models import candidates
+from ..models.load_sharing import OF_ROLLING
 from ..models.shared import (
     Prepared,
     Violation,
+    at_largest_ends,
     gathered,
+    largest_at_load,
     percent,
     student,
 )
 from ..quantities import OF_MOMENT, axis_label
 from ..scene import FRICTION as FRICTION_KEY
-from ..scene import value_of
+from ..scene import Scene, value_of
 from ..units import worded
 from .march import Plan, Progress, Residual, grid_residual, report_of
 from .model import Output, TimeModel
@@ -277,8 +280,23 @@ def interval_in_time(columns: dict[str, np.ndarray], inputs_down: np.ndarray, in
     f = columns["coefficient"]
     parts = errors_in_time(columns, inputs_down, inputs_up).values()
     down, up = (np.sqrt(sum(np.nan_to_num(part[side]) ** 2 for part in parts)) for side in (0, 1))
+    allowed = columns.get("largest_friction", np.zeros(f.size))  # 0: not known
+    most = np.maximum(np.where(allowed > 0, allowed, math.inf), np.abs(f))
     unknown = np.isnan(columns["sampling_error"]) | ~in_motion(columns)  # at rest there is no f
-    return np.where(unknown[:, None], math.nan, np.stack([f - down, f + up], axis=1))
+    ends = np.stack([np.maximum(f - down, -most), np.minimum(f + up, most)], axis=1)
+    return np.where(unknown[:, None], math.nan, ends)
+
+
+def largest_friction_in_time(scene: Scene, columns: dict[str, np.ndarray]) -> np.ndarray:
+    """Return the largest |f| that the limits of the shear stress allow in ``scene`` at every time, (nt,)
+    (`lubfric.models.shared.largest_friction`)."""
+    sliding = np.abs(columns["sliding_speed"])
+    if scene.bodies.boundary_friction_table is not None:  # f_b changes with the motion
+        return np.full(sliding.size, math.inf)
+    at_most = at_largest_ends(scene, float(np.max(sliding, initial=0.0)))
+    by_sliding = [largest_at_load(at_most, load, speed) for load, speed in zip(columns["load"], sliding)]
+    by_rolling = OF_ROLLING * np.abs(np.nan_to_num(columns["rolling_force"])) / columns["load"]
+    return np.array(by_sliding, float) + by_rolling
 
 
 def _with_intervals(columns: dict[str, np.ndarray], inputs: np.ndarray) -> dict[str, np.ndarray]:
@@ -338,6 +356,7 @@ def collect(
     inputs = np.outer((-low, high), by_load)
     not_in = tuple(f"{name.partition('.')[2]} in its range: {NOT_IN}" for name in ends)
     report = report_of("run in time", plan, progress, f"{model.cells}; surface: {surface}", residuals, most_work)
+    columns["largest_friction"] = largest_friction_in_time(prepared.scene, columns)
     return TransientResult(
         columns=_with_intervals(columns, inputs),
         x=model.x,

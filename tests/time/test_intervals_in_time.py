@@ -43,6 +43,22 @@ def test_the_mean_is_the_integral_over_the_cycle_and_its_interval_that_of_the_en
     assert held.cite().splitlines()[0] == lubfric.friction(STRIPS).cite().splitlines()[0]
 
 
+def test_no_time_of_a_run_has_an_interval_beyond_the_limits_of_the_shear_stress():
+    """Asperities carry nearly all: f is f_b, and its interval ends at f_b, or at the upper end of its range."""
+    slow = STRIPS.with_(
+        motion={"entrainment_speed": 0.001},
+        lubricant={"limiting_stress_coefficient": "f_b"},
+    )
+    for friction, most in ((0.09, 0.09), ([0.09, 0.08, 0.11], 0.11)):
+        run = lubfric.transient(slow.with_(bodies={"boundary_friction_coefficient": friction}), [0.0, 1e-3])
+        (low, high) = run.uncertainty.interval.T
+        assert np.all(run.coefficient > 0.085) and np.all(run.coefficient <= high)
+        rolling = 8 * np.abs(run.rolling_force) / run.load
+        np.testing.assert_allclose(run.largest_friction, most + rolling, rtol=1e-9)
+        assert np.all(high <= run.largest_friction) and np.all(low < run.coefficient)
+        np.testing.assert_array_equal(high, run.columns["interval_high"])
+
+
 def test_the_budget_of_the_mean_is_that_of_a_steady_contact_at_one_speed(held):
     steady = lubfric.friction(STRIPS)
     budget = held.average().budget

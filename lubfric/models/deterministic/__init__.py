@@ -23,6 +23,7 @@ from .moving_strip import (
     effort_for,
     effort_of,
     solve_moving_strip,
+    strip_at_rest,
 )
 from .newton import Work, march, newton
 from .pictures import animate_moments, plot_moments, plot_passing

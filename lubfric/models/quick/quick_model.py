@@ -25,6 +25,7 @@ from ..deterministic import (
     StripOnTwoGrids,
     bodies_of,
     levels_of,
+    strip_at_rest,
     strip_surface,
     summit_control,
     two_levels,
@@ -47,7 +48,14 @@ from ..shared import (
     why_no_rough_film,
 )
 from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, reported, widening
-from .long_strips import factors_of_long_cells, features, numbers_of_strip, solve_at_rest, solve_moving
+from .long_strips import (
+    effort_on_long_cells,
+    factors_of_long_cells,
+    features,
+    numbers_of_strip,
+    solve_at_rest,
+    solve_moving,
+)
 
 # Strips at rest, at most: each adds .2 s.
 MOST_STRIPS = 4
@@ -58,6 +66,9 @@ EXPECTED_STRIPS = 2
 # Standard error of f by the sample that strips are solved for, relative, at least: a smaller one takes more time than the
 # error by the cells is worth.
 SAMPLING = 0.03
+
+# The same, over the half-width of the bounds of f by the cells: with Student's t it widens the interval by a tenth.
+OF_BOUNDS = 0.2
 
 # numerics.model_tolerance below which "auto" does not try this model: the bounds are those of kinds of contacts, and a
 # point would be solved twice for the few whose bounds are narrower.
@@ -288,15 +299,19 @@ def _solve_strip(
     is_mirrored = sample.distinct_rows(surface.heights) < surface.shape[1]
     if not has_moving_roughness(scene):
         return replace(solve_at_rest(scene, surface, speed, factors, slope), mirrored=is_mirrored)
+    bodies = bodies_of(prepared, index, speed)
+    effort = effort_on_long_cells(scene, bodies, speed, factors)
+    rest = strip_at_rest(scene, bodies, speed, factors=factors, effort=effort)
     target = None
     if not sample.is_only_map:
+        at_rest = features(numbers_of_strip(StripOnTwoGrids(rest, rest)), scene.bodies.boundary_friction_coefficient)
+        bounds = error_model_of(scene).log_half_width(at_rest)
         target = SampleTarget(
-            error=numerics.sampling_tolerance,
+            error=max(numerics.sampling_tolerance, OF_BOUNDS * min(bounds, 1.0)),
             correlation_length=sample.correlation_lengths[1],
             control=summit_control(prepared),
         )
-    bodies = bodies_of(prepared, index, speed)
-    pair = solve_moving(scene, bodies, speed, factors, target)
+    pair = solve_moving(scene, bodies, speed, factors, target, rest)
     return replace(pair, mirrored=is_mirrored)
 
 

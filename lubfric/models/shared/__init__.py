@@ -34,7 +34,7 @@ from .control_variate import ControlVariate
 from .decision import Decision
 from .film_speed import exponents, speed_of
 from .heat import Heat, error_by_heat, film_lubricant, inlet_at, peclet_at, point_heat, surroundings, typical_heat
-from .largest_friction import largest_of_oil, largest_sliding_friction
+from .largest_friction import at_largest_ends, largest_at_load, largest_of_oil, largest_sliding_friction
 from .memo import Key, Memo, ReferenceKey, StackKey
 from .prepared import (
     Prepared,

@@ -52,18 +52,25 @@ def largest_sliding_friction(scene: Scene, speed: float) -> float:
     """Return the largest sliding part of f [-] of ``scene`` at ``speed`` [m/s], with its inputs at those ends of their ranges
     that allow the most; infinite in pure rolling, where no stress is at a limit by sliding."""
     sliding = abs(scene.motion.slide_roll_ratio * speed)
-    if sliding == 0:
-        return math.inf
+    return largest_at_load(at_largest_ends(scene, sliding), scene.bodies.load, sliding)
+
+
+def at_largest_ends(scene: Scene, sliding: float) -> Scene:
+    """Return ``scene`` with each input that has a range at that end of it that allows the largest f, where the surfaces slide
+    at ``sliding`` [m/s]."""
     most = {}
     for name, *ends in scene.at_ends():
-        end = max((scene, *ends), key=lambda each: _largest(each, sliding))
+        end = max((scene, *ends), key=lambda each: largest_at_load(each, each.bodies.load, sliding))
         most[name] = value_of(end, name)
-    return _largest(replace(scene, ranges=()).with_keys(most) if most else scene, sliding)
+    return replace(scene, ranges=()).with_keys(most) if most else scene
 
 
-def _largest(scene: Scene, sliding: float) -> float:
-    """Return the `largest_of_oil` of ``scene`` as it is, which slides at ``sliding`` [m/s]."""
+def largest_at_load(scene: Scene, load: float, sliding: float) -> float:
+    """Return the `largest_of_oil` of ``scene``, whose ranges do not count, under a ``load`` [N] that slides at ``sliding``
+    [m/s]; infinite where it does not slide."""
+    if sliding == 0:
+        return math.inf
     bodies = scene.bodies
     film = THINNEST if bodies.boundary_film is None else bodies.boundary_film
-    friction = bodies.boundary_friction_coefficient
-    return largest_of_oil(scene.lubricant, friction, peak_hertz_pressure(scene), sliding, film)
+    peak = peak_hertz_pressure(scene) * math.sqrt(load / bodies.load)
+    return largest_of_oil(scene.lubricant, bodies.boundary_friction_coefficient, peak, sliding, film)
