@@ -7,6 +7,7 @@ the same roughness at the same times, so that differences are by the effort alon
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from datetime import UTC, datetime
 from pathlib import Path
 
 import lubfric
@@ -39,7 +40,7 @@ LONGER = (1, 2)  # length of the cells of the variant "longer" in those of the m
 FACTS = ("fluid", "lay", "pressure", "ratio", "slip", "rough", "nx", "ny", "sq", "friction", "limit", "eyring")
 COLUMNS = (
     *("seed", "variant", "starved", *FACTS, "half_width", "film"),
-    *("f", "share", "f_rest", "steps", "columns", "work", "seconds", "failure"),
+    *("f", "share", "f_rest", "steps", "columns", "work", "seconds", "version", "date", "failure"),
 )
 
 
@@ -60,6 +61,7 @@ def followed(seed: int, variant: str) -> PlainRow:
     row = {name: case.facts.get(name, "") for name in FACTS}
     row |= {"seed": seed, "variant": variant, "starved": int(starved)}
     row |= {"half_width": line.half_width, "film": line.moes_film}
+    row |= {"version": lubfric.__version__, "date": datetime.now(UTC).date().isoformat()}
     begun = time.process_time()
     try:
         factors = LONGER if variant == "longer" else (1, 1)
