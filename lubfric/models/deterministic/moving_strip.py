@@ -24,26 +24,69 @@ from .strip import StripSolution, problem_of, solve_strip, work_of_steps
 from .summits import SummitControl, summits_over_time
 from .time_and_place import TimeAndPlace, mean_over_blocks
 
-RESOLVED = 8  # cells in the Hertz half-width, from which on steps may be loose
-STEPS = 4.0  # LU factorisations in a step in time, about: for the estimate of the work
-KRYLOV = 25.0  # GMRES iterations in a step in time, about
-SMALL_WAVES = 3.0  # film of the smooth contact over Sq, from which on waves are small
-ON_LONGER = 0.4  # work of a step on cells twice as long along y, over that on the shorter ones
-AT_REST = 12.0  # steps in time that the strip at rest is worth, on two lengths of cells and for its slope, about
+# The effects of half and twice a constant are those on a roller of 0.55 GPa whose roughness moves (`python -m
+# verification.campaigns.constants lubfric.models.deterministic.moving`). Where f moves there, other moments count.
 
-# m²: mean square height below which a body is smooth.
+# Cells in the Hertz half-width [-], from which on steps may be loose. On fewer, one cell that changed its kind moved the asperity load ratio by 0.013 (verification/campaigns/moving_effort).
+RESOLVED = 8
+
+# LU factorisations in a step in time [-], for the estimate of the work: 3.0 to 4.1 on four contacts of
+# verification/campaigns/moving_coverage.
+STEPS = 4.0
+
+# GMRES iterations in a step in time [-], for the estimate of the work: 23 to 34 on the same contacts.
+KRYLOV = 25.0
+
+# Film of the smooth contact over Sq [-], from which on waves are small, and steps tight. A convention: loose steps were
+# compared up to there (verification/campaigns/moving_effort).
+SMALL_WAVES = 3.0
+
+# Work of a step on cells twice as long along y over that on the shorter ones [-]: 0.49 (gear flank) and 0.52 (needle
+# roller) of verification/campaigns/moving_coverage.
+ON_LONGER = 0.5
+
+# Steps in time that the strip at rest is worth, on two lengths of cells [-], for the estimate of the work: 3 to 6 on the
+# contacts of `STEPS`.
+AT_REST = 6.0
+
+# Mean square height below which a body is smooth [m²]. A convention.
 SMALLEST_SQUARE = 1e-30
-SLOW = 0.5  # of U: where all roughness is slower, the fastest passes one cell in a step; else the lubricant does
-FAST = 2.0  # of U: where some roughness is faster, it passes one cell in a step
 
-# Half-widths that the lubricant travels in the moments on longer cells that are compared with those of a strip.
+# Speed of the roughness over U [-]: where all is slower, the fastest passes one cell in a step; else the lubricant does.
+# There that takes twice as many steps as the roughness needs; `moving` has what slower roughness would gain.
+SLOW = 0.5
+
+# The same where some roughness is faster [-]: then it passes one cell in a step, and not more.
+FAST = 2.0
+
+# Distance that the lubricant travels in the moments on longer cells that are compared with those of a strip [half-widths].
+# The change of f on a needle roller is 4.8 % after 0.4, 3.8 % after 1.0, 3.0 % after 2.0 and 2.6 % after 10. Half and twice
+# change the interval by 1 and 4 %; twice takes 11 % more time.
 COMPARED = 1.0
-CONTINUED = 0.4  # half-widths: distance that the lubricant travels in the moments of a continuation that count
-FEWEST = 8  # moments of a continuation that count, at least
-PILOT = 1.5  # half-widths travelled by the roughness that counts, after which the error of the mean is known first
-MORE = (1.25, 2.5)  # factors by which the moments that count may grow from one check of that error to the next
-EXPECTED = 5.0  # half-widths that count, for the estimate of the work (bearing 2 to 3, gear flank 6, needle roller 10)
-SPARE = 1.1  # times the moments that the error needs
+
+# Distance that the lubricant travels in the moments of a continuation that count [half-widths]. Half and twice change
+# nothing where only the shear stress has a range.
+CONTINUED = 0.4
+
+# Moments of a continuation that count, at least [-]. Half and twice change nothing there.
+FEWEST = 8
+
+# Distance that the roughness travels in the moments that count before the error of the mean is known first [half-widths]:
+# half of a block of time (`time_and_place.TIME_BLOCK`).
+PILOT = 1.5
+
+# Factors by which the moments that count may grow from one check of that error to the next [-]. A convention: more
+# than a few checks cost nothing, and an error from few blocks is too uncertain to grow by more.
+MORE = (1.25, 2.5)
+
+# Distance that the roughness travels in the moments that count [half-widths], for the estimate of the work: bearing 2
+# to 3, gear flank 6, needle roller 10 (verification/campaigns/moving_coverage).
+EXPECTED = 5.0
+
+# Moments over those that the error needs [-]. A convention.
+SPARE = 1.1
+
+# Numbers of a strip that are kept at every moment.
 SERIES = "coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film", "peak_pressure"
 # Inputs that change the shear stress of a film, but hardly its pressure and gap (`MovingStripSolution.with_oils`).
 OF_SHEAR = "lubricant.eyring_stress", "lubricant.limiting_stress_coefficient"
