@@ -267,6 +267,43 @@ def test_a_step_that_newtons_method_does_not_solve_is_taken_in_parts(monkeypatch
     assert np.abs(last - end).max() < 1e-15 < 1e-10 < np.abs(first - end).max()
 
 
+def test_a_step_that_is_not_solved_by_third_order_is_taken_by_a_lower_one(monkeypatch):
+    """One such step among twelve hardly changes the film; each order is nearer to the third than the one below it."""
+    surface = rough(3, sq=0.1e-6)
+    problem = laid(surface)
+    passing = travelling(problem, [RoughBody(surface, 0.3 * 1.1)])
+    real = moving.newton
+    end_of_step = 8.5 * CELL / 0.3
+
+    def films(lowest):
+        """The gap after twelve steps, of which the ninth has no solution of an order above ``lowest``."""
+        times = [0.0]
+
+        def at(time):
+            times[0] = time
+            return passing(time)
+
+        def newton(*given, history, **how):
+            result = real(*given, history=history, **how)
+            order = 3 if history.earlier is not None else 2 if history.last is not None else 1
+            fails = (
+                history.step > 0.9 * CELL / 0.3
+                and order > lowest
+                and end_of_step < times[0] + 1e-12 < end_of_step + CELL / 0.3
+            )
+            return replace(result, residuals={"mass": 1.0}) if fails else result
+
+        monkeypatch.setattr(moving, "newton", newton)
+        steps = list(islice(moments(at, CELL / 0.3, tolerance=1e-6), 1, 13))
+        return [step.order for step in steps], steps[-1].at.gap
+
+    third, second, first = (films(lowest) for lowest in (3, 2, 1))
+    assert third[0] == 12 * [3]
+    assert second[0] == 8 * [3] + [2] + 3 * [3] and first[0] == 8 * [3] + [1] + 3 * [3]
+    changes = [np.abs(gap - third[1]).mean() / third[1].mean() for _, gap in (second, first)]
+    assert 0 < changes[0] < 0.5 * changes[1] and changes[0] < 5e-3
+
+
 @pytest.mark.slow
 def test_a_continuation_with_another_oil_is_that_of_the_same_moments():
     """Followed from the start with the other oil, the same roughness changes f as much in the same moments. (On so few

@@ -16,7 +16,7 @@ from ...scene import Scene
 from ...surface import Surface
 from ...units import worded
 from .linear import ACCURACY
-from .moving import SAME, Moment, RoughBody, half_width, moments, travelling
+from .moving import ORDERS, SAME, Moment, RoughBody, half_width, moments, travelling
 from .problem import HERTZ_INLET, HERTZ_OUTLET, Problem, reach
 from .result import DeterministicResult, LoadSplit, change_with_oil
 from .state import State
@@ -236,9 +236,10 @@ def solve_moving_strip(
             break
     count = required
     speeds = " and ".join(f"{body.speed:.4g}" for body in bodies)
+    lower = sum(row["order"] < ORDERS[0] for row in rows)
     note = (
         f"the roughness moves at {speeds} m/s: mean over {count} steps of {worded(step, 's')}, after {discarded} discarded ones; "
-        f"at rest f = {rest.result.coefficient:.4g}"
+        f"at rest f = {rest.result.coefficient:.4g}{f'; {lower} steps by lower order' if lower else ''}"
     )
     result = _mean(rows[discarded : discarded + count], counted.result)
     return MovingStripSolution(
@@ -447,6 +448,7 @@ def _row(moment: Moment) -> dict[str, Any]:
         "share": result.split.rubbing / result.load,
         "contact_load_at": (result.pressure * result.rubbing).sum(axis=0) * result.spacing[0],
         "peak_pressure": float(moment.at.state.pressure.max()),
+        "order": moment.order,
         "work": work_of_steps(moment.at.gap.size, moment.work.factorisations, moment.work.krylov),
     }
 
