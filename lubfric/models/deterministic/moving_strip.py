@@ -27,7 +27,8 @@ from .time_and_place import TimeAndPlace, mean_over_blocks
 # The effects of half and twice a constant are those on a roller of 0.55 GPa whose roughness moves (`python -m
 # verification.campaigns.constants lubfric.models.deterministic.moving`). Where f moves there, other moments count.
 
-# Cells in the Hertz half-width [-], from which on steps may be loose. On fewer, one cell that changed its kind moved the asperity load ratio by 0.013 (verification/campaigns/moving_effort).
+# Cells in the Hertz half-width [-], from which on steps may be loose. On fewer, one cell that changed its kind moved the
+# asperity load ratio by 0.013 (verification/campaigns/moving_effort).
 RESOLVED = 8
 
 # LU factorisations in a step in time [-], for the estimate of the work: 3.0 to 4.1 on four contacts of
