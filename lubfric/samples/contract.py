@@ -1,8 +1,16 @@
 """The contract of a sample: all that you need to know to write one.
 
 A sample represents the infinite rough line contact. Strip number k of a sample on given cells is always the same
-surface, so that a longer sample contains a shorter one. A model requests strips; what it may have to know of their kind
-are two properties: `Sample.is_only_map` and `Sample.is_resolved`.
+surface, so that a longer sample contains a shorter one. A model requests strips.
+
+What it does with them depends on three facts of the surface and the contact, not on the class of the sample:
+
+- `Sample.is_only_map`: there is no more surface than one strip. Then nothing scatters by sampling; no control, no pieces
+  and no reference points of other strips exist; and shorter cells are those of the same strip, down to native ones.
+- `Sample.is_resolved`: whether cells of the surface are solved at all. A contact curve has no places along the line to
+  compare, and no gap for a film to flow in.
+- `Sample.is_homogeneous`: whether strips differ by chance alone. Windows of a measured map may also differ because the
+  surface does, which blocks within them do not show.
 """
 
 from __future__ import annotations
@@ -36,12 +44,11 @@ class Sample(ABC):
     strip_length : what one strip adds to the line [m], along y
     first, available : number of strips that are solved first, and that there are
     pieces : number of pieces that there are
-    windows : whether each strip is a window of a measured map, which may differ from place to place
     exact_sq : whether every strip has the Sq of the surface
-    is_only_map : whether its one strip is all that there is: nothing is sampled, and shorter cells are cells of the same
-        map. Else further strips, and pieces on native cells, show what sampling and cells change
+    is_homogeneous : whether all strips are parts of one random surface; False: windows of a measured map
+    is_only_map : whether its one strip is all that there is
     is_resolved : whether the rough half-space is solved on the cells of its strips; False: the contact is a curve, made
-        of independent asperities, or from outside, and there is nothing to solve strip by strip
+        of independent asperities, or from outside
     bodies : of two rough bodies the part of each, where the sample is cut from maps of both; () else
     """
 
@@ -51,8 +58,8 @@ class Sample(ABC):
     first: int
     available: int
     pieces: int
-    windows: bool = False
     exact_sq: bool = False
+    is_homogeneous: bool = True
     is_only_map: bool = False
     is_resolved: bool = True
     bodies: tuple[Surface, ...] = ()
@@ -119,9 +126,22 @@ class Sample(ABC):
 
     def described(self, surface: Surface) -> list[str]:
         """Return the map that the scene has, and ``surface``, the part of it that is solved first, in words."""
-        made = "" if self.windows else f"{surface.source}, on as many strips as the tolerance needs"
         joined = f"{self.first} strips, joined along the line" if self.first > 1 else "one strip"
-        return [made or self.map.describe(), f"solved first: {joined}; {replace(surface, source='').describe()}"]
+        return [self.map_in_words(surface), f"solved first: {joined}; {replace(surface, source='').describe()}"]
+
+    def map_in_words(self, surface: Surface) -> str:
+        """Return the map that the scene has, of which ``surface`` is solved first, in words."""
+        return f"{surface.source}, on as many strips as the tolerance needs"
+
+    def ends_after(self, count: int) -> bool:
+        """Return whether the surface itself, not the work on it, ends after ``count`` strips."""
+        return False
+
+    @property
+    def refinement(self) -> tuple[int, int]:
+        """How many times shorter the cells of a strip can be made along each axis and it remains the same surface: (1, 1)
+        where strips on other cells are others."""
+        return 1, 1
 
     def line_length(self, count: int) -> float:
         """Return the length [m] of the first ``count`` strips joined."""

@@ -29,6 +29,10 @@ class OnlyMap(Sample):
     def coarsening_to_look_at(self, half_width: float) -> tuple[int, int]:
         return (1, 1)
 
+    @property
+    def refinement(self) -> tuple[int, int]:
+        return self.cells.coarsening
+
     def distinct_rows(self, heights: np.ndarray) -> int:
         return heights.shape[1] // (2 if mirrored(heights) else 1)
 

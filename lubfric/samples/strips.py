@@ -88,7 +88,6 @@ class GeneratedStrips(FieldsOnly, Sample):
     available: int
     pieces: int
     exact_sq: bool
-    windows: bool = False
     roughness: tuple[tuple[Roughness, str], ...]
 
     def rows_of(self, count: int) -> int:
@@ -159,7 +158,7 @@ class MeasuredStrips(Sample):
     surface: Surface
     starts: tuple[int, ...]
     bodies: tuple[Surface, ...] = ()
-    windows: bool = True
+    is_homogeneous: bool = False
 
     def rows_of(self, count: int) -> int:
         return self._rows(count * (self.surface.shape[1] - self._blend))
@@ -170,6 +169,12 @@ class MeasuredStrips(Sample):
     @property
     def map(self) -> Surface:
         return self.surface
+
+    def map_in_words(self, surface: Surface) -> str:
+        return self.surface.describe()
+
+    def ends_after(self, count: int) -> bool:
+        return count >= self.available
 
     def joined(self, indices: Sequence[int]) -> Surface:
         fx, fy = self.cells.coarsening

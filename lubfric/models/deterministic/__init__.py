@@ -36,7 +36,6 @@ from .rough_bodies import (
     maps_of,
     moving_point_work,
     strip_surface,
-    summit_control,
 )
 from .solve import dry_contact, solve_point
 from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, residuals
@@ -48,6 +47,6 @@ from .strip import (
     solve_strip,
     work_of_steps,
 )
-from .strip_on_two_grids import StripOnTwoGrids, factors_of, numbers_of, surface_and_factors
+from .strip_on_two_grids import StripOnTwoGrids, factors_of, numbers_of, sample_target, surface_and_factors
 from .summits import SummitControl, attenuated, control_of
 from .time_and_place import TimeAndPlace, mean_over_blocks

@@ -145,7 +145,7 @@ def work_on_strips(
         return IN_MOTION * count * moving_point_work(replace(scene, ranges=()), sample, sq, speed, factors)
     (fx, fy) = factors
     (dx, dy) = sample.cells.spacing
-    (ux, uy) = sample.cells.coarsening if sample.is_only_map else (1, 1)
+    (ux, uy) = sample.refinement
     length = sum(reach(scene.line_contact(abs(speed)), sq))
     cells = length / (fx * dx / ux) * sample.strip_length / (fy * dy / uy)
     ends = 2 * sum(name != FRICTION for name, *_ in scene.ranges)

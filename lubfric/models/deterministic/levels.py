@@ -313,7 +313,7 @@ def _of_moving(
     rows = [numbers_of(prepared, strip.result) for strip in strips]
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
     samples = [strip.sample.half() if pair.mirrored else strip.sample for pair, strip in zip(pairs, strips)]
-    control = None if prepared.sample.is_only_map else summit_control(prepared)
+    control = summit_control(prepared)
     width = prepared.sample.correlation_lengths[1]
     friction = mean_over_blocks(samples, "friction", width, control)
     rubbing = mean_over_blocks(samples, "contact_load", width, control)
@@ -379,7 +379,7 @@ def _scatter(
     if not math.isfinite(by_blocks):  # a short strip has no blocks
         return StandardError(math.sqrt(by_strips / count), count - 1)
     pooled = (PRIOR * by_blocks + (count - 1) * by_strips) / (PRIOR + count - 1)
-    if sample.windows and count >= FEWEST and by_strips > pooled:
+    if not sample.is_homogeneous and count >= FEWEST and by_strips > pooled:
         return StandardError(math.sqrt(by_strips / count), count - 1)
     return StandardError(math.sqrt(pooled / count), FREEDOM + count - 1)
 

@@ -65,8 +65,11 @@ def maps_of(prepared: Prepared, index: int) -> dict[str, Surface]:
     return {name: sample.of_body(k).strip(index) for k, name in enumerate(moving)}
 
 
-def summit_control(prepared: Prepared) -> SummitControl:
-    """Return the control of the moving roughness of ``prepared``. It does not depend on the speed, and is made once."""
+def summit_control(prepared: Prepared) -> SummitControl | None:
+    """Return the control of the moving roughness of ``prepared``; None where there are no other strips to know its mean
+    from. It does not depend on the speed, and is made once."""
+    if prepared.sample.is_only_map:
+        return None
 
     def make() -> SummitControl:
         sample = prepared.sample

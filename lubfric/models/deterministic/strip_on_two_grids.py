@@ -68,11 +68,11 @@ def factors_of(scene: Scene, sample: Sample) -> tuple[int, int]:
 
 
 def surface_and_factors(prepared: Prepared, index: int) -> tuple[Surface, tuple[int, int]]:
-    """Strip ``index`` and the length of the cells of the deterministic model in its own; of a patch at rest all of it,
+    """Return strip ``index`` and the length of the cells of the deterministic model in its own; of a patch at rest all of it,
     on the map's own cells."""
     sample = prepared.sample
     fx, fy = factors_of(prepared.scene, sample)
-    ux, uy = sample.cells.coarsening if sample.is_only_map and not has_moving_roughness(prepared.scene) else (1, 1)
+    ux, uy = (1, 1) if has_moving_roughness(prepared.scene) else sample.refinement
     return strip_surface(prepared, index), (fx * ux, fy * uy)
 
 
@@ -98,7 +98,7 @@ def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int
     if has_moving_roughness(scene):
         bodies = bodies_of(prepared, index, speed)
         longer = strip_at_rest(scene, bodies, speed, factors=longer_cells)
-        target = None if prepared.sample.is_only_map else sample_target(prepared)
+        target = sample_target(prepared, MOVING_SAMPLE * scene.numerics.sampling_tolerance)
         strip = solve_moving_strip(scene, bodies, speed, factors=factors, start=longer, target=target)
         if isinstance(strip, MovingStripSolution) and longer_cells[1] > factors[1]:
             with suppress(ConvergenceError):  # then the change at rest is all that is known
@@ -119,17 +119,17 @@ def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int
     return StripOnTwoGrids(strip, longer, is_mirrored)
 
 
-def sample_target(prepared: Prepared) -> SampleTarget:
-    """Return how long a strip of moving roughness is followed (`MOVING_SAMPLE`)."""
-    return SampleTarget(
-        error=MOVING_SAMPLE * prepared.scene.numerics.sampling_tolerance,
-        correlation_length=prepared.sample.correlation_lengths[1],
-        control=summit_control(prepared),
-    )
+def sample_target(prepared: Prepared, error: float) -> SampleTarget | None:
+    """Return how long a strip of moving roughness is followed: until the relative standard ``error`` of f is reached; None:
+    for a pass of its map, which is the only one."""
+    control = summit_control(prepared)
+    if control is None:
+        return None
+    return SampleTarget(error=error, correlation_length=prepared.sample.correlation_lengths[1], control=control)
 
 
 def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, float]:
-    """All numbers of a point but the time, by name; NaN where the model has no such number."""
+    """Return all numbers of a point but the time, by name; NaN where the model has no such number."""
     bodies = prepared.scene.bodies
     sq = prepared.surface.sq
     width = bodies.width

@@ -270,9 +270,9 @@ def moment_model_error(
 
 def _area_needed(balanced: BalancedSample, scene: Scene) -> float:
     """How many times more of a map that ends would be needed (1: enough, or there is more of it; NaN: not known)."""
-    sample = balanced.sample
-    ends = sample.windows and balanced.count == sample.available
-    needed = (balanced.sampling / scene.numerics.sampling_tolerance) ** 2 if ends else 1.0
+    needed = 1.0
+    if balanced.sample.ends_after(balanced.count):
+        needed = (balanced.sampling / scene.numerics.sampling_tolerance) ** 2
     return 1.0 if needed < 1 else needed if math.isfinite(needed) else math.nan
 
 

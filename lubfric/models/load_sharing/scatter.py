@@ -131,7 +131,7 @@ def place_error(
     blocks (`block_error`). If there are three windows of a measured map or more, it is the larger of that and the one
     from windows, which show whether a surface differs from place to place."""
     blocks = block_error(influence, step, sample.correlation_lengths[1], exact)
-    if not sample.windows or count < FEWEST_WINDOWS:
+    if sample.is_homogeneous or count < FEWEST_WINDOWS:
         return blocks
     means = means_of_blocks(influence, count)
     windows = StandardError(float(means.std(ddof=1)) / math.sqrt(count), count - 1)

@@ -21,13 +21,12 @@ from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
 from ..deterministic import (
     MODEL_ERROR,
     Levels,
-    SampleTarget,
     StripOnTwoGrids,
     bodies_of,
     levels_of,
+    sample_target,
     strip_at_rest,
     strip_surface,
-    summit_control,
     two_levels,
     warn_model_error,
     why_too_hot,
@@ -283,7 +282,7 @@ def solve_long_strips(prepared: Prepared, speed: float, control: ControlVariate 
 
 def long_factors_of(scene: Scene, sample: Sample) -> tuple[int, int]:
     """Return the length of the long cells in those of ``sample``, of a patch at rest in those of the map."""
-    (fx, fy) = sample.cells.coarsening if sample.is_only_map and not has_moving_roughness(scene) else (1, 1)
+    (fx, fy) = (1, 1) if has_moving_roughness(scene) else sample.refinement
     (dx, dy) = sample.cells.spacing
     return factors_of_long_cells(scene, (dx / fx, dy / fy), sample.rows * fy, sample.correlation_lengths)
 
@@ -302,15 +301,9 @@ def _solve_strip(
     bodies = bodies_of(prepared, index, speed)
     effort = effort_on_long_cells(scene, bodies, speed, factors)
     rest = strip_at_rest(scene, bodies, speed, factors=factors, effort=effort)
-    target = None
-    if not sample.is_only_map:
-        at_rest = features(numbers_of_strip(StripOnTwoGrids(rest, rest)), scene.bodies.boundary_friction_coefficient)
-        bounds = error_model_of(scene).log_half_width(at_rest)
-        target = SampleTarget(
-            error=max(numerics.sampling_tolerance, OF_BOUNDS * min(bounds, 1.0)),
-            correlation_length=sample.correlation_lengths[1],
-            control=summit_control(prepared),
-        )
+    at_rest = features(numbers_of_strip(StripOnTwoGrids(rest, rest)), scene.bodies.boundary_friction_coefficient)
+    bounds = error_model_of(scene).log_half_width(at_rest)
+    target = sample_target(prepared, max(numerics.sampling_tolerance, OF_BOUNDS * min(bounds, 1.0)))
     pair = solve_moving(scene, bodies, speed, factors, target, rest)
     return replace(pair, mirrored=is_mirrored)
 

@@ -213,6 +213,7 @@ def reference_strip(contact: RollingContact, seed: int) -> PlainRow:
     bodies = bodies_of(prepared, 0, contact.speed)
     effort = replace(effort_of(prepared.scene, bodies, contact.speed, factors), discarded=REFERENCE_DISCARDED)
     control = summit_control(prepared)
+    assert control is not None  # the sample has strips
     length = prepared.sample.correlation_lengths[1]
     target = SampleTarget(error=WHOLE_PASS, correlation_length=length, control=control)
     strip = solve_moving_strip(prepared.scene, bodies, contact.speed, factors=factors, effort=effort, target=target)
