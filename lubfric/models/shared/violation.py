@@ -18,6 +18,11 @@ BETWEEN = " | "
 MOST_PLACES = 12
 
 
+def _three_digits(value: float) -> str:
+    rounded = float(f"{value:.3g}")
+    return f"{rounded:.0f}" if 1e3 <= abs(rounded) < 1e6 else f"{rounded:.3g}"
+
+
 @dataclass(frozen=True, kw_only=True)
 class Violation:
     """An assumption of the model that is violated.
@@ -47,14 +52,19 @@ class Violation:
     def text(self) -> str:
         """Three sentences: the violated assumption, what that does, what to do. The first begins with "warning: " or
         "not valid: "."""
-        return self.text_of(f"{self.value:.3g}")
+        return self.text_of(self.value_in_words)
+
+    @property
+    def value_in_words(self) -> str:
+        """The value with three digits, without a power of ten up to a million."""
+        return _three_digits(self.value)
 
     def text_of(self, values: str) -> str:
         """Return the `text` with ``values`` in place of the value, such as "5.2 (at 0.1 m/s) to 8.69 (at 3 m/s)"."""
         head = "not valid" if self.severe else "warning"
         unit = f" {self.unit}" if self.unit not in ("", "-") else ""
         side = "above" if self.value > self.limit else "below"
-        limit = f", {side} {self.limit:.3g}{unit}" if math.isfinite(self.limit) else ""
+        limit = f", {side} {_three_digits(self.limit)}{unit}" if math.isfinite(self.limit) else ""
         numbers = f"{values}{unit}{limit}"
         remedy = f" Recommendation: {self.remedy}." if self.remedy else ""
         return f"{head}: {self.what} is {numbers}. {sentence(self.consequence)}{remedy}"
@@ -116,7 +126,7 @@ def gathered(
 def _from_to(group: list[tuple[float, Violation]], unit: str) -> str:
     """Return the smallest and the largest value of a ``group`` with their places, or the one value of all."""
     least, most = (find(group, key=lambda pair: pair[1].value) for find in (min, max))
-    ends = [f"{violation.value:.3g}" for _, violation in (least, most)]
+    ends = [violation.value_in_words for _, violation in (least, most)]
     if ends[0] == ends[1]:
         return ends[0]
     places = [f"at {place:.4g} {unit}".rstrip() for place, _ in (least, most)]
