@@ -57,7 +57,6 @@ ODD = {
     "fields too large": partial(lubfric.stribeck, SCENE, [0.01], fields=10**400),
     "fields of an automatic curve": partial(lubfric.stribeck, SCENE, "auto", fields={}),
     "fields of a point": partial(lubfric.friction, SCENE, 0.01, fields=np.array([0.01, 0.02])),
-    "table of nothing": partial(SCENE.with_, lubricant={"viscosity_table": None}),
     "table without rows": partial(SCENE.with_, lubricant={"viscosity_table": []}),
     "temperature": partial(SCENE.with_, lubricant=OIL | {"temperature_celsius": 10**400}),
     "masked speeds": partial(SCENE.with_, motion={"speeds": np.ma.masked}),
