@@ -45,7 +45,11 @@ def test_load_that_rubs_is_the_same_in_the_answer_and_in_the_method(newtonian):
     parts = [float(part) for part in re.findall(r"([0-9.e-]+) %", text)]
     rubs = parts[0] + parts[2] if newtonian else parts[0]
     assert rubs == pytest.approx(100 * point.contact_load / scene.bodies.load, rel=0.01)
-    assert ("limiting stress" in point.decision.contact_load_in_words) == newtonian == text.endswith("part of the asperity load")
+    assert (
+        ("limiting stress" in point.decision.contact_load_in_words)
+        == newtonian
+        == text.endswith("part of the asperity load")
+    )
 
 
 def test_a_named_model_has_no_column_of_another():
