@@ -230,7 +230,18 @@ def _at_inputs(prepared: Prepared, strip: StripSolution, speed: float) -> AtInpu
         middle = _at_end(prepared, strip, speed, prepared.scene)
     else:
         middle = _with_heat(prepared.scene, strip.result)
-    return AtInputs(middle=middle, coefficient=partial(_at_end, prepared, strip, speed), in_processes=True)
+    return AtInputs(
+        middle=middle, coefficient=partial(_at_end_of_range, prepared, strip, speed, middle), in_processes=True
+    )
+
+
+def _at_end_of_range(prepared: Prepared, strip: StripSolution, speed: float, middle: float, scene: Scene) -> float:
+    """Return f at the ``scene`` of one end of a range (`_at_end`), of which ``middle`` is the middle: the same at a hardness
+    that no cell reaches, neither there nor in the middle."""
+    is_other_hardness = value_of(scene, HARDNESS) != value_of(prepared.scene, HARDNESS)
+    if is_other_hardness and _stays_elastic(strip, prepared.scene, HARDNESS, (scene,)):
+        return middle
+    return _at_end(prepared, strip, speed, scene)
 
 
 def _at_end(prepared: Prepared, strip: StripSolution, speed: float, scene: Scene) -> float:
