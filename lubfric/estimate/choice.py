@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 
 from .._base import limited_work, work_left
-from ..errors import ConvergenceError
+from ..errors import ConvergenceError, WorkLimitError
 from ..models import AUTO, Model, SampleSolution, models_up_to
 from ..models.shared import Prepared
 from .sampled import sampled
 
 # Counted work [s] that the cheapest model may take under "auto", however small numerics.max_work is: its answer is what
-# a point ends with.
+# a point ends with. As much is left to the answer, and to the ends of input ranges, after a more expensive model was tried
+# in vain.
 LEAST_WORK_OF_CHEAPEST = 10.0
 
 
@@ -59,6 +61,11 @@ def choose(prepared: Prepared, speed: float, requested: str | Model, *, for_fiel
     return Choice(model=model, solution=solution, why=why, compared=None if control is None else compared)
 
 
+def work_for_an_answer() -> float:
+    """Return the counted work [s] that is left to the answer that a point ends with."""
+    return max(work_left(), LEAST_WORK_OF_CHEAPEST)
+
+
 def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fields: bool) -> Choice:
     """Return the solution of the cheapest of ``models`` that is good enough.
 
@@ -66,7 +73,7 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
     (a severe warning), or if the next model declines (`Model.why_declined`) or does not converge. The strips of the first
     are the control of those that take one.
     """
-    with limited_work(max(work_left(), LEAST_WORK_OF_CHEAPEST)):
+    with limited_work(work_for_an_answer()):
         first = sampled(prepared, speed, models[0], for_fields=for_fields)
     control = first.control()
     choice = Choice(model=models[0], solution=first)
@@ -84,6 +91,14 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
             solution = sampled(prepared, speed, model, for_fields=for_fields, control=control)
         except ConvergenceError as error:
             why = f"the {model.name} model was not solved ({error})"
-            return Choice(model=choice.model, solution=choice.solution, why=why, gave_up=True)
+            return _given_up(replace(choice, why=why, gave_up=True))
         choice = Choice(model=model, solution=solution, compared=None if control is None else (models[0], first))
+    return choice
+
+
+def _given_up(choice: Choice) -> Choice:
+    """Return ``choice`` after a more expensive model was tried in vain, its answer found within what is left of the work, or
+    within `LEAST_WORK_OF_CHEAPEST`: a model may solve only when it has to answer."""
+    with suppress(WorkLimitError), limited_work(work_for_an_answer()):
+        choice.solution.answer()
     return choice

@@ -1,18 +1,17 @@
 """The friction coefficient of one operating point: scene -> sample -> model -> estimate -> result."""
 
 import time
-from contextlib import nullcontext
 
 import numpy as np
 
-from .._base import limited_work, releasing_memory, unlimited_work, validate, with_default_errors
+from .._base import limited_work, releasing_memory, validate, with_default_errors, work_left
 from .._base.jobs import current_executor, parts_on
 from .._base.processes import MOST_WORKERS, pool
 from ..models import Model, prepared_with, with_friction_at
 from ..models.shared import Prepared, refused
 from ..scene import FASTEST, Scene, warn_unusual_values
 from .build_result import result_of
-from .choice import choose
+from .choice import choose, work_for_an_answer
 from .result import FrictionResult
 from .work_of_point import estimated_work_of_point
 
@@ -83,7 +82,7 @@ def friction(
         with limited_work(limit):
             requested = model if isinstance(model, Model) else numerics.model
             choice = choose(prepared, speed, requested, for_fields=bool(fields))
-            with unlimited_work() if choice.gave_up else nullcontext():
+            with limited_work(work_for_an_answer() if choice.gave_up else work_left()):
                 result = result_of(prepared, speed, choice, begun, fine=fine)
     if raise_on_failure:
         result.report.raise_if_failed(result)

@@ -1,11 +1,13 @@
 """``numerics.max_work``: the counted work of a point has a limit, and ends at the same step everywhere."""
 
+import math
 import pickle
 import time
 
 import pytest
 
 import lubfric
+from lubfric._base import limited_work
 from lubfric.errors import ConvergenceError, WorkLimitError
 
 PAPER = lubfric.load_scene("paper")
@@ -106,3 +108,30 @@ def test_parts_on_processes_count_their_work_as_if_done_in_order():
                     outcomes.append((type(error), None))
         assert outcomes[0] == outcomes[1]
         assert outcomes[0][0] == expected
+
+
+def test_what_answers_after_a_model_gave_up_has_a_limit_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A soft seal in water: neither the deterministic model nor the quick answer is solved within the limit. The quick answer,
+    which solves its strips when it is asked for them, took 130 s more than the limit."""
+    monkeypatch.setattr("lubfric.estimate.choice.LEAST_WORK_OF_CHEAPEST", 1.0)
+    seal = PAPER.with_(
+        bodies={
+            "radius": 2e-3,
+            "width": 20e-3,
+            "load": 20.0,
+            "e_prime": 2.1e7,
+            "hardness": None,
+            "boundary_friction_coefficient": 0.3,
+        },
+        lubricant={"viscosity": 1e-3, "viscosity_law": "constant", "pressure_viscosity_coefficient": 0.0},
+        motion={"entrainment_speed": 0.5, "slide_roll_ratio": 2.0},
+        surface={"sq": 0.8e-6, "correlation_length": 20e-6},
+        contact={"shape": (160, 48), "spacing": 8e-6},
+        numerics={"accept": True, "max_work": 0.5},
+    )
+    with limited_work(math.inf) as meter:
+        result = lubfric.friction(seal)
+    assert meter.spent < 4.0
+    assert "was not solved" in result.decision.text and "max_work" in result.decision.text
+    low, high = result.uncertainty.interval
+    assert 0 <= low < result.coefficient < high
