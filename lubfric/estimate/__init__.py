@@ -20,4 +20,4 @@ from .power import power_of_forces
 from .result import FrictionResult, cite_together, cited
 from .sampled import sampled
 from .uncertainty import Uncertainty, UncertaintyCurve, curve_of, interval
-from .work_of_point import PointWorkEstimate, estimated_work_of_point
+from .work_of_point import PointWorkEstimate, estimated_work_of_point, seconds_of_points

@@ -160,6 +160,7 @@ class WorkEstimate:
     ----------
     strips : number of strips that the tolerances need; 0: the model is not asked
     seconds : processor time [s] of all of it, beyond that of the cheaper models
+    once : the part of these seconds that further points of the same scene are spared
     strip_seconds : processor time [s] of one strip, where its roughness moves; 0 where it does not, or has little
         effect
     length : of the strips [m]; NaN: there is one patch
@@ -170,6 +171,7 @@ class WorkEstimate:
 
     strips: int
     seconds: float
+    once: float = 0.0
     strip_seconds: float = 0.0
     length: float = math.nan
     sampling: float = math.nan

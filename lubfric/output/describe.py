@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError
-from ..estimate import estimated_work_of_point
+from ..estimate import estimated_work_of_point, seconds_of_points
 from ..models import AUTO, candidates, model_named
 from ..models.deterministic import MOST_WORK_IN_AUTO
 from ..models.shared import (
@@ -219,7 +219,7 @@ def _model(
             takes += f"; where it takes more than {MOST_WORK_IN_AUTO:g} s, the quick answer replaces it"
         rows.append(takes)
     many = len(ratios) or len(moving)
-    return rows, sum(one.seconds for one in forecasts) * many / len(forecasts) if forecasts else 0.0
+    return rows, seconds_of_points(forecasts, many)
 
 
 def _histories(scene: Scene) -> list[str]:

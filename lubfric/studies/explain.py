@@ -9,7 +9,7 @@ from textwrap import shorten
 from typing import Any
 
 from ..errors import InputError
-from ..estimate import estimated_work_of_point
+from ..estimate import estimated_work_of_point, seconds_of_points
 from ..models import candidates, prepare
 from ..models.shared import Prepared, Violation, beforehand, sentence, warn_unusual
 from ..quantities import counted, worded_value
@@ -32,10 +32,8 @@ def curve_seconds(prepared: Prepared, speeds: Sequence[float]) -> float:
     """Processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses), within a factor
     of about 4."""
     at = speeds or first_speeds(prepared.scene, prepared.surface.sq)
-    seconds = [
-        estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed).seconds for speed in at
-    ]
-    return sum(seconds) * (1.0 if speeds else CHOSEN / len(at))
+    points = [estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed) for speed in at]
+    return seconds_of_points(points, None if speeds else CHOSEN)
 
 
 def estimated_study(plan: Any, store: str | Path | None = None) -> float:

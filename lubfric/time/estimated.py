@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from ..estimate import PointWorkEstimate, estimated_work_of_point
+from ..estimate import PointWorkEstimate, estimated_work_of_point, seconds_of_points
 from ..samples import Sample
 from ..scene import Harmonic, History, Scene, Table
 from ..surface import Surface
@@ -60,7 +60,7 @@ def estimated_load_sharing(scene: Scene, sample: Sample, surface: Surface) -> Ru
     swings = max((periods(history, plan.duration) or 1.0 for history in plan.histories), default=0.5)
     changing = STEPS_OF_SWING * swings * (STEP_TOLERANCE / tolerance) ** (1 / 3)
     steps = max(plan.outputs, changing) + STEPS_OF_START
-    seconds = sum(point.seconds for point in points) + steps * (FILM_STEP + CELL_STEP * cells)
+    seconds = seconds_of_points(points) + steps * (FILM_STEP + CELL_STEP * cells)
     return RunEstimate(steps=steps, seconds=seconds, widest=widest)
 
 

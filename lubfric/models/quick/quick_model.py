@@ -363,13 +363,14 @@ class QuickModel(Model):
         self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
     ) -> WorkEstimate:
         alone = PaperModel().estimate_work(scene, sample, surface, speed, None)
-        seconds = alone.seconds if cheaper is None and not has_moving_roughness(scene) else 0.0
+        has_line = cheaper is None and not has_moving_roughness(scene)
+        seconds = alone.seconds if has_line else 0.0
         if speed and surface.sq and sample.is_resolved and scene.transient is None:
             count = 1 if has_moving_roughness(scene) else EXPECTED_STRIPS
             seconds += work_on_strips(scene, sample, surface.sq, speed, long_factors_of(scene, sample), count)
         if has_moving_roughness(scene):
-            return replace(alone, strips=1, length=sample.line_length(1), seconds=seconds)
-        return replace(alone, seconds=seconds)
+            return replace(alone, strips=1, length=sample.line_length(1), seconds=seconds, once=0.0)
+        return replace(alone, seconds=seconds, once=alone.once if has_line else 0.0)
 
     def methods(self, prepared: Prepared, *, has_contact: bool, has_film: bool) -> tuple[str, ...]:
         return ("deterministic model", *methods_of_load_sharing(prepared, has_contact=has_contact, has_film=has_film))
