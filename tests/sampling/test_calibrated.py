@@ -176,6 +176,19 @@ def test_the_stress_of_an_oil_in_rolling_is_solved_in_motion_only_where_its_flow
     assert followed_ends.uncertainty.input_sides == pytest.approx(sides, rel=0.1)
 
 
+@pytest.mark.parametrize("slip", [0.5, 2.0])
+def test_a_film_thicker_than_in_all_solved_cases_is_that_of_load_sharing(slip):
+    """Long cells would have bounds twice as wide there, and in rolling take seconds."""
+    scene = PAPER.with_(motion={"slide_roll_ratio": slip}, numerics={"model": "quick"})
+    quick_result, paper = (lubfric.friction(scene, 0.3, model=model) for model in ("quick", "paper"))
+    assert quick_result.coefficient == paper.coefficient
+    assert quick_result.uncertainty.model_sides == paper.uncertainty.model_sides
+    assert 0 < max(paper.uncertainty.model_sides) < 0.2
+    assert "the film is thick" in quick_result.uncertainty.text and quick_result.seconds < 5
+    thinner = lubfric.friction(scene.with_(motion={"slide_roll_ratio": 2.0}), 0.05)
+    assert "the film is thick" not in thinner.uncertainty.text and "long cells" in thinner.decision.text
+
+
 def test_a_loose_model_tolerance_lets_auto_answer_on_long_cells():
     loose = HEAVIER.with_(bodies={"boundary_film": 2e-8}, numerics={"model_tolerance": "30 %"})
     assert lubfric.friction(loose, 0.1).decision.model == "quick"

@@ -81,6 +81,7 @@ ELASTIC = "elastic shear (lubricant.shear_modulus) is not calibrated: friction b
 NOT_FLOODED = (
     "f of Eq. (9) with the error of load sharing: the campaign behind the calibration has flooded contacts only"
 )
+THICK = "f of Eq. (9): the film is thick and touches no asperity, where the error of load sharing is small"
 UNSOLVED = "f of Eq. (9) with the error of load sharing: the strips on long cells were not solved ({})"
 NARROWER = "numerics.model = 'deterministic' reduces the error of f, at the cost that `lubfric info` estimates"
 NARROWED = "take numerics.model = 'deterministic', which narrows it"
@@ -206,7 +207,20 @@ class QuickSolution(SampleSolution):
             return ELASTIC
         if not lubricant.floods:
             return NOT_FLOODED
+        if self._is_thick:
+            return THICK
         return self._solved if isinstance(self._solved, str) else ""
+
+    @cached_property
+    def _is_thick(self) -> bool:
+        """Whether the film is thicker than those of the solved cases and touches no asperity, so that load sharing has a
+        small error."""
+        scene = self.prepared.scene
+        most = _error_of_thick_films(scene, self.prepared.surface.sq, self.speed)
+        if not most:
+            return False
+        answer = self.paper_solution.answer()
+        return answer.numbers["contact_load"] == 0 and max(answer.model_error) <= most
 
     @cached_property
     def _solved(self) -> LongStrips | str:
@@ -335,6 +349,15 @@ def quick_answer_of(prepared: Prepared, speed: float, strips: LongStrips) -> Mod
     )
 
 
+def _error_of_thick_films(scene: Scene, sq: float, speed: float) -> float:
+    """Return the error of f, relative, that the bounds of long cells have at least where the film over ``sq`` [m] at ``speed``
+    [m/s] is thicker than in all solved cases, by how far they are widened; 0 where it is not."""
+    if not (speed and sq):
+        return 0.0
+    times = scene.line_contact(abs(speed)).moes_film / (error_model_of(scene).range["lambda"][1] * sq)
+    return LEAST_TOLERANCE * widening([math.log(times)]) if times > 1 else 0.0
+
+
 class QuickModel(Model):
     """Strips on long cells with a calibrated error, beside the balance of Eq. (8)."""
 
@@ -363,6 +386,8 @@ class QuickModel(Model):
         self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
     ) -> WorkEstimate:
         alone = PaperModel().estimate_work(scene, sample, surface, speed, None)
+        if alone.touching == "none" and alone.model_error <= _error_of_thick_films(scene, surface.sq, speed):
+            return replace(alone, seconds=alone.seconds if cheaper is None else 0.0)
         has_line = cheaper is None and not has_moving_roughness(scene)
         seconds = alone.seconds if has_line else 0.0
         if speed and surface.sq and sample.is_resolved and scene.transient is None:
