@@ -2,8 +2,9 @@
 
 An answer is one strip, followed until its error is within the tolerance of the scene, as `lubfric.friction` takes it. Its
 half-width here has the sampling error and that of the cells only. The reference of a contact is the mean over other
-strips, each followed over a whole pass after a longer discard, times the change of f on cells half as long along both
-axes. That change is found on a narrower strip, over the same way.
+strips, each followed over a whole pass after a longer discard, times the change of f on shorter and shorter cells. That is
+the mean change on cells half as long along both axes of narrower strips, over the same way, and a third of it more: the
+limit of second order (`moving_cells`).
 """
 
 import math
@@ -36,12 +37,8 @@ from lubfric.surface import generate_surface
 from ...types import Option, PlainRow
 from .. import table_file
 
-# The tables that are judged: answers and references by steps of second order along the lubricant, whose cells err by up
-# to a third, both alike (before `lubfric.models.deterministic.state.CURVATURE`).
-FOLDER = Path(__file__).parent / "second_order"
-
-# The tables that are extended: by the steps of today. They are judged once every contact has its references there.
-EXTENDED = Path(__file__).parent / "third_order"
+# The tables of answers and references.
+FOLDER = Path(__file__).parent
 ANSWERS = "answers.csv"
 REFERENCES = "references.csv"
 ANSWER_COLUMNS = (
@@ -75,6 +72,9 @@ WHOLE_PASS = 1e-9
 
 NARROW = 24  # correlation lengths along y of the narrower strip on shorter cells
 WAY = 2.0  # half-widths whose moments count there
+
+# Change of f from the cells of an answer to the limit, over that to cells half as long: by second order.
+LIMIT = 4.0 / 3.0
 
 # Standard errors of the reference that an answer may be off beyond its own half-width.
 OF_REFERENCE = 2.0
@@ -277,7 +277,7 @@ KINDS = {"strip": reference_strip, "cells": change_by_cells, "tight": tight_stri
 
 
 def extend(
-    seeds: int, budget: float, folder: Path = EXTENDED, names: Sequence[str] = (), *, references: bool = True
+    seeds: int, budget: float, folder: Path = FOLDER, names: Sequence[str] = (), *, references: bool = True
 ) -> Iterator[PlainRow]:
     """Solve what the tables have not, as long as the processor time of this process is below ``budget`` [s], and append
     each row as it is solved: all references (none without ``references``), then the answers of so many ``seeds``; of the
@@ -329,8 +329,12 @@ def covered(folder: Path = FOLDER) -> Iterator[PlainRow]:
         ]
         if not strips or not cells or not answers:
             continue
-        truth = float(np.mean([float(row["f"]) for row in strips])) * float(np.mean(cells))
-        error = math.sqrt(sum(float(row["error"]) ** 2 for row in strips)) / len(strips) / truth
+        mean_of_strips = float(np.mean([float(row["f"]) for row in strips]))
+        limits = [1.0 + LIMIT * (ratio - 1.0) for ratio in cells]
+        truth = mean_of_strips * float(np.mean(limits))
+        of_strips = math.sqrt(sum(float(row["error"]) ** 2 for row in strips)) / len(strips) / mean_of_strips
+        of_cells = float(np.std(limits, ddof=1)) / math.sqrt(len(limits)) if len(limits) > 1 else 0.0
+        error = math.hypot(of_strips, of_cells)
         deviations = np.array([1 - truth / float(row["f"]) for row in answers])  # over f, as its half-width is
         widths = np.array([_half_width(row) for row in answers])
         yield {

@@ -1,7 +1,7 @@
 """The table: each random rolling contact followed over the same first steps in time, with several efforts.
 
-One change of the economical effort at a time, then all of them; and these on cells twice as long along y. Every variant starts from the film at rest and meets
-the same roughness at the same times, so that differences are by the effort alone.
+One change of the economical effort at a time, then all of them. Every variant starts from the film at rest and meets the
+same roughness at the same times, so that differences are by the effort alone.
 """
 
 import time
@@ -34,9 +34,7 @@ VARIANTS: dict[str, MovingEffort] = {
     "linear": replace(_TIGHT, linear=ECONOMICAL.linear),
     "half": replace(_ECONOMICAL, residual=0.5 * ECONOMICAL.residual),
     "economical": _ECONOMICAL,
-    "longer": _ECONOMICAL,
 }
-LONGER = (1, 2)  # length of the cells of the variant "longer" in those of the map
 FACTS = ("fluid", "lay", "pressure", "ratio", "slip", "rough", "nx", "ny", "sq", "friction", "limit", "eyring")
 COLUMNS = (
     *("seed", "variant", "starved", *FACTS, "half_width", "film"),
@@ -64,11 +62,8 @@ def followed(seed: int, variant: str) -> PlainRow:
     row |= {"version": lubfric.__version__, "date": datetime.now(UTC).date().isoformat()}
     begun = time.process_time()
     try:
-        factors = LONGER if variant == "longer" else (1, 1)
         with limited(SECONDS):
-            strip = solve_moving_strip(
-                case.scene, case.bodies, case.speed, effort=VARIANTS[variant], most_steps=STEPS, factors=factors
-            )
+            strip = solve_moving_strip(case.scene, case.bodies, case.speed, effort=VARIANTS[variant], most_steps=STEPS)
         f = strip.series["coefficient"]
         row |= {
             "f": float(f.mean()),
