@@ -9,6 +9,7 @@ import os
 from collections.abc import Callable
 from contextlib import suppress
 from functools import wraps
+from importlib import import_module
 from typing import ParamSpec, TypeVar
 
 P = ParamSpec("P")
@@ -17,6 +18,10 @@ T = TypeVar("T")
 # Bytes of resident memory, more than after the last release, from which freed blocks are returned: a release takes
 # about 1 ms a 100 MB.
 GROWTH = 64 * 2**20
+
+# Address space that the first linear algebra of a process takes [bytes]: OpenBLAS of NumPy and that of SciPy 32 MB each,
+# and a margin. Where they get none they try again without end, and no signal stops them.
+FIRST_ALGEBRA = 96 * 2**20
 
 _STATM = "/proc/self/statm"  # of Linux; the second number is the resident pages
 
@@ -39,6 +44,19 @@ def resident_memory() -> int:
             return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
     except (OSError, ValueError, IndexError):
         return 0
+
+
+def check_address_space() -> None:
+    """Raise `MemoryError` where a limit (``ulimit -v``) leaves this process too little for its first linear algebra."""
+    try:
+        limit = import_module("resource").getrlimit(import_module("resource").RLIMIT_AS)[0]
+        with open(_STATM, encoding="ascii") as file:
+            used = int(file.read().split()[0]) * os.sysconf("SC_PAGE_SIZE")
+    except (ImportError, OSError, ValueError, IndexError):
+        return
+    if 0 <= limit < used + FIRST_ALGEBRA:
+        needed = (used + FIRST_ALGEBRA) / 1e6
+        raise MemoryError(f"at least {needed:.0f} MB of address space, and the limit is {limit / 1e6:.0f} MB")
 
 
 def release_freed_memory() -> None:

@@ -9,7 +9,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .._base import __version__, packaged
+from .._base import __version__, check_address_space, packaged
 from ..errors import ConvergenceError, InputError, LubfricError
 from ..units import number_of
 from .commands import INTERRUPTED, answer, interruptible, say
@@ -31,6 +31,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     arguments = parser().parse_args(argv)
     try:
         with interruptible():
+            check_address_space()
             module, _, function = arguments.call.partition(".")
             getattr(import_module(f".{module}", __package__), function)(arguments)
             return 0

@@ -186,3 +186,30 @@ def test_what_can_be_done_without_ends_without_a_word(monkeypatch, capfd):
         )
         assert begin_beside(fails) is None
     assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="needs /proc to read the address space")
+def test_too_little_address_space_for_linear_algebra_is_one_line():
+    """OpenBLAS tries without end to get its buffers, which no signal stops."""
+    script = """
+import resource, sys
+from lubfric.output import main
+pages = int(open("/proc/self/statm").read().split()[0])
+resource.setrlimit(resource.RLIMIT_AS, (pages * resource.getpagesize() + 40 * 2**20, resource.RLIM_INFINITY))
+sys.exit(main(["info", "flat"]))
+"""
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+    assert run.returncode == 1 and run.stdout == "" and run.stderr.count("\n") == 1
+    assert "the memory is not enough (at least" in run.stderr and "MB of address space, and the limit is" in run.stderr
+
+
+@pytest.mark.parametrize("error", [MemoryError(), ImportError("x.so: failed to map segment from shared object")])
+def test_too_little_memory_for_the_modules_is_one_line(monkeypatch, capsys, error):
+    from lubfric.__main__ import main as entry
+
+    monkeypatch.setattr("lubfric.output.main", lambda: (_ for _ in ()).throw(error))
+    assert entry() == 1
+    assert capsys.readouterr().err.startswith("lubfric: the memory is not enough to load its modules")
+    monkeypatch.setattr("lubfric.output.main", lambda: (_ for _ in ()).throw(ImportError("no module")))
+    with pytest.raises(ImportError):
+        entry()

@@ -27,7 +27,7 @@ def test_a_point_of_a_large_study_costs_little_time_and_memory(monkeypatch, tmp_
     prepared = lubfric.prepare(SCENE)
     canned = lubfric.friction(prepared, 0.01).without_fields()
     monkeypatch.setattr(points, "prepare", lambda scene: prepared)
-    monkeypatch.setattr(points, "outcome_of", lambda *_: canned)
+    monkeypatch.setattr(points, "outcome_of", lambda *_, **__: canned)
     loads = np.linspace(3.0, 5.0, COUNT // 4).tolist()
     begun = time.process_time()
     plan = lubfric.plan_study(SCENE, {"bodies.load": loads}, [0.01, 0.02, 0.04, 0.08])
