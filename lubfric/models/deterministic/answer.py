@@ -348,11 +348,11 @@ def _division(scene: Scene, numbers: dict[str, float], results: Sequence[Determi
     strips."""
     thin, saturated = (100 * numbers[f"{name}_film_load"] / scene.bodies.load for name in ("boundary", "saturated"))
     touching = 100 * mean(result.split.touching / result.load for result in results)
-    of = "asperity" if scene.lubricant.newtonian else "film"
-    return (
-        f"load on the boundary film {thin:.3g} % (touching cells {touching:.3g} %), on film at its limiting stress "
-        f"{saturated:.3g} %, which is part of the {of} load"
-    )
+    text = f"load on the boundary film {thin:.3g} % (touching cells {touching:.3g} %)"
+    if saturated > 0:
+        of = "asperity" if scene.lubricant.newtonian else "film"
+        text += f", on film at its limiting stress {saturated:.3g} %, which is part of the {of} load"
+    return text
 
 
 def _violations(
