@@ -34,7 +34,7 @@ def test_the_words_of_a_result_keep_their_meaning(point):
     assert rubbing == pytest.approx(point.contact_load)
     assert point.real_contact_area == pytest.approx(found.rubbing.sum() * dx * dy * b.width / (ny * dy))
     assert point.balance is None and np.isnan(point.volume_residual) and point.report.converged
-    assert point.decision.model == "deterministic" and "one pressure" in point.report.notes[0]
+    assert point.decision.model == "deterministic" and "solved together with the contact" in point.report.notes[0]
 
 
 def test_no_entrainment_and_the_other_way_round(point):

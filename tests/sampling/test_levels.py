@@ -53,7 +53,7 @@ def half(result):
 
 def test_parts_add_up_and_the_model_is_told(found):
     load = SCENE.bodies.load
-    assert found.decision.model == "deterministic" and "one pressure" in found.decision.text
+    assert found.decision.model == "deterministic" and "solved together with the contact" in found.decision.text
     assert found.boundary_force + found.shear_force == pytest.approx(found.coefficient * load, rel=1e-9)
     assert found.couette_force + found.rolling_force == pytest.approx(found.shear_force, rel=1e-9)
     assert found.contact_load + found.film_load == pytest.approx(load, rel=1e-9)
@@ -217,7 +217,7 @@ def test_half_and_twice_a_boundary_film_that_is_not_given_are_a_part_of_the_budg
     assert open_.uncertainty.not_given == max(open_.uncertainty.not_given_sides)
     assert given.uncertainty.not_given == 0 and "not given" not in given.uncertainty.text
     assert "bodies.boundary_film not given" in open_.uncertainty.text
-    assert 1e-4 < by_flow < 0.1 and "thinned half as much" in given.decision.text
+    assert 1e-4 < by_flow < 0.1 and "half the thinning" in given.decision.text
     newtonian = PATCH.with_(bodies={"boundary_film": 20e-9}, numerics={"tolerance": 0.05})
     assert lubfric.friction(newtonian, 0.01).uncertainty.model == 0.0
 
@@ -313,7 +313,7 @@ def test_standard_error_of_the_sum_by_monte_carlo(prepared, monkeypatch, n, betw
     """What is stated of the sum of the first two levels is its scatter; without a line, that of the mean (by 1.3 if
     places alone tell it). Windows of a measured map may differ by more than their places tell."""
     monkeypatch.setattr(levels, "numbers_of", lambda _, result: {"coefficient": result.coefficient})
-    sample = replace(prepared.sample, correlation_lengths=(8e-6, 8e-6), windows=windows)
+    sample = replace(prepared.sample, correlation_lengths=(8e-6, 8e-6), is_homogeneous=not windows)
     model = replace(prepared, sample=sample)
     rng = np.random.default_rng(5)
     sums = []

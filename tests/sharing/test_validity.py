@@ -35,11 +35,11 @@ def test_the_paper_scene_needs_none():
 @pytest.mark.parametrize(
     "words, entries",
     [
-        ("extrapolation", warn_pressure(PAPER, 2e9)),
+        ("extrapolated", warn_pressure(PAPER, 2e9)),
         ("eyring_stress", warn_shear(PAPER, ShearForce(couette=5.0, rolling=0.0), PAPER.bodies.load, FRICTION)),
         ("does not tend to f_b", warn_deflection(PAPER.with_(bodies={"load": 550.0}), 3e-7)),
         ("not thin", warn_thickness(PAPER.with_(bodies={"radius": 1e-6}), 3e-7)),
-        ("against one another", warn_motion(PAPER.with_(motion={"slide_roll_ratio": 3.0}), 0.003, 3e-7)),
+        ("opposite directions", warn_motion(PAPER.with_(motion={"slide_roll_ratio": 3.0}), 0.003, 3e-7)),
         ("wider than long", warn_bodies(PAPER.with_(bodies={"width": 4e-6, "load": 0.01}).bodies)),
         ("steel yields", warn_bodies(PAPER.with_(bodies={"hardness": None, "hertz_pressure": 6e9}).bodies)),
     ],
