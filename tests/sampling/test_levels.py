@@ -313,7 +313,7 @@ def test_standard_error_of_the_sum_by_monte_carlo(prepared, monkeypatch, n, betw
     """What is stated of the sum of the first two levels is its scatter; without a line, that of the mean (by 1.3 if
     places alone tell it). Windows of a measured map may differ by more than their places tell."""
     monkeypatch.setattr(levels, "numbers_of", lambda _, result: {"coefficient": result.coefficient})
-    sample = replace(prepared.sample, correlation_lengths=(8e-6, 8e-6), is_homogeneous=not windows)
+    sample = replace(prepared.sample, correlation_lengths=(8e-6, 8e-6), windows=windows)
     model = replace(prepared, sample=sample)
     rng = np.random.default_rng(5)
     sums = []
