@@ -131,5 +131,5 @@ class DeterministicModel(Model):
     def why_declined(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
         why = why_gap_not_resolved(prepared.scene, is_joint=prepared.is_joint) or why_too_hot(cheaper.heat())
         if why:
-            return f"load sharing alone: {why}"
+            return f"not the deterministic model: {why}"
         return why_too_costly(prepared, speed, factors_of(prepared.scene, prepared.sample))

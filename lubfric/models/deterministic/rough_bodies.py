@@ -108,6 +108,6 @@ def why_too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -
     if work <= MOST_WORK_IN_AUTO:
         return ""
     return (
-        "load sharing alone: the roughness moves, and one strip by the deterministic model would take about "
+        "not the deterministic model: the roughness moves, and one strip by the deterministic model would take about "
         f"{work:.2g} s of processor time, more than {MOST_WORK_IN_AUTO:g} s; numerics.model = 'deterministic' asks for it"
     )

@@ -29,7 +29,6 @@ from ..deterministic import (
     strip_surface,
     two_levels,
     warn_model_error,
-    why_too_hot,
     work_on_strips,
 )
 from ..deterministic import answer_of as deterministic_answer
@@ -405,10 +404,6 @@ class QuickModel(Model):
 
     def why_unable(self, prepared: Prepared, speed: float) -> str:
         return why_no_rough_film(prepared, speed) or why_gap_not_resolved(prepared.scene, is_joint=prepared.is_joint)
-
-    def why_declined(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
-        why = why_too_hot(cheaper.heat())
-        return f"load sharing alone: {why}" if why else ""
 
     def adopt(self, cheaper: SampleSolution) -> QuickSolution | None:
         return _beside(cheaper) if isinstance(cheaper, PaperSolution) else None
