@@ -5,6 +5,7 @@ import math
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -200,26 +201,33 @@ def changes_of(strips: Sequence[StripSolution]) -> list[float]:
     return [change_of(coarse.result, fine.result) for coarse, fine in zip(strips[:-1], strips[1:])]
 
 
+class Places(NamedTuple):
+    """f of a strip, and friction and load [N/m] of its places along y (ny,)."""
+
+    coefficient: float
+    friction: np.ndarray
+    load: np.ndarray
+
+
 def change_of(coarse: DeterministicResult, fine: DeterministicResult) -> float:
     """Return the `change_of_places` from a ``coarse`` to a ``fine`` grid."""
-    return change_of_places((coarse.friction_at, coarse.load_at), (fine.friction_at, fine.load_at), fine.load)
+    before, after = (Places(result.coefficient, result.friction_at, result.load_at) for result in (coarse, fine))
+    return change_of_places(before, after, fine.load)
 
 
-def change_of_places(
-    coarse: tuple[np.ndarray, np.ndarray], fine: tuple[np.ndarray, np.ndarray], mean_load: float
-) -> float:
+def change_of_places(coarse: Places, fine: Places, mean_load: float) -> float:
     """Return the relative change of f from a ``coarse`` to a ``fine`` grid, with the standard error of its mean over
-    places; of each the friction and the load [N/m] of its places along y, whose ``mean_load`` is that of both.
+    places, whose ``mean_load`` [N/m] is that of both.
 
     Places change by themselves, some up and some down. On a short map the mean may be small by chance; the scatter of
     the places shows by how much. Friction that goes with a place's load is omitted, since their mean load is kept.
     """
-    count = max(coarse[0].size // BLOCK, 2)
-    friction, load = (_blocks(after, count) - _blocks(before, count) for before, after in zip(coarse, fine))
+    count = max(coarse.load.size // BLOCK, 2)
+    load = _blocks(fine.load, count) - _blocks(coarse.load, count)
+    friction = _blocks(fine.friction, count) - _blocks(coarse.friction, count)
     own = friction - load * ((friction @ load) / max(load @ load, 1e-300))
     scatter = float(np.std(own)) / math.sqrt(count - 1) / mean_load
-    before, after = (float(np.mean(places[0])) / mean_load for places in (coarse, fine))
-    return math.hypot(after - before, scatter) / abs(after)
+    return math.hypot(fine.coefficient - coarse.coefficient, scatter) / abs(fine.coefficient)
 
 
 def _blocks(values: np.ndarray, count: int) -> np.ndarray:

@@ -48,7 +48,7 @@ class StripOnTwoGrids:
         longer = self.longer
         if isinstance(strip, MovingStripSolution) and isinstance(longer, MovingStripSolution):
             moments = min(strip.sample.friction.shape[0], longer.sample.friction.shape[0])
-            before, after = (sample.means_of_places(moments) for sample in (longer.sample, strip.sample))
+            before, after = (sample.places(moments) for sample in (longer.sample, strip.sample))
             return change_of_places(before, after, strip.sample.mean_load)
         return change_of(longer.result, strip.rest.result if isinstance(strip, MovingStripSolution) else strip.result)
 

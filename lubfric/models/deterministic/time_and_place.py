@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..shared import StandardError
+from .strip import Places
 from .summits import SummitControl
 
 # Half-widths that roughness and film travel in a block, at least. At one place friction has a correlation over time of
@@ -61,9 +62,10 @@ class TimeAndPlace:
             mean_load=self.mean_load,
         )
 
-    def means_of_places(self, moments: int) -> tuple[np.ndarray, np.ndarray]:
-        """Return the mean friction and load [N/m] of each place over the first ``moments``."""
-        return self.friction[:moments].mean(axis=0), self.load[:moments].mean(axis=0)
+    def places(self, moments: int) -> Places:
+        """Return the means over the first ``moments``."""
+        friction = self.friction[:moments].mean(axis=0)
+        return Places(float(friction.mean()) / self.mean_load, friction, self.load[:moments].mean(axis=0))
 
     def block_counts(self, correlation_length: float) -> tuple[int, int]:
         """Return the numbers of blocks in time and along y, for a ``correlation_length`` [m] along y."""
