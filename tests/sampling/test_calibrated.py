@@ -199,8 +199,12 @@ def test_a_loose_model_tolerance_lets_auto_answer_on_long_cells():
 def test_bounds_widen_outside_the_campaign_and_info_and_result_say_so():
     text = "outside the range of the contacts behind"
     quick_paper = PAPER.with_(numerics={"model": "quick"})
+    thin = lubfric.friction(quick_paper, 1e-5)
+    assert [entry.what for entry in thin.validity if text in entry.consequence] == ["lambda ratio by Moes' formula"]
+    assert re.search(f"lambda ratio by Moes' formula is .*{text}", describe_scene(quick_paper, [1e-5]))
     thick = lubfric.friction(quick_paper, 0.5)
-    assert [entry.what for entry in thick.validity if text in entry.consequence] == ["lambda ratio by Moes' formula"]
+    assert not any(text in entry.consequence for entry in thick.validity)
+    assert text not in describe_scene(quick_paper, [0.5])
     assert not any(text in entry.consequence for entry in lubfric.friction(quick_paper, 0.03).validity)
     assert text not in describe_scene(quick_paper, [0.03])
     light = quick_paper.with_(bodies={"load": 0.5})
@@ -266,7 +270,8 @@ def test_numbers_of_the_cases_are_those_of_todays_model(motion, seed):
     known = next(case for case in fit.cases(motion) if case.row["seed"] == str(seed)).numbers
     solved = quick(drawn(motion, seed))
     for name in solved.keys() - {"seconds"}:  # a march in time ends so far off
-        assert solved[name] == pytest.approx(known[name], rel=2e-3, abs=5e-6, nan_ok=True)
+        least = 2e-3 if name.startswith("by_") else 5e-6  # of ln f, and of f
+        assert solved[name] == pytest.approx(known[name], rel=2e-3, abs=least, nan_ok=True)
 
 
 def test_bounds_of_kinds_that_were_left_out_hold_nine_cases_in_ten():
