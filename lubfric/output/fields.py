@@ -73,7 +73,7 @@ def write_moments(folder: Path | str, moments: Iterable[Moment]) -> None:
         state = moment.at.state
         name = f"moment_{number:04d}.vtk"
         y = np.arange(moment.at.gap.shape[1]) * problem.spacing[1]
-        fields = {"gap": moment.at.balance.film, "pressure": state.pressure, "height": problem.heights}
+        fields = {"gap": moment.at.mass_balance.flow_gap, "pressure": state.pressure, "height": problem.heights}
         write_whole(home / name, grid_bytes(problem.x, y, fields | {"fill": state.fill}, f"t = {moment.time:g} s"))
         files.append({"name": name, "time": moment.time})
     write_whole(home / "moments.vtk.series", json.dumps({"file-series-version": "1.0", "files": files}).encode())

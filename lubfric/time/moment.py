@@ -4,11 +4,12 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from .._base import FloatArray
+from ..contact import HalfSpaceContact
 from ..estimate import (
     full_load_numbers,
     power_of_forces,
@@ -69,7 +70,16 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
     film_factor = math.nan if inlet is None else inlet.factor if heated_inlet else 1.0
     length = model.correlation_length
     thinning = film_thinning(scene, film_load)
-    finite = moment_error(model.patch, state, loads, contact_step.softness, scene.bodies.width, length, parts, thinning)
+    finite = moment_error(
+        cast(HalfSpaceContact, model.patch),
+        state,
+        loads,
+        contact_step.softness,
+        scene.bodies.width,
+        length,
+        parts,
+        thinning,
+    )
     touches = contact_step.load > 0.0
     wet = setting.grid.x[t.P > 0.0] * p.length_unit
     central_film = t.H[setting.grid.n // 2] * p.film_unit

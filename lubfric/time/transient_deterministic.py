@@ -217,7 +217,7 @@ class TransientDeterministic:
             numbers=numbers,
             violations=violations,
             pressure=terms.state.pressure.mean(axis=1)[::back],
-            film_thickness=terms.balance.film.mean(axis=1)[::back],
+            film_thickness=terms.mass_balance.flow_gap.mean(axis=1)[::back],
         )
 
     def resumable(self, progress: Progress) -> Progress:

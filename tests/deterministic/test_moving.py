@@ -155,7 +155,7 @@ def test_turning_the_contact_upside_down_leaves_the_force_on_each_body(others):
     assert np.allclose(lower.at.gap, upper.at.gap, rtol=1e-9)
     p = lower.at.state.pressure
     x = lower.at.problem.x
-    upstream = lower.at.balance.inlet
+    upstream = lower.at.mass_balance.inlet
     moment = (p.mean(axis=1) @ x) * CELL / LINE.radius  # and upstream, by parts: ∫ p x/R dx = h p - ∫ h dp
     moment += np.mean(lower.at.gap[0] * p[0] - 2 * upstream.rolling)
     f = lower.result.coefficient

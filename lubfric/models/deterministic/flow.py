@@ -94,12 +94,12 @@ def couette_flow(problem: Problem, mass: FloatArray, fill: float | FloatArray, U
 class MassBalance:
     """Outflow minus inflow of each cell, ``residual`` [m/s] (nx, ny), and its parts.
 
-    film: the gap for the flow, at least the floor [m]. ``end``: the pressure flow out of the last cells, beyond which
+    flow_gap: the gap for the flow, at least the floor [m]. ``end``: the pressure flow out of the last cells, beyond which
     p = 0; they have ruptured, but for a film that is squeezed out.
     """
 
     residual: np.ndarray
-    film: np.ndarray
+    flow_gap: np.ndarray
     fluid: CellFluid
     along: PressureFlow
     across: PressureFlow
@@ -135,7 +135,14 @@ def mass_balance(
     residual /= dx
     residual += (across.flow - np.roll(across.flow, 1, axis=1)) / dy
     return MassBalance(
-        residual=residual, film=film, fluid=fluid, along=along, across=across, end=end, couette=couette, inlet=upstream
+        residual=residual,
+        flow_gap=film,
+        fluid=fluid,
+        along=along,
+        across=across,
+        end=end,
+        couette=couette,
+        inlet=upstream,
     )
 
 
@@ -168,7 +175,7 @@ def derivatives(problem: Problem, at: MassBalance, open_: BoolArray) -> tuple[np
     """d residual/dp [m/(s Pa)], /dh [1/s] and /dfill [m/s] as the data of a `Stencil` each; by h of ``open_`` cells
     (bool) (nx, ny) only."""
     dx, dy = problem.spacing
-    by_p, by_h, by_fill = (Stencil(at.film.shape) for _ in range(3))
+    by_p, by_h, by_fill = (Stencil(at.flow_gap.shape) for _ in range(3))
     for stencil, along, across in ((by_p, at.along.by_p, at.across.by_p), (by_h, at.along.by_h, at.across.by_h)):
         stencil.add(0, along[0] / dx, here=slice(None, -1))
         stencil.add("E", along[1] / dx, here=slice(None, -1))
@@ -180,7 +187,7 @@ def derivatives(problem: Problem, at: MassBalance, open_: BoolArray) -> tuple[np
         stencil.add(0, -np.roll(across[1], 1, axis=1) / dy)
     own = at.couette.by_own / dx
     before = at.couette.by_before / dx
-    for stencil, factor in ((by_h, at.fluid.density), (by_p, at.fluid.density_slope * at.film)):
+    for stencil, factor in ((by_h, at.fluid.density), (by_p, at.fluid.density_slope * at.flow_gap)):
         stencil.add(0, own * factor)
         stencil.add("W", before[1:] * factor[:-1], here=slice(1, None))
         stencil.add("W", -own[:-1] * factor[:-1], here=slice(1, None))
@@ -191,5 +198,5 @@ def derivatives(problem: Problem, at: MassBalance, open_: BoolArray) -> tuple[np
     by_h.add(0, (at.end.by_h[0] + at.end.by_h[1]) / dx, here=slice(-1, None))
     by_p.add(0, -at.inlet.by_pressure / dx, here=slice(0, 1))
     by_h.add(0, -at.inlet.by_film / dx, here=slice(0, 1))
-    by_h.data *= np.asarray(open_, bool).ravel()[Stencil.neighbours(*at.film.shape)]
+    by_h.data *= np.asarray(open_, bool).ravel()[Stencil.neighbours(*at.flow_gap.shape)]
     return by_p.data, by_h.data, by_fill.data

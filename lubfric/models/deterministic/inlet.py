@@ -62,8 +62,8 @@ class Inlet:
     rolling: np.ndarray
 
 
-def inlet(problem: Problem, pressure: FloatArray, film: FloatArray) -> Inlet:
-    """The `Inlet` upstream of the first cells, whose ``pressure`` [Pa] and ``film`` [m] are given (ny,). To the face
+def inlet(problem: Problem, pressure: FloatArray, thickness: FloatArray) -> Inlet:
+    """The `Inlet` upstream of the first cells, whose ``pressure`` [Pa] and ``thickness`` [m] are given (ny,). To the face
     before them the film continues up the parabola."""
     lubricant = problem.lubricant
     speed = problem.speed
@@ -71,22 +71,22 @@ def inlet(problem: Problem, pressure: FloatArray, film: FloatArray) -> Inlet:
     t, weight, integral = _rule()
     x = problem.x[0]
     dx = problem.spacing[0]
-    film = film - x * dx / (2 * radius) + dx**2 / (8 * radius)
+    thickness = thickness - x * dx / (2 * radius) + dx**2 / (8 * radius)
     start = -(x - dx / 2)
     begins = 0.0 if lubricant.inlet_length is None else start / lubricant.inlet_length
     t, weight, integral = begins + (1 - begins) * t, (1 - begins) * weight, (1 - begins) * integral
     stretch = start / t**2
     shape = (start / t) ** 2 / (2 * radius) - start**2 / (2 * radius) + problem.edge_log * np.log(t)
-    gap = film[:, None] + shape
+    gap = thickness[:, None] + shape
     thin = _ambient_thinning(problem, gap)
     viscous = 12 * lubricant.viscosity
     powers = (2, speed), (3, 1.0), (3, -2 * speed), (4, -3.0)
     a, b, a_h, b_h = (viscous * stretch / (gap**n * thin) * c for n, c in powers)
     A, B, A_h, B_h = (f @ weight for f in (a, b, a_h, b_h))
     reduced, reduced_slope = _reduced(lubricant, np.maximum(pressure, 0.0))
-    T = 2 * film**3 * _ambient_thinning(problem, film) / (viscous * dx)
-    T_h = 3 * T / film
-    top = speed * film + T * (A - reduced)
+    T = 2 * thickness**3 * _ambient_thinning(problem, thickness) / (viscous * dx)
+    T_h = 3 * T / thickness
+    top = speed * thickness + T * (A - reduced)
     below = 1 + T * B
     flow = top / below
     by_film = (speed + T_h * (A - reduced) + T * A_h - flow * (T_h * B + T * B_h)) / below
@@ -97,7 +97,7 @@ def inlet(problem: Problem, pressure: FloatArray, film: FloatArray) -> Inlet:
     up_to = b @ integral.T
     Q = a @ integral.T - flow[:, None] * up_to
     if fed.any():  # from the pressure at the face upstream
-        Q += np.where(fed, reduced - (speed * film - flow) / T - (A - flow * B), 0.0)[:, None]
+        Q += np.where(fed, reduced - (speed * thickness - flow) / T - (A - flow * B), 0.0)[:, None]
     wet = ~fed[:, None] | (Q > 0)
     p = true_pressure(lubricant)(np.clip(Q, 0.0, MOST / max(lubricant.pressure_viscosity_coefficient, 1e-30)))
     slope = np.exp(cell_fluid(lubricant, p).log_viscosity)
@@ -109,8 +109,8 @@ def inlet(problem: Problem, pressure: FloatArray, film: FloatArray) -> Inlet:
         by_pressure=by_pressure,
         by_film=by_film,
         load=p @ (weight * stretch),
-        load_by_pressure=at_given_flow / film.size,
-        load_by_film=np.where(fed, 0.0, by_gap + by_flow * by_film) / film.size,
+        load_by_pressure=at_given_flow / thickness.size,
+        load_by_film=np.where(fed, 0.0, by_gap + by_flow * by_film) / thickness.size,
         shearing=(wet * slope * stretch / gap) @ weight,
         rolling=0.5 * (wet * gap * slope * (a - flow[:, None] * b)) @ weight,
     )

@@ -222,7 +222,7 @@ def levels_of(
     results = [pair.resolved.result for pair in pairs]
     numbers = with_divided_contact_load(prepared.scene, numbers, results)
     f = abs(numbers["coefficient"])
-    of_strips = add_errors(estimate.error, replace(shorter.scatter, error=shorter.scatter.error * f))
+    of_strips = add_errors(estimate.error, replace(shorter.sampling, error=shorter.sampling.error * f))
     difference = StandardError(min(estimate.difference.error, of_strips.error) / f, estimate.difference.freedom)
     by_chance = math.sqrt((of_strips.error / f) ** 2 - difference.error**2)
     sampling = replace(of_strips, error=math.hypot(by_chance, BALANCED * (estimate.between / f) ** 2))
@@ -312,7 +312,7 @@ def _of_moving(
     """Return the mean over ``strips`` whose roughness moves, with the control of their summits (`summits`)."""
     rows = [numbers_of(prepared, strip.result) for strip in strips]
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
-    samples = [strip.sample.half() if pair.mirrored else strip.sample for pair, strip in zip(pairs, strips)]
+    samples = [strip.places.half() if pair.mirrored else strip.places for pair, strip in zip(pairs, strips)]
     control = summit_control(prepared)
     width = prepared.sample.correlation_lengths[1]
     friction = mean_over_blocks(samples, "friction", width, control)

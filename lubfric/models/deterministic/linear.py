@@ -86,7 +86,7 @@ class System:
         self.to_pressure = np.where(ruptured | dented, 0.0, problem.load / (problem.spacing[0] * 64))
         self.to_dent = np.where(dented, self.film, 0.0)
         self.to_fill = np.where(ruptured, 1.0, 0.0)
-        inlet = at.balance.inlet
+        inlet = at.mass_balance.inlet
         shape = at.gap.shape
         by_p = np.full(shape, problem.spacing[0] / shape[1])
         by_p[0] += inlet.load_by_pressure
@@ -122,13 +122,13 @@ class System:
     def _rows(self) -> tuple[np.ndarray, ...]:
         """d(equation)/dp, d/dh and d/dfill of every cell, as the data of a `Stencil`."""
         at = self.at
-        fluid = self.at.balance.fluid
+        fluid = self.at.mass_balance.fluid
         fill = self.at.state.fill
         own = Stencil.NAMES.index(0)
         open_ = ~self.touching  # also where h is still the floor: it is about to rise
-        rows = derivatives(at.problem, at.balance, open_)
+        rows = derivatives(at.problem, at.mass_balance, open_)
         if at.history is not None:
-            film = at.balance.film
+            film = at.mass_balance.flow_gap
             rate = stored(at.mass, at.history)[1]
             by = fluid.density_slope * film * fill, fluid.density * open_ * fill, fluid.density * film
             for data, mass in zip(rows, by):
@@ -312,10 +312,10 @@ class Patterns:
         return kind((data.ravel()[entries], indices, first), shape=(self.order.size,) * 2)
 
 
-def _pattern(line: IntArray, across: IntArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The pattern of entries (6, n) on the lines ``line`` of a matrix, sorted by it."""
-    entries = np.lexsort((across.ravel(), line.ravel()))
-    first = np.searchsorted(line.ravel()[entries], np.arange(line.shape[1] + 1))
+def _pattern(lines: IntArray, across: IntArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The pattern of entries (6, n) on the ``lines`` of a matrix, sorted by them."""
+    entries = np.lexsort((across.ravel(), lines.ravel()))
+    first = np.searchsorted(lines.ravel()[entries], np.arange(lines.shape[1] + 1))
     return entries, across.ravel()[entries].astype(np.int32), first.astype(np.int32)
 
 

@@ -154,7 +154,7 @@ class MovingStripSolution(StripSolution):
     - ``rest``: the same strip at rest, from which it started. ``times`` [s] (n,): all moments after it, the first
       ``discarded`` of which count nothing: the film had not passed the contact yet. ``series``: of each the numbers
       `SERIES`: ``share``, of the load that rubs with f_b, ``peak_pressure`` [Pa] of any cell.
-    - ``sample``: friction and load of all places at the moments that count, with the control of the `SampleTarget`.
+    - ``places``: friction and load of all places at the moments that count, with the control of the `SampleTarget`.
     - ``state_after_discard``: the state of the last moment that is discarded, from which `continued_strip` starts.
       ``effort`` and ``ends`` [m], of the grid up and down stream: with which it was solved.
     - ``with_oils``: f if the films of all moments that count were sheared as the oils at both ends of the range of an
@@ -165,7 +165,7 @@ class MovingStripSolution(StripSolution):
     times: np.ndarray
     discarded: int
     series: dict[str, np.ndarray] = field(repr=False)
-    sample: TimeAndPlace = field(repr=False)
+    places: TimeAndPlace = field(repr=False)
     effort: MovingEffort
     ends: tuple[float, float]
     state_after_discard: State = field(repr=False)
@@ -251,7 +251,7 @@ def solve_moving_strip(
         rest=rest,
         times=step * np.arange(1, 1 + discarded + count),
         discarded=discarded,
-        sample=sample,
+        places=sample,
         series={name: np.array([row[name] for row in rows[: discarded + count]]) for name in SERIES},
         effort=effort,
         ends=_ends(scene, bodies, speed, effort),
@@ -305,14 +305,14 @@ def continued_strip(
     return _mean(rows[-counted:], moment.result), sum(row["work"] for row in rows)
 
 
-def _required_moments(sample: TimeAndPlace, target: SampleTarget, required: int, most: int) -> int:
-    """Return the number of moments that shall count, of ``most``: ``required``, those of the ``sample``, if its error is within
+def _required_moments(places: TimeAndPlace, target: SampleTarget, required: int, most: int) -> int:
+    """Return the number of moments that shall count, of ``most``: ``required``, those of the ``places``, if its error is within
     the ``target``.
 
     The error is itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. So 1 + 1/sqrt(nu) times the error has to
     be within it: a march that ended where blocks happen to scatter little would state too small an error.
     """
-    friction = mean_over_blocks([sample], "friction", target.correlation_length, target.control)
+    friction = mean_over_blocks([places], "friction", target.correlation_length, target.control)
     freedom = friction.error.freedom
     reached = friction.error.error * (1 + 1 / math.sqrt(freedom)) / abs(friction.value) if freedom else math.inf
     if reached <= target.error:

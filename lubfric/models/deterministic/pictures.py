@@ -73,7 +73,7 @@ def _fields(axes: Any, moment: Moment, gap: float, pressure: float) -> None:
     problem = moment.at.problem
     y = np.arange(moment.at.gap.shape[1]) * problem.spacing[1]
     for one, values, most, colours, label in (
-        (axes[0], 1e9 * moment.at.balance.film, gap, "viridis", "gap (nm)"),
+        (axes[0], 1e9 * moment.at.mass_balance.flow_gap, gap, "viridis", "gap (nm)"),
         (axes[1], 1e-9 * moment.at.state.pressure, pressure, "magma_r", "pressure (GPa)"),
     ):
         if y.size == 1:

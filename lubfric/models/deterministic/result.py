@@ -142,16 +142,16 @@ class SurfaceShear:
         return self.boundary + self.couette + self.rolling
 
 
-def surface_shear(at: Iterate, law: np.ndarray, film: float) -> SurfaceShear:
-    """With a boundary ``film`` [m]. ``law``: the stress [Pa] that the lubricant has by itself (nx, ny)."""
+def surface_shear(at: Iterate, law: np.ndarray, boundary_film: float) -> SurfaceShear:
+    """With a boundary ``boundary_film`` [m]. ``law``: the stress [Pa] that the lubricant has by itself (nx, ny)."""
     problem = at.problem
     p = at.state.pressure
-    h = at.balance.film
-    inlet = at.balance.inlet
+    h = at.mass_balance.flow_gap
+    inlet = at.mass_balance.inlet
     limit = problem.boundary_friction * p * (problem.sliding > 0)  # in pure rolling rubbing do not slide
     dx = problem.spacing[0]
     fluid = at.state.kind == FLUID
-    thin = (at.state.kind == TOUCHING) | fluid & (h < film)
+    thin = (at.state.kind == TOUCHING) | fluid & (h < boundary_film)
     rubbing = thin | fluid & (p > PRESSED) & (law > limit) if problem.lubricant.newtonian else thin
     wet = fluid & ~rubbing
     both = (wet[1:] & wet[:-1]) | (wet[:-1] & (p[1:] == 0)) | (wet[1:] & (p[:-1] == 0))
@@ -210,8 +210,8 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
     """The result at a solved state."""
     problem = at.problem
     state = at.state
-    h = at.balance.film
-    inlet = at.balance.inlet
+    h = at.mass_balance.flow_gap
+    inlet = at.mass_balance.inlet
     p = state.pressure
     dx = problem.spacing[0]
     touching = state.kind == TOUCHING

@@ -129,14 +129,14 @@ class ShorterCells:
     ----------
     pieces : those of the third level; (): it is not needed, or not solved
     shortest : the piece of the fourth level; (): it is not needed, or not solved
-    scatter : standard error of the mean relative change of f on ``pieces``, from place to place
+    sampling : standard error of the mean relative change of f on ``pieces``, from place to place
     error : relative error of f that the last cells leave
     has_unsolved : whether shorter cells were needed, and did not converge or would have taken too much work
     """
 
     pieces: tuple[Piece, ...] = ()
     shortest: Piece = ()
-    scatter: StandardError = StandardError(0.0, 1)
+    sampling: StandardError = StandardError(0.0, 1)
     error: float
     has_unsolved: bool = False
 
@@ -180,17 +180,17 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to native ones
     error = max(error_by_cells((by_longer, change), max(halvings - 1, 1)), SOLVED)
     if error <= tolerance or halvings < 2 or _is_costly(sample, pairs, pieces):
-        return ShorterCells(pieces=pieces, scatter=scatter, error=error)
+        return ShorterCells(pieces=pieces, sampling=scatter, error=error)
     try:
         with limited_work(PIECES_SHARE * work_left()):
             shortest = _refined(prepared, speed, 0, None, pairs[0].resolved.slope, times=4, length=SHORTEST)
     except ConvergenceError:
-        return ShorterCells(pieces=pieces, scatter=scatter, error=UNSOLVED * error, has_unsolved=True)
+        return ShorterCells(pieces=pieces, sampling=scatter, error=UNSOLVED * error, has_unsolved=True)
     coarse, fine = (strip.result for strip in shortest[-2:])
     further = abs(1 - coarse.coefficient / fine.coefficient)
     of_mean = math.sqrt(max(changes_of(shortest[-2:])[0] ** 2 - further**2, 0.0))  # scatter of it over places
     error = math.hypot(max(error_by_cells((change, further), max(halvings - 2, 1)), OFF * further, SOLVED), of_mean)
-    return ShorterCells(pieces=pieces, shortest=shortest, scatter=scatter, error=error)
+    return ShorterCells(pieces=pieces, shortest=shortest, sampling=scatter, error=error)
 
 
 def _are_enough(prepared: Prepared, error: float) -> bool:

@@ -68,25 +68,25 @@ class Iterate:
     problem: Problem
     state: State
     gap: np.ndarray
-    balance: MassBalance
+    mass_balance: MassBalance
     history: TimeHistory | None
     residual: np.ndarray
 
     @property
     def mass(self) -> np.ndarray:
         """rho h [m] of the lubricant in the gap."""
-        return self.state.fill * self.balance.fluid.density * self.balance.film
+        return self.state.fill * self.mass_balance.fluid.density * self.mass_balance.flow_gap
 
     @property
     def mean_flow(self) -> float:
         """Mean size of the flow into the grid [m²/s], or `Problem.least_flow` if that is more."""
-        return max(float(np.mean(np.abs(self.balance.inlet.flow))), self.problem.least_flow)
+        return max(float(np.mean(np.abs(self.mass_balance.inlet.flow))), self.problem.least_flow)
 
     @property
     def load_error(self) -> float:
         """∫ p dx, with the load carried upstream of the grid, minus the load [N/m]."""
         carried = self.state.pressure.sum() * self.problem.spacing[0] / self.gap.shape[1]
-        return float(carried + self.balance.inlet.load.mean() - self.problem.load)
+        return float(carried + self.mass_balance.inlet.load.mean() - self.problem.load)
 
 
 def stored(mass: np.ndarray, history: TimeHistory) -> tuple[np.ndarray, np.ndarray]:
@@ -126,7 +126,7 @@ def evaluated(problem: Problem, state: State, history: TimeHistory | None = None
     gap = problem.rigid_gap + problem.operator.apply(state.pressure) + state.dent + state.approach
     follows = history is not None and history.follows_lubricant
     flows = mass_balance(problem, state.pressure, gap, state.fill, follows_lubricant=follows)
-    at = Iterate(problem=problem, state=state, gap=gap, balance=flows, history=history, residual=flows.residual)
+    at = Iterate(problem=problem, state=state, gap=gap, mass_balance=flows, history=history, residual=flows.residual)
     return at if history is None else replace(at, residual=flows.residual + stored(at.mass, history)[0])
 
 

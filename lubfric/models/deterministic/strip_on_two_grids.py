@@ -47,9 +47,9 @@ class StripOnTwoGrids:
         strip = self.resolved
         longer = self.longer
         if isinstance(strip, MovingStripSolution) and isinstance(longer, MovingStripSolution):
-            moments = min(strip.sample.friction.shape[0], longer.sample.friction.shape[0])
-            before, after = (sample.places(moments) for sample in (longer.sample, strip.sample))
-            return change_of_places(before, after, strip.sample.mean_load)
+            moments = min(strip.places.friction.shape[0], longer.places.friction.shape[0])
+            before, after = (solution.places.places(moments) for solution in (longer, strip))
+            return change_of_places(before, after, strip.places.mean_load)
         return change_of(longer.result, strip.rest.result if isinstance(strip, MovingStripSolution) else strip.result)
 
 

@@ -284,7 +284,8 @@ def solve_sample(
     if on_cells is None:
         return replace(solution, undetected=math.nan)
     if solved.response is None:
-        undetected = undetected_contact(scene, rough_contact, solved.film, solved.forces, sample.correlation_lengths[1])
+        assert solved.film is not None
+        undetected = undetected_contact(scene, on_cells, solved.film, solved.forces, sample.correlation_lengths[1])
         return replace(solution, undetected=undetected)
     effect = solution.first_effect
     if effect is None and solved.film is not None:

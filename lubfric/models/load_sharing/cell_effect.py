@@ -210,13 +210,16 @@ def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, in
 
 
 def _along_y(
-    rough_contact: HalfSpaceContact, state: ContactState, slope: float, rows: int
+    rough_contact: HalfSpaceContact, contact_state: ContactState, slope: float, rows: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """Influence on the mean gap beyond the mean film [m], and share of A in contact, means over ``rows`` cells along
     y."""
-    assert state.fields is not None
-    gap = gap_influence(hertz_mean_gap(rough_contact, state), line_load(rough_contact, state), slope) - state.mean_film
-    touching = rough_contact.weight @ (state.fields.pressure > 0) / rough_contact.weight.sum()
+    assert contact_state.fields is not None
+    gap = (
+        gap_influence(hertz_mean_gap(rough_contact, contact_state), line_load(rough_contact, contact_state), slope)
+        - contact_state.mean_film
+    )
+    touching = rough_contact.weight @ (contact_state.fields.pressure > 0) / rough_contact.weight.sum()
     return gap.reshape(-1, rows).mean(axis=1), touching.reshape(-1, rows).mean(axis=1)
 
 

@@ -57,17 +57,17 @@ class SolverErrors:
 
     Attributes
     ----------
-    film : of the film, relative
-    gap : of the mean gap at given load [m], by the closing of the volume and by the cells of the contact
-    shear : of the film's shear stress, relative to f: by its sum over nodes, by the heat that it omits, and by where the
+    film_error : of the film, relative
+    gap_error : of the mean gap at given load [m], by the closing of the volume and by the cells of the contact
+    shear_error : of the film's shear stress, relative to f: by its sum over nodes, by the heat that it omits, and by where the
         surfaces touch
-    area : of the contact area, relative
+    area_error : of the contact area, relative
     """
 
-    film: float
-    gap: float
-    shear: float
-    area: float
+    film_error: float
+    gap_error: float
+    shear_error: float
+    area_error: float
 
 
 def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
@@ -75,7 +75,7 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
     balance = balanced.balance
     response = balanced.response
     solver = solver_errors_of(balanced)
-    relative = solver.shear
+    relative = solver.shear_error
     forces = balance.forces
     scatter = balanced.scatter
     sampling = balanced.sampling
@@ -87,15 +87,15 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
         why = f"{balance.why_no_film}: there is no film"
         errors |= dict.fromkeys((*depending_on("split"), *depending_on("shear")), 0.0)
     elif response is None:
-        relative += forces.film_sensitivity * solver.film
-        errors = _given_load(forces, solver.film)
+        relative += forces.film_sensitivity * solver.film_error
+        errors = _given_load(forces, solver.film_error)
         why = "without asperity contact it has no relative error"
         errors |= {"film_load": 0.0}
     else:
         error = balanced.friction_scatter
         mean_film = balance.contact_state.mean_film
-        relative += response.per_film(forces, mean_film) * solver.film
-        relative += response.relative("coefficient", solver.gap)
+        relative += response.per_film(forces, mean_film) * solver.film_error
+        relative += response.relative("coefficient", solver.gap_error)
         errors = _contact_errors(scene, balanced, solver)
     notes = _notes(balanced, scene, sampling)
     if not math.isfinite(sampling):
@@ -125,14 +125,14 @@ def solver_errors_of(balanced: BalancedSample) -> SolverErrors:
     balance = balanced.balance
     effect = balanced.effect
     solved = balanced.solved
-    film = 0.0
+    film_error = 0.0
     if balance.film is not None:
         residuals = balance.film.report.residuals
-        film = max(residuals.get("discretisation", 0.0), residuals.get("domain", 0.0))
+        film_error = max(residuals.get("discretisation", 0.0), residuals.get("domain", 0.0))
     forces = balance.forces
-    gap = 0.0
+    gap_error = 0.0
     if balanced.response is not None and balance.film is not None:
-        gap = (
+        gap_error = (
             effect.remaining_change
             + balanced.second_order
             + (budget.SLOPE * abs(balanced.corrected_gap) or abs(balanced.left_by_root))
@@ -144,10 +144,10 @@ def solver_errors_of(balanced: BalancedSample) -> SolverErrors:
         open_ = max(1 - solved.contact_state.real_contact_area_fraction, solved.contact_state.area_error)
         by_area = solved.contact_state.area_error / open_ * forces.shear.magnitude / forces.total
     return SolverErrors(
-        film=film,
-        gap=gap,
-        shear=forces.quadrature + forces.heat.left_out + by_area,
-        area=effect.area_error + read,
+        film_error=film_error,
+        gap_error=gap_error,
+        shear_error=forces.quadrature + forces.heat.left_out + by_area,
+        area_error=effect.area_error + read,
     )
 
 
@@ -162,20 +162,20 @@ def _contact_errors(scene: Scene, balanced: BalancedSample, solver: SolverErrors
     response = balanced.response
     assert response is not None
     scattered = balanced.gap_scatter.error if math.isfinite(balanced.gap_scatter.error) else 0.0
-    gap_error = math.hypot(scattered, solver.gap + solver.film * balance.contact_state.mean_film)
+    gap_error = math.hypot(scattered, solver.gap_error + solver.film_error * balance.contact_state.mean_film)
     errors = {name: response.relative(name, gap_error) for name in response.rates or ()}
     errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
-    for name, at_given_load in _given_load(balance.forces, solver.film).items():
+    for name, at_given_load in _given_load(balance.forces, solver.film_error).items():
         errors[name] = errors.get(name, 0.0) + at_given_load
     by_load = errors.get("contact_load", 0.0)
     for name, error in _area_errors(scene, balance, balanced.scatter).items():
-        errors[name] = math.hypot(by_load, error, solver.area)
+        errors[name] = math.hypot(by_load, error, solver.area_error)
     if balance.contact_state.plastic_area_fraction > 0:
         change = balanced.effect.plastic_change / balance.contact_state.plastic_area_fraction
         counted = (
             balanced.scatter.effective_contacts**-0.5
             if balanced.scatter.effective_contacts
-            else PLASTIC * math.hypot(by_load, solver.area)
+            else PLASTIC * math.hypot(by_load, solver.area_error)
         )
         errors["plastic_area_fraction"] = math.hypot(counted, change)
     return errors

@@ -131,8 +131,8 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     )
 
 
-def expected_model_error(scene: Scene, film: float, sq: float, speed: float) -> float:
-    """Return the expected model-form error of f under a ``film`` [m] on roughness of ``sq`` [m], relative, if asperities
+def expected_model_error(scene: Scene, thickness: float, sq: float, speed: float) -> float:
+    """Return the expected model-form error of f under a ``thickness`` [m] on roughness of ``sq`` [m], relative, if asperities
     carry nothing; 0 without roughness, NaN without entrainment."""
     if sq == 0:
         return 0.0
@@ -143,7 +143,7 @@ def expected_model_error(scene: Scene, film: float, sq: float, speed: float) -> 
         if has_moving_roughness(scene)
         else 0.0
     )
-    return load_sharing_error(film / sq, 0.0, 0.0, 1.0, rolling)[1]
+    return load_sharing_error(thickness / sq, 0.0, 0.0, 1.0, rolling)[1]
 
 
 def rolling_share(line: LineContact, pressure: float) -> float:

@@ -102,13 +102,13 @@ def load_growth(moved: float, load_ratio: float) -> float:
 def respond(
     scene: Scene,
     rough_contact: RoughContact,
-    state: ContactState,
+    contact_state: ContactState,
     load: float,
-    film: np.ndarray,
+    thickness: np.ndarray,
     shape: np.ndarray | None = None,
     film_of: Callable[[float], EHLResult] | None = None,
 ) -> Response:
-    """The `Response` of ``rough_contact``, which is in ``state`` at ``load`` [N] under ``film`` and ``shape`` [m] (nx,).
+    """The `Response` of ``rough_contact``, which is in ``contact_state`` at ``load`` [N] under ``thickness`` and ``shape`` [m] (nx,).
 
     Slopes are secants to a load 5 % larger (smaller where the contact carries no more). ``film_of``: the film that
     carries a load [N], where one shares the load. Its rates come from films at two other divisions of the load; no
@@ -117,11 +117,11 @@ def respond(
     """
     width = scene.bodies.width
     step = LOAD_STEP * load * (1 if rough_contact.capacity > (1 + LOAD_STEP) * load else -1)
-    more = rough_contact.close(film, load + step, state, shape)
+    more = rough_contact.close(thickness, load + step, contact_state, shape)
     slopes = Slopes(
-        (more.mean_gap - state.mean_gap) * width / step,
-        (more.real_contact_area_fraction - state.real_contact_area_fraction) * width / step,
-        (contact_length(more) - contact_length(state)) * width / step,
+        (more.mean_gap - contact_state.mean_gap) * width / step,
+        (more.real_contact_area_fraction - contact_state.real_contact_area_fraction) * width / step,
+        (contact_length(more) - contact_length(contact_state)) * width / step,
     )
     total = scene.bodies.load
     film_load = total - load
@@ -132,10 +132,10 @@ def respond(
     def at(s: float) -> dict[str, float]:
         loads = loads_at(total, s)
         shared = film_of(loads[0])
-        factor = slopes.area_factor(loads[1] - load, width, state.real_contact_area_fraction)
+        factor = slopes.area_factor(loads[1] - load, width, contact_state.real_contact_area_fraction)
         mean_film = weighted_mean(shared.film_at(rough_contact.x), rough_contact.weight)  # the film fills the gap
         return quantities(
-            forces(scene, shared, with_contact_area_scaled(state, factor), loads[1]), shared, loads, mean_film
+            forces(scene, shared, with_contact_area_scaled(contact_state, factor), loads[1]), shared, loads, mean_film
         )
 
     low = at(log_load_ratio - STEP)
@@ -169,18 +169,18 @@ def quantities(
     }
 
 
-def with_contact_area_scaled(state: ContactState, factor: float) -> ContactState:
-    """``state`` with ``factor`` times its contact area, at every x up to the full width."""
+def with_contact_area_scaled(contact_state: ContactState, factor: float) -> ContactState:
+    """``contact_state`` with ``factor`` times its contact area, at every x up to the full width."""
     return replace(
-        state,
-        contact_fraction=np.minimum(state.contact_fraction * factor, 1.0),
-        real_contact_area_fraction=min(state.real_contact_area_fraction * factor, 1.0),
+        contact_state,
+        contact_fraction=np.minimum(contact_state.contact_fraction * factor, 1.0),
+        real_contact_area_fraction=min(contact_state.real_contact_area_fraction * factor, 1.0),
     )
 
 
-def contact_length(state: ContactState) -> float:
+def contact_length(contact_state: ContactState) -> float:
     """Contact area per length of the line [m]."""
-    return float(state.contact_fraction.sum() * (state.x[1] - state.x[0]))
+    return float(contact_state.contact_fraction.sum() * (contact_state.x[1] - contact_state.x[0]))
 
 
 def _log_rate(low: float, high: float) -> float:

@@ -9,7 +9,6 @@ standard error of the mean gap.
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -32,25 +31,27 @@ FEWEST_WINDOWS = 3
 SPOT = 1.75
 
 
-def hertz_mean_gap(rough_contact: Any, state: Any) -> np.ndarray:
-    """G(y) [m] (ny,): the gap at every place along the line, averaged over the strip A. ``state``: a `ContactState`
-    with fields."""
-    return rough_contact.weight @ np.maximum(state.fields.gap, 0.0) / rough_contact.weight.sum()
+def hertz_mean_gap(rough_contact: HalfSpaceContact, contact_state: ContactState) -> np.ndarray:
+    """Return G(y) [m] (ny,), the gap at every place along the line, averaged over the nominal area A. ``contact_state`` has
+    fields."""
+    assert contact_state.fields is not None
+    return rough_contact.weight @ np.maximum(contact_state.fields.gap, 0.0) / rough_contact.weight.sum()
 
 
-def line_load(rough_contact: Any, state: Any) -> np.ndarray:
-    """P(y) [N/m] (ny,): load per length at every place along the line."""
-    return state.fields.pressure.sum(axis=0) * rough_contact.spacing[0]
+def line_load(rough_contact: HalfSpaceContact, contact_state: ContactState) -> np.ndarray:
+    """Return P(y) [N/m] (ny,), the load per length at every place along the line. ``contact_state`` has fields."""
+    assert contact_state.fields is not None
+    return contact_state.fields.pressure.sum(axis=0) * rough_contact.spacing[0]
 
 
-def gap_influence(hertz_mean_gap: FloatArray, line_load: FloatArray, slope: float) -> np.ndarray:
-    """I(y) [m] (ny,): hertz_mean_gap G(y) [m], line_load P(y) [N/m], slope dG/dP [m²/N] at a given film."""
-    return hertz_mean_gap - slope * (line_load - line_load.mean())
+def gap_influence(gap: FloatArray, load: FloatArray, slope: float) -> np.ndarray:
+    """Return I(y) [m] (ny,) for a ``gap`` G(y) [m], a ``load`` P(y) [N/m] and a ``slope`` dG/dP [m²/N] at a given film."""
+    return gap - slope * (load - load.mean())
 
 
 def effective_contacts(line_load: FloatArray, step: float, correlation_length: float) -> float:
-    """(sum P)²/sum P² over short blocks, about one asperity contact each: the number of equally loaded asperity
-    contacts that would carry the load as unevenly as these."""
+    """Return (sum P)²/sum P² over short blocks, about one asperity contact each: how many equally loaded asperity contacts
+    would carry the load as unevenly as these."""
     size = max(1, round(SPOT * correlation_length / step))
     loads = line_load[: line_load.size // size * size].reshape(-1, size).sum(axis=1)
     square = float(np.sum(np.square(loads)))
@@ -59,9 +60,16 @@ def effective_contacts(line_load: FloatArray, step: float, correlation_length: f
 
 @dataclass(frozen=True, kw_only=True)
 class Scatter:
-    """Standard errors of what a sample of ``length`` [m] represents: at given load of its mean gap [m], its contact
-    area fraction of A [-] and its contact area per length [m]; in balance, of f, relative. ``effective_contacts``:
-    `effective_contacts`.
+    """How far the means over a sample may be off those of the infinite line contact.
+
+    Attributes
+    ----------
+    length : of the sample [m]
+    gap : standard error of the mean gap at given load [m]
+    area : of the contact area fraction of A at given load [-]
+    contact_length : of the contact area per length at given load [m]
+    friction : of f in balance, relative
+    effective_contacts : what `effective_contacts` gives
     """
 
     length: float
@@ -73,8 +81,8 @@ class Scatter:
 
 
 def scatter_of(scene: Scene, rough_contact: HalfSpaceContact, balance: Balance, sample: Sample, count: int) -> Scatter:
-    """The `Scatter` of ``rough_contact``, a stack of ``count`` strips of ``sample``, in ``balance``. Of a mirrored map only half
-    counts."""
+    """Return the `Scatter` of ``rough_contact``, ``count`` strips of ``sample`` joined, in ``balance``. Of a mirrored map
+    only half counts."""
     state = balance.contact_state
     response = balance.response
     assert state.fields is not None and response is not None
@@ -105,7 +113,7 @@ def scatter_of(scene: Scene, rough_contact: HalfSpaceContact, balance: Balance, 
 
 
 def friction_influence(scene: Scene, rough_contact: HalfSpaceContact, balance: Balance) -> np.ndarray:
-    """Influence of every place y of ``rough_contact`` on f (ny,), relative, in a ``balance`` of film and contact: by the gap,
+    """Return the influence of every place y of ``rough_contact`` on f (ny,), relative, in a ``balance`` of film and contact: by the gap,
     which divides the load, and by where the place touches, since the film has no shear there. 0 without contact."""
     state = balance.contact_state
     response = balance.response
@@ -147,8 +155,8 @@ def film_stress(scene: Scene, rough_contact: HalfSpaceContact, film: EHLResult) 
 
 
 def moment_error(
-    rough_contact: Any,
-    state: ContactState,
+    rough_contact: HalfSpaceContact,
+    contact_state: ContactState,
     loads: tuple[float, float],
     softness: float,
     width: float,
@@ -170,11 +178,11 @@ def moment_error(
     friction = boundary + viscous
     if contact_load <= 0 or friction == 0:
         return 0.0
-    if state.fields is None or not math.isfinite(correlation_length):
+    if contact_state.fields is None or not math.isfinite(correlation_length):
         return math.nan
     slope = -softness / (contact_load / width)
-    values = gap_influence(hertz_mean_gap(rough_contact, state), line_load(rough_contact, state), slope)
+    values = gap_influence(hertz_mean_gap(rough_contact, contact_state), line_load(rough_contact, contact_state), slope)
     influence_error = block_error(values, rough_contact.spacing[1], correlation_length)
     shares = contact_load / total, film_load / total
-    split = influence_error.error / (softness * shares[1] + thinning * state.mean_film * shares[0])
+    split = influence_error.error / (softness * shares[1] + thinning * contact_state.mean_film * shares[0])
     return abs((viscous * shares[0] - boundary * shares[1]) / friction) * split if influence_error.freedom else math.nan

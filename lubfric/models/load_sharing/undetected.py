@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from .scatter import SPOT
 
 if TYPE_CHECKING:
     from ...contact import HalfSpaceContact
+    from ...film import EHLResult
     from ...scene import Scene
 
 
@@ -32,9 +33,11 @@ OVERLAP = math.gamma(2.5)
 EULER = 0.5772156649
 
 
-def undetected_contact(scene: Scene, rough_contact: Any, film: Any, forces: Forces, correlation_length: float) -> float:
-    """Relative effect of `undetected_load` on f; NaN if ``rough_contact`` has no cells, or too few along y."""
-    if rough_contact.grid is None or not forces.coefficient:
+def undetected_contact(
+    scene: Scene, rough_contact: HalfSpaceContact, film: EHLResult, forces: Forces, correlation_length: float
+) -> float:
+    """Return the relative effect of `undetected_load` on f; NaN if ``rough_contact`` has too few cells along y."""
+    if not forces.coefficient:
         return math.nan
     under = film.film_at(rough_contact.x)
     bodies = scene.bodies
@@ -47,7 +50,7 @@ def undetected_contact(scene: Scene, rough_contact: Any, film: Any, forces: Forc
 def undetected_load(
     heights: FloatArray,
     spacing: tuple[float, float],
-    film: FloatArray,
+    thickness: FloatArray,
     e_prime: float,
     width: float,
     correlation_length: float,
@@ -60,7 +63,7 @@ def undetected_load(
     carries as much as a sphere of the highest summit's radius r that is pressed in by an exponential excess of scale
     a: (4/3) (E'/2) sqrt(r) a^1.5 1.33. Fewer than 14 blocks may show too small a scale, so twice their scale is taken.
     """
-    height = heights - film[:, None]
+    height = heights - thickness[:, None]
     step = spacing[1]
     size = max(1, round(SPOT * correlation_length / step))
     rows = height.max(axis=0)

@@ -440,8 +440,12 @@ def _stated_sq(scene: Scene) -> float | None:
     return None if None in parts else math.hypot(*(part for part in parts if part is not None))
 
 
-def _beside(line: PaperSolution) -> QuickSolution:
-    """Return the strips beside a ``line`` that is solved."""
+def _beside(paper_solution: PaperSolution) -> QuickSolution:
+    """Return the strips beside a ``paper_solution`` that is solved."""
     return QuickSolution(
-        prepared=line.prepared, sample=line.sample, count=line.count, speed=line.speed, known_paper_solution=line
+        prepared=paper_solution.prepared,
+        sample=paper_solution.sample,
+        count=paper_solution.count,
+        speed=paper_solution.speed,
+        known_paper_solution=paper_solution,
     )

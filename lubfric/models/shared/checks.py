@@ -62,7 +62,7 @@ SHARE = 0.2
 FRICTION = 0.2
 
 
-def warn_motion(scene: Scene, speed: float, film: float) -> Iterator[Violation]:
+def warn_motion(scene: Scene, speed: float, thickness: float) -> Iterator[Violation]:
     """Yield the violations by sliding, inertia and turbulence at ``speed`` [m/s] and a film thickness [m] (NaN: no film)."""
     ratio = abs(scene.motion.slide_roll_ratio)
     if ratio > OPPOSED * (1 + 1e-12):
@@ -74,12 +74,12 @@ def warn_motion(scene: Scene, speed: float, film: float) -> Iterator[Violation]:
                 "give numerics.heat = 'off' if the sliding is meant; else check transient.speed and transient.sliding"
             )
         yield Violation(what=what, value=ratio, limit=OPPOSED, unit="", consequence=why, remedy=advice)
-    if math.isfinite(film) and film > 0:
+    if math.isfinite(thickness) and thickness > 0:
         oil = scene.lubricant.oil
         temperature = scene.lubricant.temperature
         density = DENSITY if oil is None or temperature is None else oil.density_at(temperature)
-        reynolds = density * abs(speed) * film / scene.lubricant.viscosity
-        inertia = reynolds * film / max(scene.bodies.half_width, math.sqrt(2 * scene.bodies.radius * film))
+        reynolds = density * abs(speed) * thickness / scene.lubricant.viscosity
+        inertia = reynolds * thickness / max(scene.bodies.half_width, math.sqrt(2 * scene.bodies.radius * thickness))
         if reynolds > LAMINAR:
             limit = TURBULENT if reynolds > TURBULENT else LAMINAR
             why = "the film is turbulent or near it"
@@ -153,15 +153,15 @@ def warn_pressure(scene: Scene, peak: float) -> Iterator[Violation]:
     )
 
 
-def warn_thickness(scene: Scene, film: float) -> Iterator[Violation]:
-    """Yield the violations by the central film thickness ``film`` [m]."""
+def warn_thickness(scene: Scene, thickness: float) -> Iterator[Violation]:
+    """Yield the violations by the central film thickness ``thickness`` [m]."""
     radius = scene.bodies.radius
-    if not film > THICK * radius:
+    if not thickness > THICK * radius:
         return
     why = "the film is not thin compared with the cylinder"
     yield Violation(
         what="film over radius",
-        value=film / radius,
+        value=thickness / radius,
         limit=THICK,
         unit="",
         consequence=why,

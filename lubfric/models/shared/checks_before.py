@@ -180,8 +180,8 @@ def expected_in_film(scene: Scene, speeds: list[float]) -> ExpectedViolations:
     return tuple(violations)
 
 
-def _warn_film(scene: Scene, speed: float, film: float) -> list[Violation]:
-    """Yield the violations by a ``film`` [m] of even thickness under the Hertz pressure."""
+def _warn_film(scene: Scene, speed: float, thickness: float) -> list[Violation]:
+    """Yield the violations by a ``thickness`` [m] of even thickness under the Hertz pressure."""
     bodies = scene.bodies
     lubricant = scene.lubricant
     w = scene.bodies.load / scene.bodies.width
@@ -189,7 +189,7 @@ def _warn_film(scene: Scene, speed: float, film: float) -> list[Violation]:
     pressure = np.asarray(hertz.line_pressure(x, w, bodies.radius, bodies.e_prime))
     with np.errstate(over="ignore"):
         sliding = abs(scene.motion.slide_roll_ratio * speed)
-        stress = np.minimum(shear_stress(lubricant, pressure, sliding / film), 1e30)
+        stress = np.minimum(shear_stress(lubricant, pressure, sliding / thickness), 1e30)
     above = np.maximum(stress - carried_stress(pressure), 0.0)
     force, excess = (float(bodies.width * np.trapezoid(tau, x)) for tau in (stress, above))
     shear = ShearForce(

@@ -26,11 +26,11 @@ def exponents(line: LineContact) -> tuple[float, float, float]:
     return line.expected_film, -change(heavier), change(faster)
 
 
-def speed_of(scene: Scene, film: float) -> float:
-    """Return the speed [m/s] at which the expected film of the total load is ``film`` [m]."""
+def speed_of(scene: Scene, thickness: float) -> float:
+    """Return the speed [m/s] at which the expected film of the total load is ``thickness`` [m]."""
     from scipy.optimize import newton
 
     def excess(log_speed: float) -> float:
-        return math.log(scene.line_contact(math.exp(log_speed)).expected_film / film)
+        return math.log(scene.line_contact(math.exp(log_speed)).expected_film / thickness)
 
     return math.exp(newton(excess, 0.0, tol=ACCURACY))

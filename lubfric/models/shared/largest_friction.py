@@ -28,9 +28,9 @@ PRESSURES = 30
 POINTS = 60
 
 
-def largest_of_oil(oil: Lubricant, friction: float, peak: float, sliding: float, film: float) -> float:
+def largest_of_oil(oil: Lubricant, friction: float, peak: float, sliding: float, thickness: float) -> float:
     """Return the largest sliding part of f [-] for an ``oil`` and f_b = ``friction``, under the Hertz pressure ``peak`` [Pa]
-    that slides at ``sliding`` [m/s], where the thinnest film is ``film`` [m].
+    that slides at ``sliding`` [m/s], where the thinnest film is ``thickness`` [m].
 
     The mean of the larger of both stresses is taken over the Hertz pressure, and the ratio of that of the oil to the
     pressure from the mean pressure to `MOST_PRESSURE`. A Newtonian film is limited to f_b p or, if that is more and
@@ -42,7 +42,7 @@ def largest_of_oil(oil: Lubricant, friction: float, peak: float, sliding: float,
     hertz = peak * np.sin(angle)
     higher = np.geomspace(math.pi / 4 * peak, max(MOST_PRESSURE, peak), PRESSURES)
     with np.errstate(over="ignore"):
-        of_hertz, of_higher = (shear_stress(oil, pressure, sliding / film) for pressure in (hertz, higher))
+        of_hertz, of_higher = (shear_stress(oil, pressure, sliding / thickness) for pressure in (hertz, higher))
     weight = np.sin(angle)  # of the place x = -a cos(angle)
     mean = float(np.sum(np.maximum(of_hertz, friction * hertz) * weight) / np.sum(hertz * weight))
     return max(mean, float(np.max(of_higher / higher)))

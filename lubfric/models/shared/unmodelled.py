@@ -155,8 +155,8 @@ def _of_film(
     narrow = line.expected_film * 2 * line.radius > line.half_width**2
     alone = (known or before)[0] < ALONE * (known or before)[1]
 
-    def change(other: Scene, rough: float, film: float = 1.0) -> float:
-        after = _parts(other, rough, speed, film)
+    def change(other: Scene, rough: float, times: float = 1.0) -> float:
+        after = _parts(other, rough, speed, times)
         if known is not None:
             after = _scaled(rubs, before, after, known)
         return after[1] / (known or before)[1] - 1
@@ -198,21 +198,21 @@ def _scaled(
     return f_b * share, f_b * share + shear * (1 - share)
 
 
-def _parts(scene: Scene, sq: float, speed: float, film: float = 1.0) -> tuple[float, float]:
-    """The friction [-] of asperities alone and of all, to some ten per cent, at so many times the expected ``film``."""
+def _parts(scene: Scene, sq: float, speed: float, times: float = 1.0) -> tuple[float, float]:
+    """The friction [-] of asperities alone and of all, to some ten per cent, at so many ``times`` the expected film."""
     bodies = scene.bodies
     ratio = scene.motion.slide_roll_ratio
     rubs = bodies.boundary_friction_coefficient * (ratio != 0)
     if speed == 0:
         return rubs, rubs
     line = scene.line_contact(speed)
-    thickness = film * line.expected_film
+    thickness = times * line.expected_film
     b = line.half_width
     share = math.exp(-1.8 * (thickness / sq) ** 1.2) if sq > 0 else 0.0
     rise = math.sqrt(2 * line.radius * thickness)
     begins = b + UPSTREAM * rise
-    if film < 1:
-        begins = min(begins, starved_inlet(film, math.sqrt(2 * line.radius * line.expected_film), b))
+    if times < 1:
+        begins = min(begins, starved_inlet(times, math.sqrt(2 * line.radius * line.expected_film), b))
     x = np.linspace(-begins, b + RUPTURE * rise, NODES)
     shape = line.load_per_width, line.radius, line.e_prime
     least = math.hypot(thickness * (1 - NARROW * rise / (rise + b)), GAP * sq)

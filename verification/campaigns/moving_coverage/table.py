@@ -217,7 +217,7 @@ def reference_strip(contact: RollingContact, seed: int) -> PlainRow:
     length = prepared.sample.correlation_lengths[1]
     target = SampleTarget(error=WHOLE_PASS, correlation_length=length, control=control)
     strip = solve_moving_strip(prepared.scene, bodies, contact.speed, factors=factors, effort=effort, target=target)
-    mean = mean_over_blocks([strip.sample], "friction", length, control)
+    mean = mean_over_blocks([strip.places], "friction", length, control)
     plain = {"plain": mean.value - mean.correction, "plain_error": mean.plain.error}
     return {"f": mean.value, "error": mean.error.error} | plain
 
@@ -229,7 +229,7 @@ def tight_strip(contact: RollingContact, seed: int) -> PlainRow:
     _, factors = surface_and_factors(prepared, 0)
     bodies = bodies_of(prepared, 0, contact.speed)
     strip = solve_moving_strip(prepared.scene, bodies, contact.speed, factors=factors, effort=TIGHT)
-    mean = mean_over_blocks([strip.sample], "friction", prepared.sample.correlation_lengths[1], None)
+    mean = mean_over_blocks([strip.places], "friction", prepared.sample.correlation_lengths[1], None)
     return {"f": mean.value, "error": mean.error.error}
 
 
