@@ -127,7 +127,7 @@ def masjedi(level: str) -> Iterator[Item]:
                 thickness.append([steady.pressure[steady.gap < film].sum() / steady.pressure.sum() for film in films])
                 if seed == seeds[0]:
                     by_paper = lubfric.friction(
-                        lubfric.prepare(scene.with_(numerics={"model": "paper"}), surface), speed
+                        lubfric.prepare(scene.with_(numerics={"model": "paper", "accept": True}), surface), speed
                     )
                     ours = (rows[-1], thickness[-1][1], by_paper.contact_load / scene.bodies.load)
                     cells = (f"{ratio:g}", f"{1e6 * length:g}", f"{theirs:.2f}")
