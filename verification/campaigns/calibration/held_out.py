@@ -78,13 +78,20 @@ def summary(level: str, run: Run = Run()) -> Iterator[Item]:
                 f"{np.median(np.abs(known.errors)):.2f}",
                 f"{100 * _width(parts, quantile):.0f} %",
                 f"{100 * share:.0f} % ({100 * min(inside):.0f} to {100 * max(inside):.0f} %)",
+                _seconds(solved),
             )
         )
     columns = (
         *("roughness", "cases", "rms error, Eq. (9)", "rms error", "median error"),
-        *("median half-width", "within (by kind)"),
+        *("median half-width", "within (by kind)", "CPU s, median (9 of 10)"),
     )
     yield Table("calibration", "The quick answer: its error of ln f, and kinds left out", columns, rows)
+
+
+def _seconds(solved: list[Solved]) -> str:
+    """Return the processor time [s] of a strip on long cells, as text: the median, and that of nine strips in ten."""
+    seconds = [case.numbers["seconds"] for case in solved]
+    return f"{np.median(seconds):.1f} ({np.quantile(seconds, 0.9):.1f})"
 
 
 def _inside(parts: list[HeldOut], quantile: float) -> list[np.ndarray]:
