@@ -107,7 +107,7 @@ def test_a_march_ends_when_its_error_is_within_the_target():
         return solve_moving_strip(scene, body, 0.3, target=target)
 
     long, short = (followed(error) for error in (1e-9, 0.5))
-    counts = [strip.sample.friction.shape[0] for strip in (long, short)]
+    counts = [strip.places.friction.shape[0] for strip in (long, short)]
     assert counts[0] == round(96 / 1.05) and counts[1] < 0.4 * counts[0]
     assert short.series["coefficient"] == pytest.approx(long.series["coefficient"][: short.times.size], rel=1e-12)
     reached = mean_over_blocks([short.sample], "friction", length, control)

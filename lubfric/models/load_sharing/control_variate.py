@@ -8,7 +8,6 @@ and D. C. Handscomb, Monte Carlo Methods, Methuen 1964, Sec. 5.5).
 """
 
 import math
-from typing import Any
 
 import numpy as np
 
@@ -42,7 +41,8 @@ def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlV
     solved = balanced.solved
     response = balanced.response
     load = prepared.scene.bodies.load
-    rough_contact: Any = balanced.rough_contact  # of cells, as there are strips
+    rough_contact = balanced.on_cells
+    assert rough_contact is not None  # as there are strips
     rows = contact_on_strip(prepared, prepared.sample, 0).heights.shape[1]
     starts = (
         np.arange(balanced.count) * rough_contact.heights.shape[1] // balanced.count

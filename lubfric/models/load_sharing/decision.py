@@ -9,10 +9,12 @@ from ..shared import Decision
 from .balance import Balance
 
 
-def decided(scene: Scene, rough_contact: RoughContact, balance: Balance, clearance: float, **sample: Any) -> Decision:
+def decided(
+    scene: Scene, rough_contact: RoughContact, balance: Balance, clearance: float, **of_sample: Any
+) -> Decision:
     """Return the decision of the paper's model behind ``balance`` on ``rough_contact``.
 
-    ``clearance`` [Sq]: between the film and the highest summits, NaN in contact; ``sample``: further fields of
+    ``clearance`` [Sq]: between the film and the highest summits, NaN in contact; ``of_sample``: further fields of
     `Decision`.
     """
     tolerance = scene.numerics.tolerance
@@ -35,5 +37,5 @@ def decided(scene: Scene, rough_contact: RoughContact, balance: Balance, clearan
         shape=grid if touching else None,
         heat_in_words=heat,
         notes=notes,
-        **sample,
+        **of_sample,
     )

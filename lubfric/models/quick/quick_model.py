@@ -375,7 +375,7 @@ class QuickModel(Model):
     def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:
         known = error_model_of(scene).range
         at_all = out_of_range(scene, None, 0.0, known)
-        violations: list[tuple[float | None, Violation]] = [(None, part.violation) for part in reported(at_all)]
+        expected: list[tuple[float | None, Violation]] = [(None, part.violation) for part in reported(at_all)]
         for speed in speeds:
             sq = _stated_sq(scene)
             if (
@@ -387,8 +387,8 @@ class QuickModel(Model):
             ):
                 continue  # load sharing answers, without long cells
             outside = out_of_range(scene, sq, speed, known)
-            violations += [(speed, part.violation) for part in reported(outside) if part not in at_all]
-        return (*expected_on_hertz(scene), *violations)
+            expected += [(speed, part.violation) for part in reported(outside) if part not in at_all]
+        return (*expected_on_hertz(scene), *expected)
 
     def estimate_work(
         self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None

@@ -171,17 +171,17 @@ def expected_on_hertz(scene: Scene) -> ExpectedViolations:
 
 def expected_in_film(scene: Scene, speeds: list[float]) -> ExpectedViolations:
     """Return the limits that the film expected under the total load exceeds at ``speeds`` [m/s]."""
-    violations: list[tuple[float | None, Violation]] = []
+    expected: list[tuple[float | None, Violation]] = []
     for speed in speeds:
         if speed != 0:
             film = scene.line_contact(speed).expected_film
-            violations += [(speed, violation) for violation in warn_motion(scene, speed, film)]
-            violations += [(speed, violation) for violation in _warn_film(scene, speed, film)]
-    return tuple(violations)
+            expected += [(speed, violation) for violation in warn_motion(scene, speed, film)]
+            expected += [(speed, violation) for violation in _warn_film(scene, speed, film)]
+    return tuple(expected)
 
 
 def _warn_film(scene: Scene, speed: float, thickness: float) -> list[Violation]:
-    """Yield the violations by a ``thickness`` [m] of even thickness under the Hertz pressure."""
+    """Return the violations by a film of even ``thickness`` [m] under the Hertz pressure."""
     bodies = scene.bodies
     lubricant = scene.lubricant
     w = scene.bodies.load / scene.bodies.width
