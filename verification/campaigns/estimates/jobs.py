@@ -41,8 +41,8 @@ KINDS = (
     "command",
 )
 ROLLING = ("rolling auto", "rolling quick", "rolling deterministic", "traction")
-# Model of a kind whose name does not say it.
-MODELS = {"curve": "paper", "study": "quick", "fit": "quick", "time": "paper", "run-in": "paper"}
+# Model of a kind whose name does not say it. A fit by the quick model takes one to three minutes.
+MODELS = {"curve": "paper", "study": "quick", "fit": "paper", "time": "paper", "run-in": "paper"}
 # Usual ranges, drawn evenly in the logarithm: radius [m], E' [Pa], Hertz pressure [Pa], Sq [m], correlation length [m],
 # viscosity [Pa s], and Moes' film of the whole load over Sq [-].
 RANGES = {
