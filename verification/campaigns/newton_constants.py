@@ -19,6 +19,7 @@ from typing import Any
 import lubfric
 from lubfric.film import LineContact
 from lubfric.models.deterministic import (
+    Moment,
     Problem,
     RoughBody,
     lay_out,
@@ -76,7 +77,7 @@ def in_motion(problem: Problem, body: RoughBody) -> Film:
     start = solve_point(problem, tolerance=TOLERANCE).state
     step = problem.spacing[0] / problem.speed
     passing = moments(travelling(problem, [body]), step, start=start, tolerance=STEP_TOLERANCE, shift=1)
-    followed = []
+    followed: list[Moment] = []
     try:
         followed.extend(islice(passing, 1, 1 + STEPS))
     except lubfric.ConvergenceError:
@@ -150,14 +151,21 @@ def _with_default(constant: str) -> Iterator[tuple[Any, list[str]]]:
     """Yield the functions and methods of `MODULES` with a ``constant`` as default, and the names of these parameters."""
     for module in map(importlib.import_module, MODULES):
         tree = ast.parse(inspect.getsource(module))
-        holders = [(module, tree), *((getattr(module, c.name), c) for c in tree.body if isinstance(c, ast.ClassDef))]
+        classes = [node for node in tree.body if isinstance(node, ast.ClassDef)]
+        holders: list[tuple[Any, ast.Module | ast.ClassDef]] = [(module, tree)]
+        holders += [(getattr(module, node.name), node) for node in classes]
         for holder, body in holders:
             for node in body.body:
                 if isinstance(node, ast.FunctionDef):
                     every = node.args.args
-                    pairs = [*zip(every[len(every) - len(node.args.defaults) :], node.args.defaults, strict=True)]
+                    pairs: list[tuple[ast.arg, ast.expr | None]] = []
+                    pairs += zip(every[len(every) - len(node.args.defaults) :], node.args.defaults, strict=True)
                     pairs += zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True)
-                    names = [one.arg for one, value in pairs if isinstance(value, ast.Name) and value.id == constant]
+                    names = [
+                        argument.arg
+                        for argument, value in pairs
+                        if isinstance(value, ast.Name) and value.id == constant
+                    ]
                     if names:
                         yield getattr(holder, node.name), names
 
