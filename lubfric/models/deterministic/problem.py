@@ -61,22 +61,28 @@ LARGEST = 2**20  # cells
 
 @dataclass(frozen=True, kw_only=True)
 class Problem(HasLineContact):
-    """One operating point, plain values in SI units.
+    """One operating point on its grid, plain values in SI units.
 
-    line: load, bodies, lubricant and the speed U > 0 along +x; sliding Δu >= 0 [m/s], the difference of the surface
-    speeds; x [m] (nx,) centres of the cells around the line of contact; heights z [m] (nx, ny) of both bodies, out of
-    them; operator: K of that grid, free along x and periodic along y; hardness P_u [Pa] (inf: elastic);
-    boundary_friction: f_b [-] where the gap is thinner than boundary_film [m]; floor [m].
+    Friction is the force on surface 2, the upper one, against its sliding u2 - u1, or against U where nothing slides: its shear
+    stress, and the pressure on the flanks of its own roughness. The force on surface 1 is the opposite, but for the rolling
+    resistance ∫ p x/R dx, the moment of the load about the middle.
 
-    sense: 1, or -1 where u2 < u1. Friction is the force on surface 2, the upper one, against its sliding u2 - u1 (or
-    against U, if nothing slides): its shear stress, and the pressure on the flanks of its own roughness. ``upper`` z2
-    [m] (nx, ny): that roughness, part of z (None: surface 2 is smooth). The force on surface 1 is the opposite, but for
-    the rolling resistance ∫ p x/R dx, the moment of the load about the middle.
-
-    sheared: the lubricant whose stress is the friction, where that of ``line`` flows with the viscosity of a warmer
-    inlet (None: they are one).
-
-    least_flow [m²/s]: what the residuals of the mass are relative to, where less flows in (in time, where U may be 0).
+    Attributes
+    ----------
+    line : load, bodies, lubricant, and the speed U > 0 along +x
+    sliding : difference of the surface speeds, Δu >= 0 [m/s]
+    x : centres of the cells around the line of contact [m] (nx,)
+    heights : z of both bodies, out of them [m] (nx, ny)
+    operator : K of that grid, free along x and periodic along y
+    boundary_friction : f_b [-]
+    hardness : P_u [Pa]; infinite: elastic
+    boundary_film : gap below which the shear stress is f_b p [m]
+    floor : gap of touching surfaces [m]
+    sense : 1, or -1 where u2 < u1
+    upper : z2, the roughness of surface 2, a part of z [m] (nx, ny); None: it is smooth
+    least_flow : what the residuals of the mass are relative to, where less flows in [m²/s]: in time, where U may be 0
+    sheared : the lubricant whose stress is the friction, where that of ``line`` flows with the viscosity of a warmer inlet;
+        None: they are one
     """
 
     line: LineContact

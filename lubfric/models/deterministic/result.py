@@ -26,9 +26,15 @@ PRESSED = 50e6  # Pa: below it no Newtonian film is taken to be at its cap
 
 @dataclass(frozen=True)
 class LoadSplit:
-    """Load [N/m] on touching cells (h = floor); on gaps ``thin``ner than the boundary film, touching ones among them;
-    on thicker Newtonian films at their cap f_b p, ``capped``; and on all thicker films whose stress is at its limit,
-    ``saturated``: that of the oil, or f_b p of a Newtonian one."""
+    """The load per width [N/m] by what carries it.
+
+    Attributes
+    ----------
+    touching : on touching cells, h = floor
+    thin : on gaps thinner than the boundary film, touching ones among them
+    capped : on thicker films of a Newtonian oil whose stress is cut to f_b p
+    saturated : on all thicker films whose stress is at its limit: that of the oil, or f_b p of a Newtonian one
+    """
 
     touching: float
     thin: float
@@ -43,28 +49,45 @@ class LoadSplit:
 
 @dataclass(frozen=True, kw_only=True)
 class DeterministicResult(Renamed, ModelDetails):
-    """One operating point: fields on cells (nx, ny), x along the motion; forces per width [N/m].
+    """One operating point of the deterministic model.
 
-    - pressure [Pa]: of film and contact together. gap [m]: between the rough surfaces, at least the floor. fill [-]:
-      the filled part of the gap, below 1 only where the film has ruptured. touching (bool): h = floor. rubbing (bool):
-      where the stress is f_b p. wet (bool): fluid under pressure outside the asperity contacts. shear [Pa]: on surface
-      2, by the sliding. dent [m]: plastic depth.
-    - boundary: f_b p over the asperity contacts. couette: shear of the film by the sliding. rolling: by the gradient
-      of pressure, and pressure on the flanks of a rough surface 2. Both with what is upstream of the grid.
-      coefficient: (boundary + couette + rolling)/load, of surface 2 against its sliding (`Problem`); at_half_film,
-      at_twice_film: with half and twice the boundary film; at_least_limit, at_most_limit: with the limiting stress of
-      a Newtonian lubricant at the ends of `LIMIT_RANGE` times p instead of f_b p, on the same fields. split: the load
-      on asperity contacts, and its parts.
-    - rolling_resistance: of both surfaces together, against U: pressure gradient, and pressure on the flanks of all
-      roughness.
-    - flow_film [m]: flow/U. min_gap, central_gap (mean at x = 0) and mean_gap (over the strip, the columns with |x| <=
-      b of the load) [m]. spot_fraction, plastic_fraction: of the area of the strip.
-    - load_at, friction_at [N/m] (ny,): load and friction of every column of cells along x, with those upstream. Their
-      means are ``load`` and ``coefficient`` times that.
-    - spot_length [m]: area of all asperity contacts per length. top_pressure [Pa]: the largest in the film.
-    - given [m]: film at U that touching cells of the strip give off, because their floor is kept full; drawn: their
-      share of the lubricant in the film. The rest enters from upstream.
-    - approach [m]: h0. inlet_load [N/m]: carried upstream of the grid. ``state`` starts a neighbouring solve.
+    Fields are on cells (nx, ny), x along the motion. Forces are per width [N/m], with what is upstream of the grid.
+
+    Attributes
+    ----------
+    x, spacing : centres of the cells [m] (nx,), and their lengths along x and y [m]
+    pressure : of film and contact together [Pa]
+    gap : between the rough surfaces, at least the floor [m]
+    fill : filled part of the gap [-], below 1 only where the film has ruptured
+    shear : shear stress on surface 2, by the sliding [Pa]
+    touching : whether the bodies touch: h = floor
+    rubbing : whether the stress is f_b p
+    wet : whether there is fluid under pressure that does not rub
+    dent : plastic depth [m]
+    coefficient : (boundary + couette + rolling)/load [-], of surface 2 against its sliding (`Problem`)
+    at_half_film, at_twice_film : the same with half and with twice the boundary film
+    at_least_limit, at_most_limit : the same with the limiting stress of a Newtonian oil at the ends of `LIMIT_RANGE` times p
+        instead of f_b p, on the same fields
+    boundary : f_b p over the rubbing cells
+    couette : shear of the film by the sliding
+    rolling : by the gradient of pressure, and by the pressure on the flanks of a rough surface 2
+    rolling_resistance : of both surfaces together, against U: by the gradient of pressure, and by the pressure on the flanks
+        of all roughness
+    split : the load on rubbing cells, and its parts
+    load : of the contact
+    load_at, friction_at : load and friction of every place along y (ny,); their means are ``load`` and ``coefficient`` times
+        that
+    speed : U [m/s]
+    flow_film : flow/U [m]
+    min_gap, mean_gap, central_gap : smallest gap, mean over the Hertz strip of the load, and mean at x = 0 [m]
+    rubbing_fraction, plastic_fraction : rubbing and plastic part of the Hertz strip [-]
+    rubbing_length : rubbing area per length of the line [m]
+    top_pressure : the largest in the film [Pa]
+    given_off : film at U that touching cells of the Hertz strip give off, because their floor is kept full [m]
+    approach : h0 [m]
+    inlet_load : load that is carried upstream of the grid
+    report : how the solve ended
+    state : what a neighbouring solve starts from
     """
 
     kind = "deterministic"
@@ -122,10 +145,18 @@ class DeterministicResult(Renamed, ModelDetails):
 
 @dataclass(frozen=True, kw_only=True)
 class SurfaceShear:
-    """How the fields shear surface 2: bools (nx, ny) of the gaps that are ``thin``, of all ``rubbing`` where the
-    stress is f_b p, and of the ``wet`` rest, fluid under its own law; the ``stress`` [Pa] (nx, ny); and of every column
-    along x the forces [N/m] (ny,) on rubbing (``boundary``) and in the film (``couette``, ``rolling``), with those
-    upstream of the grid; ``rolling_resistance`` [N/m] (ny,): of both surfaces together, against U."""
+    """How the fields shear surface 2.
+
+    Attributes
+    ----------
+    thin : whether the gap is thinner than the boundary film (nx, ny)
+    rubbing : whether the stress is f_b p (nx, ny)
+    wet : whether fluid is sheared by its own law (nx, ny)
+    stress : shear stress [Pa] (nx, ny)
+    boundary : force of the rubbing cells of every place along y [N/m] (ny,)
+    couette, rolling : force of the film by sliding and by rolling, with what is upstream of the grid [N/m] (ny,)
+    rolling_resistance : of both surfaces together, against U [N/m] (ny,)
+    """
 
     thin: np.ndarray
     rubbing: np.ndarray

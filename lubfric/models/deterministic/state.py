@@ -27,14 +27,19 @@ PULL = 0.01  # of U times the floor over dx: suction in a touching cell, below w
 
 @dataclass(frozen=True, kw_only=True)
 class TimeHistory:
-    """What an implicit step in time takes over from the moments before it.
+    """What an implicit step in time takes over from the moments before it. (An implicit Euler step has ``extrapolated`` alone,
+    one of second order (BDF2) ``last`` too, one of third order (BDF3) all.)
 
-    ``step`` [s]: its length. ``extrapolated`` [m] (nx, ny): the mass that the moments before leave to it. Of an
-    implicit Euler step that is the mass of the last moment. Of a step of second order (BDF2) it is
-    `extrapolated_mass` of the last two, and ``last`` [m] is the mass of the last one, ``part`` the part of its change
-    by which a mass is extrapolated. Of a step of third order (BDF3) ``earlier`` [m] is the mass of the moment before
-    the last. ``follows_lubricant``: these masses are those of the cells upstream, because in a step the lubricant
-    moves by one cell; then nothing more flows with U.
+    Attributes
+    ----------
+    extrapolated : the mass that the moments before leave to the step [m] (nx, ny): of an Euler step that of the last moment,
+        else `extrapolated_mass`
+    step : its length [s]
+    last : mass of the last moment [m]
+    part : part of its change by which a mass is extrapolated [-]
+    earlier : mass of the moment before the last [m]
+    follows_lubricant : whether these masses are those of the cells upstream, because in a step the lubricant moves by one cell;
+        then nothing more flows with U
     """
 
     extrapolated: np.ndarray
@@ -47,10 +52,20 @@ class TimeHistory:
 
 @dataclass(frozen=True, kw_only=True)
 class State:
-    """The unknowns, arrays (nx, ny): pressure [Pa], fill (filled part of the gap, -), dent w [m], kind (`FLUID`,
-    `RUPTURED` or `TOUCHING`), yielded (bool); and the approach h0 [m]. The unknown of a ruptured cell is its fill, with
-    p = 0; all other cells are full. That of a yielded cell is its dent, with p = P_u; in the rest it is the pressure,
-    with w = 0."""
+    """The unknowns of a point on its grid (nx, ny).
+
+    The unknown of a ruptured cell is its fill, with p = 0; all other cells are full. That of a yielded cell is its dent, with
+    p = P_u. In the rest it is the pressure, with w = 0.
+
+    Attributes
+    ----------
+    pressure : p [Pa]
+    fill : filled part of the gap [-]
+    dent : w [m]
+    kind : `FLUID`, `RUPTURED` or `TOUCHING`
+    yielded : whether the pressure is P_u
+    approach : h0 [m], a number
+    """
 
     pressure: np.ndarray
     fill: np.ndarray
@@ -62,8 +77,16 @@ class State:
 
 @dataclass(frozen=True, kw_only=True)
 class Iterate:
-    """A state with its gap h [m] (nx, ny) and the mass balance of its cells. ``history``: of an implicit step in time.
-    residual [m/s]: outflow minus inflow plus, in time, what the cell stores (`stored`)."""
+    """A state with what follows from it.
+
+    Attributes
+    ----------
+    problem, state : what is solved, and the unknowns
+    gap : h [m] (nx, ny)
+    mass_balance : of its cells
+    history : of an implicit step in time; None: it is steady
+    residual : outflow minus inflow plus, in time, what the cell stores (`stored`) [m/s]
+    """
 
     problem: Problem
     state: State

@@ -48,9 +48,13 @@ BLOCK = 2
 
 @dataclass(frozen=True)
 class StripSolution:
-    """A strip that is solved: its ``problem`` and ``result``, and the counted ``work`` of both solves (`work_of`).
+    """A strip that is solved by the deterministic model.
 
-    slope: dF/dw [-] of friction and load at one h0, from a second solve at a load 3 % larger; NaN without that.
+    Attributes
+    ----------
+    problem, result : what was solved, and its fields and forces
+    slope : dF/dw of friction and load at one h0 [-], from a second solve at a load 3 % larger; NaN: not known
+    work : counted work of all its solves [s] (`work_of`)
     """
 
     problem: Problem

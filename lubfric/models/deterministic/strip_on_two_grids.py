@@ -29,11 +29,14 @@ MOVING = 4.0
 
 @dataclass(frozen=True)
 class StripOnTwoGrids:
-    """One strip of the sample.
+    """One strip of the sample, on two lengths of cells.
 
-    ``resolved``: by the deterministic model; ``longer``: on longer cells (`longer_than`), from which it started; of moving
-    roughness, followed there from rest over the first moments (or only at rest, where that had no solution);
-    ``mirrored``: whether the second half along y is the mirror image of the first.
+    Attributes
+    ----------
+    resolved : on the cells of the answer
+    longer : on longer cells (`longer_than`), from which it started; of moving roughness, followed there from rest over the
+        first moments, or only at rest, where that had no solution
+    mirrored : whether the second half along y is the mirror image of the first
     """
 
     resolved: StripSolution

@@ -87,11 +87,17 @@ REFERENCED = 0.1
 class BalancedSample:
     """The balance of a sample, corrected for its cells, and what is known of its error.
 
-    - ``balance``: with the division of the load that the scene's own cells demand; ``solved``: as it was solved on
-      ``rough_contact``, the first ``count`` strips of ``sample``.
-    - ``effect``: of the cells; ``scatter``: from place to place; ``undetected``: contact that the sample may have missed by
-      chance where none was found: its relative effect on f.
-    - ``first_effect``: of the cells at the load at which it was found (None: not yet), from which ``effect`` is.
+    Attributes
+    ----------
+    prepared, speed : the scene, and the entrainment speed [m/s]
+    balance : with the division of the load that native cells demand
+    solved : the balance as it was solved on ``rough_contact``
+    rough_contact : on the first ``count`` strips of ``sample``
+    scatter : from place to place
+    sample, count : what was solved, on its cells
+    effect : of the cells
+    first_effect : of the cells, at the load at which it was found and from which ``effect`` follows; None: not found yet
+    undetected : relative effect on f of contact that the sample may have missed by chance where it has none
     """
 
     prepared: Prepared

@@ -14,8 +14,15 @@ from ..shared import film_lubricant
 
 @dataclass(frozen=True, kw_only=True)
 class Settings:
-    """Relative tolerances of the film and of the volume balance; the least number of cells of the film; tolerance of
-    the contact (None: its own). ``correctable``: what the root leaves open is corrected to first order afterwards."""
+    """How closely a balance is solved.
+
+    Attributes
+    ----------
+    film_tolerance, balance_tolerance : relative tolerances of the film and of the volume balance
+    film_cells : least number of cells of the film
+    contact_tolerance : of the rough contact; None: its own
+    correctable : whether what the root leaves open is corrected to first order afterwards
+    """
 
     film_tolerance: float
     balance_tolerance: float
@@ -26,8 +33,15 @@ class Settings:
 
 @dataclass(frozen=True, kw_only=True)
 class Trial:
-    """Film and contact at one division of the load [N]. ``last_touching``: the last contact that touched; ``film_cells``: of the
-    films so far: from the second on all keep to one grid, because otherwise the root of the balance would have a jump.
+    """Film and contact at one division of the load.
+
+    Attributes
+    ----------
+    film, contact_state : both at their loads
+    film_load, contact_load : F_H and F_C [N]
+    last_touching : the last contact that touched; None: none did
+    film_cells : cells of the films so far. From the second on all keep to one grid, because otherwise the root of the balance
+        would have a jump
     """
 
     film: EHLResult

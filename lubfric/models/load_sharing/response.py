@@ -32,8 +32,11 @@ def loads_at(load: float, log_load_ratio: float) -> tuple[float, float]:
 class Slopes:
     """Derivatives of a rough contact by its load per width P [N/m], at a given film.
 
-    ``gap`` [m²/N]: the mean gap over A; ``area`` [m/N]: the contact area fraction of A; ``contact_length`` [m²/N]: the contact
-    area per length.
+    Attributes
+    ----------
+    gap : of the mean gap over A [m²/N]
+    area : of the contact area fraction of A [m/N]
+    contact_length : of the contact area per length [m²/N]
     """
 
     gap: float
@@ -47,12 +50,14 @@ class Slopes:
 
 @dataclass(frozen=True)
 class Response:
-    """Reaction of a balance to an error of its gap.
+    """Reaction of a balance to an error of its gap. Without a film the load ratio does not change.
 
-    ``slopes``: those of its contact; ``log_load_ratio_per_gap``: ds/dG [1/m], the change of s = ln(F_H/F_C) by a change
-    of the gap at given load; ``rates``: d ln q/ds of the reported quantities q along the balance of load, by name;
-    ``load_ratio``: F_H/F_C.
-    Without a film the load ratio does not change.
+    Attributes
+    ----------
+    slopes : those of its rough contact
+    log_load_ratio_per_gap : ds/dG [1/m], the change of s = ln(F_H/F_C) by a change of the gap at given load
+    rates : d ln q/ds of the reported quantities q along the balance of load, by name; None: without a film
+    load_ratio : F_H/F_C
     """
 
     slopes: Slopes

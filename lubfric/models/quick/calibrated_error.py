@@ -33,11 +33,15 @@ WIDEST = 3.0
 
 @dataclass(frozen=True, kw_only=True)
 class ErrorModel:
-    """The distribution of ln of the sliding part of f over that on long cells, for a kind of contact: roughness at rest,
-    or moving.
+    """The distribution of ln of the sliding part of f over that on long cells, for roughness at rest, or moving.
 
-    cases : number of solved cases; bias : coefficient of each feature; covariance : of these coefficients
-    spread : coefficient of each feature in ln σ; quantile : k
+    Attributes
+    ----------
+    cases : number of solved cases
+    bias : coefficient of each feature in the bias
+    covariance : of these coefficients
+    spread : coefficient of each feature in ln σ
+    quantile : k
     rolling : 95 % quantile of the error of the part of f by the gradient of the pressure, over the square root of that part
         times the sum of both parts
     range : least and largest pressure [Pa], Moes' film over Sq [-], load [N/m] and slide-roll ratio [-] of the cases

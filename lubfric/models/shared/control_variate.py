@@ -9,8 +9,14 @@ from .statistics import StandardError
 
 @dataclass(frozen=True)
 class ControlVariate:
-    """The differences of its strips: ``by_place`` (count, rows), of f at every place; ``numbers`` (count,) of the
-    complete strip, by name. ``sampling``: relative standard error of f on the line."""
+    """By how much the strips of a line differ from it.
+
+    Attributes
+    ----------
+    by_place : of f at every place of each strip (count, rows)
+    numbers : of each strip (count,), by name
+    sampling : relative standard error of f on the line
+    """
 
     by_place: np.ndarray
     numbers: dict[str, np.ndarray]

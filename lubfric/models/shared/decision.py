@@ -8,16 +8,22 @@ from .statistics import percent
 
 @dataclass(frozen=True, kw_only=True)
 class Decision(Renamed):
-    """The models of film and contact, and the sample, of one operating point.
+    """What was modelled for one operating point: film, contact and sample.
 
-    - ``model``: its name in ``numerics.model``; ``film_in_words``, ``contact_in_words``: as text.
-    - ``tolerance``: the requested one, on f; ``film_tolerance``: of the film (0: no film).
-    - ``shape``: (nx, ny) of the contact (None: none was solved on cells); ``coarsening``: length of its cells in cells
-      of the scene's map, along each axis; ``strips``: number of strips of the surface that were solved.
-    - ``change_by_cells``: relative change of f by the scene's own cells, for which it is corrected.
-    - ``heat_in_words``: which heat was modelled, as text ("": none can be).
-    - ``basis``: what the model-form error rests on, as text; first in ``text`` ("": the error formulas of the model).
-    - ``contact_load_in_words``: what the ``contact_load`` of this model is, as text with a place for its part of the load.
+    Attributes
+    ----------
+    model : its name in ``numerics.model``
+    film_in_words, contact_in_words : how film and contact were modelled
+    tolerance : the requested one, on f
+    film_tolerance : of the film; 0: there is none
+    shape : cells (nx, ny) of the contact; None: none was solved on cells
+    coarsening : length of these cells in native ones, along each axis
+    strips : number of strips of the surface that were solved
+    change_by_cells : relative change of f by native cells, for which it is corrected
+    heat_in_words : which heat was modelled; "": none can be
+    notes : what else a reader should know
+    basis : what the model-form error rests on, first in ``text``; "": the error formulas of the model
+    contact_load_in_words : what the ``contact_load`` of this model is, with a place for its part of the load
     """
 
     model: str
