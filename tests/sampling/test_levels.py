@@ -313,7 +313,8 @@ def test_standard_error_of_the_sum_by_monte_carlo(prepared, monkeypatch, n, betw
     """What is stated of the sum of the first two levels is its scatter; without a line, that of the mean (by 1.3 if
     places alone tell it). Windows of a measured map may differ by more than their places tell."""
     monkeypatch.setattr(levels, "numbers_of", lambda _, result: {"coefficient": result.coefficient})
-    sample = replace(prepared.sample, correlation_lengths=(8e-6, 8e-6), windows=windows)
+    sample = replace(prepared.sample, correlation_lengths=(8e-6, 8e-6))
+    monkeypatch.setattr(type(sample), "is_homogeneous", not windows)
     model = replace(prepared, sample=sample)
     rng = np.random.default_rng(5)
     sums = []
@@ -322,7 +323,7 @@ def test_standard_error_of_the_sum_by_monte_carlo(prepared, monkeypatch, n, betw
     alone = []
     for _ in range(200):
         pairs, of_line = synthetic(rng, 24, between=between)
-        with_line, without = (levels._sum(model, pairs[:n], one) for one in (of_line, None))
+        with_line, without = (levels._of_pairs(model, pairs[:n], one) for one in (of_line, None))
         sums.append(with_line.numbers["coefficient"])
         stated.append(with_line.error.error)
         means.append(without.numbers["coefficient"])
