@@ -1,6 +1,6 @@
 """Bad input from a seeded generator: scenes, files and calls that must each be refused with a message.
 
-`scenes`, `files`, `calls` and `layouts` make the cases; those written by hand are in `bad.toml`. `case.judge` runs a
+`scenes`, `files`, `calls`, `layouts` and `commands` make the cases; those written by hand are in `bad.toml`. `case.judge` runs a
 case and returns how it ended. No case may end in an exception that is not lubfric's own, return a number, take longer
 than 8 s, or take more than 2 GB.
 """
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 SEED = 1  # of the generator of cases
 HAND = tomllib.loads(Path(__file__).with_name("bad.toml").read_text(encoding="utf-8"))
-COUNTS = {"scenes": 1500, "files": 500, "calls": 900, "layouts": 1500}  # at least so many of a group
+COUNTS = {"scenes": 1500, "files": 500, "calls": 900, "layouts": 1500, "commands": 300}  # at least so many of a group
 
 
 def cases(group: str, seed: int, share: float = 1.0) -> Iterator[HostileCase]:
