@@ -201,6 +201,8 @@ def main() -> None:
             continue
         importlib.import_module(module)
         for factor in FACTORS:
+            if value == 1 and factor < 1 and isinstance(value, int):  # half of one cell or step
+                continue
             try:
                 with ChangedDefaults(module, name, scaled(value, factor)):
                     words = line(base, solved())
