@@ -24,29 +24,47 @@ from .flow import Stencil, derivatives
 from .problem import Problem
 from .state import RUPTURED, TOUCHING, Iterate, State, stored
 
-ACCURACY = 0.01  # of the residual of the linear system; 0.03 costs 7 % less, and fails at 1 GPa and 0.03 m/s
+# The effects of half and twice a constant are those on the counted work of eight films, light, heavy, soft and moving
+# (`python -m verification.campaigns.newton_constants lubfric.models.deterministic.linear.`).
 
-# Of the residual at rest where rows are scaled. A roller of 1 GPa at 1, 0.3, 0.1, 0.03 m/s: 9, 9, -1 and 41 % less time than
-# with `ACCURACY` in rows that are not scaled; light contacts 7 % more.
+# Residual of the linear system over its right side, at which GMRES ends [-]. Half and twice change the work by 1 %; 0.03
+# fails at 1 GPa and 0.03 m/s.
+ACCURACY = 0.01
+
+# The same at rest where rows are scaled [-]. A roller of 1 GPa at 1, 0.3, 0.1, 0.03 m/s: 9, 9, -1 and 41 % less time than
+# with `ACCURACY` in rows that are not scaled; light contacts 7 % more. Half and twice: 1 % more work.
 SCALED_ACCURACY = 0.1
 
-# Pressure-viscosity coefficient times Hertz pressure, from which on rows are scaled at rest: 2 and 18 were measured.
+# Pressure-viscosity coefficient times Hertz pressure, from which on rows are scaled at rest [-]: 2 and 18 were measured.
+# Half changes nothing, twice takes 11 % more work, 66 % at 1 GPa.
 HIGH_PRESSURE = 10.0
 
-SMALLEST_DIAGONAL = 1e-12  # of the scaled sparse part: rows with less are not scaled up further
+# Diagonal of the scaled sparse part, below which a row is not scaled up further [-]: a guard against division by 0. Half
+# and twice change nothing.
+SMALLEST_DIAGONAL = 1e-12
 
 # Coefficient of the sparse part over the diagonal of its row, below which the LU of a step in time that follows the
 # lubricant omits it [-]. A roller of 1 GPa (162 x 64 cells) with 0, 0.01, 0.03, 0.1 takes 285, 291, 289, 510 Newton
 # steps, and an LU 11.4, 10.6, 8.1, 4.6 ms; with 0.03 light, needle and gear contacts take as many steps as with 0, and 2
 # to 7 % fewer iterations of GMRES. At rest, where lubricant flows with U, 0.01 takes up to three times the steps.
 NEGLIGIBLE = 0.03
+
+# Iterations of GMRES, after which it begins anew [-]: a bound of its memory. Half and twice change nothing; some 10 are
+# usual.
 KRYLOV = 40
+
+# Times that GMRES begins, at most [-]: a bound. Half and twice change nothing.
 CYCLES = 3
-SMALLEST_PIVOT = 1e-300  # of a rotation: an image of length 0 has no direction
+
+# Length of the two entries that a rotation of GMRES turns, at least [-]: an image of length 0 has no direction.
+SMALLEST_PIVOT = 1e-300
 
 # Columns that are eliminated together [-]: 1, 2, 4, 8 take 10.4, 10.5, 11.0, 11.6 ms on 10,368 cells.
 PANEL = 1
-SMALL = 24  # cells that nested dissection does not cut again
+
+# Cells that nested dissection does not cut again [-]: with 6, 12, 24, 48, 96 the LU of a five-point stencil on 162 x 64
+# cells takes 8.8, 9.1, 9.3, 10.6, 12.3 ms.
+SMALL = 24
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -15,20 +15,54 @@ from .problem import Problem, are_soft
 from .result import DeterministicResult, assemble
 from .state import FLUID, RUPTURED, State, evaluated, residuals
 
-TOLERANCE = 1e-5  # the largest residual of a solution, unless another is given
-NEAR = 40  # LU factorisations from a state nearby, at most
-DIRECT = 50  # LU factorisations from the dry contact, at most
-MARCHED = 500  # LU factorisations in time, at most
-MOST = 800  # LU factorisations of all ways together, unless another number is given
-FASTER = (16.0, 256.0)  # times the speed: where a cold start is tried when it fails at the speed itself
-LOOSE = 1e-3  # residual of solutions on the way
-LONGER = 1.5  # factor of a step in ln(speed) after one that was solved
-SHORTEST = 0.05  # the least step in ln(speed)
+# The effects of half and twice a constant are those on the counted work of eight films, light, heavy, soft and moving
+# (`python -m verification.campaigns.newton_constants lubfric.models.deterministic.solve.`).
+
+# The largest residual of a solution, unless another is given [-] (`residuals`): a convention; strips have their own.
+TOLERANCE = 1e-5
+
+# LU factorisations from a state nearby, at most [-]: a bound. Half and twice change nothing.
+NEAR = 40
+
+# LU factorisations from the dry contact, at most [-]: a bound. Half and twice change nothing; a roller of 1 GPa took up to
+# 27.
+DIRECT = 50
+
+# LU factorisations in time, at most [-]: a bound. Half and twice change nothing.
+MARCHED = 500
+
+# LU factorisations of all ways together, unless another number is given [-]: a bound. Half and twice change nothing.
+MOST = 800
+
+# Times the speed [-], where a cold start is tried when it fails at the speed itself. No film of the campaign
+# needs it.
+FASTER = (16.0, 256.0)
+
+# Residual of solutions on the way [-]. No film of the campaign needs it.
+LOOSE = 1e-3
+
+# Factor of a step in ln(speed) after one that was solved [-]. No film of the campaign
+# needs it.
+LONGER = 1.5
+
+# The least step in ln(speed) [-]: a bound. No film of the campaign needs it.
+SHORTEST = 0.05
 ADVICE = "longer cells may lead there, or a higher speed"
-THIN_STRESS = 0.09  # limiting stress over the pressure of the fluid from which a Newtonian one starts
-THIN_OFFSET = 2e6  # Pa: its limiting stress at ambient pressure
-DRY_TOLERANCE = 1e-4  # of the dry contact
-RUPTURE = 0.55  # of sqrt(2 R h): a little behind where a rigid film ruptures, 0.475
+
+# Limiting stress over the pressure of the fluid from which a Newtonian one starts [-]. No film of the
+# campaign needs it; an oil has .05 to .1.
+THIN_STRESS = 0.09
+
+# Its limiting stress at ambient pressure [Pa]. No film of the campaign needs it.
+THIN_OFFSET = 2e6
+
+# Tolerance of the dry contact [-] (`lubfric.solve_contact`): a start only. Half and twice change the work by
+# 1 % at most.
+DRY_TOLERANCE = 1e-4
+
+# Distance behind the middle over sqrt(2 R h), from which on a start has ruptured [-]: a little behind where a rigid film
+# ruptures, 0.475. Half and twice change the work by 1 %, of one film by +31 and -13 %.
+RUPTURE = 0.55
 
 # Part of Moes' film by which the dry contact is lifted for a start where the pressure is high (`has_high_pressure`): a film
 # under loaded asperities is thinner than Moes'. A roller of 1 GPa at 10, 3, 1, 0.3, 0.1, 0.03 m/s takes 12, 15, 14, 14, 16, 28
@@ -43,15 +77,27 @@ SOFT_PATIENCE = 8
 # in 16 or 23 steps from some of them and in none from others, without a rule; each is tried for half of `DIRECT`.
 STARVED_LIFTS = (0.5, 0.33, 0.7)
 
-SHARP = 0.02  # asperity load ratio, from which on a finer grid never starts from interpolated pressure
-WORSE = 2.0  # times the residuals of the dry start: a start with larger ones is not taken
-WET = 0.1  # asperity load ratio, up to which the film of longer cells is laid on the dry contact of shorter ones
+# Asperity load ratio [-], from which on a finer grid does not start from interpolated pressure: contacts are too sharp for
+# that. Levels of a roller of 1 GPa with 0.011 and 0.023 take 16 and 10 Newton steps so, and 10 from sharp contacts.
+SHARP = 0.02
+
+# Residuals over those of the dry start, from which on an interpolated start is not taken [-]. A roller of 1 GPa at 1 m/s
+# took 33 Newton steps from one whose residuals were some 20 times as large, and 14 from the laid-on film.
+WORSE = 2.0
+
+# Asperity load ratio [-], up to which the film of longer cells is laid on the dry contact of shorter ones. Levels of a
+# roller of 1 GPa take 7 Newton steps so where it is 0.05 to 0.09, and 12 from the lifted dry contact; where it is 0.19,
+# 0.53 and 0.83, 20, 19 and 37 for 11, 13 and 16.
+WET = 0.1
 
 # Part of the pressure of the film between the asperity contacts of the longer cells that a start from the dry contact has
 # [-]. Last levels of a roller of 1 GPa at 0.3, 0.1, 0.03 m/s take 17, 27, 81 Newton steps from the dry contact with a half
 # of Moes' film, 15, 21, 33 with 0, 12, 15, 21 with 0.12, 13, 14, 36 with 0.25, 21 (not solved), 13, 45 with 0.5.
 BETWEEN = 0.125
-WHOLE = 0.3  # of a Newton step: from there the solution follows by longer ones, or not at all
+
+# Part of a Newton step [-], below which a start from laid-on film is given up: the solution follows by steps that are longer,
+# or not at all (7 steps where it does, see `WET`).
+WHOLE = 0.3
 
 
 def solve_point(
