@@ -16,10 +16,11 @@ from lubfric.models.deterministic import (
     attenuated,
     cells_in_a_step,
     control_of,
+    error_along_x,
+    error_along_y,
     mean_over_blocks,
     solve_moving_strip,
 )
-from lubfric.models.deterministic.shorter_cells import error_along_x, error_along_y
 from lubfric.surface import Surface, generate_surface
 
 LENGTH = 10e-6  # m: correlation length

@@ -11,8 +11,7 @@ import scene_text
 
 import lubfric
 from lubfric._base import files
-from lubfric.output import commands, run_history, run_in_command
-from lubfric.output.command_line import main
+from lubfric.output import commands, main, run_history, run_in_command
 from lubfric.scene import Harmonic, Transient
 
 IN_TIME = scene_text.paper_scene(numerics={"model": "paper", "sampling": "patch"}).with_(

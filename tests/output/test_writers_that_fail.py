@@ -8,8 +8,7 @@ import pytest
 import scene_text
 
 import lubfric
-from lubfric.output import commands, run_curve, run_study
-from lubfric.output.command_line import main
+from lubfric.output import commands, main, run_curve, run_study
 
 SCENE = scene_text.paper_scene(numerics={"model": "paper", "sampling": "patch"}, motion={"speeds": [0.03, 0.1]})
 

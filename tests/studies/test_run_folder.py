@@ -39,7 +39,7 @@ points.friction = counted
 from lubfric.studies.store import Store
 add = Store.add
 Store.add = lambda *arguments, **options: (add(*arguments, **options), print("saved", flush=True))
-from lubfric.output.command_line import main
+from lubfric.output import main
 sys.exit(main(["run", *sys.argv[1:2], "--out", *sys.argv[2:]]))
 """
 SHARED = """
@@ -55,7 +55,7 @@ def dying(model, speed, **options):
         time.sleep(900)
     return real(model, speed, **options)
 points.friction = dying
-from lubfric.output.command_line import main
+from lubfric.output import main
 sys.exit(main(["run", *sys.argv[1:2], "--out", sys.argv[2], "--workers", "2"]))
 """
 

@@ -8,9 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import lubfric
-from lubfric.models.deterministic import effort_of, solve_moving_strip
+from lubfric.models.deterministic import effort_of, error_along_x, error_along_y, solve_moving_strip
 from lubfric.models.deterministic.moving import half_width
-from lubfric.models.deterministic.shorter_cells import error_along_x, error_along_y
 from lubfric.models.deterministic.strip import error_by_cells
 
 from ...types import PlainRow
