@@ -208,8 +208,8 @@ def _model(
         ends = dict.fromkeys(f"{speed:.3g}" for speed in (resolved[0], resolved[-1]))
         to = f"with a target of {100 * scene.numerics.model_tolerance:g} % for the model-form error"
         rows = [
-            f"{DETERMINISTIC[bool(strip)]} at {' to '.join(ends)} m/s, {to}; elsewhere, and where heat changes f by more "
-            "than 20 % or the film by more than 30 %, the load-sharing model alone"
+            f"{DETERMINISTIC[bool(strip)]} at {' to '.join(ends)} m/s, {to}; elsewhere the load-sharing model, and "
+            "the quick answer where heat changes f by more than 20 % or the film by more than 30 %"
         ]
     if strip:
         takes = f"one strip of moving roughness takes about {in_words(strip)} by the deterministic model"
