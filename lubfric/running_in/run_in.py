@@ -39,10 +39,14 @@ if TYPE_CHECKING:
 STEPS = 2.0
 # Tolerance of the dry contact [-], at most: its overlaps become heights.
 SHARP = 1e-5
-# Processor seconds of a contact of a pass, whatever its cells; and over its cells. Passes until nothing sinks: 1 to 3
-# were seen. All three by `python -m verification.campaigns.estimates`.
-SOLVE_SECONDS = 1.5e-3
-CELL_SECONDS = 7e-7
+# Processor seconds of a contact of a pass, whatever its cells. This and the next two by 13 runs of `python -m
+# verification.campaigns.estimates`, which took .4 to 2 times as long.
+SOLVE_SECONDS = 1e-3
+
+# Processor seconds of a contact over its cells.
+CELL_SECONDS = 4.5e-7
+
+# Passes until nothing sinks: 1 to 3 were seen.
 USUAL_PASSES = 2
 # Nanometres in a metre.
 NM = 1e9

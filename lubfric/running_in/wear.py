@@ -56,8 +56,9 @@ WIDEST = 12.0  # of ln U, each way from the scene's speed, in which the lift-off
 NORMAL_95 = 1.96  # half of the 95 % interval of a normal distribution over its standard deviation
 FEWEST_WINDOWS = 4  # from which their scatter gives an interval
 NM = 1e9
-# Balances of a run: some ten for the lift-off speed at each record, and two at each step.
-USUAL_BALANCES = 150
+# Balances of a run: some ten for the lift-off speed at each record, and two at each step. With twice as many, two random runs
+# took .34 and .64 times as long as estimated.
+USUAL_BALANCES = 75
 # Processor seconds of a balance, whatever its cells; and over its cells.
 BALANCE_SECONDS = 0.02
 CELL_SECONDS = 6e-7

@@ -50,6 +50,10 @@ HOT = 5.0
 ROUGH = 1.5
 ROUGH_ON_LONG_CELLS = 6.0
 
+# The same where the heights are smooth over a cell, and cells are longer than those of the map: shorter ones may follow. Four
+# random runs were estimated to .36 to 1.7 of what they took without it, and to .48 to 2.2 with it.
+REFINED = 2.0
+
 # Cells in a correlation length along x below which cells are long.
 LONG = 12.0
 
@@ -116,8 +120,11 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
         strip = cells.columns * sample.strip_length / dy
         work = CELL_SECONDS * strip * count + PIECE_SECONDS * piece
         work *= max(1.0, strip / LARGE) ** LARGE_POWER
-        if SHARED[0] < share < SHARED[1] and not smooth_over_cells(surface.heights):
-            work *= ROUGH_ON_LONG_CELLS if lx < LONG * cells.spacing[0] else ROUGH
+        if SHARED[0] < share < SHARED[1]:
+            if not smooth_over_cells(surface.heights):
+                work *= ROUGH_ON_LONG_CELLS if lx < LONG * cells.spacing[0] else ROUGH
+            elif not cells.is_native:
+                work *= REFINED
         seconds += POINT_SECONDS + work
         once = KNOWN * work
     return WorkEstimate(
