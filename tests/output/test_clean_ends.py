@@ -3,10 +3,10 @@ cells that a spreadsheet would evaluate."""
 
 import os
 import resource
+import runpy
 import signal
 import subprocess
 import sys
-import threading
 import time
 import zipfile
 from pathlib import Path
@@ -17,7 +17,6 @@ import pytest
 import lubfric
 from lubfric import InputError
 from lubfric._base import read_table, table_bytes
-from lubfric._base.processes import begin_beside
 from lubfric.output import main
 
 COMMAND = [sys.executable, "-m", "lubfric"]
@@ -172,20 +171,27 @@ def test_another_word_for_the_same_thing_takes_its_place():
         scene.with_(surface={"sq": None})
 
 
-def test_what_can_be_done_without_ends_without_a_word(monkeypatch, capfd):
-    """Fonts are loaded and progress is drawn in threads: too little memory for them, or none for the thread, is no
-    traceback beside the message of the command."""
+def raising(error):
+    """Return what raises ``error`` whatever it is called with."""
 
-    def fails():
-        raise MemoryError
+    def raises(*_):
+        raise error
 
-    begin_beside(fails).join()
-    with monkeypatch.context() as host:
-        host.setattr(
-            threading.Thread, "start", lambda self: (_ for _ in ()).throw(RuntimeError("can't start new thread"))
-        )
-        assert begin_beside(fails) is None
-    assert capfd.readouterr() == ("", "")
+    return raises
+
+
+@pytest.mark.parametrize(
+    "place, error",
+    [("lubfric._base.figures.make_ready", MemoryError()), ("threading.Thread.start", RuntimeError("no new thread"))],
+)
+def test_what_can_be_done_without_ends_without_a_word(monkeypatch, tmp_path, capfd, place, error):
+    """Fonts are loaded in a thread while a scene is solved: too little memory for them, or none for the thread, is no
+    traceback."""
+    monkeypatch.setattr(place, raising(error))
+    scene = lubfric.load_scene("flat").with_(contact={"shape": (64, 64)}, surface={"correlation_length": 8e-6})
+    (tmp_path / "scene.toml").write_text(scene.to_toml())
+    assert main(["run", str(tmp_path / "scene.toml"), "--speeds", "0.03", "--out", str(tmp_path / "out")]) == 0
+    assert "Traceback" not in capfd.readouterr().err
 
 
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="needs /proc to read the address space")
@@ -205,11 +211,11 @@ sys.exit(main(["info", "flat"]))
 
 @pytest.mark.parametrize("error", [MemoryError(), ImportError("x.so: failed to map segment from shared object")])
 def test_too_little_memory_for_the_modules_is_one_line(monkeypatch, capsys, error):
-    from lubfric.__main__ import main as entry
-
-    monkeypatch.setattr("lubfric.output.main", lambda: (_ for _ in ()).throw(error))
-    assert entry() == 1
+    """``python -m lubfric``; an import that fails for another reason is no question of memory."""
+    monkeypatch.setattr("lubfric.output.main", raising(error))
+    with pytest.raises(SystemExit, match="1"):
+        runpy.run_module("lubfric", run_name="__main__")
     assert capsys.readouterr().err.startswith("lubfric: the memory is not enough to load its modules")
-    monkeypatch.setattr("lubfric.output.main", lambda: (_ for _ in ()).throw(ImportError("no module")))
+    monkeypatch.setattr("lubfric.output.main", raising(ImportError("no module")))
     with pytest.raises(ImportError):
-        entry()
+        runpy.run_module("lubfric", run_name="__main__")
