@@ -21,7 +21,7 @@ def moes(M, L, **options):
 
 
 def numbers(result):
-    unit = result.load / (result.e_prime * result.contact.M)
+    unit = result.load / (result.e_prime * result.line.M)
     return np.array([result.min_film, result.central_film, result.flow_film]) / unit
 
 
