@@ -20,7 +20,7 @@ from .state import TOUCHING, Iterate, State, TimeHistory, evaluated, residuals, 
 KEEP = 0.2
 
 # Floors by which a cell may nevertheless sink below the floor in a step [-]: closed cells would stop all others. Half takes
-# 2 % less work (15 % less on a soft film), twice as much.
+# 2 % less work (15 % less on a soft film), twice changes nothing.
 BELOW = 3.0
 
 # Part of a Newton step that is taken, whatever the gap of a cell says [-]. Half and twice change the work by 1 %.
@@ -61,8 +61,8 @@ WAIT = 3
 # that they never grow, takes 39 % less work on a soft film, twice 24 % more.
 GROW = (2.0, 1.5)
 
-# Newton steps, up to which a step in time was easy [-]. Half takes 9 % less work on a soft film, twice
-# as much.
+# Newton steps, up to which a step in time was easy [-]. Half takes 9 % less work on a soft film;
+# twice changes nothing.
 EASY = 5
 
 # Step in time over dx/U, below which the steps in time have failed [-]: a bound. Half and twice change
@@ -75,7 +75,7 @@ LAST = 1e5
 # Newton steps in a step in time, at most [-]. Half takes 27 % less work on a soft film, twice 55 % more.
 INNER = 8
 
-# Residual of a step in time, at most [-]. Half takes 13 % less work on a soft film, twice as much.
+# Residual of a step in time, at most [-]. Half takes 13 % less work on a soft film, twice changes nothing.
 LOOSE = 0.1
 
 # Residual of a step in time over the steady imbalance of mass [-]. Half takes 16 % less work
