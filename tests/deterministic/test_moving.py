@@ -353,7 +353,7 @@ def test_mass_that_loose_steps_leave_is_not_lost():
         return np.mean([moment.at.mass.mean() for moment in islice(passing, 10, 25)])
 
     exact = mean_mass(tolerance=1e-3)
-    lost, kept = (mean_mass(tolerance=0.5, carries_imbalance=kept) / exact - 1 for kept in (False, True))
+    lost, kept = (mean_mass(tolerance=1.0, carries_imbalance=kept) / exact - 1 for kept in (False, True))
     assert abs(lost) > 5e-4 and abs(kept) < 0.5 * abs(lost)
 
 

@@ -111,7 +111,7 @@ def test_a_march_ends_when_its_error_is_within_the_target():
     counts = [strip.places.friction.shape[0] for strip in (long, short)]
     assert counts[0] == round(96 / 1.05) and counts[1] < 0.4 * counts[0]
     assert short.series["coefficient"] == pytest.approx(long.series["coefficient"][: short.times.size], rel=1e-12)
-    reached = mean_over_blocks([short.sample], "friction", length, control)
+    reached = mean_over_blocks([short.places], "friction", length, control)
     assert reached.error.error < 0.5 * reached.value
     assert reached.value == pytest.approx(long.result.coefficient, rel=4 * reached.error.error / reached.value)
 

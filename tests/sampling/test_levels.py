@@ -166,7 +166,7 @@ def test_rolling_roughness_moves_or_gets_load_sharing_and_the_reason(monkeypatch
     small = SCENE.with_(motion=ROLLING, contact={"shape": (32, 32), "spacing": 90e-6 / 32})
     small = small.with_(numerics={"sampling": "patch"})
     moved, shared = (lubfric.friction(small, 0.01, model=model) for model in ("auto", "paper"))
-    assert moved.decision.model == "deterministic" and "moved at 0.0085 m/s" in moved.decision.text
+    assert moved.decision.model == "deterministic" and "the roughness moves at 0.0085 m/s" in moved.decision.text
     assert abs(shared.coefficient / moved.coefficient - 1) < shared.uncertainty.model < 1.5
     monkeypatch.setattr("lubfric.models.deterministic.rough_bodies.MOST_WORK_IN_AUTO", 0.1)
     costly = lubfric.friction(small, 0.01)
