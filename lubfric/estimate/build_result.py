@@ -6,8 +6,6 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
 from .._base import share_read_only
 from ..errors import ConvergenceError, InputError, Report
 from ..models import ContactFields, Model, ModelAnswer
@@ -120,7 +118,7 @@ def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncerta
     f = answer.numbers["coefficient"]
     rolling = abs(answer.numbers.get("rolling_force", 0.0)) / scene.bodies.load
     sliding = largest_sliding_friction(scene, answer.numbers["speed"])
-    most = max(sliding + answer.rolling_times * np.nan_to_num(rolling), abs(f))
+    most = max(sliding + answer.rolling_times * (0.0 if math.isnan(rolling) else rolling), abs(f))
     low, high = uncertainty.interval
     if not (high > most or low < -most):
         return uncertainty

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lubfric
-from lubfric.models.deterministic import RoughBody, answer, lay_out, solve_point, solve_strip
+from lubfric.models.deterministic import RoughBody, continued_strip, lay_out, solve_point, solve_strip
 from lubfric.models.load_sharing import least_error, starved_error
 from lubfric.models.quick import (
     QuickModel,
@@ -154,8 +154,8 @@ def test_the_ends_of_an_input_are_those_of_the_quick_model():
 def test_the_stress_of_an_oil_in_rolling_is_solved_in_motion_only_where_its_flow_matters(monkeypatch):
     """The shear of the moments that are solved gives what whole solves at the ends give, and continuations."""
     calls = []
-    followed = answer.continued_strip
-    monkeypatch.setattr(answer, "continued_strip", lambda *some, **more: calls.append(1) or followed(*some, **more))
+    where = "lubfric.models.deterministic.answer"
+    monkeypatch.setattr(f"{where}.continued_strip", lambda *how: calls.append(1) or continued_strip(*how))
     scene = HEAVIER.with_(
         bodies={"boundary_film": 2e-8},
         lubricant={"limiting_stress_coefficient": None},
@@ -170,7 +170,7 @@ def test_the_stress_of_an_oil_in_rolling_is_solved_in_motion_only_where_its_flow
     sides = [abs(f / ranged.coefficient - 1) for f in solved]
     assert min(sides) > 0.1
     assert ranged.uncertainty.input_sides == pytest.approx(sides, rel=0.1)
-    monkeypatch.setattr(answer, "FLOW_MATTERS", 0.0)
+    monkeypatch.setattr(f"{where}.FLOW_MATTERS", 0.0)
     followed_ends = lubfric.friction(prepared, 0.3)
     assert len(calls) == 3 and followed_ends.coefficient == ranged.coefficient
     assert followed_ends.uncertainty.input_sides == pytest.approx(sides, rel=0.1)
