@@ -15,7 +15,8 @@ from .choice import choose, work_for_an_answer
 from .result import FrictionResult
 from .work_of_point import estimated_work_of_point
 
-# Times the estimate of a point: the counted work that it may take where numerics.max_work does not say.
+# Times the estimate of a point: the counted work that it may take where numerics.max_work does not say. A convention,
+# not measured: estimates are right within a factor of about 3.
 TIMES_ESTIMATE = 10.0
 
 # Least counted work [s] that a point may take where numerics.max_work does not say.

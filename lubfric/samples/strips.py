@@ -44,7 +44,7 @@ STRIP = 90.0
 WIDE = 5.0
 
 # Correlation lengths along y of a strip whose roughness moves, where the half-width has `WIDE` of them: other places
-# pass through the contact in time. Not measured.
+# pass through the contact in time. Not measured: the sampling error is reported with a strip of any length.
 PASSING = 30.0
 
 # Correlation lengths that are solved first: 20 blocks, whose scatter is known to 1/sqrt(38) = 16 %. Half and twice as

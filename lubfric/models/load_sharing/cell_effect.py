@@ -50,7 +50,7 @@ FASTEST = 0.25
 # Pieces that state a scatter where each is too short for blocks.
 FEWEST = 3
 
-# Pieces, at most: 504 correlation lengths. Not measured.
+# Pieces, at most: 504 correlation lengths. Not measured: it bounds the work, and the error that is left is reported.
 MOST_PIECES = 12
 
 # Cells of a piece, at most, where a coarser one would do: memory and time.

@@ -12,7 +12,8 @@ from .error_of_eq8 import least_error, load_sharing_error, starved_error
 from .forces import Forces
 from .scatter import Scatter
 
-# Relative change of the plastic part over that of the load or the area, at most about. Not measured.
+# Relative change of the plastic part over that of the load or the area, at most about. Not measured: it enters
+# an error alone, where no asperity contacts are counted.
 PLASTIC = 3.0
 NO_CELLS = "not known: this contact has no places along y to compare"
 

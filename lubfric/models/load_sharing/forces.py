@@ -14,7 +14,8 @@ from ..shared import (
     point_heat,
 )
 
-# Nodes of the asperity pressure where the contact has no cells. Not measured.
+# Nodes of the asperity pressure where the contact has no cells. Not measured: their limits are scaled to f_b F_C, with
+# any number of them.
 HERTZ_NODES = 101
 
 

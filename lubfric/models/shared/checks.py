@@ -38,20 +38,24 @@ DENSITY = 870.0
 # Pressure [Pa], about, up to which the law of Roelands was fitted (thesis, Delft 1966).
 ROELANDS_LIMIT = 1e9
 
-# Pressure [Pa] from which the law of Barus is far above measured viscosities. Not measured here.
+# Pressure [Pa] from which the law of Barus is far above measured viscosities. Not measured here: it
+# decides a warning, no number.
 BARUS_LIMIT = 3e8
 
 # Film over the radius from which it is not thin: at sqrt(2 R h) the parabola for the circle is off by 5 %.
 THICK = 0.1
 
-# Part of the mean gap that the undeformed cylinder may rise over the Hertz strip. Not measured.
+# Part of the mean gap that the undeformed cylinder may rise over the Hertz strip. Not measured: it decides a warning, no
+# number.
 STRIP_SHARE = 0.2
+
 # Film pressure over the peak Hertz pressure from which it is a local peak, of roughness or of the spike. Not measured: a
 # convention.
 SPIKE = 1.05
 ANOTHER = "numerics.film_deflection = 'scaled'"
 
-# Share of the contact load on the two edge columns of a patch from which its ends cut off the contact. Not measured.
+# Share of the contact load on the two edge columns of a patch from which its ends cut off the contact. Not measured:
+# it decides where a point is refused, no number.
 ON_ENDS = 0.01
 LONGER = "make the patch longer in x: contact.shape, or for a measured map surface.extension = 'mirror'"
 
