@@ -1,6 +1,7 @@
 """Values of a kind that nobody foresaw, in every place that takes a list, a path or a switch: answered by an
 `InputError` before any work, never by an error of Python or NumPy."""
 
+import importlib
 from functools import partial
 
 import numpy as np
@@ -146,5 +147,7 @@ def test_a_film_below_the_last_digit_of_the_load_carries_nothing():
 @pytest.mark.parametrize("address", ["ucx://127.0.0.1:1", "x", "http://127.0.0.1:1"])
 def test_an_address_at_which_no_scheduler_answers_is_refused(address):
     pytest.importorskip("distributed")
+    before = dict(importlib.import_module("dask").config.config)
     with pytest.raises(lubfric.InputError, match="no Dask scheduler answers"), cluster(address):
         pass
+    assert importlib.import_module("dask").config.config == before
