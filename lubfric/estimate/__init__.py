@@ -17,6 +17,7 @@ from .friction import LEAST_LIMIT, TIMES_ESTIMATE, friction
 from .full_load import full_load_numbers
 from .methods import MethodUse, methods_of
 from .power import power_of_forces
+from .ranges import widened
 from .result import FrictionResult, cite_together, cited
 from .sampled import sampled
 from .uncertainty import Uncertainty, UncertaintyCurve, curve_of, interval

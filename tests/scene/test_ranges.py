@@ -9,7 +9,7 @@ from scene_text import paper_scene
 from toys import Spring
 
 import lubfric
-from lubfric.estimate.ranges import widened
+from lubfric.estimate import widened
 from lubfric.output.inputs import inputs
 from lubfric.scene import Table
 
