@@ -42,7 +42,7 @@ DETERMINISTIC = (
     "load-sharing model, corrected by the deterministic model on some strips,",
     "deterministic model with moving roughness",
 )
-# How well times are estimated: 52 of 55 runs of verification.campaigns.estimates are within that; the
+# How well times are estimated: 64 of 69 runs of verification.campaigns.estimates are within that; the
 # constants were chosen with half of them in sight.
 WITHIN_WORDS = "within a factor of 3 in four of five cases"
 # Processor seconds of ``lubfric run`` beside its solves: 1.0 to start, the others for pictures and files.
