@@ -151,14 +151,14 @@ def solve_point(
 def _attempts(
     problem: Problem, start: State | None, least: float, tolerance: float, work: Work
 ) -> Iterator[tuple[str, NewtonResult]]:
+    is_soft = are_soft(problem.line, float(problem.heights.std()))
+    patience = SOFT_PATIENCE if is_soft else PATIENCE
     if start is not None:
-        near = newton(problem, start, work, tolerance=tolerance, most=NEAR, least=least)
+        near = newton(problem, start, work, tolerance=tolerance, most=NEAR, least=least, patience=patience)
         yield "from a neighbouring state", near
     dry = dry_contact(problem)
     lifts = _lifts(problem)
     cold = dry_start(problem, dry, lifts[0])
-    is_soft = are_soft(problem.line, float(problem.heights.std()))
-    patience = SOFT_PATIENCE if is_soft else PATIENCE
     most = DIRECT // 2 if is_starved(problem) else DIRECT
     for lift in lifts:
         lifted = dry_start(problem, dry, lift)
