@@ -66,7 +66,7 @@ SLIPS = {  # name: (changes to GOOD by section; None removes a key, words of the
     "no such file": ({"surface": dict.fromkeys(MEASURED) | {"file": '"map.x3p"'}}, "did you mean.*'map.npy'"),
     "speeds in mm/s": (
         {"motion": {"speeds": "[1, 1000]"}},
-        "motion.speeds is 1e\\+03 m/s, above 100 m/s. Did you mean 1000 mm/s .1 m/s.. Recommendation: check the value",
+        "motion.speeds is 1000 m/s, above 100 m/s. Did you mean 1000 mm/s .1 m/s.. Recommendation: check the value",
     ),
     "size of the patch for its cells": ({"contact": {"shape": "[300e-6, 150e-6]"}}, "cells of contact.spacing"),
     "no boundary friction": ({"bodies": {"boundary_friction_coefficient": None}}, "some 0.1"),
