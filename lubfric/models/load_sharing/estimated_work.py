@@ -51,8 +51,8 @@ ROUGH = 1.5
 ROUGH_ON_LONG_CELLS = 6.0
 
 # The same where the heights are smooth over a cell, and cells are longer than those of the map: shorter ones may follow. Four
-# random runs were estimated to .36 to 1.7 of what they took without it, and to .48 to 2.2 with it.
-REFINED = 2.0
+# random runs were estimated to .56 to 1.4 of what they took without it, and to .64 to 1.7 with it.
+REFINED = 1.3
 
 # Cells in a correlation length along x below which cells are long.
 LONG = 12.0
