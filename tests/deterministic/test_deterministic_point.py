@@ -290,3 +290,12 @@ def test_a_starved_film_is_solved_from_a_cold_start():
     assert "from a neighbouring state" in again.report.notes[0]
     assert again.coefficient == pytest.approx(cold.coefficient, rel=3e-3)
     assert cold.coefficient > thicker.coefficient
+
+
+@pytest.mark.study
+def test_another_lift_of_the_dry_contact_is_the_last_way():
+    """A bearing at 1 mm/s on 200 nm of roughness, where all others fail: load and flow are those of its fields."""
+    problem = bearing(2e-7, 1e5, 1e-3)
+    result = solve_point(problem)
+    assert result.report.residual <= 1e-5
+    assert max(check(problem, result).values()) < 1
