@@ -1,6 +1,7 @@
 """The API reference has every public name, and every public function says what it takes, gives and raises."""
 
 import inspect
+import pydoc
 import re
 import sys
 
@@ -20,6 +21,12 @@ def test_every_public_name_is_in_the_reference():
     page = (ROOT / "docs" / "api.md").read_text(encoding="utf-8")
     shown = set(re.findall(r"auto\w+:: lubfric\.(\w+)$", page, re.MULTILINE))
     assert set(lubfric.__all__) <= shown
+
+
+def test_every_name_of_the_reference_exists():
+    page = (ROOT / "docs" / "api.md").read_text(encoding="utf-8")
+    shown = re.findall(r"auto\w+:: (lubfric[.\w]*)", page)
+    assert shown and not [name for name in shown if pydoc.locate(name) is None]
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
