@@ -164,10 +164,14 @@ def _attempts(
     dry = dry_contact(problem)
     lifts = _lifts(problem)
     cold = dry_start(problem, dry, lifts[0])
-    most = DIRECT // 2 if is_starved(problem) else DIRECT
-    for lift in lifts:
-        lifted = dry_start(problem, dry, lift)
-        yield "from the dry contact", newton(problem, lifted, work, tolerance=tolerance, most=most, patience=patience)
+
+    def lifted(parts: tuple[float, ...], most: int) -> Iterator[tuple[str, NewtonResult]]:
+        for part in parts:
+            begin = dry_start(problem, dry, part)
+            result = newton(problem, begin, work, tolerance=tolerance, most=most, patience=patience)
+            yield "from the dry contact", result
+
+    yield from lifted(lifts, DIRECT // 2 if is_starved(problem) else DIRECT)
     if start is None and is_soft:
         yield "in time from the dry contact", _in_time(problem, cold, tolerance, work)
     lubricant = problem.lubricant
@@ -194,9 +198,7 @@ def _attempts(
     for times, state in faster:
         result = _from_faster(problem, state, times, tolerance, work, failures=MOST)
         yield "step by step from a faster speed", result
-    for lift in LAST_LIFTS:
-        lifted = dry_start(problem, dry, lift)
-        yield "from the dry contact", newton(problem, lifted, work, tolerance=tolerance, most=DIRECT, patience=patience)
+    yield from lifted(LAST_LIFTS, DIRECT)
 
 
 def dry_contact(problem: Problem, tolerance: float = DRY_TOLERANCE) -> ContactResult:

@@ -157,20 +157,24 @@ def mesh_study(
         ("elements", [1 / (grid[0] - 1) for grid in grids], elements),
     ):
         flows = [films[0].flow for films in solutions]
-        order = order_of_three(sizes, flows)
         source = "second order of cells and bilinear elements"
-        yield Check(
-            f"{name}: order of the flow by {by}",
-            order,
-            expected=ORDER,
-            tolerance=ALLOWED_ORDER,
-            source=source,
-            kind=ABSOLUTE,
-            grade="B",
-        )
+        yield order_check(f"{name}: order of the flow by {by}", sizes, flows, source)
         limits.append(extrapolated_by(ORDER, sizes, flows))
     mine, theirs = (float(limit) for limit in limits)
     yield Check(f"{name}: flow without cells", mine, expected=theirs, tolerance=ALLOWED_LIMIT, source=SOURCE)
+
+
+def order_check(name: str, sizes: list[float], values: list[float], source: str) -> Check:
+    """Return the check ``name`` of the order in which ``values`` on three grids of these ``sizes`` converge."""
+    return Check(
+        name,
+        order_of_three(sizes, values),
+        expected=ORDER,
+        tolerance=ALLOWED_ORDER,
+        source=source,
+        kind=ABSOLUTE,
+        grade="B",
+    )
 
 
 def moving_mesh_study(
@@ -190,15 +194,7 @@ def moving_mesh_study(
         ("elements", "flow", [1 / (grid[0] - 1) for grid in grids], elements),
     ):
         means = [averages(case, films) for films in solutions]
-        yield Check(
-            f"{name}: order of the {quantity} by {by}",
-            order_of_three(sizes, [mean[quantity] for mean in means]),
-            expected=ORDER,
-            tolerance=ALLOWED_ORDER,
-            source=source,
-            kind=ABSOLUTE,
-            grade="B",
-        )
+        yield order_check(f"{name}: order of the {quantity} by {by}", sizes, [mean[quantity] for mean in means], source)
         limits.append(extrapolated_by(ORDER, sizes, [mean["smallest gap"] for mean in means]))
     mine, theirs = (float(limit) for limit in limits)
     words = f"{name}: smallest gap without cells"
