@@ -24,7 +24,7 @@ from typing import Any
 
 from .errors import InputError
 
-CELSIUS = Decimal("273.15")  # K
+ZERO_CELSIUS = Decimal("273.15")  # K
 # Decimals of a number that is printed with its interval, at most.
 MOST_DECIMALS = 7
 
@@ -37,7 +37,7 @@ PEOPLE: dict[str, list[str]] = _TABLE["people"]
 SANE: dict[str, list[float]] = _TABLE["sane"]
 HV = UNITS["Pa"]["HV"]
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
-LONGEST = 200  # characters of a number with its unit
+LONGEST_TEXT = 200  # characters of a number with its unit
 # of conversions: that of the host may have any precision, and traps
 _EXACT = Context(
     prec=60, rounding=ROUND_HALF_EVEN, Emin=MIN_EMIN, Emax=MAX_EMAX, traps=[DivisionByZero, InvalidOperation]
@@ -79,7 +79,7 @@ def converted(value: Any, unit: str, to: str) -> Any:
         return value
     exact = isinstance(value, Decimal)
     first, second = (Decimal(repr(row[name])) if exact else row[name] for name in (unit, to))
-    shift = CELSIUS if exact else float(CELSIUS)
+    shift = ZERO_CELSIUS if exact else float(ZERO_CELSIUS)
     with localcontext(_EXACT):
         in_si = value * first + (shift if unit == "°C" else 0)
         return (in_si - (shift if to == "°C" else 0)) / second
@@ -89,7 +89,7 @@ def number_and_unit(text: str) -> tuple[str, str] | None:
     """Return the number and the unit (perhaps none) of a text such as "12 mm"; None where it does not begin with a
     number, has a decimal comma, or is too long."""
     text = text.strip().replace("\N{MINUS SIGN}", "-")
-    number = _NUMBER.match(text) if len(text) <= LONGEST else None
+    number = _NUMBER.match(text) if len(text) <= LONGEST_TEXT else None
     if number is None:
         return None
     unit = text[number.end() :]
@@ -277,7 +277,7 @@ def in_si(name: str, text: str) -> tuple[float, str]:
 
 def number_of(name: str, text: str, unit: str) -> float:
     """The number in ``unit`` that ``text`` of a command line gives, alone ("0.01") or with a unit ("1 cm")."""
-    if _NUMBER.fullmatch(text.strip()) and len(text) <= LONGEST:
+    if _NUMBER.fullmatch(text.strip()) and len(text) <= LONGEST_TEXT:
         return float(text)
     if text.strip().lower() in ("nan", "inf", "+inf", "-inf", "infinity", "-infinity"):
         return float(text)  # refused with its name by what takes the number

@@ -28,10 +28,10 @@ BLUE = "#1f5a94"
 RED = "#b3392f"
 GREEN = "#2f7d4f"
 GREY = "#6b6b6b"
-FRICTION = axis_label("coefficient")
+FRICTION_LABEL = axis_label("coefficient")
 KEY_SIZE = 8.0  # pt: of the letters of a key, at most
 LETTER = 3.8  # pt: width of a letter of that size, about
-SLENDER = 4.0  # ratio of the sides beyond which a map is not drawn to scale
+SLENDER_MAP = 4.0  # ratio of the sides beyond which a map is not drawn to scale
 
 
 def styled(plot: Plot) -> Plot:
@@ -180,7 +180,7 @@ def field_image(
     half_x, half_y = (0.5 * (a[1] - a[0] if a.size > 1 else 1e-6) for a in (x, y))
     extent = (1e6 * (x[0] - half_x), 1e6 * (x[-1] + half_x), 1e6 * (y[0] - half_y), 1e6 * (y[-1] + half_y))
     ratio = (extent[3] - extent[2]) / (extent[1] - extent[0])
-    slender = not 1 / SLENDER <= ratio <= SLENDER
+    slender = not 1 / SLENDER_MAP <= ratio <= SLENDER_MAP
     aspect: Literal["auto", "equal"] = "auto" if slender else "equal"
     image = axes.imshow(values.T, origin="lower", aspect=aspect, cmap=colours, extent=extent, **options)
     axes.grid(visible=False)

@@ -33,7 +33,7 @@ LOCK = ".lubfric.lock"
 # The file in a folder that names the files which lubfric wrote there, with their checksums.
 MARKER = ".lubfric"
 # Begins the name of a file that is being written.
-PART = ".part-"
+PART_PREFIX = ".part-"
 # The locks that this process holds; a forked child must not hold them too.
 _HELD: weakref.WeakSet[FolderLock] = weakref.WeakSet()
 
@@ -78,7 +78,7 @@ def whole_file(path: str | Path, *, sync: bool = True) -> Iterator[Path]:
 
 def _part(drawn: str, name: str) -> str:
     """Return the name of a file that is being written. A checksum in it shows that it is no file of the user."""
-    return f"{PART}{drawn}-{hashlib.sha256((drawn + name).encode()).hexdigest()[:8]}-{name}"
+    return f"{PART_PREFIX}{drawn}-{hashlib.sha256((drawn + name).encode()).hexdigest()[:8]}-{name}"
 
 
 def write_checked(path: Path, *content: bytes, sync: bool = True) -> None:
@@ -112,8 +112,8 @@ def saying(what: str) -> Iterator[None]:
 
 def clear_parts(folder: Path) -> None:
     """Remove the half-written files of killed writers in ``folder``. Only the holder of its lock may do this."""
-    for path in Path(folder).glob(f"{PART}*"):
-        drawn, _, rest = path.name.removeprefix(PART).partition("-")
+    for path in Path(folder).glob(f"{PART_PREFIX}*"):
+        drawn, _, rest = path.name.removeprefix(PART_PREFIX).partition("-")
         if path.name == _part(drawn, rest.partition("-")[2]):
             path.unlink(missing_ok=True)
 

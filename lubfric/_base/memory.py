@@ -17,7 +17,7 @@ T = TypeVar("T")
 
 # Bytes of resident memory, more than after the last release, from which freed blocks are returned: a release takes
 # about 1 ms a 100 MB.
-GROWTH = 64 * 2**20
+RELEASED_GROWTH = 64 * 2**20
 
 # Address space that the first linear algebra of a process takes [bytes]: OpenBLAS of NumPy and that of SciPy 32 MB each,
 # and a margin. Where they get none they try again without end, and no signal stops them.
@@ -60,8 +60,8 @@ def check_address_space() -> None:
 
 
 def release_freed_memory() -> None:
-    """Return freed blocks to the system, where resident memory has grown by `GROWTH` since the last time."""
-    if _trim is None or resident_memory() < _after_last[0] + GROWTH:
+    """Return freed blocks to the system, where resident memory has grown by `RELEASED_GROWTH` since the last time."""
+    if _trim is None or resident_memory() < _after_last[0] + RELEASED_GROWTH:
         return
     _trim(0)
     _after_last[0] = resident_memory()

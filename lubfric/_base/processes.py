@@ -24,7 +24,7 @@ WATCH = 0.2
 MOST_WORKERS = 1024
 
 # Time that an interrupted process is waited for [s].
-LAST = 2.0
+LAST_WAIT = 2.0
 
 # Time that a scheduler has to answer [s].
 CONNECT = 10.0
@@ -179,9 +179,9 @@ def pool(workers: int) -> Iterator[ProcessPoolExecutor | None]:
         ending.start()
         for process in multiprocessing.active_children():
             process.terminate()
-        ending.join(LAST)
+        ending.join(LAST_WAIT)
         for process in multiprocessing.active_children():
-            process.join(LAST)
+            process.join(LAST_WAIT)
         raise
     executor.shutdown()
 

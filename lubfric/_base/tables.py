@@ -19,12 +19,12 @@ from ..units import UNITS, converted, kind_of, spelled
 from .validate import nearest, shown
 
 IN_WORDS = ("validity", "uncertainty")  # columns of a result
-MOST_BYTES = 2**27
+MOST_TABLE_BYTES = 2**27
 TITLES = 1000  # lines of a preamble among which the headings are looked for
 LONGEST_LINE = 10_000  # characters of a line of a table of columns
 LONGEST_HEADING = 200  # characters
 OPEN = {")": "(", "]": "["}
-FORMULA = ("=", "+", "-", "@", "\t", "\r")  # begin a formula in a spreadsheet
+FORMULA_BEGINS = ("=", "+", "-", "@", "\t", "\r")  # begin a formula in a spreadsheet
 BLANKS = "  "  # the separator of columns that two or more blanks separate
 
 
@@ -72,7 +72,7 @@ def table_bytes(columns: dict[str, np.ndarray | list[str]]) -> bytes:
 
 def _no_formula(cell: Any) -> Any:
     """Return a cell of a table such that no spreadsheet evaluates it."""
-    if isinstance(cell, str) and cell.lstrip()[:1] in FORMULA and cell.strip():
+    if isinstance(cell, str) and cell.lstrip()[:1] in FORMULA_BEGINS and cell.strip():
         return cell if _is_number(cell) else f"'{cell}"
     return cell
 
@@ -294,7 +294,7 @@ def _number(path: Path, line: int, row: list[str], place: int) -> float:
     return value
 
 
-def text_of(path: Path, most: float = MOST_BYTES) -> str:
+def text_of(path: Path, most: float = MOST_TABLE_BYTES) -> str:
     """What is in a file of text of at most so many bytes, in UTF-8 (with or without a byte-order mark), in UTF-16 with
     one, or in Windows-1252. Raises `InputError` for anything else."""
     try:

@@ -23,9 +23,9 @@ T = TypeVar("T")
 LONGEST_SHOWN = 80  # characters of a value in a message
 DEEPEST = 3  # nested lists that are looked into
 # of any number: beyond it powers of it overflow
-LEAST = 1e-100
-LARGEST = 1e100
-NUMBERS = "iuf"  # kinds of NumPy types that are real numbers; not truth values, complex numbers, words or dates
+SMALLEST_NUMBER = 1e-100
+LARGEST_NUMBER = 1e100
+NUMBER_KINDS = "iuf"  # kinds of NumPy types that are real numbers; not truth values, complex numbers, words or dates
 
 
 def shown(value: Any) -> str:
@@ -89,7 +89,7 @@ def _real(value: Any) -> float:
             raise TypeError
         return float(value)
     scalar = np.asarray(value)
-    if scalar.ndim or scalar.dtype.kind not in NUMBERS:
+    if scalar.ndim or scalar.dtype.kind not in NUMBER_KINDS:
         raise TypeError
     return float(scalar[()])
 
@@ -99,19 +99,19 @@ def number(
 ) -> float:
     """A finite real number with ``above < value``, ``minimum <= value <= maximum``.
 
-    Whatever the limits, its magnitude is at most the largest of `SANE` for its unit, and zero or at least `LEAST`.
+    Whatever the limits, its magnitude is at most the largest of `SANE` for its unit, and zero or at least `SMALLEST_NUMBER`.
     """
-    return _within(name, value, unit, above, minimum, maximum, LEAST if unit in SANE else 0.0)
+    return _within(name, value, unit, above, minimum, maximum, SMALLEST_NUMBER if unit in SANE else 0.0)
 
 
 def positive(name: str, value: Any, unit: str, *, minimum: float = 0.0, maximum: float = math.inf) -> float:
     """A finite number > 0, in [minimum, maximum] and in the range of `SANE` for its unit."""
-    least = max(minimum, SANE.get(unit, (LEAST, LARGEST))[0])
+    least = max(minimum, SANE.get(unit, (SMALLEST_NUMBER, LARGEST_NUMBER))[0])
     return _within(name, value, unit, 0.0, -math.inf, maximum, least)
 
 
 def _within(name: str, value: float, unit: str, above: float, minimum: float, maximum: float, least: float) -> float:
-    largest = SANE.get(unit, (LEAST, LARGEST))[1]
+    largest = SANE.get(unit, (SMALLEST_NUMBER, LARGEST_NUMBER))[1]
     minimum, maximum = max(minimum, -largest), min(maximum, largest)
     low = f"above {above:g}, up to" if above >= minimum else f"{minimum:g} to"
     shown_unit = "" if unit == "-" else f" {unit}"
@@ -209,7 +209,7 @@ def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
         bad = a.size - np.count_nonzero(np.isfinite(a))
         said = f" has {bad} of {a.size} values that are NaN or infinite"
         raise InputError(said, name, f"finite values in {unit}")
-    most = SANE.get(unit, (LEAST, LARGEST))[1]
+    most = SANE.get(unit, (SMALLEST_NUMBER, LARGEST_NUMBER))[1]
     if furthest > most:
         raise InputError(f" reaches {furthest:g} {unit}", name, f"up to {most:g} {unit}")
     return a
@@ -258,7 +258,7 @@ def real_array(name: str, value: Any, unit: str) -> np.ndarray:
         instead = f"its .heights [{unit}]" if hasattr(value, "heights") else ""
         said = f" is {'a height map, ' if instead else ''}not an array of numbers in {unit}"
         raise InputError(said, name, instead) from None
-    if odd or numbers_given.dtype.kind not in NUMBERS:
+    if odd or numbers_given.dtype.kind not in NUMBER_KINDS:
         raise InputError(f" holds {odd or f'values of type {numbers_given.dtype}'}", name, f"real numbers in {unit}")
     with np.errstate(over="ignore"):
         return numbers_given.astype(float, copy=False)

@@ -14,7 +14,7 @@ from .problem import on_grid
 
 DEFINITIONS = tuple(FINDERS)
 # Approaches [-] over the height range at which the load is looked at, each 25 % longer, down to the deepest valley.
-APPROACHES = np.geomspace(1e-5, 1.0, 53)
+TRIAL_APPROACHES = np.geomspace(1e-5, 1.0, 53)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -215,7 +215,7 @@ def _closest(
 
     before = 0.0
     best = excess(0.0)[1]
-    for scanned, approach in enumerate(span * APPROACHES, start=1):
+    for scanned, approach in enumerate(span * TRIAL_APPROACHES, start=1):
         value, result = excess(approach)
         if value >= 0:
             middle = 0.5 * (before + approach)
@@ -224,4 +224,4 @@ def _closest(
             root = increasing_root(excess, middle, step=step, bounds=bounds, tolerance=tolerance)
             return root.payload, scanned, root.history
         before, best = approach, max(best, result, key=lambda at: at.load)
-    return best, len(APPROACHES), ()
+    return best, len(TRIAL_APPROACHES), ()

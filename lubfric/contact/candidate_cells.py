@@ -26,16 +26,16 @@ DENSE = 0.6
 # Rows: windows of nearly the same width share their operator.
 ROUND = 8
 # Points along each axis of the quarter of the Brillouin zone over which |k| is averaged.
-POINTS = 64
+BRILLOUIN_POINTS = 64
 # Cells that stay in the cache from one pass to the next. Halved and doubled by `python -m
 # verification.campaigns.benchmarks.contact_constants`.
-BLOCK = 16384
+CACHED_CELLS = 16384
 # Cells, each way, that are one for long waves. Halved and doubled by `python -m
 # verification.campaigns.benchmarks.contact_constants`.
 FACTOR = 4
 # Cells along an axis below which long waves cost more than they save. Halved and doubled by `python -m
 # verification.campaigns.benchmarks.contact_constants`.
-LEAST = 64
+LEAST_AVERAGED_CELLS = 64
 
 
 class CandidateCells:
@@ -96,7 +96,7 @@ class CandidateCells:
 def nearest_coefficients(shape: tuple[int, int], spacing: tuple[float, float]) -> tuple[float, float, float, float]:
     """Return the mean of |k| [1/m] times 1, cos(kx dx), cos(ky dy) and the product of the two; an axis of one cell has
     no waves."""
-    turns = [(np.arange(POINTS) + 0.5) * (np.pi / POINTS) if n > 1 else np.zeros(1) for n in shape]
+    turns = [(np.arange(BRILLOUIN_POINTS) + 0.5) * (np.pi / BRILLOUIN_POINTS) if n > 1 else np.zeros(1) for n in shape]
     x = turns[0][:, None]
     y = turns[1]
     k = np.hypot(x / spacing[0], y / spacing[1])
@@ -116,7 +116,7 @@ def stencil(
     inner = padded[1:-1, 1:-1]
     nearest = nearest_coefficients(shape, spacing)
     coefficients = tuple(np.float32(factor * c) for c in nearest)
-    long_waves = min(shape) >= LEAST
+    long_waves = min(shape) >= LEAST_AVERAGED_CELLS
     if long_waves:  # the series less |k|, on cells FACTOR times as long; free axes are padded to twice their length
         coarse = tuple((2 if kind == "free" else 1) * -(-n // FACTOR) for n, kind in zip(shape, boundary))
         excess = _series(nearest, coarse) - wavenumber(coarse, tuple(FACTOR * d for d in spacing))
@@ -146,7 +146,7 @@ def _swept(padded: FloatArray, coefficients: Sequence[np.float32]) -> np.ndarray
     """Return the sums for all cells, some rows at a time, within the cache."""
     own, along_x, along_y, across = coefficients
     sums = np.empty((padded.shape[0] - 2, padded.shape[1] - 2), np.float32)
-    rows = max(1, BLOCK // padded.shape[1])
+    rows = max(1, CACHED_CELLS // padded.shape[1])
     for begin in range(0, sums.shape[0], rows):
         points = padded[begin : begin + rows + 2]
         total = sums[begin : begin + rows]

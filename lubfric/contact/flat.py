@@ -24,34 +24,34 @@ if TYPE_CHECKING:
 
 
 # Mean pressure over the heaviest [-] below which the light-load law of one asperity is used.
-LIGHTEST = 1e-6
+LIGHT_LAW_PRESSURE = 1e-6
 # Distance of the gap from that of first touch, over the accuracy [-], at which lighter nodes end: first touch is exact.
-ENOUGH = 0.25
+TOUCH_DISTANCE = 0.25
 # Ratio of the pressures of neighbouring nodes at first [-]; small maps have its root.
 SPACING = 4.0
 # Cells of a small map, whose summits come into contact one by one.
-SMALL = 128**2
+SMALL_MAP = 128**2
 # Error of an interpolation between nodes half as far apart, over that before [-], of a smooth curve.
 HALVED = 0.25
 # Mean pressure over the heaviest [-] below which f does not depend on the load.
-FEW = 1e-3
+NEGLIGIBLE_PRESSURE = 1e-3
 # Cells that come into contact at a time, by which the contact area of a map is uncertain.
-CELLS = 2
+CELLS_AT_A_TIME = 2
 # Rounds of adding nodes, at most.
-ROUNDS = 5
+NODE_ROUNDS = 5
 # Distance of two nodes in ln(pressure) [-] that is not halved any more.
-FINEST = 0.05
+CLOSEST_NODES = 0.05
 # Gap over the lightest one [-] below which the contact is full.
-NOTHING = 1e-9
+CLOSED_GAP = 1e-9
 # Asperity load ratio [-] above which a relative error of the load is one of f.
-MATTERS = 0.1
+LOAD_ERROR_MATTERS = 0.1
 
 # Points across the strip at which the film is averaged.
-POINTS = 512
+FILM_POINTS = 512
 # Columns of the strip that state where it touches: evenly.
-COLUMNS = 2
+TOUCHING_COLUMNS = 2
 # Approaches over the height range [-] at which the load of independent asperities is found.
-APPROACHES = np.concatenate([np.geomspace(1e-4, 0.2, 80), np.linspace(0.2, 1.0, 81)[1:]])
+CURVE_APPROACHES = np.concatenate([np.geomspace(1e-4, 0.2, 80), np.linspace(0.2, 1.0, 81)[1:]])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,7 +135,7 @@ def contact_curve(
     validate.positive("accuracy", accuracy, "(-)")
     gap0 = np.max(heights) - heights
     touching_gap = float(gap0.mean())
-    small = gap0.size <= SMALL
+    small = gap0.size <= SMALL_MAP
     options: dict[str, Any] = {"hardness": hardness, "tolerance": tolerance, "operator": operator}
     solved: dict[float, ContactResult] = {}
 
@@ -145,12 +145,12 @@ def contact_curve(
 
     pressure = float(heaviest)
     last = None
-    while pressure >= LIGHTEST * heaviest:
+    while pressure >= LIGHT_LAW_PRESSURE * heaviest:
         last = add(pressure, last)
-        if len(solved) > 2 and touching_gap - last.mean_gap <= ENOUGH * accuracy * touching_gap:
+        if len(solved) > 2 and touching_gap - last.mean_gap <= TOUCH_DISTANCE * accuracy * touching_gap:
             break
-        pressure /= math.sqrt(SPACING) if small and pressure > FEW * heaviest else SPACING
-    for _ in range(ROUNDS):
+        pressure /= math.sqrt(SPACING) if small and pressure > NEGLIGIBLE_PRESSURE * heaviest else SPACING
+    for _ in range(NODE_ROUNDS):
         nodes, gap, area, *_ = _table(solved)
         wide = _inaccurate(nodes, gap, area, accuracy, 0.5 if small else HALVED)
         for heavier, lighter in zip(nodes[:-1][wide], nodes[1:][wide]):
@@ -166,7 +166,7 @@ def contact_curve(
         touching_gap=touching_gap,
         evaluations=int(work.sum()),
         gap_error=errors_between(nodes, gap),
-        area_error=errors_between(nodes, area) + CELLS / gap0.size,
+        area_error=errors_between(nodes, area) + CELLS_AT_A_TIME / gap0.size,
     )
 
 
@@ -188,11 +188,11 @@ def _inaccurate(pressure: FloatArray, gap: FloatArray, area: FloatArray, accurac
     middle = np.sqrt(gap[1:] * gap[:-1])
     rate = -np.diff(gap) / np.diff(log_pressure)
     share = np.sqrt(pressure[1:] * pressure[:-1]) / pressure[0]
-    effect = (1 - share) * np.minimum(share / MATTERS, 1.0)  # of f, by a relative error of the load
-    allowed = np.minimum(middle, rate / np.maximum(effect, NOTHING))
-    deep = middle <= NOTHING * gap[-1]
+    effect = (1 - share) * np.minimum(share / LOAD_ERROR_MATTERS, 1.0)  # of f, by a relative error of the load
+    allowed = np.minimum(middle, rate / np.maximum(effect, CLOSED_GAP))
+    deep = middle <= CLOSED_GAP * gap[-1]
     off = (error > accuracy * allowed) | (of_area > accuracy * (1 - area[:-1]))
-    return off & ~deep & (-np.diff(log_pressure) > FINEST)
+    return off & ~deep & (-np.diff(log_pressure) > CLOSEST_NODES)
 
 
 def errors_between(pressure: FloatArray, values: FloatArray) -> np.ndarray:
@@ -242,7 +242,7 @@ def asperity_curve(
     top = float(heights.max())
     span = float(np.ptp(heights))
     nodes: list[tuple[float, float, float, float]] = []
-    for approach in span * APPROACHES:
+    for approach in span * CURVE_APPROACHES:
         contact = asperities(top - approach)
         gap = _curve_gap(heights, top - approach, reading)
         if gap <= 0:
@@ -371,6 +371,6 @@ def flat_contact(
         )
     # The film is averaged over points that are even in the angle t, x = -b cos(t): a thin film opens over less than a
     # hundredth of the strip, at its ends.
-    angle = (np.arange(POINTS) + 0.5) * (np.pi / POINTS)
-    columns = centred_axis(COLUMNS, 2 * half_width / COLUMNS)
+    angle = (np.arange(FILM_POINTS) + 0.5) * (np.pi / FILM_POINTS)
+    columns = centred_axis(TOUCHING_COLUMNS, 2 * half_width / TOUCHING_COLUMNS)
     return FlatContact(curve=curve, x=-half_width * np.cos(angle), weight=np.sin(angle), area=area, columns=columns)

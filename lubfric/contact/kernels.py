@@ -3,11 +3,11 @@
 import numpy as np
 
 # Argument of K0 [-] beyond which it is below 1e-19.
-FAR = 42.0
+VANISHING_ARGUMENT = 42.0
 # Step of the trapezoidal rule for the tail of ∫ K0: its error is below 1e-16.
-STEP = 0.26
+TAIL_STEP = 0.26
 # Points of that rule: the next one adds less than 1e-16.
-POINTS = 18
+TAIL_POINTS = 18
 
 
 def love_coefficients(shape: tuple[int, int], spacing: tuple[float, float], e_prime: float) -> np.ndarray:
@@ -53,7 +53,7 @@ def semiperiodic_coefficients(shape: tuple[int, int], spacing: tuple[float, floa
     kernel = np.zeros((nx, ny // 2 + 1))
     kernel[:, 0] = line_coefficients(nx, dx, e_prime, reference_length=nx * dx)
     step = 2 * np.pi * np.arange(1, ny // 2 + 1) / (ny * dy) * dx  # k_y dx
-    counts = np.minimum(nx, (FAR / step).astype(int) + 2)
+    counts = np.minimum(nx, (VANISHING_ARGUMENT / step).astype(int) + 2)
     columns = np.repeat(np.arange(step.size), counts)
     rows = np.arange(columns.size) - np.repeat(np.cumsum(counts) - counts, counts)
     kernel[rows, 1 + columns] = 4 / (np.pi * e_prime) * dx * bessel_cells(rows, step[columns])
@@ -77,8 +77,8 @@ def _integral(z: np.ndarray) -> np.ndarray:
     short = z <= 1
     integral[short] = iti0k0(z[short])[1]
     far = z[~short]
-    tail = 0.5 * STEP * np.exp(-far)
-    for growth in np.cosh(STEP * np.arange(1, POINTS)):
-        tail += STEP / growth * np.exp(-growth * far)
+    tail = 0.5 * TAIL_STEP * np.exp(-far)
+    for growth in np.cosh(TAIL_STEP * np.arange(1, TAIL_POINTS)):
+        tail += TAIL_STEP / growth * np.exp(-growth * far)
     integral[~short] = 0.5 * np.pi - tail
     return integral

@@ -20,11 +20,11 @@ from ..errors import InputError
 from .kernels import line_coefficients, love_coefficients, semiperiodic_coefficients
 
 # What an axis may be.
-KINDS = ("periodic", "free")
+AXIS_KINDS = ("periodic", "free")
 # Waves of a block of padded columns, which stays in the cache.
 PADDED = 32768
 # Coefficient of a distant cell over that of the cell itself [-] that is left out, by precision.
-NEGLIGIBLE = {np.dtype(np.float32): 1e-8, np.dtype(np.float64): 1e-16}
+NEGLIGIBLE_COEFFICIENT = {np.dtype(np.float32): 1e-8, np.dtype(np.float64): 1e-16}
 
 
 def _once(method: Callable[..., Any]) -> Callable[..., Any]:
@@ -89,7 +89,7 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         ny = self.shape[1]
         workers = self.workers
         blocks = []
-        reaches = _reaches(kernel, NEGLIGIBLE[dtype])
+        reaches = _reaches(kernel, NEGLIGIBLE_COEFFICIENT[dtype])
         begin = 0
         while begin < reaches.size:
             reach = int(reaches[begin])
@@ -164,7 +164,7 @@ def half_space(
     shape = validate.pair("shape", shape, partial(validate.integer, minimum=1), "a whole number")
     spacing = validate.spacing("spacing", spacing)
     e_prime = validate.positive("e_prime", e_prime, "Pa")
-    boundary = validate.pair("boundary", boundary, partial(validate.choice, options=KINDS), "'periodic' or 'free'")
+    boundary = validate.pair("boundary", boundary, partial(validate.choice, options=AXIS_KINDS), "'periodic' or 'free'")
     if workers is not None:
         workers = validate.integer("workers", workers, minimum=1)
     padded = (_padded_length(shape[0], boundary[0]), _padded_length(shape[1], boundary[1]))

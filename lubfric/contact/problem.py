@@ -15,9 +15,9 @@ from .operator import HalfSpace, half_space
 
 # Cells along an axis below which it is not halved. Halved and doubled by `python -m
 # verification.campaigns.benchmarks.contact_constants`.
-COARSEST = 24
+LEAST_HALVED_CELLS = 24
 # Tolerance of a coarse grid [-], which only gives a start.
-COARSE_TOLERANCE = 1e-2
+START_TOLERANCE = 1e-2
 # Iterations on a coarse grid, at most.
 COARSE_ITERATIONS = 60
 # Newton steps for a shift before every other one halves the bracket.
@@ -47,7 +47,7 @@ class ContactProblem:
         is none."""
         operator = self.operator
         fx, fy = (
-            2 if kept % 2 == 0 and padded % 4 == 0 and kept >= 2 * COARSEST else 1
+            2 if kept % 2 == 0 and padded % 4 == 0 and kept >= 2 * LEAST_HALVED_CELLS else 1
             for kept, padded in zip(operator.shape, operator.padded)
         )
         if fx == fy == 1:
@@ -57,7 +57,7 @@ class ContactProblem:
             self,
             gap0=np.mean(parts, axis=0),
             operator=operator.coarsened((fx, fy)).single,
-            tolerance=COARSE_TOLERANCE,
+            tolerance=START_TOLERANCE,
             max_iterations=COARSE_ITERATIONS,
         )
 

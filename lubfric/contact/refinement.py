@@ -21,7 +21,7 @@ from .search import FIRST_PACE, CandidateSearch
 
 # Gap over the deepest overlap [-] below which a cell may come into contact. Halved and doubled by `python -m
 # verification.campaigns.benchmarks.contact_constants`.
-REACH = 2.0
+CANDIDATE_GAP = 2.0
 # Share of the tolerance [-] that the search aims at. Halved and doubled by `python -m
 # verification.campaigns.benchmarks.contact_constants`.
 MARGIN = 0.8
@@ -30,7 +30,7 @@ MARGIN = 0.8
 FALL = 8e-6
 # Deflection of a yielded cell over the roughness [-] below which the search is exact. Halved and doubled by `python -m
 # verification.campaigns.benchmarks.contact_constants`.
-RIGID = 1e-2
+RIGID_DEFLECTION = 1e-2
 # Rounds without halving the residual after which the solve has stagnated. Halved and doubled by `python -m
 # verification.campaigns.benchmarks.contact_constants`.
 WASTED = 4
@@ -268,9 +268,9 @@ def _begun(
         overlap = state.residuals["penetration"] * state.scale  # of cells that have not yielded
     else:
         overlap = max(0.0, -float(state.gap.min()))
-    flags = state.gap < REACH * overlap
+    flags = state.gap < CANDIDATE_GAP * overlap
     flags |= state.pressure > 0
-    rigid = problem.hardness * min(operator.spacing) / operator.e_prime < RIGID * problem.roughness
+    rigid = problem.hardness * min(operator.spacing) / operator.e_prime < RIGID_DEFLECTION * problem.roughness
     return CandidateSearch(problem, CandidateCells.flagged(operator, flags), state, load, pace, exact=exact or rigid)
 
 

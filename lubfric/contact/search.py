@@ -41,12 +41,12 @@ LOAD_ERROR = 1e-6
 # verification.campaigns.benchmarks.contact_constants`.
 LEARNING = 0.3
 # Least and greatest part of the way to the trial [-].
-STEPS = (0.3, 2.0)
+STEP_PARTS = (0.3, 2.0)
 # Shifts of a trial, at most, to make it carry the load.
 SHIFTS = 12
 # Iterations without a tenth off the best residual after which a round ends. Halved and doubled by `python -m
 # verification.campaigns.benchmarks.contact_constants`.
-PATIENCE = 8
+ROUND_PATIENCE = 8
 # Load over hardness times free cells [-] above which the exact search frees more cells.
 CAPACITY = 0.999
 
@@ -124,7 +124,7 @@ class CandidateSearch:
             worst = self._worst(tolerance)
             self.history.append(worst)
             best, waiting = (worst, 0) if worst < 0.9 * best else (best, waiting + 1)
-            if worst <= tolerance or waiting > PATIENCE or self.iterations == limit:
+            if worst <= tolerance or waiting > ROUND_PATIENCE or self.iterations == limit:
                 return
             self.iterations += 1
             count_work(LEAST_ITERATION + ITERATION * self.change.size * math.log2(self.change.size + 1))
@@ -202,8 +202,8 @@ class CandidateSearch:
         slope = dot(self.before, gradient_change)
         curvature = dot(gradient_change, answer) * self.compliance
         step = -slope / curvature if curvature > 0 else 1.0
-        step = min(max(step, STEPS[0] if self.given else 0.0), STEPS[1])
-        self.pace *= max(step, STEPS[0]) ** LEARNING
+        step = min(max(step, STEP_PARTS[0] if self.given else 0.0), STEP_PARTS[1])
+        self.pace *= max(step, STEP_PARTS[0]) ** LEARNING
         self.known += np.multiply(way, np.float32(step), out=gradient_change)
         self.gap += np.multiply(answer, np.float32(step * self.compliance), out=gradient_change)
         self._limit(self.known, self.change)

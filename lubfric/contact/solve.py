@@ -13,7 +13,7 @@ from .refinement import ContactResult, SearchResult, contact_result, refine, tri
 from .search import FIRST_PACE
 
 # Load over that of a start [-] beyond which new asperity contacts matter more than the old ones.
-HEAVIER = 2.0
+MOST_LOAD_OVER_START = 2.0
 # Mean pressure over E' height/spacing [-] that flattens any surface: 1.1 would do for a periodic ripple.
 FLATTENED = 10.0
 
@@ -119,7 +119,7 @@ def _solved(
         search = refine(problem, start, load=load, level=approach, pace=pace)
         return replace(search, convolutions=search.convolutions + spent)
     if load is not None:
-        start = (shifted if load <= HEAVIER * start.sum() else rescaled)(start, load, problem.hardness)
+        start = (shifted if load <= MOST_LOAD_OVER_START * start.sum() else rescaled)(start, load, problem.hardness)
     return refine(problem, start, load=load, level=approach)
 
 

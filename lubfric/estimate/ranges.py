@@ -8,13 +8,11 @@ from .._base.jobs import map_parts
 from ..errors import ConvergenceError
 from ..models import ModelAnswer
 from ..models.shared import Prepared
-from ..scene import FRICTION, Scene, value_of
+from ..scene import BOUNDARY_FRICTION_KEY, HARDNESS_KEY, Scene, value_of
 from .uncertainty import Uncertainty
 
-HARDNESS = "bodies.hardness"
-
 # Change of f over f by the range of an input below which no note reports it: 0.05 %. Not measured: a convention.
-LEAST = 5e-4
+LEAST_REPORTED_CHANGE = 5e-4
 
 
 def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tuple[float, ...] | str]:
@@ -29,11 +27,11 @@ def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tupl
     changes: dict[str, tuple[float, ...] | str] = {}
     solved: dict[str, list[Scene]] = {}
     for name, *ends in scene.at_ends():
-        if name == FRICTION:
+        if name == BOUNDARY_FRICTION_KEY:
             load_ratio = answer.numbers["contact_load"] / scene.bodies.load
             slope = load_ratio * (scene.motion.slide_roll_ratio != 0)
             changes[name] = tuple(slope * (value_of(end, name) - value_of(scene, name)) for end in ends)
-        elif name == HARDNESS and not prepared.has_own_contact:
+        elif name == HARDNESS_KEY and not prepared.has_own_contact:
             changes[name] = "the contact was given by the caller"
         elif answer.at_inputs is None:
             changes[name] = "this model does not solve the ends of its range"
@@ -111,7 +109,7 @@ def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, ...] | s
             notes.append(f"{begin}not in the interval, as {ends}")
         elif not f:
             notes.append(f"{begin}f {ends[0]:+.2g} to {ends[1]:+.2g}")
-        elif max(map(abs, ends)) > LEAST * abs(f):
+        elif max(map(abs, ends)) > LEAST_REPORTED_CHANGE * abs(f):
             changes_of_f = (0.0, *(100 * end / f for end in ends))  # at the value itself it is 0
             percents = (min(changes_of_f), max(changes_of_f))
             notes.append(f"{begin}f {' to '.join(map(_signed, percents))} %")

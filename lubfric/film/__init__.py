@@ -13,9 +13,9 @@ from .elastic_shear import ElasticContact, disc_compliance, elastic_shear
 from .formulas import flooded_inlet, moes_film, starved_inlet
 from .grid import UPWIND, face_weights, hat_kernel, node_positions, trapezoidal
 from .heat import (
-    FAST,
-    LARGEST,
-    SLIDING,
+    FAST_PECLET_NUMBER,
+    MOST_SLIDE_ROLL_RATIO_OF_INLET,
+    MOST_THERMAL_LOADING,
     FilmHeat,
     InletHeat,
     Surroundings,

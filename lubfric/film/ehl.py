@@ -24,7 +24,7 @@ HALF = 0.5
 # Flow of a step over that of the one before [-].
 LESS = 0.6
 # Effort of the films on the way.
-ROUGH = Effort(5e-3)
+EFFORT_ON_THE_WAY = Effort(5e-3)
 # Distance of an inlet over the length on which a flooded film builds up [-] that counts as flooded.
 FURTHEST = 300.0
 
@@ -130,7 +130,7 @@ def _fed(full: FilmProblem, flow: float, effort: Effort, state: FilmState | None
         law = full.inlet_of(aim / known) - b, there.inlet_of(near.flux / known) - there.half_width
         closer = (near.inlet - there.half_width) * law[0] / law[1]
         problem = replace(full, fed=aim, inlet=min(b + closer, furthest))
-        return problem, warm(problem, effort if aim == flow else ROUGH, near)
+        return problem, warm(problem, effort if aim == flow else EFFORT_ON_THE_WAY, near)
 
     if state is not None and state.problem.fed is not None:
         problem, levels = fed_from(state, flow)

@@ -28,7 +28,7 @@ RUPTURE_GROWTH = 0.28
 # Nodes of a face in third-order upwind interpolation.
 UPWIND = (-1, 0, 1)
 # Cells spread evenly over the contact, relative to the others [-].
-CORE = 1.2
+EVEN_CELLS_WEIGHT = 1.2
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,14 +81,14 @@ def node_positions(half_width: float, film: float, n: int, distance: float | Non
         return (
             np.arcsinh(RISE_GROWTH * (x + width) / inner) / RISE_GROWTH
             + np.arcsinh(RUPTURE_GROWTH * x / outer) / RUPTURE_GROWTH
-            + CORE * np.arcsinh(x / scale)
+            + EVEN_CELLS_WEIGHT * np.arcsinh(x / scale)
         )
 
     def density(x: FloatArray) -> FloatArray:
         return (
             1.0 / np.hypot(inner, RISE_GROWTH * (x + width))
             + 1.0 / np.hypot(outer, RUPTURE_GROWTH * x)
-            + CORE / np.hypot(scale, x)
+            + EVEN_CELLS_WEIGHT / np.hypot(scale, x)
         )
 
     scale = 2.0 * half_width + 0.7 * l

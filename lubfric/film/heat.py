@@ -47,29 +47,29 @@ from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report, returned
 from ..oil import ROELANDS_LOG_VISCOSITY, Lubricant, log_viscosity_ratio, shear_stress
 
 # Péclet number u b rho c/(2 k) [-] from which a heat source moves fast (Jaeger 1942).
-FAST = 5.0
+FAST_PECLET_NUMBER = 5.0
 # Nodes of the flash temperature, at most.
-NODES = 257
+FLASH_NODES = 257
 # Iterations of film and surface temperature, at most.
-STEPS = 40
+TEMPERATURE_ITERATIONS = 40
 # Step [K] of a difference over the temperature.
-DIFFERENCE = 0.05
+DIFFERENCE_STEP = 0.05
 # Change of the temperatures over the largest rise [-] at which the iteration ends.
-TOLERANCE = 1e-6
+TEMPERATURE_TOLERANCE = 1e-6
 # |S| [-] above which the factors of the inlet are used outside the range they were made for.
-SLIDING = 0.5
+MOST_SLIDE_ROLL_RATIO_OF_INLET = 0.5
 # L [-] above which neither factor is supported by the solutions it was fitted to.
-LARGEST = 20.0
+MOST_THERMAL_LOADING = 20.0
 # Temperature [K] at which the viscosity of Roelands' law is infinite.
 ROELANDS_ZERO = 138.0
 # Least heated stress over the Newtonian one [-] from which the root is sought.
-LEAST = 1e-14
+LEAST_HEATED_STRESS = 1e-14
 # Least stress [Pa] from which the root is sought, where it is lower.
 LEAST_STRESS = 1e-3
 # Largest Newtonian stress [Pa] that a number holds.
 MOST_STRESS = 1e300
 # Halvings of the logarithm of the stress: to 1e-12 and less.
-HALVINGS = 64
+STRESS_HALVINGS = 64
 
 
 @dataclass(frozen=True)
@@ -180,9 +180,9 @@ def heated_film(
     made = heat(np.full(at.size, lubricant.temperature))
     off = mismatch(rise, made)
     history = []
-    for _ in range(STEPS):
+    for _ in range(TEMPERATURE_ITERATIONS):
         wall = lubricant.temperature + rise
-        slope = (heat(wall + DIFFERENCE) - made) / DIFFERENCE
+        slope = (heat(wall + DIFFERENCE_STEP) - made) / DIFFERENCE_STEP
         step = solve_triangular(np.eye(at.size) - matrix * slope, off, lower=True)
         share = 1.0
         while True:
@@ -195,15 +195,15 @@ def heated_film(
         rise = new
         off = left
         history.append(float(np.max(np.abs(off)) / max(np.max(rise), 1e-9)))
-        if history[-1] <= TOLERANCE:
+        if history[-1] <= TEMPERATURE_TOLERANCE:
             break
-    status = CONVERGED if history[-1] <= TOLERANCE else ITERATION_LIMIT
+    status = CONVERGED if history[-1] <= TEMPERATURE_TOLERANCE else ITERATION_LIMIT
     report = Report(
         "heat of the film",
         status,
         iterations=len(history),
         residual=history[-1],
-        tolerance=TOLERANCE,
+        tolerance=TEMPERATURE_TOLERANCE,
         history=tuple(history),
     )
     wall = np.interp(x, at, lubricant.temperature + rise)
@@ -212,8 +212,8 @@ def heated_film(
 
 
 def _nodes(count: int) -> np.ndarray:
-    """Indices, evenly spread, of at most `NODES` of ``count`` nodes; first and last are among them."""
-    return np.unique(np.linspace(0, count - 1, min(count, NODES)).round().astype(int))
+    """Indices, evenly spread, of at most `FLASH_NODES` of ``count`` nodes; first and last are among them."""
+    return np.unique(np.linspace(0, count - 1, min(count, FLASH_NODES)).round().astype(int))
 
 
 @dataclass(frozen=True)
@@ -278,8 +278,8 @@ def heated_stress(
     log_eta, beta = viscosity_at(lubricant, p, wall)
     per_stress = speed * h / (12 * k)  # K/Pa
     high = log_eta + np.log(2 * speed / h)
-    low = np.minimum(high + np.log(LEAST), np.log(LEAST_STRESS))
-    for _ in range(HALVINGS):
+    low = np.minimum(high + np.log(LEAST_HEATED_STRESS), np.log(LEAST_STRESS))
+    for _ in range(STRESS_HALVINGS):
         middle = 0.5 * (low + high)
         tau = np.exp(middle)
         above = _too_high(lubricant, p, h, speed, tau, log_eta, beta, wall + tau * per_stress)

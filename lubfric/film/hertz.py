@@ -20,7 +20,7 @@ from ..oil import Lubricant
 from . import formulas
 
 # Smallest film of a rigid cylinder over eta0 |U| R/w [-], isoviscous, Swift-Stieber rupture (exact).
-RIGID = 4.894968493913369
+RIGID_FILM_FACTOR = 4.894968493913369
 
 
 def composite_modulus(young_1: float, poisson_1: float, young_2: float, poisson_2: float) -> float:
@@ -156,7 +156,13 @@ class LineContact:
     def rigid_film(self) -> float:
         """Smallest film [m] of rigid bodies and constant viscosity, 4.895 eta0 |U| R/w (H. M. Martin, Engineering 102
         (1916) 119; rupture where p = dp/dx = 0)."""
-        return RIGID * self.lubricant.viscosity * abs(self.entrainment_speed) * self.radius / self.load_per_width
+        return (
+            RIGID_FILM_FACTOR
+            * self.lubricant.viscosity
+            * abs(self.entrainment_speed)
+            * self.radius
+            / self.load_per_width
+        )
 
 
 class HasLineContact:

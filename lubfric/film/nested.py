@@ -15,23 +15,23 @@ from .reynolds import FilmSolution, newton
 from .start import FilmState, cold_start, refined_start, rupture_guess, solution_state, warm_start
 
 # Cells of the coarsest grid of a cold start.
-COARSEST = 48
+COARSEST_CELLS = 48
 # Grids from which a cold start is tried, each with twice the cells.
 STARTS = 5
 # Cells of the finest grid.
-FINEST = 3072
-# Moes' M [-] beyond which COARSEST cells do not resolve the inlet.
-WIDE = 2000.0
+FINEST_CELLS = 3072
+# Moes' M [-] beyond which COARSEST_CELLS cells do not resolve the inlet.
+WIDE_LOAD_NUMBER = 2000.0
 # Tolerance [-] from which two grids are enough for a cold start.
-COARSE_TOLERANCE = 5e-3
+TWO_GRIDS_TOLERANCE = 5e-3
 # Inlet over that of a flooded film [-] from which a meniscus starts inwards.
 WIDE_INLET = 3.0
 # Distance of the meniscus after a step over that before [-].
-CLOSER = 0.5
+MENISCUS_APPROACH = 0.5
 # Critical stress over the oil's own [-], from a Newtonian flow to the oil's law.
 STIFFER = (625.0, 125.0, 25.0, 5.0, 1.0)
 # Moes' L [-] up to which Newton's method starts safely.
-EASY = 4.0
+EASY_MATERIAL_NUMBER = 4.0
 # Growth of L between two solutions [-].
 STAGE = 1.4
 
@@ -71,7 +71,7 @@ def warm(problem: FilmProblem, effort: Effort, state: FilmState) -> list[FilmSol
     """Two grids; the finer one is at least as fine as the error of ``state`` demands."""
     n = coarsest(problem)
     needed = max(effort.least_cells, state.pressure.size * min(4.0, math.sqrt(state.grid_error / effort.tolerance)))
-    while 2 * n < min(needed, FINEST):
+    while 2 * n < min(needed, FINEST_CELLS):
         n *= 2
     return _ascend(problem, effort, state, n, 2)
 
@@ -84,22 +84,22 @@ def _cold(problem: FilmProblem, effort: Effort) -> tuple[list[FilmSolution], lis
     spent: list[FilmSolution] = []
     notes: tuple[str, ...] = ()
     usual = coarsest(problem)
-    for n in sorted((COARSEST * 2**k for k in range(STARTS)), key=lambda n: n != usual):
+    for n in sorted((COARSEST_CELLS * 2**k for k in range(STARTS)), key=lambda n: n != usual):
         if spent:
             notes += (f"the cold start failed; tried again from {n} cells",)
         state, first = first_state(problem, n, effort.max_iterations)
-        levels = _ascend(problem, effort, state, n, 2 if effort.tolerance >= COARSE_TOLERANCE else 3)
+        levels = _ascend(problem, effort, state, n, 2 if effort.tolerance >= TWO_GRIDS_TOLERANCE else 3)
         if sound(levels):
             return levels, spent + first, notes
         spent += first + levels
-        if levels[0].status == CONVERGED and levels[-1].grid.n >= COARSEST * 2 ** (STARTS - 1):
+        if levels[0].status == CONVERGED and levels[-1].grid.n >= COARSEST_CELLS * 2 ** (STARTS - 1):
             break  # it is not the start that fails
     return levels, spent[: -len(levels)], notes
 
 
 def coarsest(problem: FilmProblem) -> int:
     """Return the cells of the coarsest grid: more if the inlet is far narrower than the contact."""
-    return COARSEST * 2 ** min(max(0, math.ceil(math.log(problem.M / WIDE, 4))), STARTS - 1)
+    return COARSEST_CELLS * 2 ** min(max(0, math.ceil(math.log(problem.M / WIDE_LOAD_NUMBER, 4))), STARTS - 1)
 
 
 def _ascend(problem: FilmProblem, effort: Effort, state: FilmState, n: int, fewest: int) -> list[FilmSolution]:
@@ -112,7 +112,7 @@ def _ascend(problem: FilmProblem, effort: Effort, state: FilmState, n: int, fewe
         grid = make_grid(problem_nodes(problem, n, rupture))
         z, H = refined_start(levels[-1]) if levels else warm_start(grid, problem, state)
         levels.append(newton(grid, problem, z, H, 1e-3 * effort.tolerance, effort.max_iterations))
-        if not sound(levels) or n >= FINEST:
+        if not sound(levels) or n >= FINEST_CELLS:
             return levels
         if len(levels) >= fewest and n >= effort.least_cells and grid_error(levels) <= effort.tolerance:
             return levels
@@ -126,7 +126,7 @@ def first_state(problem: FilmProblem, n: int, max_steps: int) -> tuple[FilmState
 
     alpha rises from the value at which L = EASY, then shear begins to thin the oil, and the inlet moves inwards.
     """
-    shares = [min(1.0, EASY / max(problem.L, EASY))]
+    shares = [min(1.0, EASY_MATERIAL_NUMBER / max(problem.L, EASY_MATERIAL_NUMBER))]
     while shares[-1] < 1.0:
         shares.append(min(1.0, STAGE * shares[-1]))
     inlets = _inwards(problem)
@@ -155,8 +155,8 @@ def _inwards(problem: FilmProblem) -> list[float | None]:
     b = problem.half_width
     distances = [problem.inlet - b]
     widest = WIDE_INLET * flooded_inlet(problem.rise, b)
-    while distances[0] < CLOSER * widest:
-        distances.insert(0, distances[0] / CLOSER)
+    while distances[0] < MENISCUS_APPROACH * widest:
+        distances.insert(0, distances[0] / MENISCUS_APPROACH)
     return [b + distance for distance in distances]
 
 

@@ -14,7 +14,7 @@ from ..oil import Lubricant, log_viscosity_ratio
 # Points of the table of q(p).
 TABLE = 4000
 # alpha p [-] of its last point.
-FARTHEST = 1e4
+LAST_ALPHA_P = 1e4
 
 
 @lru_cache(maxsize=16)
@@ -30,7 +30,7 @@ def true_pressure(lubricant: Lubricant) -> Callable[..., Any]:
                 return -np.log1p(-np.minimum(alpha * q, 1.0)) / alpha
 
         return barus
-    p = np.expm1(np.linspace(0.0, math.log1p(FARTHEST), TABLE)) / alpha
+    p = np.expm1(np.linspace(0.0, math.log1p(LAST_ALPHA_P), TABLE)) / alpha
     fluidity = np.exp(-np.minimum(log_viscosity_ratio(lubricant, p)[0], 700.0))
     q = np.append(0.0, np.cumsum(0.5 * (fluidity[1:] + fluidity[:-1]) * np.diff(p)))
     ratio = np.append(1.0, p[1:] / q[1:])  # smooth where q is small

@@ -32,7 +32,7 @@ from .problem import FilmProblem
 # Largest change of ln(eta) in one step [-].
 VISCOSITY_STEP = 3.0
 # Largest share of the film, or of the flux, that one step may remove [-].
-FILM_STEP = 0.7
+MOST_FILM_STEP = 0.7
 # Counted work [s of a usual core] of a Newton step, whatever its cells: 1.4 to 1.6e-4 was measured on 48 and 96 cells.
 STEP_WORK = 1.4e-4
 # The same over the square of the number of cells, whose matrix is dense: by 96 and 192 cells.
@@ -232,7 +232,7 @@ def step_length(log_viscosity_change: np.ndarray, film_loss: float) -> float:
     at the nodes, and ``film_loss``, the largest fraction of the film (or flux) that it removes."""
     change = float(np.max(np.abs(log_viscosity_change)))
     length = 1.0 if change <= VISCOSITY_STEP else VISCOSITY_STEP / change
-    return length if film_loss * length <= FILM_STEP else FILM_STEP / film_loss
+    return length if film_loss * length <= MOST_FILM_STEP else MOST_FILM_STEP / film_loss
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")

@@ -20,14 +20,14 @@ import numpy as np
 from .._base import FloatArray
 from ..oil import Eyring, ShearLaw
 
-POINTS, WEIGHTS = np.polynomial.legendre.leggauss(12)
-WEIGHTS = WEIGHTS / 2
+GAUSS_POINTS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(12)
+GAUSS_WEIGHTS = GAUSS_WEIGHTS / 2
 # b [-] below which the series is used.
-SMALL = 1e-2
+SMALL_B = 1e-2
 # Steps of Newton's method for a, at most.
-ROUNDS = 40
+MOST_THINNING_STEPS = 40
 # Relative step [-] at which it ends.
-CLOSE = 1e-13
+LAST_STEP = 1e-13
 
 
 def thinned(law: ShearLaw, s: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -36,36 +36,36 @@ def thinned(law: ShearLaw, s: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np
 
 
 def _eyring(s: FloatArray, b: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    safe = np.maximum(b, SMALL)
-    bent = np.where(b < SMALL, b**2 / 3 - b**4 / 45, safe / np.tanh(safe) - 1)  # c
-    per_square = np.where(b < SMALL, 1 / 3 - b**2 / 45, bent / safe**2)
-    even = np.where(b < SMALL, 1 + b**2 / 6, np.sinh(safe) / safe)  # S
+    safe = np.maximum(b, SMALL_B)
+    bent = np.where(b < SMALL_B, b**2 / 3 - b**4 / 45, safe / np.tanh(safe) - 1)  # c
+    per_square = np.where(b < SMALL_B, 1 / 3 - b**2 / 45, bent / safe**2)
+    even = np.where(b < SMALL_B, 1 + b**2 / 6, np.sinh(safe) / safe)  # S
     factor = 3 * per_square * np.hypot(even, s)
     tanh_squared = (s / np.hypot(even, s)) ** 2
-    by_b = bent * (1 - tanh_squared) + np.where(b < SMALL, -2 * b**2 / 15, 1 / per_square - bent - 3)
+    by_b = bent * (1 - tanh_squared) + np.where(b < SMALL_B, -2 * b**2 / 15, 1 / per_square - bent - 3)
     return factor, factor * tanh_squared, factor * by_b
 
 
 def _by_quadrature(law: ShearLaw, s: FloatArray, b: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return the three factors by quadrature, their root a by Newton's method: 0.56 ms for 400 nodes, where
     ``scipy.optimize.newton`` takes 0.64 ms for the root alone."""
-    t = POINTS[:, None]
+    t = GAUSS_POINTS[:, None]
 
     def rates(a: FloatArray) -> tuple[FloatArray, FloatArray]:
         rate = law.inverse(a + b * t)
         return rate, law.tangent(np.abs(rate))[0]
 
     a = law.f(s)  # without pressure flow: above the root, from where Newton's method falls
-    for _ in range(ROUNDS):
+    for _ in range(MOST_THINNING_STEPS):
         rate, slope = rates(a)
-        mean = WEIGHTS @ slope
-        step = (WEIGHTS @ rate - s) / mean
+        mean = GAUSS_WEIGHTS @ slope
+        step = (GAUSS_WEIGHTS @ rate - s) / mean
         a = a - step
-        if np.max(np.abs(step) / (a + b + 1e-300)) < CLOSE:
+        if np.max(np.abs(step) / (a + b + 1e-300)) < LAST_STEP:
             break
     rate, slope = rates(a)
-    mean, first, second = (WEIGHTS @ (slope * t**k) for k in range(3))
+    mean, first, second = (GAUSS_WEIGHTS @ (slope * t**k) for k in range(3))
     safe = np.maximum(b, 1e-6)
-    factor = np.where(b < 1e-6, mean, 3 / safe * (WEIGHTS @ (rate * t)))
+    factor = np.where(b < 1e-6, mean, 3 / safe * (GAUSS_WEIGHTS @ (rate * t)))
     by_b = np.where(b < 1e-6, 0.0, 3 * (second - first**2 / mean) - factor)
     return factor, np.where(b < 1e-6, 0.0, 3 / safe * first / mean * s), by_b

@@ -13,6 +13,7 @@ from .lubricant import (
     viscosity,
 )
 from .make import (
+    AT_40,
     OILS,
     estimate_in_words,
     from_grade,
@@ -25,5 +26,5 @@ from .make import (
 )
 from .oil import Oil
 from .pressure import BASES, Estimate, gold
-from .shear_laws import FLOW_LAWS, LIMITS, Eyring, ShearLaw
+from .shear_laws import FLOW_LAWS, LIMIT_LAWS, Eyring, ShearLaw
 from .viscosity import CELSIUS, Walther, checked_temperature, viscosity_at_100, viscosity_index, walther

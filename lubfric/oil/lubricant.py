@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from .._base import Shown, validate
 from ..errors import InputError
 from .oil import Oil
-from .shear_laws import FLOW_LAWS, LIMITS, LimitingStress, ShearLaw
+from .shear_laws import FLOW_LAWS, LIMIT_LAWS, LimitingStress, ShearLaw
 from .viscosity import checked_temperature
 
 # p0 [Pa] of Roelands' law (Roelands 1966).
@@ -102,7 +102,7 @@ class Lubricant(Shown):
         if self.viscosity_law == "roelands" and self.viscosity <= least:
             said = f" = {self.viscosity:g} Pa s is out of range for the Roelands law"
             raise InputError(said, "viscosity", f"> exp(-9.67) = {least:.4g} Pa s")
-        for kind, what in ((FLOW_LAWS, "two laws of one flow"), (LIMITS, "two limits of one stress")):
+        for kind, what in ((FLOW_LAWS, "two laws of one flow"), (LIMIT_LAWS, "two limits of one stress")):
             keys = [law.key for law in kind if getattr(self, law.key) is not None]
             if len(keys) > 1:
                 raise InputError(f" and {keys[0]} are {what}", keys[1], way_out="give one of them")
@@ -143,7 +143,7 @@ class Lubricant(Shown):
         """Return the law of its largest stress; None: it has none."""
         if self.limited_by_boundary_friction:
             return None
-        return next((law(self) for law in LIMITS if getattr(self, law.key) is not None), None)
+        return next((law(self) for law in LIMIT_LAWS if getattr(self, law.key) is not None), None)
 
     @property
     def heats(self) -> bool:

@@ -20,7 +20,7 @@ AT_15 = 15 + CELSIUS
 # Estimates of the pressure-viscosity coefficient.
 ESTIMATES = ("so-klaus", "gold")
 # Step of a central difference [K].
-STEP = 0.05
+TEMPERATURE_STEP = 0.05
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -97,8 +97,8 @@ class Oil(Shown):
     def temperature_coefficient(self, temperature: float) -> float:
         """-d ln(eta)/dT [1/K] at ``temperature`` [K], from its law by a central difference."""
         temperature = checked_temperature(temperature)
-        low = temperature - STEP
-        high = temperature + STEP
+        low = temperature - TEMPERATURE_STEP
+        high = temperature + TEMPERATURE_STEP
         if isinstance(self.viscosity_law, ViscosityTable):
             low, high = max(low, self.viscosity_law.temperatures[0]), min(high, self.viscosity_law.temperatures[-1])
         return math.log(self.viscosity(low) / self.viscosity(high)) / (high - low)

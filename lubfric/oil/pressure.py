@@ -25,7 +25,7 @@ SO_KLAUS_RANGE = (0.70, 1.15)
 # Relative error of a measured coefficient [-], as twin-disc fits state it (Arana et al. 2019).
 MEASURED_ERROR = 0.04
 # Distance [K] beyond the measured temperatures up to which their line is continued.
-REACH = 25.0
+CONTINUED_TEMPERATURES = 25.0
 
 
 @dataclass(frozen=True)
@@ -51,10 +51,10 @@ class MeasuredCoefficients:
         """
         low = self.temperatures[0]
         high = self.temperatures[-1]
-        if not low - REACH <= temperature <= high + REACH:
+        if not low - CONTINUED_TEMPERATURES <= temperature <= high + CONTINUED_TEMPERATURES:
             raise InputError(
                 f": the coefficient of this oil was measured from {low:g} to {high:g} K, and {temperature:g} K is more "
-                f"than {REACH:g} K outside",
+                f"than {CONTINUED_TEMPERATURES:g} K outside",
                 "pressure_viscosity_coefficient",
                 way_out="give pressure_viscosity_coefficient [1/Pa] at that temperature",
             )

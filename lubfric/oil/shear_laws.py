@@ -20,7 +20,7 @@ from ..errors import InputError
 # Activation temperature of the limiting stress [K] (Houpert, Flamand, Berthe 1981).
 LIMIT_ACTIVATION = 585.0
 # s [-] below which a fluid is Newtonian.
-SMALL = 1e-6
+NEWTONIAN_S = 1e-6
 
 
 class ShearLaw:
@@ -87,7 +87,7 @@ class ShearLaw:
         648-654, doi:10.1115/1.3261526)."""
         if along:
             return self.tangent(s)
-        s = np.maximum(s, SMALL)
+        s = np.maximum(s, NEWTONIAN_S)
         factor = s / self.f(s)
         return factor, factor - factor**2 / self.tangent(s)[0]
 
@@ -183,4 +183,4 @@ class LimitingStress(ShearLaw):
 
 
 FLOW_LAWS: tuple[type[ShearLaw], ...] = (Eyring, Carreau)
-LIMITS: tuple[type[LimitingStress], ...] = (LimitingStress,)
+LIMIT_LAWS: tuple[type[LimitingStress], ...] = (LimitingStress,)

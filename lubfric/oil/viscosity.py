@@ -16,11 +16,11 @@ CELSIUS = 273.15
 # Temperatures [K] that are taken for those of an oil.
 RANGE = (200.0, 600.0)
 # Viscosity at 100 °C [m²/s] below which the index is not defined (ASTM D2270).
-LEAST = 2e-6
+LEAST_VISCOSITY_AT_100 = 2e-6
 # Constant of procedure B of ASTM D2270 [-].
-SLOPE = 0.00715
+ASTM_D2270_B = 0.00715
 # Largest index [-] that `viscosity_at_100` takes; oils on the market end below 250.
-LARGEST = 400.0
+MOST_INDEX = 400.0
 with (resources.files(__package__) / "d2270.txt").open() as _file:
     AT_100, LOW, HIGH = np.loadtxt(_file, unpack=True)  # mm²/s: at 100 °C; L and H of the standard
 
@@ -132,7 +132,7 @@ def viscosity_index(nu40: float, nu100: float) -> float:
     nu40.
     """
     nu40, nu100 = validate.positive("nu40", nu40, "m²/s"), validate.positive("nu100", nu100, "m²/s")
-    if nu100 < LEAST * (1 - 1e-12):
+    if nu100 < LEAST_VISCOSITY_AT_100 * (1 - 1e-12):
         least = f"from 2e-6 m²/s (2 mm²/s), the viscosity index is not defined below{_millimetres(nu40, nu100)}"
         raise InputError(f" = {nu100:g} m²/s is out of range", "nu100", least)
     if nu40 <= nu100:
@@ -162,7 +162,7 @@ def _index(at_40: float, at_100: float) -> float:
         high = float(np.interp(at_100, AT_100, HIGH))
     if at_40 >= high:
         return 100 * (low - at_40) / (low - high)
-    return 100 + (10 ** (math.log(high / at_40) / math.log(at_100)) - 1) / SLOPE
+    return 100 + (10 ** (math.log(high / at_40) / math.log(at_100)) - 1) / ASTM_D2270_B
 
 
 def viscosity_at_100(nu40: float, index: float) -> float:
@@ -174,9 +174,9 @@ def viscosity_at_100(nu40: float, index: float) -> float:
     from scipy.optimize import brentq
 
     nu40 = validate.positive("nu40", nu40, "m²/s", maximum=1.0)
-    index = validate.number("viscosity_index", index, "(-)", minimum=-200, maximum=LARGEST)
+    index = validate.number("viscosity_index", index, "(-)", minimum=-200, maximum=MOST_INDEX)
     at_40 = nu40 * 1e6
-    least = LEAST * 1e6
+    least = LEAST_VISCOSITY_AT_100 * 1e6
     if at_40 <= least or _index(at_40, least) > index:
         said = f" = {index:g} (-) with nu40 = {nu40:g} m²/s is less than 2e-6 m²/s at 100 °C, where it is not defined"
         instead = "give the kinematic viscosities at 40 and 100 °C instead"

@@ -18,11 +18,17 @@ if TYPE_CHECKING:
     from ..scene import Scene
 
 
-CURVE = "a Stribeck curve"
-RATIOS = "a traction curve (--ratios)"
-IN_TIME = "a scene with [transient]"
-FOR = {"ratios": RATIOS, "animation": IN_TIME} | dict.fromkeys(("speeds", "fields", "workers", "vtk"), CURVE)
-KINDS: dict[str, dict[str, Any]] = {"path": {"type": Path}, "count": {"type": int}, "switch": {"action": "store_true"}}
+OF_CURVES = "a Stribeck curve"
+OF_TRACTION = "a traction curve (--ratios)"
+OF_RUNS_IN_TIME = "a scene with [transient]"
+FOR = {"ratios": OF_TRACTION, "animation": OF_RUNS_IN_TIME} | dict.fromkeys(
+    ("speeds", "fields", "workers", "vtk"), OF_CURVES
+)
+ARGUMENT_KINDS: dict[str, dict[str, Any]] = {
+    "path": {"type": Path},
+    "count": {"type": int},
+    "switch": {"action": "store_true"},
+}
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -60,7 +66,7 @@ def parser() -> argparse.ArgumentParser:
             command.set_defaults(call=row["call"])
             groups = [table["groups"][group] for group in row.get("with", ())]
             for argument, options in (pair for part in (*groups, row.get("arguments", {})) for pair in part.items()):
-                kind = KINDS.get(options.get("kind"), {})
+                kind = ARGUMENT_KINDS.get(options.get("kind"), {})
                 given = {key: value for key, value in options.items() if key != "kind"}
                 given |= {} if given.get("help") else {"help": argparse.SUPPRESS}
                 command.add_argument(argument, **kind | given)
@@ -88,11 +94,15 @@ def run(arguments: Namespace) -> None:
             f"and {scene.name} is solved on one patch; omit the option"
         )
     scene = scene.with_(numerics=changed | ({"accept": True} if arguments.accept else {}))
-    what = IN_TIME if scene.transient is not None else RATIOS if arguments.ratios else CURVE
+    what = OF_RUNS_IN_TIME if scene.transient is not None else OF_TRACTION if arguments.ratios else OF_CURVES
     for option, of in FOR.items():
         if getattr(arguments, option) not in (None, False) and of != what:
             raise InputError(f"--{option} is for {of}, and this is {what}; omit it")
-    solve = {RATIOS: run_curve.run_traction, IN_TIME: run_history.run_history, CURVE: run_curve.run_sweep}[what]
+    solve = {
+        OF_TRACTION: run_curve.run_traction,
+        OF_RUNS_IN_TIME: run_history.run_history,
+        OF_CURVES: run_curve.run_sweep,
+    }[what]
     solve(scene, arguments)
 
 

@@ -131,7 +131,7 @@ def keeping(what: Callable[[], str]) -> Iterator[None]:
 
 
 RESULT = "result.json"
-RESOLVED = "resolved.toml"
+RESOLVED_SCENE = "resolved.toml"
 UNFINISHED = "unfinished"
 MOST_TOML = 2**20  # bytes: a larger file names no inputs
 INPUTS = (
@@ -145,7 +145,7 @@ INPUTS = (
 OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
     *(f"{table}.{kind}" for table in ("stribeck", "traction", "history") for kind in ("csv", "png", "pdf", "svg")),
     *("contact.png", "contact_*.vtk", "sharing.png", "surface.png", "animation.gif", "law.json", "law.c"),
-    *("fields.npz", "report.html", RESOLVED, RESULT),
+    *("fields.npz", "report.html", RESOLVED_SCENE, RESULT),
 )
 
 
@@ -164,7 +164,7 @@ def run_begun(
     The folder is touched last, and what an earlier run left in it stays until `RunFolder.complete`.
     """
     begun = time.perf_counter()
-    names = [*names, "fields.npz", "surface.png", "report.html", RESOLVED, RESULT]
+    names = [*names, "fields.npz", "surface.png", "report.html", RESOLVED_SCENE, RESULT]
     check_outputs(arguments, arguments.out, names, OUTPUTS)
     for violation in warn_unusual(scene):
         say(violation.text)
@@ -322,7 +322,7 @@ class RunFolder:
         an earlier one; its record, which names the files, last as result.json. Then violated assumptions,
         ``unusual_values`` and files are said, and what was saved for a resume is removed."""
         with suppress(InputError):  # a path that is not Unicode has no place in a scene file
-            self.add(RESOLVED, lambda: prepared.scene.to_toml().encode())
+            self.add(RESOLVED_SCENE, lambda: prepared.scene.to_toml().encode())
         if prepared.surface.sq > 0:
             self.draw("surface.png", plot_surface, prepared)
         record: dict[str, Any] = {"scene": {"name": prepared.scene.name}, "points": [], **numbers}

@@ -26,8 +26,8 @@ from ..samples import (
     sample_of,
     takes_strips,
 )
-from ..scene import CHANGING, Scene, has_moving_roughness, warn_unusual_values, why_gap_not_resolved
-from ..studies import CHOSEN, in_words, span
+from ..scene import UNITS_OF_HISTORIES, Scene, has_moving_roughness, warn_unusual_values, why_gap_not_resolved
+from ..studies import EXPECTED_SPEEDS, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import check_run, estimated_run, periods, run_model_of, sampled_times, scene_at, speeds_of_run
 from ..units import worded
@@ -35,10 +35,10 @@ from .inputs import FACTS, input_rows
 
 # speeds at which the work is counted, and that are in the table, about
 SOME = 25
-SHOWN = 6
+TABLE_SPEEDS = 6
 TABLE_CAPTION = "estimate with closed forms: full-load film, asperity contact, and cost"
 # How the deterministic model takes part where the roughness is at rest, and where it moves.
-DETERMINISTIC = (
+DETERMINISTIC_IN_WORDS = (
     "load-sharing model, corrected by the deterministic model on some strips,",
     "deterministic model with moving roughness",
 )
@@ -100,7 +100,7 @@ def estimate_scene(
     """What is known of a ``scene`` before it is solved at ``speeds`` [m/s], as `describe_scene`; or at its own speed
     and the slide-roll ``ratios``. ``sample`` and ``surface``: as `lubfric.prepare` makes them."""
     own = scene.motion.entrainment_speed
-    chosen = np.geomspace(*span(scene, surface.sq), CHOSEN).tolist() if isinstance(speeds, str) else speeds
+    chosen = np.geomspace(*span(scene, surface.sq), EXPECTED_SPEEDS).tolist() if isinstance(speeds, str) else speeds
     speeds = [own] if len(ratios) else list(chosen) or list(scene.motion.speeds) or [own]
     changing = []
     over = counted(len(ratios), "ratios") if len(ratios) else counted(len(speeds), "speeds")
@@ -209,7 +209,7 @@ def _model(
         ends = dict.fromkeys(f"{speed:.3g}" for speed in (resolved[0], resolved[-1]))
         to = f"with a target of {100 * scene.numerics.model_tolerance:g} % for the model-form error"
         rows = [
-            f"{DETERMINISTIC[bool(strip)]} at {' to '.join(ends)} m/s, {to}; elsewhere the load-sharing model, and "
+            f"{DETERMINISTIC_IN_WORDS[bool(strip)]} at {' to '.join(ends)} m/s, {to}; elsewhere the load-sharing model, and "
             "the quick answer where heat changes f by more than 20 % or the film by more than 30 %"
         ]
     if strip:
@@ -228,7 +228,7 @@ def _histories(scene: Scene) -> list[str]:
     plan = scene.transient
     rows = []
     assert plan is not None
-    for name, unit in CHANGING.items():
+    for name, unit in UNITS_OF_HISTORIES.items():
         history = getattr(plan, name)
         if history is not None:
             low, high = history.range(plan.duration)
@@ -269,7 +269,7 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
     chosen = ("of them deterministic",) * (scene.numerics.model == AUTO)
     table[0] += ("strips", *chosen, "length of the line [mm]", "processor time [s]") * sampled
     own = (scene.motion.entrainment_speed,) if steady else ()
-    for speed in sorted({*speeds[:: max(1, len(speeds) // SHOWN)], *own, speeds[-1]}):
+    for speed in sorted({*speeds[:: max(1, len(speeds) // TABLE_SPEEDS)], *own, speeds[-1]}):
         one = estimated_work_of_point(scene, sample, surface, speed)
         film = ("", "", "0", "0", "no entrainment" + ": all load" * steady)
         if speed != 0:

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from ..film import hertz
 from ..oil import estimate_in_words
 from ..quantities import KEYS, worded_value
-from ..scene import FRICTION, FRICTION_OVER, HISTORIES, Scene, source_of, typical
+from ..scene import BOUNDARY_FRICTION_KEY, FRICTION_OVER, HISTORIES, Scene, source_of, typical
 from ..time import sampled_times, scene_at
 from ..units import worded
 
@@ -15,7 +15,7 @@ REPLACED = {"motion.slide_roll_ratio": "sliding"}
 # Key of the limiting stress at ambient pressure: without a limiting_stress_coefficient it is not used.
 LIMIT_OFFSET = "lubricant.limiting_stress_offset"
 
-SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "transient", "numerics")
+INPUT_SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "transient", "numerics")
 
 
 def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
@@ -45,7 +45,7 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
                 note = f", known to lie in {' to '.join(worded(end, quantity.unit) for end in known)}"
                 note += f", typical of {' or '.join(words)} ({source_of(key, words[0])})" if words else ""
         table = scene.bodies.boundary_friction_table
-        if table is not None and key == FRICTION:
+        if table is not None and key == BOUNDARY_FRICTION_KEY:
             unit = FRICTION_OVER[table.over]
             points = (f"{value:.4g} at {worded(at, unit)}" for at, value in zip(table.at, table.values))
             note = f", by a table over {table.over}: {', '.join(points)}"

@@ -25,17 +25,17 @@ if TYPE_CHECKING:
     from ..time import TransientResult
 
 
-WHOLE = 3.0  # times as long along y as along x: no more is drawn whole
+MOST_DRAWN_LENGTH = 3.0  # times as long along y as along x: no more is drawn whole
 FRAMES = 150  # of an animation at most, spread over the run
 PANELS = ("friction", "load", "film")  # of a Stribeck curve, from the top
 PANEL_HEIGHTS = {"friction": 3.6, "load": 2.1, "film": 2.3}  # inch, at the usual width
-WIDTH = 7.0  # inch: of a picture
+PICTURE_WIDTH = 7.0  # inch: of a picture
 INCH = 0.0254  # m
 LEAST_SCALE = 0.8  # of the heights: panels of a narrow picture are no lower
-NARROW = 4.5  # inch: narrower pictures have smaller fonts
+NARROW_PICTURE = 4.5  # inch: narrower pictures have smaller fonts
 LONE = 2.0  # factor between a lone speed and the ends of its axis
 LOWEST = 0.2  # of the smallest f, where a logarithmic axis of f begins
-SLENDER = 1.5  # times as long along y as along x: a narrow picture
+SLENDER_PICTURE = 1.5  # times as long along y as along x: a narrow picture
 PANEL_GAP = 0.15  # inch between panels, so that a colour bar does not touch the next panel
 MAP_HEIGHT = 4.6  # inch: of a map of fields, where its width allows it
 MAP_WIDTHS = (1.6, 3.0)  # inch: of a map of fields
@@ -45,7 +45,7 @@ BEARING_WIDTH = 4.0  # inch: of a bearing curve
 # Size of lines and markers of a narrow picture over that of the usual one, of twice its width.
 THINNER = 0.6
 QUANTILES = 401  # of the heights, of a bearing curve
-NEAR = 4.0  # half-widths of the Hertz strip around which a gap is drawn
+PICTURED_HALF_WIDTHS = 4.0  # half-widths of the Hertz strip around which a gap is drawn
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,7 +56,7 @@ class PictureOptions:
     ----------
     panels : of a Stribeck curve, of "friction", "load" and "film"
     x_scale, y_scale : "linear" or "log", of the axis of speeds, ratios or times, and of f; None: by the data
-    width : of the figure [m]; a journal's column is some 85 mm wide. None: `WIDTH`
+    width : of the figure [m]; a journal's column is some 85 mm wide. None: `PICTURE_WIDTH`
     """
 
     panels: tuple[str, ...] = PANELS
@@ -66,8 +66,8 @@ class PictureOptions:
 
     def size(self, heights: Sequence[float]) -> tuple[float, float]:
         """Return width and height [inch] of a figure with panels of these ``heights`` [inch] at the usual width."""
-        width = WIDTH if self.width is None else self.width / INCH
-        return width, max(width / WIDTH, LEAST_SCALE) * sum(heights)
+        width = PICTURE_WIDTH if self.width is None else self.width / INCH
+        return width, max(width / PICTURE_WIDTH, LEAST_SCALE) * sum(heights)
 
     def scale(self, axes: Axes, *, friction: Axes | None = None, f: np.ndarray | None = None) -> None:
         """Set the scales that the user chose: of x on ``axes``, and on the axes ``friction`` that of ``f``."""
@@ -82,7 +82,7 @@ class PictureOptions:
     @property
     def is_narrow(self) -> bool:
         """Whether the picture is for a journal's column: its fonts, lines and markers are smaller."""
-        return self.width is not None and self.width / INCH <= NARROW
+        return self.width is not None and self.width / INCH <= NARROW_PICTURE
 
     def thin(self, figure: Figure) -> None:
         """Make lines and markers of a narrow ``figure`` smaller by `THINNER`, as `fonts` does with its texts."""
@@ -194,7 +194,7 @@ def plot_traction(
     figures.friction_lines(top, ratio, parts, marker="o", ms=4)
     _mark(figure, top, ratio, c["coefficient"], [violations[i] for i in order])
     figure.suptitle(title)
-    top.set_ylabel(figures.FRICTION)
+    top.set_ylabel(figures.FRICTION_LABEL)
     for bottom in others:
         bottom.plot(ratio, c["flash_temperature_rise"], "-", color=figures.RED, label="surfaces (flash temperature)")
         bottom.plot(ratio, c["film_temperature_rise"], "-", color=figures.GREEN, label="film, above the surfaces")
@@ -253,7 +253,7 @@ def _one_gap(fields: Any, speed: float, half_width: float) -> Figure:
     from matplotlib.colors import LogNorm
     from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-    near = np.abs(fields.x) <= NEAR * half_width
+    near = np.abs(fields.x) <= PICTURED_HALF_WIDTHS * half_width
     x = fields.x[near]
     y = fields.y
     part = _part(x, y, int(fields.pressure[near].max(axis=0).argmax()))
@@ -279,7 +279,7 @@ def _size_of_maps(x: np.ndarray, y: np.ndarray, count: int) -> tuple[float, floa
     """Return width and height [inch] of a figure with so many maps of x and y beside each other, each with its bar of
     colours, without room that nothing fills."""
     ratio = np.ptp(y) / np.ptp(x)
-    if not 1 / figures.SLENDER <= ratio <= figures.SLENDER:  # drawn not to scale
+    if not 1 / figures.SLENDER_MAP <= ratio <= figures.SLENDER_MAP:  # drawn not to scale
         ratio = MAP_HEIGHT / MAP_WIDTHS[1]
     width = float(np.clip(MAP_HEIGHT / ratio, *MAP_WIDTHS))
     return count * (width + MAP_BESIDE), width * ratio + MAP_ABOVE
@@ -288,7 +288,7 @@ def _size_of_maps(x: np.ndarray, y: np.ndarray, count: int) -> tuple[float, floa
 def _part(x: np.ndarray, y: np.ndarray, row: int) -> slice:
     """The rows of ``y`` to draw: all, or of long strips those around ``row``, twice as long as ``x`` is wide."""
     across = x[-1] - x[0]
-    if y[-1] < WHOLE * across:
+    if y[-1] < MOST_DRAWN_LENGTH * across:
         return slice(None)
     first = min(max(y[row] - across, 0.0), y[-1] - 2 * across)
     return slice(int(np.searchsorted(y, first)), int(np.searchsorted(y, first + 2 * across)) + 1)
@@ -318,7 +318,7 @@ def _two_pressures(prepared: Prepared, point: FrictionResult, fields: Any) -> Fi
     in_section = film is not None and fields is not None
     panels = [touching or not in_section, in_section]
     part = slice(None) if not touching else _part(fields.x, fields.y, row)
-    slender = touching and np.ptp(fields.y[part]) > SLENDER * np.ptp(fields.x)
+    slender = touching and np.ptp(fields.y[part]) > SLENDER_PICTURE * np.ptp(fields.x)
     ratios = [0.55 if slender else 1.0, 1.0][: sum(panels)]
     from matplotlib.layout_engine import ConstrainedLayoutEngine
 

@@ -14,7 +14,7 @@ from .._base.processes import begin_beside
 from ..studies import in_words
 
 REFRESH = 1.0  # s between two drawings of the line
-CLEAR = "\r\033[K"  # to the begin of the line, and nothing on it
+CLEAR_LINE = "\r\033[K"  # to the begin of the line, and nothing on it
 
 _active: ProgressLine | None = None
 
@@ -77,7 +77,7 @@ class ProgressLine:
         """Draw the line as it is now."""
         with self._lock, suppress(OSError, ValueError):
             if self._bar is None:
-                sys.stderr.write(f"{CLEAR}{self.text}")
+                sys.stderr.write(f"{CLEAR_LINE}{self.text}")
                 sys.stderr.flush()
                 return
             self._bar.total = self.total or None
@@ -89,7 +89,7 @@ class ProgressLine:
         with self._lock, suppress(OSError, ValueError):
             if self._bar is not None:
                 self._bar.clear()
-            sys.stderr.write(CLEAR)
+            sys.stderr.write(CLEAR_LINE)
             sys.stderr.flush()
 
     def _draw_often(self) -> None:

@@ -22,11 +22,11 @@ from ..models.shared import (
 )
 from ..quantities import COLUMNS, KEYS, counted
 from ..scene import Scene, short_keys
-from ..studies import KNOWN, CurveResult, Law, StribeckResult, TractionResult
+from ..studies import DRAWN_ERROR, CurveResult, Law, StribeckResult, TractionResult
 from ..time import TransientResult, in_motion
 from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval, worded
 from .describe import TABLE_CAPTION, SceneEstimate
-from .inputs import FACTS, SECTIONS, inputs
+from .inputs import FACTS, INPUT_SECTIONS, inputs
 
 # columns of the operating table, after the swept quantity, f and its interval
 OF_POINT = ("power_loss", "full_load_film", "lambda_ratio")
@@ -62,7 +62,7 @@ BUDGET = {
     "input": "input (stated ranges)",
 }
 # A number smaller than this times the largest of its column is 0 in a table.
-ROUNDING = 1e-9
+TABLE_ROUNDING = 1e-9
 # Part of the power loss from which the report names the rolling resistance in it.
 SMALL_PART = 0.01
 
@@ -110,7 +110,7 @@ def report_page(
             "version": escape(record["versions"]["lubfric"]),
             "curve": "".join(picture(contents[name], text) for name, text in CURVES.items() if name in contents),
             "warnings": _warnings(result.validity),
-            "inputs": "".join(_inputs(scene, section, given.get(section, {})) for section in SECTIONS),
+            "inputs": "".join(_inputs(scene, section, given.get(section, {})) for section in INPUT_SECTIONS),
             "pictures": "".join(picture(contents[name], text) for name, text in PICTURES.items() if name in contents)
             or "<p>There is no contact or rough surface to show.</p>",
             "method": _method(prepared, result, estimate),
@@ -218,7 +218,7 @@ def _lift_off(curve: CurveResult) -> list[str]:
         touching = np.nanmax(curve.contact_load[curve.speed != 0]) > 0
         where = "above" if touching else "below"
         return [f"The lift-off speed is {where} the speeds solved."]
-    known = f", and its minimum is {least[1]:.3g} at U = {least[0]:.3g} m/s" if curve.between <= KNOWN else ""
+    known = f", and its minimum is {least[1]:.3g} at U = {least[0]:.3g} m/s" if curve.between <= DRAWN_ERROR else ""
     return [
         f"The lift-off speed, above which the film separates the surfaces, is "
         f"{with_interval(speed, low, high, '', unit='m/s')}. Between the solved speeds f is interpolated within {100 * curve.between:.2g} %{known}."
@@ -286,7 +286,7 @@ def _number(value: float) -> str:
 def _rounded(values: np.ndarray, index: int) -> float:
     """Return one of ``values``; 0 where it is below the rounding errors of the largest."""
     value = float(values[index])
-    return 0.0 if abs(value) < ROUNDING * float(np.nanmax(np.abs(values), initial=0.0)) else value
+    return 0.0 if abs(value) < TABLE_ROUNDING * float(np.nanmax(np.abs(values), initial=0.0)) else value
 
 
 def _details(curve: CurveResult) -> str:

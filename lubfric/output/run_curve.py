@@ -41,13 +41,13 @@ if TYPE_CHECKING:
     from .._base.tables import Columns
 
 
-SCALES = ("linear", "log")  # of an axis
+AXIS_SCALES = ("linear", "log")  # of an axis
 FORMATS = ("png", "pdf", "svg")  # of a picture that is drawn again
 NARROWEST = 0.05  # m: width of a picture
-WIDEST = 0.6  # m: width of a picture
+WIDEST_PICTURE = 0.6  # m: width of a picture
 TABLES = {"history": "a run in time", "traction": "a traction curve", "stribeck": "a Stribeck curve"}
 WORTH = 8  # speeds from which a second process gains more than it costs
-PATIENCE = 5.0  # s between two lines on how far a point is
+PROGRESS_SECONDS = 5.0  # s between two lines on how far a point is
 
 
 def run_sweep(scene: Scene, arguments: Namespace) -> None:
@@ -64,7 +64,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
     """
     ended: list[tuple[Any, ...]] = []
     speeds, chosen = _requested(scene, arguments.speeds, arguments.fields)
-    total = "some" if speeds == studies.AUTO else len(speeds)
+    total = "some" if speeds == studies.AUTO_SPEEDS else len(speeds)
     progress = _progress("U = {:.4g} m/s")
     names = ["stribeck.csv", "stribeck.png", "contact.png", "sharing.png", "law.json", "law.c"]
     names += [f"contact_{i}.vtk" for i in range(len(chosen) if arguments.vtk else 0)]
@@ -81,7 +81,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
         workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
     else:
         workers = _default_workers(scene, speeds)
-    speeds_apart = speeds != studies.AUTO and len(speeds) >= max(2, workers)  # else the parts of each point are
+    speeds_apart = speeds != studies.AUTO_SPEEDS and len(speeds) >= max(2, workers)  # else the parts of each point are
     with (
         ProgressLine("speeds") as shown,
         studies.pool(workers) as executor,
@@ -106,7 +106,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
 def _default_workers(scene: Scene, speeds: str | list[float]) -> int:
     """Return the number of processes of a curve: all processors but one, and two at least, where that pays. The numbers do
     not depend on it."""
-    several_speeds = speeds != studies.AUTO and len(speeds) >= WORTH and takes_strips(scene)
+    several_speeds = speeds != studies.AUTO_SPEEDS and len(speeds) >= WORTH and takes_strips(scene)
     long_points = has_moving_roughness(scene) and any(
         model.has_long_points for model in models_up_to(scene.numerics.model)
     )
@@ -284,11 +284,11 @@ def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
     scales = {option: getattr(arguments, option) for option in ("x_scale", "y_scale")}
     for option, scale in scales.items():
         if scale is not None:
-            validate.choice(f"--{option.replace('_', '-')}", scale, SCALES)
+            validate.choice(f"--{option.replace('_', '-')}", scale, AXIS_SCALES)
     width = None
     if arguments.width is not None:
         number = number_of("--width", arguments.width, "m")
-        width = validate.number("--width", number, "m", minimum=NARROWEST, maximum=WIDEST)
+        width = validate.number("--width", number, "m", minimum=NARROWEST, maximum=WIDEST_PICTURE)
     return PictureOptions(panels=panels, width=width, **scales)
 
 
@@ -362,8 +362,8 @@ def _requested(scene: Scene, speeds: str | None, fields: str | None) -> tuple[An
     """Return the speeds [m/s] to solve, or "auto", and those of them whose fields are drawn and written. The latter are
     added where they are missing, in order if the others are in order; a line on stderr says so."""
     chosen = parse_speeds("--fields", fields) or [scene.motion.entrainment_speed]
-    if speeds == studies.AUTO:
-        return studies.AUTO, [abs(u) for u in chosen if u != 0]
+    if speeds == studies.AUTO_SPEEDS:
+        return studies.AUTO_SPEEDS, [abs(u) for u in chosen if u != 0]
     requested = parse_speeds("--speeds", speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
     solved = list(requested)
     with_fields = []
@@ -442,7 +442,7 @@ def _range(option: str, words: list[str], unit: str, most: float, *, linear: boo
     return (np.linspace if linear else np.geomspace)(low, high, int(count)).tolist()
 
 
-def _moments_told(interval: float = PATIENCE) -> Callable[[str, int, int], None]:
+def _moments_told(interval: float = PROGRESS_SECONDS) -> Callable[[str, int, int], None]:
     """Return what writes how far a point is, and the time left for this part of it, every ``interval`` [s] at most."""
     begun = last = time.monotonic()
 

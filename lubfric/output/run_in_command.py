@@ -23,23 +23,23 @@ from ..units import converted, number_of, plain_number, printed, unit_for, with_
 from .command_line import scene_of
 from .commands import RunFolder, check_outputs, paced, run_folder, say
 from .describe import WITHIN_WORDS
-from .inputs import SECTIONS, inputs
+from .inputs import INPUT_SECTIONS, inputs
 from .progress import ProgressLine
 from .report import picture, style_sheet, table
 
 # Files of the folder; the last says that the others are complete.
-NAMES = ("surface.npy", "run_in.csv", "run_in.png", "scene.toml", "report.html", "run_in.json")
+FOLDER_FILES = ("surface.npy", "run_in.csv", "run_in.png", "scene.toml", "report.html", "run_in.json")
 
 
 def run_in_scene(arguments: Namespace) -> None:
-    """Run in the surface of a scene, and write `NAMES` to ``arguments.out``."""
+    """Run in the surface of a scene, and write `FOLDER_FILES` to ``arguments.out``."""
     scene = scene_of(arguments)
     distance = number_of("--distance", arguments.distance, "m")
     coefficient = number_of("--wear-coefficient", arguments.wear_coefficient, "-")
     if (distance > 0) != (coefficient > 0):
         given, missing = ("--distance", "--wear-coefficient") if distance > 0 else ("--wear-coefficient", "--distance")
         raise InputError(f"{given} is for wear, which needs {missing} as well", way_out=f"give {missing}, or neither")
-    check_outputs(arguments, arguments.out, NAMES)
+    check_outputs(arguments, arguments.out, FOLDER_FILES)
     begun = time.perf_counter()
     with run_folder(arguments.out, begun) as folder:  # one that cannot be written to is refused before any work
         seconds = estimated_run_in(scene, distance=distance, wear_coefficient=coefficient)
@@ -167,7 +167,7 @@ def _record(scene: Scene, result: RunIn, contents: dict[str, bytes]) -> dict[str
         "notes": result.surface.notes,
         "passes": {"deepest": result.deepest, "sinking": result.sinking, "shaken_down": result.shaken_down},
         "table": result.columns(),
-        "files": sorted([*contents, NAMES[-1]]),
+        "files": sorted([*contents, FOLDER_FILES[-1]]),
     }
 
 
@@ -182,7 +182,7 @@ def _page(scene: Scene, result: RunIn, answer: list[str], contents: dict[str, by
                 for label, text, key, note in inputs(scene, section)
             ],
         )
-        for section in SECTIONS
+        for section in INPUT_SECTIONS
         if list(inputs(scene, section))
     ]
     drawn = contents.get("run_in.png")

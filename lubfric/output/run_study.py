@@ -19,7 +19,7 @@ from .._base import IntArray, figures, plain, validate
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report, ValidityError
 from ..estimate import FrictionResult
 from ..quantities import KEYS, axis_label, counted, worded_value
-from ..units import CELSIUS, converted, numbers_of, unit_for, with_interval, worded
+from ..units import ZERO_CELSIUS, converted, numbers_of, unit_for, with_interval, worded
 from .command_line import scene_of
 from .commands import answer, check_outputs, keeping, made, paced, run_folder, say
 from .progress import ProgressLine
@@ -141,7 +141,7 @@ def _draw_panels(path: Path, result: studies.StudyResult, over: dict[str, np.nda
         shown = values.ravel()
         label = axis_label(key)
         if key == "lubricant.temperature":
-            shown = shown - float(CELSIUS)
+            shown = shown - float(ZERO_CELSIUS)
             label = axis_label("lubricant.temperature_celsius")
         elif key in KEYS:
             unit = unit_for(shown.tolist(), KEYS[key].unit)
@@ -171,7 +171,7 @@ def _draw_intervals(
             over[known], low[known], high[known], color=figures.BLUE, alpha=0.4, lw=width, label="95 % interval"
         )
     axes.plot(over, f, "o", ms=5 if f.size <= 40 else 2.5, color=figures.BLUE, label="friction coefficient")
-    axes.set_ylabel(figures.FRICTION)
+    axes.set_ylabel(figures.FRICTION_LABEL)
     finite = np.concatenate([f[np.isfinite(f)], low[known], high[known]])
     if finite.size:
         axes.set_ylim(min(0.0, 1.05 * finite.min()), 1.05 * max(finite.max(), 0.0) or None)

@@ -11,24 +11,25 @@ import numpy as np
 from .._base import __version__
 from ..models.shared import gathered_texts, percent, sentence, student
 from ..quantities import CHOICES, COLUMNS, counted, worded_value
-from ..studies import DURATION, ENDS, RATIO, StudyResult, columns_of_study, label, mean_over_cycle
-from ..units import CELSIUS, converted, plain_number, printed, unit_of_largest, with_interval
-from .inputs import SECTIONS, inputs
+from ..scene import SLIDE_ROLL_RATIO_KEY
+from ..studies import DURATION, INTERVAL_COLUMNS, StudyResult, columns_of_study, label, mean_over_cycle
+from ..units import ZERO_CELSIUS, converted, plain_number, printed, unit_of_largest, with_interval
+from .inputs import INPUT_SECTIONS, inputs
 from .report import picture, style_sheet, table
 
 # Rows of the table of a report; study.csv has all.
 MOST_ROWS = 60
 
 # Numbers of the table of a report, each in a unit of people, with the ends of their interval where they have one.
-SHOWN: dict[str, tuple[str, str] | None] = {
-    **ENDS,
+REPORTED_NUMBERS: dict[str, tuple[str, str] | None] = {
+    **INTERVAL_COLUMNS,
     "full_load_film": None,
     "lambda_ratio": None,
     "contact_load": None,
 }
 
 # Parts of the uncertainty budget, and their columns of a study.
-PARTS = {
+BUDGET_COLUMNS = {
     "numerical": "numerical",
     "sampling": "sampling",
     "model-form": "model",
@@ -86,7 +87,7 @@ def _common_inputs(result: StudyResult) -> str:
     whole_sections = {key for key in varied if "." not in key}
     parts = []
     scene = result.plan.scene
-    for section in SECTIONS:
+    for section in INPUT_SECTIONS:
         rows = [
             f'<td>{escape(label_)}</td><td>{escape(text)}{escape(note)}</td><td class="key">{escape(key)}</td>'
             for label_, text, key, note in inputs(result.plan.scene, section)
@@ -130,14 +131,14 @@ def _range(key: str, values: np.ndarray) -> str:
 
 
 def _table(result: StudyResult, rows: int) -> str:
-    """Return the points of a study with what is varied, and the numbers `SHOWN`, each column in one unit."""
+    """Return the points of a study with what is varied, and the numbers `REPORTED_NUMBERS`, each column in one unit."""
     columns = columns_of_study(result)
     count = len(next(iter(columns.values())))
     picked = np.unique(np.linspace(0, count - 1, rows).round().astype(int))
     heads = ["no."]
     cells: list[list[str]] = [[f"{row + 1}" for row in picked]]
     constant = [name for name, (_, values) in result.coords.items() if count > 1 and np.unique(values).size == 1]
-    for name in (*(name for name in result.coords if name not in constant), *SHOWN):
+    for name in (*(name for name in result.coords if name not in constant), *REPORTED_NUMBERS):
         values = columns[name][picked] if name in columns else np.full(picked.size, np.nan)
         quantity = COLUMNS.get(name)
         heads.append(quantity.label if quantity else name)
@@ -146,11 +147,11 @@ def _table(result: StudyResult, rows: int) -> str:
             continue
         si = quantity.unit if quantity else "-"
         if name == "lubricant.temperature":
-            values = values - float(CELSIUS)
+            values = values - float(ZERO_CELSIUS)
             si = "°C"
         unit = si if si == "°C" else unit_of_largest(values.tolist(), si)
         heads[-1] += f" [{printed(unit)}]" if printed(unit) else ""
-        pair = SHOWN.get(name)
+        pair = REPORTED_NUMBERS.get(name)
         low, high = (columns[end][picked] if pair else np.full(values.size, np.nan) for end in pair or ("", ""))
         if si == "°C":
             cells.append([f"{value:.4g}" for value in values])
@@ -184,7 +185,7 @@ def answer_lines(result: StudyResult) -> list[str]:
     rows = []
     if result.paired:
         rows += _mean_lines(result)
-    for name, (low_name, high_name) in ENDS.items():
+    for name, (low_name, high_name) in INTERVAL_COLUMNS.items():
         values = result.columns.get(name)
         if values is None or not np.isfinite(values).any():
             continue
@@ -207,7 +208,7 @@ def _budget_line(result: StudyResult) -> list[str]:
     if not np.isfinite(f).any():
         return []
     index = tuple(map(int, np.unravel_index(int(np.nanargmax(f)), f.shape)))
-    parts = {name: float(result[f"uncertainty_{column}"][index]) for name, column in PARTS.items()}
+    parts = {name: float(result[f"uncertainty_{column}"][index]) for name, column in BUDGET_COLUMNS.items()}
     parts["sampling"] *= student(float(result["uncertainty_freedom"][index])) if parts["sampling"] else 1.0
     names = {"not given": "boundary film not given"}
     shown = {names.get(name, name): part for name, part in parts.items() if name != "not given" or part}
@@ -236,9 +237,9 @@ def _coordinate(name: str, values: np.ndarray, index: int) -> str:
 
 def _slides(result: StudyResult, index: tuple[int, ...]) -> bool:
     """Return whether the surfaces slide at a point."""
-    if RATIO not in result.coords:
+    if SLIDE_ROLL_RATIO_KEY not in result.coords:
         return result.plan.scene.motion.slide_roll_ratio != 0
-    dim, ratios = result.coords[RATIO]
+    dim, ratios = result.coords[SLIDE_ROLL_RATIO_KEY]
     return bool(ratios[index[result.dims.index(dim)]] != 0)
 
 
@@ -268,7 +269,7 @@ def _mean_friction(result: StudyResult, index: tuple[int, ...], where: str) -> s
     """Return the mean magnitude of f over the operating points in a sentence. Where f changes its sign, as at the pitch
     point of a gear, a mean with the sign would say nothing."""
     f = result["coefficient"][index]
-    ends = np.abs([result[name][index] for name in ENDS["coefficient"]])
+    ends = np.abs([result[name][index] for name in INTERVAL_COLUMNS["coefficient"]])
     crosses = result["uncertainty_low"][index] * result["uncertainty_high"][index] < 0
     low = np.where(crosses, 0.0, ends.min(axis=0))
     durations = np.array(result.plan.coordinates.get(DURATION, np.ones(f.shape[-1])))

@@ -27,13 +27,13 @@ from .differential_equations import Mesh, convolve, load_row, make_mesh
 from .differential_newton import DifferentialSolution, newton
 
 # Cells of the first grid, at least.
-COARSEST = 64
+FIRST_GRID_CELLS = 64
 # Cells of the last grid, at most.
-FINEST = 32768
+LAST_GRID_CELLS = 32768
 # Grids by which an error is judged: two may agree by chance.
-FEWEST = 3
+FEWEST_GRIDS = 3
 # Largest step of a first grid over the length of the pressure rise [-].
-RESOLVED = 0.7
+MOST_FIRST_STEP = 0.7
 # Cells of the graded grid from which `lubfric.solve_ehl` may start.
 STATE_CELLS = 96
 
@@ -54,7 +54,7 @@ def solve_differential_deflection(
     max_iterations: int = 60,
     nodes: int | None = None,
     domain: tuple[float, float] | None = None,
-    most_nodes: int = FINEST + 1,
+    most_nodes: int = LAST_GRID_CELLS + 1,
     raise_on_failure: bool = True,
 ) -> EHLResult:
     """Return the film of a smooth line contact by differential deflection, on a uniform grid.
@@ -92,8 +92,8 @@ def solve_differential_deflection(
     )
     Effort(tolerance, 0, max_iterations)  # checks both
     if nodes is not None:
-        validate.integer("nodes", nodes, minimum=COARSEST + 1)
-    validate.integer("most_nodes", most_nodes, minimum=COARSEST + 1)
+        validate.integer("nodes", nodes, minimum=FIRST_GRID_CELLS + 1)
+    validate.integer("most_nodes", most_nodes, minimum=FIRST_GRID_CELLS + 1)
     problem = film_problem(
         LineContact(
             load_per_width=load_per_width,
@@ -130,14 +130,14 @@ def _cells(problem: FilmProblem, ends: tuple[float, float], nodes: int | None, m
     """Numbers of cells of the nested grids. If the finest resolves the rise of the pressure, the coarsest does too."""
     film = math.sqrt(2.0 * problem.film_guess)
     b = problem.half_width
-    enough = max(COARSEST, (ends[1] - ends[0]) / (RESOLVED * film * (film / (film + b)) ** (1 / 3)))
+    enough = max(FIRST_GRID_CELLS, (ends[1] - ends[0]) / (MOST_FIRST_STEP * film * (film / (film + b)) ** (1 / 3)))
     if nodes is None:
         cells = [min(2 ** math.ceil(math.log2(enough)), most_nodes - 1)]
         while 2 * cells[-1] < most_nodes:
             cells.append(2 * cells[-1])
         return cells
     cells = [nodes - 1]
-    while cells[0] // 2 >= min(enough, max(COARSEST, (nodes - 1) // 2)):
+    while cells[0] // 2 >= min(enough, max(FIRST_GRID_CELLS, (nodes - 1) // 2)):
         cells.insert(0, cells[0] // 2)
     return cells
 
@@ -165,7 +165,7 @@ def _ascend(
         if levels[0].status != CONVERGED and n in cells[:2] and n < cells[-1]:
             levels.pop()  # too coarse to start on
             continue
-        enough = doubled and len(levels) >= FEWEST and grid_error(levels) <= tolerance
+        enough = doubled and len(levels) >= FEWEST_GRIDS and grid_error(levels) <= tolerance
         if levels[-1].status != CONVERGED or enough:
             break
     return levels

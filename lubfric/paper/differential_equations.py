@@ -34,7 +34,7 @@ from ..film import FilmProblem, log_mean_fluidity, moes_film
 # Largest distance [nodes] whose pressures are implicit: it changes only the time.
 BANDWIDTH = 8
 # Distance [nodes] from which the second difference of the kernel is a series.
-NEAR = 20
+SERIES_DISTANCE = 20
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,9 +101,9 @@ def _second_difference(n: int) -> np.ndarray:
 
     From k = NEAR on it is Taylor's series with g'' = ln k + 3/2, because the differences lose their digits there.
     """
-    k = np.arange(-1.0, NEAR + 1)
+    k = np.arange(-1.0, SERIES_DISTANCE + 1)
     g = 0.5 * k * k * np.log(np.maximum(np.abs(k), 1.0))
-    x = 1.0 / np.arange(NEAR, max(n, NEAR + 1)) ** 2.0
+    x = 1.0 / np.arange(SERIES_DISTANCE, max(n, SERIES_DISTANCE + 1)) ** 2.0
     series = -0.5 * np.log(x) + 1.5 - x * (1 / 12 + x * (1 / 60 + x / 168))
     return np.append(np.diff(g, 2), series)[:n]
 

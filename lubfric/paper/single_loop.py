@@ -26,7 +26,7 @@ from .imposed_film import ImposedFilm, impose
 
 STOPS = ("residual", "separation")
 # Iterations without a tenth off the best residual after which the loop has stagnated.
-PATIENCE = 200
+LOOP_PATIENCE = 200
 
 
 def single_loop(
@@ -68,13 +68,13 @@ def single_loop(
     InputError : a value out of range, before any work
     ConvergenceError : the largest residual is above the tolerance; carries report and result
     """
-    validate.choice("form", form, FORMS)
+    validate.choice("form", form, LOOP_FORMS)
     validate.choice("stop", stop, STOPS)
     validate.positive("separation_tolerance", separation_tolerance, "(-)")
 
     def iterate(pressure: FloatArray) -> SearchResult:
         with np.errstate(all="ignore"):  # a printed loop may overflow; it then ends as diverged
-            return _ended(contact, FORMS[form](contact, pressure), stop, separation_tolerance)
+            return _ended(contact, LOOP_FORMS[form](contact, pressure), stop, separation_tolerance)
 
     contact = impose(heights, film, spacing, e_prime, max_iterations=max_iterations, **problem)
     return contact.solved(iterate, f"single loop, {form}", raise_on_failure=raise_on_failure)
@@ -156,7 +156,7 @@ def _consistent(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
         offset = contact.offset(displacement, np.where(p >= hardness, np.maximum(-above, 0.0), 0.0))
 
 
-FORMS: dict[str, Callable[[ImposedFilm, np.ndarray], Iterator[Iterate]]] = {
+LOOP_FORMS: dict[str, Callable[[ImposedFilm, np.ndarray], Iterator[Iterate]]] = {
     "consistent": _consistent,
     "printed": _printed,
 }
@@ -192,8 +192,8 @@ def _ended(contact: ImposedFilm, iterates: Iterator[Iterate], stop: str, separat
             break
         if error == np.inf and iteration > 0:
             break
-        if waiting > PATIENCE or iteration == problem.max_iterations:
-            status = STAGNATED if waiting > PATIENCE else ITERATION_LIMIT
+        if waiting > LOOP_PATIENCE or iteration == problem.max_iterations:
+            status = STAGNATED if waiting > LOOP_PATIENCE else ITERATION_LIMIT
             break
     return contact.ended(*nearest, status, convolutions + 1, history, notes, iteration)
 

@@ -30,26 +30,24 @@ from ..samples import contact_maps, cylinder_of, is_measured, whole_maps
 from ..scene import Scene
 from ..surface import Surface
 from ..units import converted, printed, unit_for
-from .wear import Wear, estimated_wear, worn_in
+from .wear import NM, Wear, estimated_wear, worn_in
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 # Positions of the contact within a half-width of the Hertz strip: an asperity misses 3 % of the highest pressure.
-STEPS = 2.0
+STEPS_OF_HALF_WIDTH = 2.0
 # Tolerance of the dry contact [-], at most: its overlaps become heights.
-SHARP = 1e-5
+PASS_TOLERANCE = 1e-5
 # Processor seconds of a contact of a pass, whatever its cells. This and the next two by 13 runs of `python -m
 # verification.campaigns.estimates`, which took .4 to 2 times as long.
 SOLVE_SECONDS = 1e-3
 
 # Processor seconds of a contact over its cells.
-CELL_SECONDS = 4.5e-7
+PASS_CELL_SECONDS = 4.5e-7
 
 # Passes until nothing sinks: 1 to 3 were seen.
 USUAL_PASSES = 2
-# Nanometres in a metre.
-NM = 1e9
 # Parameters of a map in the table of a running-in, and their units.
 OF_MAP = {"sq": "m", "sk": "m", "spk": "m", "svk": "m"}
 # Numbers of wear in that table, and their units.
@@ -281,7 +279,7 @@ def _passes(scene: Scene, before: Surface, centres: np.ndarray, passes: int, tol
     the ``tolerance`` [m]. That last pass does not count as a change of the map."""
     cylinder = cylinder_of(scene)
     operator = operator_under(before.heights, before.spacing, cylinder, scene.numerics.workers)
-    sharp = min(SHARP, scene.numerics.tolerance_of("contact"))
+    sharp = min(PASS_TOLERANCE, scene.numerics.tolerance_of("contact"))
     done = _Passes(heights=before.heights)
     while len(done.deepest) < passes and not done.shaken_down:
         lowered, depth = dent_by_pass(
@@ -373,7 +371,7 @@ def _way(scene: Scene, surface: Surface, step: float | None) -> np.ndarray:
     dx = surface.spacing[0]
     last = surface.shape[0] - 1
     if step is None:
-        step = max(dx, half_width / STEPS)
+        step = max(dx, half_width / STEPS_OF_HALF_WIDTH)
     columns = round(validate.number("step", step, "m", minimum=dx * (1 - 1e-9), maximum=half_width) / dx)
     centres = np.linspace(0, last, 1 + math.ceil(last / columns)).round().astype(int)
     return centres[:: -1 if scene.motion.entrainment_speed > 0 else 1]
@@ -385,7 +383,7 @@ def estimated_run_in(scene: Scene, *, distance: float = 0.0, wear_coefficient: f
     before = _whole(scene, None)
     operator = operator_under(before.heights, before.spacing, cylinder_of(scene), scene.numerics.workers)
     ends = 1 + 2 * sum(name == "bodies.hardness" for name, *_ in scene.ranges)
-    solve = SOLVE_SECONDS + CELL_SECONDS * math.prod(operator.shape)
+    solve = SOLVE_SECONDS + PASS_CELL_SECONDS * math.prod(operator.shape)
     seconds = USUAL_PASSES * len(_way(scene, before, None)) * solve
     if wear_of["distance"] > 0 and wear_of["coefficient"] > 0:
         seconds += estimated_wear(scene, before)

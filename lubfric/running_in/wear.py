@@ -45,23 +45,23 @@ LIFT_OFF = 0.01  # asperity load ratio at which a surface counts as lifted off
 VANISHED = 1e-3  # asperity load ratio below which wear ends: what is left would take as long as all before
 CHANGE = 0.1  # relative change of the asperity load that a step aims at
 REJECTED = 0.25  # relative change of the asperity load from which a step is made again, shorter
-FIRST = 0.01  # mean depth of the first step over the Sq of the map, at most
-GROWTH = 2.0  # of the length of a step from one to the next, at most
+FIRST_WEAR_DEPTH = 0.01  # mean depth of the first step over the Sq of the map, at most
+WEAR_STEP_GROWTH = 2.0  # of the length of a step from one to the next, at most
 SHRINKAGE = 0.2  # of it, at least
 MOST_STEPS = 1000  # of one run: some 70 take the asperity load from the whole load to VANISHED
 RECORDS = 9  # distances at which friction and lift-off speed are found: 0, and eight that double
-MOST_CELLS = 4_000_000  # of all windows together: memory
+MOST_WINDOW_CELLS = 4_000_000  # of all windows together: memory
 SPEED_TOLERANCE = 5e-3  # of ln U, in the search of the lift-off speed
-WIDEST = 12.0  # of ln U, each way from the scene's speed, in which the lift-off speed is looked for
+LIFT_OFF_SEARCH = 12.0  # of ln U, each way from the scene's speed, in which the lift-off speed is looked for
 NORMAL_95 = 1.96  # half of the 95 % interval of a normal distribution over its standard deviation
-FEWEST_WINDOWS = 4  # from which their scatter gives an interval
-NM = 1e9
+FEWEST_WEAR_WINDOWS = 4  # from which their scatter gives an interval
+NM = 1e9  # nanometres in a metre
 # Balances of a run: some ten for the lift-off speed at each record, and two at each step. With twice as many, two random runs
 # took .34 and .64 times as long as estimated.
 USUAL_BALANCES = 75
 # Processor seconds of a balance, whatever its cells; and over its cells.
 BALANCE_SECONDS = 0.02
-CELL_SECONDS = 6e-7
+BALANCE_CELL_SECONDS = 6e-7
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -233,13 +233,13 @@ class _WearProgress:
 def estimated_wear(scene: Scene, surface: Surface) -> float:
     """Return the estimated processor seconds of `worn_in` on a map like ``surface``: balances of all its windows."""
     rig = _rig(scene, surface)
-    return USUAL_BALANCES * (BALANCE_SECONDS + CELL_SECONDS * math.prod(rig.stack.shape))
+    return USUAL_BALANCES * (BALANCE_SECONDS + BALANCE_CELL_SECONDS * math.prod(rig.stack.shape))
 
 
 def _first_length(rig: _WearRig, row: dict[str, Any], coefficient: float, hardness: float) -> float:
-    """Return the length [m] of the first step: it wears `FIRST` of Sq."""
+    """Return the length [m] of the first step: it wears `FIRST_WEAR_DEPTH` of Sq."""
     pressure = row["asperity_load_ratio"] * rig.scene.bodies.load / cylinder_of(rig.scene).hertz_area
-    return FIRST * max(rig.surface.sq, 1e-12) * hardness / (coefficient * pressure) if pressure else math.inf
+    return FIRST_WEAR_DEPTH * max(rig.surface.sq, 1e-12) * hardness / (coefficient * pressure) if pressure else math.inf
 
 
 def _advance(
@@ -262,7 +262,7 @@ def _advance(
         return heights, replace(progress, steps=turn, ratios=ratios, distance=progress.distance + length)
     end = _step(rig, heights, rate * length, turn, begin.balance)
     change = abs(end.ratio - begin.ratio) / begin.ratio
-    factor = min(max(CHANGE / max(change, 1e-12), SHRINKAGE), GROWTH)
+    factor = min(max(CHANGE / max(change, 1e-12), SHRINKAGE), WEAR_STEP_GROWTH)
     if change > REJECTED:
         return heights, replace(progress, steps=turn, start=begin.balance, length=factor * length)
     last = aim - progress.distance <= length
@@ -287,10 +287,10 @@ def _rig(scene: Scene, surface: Surface) -> _WearRig:
     under = operator_under(surface.heights, surface.spacing, cylinder, workers)
     windows = len(passage(surface.shape, cylinder, under, periodic=surface.periodic_axes[0]).columns)
     shape = under.shape[0], windows * surface.shape[1]
-    if math.prod(shape) > MOST_CELLS:
+    if math.prod(shape) > MOST_WINDOW_CELLS:
         raise InputError(
             f"surface: {windows} windows of {under.shape[0]} x {surface.shape[1]} cells are {math.prod(shape):.3g} "
-            f"cells; allowed: up to {MOST_CELLS:.3g} (crop the map, or resample it on longer cells)"
+            f"cells; allowed: up to {MOST_WINDOW_CELLS:.3g} (crop the map, or resample it on longer cells)"
         )
     stack = half_space(shape, surface.spacing, cylinder.e_prime, BOUNDARY, workers=workers)
     return _WearRig(scene=scene, speed=_speed(scene), surface=surface, under=under, stack=stack)
@@ -409,7 +409,7 @@ def _lift_off(rig: _WearRig, state: _WearStep) -> tuple[float, tuple[float, floa
     speed = sense * math.exp(root)
     steepness = _steepness(solved, root)
     loads = solved[min(solved, key=lambda at: abs(at - root))].by_window.sum(axis=(1, 2))
-    if loads.size < FEWEST_WINDOWS or not steepness or not loads.any():
+    if loads.size < FEWEST_WEAR_WINDOWS or not steepness or not loads.any():
         return speed, unknown, ""
     scatter = float(loads.std(ddof=1) / math.sqrt(loads.size) / loads.mean())
     half = NORMAL_95 * scatter / steepness
@@ -429,7 +429,7 @@ def _bracket(excess: Callable[[float], float], start: float) -> tuple[float, flo
     value = excess(start)
     step = math.copysign(1.0, value)
     before = start
-    while abs(before + step - start) <= WIDEST:
+    while abs(before + step - start) <= LIFT_OFF_SEARCH:
         here = before + step
         if excess(here) * value <= 0:
             return min(before, here), max(before, here)

@@ -42,7 +42,7 @@ COLUMNS_MULTIPLE = 4
 ROWS_MULTIPLE = 16
 
 # Height [Sq] up to which asperities may touch: 3 in a million points of a Gaussian surface are higher.
-SUMMITS = 4.5
+HIGHEST_SUMMITS = 4.5
 
 # Correlation lengths along y over which one strip passes into the next: a Gaussian correlation is 0.02 there.
 BLEND = 2.0
@@ -181,9 +181,9 @@ def length_or_half(surface: Surface, axis: int) -> float:
 
 def reach_of(scene: Scene, sq: float) -> float:
     """Return the length [m] along x that contains the contact: it ends where an undeformed cylinder, resting on the ends of the
-    Hertz strip, has risen by `SUMMITS` Sq."""
+    Hertz strip, has risen by `HIGHEST_SUMMITS` Sq."""
     bodies = scene.bodies
-    return 2 * math.sqrt(bodies.half_width**2 + 2 * bodies.radius * SUMMITS * sq)
+    return 2 * math.sqrt(bodies.half_width**2 + 2 * bodies.radius * HIGHEST_SUMMITS * sq)
 
 
 def longest_coarsening(

@@ -15,8 +15,8 @@ from .cells import no_cells
 
 # Hertz half-widths on each side to which a measured patch is cut. Not measured: at the lightest loads of rough
 # contacts the contact is wider than the Hertz strip by a factor of this order.
-REACH = 6.0
-TOO_SHORT = (
+PATCH_HALF_WIDTHS = 6.0
+MAP_TOO_SHORT = (
     "surface.extension = 'mirror' (continues the map by its mirror image) or contact.geometry = 'flat' (its roughness "
     "spread over the strip)"
 )
@@ -125,7 +125,7 @@ def check_grid(scene: Scene, surface: Surface) -> None:
     if length < 2 * half_width:
         generated = scene.surface.file is None
         what = "the patch (contact.shape x contact.spacing)" if generated else "the map"
-        ways = "a larger contact.shape" if generated else f"a longer map, {TOO_SHORT}"
+        ways = "a larger contact.shape" if generated else f"a longer map, {MAP_TOO_SHORT}"
         raise InputError(
             f"{what} is {length:.3g} m long in x, the direction of motion; allowed: at least the Hertz strip, "
             f"{2 * half_width:.3g} m: {ways}"
@@ -202,7 +202,7 @@ def _cut_to_contact(scene: Scene, surface: Surface) -> Surface:
     domain = scene.contact
     cylinder = scene.contact.geometry == "cylinder"
     mirrored = is_extended(scene)
-    reach = REACH * scene.bodies.half_width
+    reach = PATCH_HALF_WIDTHS * scene.bodies.half_width
     if domain.spacing is not None:
         surface = surface.resampled(spacing=domain.spacing)
     if mirrored and (domain.shape or cylinder):
@@ -214,7 +214,7 @@ def _cut_to_contact(scene: Scene, surface: Surface) -> Surface:
         raise InputError(
             f"contact.shape = {nx} x {ny} cells of {surface.spacing[0]:.3g} x {surface.spacing[1]:.3g} m is larger "
             f"than the map; allowed: up to {surface.shape[0]} x {surface.shape[1]}, or leave contact.shape out"
-            f"{'' if mirrored or nx <= surface.shape[0] else '; ' + TOO_SHORT}"
+            f"{'' if mirrored or nx <= surface.shape[0] else '; ' + MAP_TOO_SHORT}"
         )
     cut = surface.cropped((nx, ny))
     if not cylinder:

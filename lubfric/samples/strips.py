@@ -17,7 +17,7 @@ import numpy as np
 from .._base import FieldsOnly, FloatArray, validate
 from ..errors import InputError
 from ..quantities import counted
-from ..scene import ROUGH, Roughness, Scene, has_moving_roughness
+from ..scene import ROUGH_SECTIONS, Roughness, Scene, has_moving_roughness
 from ..surface import Surface, surface_generator
 from .cells import (
     COLUMNS_MULTIPLE,
@@ -37,35 +37,35 @@ from .contract import PIECE, Sample
 from .maps import is_extended, is_measured, rough_bodies, statistics, whole_maps
 
 # Correlation lengths along y of a strip: ten blocks of nine lengths (models/shared/statistics.py).
-STRIP = 90.0
+STRIP_LENGTHS = 90.0
 
 # Correlation lengths in the Hertz half-width from which on a strip half as long has as many asperity contacts. Not
 # measured.
-WIDE = 5.0
+WIDE_HALF_WIDTH = 5.0
 
-# Correlation lengths along y of a strip whose roughness moves, where the half-width has `WIDE` of them: other places
+# Correlation lengths along y of a strip whose roughness moves, where the half-width has `WIDE_HALF_WIDTH` of them: other places
 # pass through the contact in time. Not measured: the sampling error is reported with a strip of any length.
-PASSING = 30.0
+MOVING_STRIP_LENGTHS = 30.0
 
 # Correlation lengths that are solved first: 20 blocks, whose scatter is known to 1/sqrt(38) = 16 %. Half and twice as
 # many change f by up to 1.7 %, within the sampling tolerance of 2 % (the command in models/shared/statistics.py).
-FIRST = 180.0
+FIRST_LENGTHS = 180.0
 
 # Correlation lengths, at most: 512 strips. A sample that needs more is stated with the error it has.
-MOST = 46080.0
+MOST_LENGTHS = 46080.0
 
 # Cells of joined strips, at most, for memory: 24 MB for each field.
-MOST_CELLS = 3_000_000
+MOST_JOINED_CELLS = 3_000_000
 
 # Cells of the strips that are kept for a longer sample, at most, for memory: 16 MB of heights.
 KEPT_CELLS = 2_000_000
 
 # Correlation lengths along the motion between windows of a measured map that count as independent: a Gaussian
 # correlation is 1e-7 there, an exponential one 0.02.
-APART = 4.0
+WINDOW_DISTANCE = 4.0
 
 # Windows from which on none has to reach over the ends of the map: their scatter is known to 1/sqrt(14) = 27 %.
-ENOUGH = 8
+ENOUGH_WINDOWS = 8
 
 # Stream of seeds of strips.
 STRIPS = 0
@@ -94,7 +94,7 @@ class GeneratedStrips(FieldsOnly, Sample):
         return count * self.cells.rows(self.strip_length)
 
     def of_body(self, body: int) -> GeneratedStrips:
-        smooth = ROUGH[1 - body]
+        smooth = ROUGH_SECTIONS[1 - body]
         parts = ((replace(rough, sq=0.0) if name == smooth else rough, name) for rough, name in self.roughness)
         return replace(self, roughness=tuple(parts))
 
@@ -239,13 +239,13 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
         cells = cells_of_a_box(spacing, shortest, half_width, patch.shape)
     else:
         cells = choose_cells(spacing, shortest, half_width, max(patch.shape[0] * spacing[0], reach_of(scene, sq)))
-    narrow = WIDE * lengths[0] / half_width
-    long = STRIP if narrow > 1 else STRIP / 2
+    narrow = WIDE_HALF_WIDTH * lengths[0] / half_width
+    long = STRIP_LENGTHS if narrow > 1 else STRIP_LENGTHS / 2
     if has_moving_roughness(scene):  # other places pass through the contact in time
-        long = min(STRIP, PASSING * max(1.0, narrow))
-    length = min(long * lengths[1], MOST_CELLS / 2 / cells.columns * cells.spacing[1])
-    available = int(min(MOST / long, MOST_CELLS / (cells.columns * cells.rows(length))))
-    first = min(round(FIRST / long), available)
+        long = min(STRIP_LENGTHS, MOVING_STRIP_LENGTHS * max(1.0, narrow))
+    length = min(long * lengths[1], MOST_JOINED_CELLS / 2 / cells.columns * cells.spacing[1])
+    available = int(min(MOST_LENGTHS / long, MOST_JOINED_CELLS / (cells.columns * cells.rows(length))))
+    first = min(round(FIRST_LENGTHS / long), available)
     return GeneratedStrips(
         cells=cells,
         correlation_lengths=lengths,
@@ -281,8 +281,8 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
             f"the map is {surface.shape[1]} cells wide along y, across the motion: no line can be made of that; give a "
             f"wider one, or numerics.sampling = 'patch' (its rows go on along y as they are)"
         )
-    most = max(1, min(count, int(MOST_CELLS * cells.spacing[1] / (cells.columns * length))))
-    first = min(most, max(1, math.ceil(FIRST * lengths[1] / length * (1 - 1e-9))))
+    most = max(1, min(count, int(MOST_JOINED_CELLS * cells.spacing[1] / (cells.columns * length))))
+    first = min(most, max(1, math.ceil(FIRST_LENGTHS * lengths[1] / length * (1 - 1e-9))))
     starts = [starts[i] for i in spread(count)]
     return MeasuredStrips(
         cells=cells,
@@ -317,9 +317,9 @@ def _window_starts(scene: Scene, surface: Surface, lengths: tuple[float, float],
     these are few, of windows that reach over its ends as well."""
     half_width = scene.bodies.half_width
     dx = surface.spacing[0]
-    step = max(1, round(max(APART * lengths[0], 2 * half_width) / dx))
+    step = max(1, round(max(WINDOW_DISTANCE * lengths[0], 2 * half_width) / dx))
     starts = starts_of(surface.shape[0], columns, step, 0)
-    if len(starts) >= ENOUGH or is_extended(scene):
+    if len(starts) >= ENOUGH_WINDOWS or is_extended(scene):
         return starts
     overhang = min(max(0, math.floor(0.5 * columns - half_width / dx)), surface.shape[0])
     return starts_of(surface.shape[0], columns, step, overhang)

@@ -1,6 +1,17 @@
 """The scene: bodies, surfaces, lubricant, motion and numerics, from a file or from Python."""
 
-from .bodies import FASTEST, FRICTION, FRICTION_OVER, LARGEST_RATIO, Bodies, ContactDomain, Motion
+from .bodies import (
+    BOUNDARY_FRICTION_KEY,
+    FASTEST,
+    FRICTION_OVER,
+    HARDNESS_KEY,
+    LARGEST_RATIO,
+    SLIDE_ROLL_RATIO_KEY,
+    SLIP_KEY,
+    Bodies,
+    ContactDomain,
+    Motion,
+)
 from .file import builtin_scenes, given_tables, load_scene, read_toml, scene_from_table, write_template
 from .history import Constant, Harmonic, History, Ramp, Table
 from .numerics import Numerics
@@ -14,7 +25,6 @@ from .plausible import (
 )
 from .roughness import Roughness, named
 from .scene import Scene, check_resolved_gap, has_moving_roughness, moving_bodies, value_of, why_gap_not_resolved
-from .sections import ROUGH, SECTIONS
+from .sections import ROUGH_SECTIONS, SECTIONS
 from .short_forms import MOST_SPEEDS, SOURCES, short_keys, speeds_of_range
-from .transient import HISTORIES, Transient, checked_history, read_history
-from .transient import UNITS as CHANGING
+from .transient import HISTORIES, UNITS_OF_HISTORIES, Transient, checked_history, read_history

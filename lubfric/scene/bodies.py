@@ -12,12 +12,22 @@ from ..film import hertz
 from ..quantities import KEYS
 from ..units import without_unit
 
-# m/s, -
+# Keys of a scene that other rooms treat by themselves: f_b and the hardness, and the sliding in both of its forms.
+BOUNDARY_FRICTION_KEY = "bodies.boundary_friction_coefficient"
+HARDNESS_KEY = "bodies.hardness"
+SLIDE_ROLL_RATIO_KEY = "motion.slide_roll_ratio"
+SLIP_KEY = "motion.slip_percent"
+
+# Largest entrainment speed [m/s].
 FASTEST = KEYS["motion.entrainment_speed"].most
-LARGEST_RATIO = KEYS["motion.slide_roll_ratio"].most
-FRICTION = "bodies.boundary_friction_coefficient"
-FRICTION_OVER = {"sliding_speed": "m/s", "temperature": "K"}  # what a table of it may be over
-LARGEST = 2**26  # cells of a contact grid
+
+# Largest slide-roll ratio [-].
+LARGEST_RATIO = KEYS[SLIDE_ROLL_RATIO_KEY].most
+
+# What a table of f_b may be over, and the unit of that.
+FRICTION_OVER = {"sliding_speed": "m/s", "temperature": "K"}
+
+MOST_CONTACT_CELLS = 2**26  # cells of a contact grid
 
 
 def pair(name: str, value: tuple[float, float], unit: str) -> tuple[Any, ...]:
@@ -39,21 +49,26 @@ class FrictionTable:
     values: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        validate.choice(f"{FRICTION} over", self.over, FRICTION_OVER)
-        for name, unit, most in (("at", FRICTION_OVER[self.over], FASTEST), ("values", "(-)", KEYS[FRICTION].most)):
-            numbers = validate.numbers(FRICTION, getattr(self, name), unit, most)
+        validate.choice(f"{BOUNDARY_FRICTION_KEY} over", self.over, FRICTION_OVER)
+        for name, unit, most in (
+            ("at", FRICTION_OVER[self.over], FASTEST),
+            ("values", "(-)", KEYS[BOUNDARY_FRICTION_KEY].most),
+        ):
+            numbers = validate.numbers(BOUNDARY_FRICTION_KEY, getattr(self, name), unit, most)
             object.__setattr__(self, name, tuple(numbers.tolist()))
         rising = all(a < b for a, b in zip(self.at, self.at[1:]))
         if not rising or not 2 <= len(self.at) == len(self.values) or min(*self.at, *self.values) < 0:
             allowed = "two lists of two numbers or more, as long as each other, none below 0, the first rising"
-            raise InputError(f" = {self.values} at {self.at}, a table over {self.over}", FRICTION, allowed)
+            raise InputError(f" = {self.values} at {self.at}, a table over {self.over}", BOUNDARY_FRICTION_KEY, allowed)
 
     def __call__(self, at: float) -> float:
         """f_b at a sliding speed [m/s] or a temperature [K]. Raises `InputError` outside the table."""
         unit = FRICTION_OVER[self.over]
         if not self.at[0] * (1 - 1e-9) <= at <= self.at[-1] * (1 + 1e-9):
             said = f", a table over {self.over}, has no value at {at:g} {unit}"
-            raise InputError(said, FRICTION, f"{self.at[0]:g} to {self.at[-1]:g} {unit}", "make the table longer")
+            raise InputError(
+                said, BOUNDARY_FRICTION_KEY, f"{self.at[0]:g} to {self.at[-1]:g} {unit}", "make the table longer"
+            )
         return float(np.interp(at, self.at, self.values))
 
 
@@ -64,9 +79,11 @@ def friction_of(given: Any) -> dict[str, Any]:
         over = next((key for key in FRICTION_OVER if key in given), None)
         if over is None or set(given) != {over, "values"}:
             ways = " or ".join(f"{{ {key} = [...], values = [...] }}" for key in FRICTION_OVER)
-            raise InputError(f" = {validate.shown(given)}", FRICTION, ways)
+            raise InputError(f" = {validate.shown(given)}", BOUNDARY_FRICTION_KEY, ways)
         units = {over: FRICTION_OVER[over], "values": "-"}
-        table = FrictionTable(over, *(without_unit(FRICTION, given[name], unit) for name, unit in units.items()))
+        table = FrictionTable(
+            over, *(without_unit(BOUNDARY_FRICTION_KEY, given[name], unit) for name, unit in units.items())
+        )
         given = table.values[0]
     return {"boundary_friction_coefficient": given, "boundary_friction_table": table}
 
@@ -125,7 +142,9 @@ class Bodies(Shown):
             return self.boundary_friction_coefficient
         at = abs(sliding) if table.over == "sliding_speed" else temperature
         if at is None:
-            raise InputError(" is a table over the temperature", FRICTION, way_out="give lubricant.temperature")
+            raise InputError(
+                " is a table over the temperature", BOUNDARY_FRICTION_KEY, way_out="give lubricant.temperature"
+            )
         return table(at)
 
     @property
@@ -218,9 +237,9 @@ class ContactDomain(Shown):
                 raise InputError(said, "contact.shape", "a pair (nx, ny) of whole numbers >= 1")
             cells = "contact.shape (cells of contact.spacing)"
             nx, ny = (validate.integer(cells, n, minimum=1) for n in self.shape)
-            if nx * ny > LARGEST:
+            if nx * ny > MOST_CONTACT_CELLS:
                 said = f" = {validate.shown(self.shape)} has {float(min(nx * ny, 10**300)):.3g} cells"
-                raise InputError(said, "contact.shape", f"up to {LARGEST:.3g}")
+                raise InputError(said, "contact.shape", f"up to {MOST_CONTACT_CELLS:.3g}")
             object.__setattr__(self, "shape", (nx, ny))
         if self.spacing is not None:
             object.__setattr__(self, "spacing", lengths("contact.spacing", self.spacing))

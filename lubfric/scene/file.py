@@ -15,10 +15,10 @@ from ..surface import PER_SQ
 from .plausible import doubtful_values
 from .roughness import GENERATED, check_fields, named
 from .scene import Scene, as_ranges
-from .sections import ROUGH, SECTIONS, check_complete, check_keys, made_section, meant, ranges_of
-from .transient import HISTORIES, UNITS, Transient, history
+from .sections import ROUGH_SECTIONS, SECTIONS, check_complete, check_keys, made_section, meant, ranges_of
+from .transient import HISTORIES, UNITS_OF_HISTORIES, Transient, history
 
-MOST_BYTES = 2**24  # of a scene
+MOST_SCENE_BYTES = 2**24  # of a scene
 LONGEST_PATH = 300  # characters of a path that is compared with the files there
 NEAR_FILE = 0.6  # likeness of two file names, 0 to 1, from which one may be meant by the other
 SCENES = resources.files(__package__) / "scenes"
@@ -55,7 +55,7 @@ def load_scene(
         name = "unnamed"
     else:
         table, folder, name = _read(source)
-    for section, path in zip(ROUGH, (surface_file, counterface_file)):
+    for section, path in zip(ROUGH_SECTIONS, (surface_file, counterface_file)):
         if path is not None:
             _put_map(table, section, path)
     return scene_from_table(table, folder, name)
@@ -70,9 +70,9 @@ def read_toml(path: Path | Traversable, what: str) -> dict[str, Any]:
     """The tables of a TOML file; raises `InputError`, which says ``what`` it should be, where it cannot be read."""
     try:
         size = path.stat().st_size if isinstance(path, Path) else 0
-        if size > MOST_BYTES:
+        if size > MOST_SCENE_BYTES:
             raise InputError(
-                f"{what} {validate.shown(str(path))} has {size:.3g} bytes; allowed: up to {MOST_BYTES:.3g}"
+                f"{what} {validate.shown(str(path))} has {size:.3g} bytes; allowed: up to {MOST_SCENE_BYTES:.3g}"
             )
         return tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except FileNotFoundError:
@@ -135,7 +135,7 @@ def scene_from_table(table: dict[str, Any], folder: Path, name: str) -> Scene:
     parts = {}
     for section in SECTIONS:
         given = dict(table.get(section, {}))
-        if section in ROUGH and section in table:
+        if section in ROUGH_SECTIONS and section in table:
             if isinstance(given.get("file"), str):
                 given["file"] = str(_map_path(f"{section}.file", given["file"], folder.resolve()))
             with named(section):
@@ -161,7 +161,9 @@ def _plan(table: dict[str, Any], folder: Path) -> tuple[dict[str, Any], Transien
     table = {k: dict(v) if isinstance(v, dict) else v for k, v in table.items()}
     given = table.get("transient", {})
     places = {name: key.split(".") for name, key in HISTORIES.items()}
-    histories = {n: history(f"transient.{n}", given.pop(n), UNITS[n], folder) for n in HISTORIES if n in given}
+    histories = {
+        n: history(f"transient.{n}", given.pop(n), UNITS_OF_HISTORIES[n], folder) for n in HISTORIES if n in given
+    }
     for name, (section, key) in places.items():
         value = table.get(section, {}).get(key)
         if value is None and name == "sliding":
@@ -169,7 +171,7 @@ def _plan(table: dict[str, Any], folder: Path) -> tuple[dict[str, Any], Transien
         if isinstance(value, dict) or (value is not None and name == "sliding"):
             if name in histories:
                 raise InputError(f"[transient] {name} and [{section}] {key} are both histories; give one of them")
-            histories[name] = history(f"{section}.{key}", table[section].pop(key), UNITS[name], folder)
+            histories[name] = history(f"{section}.{key}", table[section].pop(key), UNITS_OF_HISTORIES[name], folder)
     if not histories and "transient" not in table:
         return table, None
     if "duration" not in given:

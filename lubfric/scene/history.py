@@ -13,9 +13,9 @@ import numpy as np
 from .._base import FloatArray, validate
 from ..errors import InputError
 
-ROUNDING = 1e-12  # relative: times that are closer are one time
+TIME_ROUNDING = 1e-12  # relative: times that are closer are one time
 BEND = 0.01  # of the value, by which a straight line may miss it
-LEAST = 1e-4  # of the largest value: what is smaller than it may be missed by as much as it may
+LEAST_PART = 1e-4  # of the largest value: what is smaller than it may be missed by as much as it may
 
 
 class History:
@@ -149,7 +149,7 @@ class Table(History):
         """``time`` in the first period. If it differs only by rounding from a row of the table, it is the time of that
         row: 0.1 + 0.2 s is a jump at 0.3 s."""
         t = self.times
-        near = ROUNDING * max(time, t[-1])
+        near = TIME_ROUNDING * max(time, t[-1])
         if self.repeat and time > 0.0:
             laps = math.floor((time + near) / t[-1])
             time = max(time - laps * t[-1], 0.0)
@@ -232,7 +232,7 @@ def corners(times: np.ndarray, values: np.ndarray) -> list[float]:
     rows (the cone of such lines gets narrower with every row). A jump, which is a time given twice, begins a new piece.
     So a smooth wave has some twenty corners a period, however finely it is sampled, and a pulse keeps all of its own.
     """
-    allowed = BEND * np.maximum(np.abs(values), LEAST * np.abs(values).max())
+    allowed = BEND * np.maximum(np.abs(values), LEAST_PART * np.abs(values).max())
     t = times.tolist()
     v = values.tolist()
     miss = allowed.tolist()

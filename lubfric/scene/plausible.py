@@ -15,6 +15,7 @@ from .._base import packaged
 from ..errors import ConvergenceError, InputError
 from ..quantities import KEYS
 from ..units import converted, printed, without_unit
+from .bodies import SLIDE_ROLL_RATIO_KEY, SLIP_KEY
 
 
 @cache
@@ -42,8 +43,6 @@ MOST_RATIO = 2.0  # simple sliding, which is usual
 # Sq [m] that follows from Ra or Rz, above which these were written without a unit: rough castings have some 5e-5 m. A
 # smaller one may have been written with a unit, which must not be questioned.
 NO_ROUGHNESS = 1e-3
-SLIP = "motion.slip_percent"
-RATIO = "motion.slide_roll_ratio"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,13 +141,13 @@ def other_convention(key: str, values: Iterable[Any]) -> str:
     sizes = [abs(v) for v in values if isinstance(v, (int, float)) and not isinstance(v, bool) and v != 0]
     if not sizes or not math.isfinite(max(sizes)):
         return ""
-    if key == SLIP and max(sizes) < SMALL_PERCENT:
+    if key == SLIP_KEY and max(sizes) < SMALL_PERCENT:
         most = max(sizes)
         return (
             f"did you mean slide_roll_ratio = {most:g}, which is {100 * most:g} %? "
             f'If not, write slip_percent = "{most:g} %"'
         )
-    if key == RATIO and min(sizes) >= LARGE_RATIO and max(sizes) < MOST_RATIO:
+    if key == SLIDE_ROLL_RATIO_KEY and min(sizes) >= LARGE_RATIO and max(sizes) < MOST_RATIO:
         least = min(sizes)
         return f'did you mean slip_percent = {least:g}? If not, write slide_roll_ratio = "{100 * least:g} %"'
     return ""

@@ -10,11 +10,11 @@ from typing import Any
 
 from .._base import Shown, changed, validate
 from ..errors import InputError
-from ..surface import ACFS, DECIMALS, FORMS, PER_SQ, honed_sq, honing_of, units_of
+from ..surface import ACFS, DECIMALS, FORM_POWERS, PER_SQ, honed_sq, honing_of, units_of
 from .bodies import lengths
 
 NEEDED = "either 'file', or 'sq' (or 'ra', 'rz', or 'sk', 'spk' and 'svk') and 'correlation_length' in m"
-OPTIONS = {"acf": ACFS, "motion_axis": ("x", "y"), "decimal": DECIMALS, "form": FORMS}
+OPTIONS = {"acf": ACFS, "motion_axis": ("x", "y"), "decimal": DECIMALS, "form": FORM_POWERS}
 OPTIONS |= {"outliers": ("refuse", "keep", "mask"), "extension": ("none", "mirror")}
 HONED = ("sk", "spk", "svk", "honing_angle", "groove_width")  # fields of a plateau-honed map
 GENERATED = ("correlation_length", "acf", "decay_level", "seed", "oversize", *HONED)  # fields of a generated map

@@ -18,14 +18,14 @@ from .history import History
 from .numerics import Numerics
 from .plausible import doubtful_values
 from .roughness import Roughness
-from .sections import ROUGH, SECTIONS, changed_section, ranges_of
+from .sections import ROUGH_SECTIONS, SECTIONS, changed_section, ranges_of
 from .short_forms import fields_of
-from .transient import KINDS, Transient
+from .transient import HISTORY_KINDS, Transient
 
 # Keys of [motion] that state the sliding.
-SLIDING = {"slide_roll_ratio", "slip_percent", "surface_speeds"}
+SLIDING_KEYS = {"slide_roll_ratio", "slip_percent", "surface_speeds"}
 LONGEST_NAME = 500  # characters of the name of a scene
-RESOLVED = (  # key, the values that the deterministic model takes, why no other
+VALUES_OF_RESOLVED_GAP = (  # key, the values that the deterministic model takes, why no other
     ("contact.geometry", ("cylinder",), ""),
     ("contact.model", ("half-space",), ""),
     ("contact.region", ("hertz",), " (there is no volume balance; means are over the Hertz strip)"),
@@ -118,7 +118,7 @@ class Scene(Shown):
             new[section] = changed_section(section, getattr(self, section), values)
             if section in SECTIONS:
                 ranges |= ranges_of(section, values)
-        if isinstance(motion := sections.get("motion"), Motion) or motion and not SLIDING.isdisjoint(motion):
+        if isinstance(motion := sections.get("motion"), Motion) or motion and not SLIDING_KEYS.isdisjoint(motion):
             # a ratio is set by traction curves too, a slip in percent by users alone
             slipped = (
                 {key: value for key, value in motion.items() if key == "slip_percent"}
@@ -180,7 +180,7 @@ class Scene(Shown):
             if part is None:
                 continue
             lines += ["", f"[{section}]"]
-            keys = changed(part) if section in ROUGH else {f.name: getattr(part, f.name) for f in fields(part)}
+            keys = changed(part) if section in ROUGH_SECTIONS else {f.name: getattr(part, f.name) for f in fields(part)}
             if keys.get("limiting_stress_coefficient", 0.0) is None:
                 del keys["limiting_stress_offset"]  # refused where it does nothing
             if keys.get("oil") is not None:
@@ -218,10 +218,10 @@ def _halved(text: str) -> bool:
 
 def _toml(value: Any) -> str:
     if isinstance(value, History):
-        kind = next((kind for kind, known in KINDS.items() if type(value) is known), None)
+        kind = next((kind for kind, known in HISTORY_KINDS.items() if type(value) is known), None)
         if kind is None:
             said = f"a history of type {type(value).__name__} has no form in a scene file"
-            raise InputError(said, allowed=", ".join(KINDS))
+            raise InputError(said, allowed=", ".join(HISTORY_KINDS))
         return _toml({"kind": kind} | vars(value))
     if isinstance(value, bool):
         return "true" if value else "false"
@@ -284,7 +284,7 @@ def has_moving_roughness(scene: Scene) -> bool:
 
 
 def _not_taken(scene: Scene, *, is_joint: bool) -> Iterator[tuple[str, Any, str]]:
-    for name, allowed, why in RESOLVED:
+    for name, allowed, why in VALUES_OF_RESOLVED_GAP:
         section, _, key = name.partition(".")
         value = getattr(getattr(scene, section), key)
         if value not in allowed:

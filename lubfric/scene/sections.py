@@ -16,9 +16,13 @@ from .roughness import NEEDED, Roughness, as_given, named
 from .short_forms import OF_AN_OIL, OIL_DEFAULTS, is_of_oil, resolve, short_keys, without_none
 from .transient import Transient
 
-ROUGH = ("surface", "counterface")
+ROUGH_SECTIONS = ("surface", "counterface")
 SECTIONS: dict[str, Any] = {"bodies": Bodies, "lubricant": Lubricant, "motion": Motion}
-SECTIONS |= dict.fromkeys(ROUGH, Roughness) | {"contact": ContactDomain, "numerics": Numerics, "transient": Transient}
+SECTIONS |= dict.fromkeys(ROUGH_SECTIONS, Roughness) | {
+    "contact": ContactDomain,
+    "numerics": Numerics,
+    "transient": Transient,
+}
 NEEDED_SECTIONS = ("bodies", "lubricant", "motion", "surface")
 
 
@@ -33,7 +37,7 @@ def check_keys(section: str, given: dict[str, Any], others: tuple[str, ...] = ()
     if section == "numerics":
         refuse_dropped(given)
     allowed = (*SECTIONS[section].__dataclass_fields__, *short_keys(section), *others)
-    validate.keys(f"[{section}]", given, allowed, lambda: meant("surface" if section in ROUGH else section))
+    validate.keys(f"[{section}]", given, allowed, lambda: meant("surface" if section in ROUGH_SECTIONS else section))
 
 
 def made_section(section: str, given: dict[str, Any], old: Any = None) -> Any:
@@ -99,7 +103,7 @@ def changed_section(section: str, old: Any, values: Any) -> Any:
         shown = repr(values) if isinstance(values, (str, float, int)) else f"a {type(values).__name__}"
         allowed = f"{'a dict of its fields, or ' if by_field else ''}a {kind.__name__}"
         raise InputError(f" = {shown}", section, allowed)
-    return made_section(section, as_given(old, values) if section in ROUGH else values, old)
+    return made_section(section, as_given(old, values) if section in ROUGH_SECTIONS else values, old)
 
 
 def check_complete(name: str, table: dict[str, Any]) -> None:
@@ -116,7 +120,7 @@ def check_complete(name: str, table: dict[str, Any]) -> None:
 
 def _missing(section: str, table: dict[str, Any]) -> str:
     given = dict(table.get(section, {}))
-    if section in ROUGH:
+    if section in ROUGH_SECTIONS:
         height = any(key in given for key in ("sq", *PER_SQ, "sk"))
         return "" if "file" in given or height and "correlation_length" in given else NEEDED
     try:

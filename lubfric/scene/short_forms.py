@@ -13,6 +13,7 @@ from .._base import packaged, validate
 from ..errors import InputError
 from ..film import composite_modulus
 from ..oil import (
+    AT_40,
     CELSIUS,
     Lubricant,
     Oil,
@@ -33,7 +34,6 @@ SOURCES = ("grade", "viscosity_index", "nu40", "nu100", "viscosity_table", "oil"
 PROPERTIES = {"base": "base", "density": "density", "density_slope": "density_slope", "alpha_estimate": "estimate"}
 OF_AN_OIL = PROPERTIES | {"pressure_viscosity_coefficient": "alpha", "conductivity": "conductivity"}  # key: its field
 OIL_KEYS = (*SOURCES[:-1], *PROPERTIES)  # of [lubricant], beside its fields
-AT_40 = 40 + CELSIUS
 OIL_DEFAULTS = {"base": "mineral", "density_law": "dowson-higginson"}  # where neither oil nor scene states them
 OFFSET = Lubricant.limiting_stress_offset  # where none is given
 

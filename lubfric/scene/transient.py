@@ -17,13 +17,13 @@ HISTORIES = {  # what may change in time, and the key that has it where it does 
     "radius": "bodies.radius",
     "viscosity": "lubricant.viscosity",
 }
-UNITS = {name: KEYS.get(key, KEYS["speed"]).unit for name, key in HISTORIES.items()}
+UNITS_OF_HISTORIES = {name: KEYS.get(key, KEYS["speed"]).unit for name, key in HISTORIES.items()}
 MOST_LAPS = 1e5
-LIMITS = {"m/s": (0.0, 1e6), "N": (1e-12, 1e12), "m": (1e-9, 1e3), "Pa s": (1e-9, 1e9)}  # least and largest
-KINDS = {"constant": Constant, "ramp": Ramp, "harmonic": Harmonic, "table": Table}
+HISTORY_LIMITS = {"m/s": (0.0, 1e6), "N": (1e-12, 1e12), "m": (1e-9, 1e3), "Pa s": (1e-9, 1e9)}  # least and largest
+HISTORY_KINDS = {"constant": Constant, "ramp": Ramp, "harmonic": Harmonic, "table": Table}
 
 WORDS = ("kind", "file", "column", "time_column")  # keys of histories that are no numbers
-IN_TIME = {"begin": "s", "until": "s", "times": "s", "frequency": "Hz", "phase": "rad"}  # units of others
+HISTORY_UNITS = {"begin": "s", "until": "s", "times": "s", "frequency": "Hz", "phase": "rad"}  # units of others
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class Transient:
     @property
     def histories(self) -> tuple[History, ...]:
         """The histories of all that changes."""
-        return tuple(h for h in (getattr(self, name) for name in UNITS) if h is not None)
+        return tuple(h for h in (getattr(self, name) for name in UNITS_OF_HISTORIES) if h is not None)
 
     def __post_init__(self) -> None:
         validate.python_fields(self, "transient")
@@ -71,7 +71,7 @@ class Transient:
         if self.initial_film is not None and self.initial != "auto":
             said = f" = {self.initial!r} has no effect together with initial_film, from which the run starts"
             raise InputError(said, "transient.initial", "one of the two")
-        for name, unit in UNITS.items():
+        for name, unit in UNITS_OF_HISTORIES.items():
             given = getattr(self, name)
             if given is not None:
                 given = checked_history(f"transient.{name}", given, unit, self.duration, positive=unit != "m/s")
@@ -90,9 +90,11 @@ def history(name: str, given: Any, unit: str | None = None, folder: Path = Path(
     table = dict(given)
     for key in table if unit else ():
         if key not in WORDS:
-            table[key] = without_unit(f"{name} {key}", table[key], IN_TIME.get(key, str(unit)))
-    kind = validate.choice(f"{name} kind", table.pop("kind", None), (*KINDS, "file"))
-    allowed = {"file", "column", "time_column", "repeat"} if kind == "file" else {f.name for f in fields(KINDS[kind])}
+            table[key] = without_unit(f"{name} {key}", table[key], HISTORY_UNITS.get(key, str(unit)))
+    kind = validate.choice(f"{name} kind", table.pop("kind", None), (*HISTORY_KINDS, "file"))
+    allowed = (
+        {"file", "column", "time_column", "repeat"} if kind == "file" else {f.name for f in fields(HISTORY_KINDS[kind])}
+    )
     validate.keys(name, table, sorted(allowed))
     needed = {"constant": ("value",), "file": ("file", "column"), "table": ("times", "values")}.get(kind, ())
     missing = [key for key in needed if key not in table]
@@ -101,7 +103,7 @@ def history(name: str, given: Any, unit: str | None = None, folder: Path = Path(
     try:
         if kind == "file":
             return read_history(folder / _word("file", table.pop("file")), **table, unit=unit)
-        return KINDS[kind](**table)
+        return HISTORY_KINDS[kind](**table)
     except InputError as error:
         error.quantity = f"{name}: {error.quantity}"
         raise
@@ -137,7 +139,7 @@ def checked_history(name: str, value: Any, unit: str, duration: float, *, positi
         if given.repeat and duration > MOST_LAPS * last:
             said = f": the table of {last:g} s is repeated {duration / last:.3g} times"
             raise InputError(said, name, f"up to {MOST_LAPS:g}")
-    least, most = LIMITS.get(unit, (1e-30, 1e30))
+    least, most = HISTORY_LIMITS.get(unit, (1e-30, 1e30))
     for end in given.range(duration):
         validate.number(f"{name} during the run", end, unit, minimum=least if positive else -most, maximum=most)
     return given

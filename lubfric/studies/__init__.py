@@ -1,7 +1,7 @@
 """Many points: sweeps, studies, curves, fits, and the store that keeps them."""
 
 from .._base.processes import MOST_WORKERS, cluster, pool, processors
-from .choose import AUTO, CHOSEN, span
+from .choose import AUTO_SPEEDS, EXPECTED_SPEEDS, span
 from .codec import classes_of, decode, encode, fits
 from .curve import CurveResult, csv_bytes
 from .explain import estimated_study, in_words
@@ -11,13 +11,13 @@ from .fit_input import Measured, read_measured
 from .fit_result import FitResult
 from .interpolate import Interpolant, Samples, knee_of
 from .law import Law, law_of
-from .operating_points import DURATION, ENDS, RATIO, mean_over_cycle
+from .operating_points import DURATION, INTERVAL_COLUMNS, mean_over_cycle
 from .plan import StudyPlan, load_study, plan_study
 from .result import StudyResult, open_study, study
 from .store import Store, digest, fingerprint, fingerprint_without_files, opened, point_key
 from .sweep import StribeckResult, TractionResult, stribeck, traction
 from .tables import (
-    KNOWN,
+    DRAWN_ERROR,
     check_tools,
     columns_of_study,
     friction_over_speed,

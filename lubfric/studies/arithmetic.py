@@ -11,7 +11,7 @@ import scipy
 from .._base import __version__
 
 # Length of the vectors, and rows of the matrices, of the trial sums: long enough that BLAS splits them by its threads.
-LENGTH = 40_000
+TRIAL_LENGTH = 40_000
 ROWS = 256
 
 
@@ -30,7 +30,7 @@ def trial_sums() -> str:
     """Return a hash of the bits of sums, products, solutions and elementary functions of fixed numbers."""
     from scipy.linalg import lu_factor
 
-    numbers = np.random.default_rng(0).standard_normal(LENGTH)
+    numbers = np.random.default_rng(0).standard_normal(TRIAL_LENGTH)
     matrix = numbers[: ROWS * 128].reshape(ROWS, 128)
     square = matrix @ matrix.T
     results = (

@@ -15,25 +15,25 @@ from ..scene import FASTEST as LARGEST_SPEED
 from ..scene import Scene
 from ..units import without_unit
 from .curve import columns_of
-from .interpolate import FEWEST, Interpolant, through
+from .interpolate import FEWEST_SPEEDS, Interpolant, through
 
-AUTO = "auto"
+AUTO_SPEEDS = "auto"
 
 # Relative distance of two speeds, or slide-roll ratios, that are one point: f cannot tell them apart, and a curve
 # through both would have any slope.
 ALIKE = 1e-6
 
 # Speeds that a curve chooses, about, for estimates of time: 9 to 12 in most scenes.
-CHOSEN = 12
+EXPECTED_SPEEDS = 12
 
 # Most speeds that a curve chooses.
-MOST = 25
+MOST_CHOSEN_SPEEDS = 25
 
 # Moes' film of the whole load over Sq at the slow end of a curve: boundary lubrication.
 THIN = 0.02
 
 # The same at the fast end: full-film lubrication.
-THICK = 10.0
+FULL_FILM_RATIO = 10.0
 
 # The same where the asperity load ratio is about 0.9, 0.5 and 0.
 MIXED = (0.5, 1.5, 4.5)
@@ -42,34 +42,34 @@ MIXED = (0.5, 1.5, 4.5)
 BEGIN = 5
 
 # Speeds [m/s] between which the ends of a curve are searched.
-SLOWEST = 1e-9
-FASTEST = 1e3
+SLOWEST_SEARCHED = 1e-9
+FASTEST_SEARCHED = 1e3
 
 # Ratio of the slowest film without contact to lift-off up to which lift-off is known.
-CLOSE = 1.2
+LIFT_OFF_KNOWN_ABOVE = 1.2
 
 # Speed over lift-off at which a film without contact is solved.
 ABOVE = 1.1
 
 # Ratio of the fastest contact to lift-off from which the end of the contact is known.
-TOUCHING = 0.75
+CONTACT_END_KNOWN_FROM = 0.75
 
 # Speed over lift-off at which a contact is solved.
-BELOW = 0.86
+SPEED_BELOW_LIFT_OFF = 0.86
 
 # Ratio of neighbouring speeds without contact from which one between them is solved.
-WIDE = 12.0
+MOST_SPEED_RATIO = 12.0
 
 # Speeds within a tenth of a requested one from which no more are solved there.
-ENOUGH = 2
+ENOUGH_SPEEDS = 2
 
-# Part of the tolerance that the estimated error may reach where fewer speeds than `MANY` are solved: an estimate from
+# Part of the tolerance that the estimated error may reach where fewer speeds than `MANY_SPEEDS` are solved: an estimate from
 # few points is uncertain by a factor of about two.
-SHARE = 0.5
-MANY = 11
+ESTIMATE_SHARE = 0.5
+MANY_SPEEDS = 11
 
 # Least ratio of neighbouring speeds: closer ones differ by the tolerance of f rather than by the speed.
-APART = 1.015
+LEAST_SPEED_RATIO = 1.015
 
 # Speeds at which the error between the points is estimated.
 GRID = 400
@@ -78,9 +78,9 @@ GRID = 400
 def requested_speeds(scene: Scene, speeds: Any) -> tuple[float, ...]:
     """Return the requested speeds [m/s], one or many, each once; those of the scene for None, and none for "auto"."""
     if isinstance(speeds, str):
-        if speeds == AUTO:
+        if speeds == AUTO_SPEEDS:
             return ()
-        said = f"speeds in m/s, or {AUTO!r}, where each curve chooses its own"
+        said = f"speeds in m/s, or {AUTO_SPEEDS!r}, where each curve chooses its own"
         speeds = without_unit(f"speeds ({said})", speeds, "m/s")
     if speeds is None:
         speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
@@ -109,14 +109,14 @@ def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable[..., Any]
     """Yield (speed [m/s], outcome) of a curve that begins with the speeds ``ahead``, and then chooses one after the other.
     ``solve(speed)`` gives an outcome."""
     outcomes: dict[float, Any] = {}
-    while ahead and len(outcomes) < MOST:
+    while ahead and len(outcomes) < MOST_CHOSEN_SPEEDS:
         for speed in ahead:
             outcomes[speed] = solve(speed)
             yield speed, outcomes[speed]
         good = [outcome for outcome in outcomes.values() if isinstance(outcome, FrictionResult)]
         failed = [speed for speed, outcome in outcomes.items() if not isinstance(outcome, FrictionResult)]
         wanted = None
-        if len(good) >= FEWEST:
+        if len(good) >= FEWEST_SPEEDS:
             wanted = next_speed(through(columns_of(good)), tolerance_between(prepared), failed)[0]
         ahead = [] if wanted is None else [wanted]
 
@@ -149,14 +149,16 @@ def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()
     if knee is not None:
         fastest = speeds[samples.contacts - 1]
         slowest = films[0]
-        wanting += [ABOVE * knee] if slowest > CLOSE * knee else []
-        wanting += [BELOW * knee] if fastest < TOUCHING * knee else []
-    wanting += [float(np.sqrt(a * b)) for a, b in zip(films, films[1:]) if b > WIDE * a]  # too wide to judge
+        wanting += [ABOVE * knee] if slowest > LIFT_OFF_KNOWN_ABOVE * knee else []
+        wanting += [SPEED_BELOW_LIFT_OFF * knee] if fastest < CONTACT_END_KNOWN_FROM * knee else []
+    wanting += [
+        float(np.sqrt(a * b)) for a, b in zip(films, films[1:]) if b > MOST_SPEED_RATIO * a
+    ]  # too wide to judge
     for wanted in wanting:
         about = np.count_nonzero(np.abs(np.log(taken / wanted)) < 0.1)
-        if about < ENOUGH and _free(np.array([wanted]), taken)[0]:
+        if about < ENOUGH_SPEEDS and _free(np.array([wanted]), taken)[0]:
             return wanted, largest
-    if largest <= (tolerance if speeds.size >= MANY else SHARE * tolerance):
+    if largest <= (tolerance if speeds.size >= MANY_SPEEDS else ESTIMATE_SHARE * tolerance):
         return None, largest
     return float(at[error.argmax()]), largest
 
@@ -168,7 +170,7 @@ def between(curve: Interpolant) -> float:
 
 def _free(at: np.ndarray, speeds: np.ndarray) -> np.ndarray:
     """The speeds of ``at`` that are not too close to a solved one."""
-    return np.abs(np.log(at[:, None] / speeds[None, :])).min(axis=1) > np.log(APART)
+    return np.abs(np.log(at[:, None] / speeds[None, :])).min(axis=1) > np.log(LEAST_SPEED_RATIO)
 
 
 def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
@@ -202,10 +204,12 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
         return speeds[0], speeds[-1]
     if sq <= 0:
         raise InputError("speeds = 'auto' of a smooth surface (Sq = 0 m) needs a range; give motion.speed_range in m/s")
-    if film_ratio(scene, sq, SLOWEST) > THIN or film_ratio(scene, sq, FASTEST) < THICK:
+    if film_ratio(scene, sq, SLOWEST_SEARCHED) > THIN or film_ratio(scene, sq, FASTEST_SEARCHED) < FULL_FILM_RATIO:
         said = " = 'auto' finds no range from boundary lubrication to a full film"
         raise InputError(said, "speeds", way_out="give motion.speed_range")
-    return _speed_of(scene, sq, THIN, SLOWEST, FASTEST), _speed_of(scene, sq, THICK, SLOWEST, FASTEST)
+    return _speed_of(scene, sq, THIN, SLOWEST_SEARCHED, FASTEST_SEARCHED), _speed_of(
+        scene, sq, FULL_FILM_RATIO, SLOWEST_SEARCHED, FASTEST_SEARCHED
+    )
 
 
 def film_ratio(scene: Scene, sq: float, speed: float) -> float:

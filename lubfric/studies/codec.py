@@ -22,7 +22,7 @@ from .._base import Shown
 
 HOME = "lubfric."
 SCALARS = {"float64": np.float64, "int64": np.int64, "bool": np.bool_}
-LENGTH = 8  # bytes of the length of the tree
+LENGTH_BYTES = 8  # bytes of the length of the tree
 DTYPE = re.compile(r"[<>|=][biufc]\d{1,2}|[<>=]U\d{1,6}")  # of arrays: numbers and texts, never objects
 ACCEPTED = {float: (float, int, np.floating, np.integer), int: (int, np.integer), bool: (bool, np.bool_)}
 
@@ -51,16 +51,16 @@ def encode(value: Any, field: Callable[..., Any] = getattr) -> list[Any]:
     arrays. ``field(object, name)`` gives what is encoded of a field of a dataclass."""
     arrays: list[bytes | memoryview] = []
     tree = json.dumps(_plain(value, arrays, field), allow_nan=False).encode()
-    return [len(tree).to_bytes(LENGTH, "little") + tree, *arrays]
+    return [len(tree).to_bytes(LENGTH_BYTES, "little") + tree, *arrays]
 
 
 def decode(content: bytes, classes: dict[str, type], kind: Any = Any) -> Any:
     """What `encode` was given, from its pieces joined. ``classes``: those that it may hold (`classes_of`); ``kind``:
     the type that it must have, as in an annotation. Raises `ValueError` for anything else, such as what another version
     stored."""
-    end = LENGTH + int.from_bytes(content[:LENGTH], "little")
+    end = LENGTH_BYTES + int.from_bytes(content[:LENGTH_BYTES], "little")
     try:
-        value = _value(json.loads(content[LENGTH:end]), classes, memoryview(content)[end:])
+        value = _value(json.loads(content[LENGTH_BYTES:end]), classes, memoryview(content)[end:])
     except (LookupError, TypeError, AttributeError, ArithmeticError, RecursionError, MemoryError) as error:
         raise ValueError(f"stored by another version ({error})") from None
     if not fits(value, kind):

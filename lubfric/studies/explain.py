@@ -13,7 +13,7 @@ from ..estimate import estimated_work_of_point, seconds_of_points
 from ..models import candidates, prepare
 from ..models.shared import Prepared, Violation, beforehand, sentence, warn_unusual
 from ..quantities import counted, worded_value
-from .choose import CHOSEN, first_speeds
+from .choose import EXPECTED_SPEEDS, first_speeds
 from .operating_points import POINT
 from .store import Store
 from .study_table import StudyTable
@@ -33,7 +33,7 @@ def curve_seconds(prepared: Prepared, speeds: Sequence[float]) -> float:
     of about 4."""
     at = speeds or first_speeds(prepared.scene, prepared.surface.sq)
     points = [estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed) for speed in at]
-    return seconds_of_points(points, None if speeds else CHOSEN)
+    return seconds_of_points(points, None if speeds else EXPECTED_SPEEDS)
 
 
 def estimated_study(plan: Any, store: str | Path | None = None) -> float:
@@ -121,7 +121,7 @@ def explain(plan: Any, store: Path | None = None) -> str:
     if plan.speeds:
         lines.append(f"  {counted(len(plan.speeds), 'speeds'):>13}: {_range('speed', plan.speeds)}")
     elif plan.chooses_speeds:
-        lines.append(f"      about {CHOSEN} speeds that each curve chooses")
+        lines.append(f"      about {EXPECTED_SPEEDS} speeds that each curve chooses")
     if plan.scene.transient is not None:
         lines.append("  steady   every point; what changes in time in the scene ([transient]) is ignored")
     table = StudyTable(plan)

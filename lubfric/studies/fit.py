@@ -15,17 +15,17 @@ from ..scene import Scene
 from .explain import WITHIN, in_words
 from .fit_checks import residual_tests
 from .fit_curves import FitCurves, coarse_measured, coarse_scene, fit_tolerance
-from .fit_input import SLIP, Measured, parameters_of, values_at
+from .fit_input import SLIDE_ROLL_RATIO_COLUMN, Measured, parameters_of, values_at
 from .fit_result import FitResult
 from .fit_search import INSIDE, Candidate, estimated_curves, search_minima, sobol_count
 from .store import opened
 from .vary import Between, unit_of
 
 # Last move of the parameters, as a share of the bounds, that ends the search.
-CLOSE = 2e-3
+LAST_MOVE = 2e-3
 
 # Relative change of the sum of squares that ends the search.
-FLAT = 1e-4
+LAST_CHANGE_OF_SUM = 1e-4
 
 # Most curves of the search, beside those of the differences.
 MOST_CURVES = 30
@@ -34,7 +34,7 @@ MOST_CURVES = 30
 USUAL_CURVES = 5
 
 # Minima of the coarse search from which the scene's own model is fitted, where the first does not describe the data.
-MOST_MINIMA = 3
+MOST_FITTED_MINIMA = 3
 
 # Corners of the bounds at which the work of a curve is counted.
 CORNERS = 16
@@ -109,7 +109,7 @@ def fit(
             fine.on_curve = lambda: progress.report(fine)
         minima = search_minima(coarse, begin, starts)
         results: list[FitResult] = []
-        for minimum in minima[:MOST_MINIMA]:
+        for minimum in minima[:MOST_FITTED_MINIMA]:
             results.append(_fitted(fine, minimum.unit, starts=starts, minima=minima))
             if results[-1].describes_data and results[-1].report.converged:
                 break
@@ -145,7 +145,7 @@ def explain_fit(scene: Scene, measured: Measured, parameters: Mapping[str, Any],
     for key, ends in bounds.items():
         logarithmic = ", searched in its logarithm" if ends.scale == "log" else ""
         lines.append(f"  {key}: {worded_value(key, ends.low)} to {worded_value(key, ends.high)}{logarithmic}")
-    if measured.over == SLIP:
+    if measured.over == SLIDE_ROLL_RATIO_COLUMN:
         held = "include" if measured.rolling else "do not include"
         lines.append(f"  the coefficients {held} rolling friction, which averaging over both signs of slip takes out")
     coarse, fine = _curves(scene, measured, bounds)
@@ -188,7 +188,7 @@ def _checked(scene: Scene, measured: Measured, parameters: Mapping[str, Any]) ->
     validate.instance("scene", scene, Scene, "a scene to change: what lubfric.load_scene returned, not lubfric.prepare")
     validate.instance("measured", measured, Measured, "lubfric.read_measured(...) or lubfric.Measured(x, coefficient)")
     bounds = parameters_of(scene, parameters)
-    if measured.over == SLIP and (given := OF_SLIP.intersection(bounds)):
+    if measured.over == SLIDE_ROLL_RATIO_COLUMN and (given := OF_SLIP.intersection(bounds)):
         raise InputError(f"parameters: {', '.join(given)} is measured, not fitted; name another number of the scene")
     if measured.x.size <= len(bounds):
         points = counted(measured.x.size, "measured points")
@@ -271,7 +271,7 @@ def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[C
     from scipy.optimize import least_squares
 
     measured = curves.measured
-    limits: dict[str, Any] = {"xtol": CLOSE, "ftol": FLAT, "gtol": 1e-12, "max_nfev": MOST_CURVES}
+    limits: dict[str, Any] = {"xtol": LAST_MOVE, "ftol": LAST_CHANGE_OF_SUM, "gtol": 1e-12, "max_nfev": MOST_CURVES}
     end = least_squares(
         curves.residuals,
         begin,
@@ -299,7 +299,7 @@ def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[C
         status,
         iterations=int(end.nfev),
         residual=0.0 if status == CONVERGED else 1.0,
-        tolerance=CLOSE,
+        tolerance=LAST_MOVE,
         residuals={"sum of squares": squares},
         evaluations=curves.count,
         advice="" if status == CONVERGED else advice,

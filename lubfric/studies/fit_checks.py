@@ -11,7 +11,7 @@ from .._base import FloatArray
 SIGNIFICANCE = 0.01
 
 # Random orders of the residuals, where these are too many for all orders; fixed, so that a fit is repeatable.
-ORDERS = 9999
+RANDOM_ORDERS = 9999
 
 # Residuals below this multiple of the numerical error of f are no sign of anything.
 ABOVE_NUMERICAL = 2.0
@@ -129,7 +129,7 @@ def probability_of_order(residuals: np.ndarray) -> float:
         neighbours,
         permutation_type="pairings",
         alternative="greater",
-        n_resamples=ORDERS,
+        n_resamples=RANDOM_ORDERS,
         vectorized=True,
         random_state=np.random.default_rng(0),
     )

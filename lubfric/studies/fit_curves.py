@@ -30,14 +30,14 @@ SHARE_OF_SCATTER = 0.2
 TIGHTEST = 1e-3
 
 # Step of the differences, as a share of the bounds: its effect on f stays above the tolerance of the solves.
-STEP = 0.04
+PARAMETER_STEP = 0.04
 
 # Points of a curve of the coarse search: enough to tell where in the bounds a minimum lies.
 COARSE_POINTS = 8
 
 # Tolerances of the coarse search over those of the fit, and the largest tolerance on f.
 COARSER = 4.0
-COARSEST = 0.05
+COARSEST_TOLERANCE = 0.05
 
 # Sampling tolerance of the coarse search: that of the first strips, whatever it is.
 COARSE_SAMPLING = 0.5
@@ -120,13 +120,13 @@ class FitCurves:
         return float(np.sqrt(np.mean(self.residuals(unit) ** 2)))
 
     def slopes(self, unit: np.ndarray) -> np.ndarray:
-        """Return df/d(unit), (n, p), by differences over `STEP`. Slopes at most that far away are used unchanged."""
-        if np.abs(unit - self._slopes_at).max() <= STEP:
+        """Return df/d(unit), (n, p), by differences over `PARAMETER_STEP`. Slopes at most that far away are used unchanged."""
+        if np.abs(unit - self._slopes_at).max() <= PARAMETER_STEP:
             return self._slopes
         columns = []
         for i in range(unit.size):
             moved = unit.copy()
-            moved[i] += STEP if moved[i] + STEP <= 1.0 else -STEP  # within the bounds
+            moved[i] += PARAMETER_STEP if moved[i] + PARAMETER_STEP <= 1.0 else -PARAMETER_STEP  # within the bounds
             columns.append((self.coefficient(moved) - self.coefficient(unit)) / (moved[i] - unit[i]))
         self._slopes_at = unit.copy()
         self._slopes = np.stack(columns, axis=1)
@@ -165,7 +165,7 @@ def coarse_scene(scene: Scene) -> Scene:
     tolerance = scene.numerics.tolerance
     loose = {
         "model": "paper",
-        "tolerance": max(tolerance, min(COARSER * tolerance, COARSEST)),
+        "tolerance": max(tolerance, min(COARSER * tolerance, COARSEST_TOLERANCE)),
         "sampling_tolerance": COARSE_SAMPLING,
         "accept": True,
     }

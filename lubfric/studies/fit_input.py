@@ -11,13 +11,13 @@ from .._base import figures, read_columns, validate, with_default_errors
 from ..errors import InputError
 from ..scene import Scene
 from ..units import check_all_have_units
+from .points import SPEED
 from .vary import FITTED, Between, check_key, check_temperature, unit_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-SPEED = "speed"
-SLIP = "slide_roll_ratio"
+SLIDE_ROLL_RATIO_COLUMN = "slide_roll_ratio"
 MARKS = "D^vos"  # of the ramps in a picture
 SHORTEST_RAMP = 2  # points of a ramp
 LOGARITHMIC = 10.0  # ratio of positive bounds from which a parameter is sought in its logarithm
@@ -49,7 +49,7 @@ class Measured:
     branch: np.ndarray | None = None
 
     def __post_init__(self) -> None:
-        validate.choice("over", self.over, (SPEED, SLIP))
+        validate.choice("over", self.over, (SPEED, SLIDE_ROLL_RATIO_COLUMN))
         validate.instance("rolling", self.rolling, bool, "True, or False if rolling is taken out of the coefficients")
         x = validate.array("x", self.x, "m/s" if self.over == SPEED else "-", ndim=1)
         object.__setattr__(self, "x", x.copy())
@@ -168,7 +168,7 @@ def read_measured(
     """
     if (speed is None) == (slide_roll_ratio is None):
         raise InputError("a measured curve has one axis; give the heading of speed, or that of slide_roll_ratio")
-    over, heading = (SLIP, str(slide_roll_ratio)) if speed is None else (SPEED, speed)
+    over, heading = (SLIDE_ROLL_RATIO_COLUMN, str(slide_roll_ratio)) if speed is None else (SPEED, speed)
     units = ("m/s" if over == SPEED else "-", "-", "-")
     names = (heading, coefficient) if deviation is None else (heading, coefficient, deviation)
     for name in names:

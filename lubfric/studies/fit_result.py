@@ -30,13 +30,13 @@ LEVEL = 0.95
 AT_BOUND = 5e-3
 
 # Standard error of f by another sample of the surface up to which it is not reported. Not measured: a convention.
-NOTHING = 1e-5
+UNREPORTED_ERROR = 1e-5
 
 # Correlation of two parameters, without sign, above which it is reported.
 CORRELATED = 0.9
 
 # Other minima that are named in the text of a fit, at most.
-MOST_MINIMA = 3
+MOST_NAMED_MINIMA = 3
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -180,12 +180,12 @@ class FitResult(Renamed, Shown):
                     pair = f"{keys[j]} and {keys[i]}"
                     lines.append(f"the data do not separate {pair} well: correlation {correlation[i, j]:.3f}")
         minima = self.other_minima
-        for values in minima[:MOST_MINIMA]:
+        for values in minima[:MOST_NAMED_MINIMA]:
             at = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
             lines.append(f"by the load-sharing model, {at} describe the data about as well")
-        if len(minima) > MOST_MINIMA:
+        if len(minima) > MOST_NAMED_MINIMA:
             lines.append(
-                f"so do {len(minima) - MOST_MINIMA} other sets of values (fit.json and .other_minima have them)"
+                f"so do {len(minima) - MOST_NAMED_MINIMA} other sets of values (fit.json and .other_minima have them)"
             )
         return lines
 
@@ -195,7 +195,7 @@ class FitResult(Renamed, Shown):
             if self.base.surface.sq == 0 or not self.sampling.size:
                 return ""
             return "not in the intervals: what another sample of the surface would give, which is not known"
-        if np.nanmax(self.sampling) < NOTHING:
+        if np.nanmax(self.sampling) < UNREPORTED_ERROR:
             return ""
         moved = ", ".join(
             f"{key} by {worded_value(key, float(f'{move:.2g}'))}" for key, move in self.moved_by_surface.items()
@@ -237,7 +237,7 @@ class FitResult(Renamed, Shown):
             x[order], low[order], high[order], color=figures.BLUE, alpha=0.2, lw=0, label="95 % interval of the fit"
         )
         self.measured.label(axes)
-        axes.set(ylim=(0.0, None), ylabel=figures.FRICTION)
+        axes.set(ylim=(0.0, None), ylabel=figures.FRICTION_LABEL)
         figures.key_above(axes)
         return axes
 

@@ -29,7 +29,7 @@ SURROGATE_STARTS = 16
 SAME_MINIMUM = 0.1
 
 # The same below which a curve adds nothing to the interpolation.
-KNOWN = 0.01
+KNOWN_DISTANCE = 0.01
 
 # A start at a bound is moved inside by this share of the bounds, for the differences.
 INSIDE = 0.02
@@ -136,6 +136,6 @@ def _next_position(units: np.ndarray, residuals: np.ndarray, tried: np.ndarray) 
     for cost, unit in sorted(minima, key=lambda pair: pair[0]):
         if cost > COMPARABLE**2 * least:
             return None
-        if np.abs(tried - unit).max(axis=1).min() > KNOWN:
+        if np.abs(tried - unit).max(axis=1).min() > KNOWN_DISTANCE:
             return unit
     return None

@@ -20,38 +20,38 @@ from .._base import FloatArray
 from ..errors import InputError
 
 # Fewest solved speeds of a curve.
-FEWEST = 3
+FEWEST_SPEEDS = 3
 
 # Power of the speed over which the asperity load ratio is interpolated: about that of the film.
-EXPONENT = 0.6
+LOAD_RATIO_POWER = 0.6
 
 # Power of the remaining speed with which a contact ends: that of a Hertz asperity.
 HERTZ = 1.5
 
 # Other powers, whose effect is part of the estimated error.
-OTHERS = (1.0, 2.0)
+OTHER_POWERS = (1.0, 2.0)
 
 # Power of the speed of a film, where one speed alone is known.
-FILM = 0.8
+FILM_POWER = 0.8
 
-# An estimate of lift-off below NEAR times a speed with contact is taken to be BEYOND times that speed.
-NEAR = 1.003
+# An estimate of lift-off below NEAR_CONTACT times a speed with contact is taken to be BEYOND times that speed.
+NEAR_CONTACT = 1.003
 BEYOND = 1.03
 
 # Error of an extrapolated lift-off, as a part of the logarithm of the ratio over which it is extrapolated.
-UNSURE = 0.05
+EXTRAPOLATED_ERROR = 0.05
 
 # Error between the points, over that at a point which the curve through the others has.
-CLOSER = 0.4
+BETWEEN_POINTS_RATIO = 0.4
 
 # Film load ratio below which the traction coefficient of the film is not used.
 LITTLE = 0.02
 
 # Asperity load ratio below which chance rules: how a contact ends is not read off such a point.
-LEAST = 2e-3
+LEAST_LOAD_RATIO = 2e-3
 
 # Film load ratio below which the film counts as carrying nothing.
-NOTHING = 1e-9
+NO_FILM_LOAD = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,8 +114,10 @@ class Interpolant:
         knee = knee_of(self.samples)
         if knee is None:
             return np.nan, np.nan
-        away = (s.speed[s.contacts] / knee) ** UNSURE  # a share of the way to the slowest film without contact
-        least = min(NEAR * s.speed[s.contacts - 1], knee)  # not where contact is known
+        away = (
+            s.speed[s.contacts] / knee
+        ) ** EXTRAPOLATED_ERROR  # a share of the way to the slowest film without contact
+        least = min(NEAR_CONTACT * s.speed[s.contacts - 1], knee)  # not where contact is known
         return float(max(knee / away, least)), float(knee * away)
 
     def at(self, speed: FloatArray, *, smooth: bool = True) -> np.ndarray:
@@ -133,7 +135,7 @@ class Interpolant:
         others = []
         if self.lift_off is not None:
             others = [replace(self, lift_off=end) for end in self.lift_off_range if end != self.lift_off]
-            others += [replace(self, end=power) for power in OTHERS]
+            others += [replace(self, end=power) for power in OTHER_POWERS]
         for other in others:
             spread = np.maximum(spread, np.abs(other.at(speed) - value))
         change_without = np.zeros(s.speed.size)  # at each point, when that is left out
@@ -143,9 +145,9 @@ class Interpolant:
             value_without = Interpolant(left, knee).at(s.speed[i : i + 1])[0]
             change_without[i] = abs(value_without / (s.boundary[i] + s.film[i]) - 1.0)
         right = np.clip(np.searchsorted(s.speed, speed), 1, s.speed.size - 1)
-        low, high, at = (u**EXPONENT for u in (s.speed[right - 1], s.speed[right], speed))
+        low, high, at = (u**LOAD_RATIO_POWER for u in (s.speed[right - 1], s.speed[right], speed))
         between = 4.0 * (at - low) * (high - at) / (high - low) ** 2  # an error that is none at the points
-        beside = CLOSER * between * np.maximum(change_without[right - 1], change_without[right])
+        beside = BETWEEN_POINTS_RATIO * between * np.maximum(change_without[right - 1], change_without[right])
         return np.maximum(spread / np.maximum(np.abs(value), 1e-300), beside)
 
     def boundary(self, speed: np.ndarray, *, smooth: bool = True) -> np.ndarray:
@@ -164,7 +166,7 @@ class Interpolant:
     def share(self, speed: np.ndarray, *, smooth: bool = True) -> np.ndarray:
         """Return the asperity load ratio F_C/F_T."""
         s = self.samples
-        known = np.flatnonzero((s.share > min(LEAST, 0.5 * s.share.max())) & (s.share < 1 - NOTHING))
+        known = np.flatnonzero((s.share > min(LEAST_LOAD_RATIO, 0.5 * s.share.max())) & (s.share < 1 - NO_FILM_LOAD))
         if known.size == 0:
             return np.full(speed.shape, float(s.contacts > 0))
         log_load_ratio = np.log(1 / s.share[known] - 1)
@@ -175,9 +177,13 @@ class Interpolant:
         below = speed < end
         y = s.speed[known] / end
         there = speed[below] / end
-        rate = (s.steepness[known] - 1 - self.end * y / (1 - y)) / (EXPONENT * y**EXPONENT)
+        rate = (s.steepness[known] - 1 - self.end * y / (1 - y)) / (LOAD_RATIO_POWER * y**LOAD_RATIO_POWER)
         left = _steered(
-            y**EXPONENT, log_load_ratio - np.log(y) + self.end * np.log1p(-y), rate, there**EXPONENT, smooth=smooth
+            y**LOAD_RATIO_POWER,
+            log_load_ratio - np.log(y) + self.end * np.log1p(-y),
+            rate,
+            there**LOAD_RATIO_POWER,
+            smooth=smooth,
         )
         at[below] = 1 / (1 + np.exp(left) * there / (1 - there) ** self.end)
         return at
@@ -190,7 +196,7 @@ class Interpolant:
         known = np.flatnonzero(1 - s.share >= LITTLE)
         known = known if known.size else np.array([s.speed.size - 1])
         y = s.speed[known]
-        t = s.film[known] / np.maximum(1 - s.share[known], NOTHING)
+        t = s.film[known] / np.maximum(1 - s.share[known], NO_FILM_LOAD)
         touching = known < k
         at = np.maximum(speed, y[0])
         if k == 0:
@@ -210,8 +216,8 @@ def through(numbers: dict[str, np.ndarray]) -> Interpolant:
         raise InputError("speeds run both ways; a curve between them has those of one direction: solve two curves")
     good = np.flatnonzero(np.isfinite(numbers["coefficient"]) & (speed != 0))
     good = good[np.argsort(np.abs(speed[good]))]
-    if good.size < FEWEST or np.unique(speed[good]).size < good.size:
-        raise InputError(f"{good.size} speeds are solved; a curve between them needs {FEWEST} different ones")
+    if good.size < FEWEST_SPEEDS or np.unique(speed[good]).size < good.size:
+        raise InputError(f"{good.size} speeds are solved; a curve between them needs {FEWEST_SPEEDS} different ones")
     at = {name: values[good] for name, values in numbers.items()}
     total = at["contact_load"] + at["film_load"]
     boundary = at["boundary_force"] / total
@@ -238,14 +244,14 @@ def knee_of(samples: Samples) -> float | None:
     high = samples.speed[k]
     film = samples.thickness[k : k + 2]
     clear = samples.clearance[k]
-    power = FILM
+    power = FILM_POWER
     if film.size == 2:
         power = np.log(film[1] / film[0]) / np.log(samples.speed[k + 1] / high)
     if clear < film[0] and power > 0:
         lift_off = high * (1 - clear / film[0]) ** (1 / power)
     else:
         lift_off = float(np.sqrt(low * high))
-    if lift_off < NEAR * low:
+    if lift_off < NEAR_CONTACT * low:
         lift_off = min(BEYOND * low, float(np.sqrt(low * high)))
     return float(min(lift_off, high))
 

@@ -15,15 +15,15 @@ from ..scene import Scene
 from .interpolate import Interpolant
 
 # Speeds of a curve to which a law is fitted, in addition to those that were solved.
-FINE = 50
+FITTED_SPEEDS = 50
 
 # Relative error of a curve between its points, as it estimates it, up to which it is used.
-CLOSE = 0.02
+USABLE_ERROR = 0.02
 
 # Fewest points of a law.
-FEWEST = 12
+FEWEST_POINTS = 12
 
-MORE = "solve more speeds, or speeds='auto'"
+MORE_SPEEDS = "solve more speeds, or speeds='auto'"
 
 # Relative distance by which a number may lie outside a range.
 ROUNDED = 1e-9
@@ -32,16 +32,16 @@ ROUNDED = 1e-9
 OVER_REST = 1.1
 
 # Speed over the slowest one below which f falls to 0 at rest.
-AT_REST = 0.03
+REST_SPEED_RATIO = 0.03
 
 # Walther's equation (ASTM D341), of the viscosity in mPa s.
 WALTHER = "0.001*(pow(10.0, pow(10.0, A - B*log10(T))) - 0.7)"
 
 # Smallest viscosity [Pa s] for which it has a value.
-THINNEST = 3.001e-4
+LEAST_VISCOSITY = 3.001e-4
 
 # The law: valid in Python and C, one name after the other.
-FORMULA = {
+LAW_FORMULA = {
     "V": "sqrt(U*U + u0*u0)",
     "e": "eta/eta0",
     "q": "p/p0",
@@ -51,10 +51,10 @@ FORMULA = {
     "t2": "C2*pow(V/U0, k2)*pow(e, e2)*pow(q, d2)",
     "f": "U/V*(b*s + (1.0 - s)/(1.0/t1 + 1.0/t2))",
 }
-CODE = {expression: compile(expression, "law", "eval") for expression in (WALTHER, "eta0", *FORMULA.values())}
+CODE = {expression: compile(expression, "law", "eval") for expression in (WALTHER, "eta0", *LAW_FORMULA.values())}
 FUNCTIONS = {"sqrt": np.sqrt, "pow": np.power, "log10": np.log10, "__builtins__": {}}
-SHARE = ("b", "U1", "n", "m", "r")
-FILM = ("C1", "k1", "C2", "k2")
+LOAD_RATIO_PARAMETERS = ("b", "U1", "n", "m", "r")
+FILM_PARAMETERS = ("C1", "k1", "C2", "k2")
 POSITIVE = {
     "b": (1e-6, 10.0),
     "U1": (1e-15, 1e15),
@@ -62,8 +62,8 @@ POSITIVE = {
     "m": (0.2, 50.0),
     "r": (1e-6, 1e3),
 } | dict.fromkeys(("C1", "C2"), (1e-9, 1e9))  # searched in logarithms, between these bounds
-OTHERS = np.array([-3.0, 3.0])  # bounds of the exponents
-START = dict.fromkeys(("c", "e1", "e2", "d1", "d2"), 0.0) | {"a": 1.0, "n": 1.0, "m": 2.0, "r": 0.5}
+EXPONENT_BOUNDS = np.array([-3.0, 3.0])  # bounds of the exponents
+START_PARAMETERS = dict.fromkeys(("c", "e1", "e2", "d1", "d2"), 0.0) | {"a": 1.0, "n": 1.0, "m": 2.0, "r": 0.5}
 SYMBOLS = {"speed": ("U", "m/s"), "temperature": ("T", "K"), "pressure": ("p", "Pa")}
 VARIED = ("lubricant.temperature", "lubricant.temperature_celsius", "bodies.load")
 
@@ -187,7 +187,7 @@ def value(numbers: Mapping[str, float], U: Any, T: Any, p: Any) -> Any:
 
 
 def _expressions(numbers: Mapping[str, float]) -> dict[str, str]:
-    return {"eta": WALTHER if "A" in numbers else "eta0"} | FORMULA
+    return {"eta": WALTHER if "A" in numbers else "eta0"} | LAW_FORMULA
 
 
 def law_of(
@@ -204,15 +204,17 @@ def law_of(
     rows = [np.zeros((7, 0))]
     for known, curve in curves:
         solved = curve.samples.speed
-        fine = np.geomspace(solved[0], solved[-1], FINE)
-        fine = np.append(solved, fine[curve.error(fine) < CLOSE])
+        fine = np.geomspace(solved[0], solved[-1], FITTED_SPEEDS)
+        fine = np.append(solved, fine[curve.error(fine) < USABLE_ERROR])
         rows.append(np.array(np.broadcast_arrays(fine, *known, curve.boundary(fine), curve.film(fine))))
     U, T, eta, slope, p, boundary, film = np.concatenate(rows, axis=1)
-    if U.size < FEWEST:
-        raise InputError(f"a law needs {FEWEST} points known within {CLOSE:.0%}, and has {U.size}; {MORE}")
+    if U.size < FEWEST_POINTS:
+        raise InputError(
+            f"a law needs {FEWEST_POINTS} points known within {USABLE_ERROR:.0%}, and has {U.size}; {MORE_SPEEDS}"
+        )
     if not (boundary + film > 0).all():
         raise InputError("a law needs f above 0 at all speeds; give a slide-roll ratio that is not near 0")
-    numbers = {"u0": AT_REST * U.min()}
+    numbers = {"u0": REST_SPEED_RATIO * U.min()}
     numbers |= {name: float(np.exp(np.log(v).mean())) for name, v in (("U0", U), ("eta0", eta), ("p0", p))}
     numbers |= _viscosity(T, eta, slope)
     sliding = scene.motion.slide_roll_ratio * U
@@ -249,11 +251,11 @@ def law_of_study(result: Any) -> Law:
 def _viscosity(T: FloatArray, eta: FloatArray, coefficient: FloatArray) -> dict[str, float]:
     """A and B of `WALTHER` through the viscosities, or through one with its slope; none without a temperature, or where
     at a single one the fluid is too thin for it."""
-    thin = eta.min() <= THINNEST
+    thin = eta.min() <= LEAST_VISCOSITY
     if not np.isfinite(T).all() or thin and np.ptp(T) == 0:
         return {}
     if thin:
-        allowed = f"above {THINNEST:g} Pa s, or one temperature"
+        allowed = f"above {LEAST_VISCOSITY:g} Pa s, or one temperature"
         said = f" = {eta.min():.3g} Pa s is too thin for a law over temperature"
         raise InputError(said, "lubricant.viscosity", allowed)
     x = np.log10(T)
@@ -283,13 +285,13 @@ def _fitted(
     e = np.log(eta / numbers["eta0"])
     q = np.log(p / numbers["p0"])
     middle = float((U * np.exp(e))[abs(boundary - 0.5 * most).argmin()])
-    start = START | {"b": most or 1.0, "C1": float(np.median(f)), "U1": middle if most else 1e-12}
-    free = (*(SHARE if most else ()), *FILM)
+    start = START_PARAMETERS | {"b": most or 1.0, "C1": float(np.median(f)), "U1": middle if most else 1e-12}
+    free = (*(LOAD_RATIO_PARAMETERS if most else ()), *FILM_PARAMETERS)
     for exponents, moved in ((("a", "e1", "e2"), e), (("c", "d1", "d2"), q)):
         if np.ptp(moved) > 1e-9:
             free += exponents if most else exponents[1:]
     bounds = POSITIVE | {"b": (POSITIVE["b"][0], OVER_REST * max(most, rest))}
-    low, high = np.array([np.log(bounds[name]) if name in bounds else OTHERS for name in free]).T
+    low, high = np.array([np.log(bounds[name]) if name in bounds else EXPONENT_BOUNDS for name in free]).T
 
     def read(z: FloatArray) -> dict[str, float]:
         return numbers | start | {n: float(np.exp(v) if n in POSITIVE else v) for n, v in zip(free, z)}

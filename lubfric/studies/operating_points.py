@@ -12,20 +12,20 @@ import numpy as np
 from .._base import name_and_unit, read_columns, table_headings, validate
 from ..errors import InputError
 from ..quantities import KEYS, OF_CYCLE, OF_SURFACES, Quantity
-from ..scene import Scene, likely_unit, other_convention
+from ..scene import SLIDE_ROLL_RATIO_KEY, SLIP_KEY, Scene, likely_unit, other_convention
 from ..units import UNITS, check_all_have_units, converted, in_si, kind_of, printed, spelled
-from .vary import MOST_POINTS, SECTIONS, Axis, check_key
+from .vary import MOST_COMBINATIONS, VARIED_SECTIONS, Axis, check_key
 
 POINT = "point"  # name of the dimension of a table of operating points
 U1 = "u1"
 U2 = "u2"
-SLIDING = "sliding_speed"
+SLIDING_COLUMN = "sliding_speed"
 DURATION = "duration"
 POSITION = "position"
 ANGLE = "angle"
 
 # Names of columns in place of the keys of a scene.
-NAMES = {
+COLUMN_NAMES = {
     "speed": "motion.entrainment_speed",
     "entrainment_speed": "motion.entrainment_speed",
     "slide_roll_ratio": "motion.slide_roll_ratio",
@@ -39,16 +39,14 @@ NAMES = {
 }
 
 # Speeds of both surfaces, of which speed and slide-roll ratio follow.
-SPEEDS = OF_SURFACES
+SPEEDS_OF_SURFACES = OF_SURFACES
 
 # Columns that say where a point lies. They change no number; means over a cycle weigh by the duration.
 COORDINATES = OF_CYCLE | {"time": Quantity("s", "time")}
 
 ENTRAINMENT = "motion.entrainment_speed"
-RATIO = "motion.slide_roll_ratio"
-SLIP = "motion.slip_percent"
 TEMPERATURE = "temperature"
-CELSIUS = "lubricant.temperature_celsius"
+CELSIUS_KEY = "lubricant.temperature_celsius"
 KELVIN = "lubricant.temperature"
 
 
@@ -84,17 +82,17 @@ def operating_points(scene: Scene, table: Any) -> OperatingPoints:
     if len(lengths) != 1 or lengths == {0}:
         lengths_in_words = ", ".join(f"{name}: {len(values)}" for name, values in columns.items()) or "no columns"
         raise InputError(f"points: the columns of the table have different lengths, or none ({lengths_in_words})")
-    if lengths.pop() > MOST_POINTS:
-        raise InputError("points: too many rows", allowed=f"up to {MOST_POINTS:.0e}")
+    if lengths.pop() > MOST_COMBINATIONS:
+        raise InputError("points: too many rows", allowed=f"up to {MOST_COMBINATIONS:.0e}")
     coordinates = {name: tuple(columns.pop(name)) for name in COORDINATES if name in columns}
     if any(value < 0 for value in coordinates.get(DURATION, ())):
         raise InputError("points: duration holds a negative value; give durations in s")
-    coordinates |= {name: tuple(columns[name]) for name in SPEEDS if name in columns}
+    coordinates |= {name: tuple(columns[name]) for name in SPEEDS_OF_SURFACES if name in columns}
     columns = _with_speeds(columns)
     seen: set[str] = set()
     for key in columns:
         if key != ENTRAINMENT:
-            check_key("points", scene, key, seen, SECTIONS)
+            check_key("points", scene, key, seen, VARIED_SECTIONS)
             seen.add(key)
     count = len(next(iter(columns.values()), next(iter(coordinates.values()), ())))
     speeds = columns.pop(ENTRAINMENT, None) or [scene.motion.entrainment_speed] * count
@@ -111,11 +109,11 @@ def operating_points(scene: Scene, table: Any) -> OperatingPoints:
 
 
 def _columns(table: Any) -> tuple[dict[str, list[Any]], tuple[str, ...]]:
-    """Return the columns of ``table`` in SI units, by the keys of a scene or the names of `COORDINATES`, `SPEEDS`; and how
+    """Return the columns of ``table`` in SI units, by the keys of a scene or the names of `COORDINATES`, `SPEEDS_OF_SURFACES`; and how
     those without a unit were read, in sentences."""
     if isinstance(table, (str, Path)):
         path = validate.folder("points", table)
-        headings = table_headings(path, (*NAMES, TEMPERATURE, *COORDINATES, *SPEEDS, *KEYS))
+        headings = table_headings(path, (*COLUMN_NAMES, TEMPERATURE, *COORDINATES, *SPEEDS_OF_SURFACES, *KEYS))
         quantities = [_quantity(*name_and_unit(heading))[1] for heading in headings]
         units = [quantity.unit for quantity in quantities]
         given: dict[str, list[Any]] = dict(zip(headings, read_columns(path, headings, units)))
@@ -147,7 +145,7 @@ def _check_without_unit(name: str, key: str, quantity: Quantity, values: Any) ->
     """Raise `InputError` where a plain number of the column ``name`` is outside the range of machines, and is inside it
     in another unit."""
     for value in _plain_numbers(values):
-        likely = printed(likely_unit(ENTRAINMENT if key in SPEEDS else key, value))
+        likely = printed(likely_unit(ENTRAINMENT if key in SPEEDS_OF_SURFACES else key, value))
         if likely:
             unit = printed(quantity.unit)
             read_as = f"{value:.4g} {unit}".rstrip()
@@ -202,21 +200,21 @@ def _as_columns(table: Any) -> dict[str, list[Any]]:
 
 
 def _quantity(name: str, unit: str | None) -> tuple[str, Quantity]:
-    """Return the key of the column ``name``, or its name in `COORDINATES` or `SPEEDS`, and its quantity."""
+    """Return the key of the column ``name``, or its name in `COORDINATES` or `SPEEDS_OF_SURFACES`, and its quantity."""
     plain = name.strip()
-    if plain in COORDINATES or plain in SPEEDS:
-        return plain, (COORDINATES | SPEEDS)[plain]
+    if plain in COORDINATES or plain in SPEEDS_OF_SURFACES:
+        return plain, (COORDINATES | SPEEDS_OF_SURFACES)[plain]
     if plain == TEMPERATURE:
         word = spelled(unit or "")
         if word not in ("K", "°C"):
             raise InputError(
                 "points: the column temperature names no unit", allowed="temperature [°C], temperature [K]"
             )
-        plain = CELSIUS if word == "°C" else KELVIN
-    key = NAMES.get(plain.lower(), plain)
+        plain = CELSIUS_KEY if word == "°C" else KELVIN
+    key = COLUMN_NAMES.get(plain.lower(), plain)
     if key not in KEYS and "." not in key:
-        near = validate.nearest(plain, [*NAMES, TEMPERATURE, *COORDINATES, *SPEEDS])
-        known = ", ".join([*NAMES, TEMPERATURE, *SPEEDS, *COORDINATES])
+        near = validate.nearest(plain, [*COLUMN_NAMES, TEMPERATURE, *COORDINATES, *SPEEDS_OF_SURFACES])
+        known = ", ".join([*COLUMN_NAMES, TEMPERATURE, *SPEEDS_OF_SURFACES, *COORDINATES])
         raise InputError(
             f"points: {plain!r} is no column of operating points{near}", allowed=f"{known}, or section.key"
         )
@@ -226,7 +224,7 @@ def _quantity(name: str, unit: str | None) -> tuple[str, Quantity]:
 def _value(heading: str, key: str, value: Any, unit: str | None, quantity: Quantity) -> Any:
     """Return one value in the unit of its ``key``; ``unit``: of its heading."""
     value = validate.python_value(value)
-    if isinstance(value, str) and key in {*KEYS, *COORDINATES, *SPEEDS}:
+    if isinstance(value, str) and key in {*KEYS, *COORDINATES, *SPEEDS_OF_SURFACES}:
         value, given = in_si(f"points: {heading}", value)
         if given != _row(quantity.unit):
             raise InputError(f"points: {heading} = {value!r} is in {given}", allowed=f"a number in {quantity.unit}")
@@ -252,21 +250,23 @@ def _row(unit: str) -> str:
 def _with_speeds(columns: dict[str, list[Any]]) -> dict[str, list[Any]]:
     """Return the columns with speed and slide-roll ratio in place of the speeds of the surfaces."""
     columns = dict(columns)
-    if SLIP in columns and RATIO in columns:
+    if SLIP_KEY in columns and SLIDE_ROLL_RATIO_KEY in columns:
         raise InputError("points: slip_percent and slide_roll_ratio both give the sliding; leave one of them out")
     pair = [columns.pop(name, None) for name in (U1, U2)]
-    sliding = columns.pop(SLIDING, None)
+    sliding = columns.pop(SLIDING_COLUMN, None)
     if (pair[0] is None) != (pair[1] is None):
         raise InputError("points: give both u1 and u2, or speed and slide_roll_ratio or slip_percent")
-    twice = [key for key in (ENTRAINMENT, RATIO, SLIP) if key in columns]
+    twice = [key for key in (ENTRAINMENT, SLIDE_ROLL_RATIO_KEY, SLIP_KEY) if key in columns]
     if pair[0] is not None and (twice or sliding is not None):
-        raise InputError(f"points: u1 and u2 give the speed and the ratio; leave {', '.join(twice) or SLIDING} out")
-    if sliding is not None and (RATIO in columns or SLIP in columns or ENTRAINMENT not in columns):
+        raise InputError(
+            f"points: u1 and u2 give the speed and the ratio; leave {', '.join(twice) or SLIDING_COLUMN} out"
+        )
+    if sliding is not None and (SLIDE_ROLL_RATIO_KEY in columns or SLIP_KEY in columns or ENTRAINMENT not in columns):
         raise InputError(
             "points: sliding_speed goes with speed, and takes the place of slide_roll_ratio and slip_percent"
         )
-    if SLIP in columns:
-        columns[RATIO] = [in_percent / 100 for in_percent in columns.pop(SLIP)]
+    if SLIP_KEY in columns:
+        columns[SLIDE_ROLL_RATIO_KEY] = [in_percent / 100 for in_percent in columns.pop(SLIP_KEY)]
     if pair[0] is not None:
         columns[ENTRAINMENT] = [0.5 * (u1 + u2) for u1, u2 in zip(*pair)]
         sliding = [u2 - u1 for u1, u2 in zip(*pair)]
@@ -275,12 +275,12 @@ def _with_speeds(columns: dict[str, list[Any]]) -> dict[str, list[Any]]:
         still = next((row for row, speed in enumerate(speeds, 1) if speed == 0), None)
         if still is not None:
             raise InputError(f"points, row {still}: no entrainment (u1 + u2 = 0)", allowed="a speed other than 0 m/s")
-        columns[RATIO] = [difference / speed for difference, speed in zip(sliding, speeds)]
+        columns[SLIDE_ROLL_RATIO_KEY] = [difference / speed for difference, speed in zip(sliding, speeds)]
     return columns
 
 
 # Columns of a study with an interval, and the columns of its ends.
-ENDS = {
+INTERVAL_COLUMNS = {
     "coefficient": ("uncertainty_low", "uncertainty_high"),
     "power_loss": ("power_loss_low", "power_loss_high"),
 }

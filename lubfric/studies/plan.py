@@ -15,14 +15,14 @@ from .._base import FieldsOnly, validate, with_default_errors
 from ..errors import InputError
 from ..samples import is_measured, whole_maps
 from ..scene import Scene, load_scene, read_toml, speeds_of_range
-from .choose import CHOSEN, MOST, requested_speeds
+from .choose import EXPECTED_SPEEDS, MOST_CHOSEN_SPEEDS, requested_speeds
 from .explain import explain, warnings_of
 from .operating_points import operating_points
 from .points import scene_key
 from .store import digest
-from .vary import SLIDING, Axis, Between, axes_of, notes_of_sliding, sample, unit_of
+from .vary import VARIED_SLIDING, Axis, Between, axes_of, notes_of_sliding, sample, unit_of
 
-KEYS = ("scene", "speeds", "speed_range", "points", "vary", "together", "sample")
+STUDY_KEYS = ("scene", "speeds", "speed_range", "points", "vary", "together", "sample")
 # Sections by which a scene is told from a study file.
 SCENE_SECTIONS = {"bodies", "lubricant", "motion", "surface"}
 SAMPLE_KEYS = ("count", "sampler", "seed")
@@ -76,12 +76,12 @@ class StudyPlan(FieldsOnly):
     def shape(self) -> tuple[int, ...]:
         """Shape of the results: the axes, then, of curves, the number of speeds, or the largest number that a curve may
         choose."""
-        return self.curve_shape if self.paired else (*self.curve_shape, len(self.speeds) or MOST)
+        return self.curve_shape if self.paired else (*self.curve_shape, len(self.speeds) or MOST_CHOSEN_SPEEDS)
 
     @property
     def points(self) -> int:
         """Number of points. Where speeds are chosen it is an estimate."""
-        return len(self.keys) * (1 if self.paired else len(self.speeds) or CHOSEN)
+        return len(self.keys) * (1 if self.paired else len(self.speeds) or EXPECTED_SPEEDS)
 
     def speeds_at(self, curve: int) -> tuple[float, ...]:
         """Return the speeds [m/s] that are requested of the curve at place ``curve`` of ``keys``; none if it chooses
@@ -108,7 +108,7 @@ def scenes_of(scene: Scene, axes: tuple[Axis, ...]) -> Iterator[Scene]:
         values = {key: value for axis, i in zip(axes, row) for key, value in axis.at(i).items()}
         varied = replace(scene.with_keys(values), transient=None)
         # whether a varied sliding is doubtful is known of the values as they were given (`StudyPlan.notes`)
-        yield varied if SLIDING.isdisjoint(values) else replace(varied, doubtful=())
+        yield varied if VARIED_SLIDING.isdisjoint(values) else replace(varied, doubtful=())
 
 
 @with_default_errors
@@ -209,7 +209,7 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
             f"{path.name} is a scene, not a study",
             way_out=f"give a study file with scene = {str(path.name)!r}, or --points with a table of operating points",
         )
-    validate.keys(path.name, table, KEYS)
+    validate.keys(path.name, table, STUDY_KEYS)
     name: Any = table.get("scene")
     validate.instance(f"scene of {path.name}", name, str, "a file or a built-in scene")
     beside = path.parent / name

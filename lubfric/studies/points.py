@@ -20,7 +20,7 @@ from .store import OUTCOME, Store, digest, fingerprint_without_files, point_key,
 Outcome = FrictionResult | LubfricError
 SPEED = "speed"
 STATUS = "status"
-CONVERGED = "converged"
+CONVERGED_COLUMN = "converged"
 VALIDITY = "validity"
 MISSING = "not computed"
 UNUSED = "not needed"  # places of a curve that chose fewer speeds than another

@@ -24,9 +24,9 @@ from ..scene import Scene
 from ..units import worded
 from .interpolate import Interpolant, through
 from .law import law_of_study
-from .operating_points import DURATION, ENDS, POINT, mean_over_cycle
+from .operating_points import DURATION, INTERVAL_COLUMNS, POINT, mean_over_cycle
 from .plan import StudyPlan, plan_study, scenes_of
-from .points import CONVERGED, MISSING, SPEED, UNUSED, MapError, solved_together
+from .points import CONVERGED_COLUMN, MISSING, SPEED, UNUSED, MapError, solved_together
 from .store import PLANNED, Store, digest, opened, point_key
 from .study_table import StudyTable
 from .tables import label, plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
@@ -102,7 +102,7 @@ class StudyResult(Shown):
     @property
     def failures(self) -> tuple[str, ...]:
         """Why points could not be solved, one text for each of them."""
-        return tuple(status for status in self.status.flat if status not in (CONVERGED, MISSING, UNUSED))
+        return tuple(status for status in self.status.flat if status not in (CONVERGED_COLUMN, MISSING, UNUSED))
 
     @property
     def failed(self) -> int:
@@ -193,7 +193,7 @@ class StudyResult(Shown):
         The errors of the points are taken as fully correlated, as one model, one surface and one oil cause them: the ends
         are the means of the ends of the points. NaN where the interval of a point that counts is not known.
         """
-        low, high = ENDS[validate.choice("name", name, ENDS)]
+        low, high = INTERVAL_COLUMNS[validate.choice("name", name, INTERVAL_COLUMNS)]
         return self.mean(low), self.mean(high)
 
     def cite(self, format: str = "text") -> str:

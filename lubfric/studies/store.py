@@ -43,7 +43,7 @@ class Failure:
     result: FrictionResult | None = None
 
 
-CLASSES = classes_of(FrictionResult, EHLResult, Failure, Scene, Axis)
+STORED_CLASSES = classes_of(FrictionResult, EHLResult, Failure, Scene, Axis)
 ERRORS = {kind.__name__: kind for kind in (InputError, ConvergenceError, ValidityError)}
 OUTCOME = FrictionResult | Failure  # what is stored of a point
 # What is stored of the plan of a study: scene, axes, speeds [m/s], keys, and speeds, coordinates and notes of operating
@@ -69,7 +69,7 @@ class Store:
     absent, and so does one that was renamed, because it begins with its key.
     """
 
-    def __init__(self, root: str | Path | None, classes: dict[str, type] = CLASSES):
+    def __init__(self, root: str | Path | None, classes: dict[str, type] = STORED_CLASSES):
         self.root = root
         self.classes = classes
         self.folder = None if root is None else Path(root) / POINTS
@@ -122,7 +122,9 @@ class Store:
 
 
 @contextmanager
-def opened(folder: str | Path | None, classes: dict[str, type] = CLASSES, name: str = "store") -> Iterator[Store]:
+def opened(
+    folder: str | Path | None, classes: dict[str, type] = STORED_CLASSES, name: str = "store"
+) -> Iterator[Store]:
     """The `Store` in ``folder`` (None: none), which one caller at a time may fill. Raises `InputError` for a second.
     ``name``: of the argument that gives the folder."""
     if folder is None:

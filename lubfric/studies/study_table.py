@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from .choose import MOST
+from .choose import MOST_CHOSEN_SPEEDS
 from .points import MISSING, SPEED, STATUS, UNUSED, VALIDITY, Outcome, row_of
 from .store import CHOSEN, OUTCOME, Store, digest, point_key
 
@@ -23,7 +23,7 @@ class StudyTable:
 
     def __init__(self, plan: Any):
         self.plan = plan
-        self.width = MOST if plan.chooses_speeds else 1 if plan.paired else len(plan.speeds)
+        self.width = MOST_CHOSEN_SPEEDS if plan.chooses_speeds else 1 if plan.paired else len(plan.speeds)
         self.columns: dict[str, np.ndarray] = {}
         self.status = np.full(self._shape, UNUSED if plan.chooses_speeds else MISSING, dtype=object)
         self.validity = np.full(self._shape, "", dtype=object)

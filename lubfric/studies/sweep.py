@@ -20,11 +20,11 @@ from ..quantities import PointQuantities, described_in_doc
 from ..scene import FASTEST, LARGEST_RATIO, Scene
 from .choose import GRID, alike, between, each_once, requested_speeds, span, tolerance_between
 from .curve import CurveResult, checked_curve, columns_of, csv_bytes, parted, report_of
-from .interpolate import FEWEST, Interpolant, through
-from .law import MORE, Law, conditions_of, law_of
+from .interpolate import FEWEST_SPEEDS, Interpolant, through
+from .law import MORE_SPEEDS, Law, conditions_of, law_of
 from .points import Outcome, at_ratios, key_of, outcome_of, solved
 from .store import opened
-from .tables import KNOWN, curve_axes
+from .tables import DRAWN_ERROR, curve_axes
 
 
 @described_in_doc
@@ -103,9 +103,9 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         """The curve as a formula for system simulations, `lubfric.studies.law`: at one temperature and pressure;
         ``lubfric.study(...).law()`` has more of them. Raises `InputError` where f between the speeds is not known
         within 5 %."""
-        if self.between > KNOWN:
+        if self.between > DRAWN_ERROR:
             said = f"between the speeds f is known within {100 * self.between:.2g} %"
-            raise InputError(said, way_out=MORE)
+            raise InputError(said, way_out=MORE_SPEEDS)
         low, high = self.uncertainty.interval.T
         curves = [(conditions_of(self.scene), self._curve)]
         return law_of(self.scene, curves, self.coefficient, low, high, self.uncertainty.model)
@@ -222,7 +222,7 @@ def _collected(requested: list[float], outcomes: dict[float, Outcome], prepared:
     report = report_of("stribeck", [f"speed {u:g} m/s" for u in speeds], "speeds", points, errors)
     numbers = columns_of(points) | {"speed": speeds}
     curve = StribeckResult(**numbers, points=points, errors=errors, report=report, scene=prepared.scene)
-    if requested or len(points) - len(errors) < FEWEST:
+    if requested or len(points) - len(errors) < FEWEST_SPEEDS:
         return curve
     error = curve.between
     tolerance = tolerance_between(prepared)

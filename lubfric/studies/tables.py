@@ -13,11 +13,12 @@ from scipy.interpolate import PchipInterpolator
 from .._base import FloatArray, __version__, figures, files, table_bytes, validate, write_whole
 from ..errors import InputError
 from ..quantities import COLUMNS, Quantity, axis_label, described, heading, worded_value
+from ..scene import SLIDE_ROLL_RATIO_KEY
 from ..units import converted, unit_of_largest
 from .choose import between
 from .curve import numbers_of
 from .interpolate import through
-from .operating_points import ENDS, RATIO
+from .operating_points import INTERVAL_COLUMNS
 from .points import SPEED, STATUS, UNUSED, VALIDITY
 
 if TYPE_CHECKING:
@@ -28,19 +29,19 @@ if TYPE_CHECKING:
 OF_INTERVAL = (("model_error", 1.0, "--"), ("sampling_error", 2.0, ":"))  # column, times it in the interval, line
 BAND = "95 % interval"
 # Lines of a plot, at most.
-MOST = 500
+MOST_PLOTTED_LINES = 500
 
 # Lines of a plot that get a label, at most.
 NAMED = 10
 
 # Points of a line between solved ones.
-FINE = 200
+LINE_POINTS = 200
 
 # Relative error of f between the points up to which a curve is drawn as a line or given as a formula.
-KNOWN = 0.05
+DRAWN_ERROR = 0.05
 
 # Values along both axes of a map from which it is drawn by contours.
-SMOOTH = 6
+CONTOUR_VALUES = 6
 
 
 def to_xarray(result: Any) -> Any:
@@ -108,7 +109,7 @@ def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
     axes = figures.axes_or_new(ax)
     indices = list(np.ndindex(*result.status.shape[:-1]))
     count = len(indices)
-    indices = indices[:: -(-count // MOST)]
+    indices = indices[:: -(-count // MOST_PLOTTED_LINES)]
     few = len(indices) <= NAMED
     shades: np.ndarray = np.linspace(0.0, 0.9, len(indices))
     colours = colormaps["viridis"]
@@ -128,11 +129,11 @@ def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
         good = good[np.argsort(speed[good])]
         dots: dict[str, Any] = {"marker": "o", "ms": 3} if few or curve is None else {}
         if curve is not None:
-            fine = np.geomspace(speed[good][0], speed[good][-1], FINE)
+            fine = np.geomspace(speed[good][0], speed[good][-1], LINE_POINTS)
             axes.plot(fine, curve.at(fine), **own)
             own |= {"ls": "", "label": None}
         axes.plot(speed[good], f[good], **dots | own)
-    axes.set(xscale="log", xlabel=axis_label(SPEED), ylabel=figures.FRICTION)
+    axes.set(xscale="log", xlabel=axis_label(SPEED), ylabel=figures.FRICTION_LABEL)
     figures.plain_ticks(axes.xaxis)
     rows = figures.key_above(axes, 2) if few and len(indices) > 1 else 0
     some = "" if len(indices) == count else f": {len(indices)} of {count} curves"
@@ -163,8 +164,8 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
         own: dict[str, Any] = {"marker": "o", "ms": 3, "lw": 1.2, "label": named or COLUMNS[quantity].label}
         own |= {"color": figures.BLUE} if len(indices) == 1 else {}
         (line,) = axes.plot(np.insert(over[order], ends, np.nan), np.insert(values, ends, np.nan), **own | style)
-        if quantity in ENDS:
-            low, high = (times * result[name][index][order] for name in ENDS[quantity])
+        if quantity in INTERVAL_COLUMNS:
+            low, high = (times * result[name][index][order] for name in INTERVAL_COLUMNS[quantity])
             known: dict[str, Any] = {"label": BAND} if index == indices[-1] and np.isfinite(low).any() else {}
             along, *sides = [np.insert(array, ends, np.nan) for array in (over[order], low, high)]
             axes.fill_between(along, sides[0], sides[1], color=line.get_color(), alpha=0.2, lw=0, **known)
@@ -177,8 +178,8 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
 
 def _changes_of_direction(result: Any, index: tuple[int, ...]) -> np.ndarray:
     """Return the direction of sliding (-1, 0, 1) of the operating points at the position ``index`` along the other axes."""
-    if RATIO in result.coords:
-        dim, ratios = result.coords[RATIO]
+    if SLIDE_ROLL_RATIO_KEY in result.coords:
+        dim, ratios = result.coords[SLIDE_ROLL_RATIO_KEY]
         if dim == result.dims[-1]:
             return np.sign(ratios)
         return np.full(result.status.shape[-1], np.sign(ratios[index[result.dims.index(dim)]]))
@@ -261,7 +262,7 @@ def interval_band(
 
 def friction_over_speed(axes: Axes, columns: dict[str, np.ndarray], **style: Any) -> np.ndarray:
     """Friction over the magnitude of the speed with its parts and the band of its intervals, by the ``columns`` of a
-    `lubfric.StribeckResult`; between its points where f is `KNOWN` there. Returns the indices of the points drawn,
+    `lubfric.StribeckResult`; between its points where f is `DRAWN_ERROR` there. Returns the indices of the points drawn,
     in order: those that failed, and rest, are omitted."""
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
@@ -276,7 +277,7 @@ def friction_over_speed(axes: Axes, columns: dict[str, np.ndarray], **style: Any
     else:
         figures.friction_lines(axes, line[0], line[1:], **style)
         axes.plot(speed, c["coefficient"], "o", ms=4, color=style.get("color", figures.BLUE))
-    axes.set(xscale="log", xlabel=figures.speed_label(c["speed"]), ylabel=figures.FRICTION)
+    axes.set(xscale="log", xlabel=figures.speed_label(c["speed"]), ylabel=figures.FRICTION_LABEL)
     figures.plain_ticks(axes.xaxis)
     axes.set_ylim(bottom=min(0.0, 1.1 * float(c["coefficient"].min(initial=0.0))))
     figures.key_above(axes)
@@ -284,14 +285,14 @@ def friction_over_speed(axes: Axes, columns: dict[str, np.ndarray], **style: Any
 
 
 def _line(columns: dict[str, np.ndarray]) -> tuple[np.ndarray, ...] | None:
-    """(speeds, f, its two parts) on the curve through the points, if f is `KNOWN` between them."""
+    """(speeds, f, its two parts) on the curve through the points, if f is `DRAWN_ERROR` between them."""
     try:
         curve = through(columns)
     except (InputError, KeyError):  # too few of them, both directions, or a table without what the curve needs
         return None
-    if between(curve) > KNOWN:
+    if between(curve) > DRAWN_ERROR:
         return None
-    fine = np.geomspace(curve.samples.speed[0], curve.samples.speed[-1], 2 * FINE)
+    fine = np.geomspace(curve.samples.speed[0], curve.samples.speed[-1], 2 * LINE_POINTS)
     contact = curve.boundary(fine)
     film = curve.film(fine)
     return fine, contact + film, contact, film
@@ -326,8 +327,8 @@ def plot_map(path: Path, study: Any, across: str, up: str, title: str = "", quan
     values, x, y = values[np.argsort(y)][:, np.argsort(x)], np.sort(x), np.sort(y)
     figure = figures.new_figure(figsize=(7, 5))
     ax = figure.subplots()
-    bar = figures.FRICTION if quantity == "coefficient" else axis_label(quantity)
-    if min(values.shape) < SMOOTH:
+    bar = figures.FRICTION_LABEL if quantity == "coefficient" else axis_label(quantity)
+    if min(values.shape) < CONTOUR_VALUES:
         _table_of(ax, x, y, values, bar)
     else:
         known = np.ma.masked_invalid(values)

@@ -16,14 +16,14 @@ from ..scene import SOURCES, Roughness, Scene, other_convention, short_keys, typ
 from ..units import check_all_have_units, in_si, without_unit
 
 SAMPLERS = ("sobol", "random")
-SCALES = ("linear", "log")
-MOST_POINTS = 1_000_000  # combinations of a study, and points of a sample
-SPEEDS = ("motion.speeds", "motion.entrainment_speed", "motion.surface_speeds", "motion.speed_range")
+RANGE_SCALES = ("linear", "log")
+MOST_COMBINATIONS = 1_000_000  # combinations of a study, and points of a sample
+SPEED_KEYS = ("motion.speeds", "motion.entrainment_speed", "motion.surface_speeds", "motion.speed_range")
 TEMPERATURES = {"lubricant.temperature", "lubricant.temperature_celsius"}
 VISCOSITIES = {f"lubricant.{key}" for key in (*SOURCES, "viscosity")} | {"lubricant"}
 FITTED = ("bodies", "lubricant", "motion", "surface")  # sections that have what a measurement may tell
-SECTIONS = (*FITTED, "counterface", "contact", "numerics")
-SLIDING = {"motion", "motion.slide_roll_ratio", "motion.slip_percent"}  # keys of the sliding
+VARIED_SECTIONS = (*FITTED, "counterface", "contact", "numerics")
+VARIED_SLIDING = {"motion", "motion.slide_roll_ratio", "motion.slip_percent"}  # keys of the sliding
 CASE = "case"  # name of the dimension of keys that go together
 
 
@@ -45,7 +45,7 @@ class Between:
                 raise InputError(f" = {self.high!r} is of another kind than low, which is in {unit}", "high")
             for name, value in (("low", low), ("high", high), ("unit", unit)):
                 object.__setattr__(self, name, value)
-        validate.choice("scale", self.scale, SCALES)
+        validate.choice("scale", self.scale, RANGE_SCALES)
         low = validate.number("low", self.low, "(of the key)", above=0.0 if self.scale == "log" else -math.inf)
         validate.number("high", self.high, "(of the key)", above=low)
 
@@ -88,8 +88,8 @@ def axes_of(scene: Scene, vary: Mapping[Any, Any]) -> tuple[Axis, ...]:
     axes = []
     cases = 0
     points = math.prod(len(v) for v in vary.values() if hasattr(v, "__len__") and getattr(v, "ndim", 1) != 0)
-    if points > MOST_POINTS:
-        most = f"up to {MOST_POINTS:.0e} in a study (several studies, or lubfric.sample for points of the box)"
+    if points > MOST_COMBINATIONS:
+        most = f"up to {MOST_COMBINATIONS:.0e} in a study (several studies, or lubfric.sample for points of the box)"
         raise InputError(f" has {float(points):.3g} combinations", "vary", most)
     for key, values in vary.items():
         keys = key if isinstance(key, tuple) else (key,)
@@ -134,7 +134,7 @@ def sample(ranges: Iterable[Any], count: int, sampler: str = "sobol", seed: int 
     if not parts or not all(isinstance(part, Between) for part in parts):
         raise InputError(f"ranges = {validate.shown(ranges)}; allowed: a list of lubfric.Between(low, high)")
     validate.choice("sampler", sampler, SAMPLERS)
-    count = validate.integer("count", count, minimum=1, maximum=MOST_POINTS)
+    count = validate.integer("count", count, minimum=1, maximum=MOST_COMBINATIONS)
     seed = validate.integer("seed", seed, minimum=0)
     if sampler == "sobol":
         if count & (count - 1):
@@ -151,7 +151,7 @@ def sample(ranges: Iterable[Any], count: int, sampler: str = "sobol", seed: int 
 
 
 def check_key(
-    what: str, scene: Scene, key: str, seen: dict[str, Between] | set[str], sections: tuple[str, ...] = SECTIONS
+    what: str, scene: Scene, key: str, seen: dict[str, Between] | set[str], sections: tuple[str, ...] = VARIED_SECTIONS
 ) -> None:
     """Raise `InputError` for a ``key`` of the argument ``what`` that is none in the ``sections`` of a scene, that is
     what a curve is over, or that was ``seen``."""
@@ -167,7 +167,7 @@ def check_key(
     ):
         _refuse_key(what, scene, key, sections)
     validate.keys(f"{what}: [{section}]", [field] * bool(field), allowed)
-    if key == "motion" or key in SPEEDS:
+    if key == "motion" or key in SPEED_KEYS:
         ways = "give speeds = [...] in m/s (a fit takes those of the measurement)"
         said = f"{what}: {key!r} is what a curve is over"
         raise InputError(said, way_out=f"{ways}; motion.slide_roll_ratio is a key")

@@ -16,11 +16,11 @@ from .regrid import pair, points
 from .statistics import INVERSE_E, correlation_length, first_crossing
 
 ACFS = ("exponential", "gaussian")
-FINEST = 2.0  # cells in one correlation length (1/e)
+LEAST_CELLS_OF_LENGTH = 2.0  # cells in one correlation length (1/e)
 LENGTH_TOLERANCE = 0.10  # of the correlation length that the finite, zero-mean map can have
 LARGEST_SEED = 2**128 - 1
-NEGLIGIBLE = 37.0  # exp(-37) is below rounding
-ROUNDING = 1e-13  # of the largest power: what the transform leaves where the spectrum is zero
+NEGLIGIBLE_EXPONENT = 37.0  # exp(-37) is below rounding
+SPECTRUM_ROUNDING = 1e-13  # of the largest power: what the transform leaves where the spectrum is zero
 
 
 @with_default_errors
@@ -126,8 +126,10 @@ def surface_generator(
     for axis, n, d, scale in zip("xy", shape, spacing, scales):
         name = f"correlation_length along {axis}"
         said = f" is {scale:g} m at 1/e"
-        if scale < FINEST * d:
-            raise InputError(f"{said}, {scale / d:.3g} cells", name, f"at least {FINEST:g} cells of {d:g} m")
+        if scale < LEAST_CELLS_OF_LENGTH * d:
+            raise InputError(
+                f"{said}, {scale / d:.3g} cells", name, f"at least {LEAST_CELLS_OF_LENGTH:g} cells of {d:g} m"
+            )
         if n * d < 4 * scale:
             allowed = "at most a quarter of it (generate a larger map and crop it)"
             raise InputError(f"{said}, the map {n * d:g} m", name, allowed)
@@ -211,7 +213,7 @@ def _spectrum(
     from scipy import fft
 
     power = 1.0 if acf == "exponential" else 2.0
-    reach = NEGLIGIBLE ** (1 / power)
+    reach = NEGLIGIBLE_EXPONENT ** (1 / power)
     square = []
     for n, d, scale in zip(shape, spacing, scales):
         lag = np.arange(n // 2 + 1) * d
@@ -221,9 +223,9 @@ def _spectrum(
     quarter = np.asarray(sum(images_of_acf))
     rows, columns = (np.minimum(np.arange(n), n - np.arange(n)) for n in shape)
     spectrum = fft.rfft2(quarter[rows][:, columns]).real
-    if spectrum.min() < -ROUNDING * spectrum.max():
+    if spectrum.min() < -SPECTRUM_ROUNDING * spectrum.max():
         raise InputError(f"acf = {acf!r} has no positive spectrum on this grid; give other lengths or another spacing")
-    spectrum[spectrum < ROUNDING * spectrum.max()] = 0.0
+    spectrum[spectrum < SPECTRUM_ROUNDING * spectrum.max()] = 0.0
     spectrum[0, 0] = 0.0
     if cutoff is not None:
         longest = 0.5 * min(n * d for n, d in zip(shape, spacing))

@@ -15,16 +15,18 @@ from ..errors import InputError
 from ..units import UNITS as KINDS
 from ..units import spelled
 
-UNITS = {name: KINDS["m"][spelled(name)] for name in ("m", "mm", "um", "µm", "μm", "nm")}  # both signs of micro
+LENGTH_UNITS = {name: KINDS["m"][spelled(name)] for name in ("m", "mm", "um", "µm", "μm", "nm")}  # both signs of micro
 UNIT_WORDS = {"mm": "mm", "um": "um", "µm": "um", "μm": "um", "micron": "um", "microns": "um", "nm": "nm", "m": "m"}
 UNIT_WORDS |= {"millimeter": "mm", "millimeters": "mm", "micrometer": "um", "micrometers": "um", "nanometer": "nm"}
 UNIT_WORDS |= {"nanometers": "nm", "metre": "m", "meter": "m", "meters": "m", "cm": "cm", "in": "in", "inch": "in"}
 LENGTHS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "cm": 1e-2, "in": 0.0254}  # m
-LONGEST = 400  # characters of a line that is read as statements; a longer one is a title
-SAME = 0.01  # relative difference up to which two statements of one length agree (they are printed to few digits)
+LONGEST_STATEMENT = 400  # characters of a line that is read as statements; a longer one is a title
+SAME_LENGTH = (
+    0.01  # relative difference up to which two statements of one length agree (they are printed to few digits)
+)
 
 # Gwyddion translates the words of its text export; SurfaceTopography has the same list.
-WIDTH = {"width", "šířka", "breite", "anchura", "largeur", "larghezza", "幅", "폭", "largura", "ширина"}
+WIDTH_WORDS = {"width", "šířka", "breite", "anchura", "largeur", "larghezza", "幅", "폭", "largura", "ширина"}
 HEIGHT = {"height", "výška", "höhe", "altura", "hauteur", "altezza", "高さ", "높이", "высота"}
 VALUE_UNIT = {"value", "values", "hodnot", "einheiten", "unités", "valore", "値の単位", "값", "valor", "измерения"}
 UNIT = {"unit", "units", "einheit", "단위", "単位"}
@@ -75,7 +77,7 @@ INVERTED = {"inverted", "invert", "inversion", "replica"}
 TRUE = {"yes", "true", "on", "ja", "oui", "1"}
 
 _DIGITS = r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?"
-_NUMBER = re.compile(_DIGITS)
+_STATED_NUMBER = re.compile(_DIGITS)
 _GLUED = re.compile(rf"({_DIGITS})([a-zµμ]+)")  # '10µm'
 _MARKED = re.compile(r"[\[(]\s*([^\[\]()\s]{1,12})\s*[\])]|/(mm|um|µm|μm|nm|m)(?![\w/])")  # '[um]', '/mm'
 _PER_POINT = re.compile(r"(?<![a-zµμ])(mm|um|µm|μm|nm|m)\s?/\s?(?:pixel|px|point|pt|sample)s?(?!\w)", re.I)  # of a step
@@ -143,7 +145,7 @@ class Header:
         """Keep the ``value`` of a ``quantity``. Raise `InputError` where another line states another one."""
         new = Stated(value=value, unit=unit, line=statement.line, text=statement.text)
         old = self.stated.get(quantity)
-        if old is not None and (old.unit != new.unit or not math.isclose(old.value, new.value, rel_tol=SAME)):
+        if old is not None and (old.unit != new.unit or not math.isclose(old.value, new.value, rel_tol=SAME_LENGTH)):
             raise contradiction(self.name, quantity, old, new)
         self.stated.setdefault(quantity, new)
         self.lines_read.add(statement.line)
@@ -156,7 +158,7 @@ class Header:
 
 def statements(number: int, text: str) -> list[Statement]:
     """Return the statements of one line: words, the numbers behind them, and their unit."""
-    if len(text) > LONGEST:
+    if len(text) > LONGEST_STATEMENT:
         return []
     if step := _PER_POINT.search(text):  # 'XY calibration 270 nm/pixel', 'Resolution X[um/pixel] 1.0'
         text = f"pixel {_PER_POINT.sub(step[1], text)}"
@@ -179,7 +181,7 @@ def statements(number: int, text: str) -> list[Statement]:
     for place, token in enumerate(tokens):
         glued = _GLUED.fullmatch(token)
         follows = tokens[place + 1] if place + 1 < len(tokens) else ""
-        if _NUMBER.fullmatch(token):
+        if _STATED_NUMBER.fullmatch(token):
             numbers.append(float(token.replace(",", ".")))
         elif glued and glued[2] in UNIT_WORDS:
             numbers.append(float(glued[1].replace(",", ".")))
@@ -189,7 +191,7 @@ def statements(number: int, text: str) -> list[Statement]:
                 unit = UNIT_WORDS.get(token[1:].lower(), token[1:])
         elif numbers and unit is None and token.lower().rstrip(".") in UNIT_WORDS:
             unit = UNIT_WORDS[token.lower().rstrip(".")]
-        elif numbers and token.lower() in ("x", "×", "by", "*", "/") and _NUMBER.match(follows):
+        elif numbers and token.lower() in ("x", "×", "by", "*", "/") and _STATED_NUMBER.match(follows):
             continue
         else:
             if numbers:
@@ -301,8 +303,8 @@ def _file(header: Header, statement: Statement) -> None:
         header.state_lateral("dy", statement, numbers[-1], length)
     elif axis in ("x", "y") and words & EXTENT_WORDS and len(numbers) == 1:
         header.state_lateral("width" if axis == "x" else "height", statement, value, length)
-    elif length is not None and not axis and len(numbers) == 1 and words & (WIDTH | HEIGHT) and len(words) == 1:
-        header.state("width" if words & WIDTH else "height", statement, value * length)
+    elif length is not None and not axis and len(numbers) == 1 and words & (WIDTH_WORDS | HEIGHT) and len(words) == 1:
+        header.state("width" if words & WIDTH_WORDS else "height", statement, value * length)
     elif length is not None and not axis and len(numbers) == 2 and words & {"size", "range", "area", "field"}:
         header.state("width", statement, value * length)
         header.state("height", statement, numbers[1] * length)
@@ -344,12 +346,12 @@ def column_units(titles: Iterable[tuple[int, str]]) -> tuple[tuple[str, str, str
     """Return the units of three columns x, y, z that a title names, 'X [mm]; Y [mm]; Z [um]' or 'mm; mm; um', and the
     title; None where none does. One unit represents all three only in a title that says 'units'."""
     for _, text in titles:
-        if len(text) > LONGEST:
+        if len(text) > LONGEST_STATEMENT:
             continue
         marked = _MARKED.sub(lambda match: f" {_UNIT}{match[1] or match[2]} ", text)
         tokens = [token.lstrip(_UNIT).lower() for token in _BETWEEN.split(marked) if token]
         units = [UNIT_WORDS[token] for token in tokens if token in UNIT_WORDS]
-        if len(units) == 3 and not any(_NUMBER.fullmatch(token) for token in tokens):
+        if len(units) == 3 and not any(_STATED_NUMBER.fullmatch(token) for token in tokens):
             return (units[0], units[1], units[2]), text
         if len(units) == 1 and {"units", "unit"} & set(tokens) and not {"x", "y", "z"} & set(tokens):
             return (units[0], units[0], units[0]), text
@@ -393,7 +395,7 @@ def grid_of(header: Header, lines: int, columns: int) -> TablePlacement:
             by_extent = length / count
             if step is None:
                 step = by_extent
-            elif not by_extent * (1 - SAME) <= step <= length / max(count - 1, 1) * (1 + SAME):
+            elif not by_extent * (1 - SAME_LENGTH) <= step <= length / max(count - 1, 1) * (1 + SAME_LENGTH):
                 parts = f"{header.stated['d' + axis].worded()} and {header.stated[extent].worded()}"
                 said = f"file {header.name}: {count} points along {axis} do not go with {parts}"
                 raise InputError(said, way_out="remove the wrong line")

@@ -127,7 +127,7 @@ class Surface(FrozenArrays, Shown):
     def level(self, form: str = "plane") -> Surface:
         """Subtract the least-squares ``form`` of the measured points: "plane", "cylinder" (about x or y) or "quadratic"
         (a paraboloid, and a cylinder about any axis)."""
-        validate.choice("form", form, prepare.FORMS)
+        validate.choice("form", form, prepare.FORM_POWERS)
         fitted, slopes, curvatures = prepare.fitted_form(self.heights, self.mask, self.spacing, form)
         note = f"levelled: slopes {slopes[0]:.3e}, {slopes[1]:.3e}"
         if form != "plane":
@@ -138,7 +138,7 @@ class Surface(FrozenArrays, Shown):
         """Sq [m] that each form of `level` would leave, and that of the unchanged map (""). A form that the points do
         not fix is omitted."""
         left = {"": self.sq}
-        for form in prepare.FORMS:
+        for form in prepare.FORM_POWERS:
             with suppress(InputError):
                 left[form] = self.level(form).sq
         return left
@@ -164,7 +164,7 @@ class Surface(FrozenArrays, Shown):
             mask, more = mask & ~outlying, outlying.any()
         count = np.count_nonzero(np.isfinite(self.heights) & ~mask)
         around = f"{prepare.WINDOW} x {prepare.WINDOW} points around"
-        note = f"{count or 'no'} outliers masked (over {prepare.LIMIT:g} deviations off {around})"
+        note = f"{count or 'no'} outliers masked (over {prepare.OUTLIER_LIMIT:g} deviations off {around})"
         return self._with(np.where(mask, self.heights, np.nan), note, mask=mask)
 
     def filtered(self, *, s: float | None = None, l: float | None = None) -> Surface:
@@ -197,7 +197,7 @@ class Surface(FrozenArrays, Shown):
         """Heights about their mean, multiplied so that Sq is ``sq`` [m]."""
         target = validate.nonnegative("sq", sq, "m")
         now = self.sq
-        if now <= prepare.FLAT * np.abs(self.measured).max():
+        if now <= prepare.LEFT_BY_FORM * np.abs(self.measured).max():
             raise InputError("sq of the surface = 0 m: a flat surface cannot be scaled; allowed: above 0 m")
         mean = self.measured.mean()
         return self._with((self.heights - mean) * (target / now), f"scaled from Sq {now:.4e} m to {target:.4e} m")

@@ -20,11 +20,11 @@ from .bearing import bearing
 
 GROOVES = 0.2  # share of the area on which grooves are below the plateau: Smr2 near 80 %, as cylinder liners have it
 DEEPER = 5.0  # standard deviation of the grooves over that of the plateau, before both are scaled
-LENGTH = 15.0  # correlation length along a groove over that across it
+GROOVE_LENGTH_RATIO = 15.0  # correlation length along a groove over that across it
 SHORTEST_MAP = 4.0  # correlation lengths across a groove that the map has at least along each axis
-FINEST = 2.0  # cells in a correlation length across a groove
-ROUNDS = 8  # of scaling, each of which takes the parameters of the last
-CLOSE = 2e-3  # relative error of Sk, Spk and Svk
+LEAST_CELLS_OF_GROOVE = 2.0  # cells in a correlation length across a groove
+SCALING_ROUNDS = 8  # of scaling, each of which takes the parameters of the last
+PARAMETER_ERROR = 2e-3  # relative error of Sk, Spk and Svk
 SAMPLES = 200_000  # heights from which the Sq of such a surface is found: within 0.5 %
 
 
@@ -62,12 +62,14 @@ def honed_heights(
     """
     for axis, n, step in zip("xy", shape, spacing):
         said = f" = {honing.groove_width:g} m"
-        if honing.groove_width < FINEST * step:
-            raise InputError(said, "groove_width", f"at least {FINEST:g} cells of {step:g} m along {axis}")
+        if honing.groove_width < LEAST_CELLS_OF_GROOVE * step:
+            raise InputError(
+                said, "groove_width", f"at least {LEAST_CELLS_OF_GROOVE:g} cells of {step:g} m along {axis}"
+            )
         if n * step < SHORTEST_MAP * honing.groove_width:
             allowed = f"at most {1 / SHORTEST_MAP:g} of the map, {n * step:g} m along {axis}"
             raise InputError(said, "groove_width", allowed)
-    longest = min(LENGTH * honing.groove_width, 0.5 * min(n * step for n, step in zip(shape, spacing)))
+    longest = min(GROOVE_LENGTH_RATIO * honing.groove_width, 0.5 * min(n * step for n, step in zip(shape, spacing)))
     half = np.radians(0.5 * honing.angle)
     filters = [_oriented(shape, spacing, sign * half, longest, honing.groove_width) for sign in (-1.0, 1.0)]
 
@@ -102,10 +104,10 @@ def _stratified(honing: Honing, plateau: np.ndarray, families: list[np.ndarray])
     grooves = DEEPER * np.minimum.reduce(families)
     level = np.quantile(plateau - grooves, 1.0 - GROOVES)
     heights = np.minimum(plateau, grooves + level) * honing.sk
-    for _ in range(ROUNDS):
+    for _ in range(SCALING_ROUNDS):
         curve = bearing(heights)
         reached = np.array([curve.sk / honing.sk, curve.spk / honing.spk, curve.svk / honing.svk])
-        if np.abs(reached - 1).max() < CLOSE:
+        if np.abs(reached - 1).max() < PARAMETER_ERROR:
             return heights
         if not (reached > 0).all():
             break

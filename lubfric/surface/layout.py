@@ -6,17 +6,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError
-from .header import LENGTHS, UNITS, Header
+from .header import LENGTH_UNITS, LENGTHS, Header
 from .points import grid_lines
 
 PROFILE_LINES = 8  # lines from which a table of one or two columns is a profile
 POINT_LINES = 9  # lines from which a table of three columns may be a list of points (3 x 3)
-LONG = 30  # lines of three columns that cannot be a map
+LONG_LIST = 30  # lines of three columns that cannot be a map
 MOST_COLUMNS = 6  # a list of points may have columns beside x, y, z
 EVEN_PRINTED = 0.02  # of a step: coordinates are printed to few digits
 EVEN_EXACT = 1e-6
-FEWEST = 4  # coordinates along one side; from `SURE` on they may be rounded
-SURE = 6
+FEWEST_COORDINATES = 4  # coordinates along one side; from `SURE_COORDINATES` on they may be rounded
+SURE_COORDINATES = 6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,7 +39,7 @@ def kind_of_table(name: str, table: np.ndarray) -> str:
     lines, columns = table.shape
     if min(lines, columns) == 1 and max(lines, columns) >= PROFILE_LINES:
         return "profile"
-    if lines < columns and lines <= 3 and columns >= LONG:
+    if lines < columns and lines <= 3 and columns >= LONG_LIST:
         said = f"file {name} has {lines} lines of {columns} numbers, which is no map"
         if _rises(table[0]):
             said += ": the first line rises like a coordinate"
@@ -47,7 +47,7 @@ def kind_of_table(name: str, table: np.ndarray) -> str:
     if columns == 2 and lines >= PROFILE_LINES:
         if _rises(table[:, 0]):
             return "profile"
-        if lines >= LONG:
+        if lines >= LONG_LIST:
             raise InputError(
                 f"file {name} has {lines} lines of two numbers, which is no map", allowed="a map of heights"
             )
@@ -58,7 +58,7 @@ def kind_of_table(name: str, table: np.ndarray) -> str:
                     return "points"
                 said = f"file {name} has {columns} columns, of which two are coordinates of a grid"
                 raise InputError(said, way_out="leave only the three columns x y z")
-        if columns == 3 and lines >= LONG:
+        if columns == 3 and lines >= LONG_LIST:
             if _rises(table[:, 0]):
                 return "profile"
             _explain_points(name, table)
@@ -94,15 +94,15 @@ def _is_grid(x: np.ndarray, y: np.ndarray) -> bool:
 def _rises(values: np.ndarray) -> bool:
     """Whether values rise or fall all the way, as a coordinate does."""
     steps = np.diff(values)
-    return bool(values.size >= FEWEST and ((steps > 0).all() or (steps < 0).all()))
+    return bool(values.size >= FEWEST_COORDINATES and ((steps > 0).all() or (steps < 0).all()))
 
 
 def _step(values: np.ndarray) -> float | None:
     """Return the step of values that rise or fall evenly, None of others."""
-    if values.size < FEWEST or not np.isfinite(values).all():
+    if values.size < FEWEST_COORDINATES or not np.isfinite(values).all():
         return None
     step = (values[-1] - values[0]) / (values.size - 1)
-    limit = EVEN_PRINTED if values.size >= SURE else EVEN_EXACT
+    limit = EVEN_PRINTED if values.size >= SURE_COORDINATES else EVEN_EXACT
     off = np.abs(values - (values[0] + step * np.arange(values.size))).max()
     return abs(float(step)) if step and off <= limit * abs(step) else None
 
@@ -110,7 +110,7 @@ def _step(values: np.ndarray) -> float | None:
 def border_of(table: np.ndarray) -> tuple[Border | None, np.ndarray]:
     """Return the coordinates around a table of heights, and the heights without them. A plane, whose every row is even,
     has none."""
-    if min(table.shape) < FEWEST:
+    if min(table.shape) < FEWEST_COORDINATES:
         return None, table
     along = _step(table[0, 1:])
     down = _step(table[1:, 0])
@@ -146,7 +146,7 @@ def refuse_profile(name: str, table: np.ndarray, header: Header | None, units: t
             unit = stated.unit or ""
         elif units is not None:
             unit = units[2]
-        scale = LENGTHS.get(unit) or UNITS.get(unit)
+        scale = LENGTHS.get(unit) or LENGTH_UNITS.get(unit)
         sq = float(z.std())
         said += f" (Sq {sq:.4g} {unit or 'in the unit of the file'} about its mean line"
         if scale is not None:

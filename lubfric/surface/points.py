@@ -7,12 +7,12 @@ from .prepare import harmonic_fill
 
 NEXT_LINE = 0.1  # of the largest gap between coordinates: a larger one leads to the next grid line
 NEXT_LINE_JITTERED = 0.3  # the same where the points lie up to `JITTER` off their lines, and single lines are missing
-FARTHEST = 1e9  # m
+FARTHEST_POINT = 1e9  # m
 EVEN = 0.02  # of the step: a coordinate may be as far off its grid line and is taken to be on it (rounded in print)
 JITTER = 0.15  # of the step: the most a coordinate may be off its grid line; between both, heights are interpolated
-ROUNDS = 30  # of the interpolation; the remainder falls by a factor of 3 or more each
-SETTLED = 1e-6  # of Sq: a remainder that ends it
-LEAST_SHARE = 0.25  # of the grid points that must be given
+INTERPOLATION_ROUNDS = 30  # of the interpolation; the remainder falls by a factor of 3 or more each
+LAST_REMAINDER = 1e-6  # of Sq: a remainder that ends it
+LEAST_GIVEN_SHARE = 0.25  # of the grid points that must be given
 
 
 def gridded(name: str, table: np.ndarray) -> tuple[np.ndarray, tuple[float, float], tuple[str, ...]]:
@@ -21,11 +21,13 @@ def gridded(name: str, table: np.ndarray) -> tuple[np.ndarray, tuple[float, floa
     Points up to `JITTER` of the step off a uniform grid are interpolated: the heights on the grid are those whose cubic
     spline passes through all points. ``name``: of the file, for messages.
     """
-    if not (np.abs(table[:, :2]) <= FARTHEST).all():
-        raise InputError(f": x or y is NaN, infinite or beyond {FARTHEST:g} m", f"file {name}", "finite coordinates")
+    if not (np.abs(table[:, :2]) <= FARTHEST_POINT).all():
+        raise InputError(
+            f": x or y is NaN, infinite or beyond {FARTHEST_POINT:g} m", f"file {name}", "finite coordinates"
+        )
     lines = [grid_lines(axis, table[:, column]) for column, axis in enumerate("xy")]
     (i, nx, dx, off_x), (j, ny, dy, off_y) = lines
-    if nx * ny > len(table) / LEAST_SHARE:
+    if nx * ny > len(table) / LEAST_GIVEN_SHARE:
         said = f": {len(table)} points on a grid of {nx} x {ny}"
         raise InputError(said, f"file {name}", "a uniform grid with most of its points")
     heights = np.full((nx, ny), np.nan)
@@ -87,11 +89,11 @@ def _interpolated(
     grid = np.where(measured, heights - level, 0.0)
     points = [part[there] for part in position]
     nodes = tuple(part[there] for part in index)
-    for _ in range(ROUNDS):
+    for _ in range(INTERPOLATION_ROUNDS):
         full = grid if measured.all() else harmonic_fill(grid, measured, spacing)
         remainder = target[there] - level - map_coordinates(full, points, order=3, mode="mirror")
         grid[nodes] += remainder
-        if np.sqrt(np.mean(remainder**2)) <= SETTLED * scale:
+        if np.sqrt(np.mean(remainder**2)) <= LAST_REMAINDER * scale:
             break
     else:
         raise InputError(

@@ -8,20 +8,20 @@ import numpy as np
 from ..errors import InputError
 
 _PLANE = ((0, 0), (1, 0), (0, 1))  # powers of x and y
-FORMS = {  # the powers of each; of several sets the one that leaves least
+FORM_POWERS = {  # the powers of each; of several sets the one that leaves least
     "plane": (_PLANE,),
     "cylinder": ((*_PLANE, (2, 0)), (*_PLANE, (0, 2))),
     "quadratic": ((*_PLANE, (2, 0), (1, 1), (0, 2)),),
 }
 MOST_MISSING = 0.5
-FLAT = 1e-13  # of the largest height: what a fitted form leaves of a map that has it exactly
+LEFT_BY_FORM = 1e-13  # of the largest height: what a fitted form leaves of a map that has it exactly
 DEPENDENT = 1e-13  # least eigenvalue of the normal equations, of the largest
-LIMIT = 6.0  # robust deviations beyond which a point that stands alone is an outlier
+OUTLIER_LIMIT = 6.0  # robust deviations beyond which a point that stands alone is an outlier
 WINDOW = 5
 CHUNK = 2**18  # points whose windows are held at once
 GAUSSIAN = 1.4826  # standard deviation over median deviation
 ALPHA = math.sqrt(math.log(2) / math.pi)
-REACH = 6.0  # standard deviations of the weights of a filter that are summed
+FILTER_REACH = 6.0  # standard deviations of the weights of a filter that are summed
 
 
 def fitted_form(
@@ -32,14 +32,14 @@ def fitted_form(
 
     "plane" is of first order, "quadratic" of second, with the mixed term; "cylinder" is a plane curved along x or along
     y, whichever leaves less. An axis of one point has no slope, one of two no curvature. Slopes are those at the middle
-    of the map. If only rounding is left (`FLAT` of the largest height), the form is the map itself. Raises `InputError`
+    of the map. If only rounding is left (`LEFT_BY_FORM` of the largest height), the form is the map itself. Raises `InputError`
     when the points do not determine the form.
     """
     valid = np.ones(heights.shape, bool) if mask is None else mask
     along = [((np.arange(n) - 0.5 * (n - 1)) / n)[:, None] ** np.arange(5) for n in heights.shape]
     z = np.where(valid, heights, 0.0)
     fits = []
-    for powers in FORMS[form]:
+    for powers in FORM_POWERS[form]:
         there = [(p, q) for p, q in powers if p < heights.shape[0] and q < heights.shape[1]]
         terms = _normal_solution(z, valid.astype(float), along, there)
         if terms is not None:
@@ -49,9 +49,9 @@ def fitted_form(
     if not fits:
         curve = "line" if form == "plane" else "line or conic"
         said = f"{np.count_nonzero(valid)} measured points lie on one {curve}"
-        raise InputError(said, allowed=f"points that fix the {len(FORMS[form][0])} terms of the form {form!r}")
+        raise InputError(said, allowed=f"points that fix the {len(FORM_POWERS[form][0])} terms of the form {form!r}")
     _, most, fitted, terms = min(fits, key=lambda fit: fit[0])
-    if most <= FLAT * np.abs(z).max():
+    if most <= LEFT_BY_FORM * np.abs(z).max():
         fitted = np.where(valid, heights, fitted)
     length = [n * step for n, step in zip(heights.shape, spacing)]
     slopes = terms.get((1, 0), 0.0) / length[0], terms.get((0, 1), 0.0) / length[1]
@@ -119,7 +119,7 @@ def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool,
     """Deviations (nx, ny) by which each outlier of a filled, levelled map differs from its neighbours, negative below
     them; 0 elsewhere. Outliers of a measured map are points that are isolated, far from all their neighbours.
 
-    The rule: a measured point is an outlier when it lies more than ``LIMIT`` robust standard deviations both from the
+    The rule: a measured point is an outlier when it lies more than ``OUTLIER_LIMIT`` robust standard deviations both from the
     median of the complete map and from the median of the ``WINDOW`` x ``WINDOW`` points around it, on the same side.
     The robust deviation is 1.4826 times the median of |z - median(z)|. For a Gaussian map that is the standard
     deviation, and the outliers themselves change it little. Where it is zero (most of the map has one height) Sq is
@@ -138,7 +138,7 @@ def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool,
     deviations = np.zeros(heights.shape)
     if deviation == 0:
         return deviations
-    far = np.abs(heights - middle) > LIMIT * deviation
+    far = np.abs(heights - middle) > OUTLIER_LIMIT * deviation
     where = np.nonzero(far if mask is None else far & mask)
     parts = [tuple(at[i : i + CHUNK] for at in where) for i in range(0, where[0].size, CHUNK)]
     padded = heights
@@ -149,7 +149,7 @@ def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool,
     around = [np.median(windows[part], axis=(1, 2)) for part in parts]
     off = (heights[where] - np.concatenate([np.empty(0), *around])) / deviation
     same_side = np.sign(off) == np.sign(heights[where] - middle)
-    deviations[where] = np.where((np.abs(off) > LIMIT) & same_side, off, 0.0)
+    deviations[where] = np.where((np.abs(off) > OUTLIER_LIMIT) & same_side, off, 0.0)
     return deviations
 
 
@@ -175,7 +175,7 @@ def gaussian_mean(
     total = np.where(weight > 0, heights, 0.0)
     for axis in range(2):
         deviation = ALPHA * index / spacing[axis] / math.sqrt(2 * math.pi)
-        along = {"axis": axis, "mode": "wrap" if periodic[axis] else "constant", "truncate": REACH}
+        along = {"axis": axis, "mode": "wrap" if periodic[axis] else "constant", "truncate": FILTER_REACH}
         total, weight = (gaussian_filter1d(a, deviation, **along) for a in (total, weight))
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.where(weight > np.finfo(float).tiny, total / weight, heights)

@@ -10,18 +10,18 @@ import numpy as np
 
 from .._base import validate, with_default_errors
 from ..errors import InputError
-from .header import UNITS
+from .header import LENGTH_UNITS
 from .height_map import Surface
 from .layout import kind_of_table, refuse_profile
-from .prepare import FORMS
+from .prepare import FORM_POWERS
 from .regrid import points
-from .sdf import MAGIC as SDF
+from .sdf import SDF_FIRST_WORDS as SDF
 from .statistics import check_scale, check_slopes
 from .surfer import BINARY as SURFER_BINARY
 from .text import DECIMALS, read_text
 from .x3p import read_x3p
 
-MOST_BYTES = 2**31  # of any file
+MOST_MAP_BYTES = 2**31  # of any file
 TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz", ".prf", ".smd", ".grd")
 OWN_GRID = {".x3p": read_x3p}  # formats that carry their grid and their units, and their readers
 SUFFIXES = (".npy", *TEXT, *OWN_GRID)
@@ -92,7 +92,7 @@ def read_surface(
         then in different units
     """
     path, head = _opened(path)
-    validate.choice("form", form, FORMS)
+    validate.choice("form", form, FORM_POWERS)
     if not level and form != "plane":
         raise InputError(f"form = {form!r} and level = {level!r}; allowed: form = 'plane' with level = False")
     if decimal is not None:
@@ -134,8 +134,10 @@ def _opened(path: Any) -> tuple[Path, bytes]:
         raise InputError(f"path = {validate.shown(str(path))}: no such file")
     try:
         size = path.stat().st_size
-        if size > MOST_BYTES:
-            raise InputError(f"path = {validate.shown(str(path))} has {size:.3g} bytes", "", f"up to {MOST_BYTES:.3g}")
+        if size > MOST_MAP_BYTES:
+            raise InputError(
+                f"path = {validate.shown(str(path))} has {size:.3g} bytes", "", f"up to {MOST_MAP_BYTES:.3g}"
+            )
         with path.open("rb") as file:
             return path, file.read(4096)
     except OSError as problem:
@@ -149,7 +151,7 @@ def units_of(name: str, value: Any) -> tuple[str, str, str] | None:
     parts = list(value) if isinstance(value, (list, tuple)) else [value]
     if not 1 <= len(parts) <= 3:
         raise InputError(f" = {validate.shown(value)}", name, "one unit, (x and y, heights), or (x, y, heights)")
-    words = [validate.choice(name, part, UNITS) for part in parts]
+    words = [validate.choice(name, part, LENGTH_UNITS) for part in parts]
     return words[0], words[-2] if len(words) > 1 else words[0], words[-1]
 
 
@@ -171,7 +173,7 @@ def _plain(path: Path, suffix: str, spacing: Any, unit: Any, decimal: str | None
             raise InputError(said, way_out="write them as text with the suffix .xyz")
         if missing_value is not None and heights.dtype.kind == "f":
             missing_value = float(heights.dtype.type(missing_value))  # in the precision of the file
-        scale = UNITS["m" if units is None else units[2]]
+        scale = LENGTH_UNITS["m" if units is None else units[2]]
         return _masked(path, heights.astype(float), scale, (missing_value,), spacing, ())
     table = read_text(path, points=suffix == ".xyz", decimal=decimal, units=units, spacing=spacing)
     missing = (missing_value, table.missing_value)
@@ -266,11 +268,11 @@ def _instrument(path: Path) -> Surface:
     except Exception as problem:  # the package raises many kinds for files it cannot read
         said = f" cannot be read by SurfaceTopography ({type(problem).__name__}: {validate.shown(str(problem))})"
         raise InputError(said, name, way_out="give a complete file of a format it knows") from problem
-    if unit not in UNITS:
+    if unit not in LENGTH_UNITS:
         raise InputError(
-            f": heights are in {validate.shown(unit)}", name, f"a channel of heights in {', '.join(UNITS)}"
+            f": heights are in {validate.shown(unit)}", name, f"a channel of heights in {', '.join(LENGTH_UNITS)}"
         )
-    scale = UNITS[unit]
+    scale = LENGTH_UNITS[unit]
     heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
     if heights.ndim == 1:
         refuse_profile(path.name, heights[:, None] * scale, None, ("m", "m", "m"))

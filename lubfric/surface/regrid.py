@@ -18,8 +18,8 @@ from ..units import worded
 
 Surface = Any  # `lubfric.Surface`, which is built of these functions
 
-MOST_POINTS = 2**26  # of any map, 512 MiB of heights
-SAME = 1e-9  # relative difference of lengths that are equal
+MOST_MAP_POINTS = 2**26  # of any map, 512 MiB of heights
+EQUAL_LENGTHS = 1e-9  # relative difference of lengths that are equal
 
 
 def pair(name: str, value: Any) -> tuple[int, int]:
@@ -29,9 +29,9 @@ def pair(name: str, value: Any) -> tuple[int, int]:
 
 def points(name: str, shape: tuple[int, ...]) -> None:
     """Check that a grid of that many points fits into memory."""
-    if math.prod(shape) > MOST_POINTS:
+    if math.prod(shape) > MOST_MAP_POINTS:
         said = f" = {validate.shown(shape)} has some 1e{math.log10(math.prod(shape)):.0f} points"  # of any whole number
-        raise InputError(said, name, f"up to {MOST_POINTS:.3g}")
+        raise InputError(said, name, f"up to {MOST_MAP_POINTS:.3g}")
 
 
 def changed(
@@ -146,11 +146,11 @@ def _common(axis: int, first: Surface, second: Surface) -> tuple[int, bool]:
     """(points, whether periodic) of the sum along ``axis``; both maps have the same spacing here."""
     lengths = [s.size[axis] for s in (first, second)]
     closed = [s.periodic_axes[axis] for s in (first, second)]
-    same = abs(lengths[0] / lengths[1] - 1) < SAME
+    same = abs(lengths[0] / lengths[1] - 1) < EQUAL_LENGTHS
     if all(closed) and same:
         return first.shape[axis], True
     open_lengths = [length for length, periodic in zip(lengths, closed) if not periodic]
-    return int(min(open_lengths or lengths) / first.spacing[axis] * (1 + SAME)), False
+    return int(min(open_lengths or lengths) / first.spacing[axis] * (1 + EQUAL_LENGTHS)), False
 
 
 def resample_axis(heights: np.ndarray, axis: int, count: int, ratio: float, *, periodic: bool) -> np.ndarray:

@@ -9,13 +9,13 @@ from .._base import FloatArray, validate
 from ..errors import InputError
 from .layout import refuse_profile
 
-MAGIC = ("aISO-1.0", "aISO-2.0", "aBCR-1.0")
+SDF_FIRST_WORDS = ("aISO-1.0", "aISO-2.0", "aBCR-1.0")
 
 # Words for a point that was not measured: of the standard, and of programs that write what their language prints.
-UNMEASURED = ("bad", "nan")
+UNMEASURED_WORDS = ("bad", "nan")
 
 # Fields with the points of a profile and the number of profiles; Xscale, Yscale and Zscale are in m by the standard.
-COUNTS = ("NumPoints", "NumProfiles")
+COUNT_FIELDS = ("NumPoints", "NumProfiles")
 
 # Fields for what lubfric does not read: heights that are compressed, or followed by a checksum.
 MUST_BE_ZERO = ("Compression", "CheckType")
@@ -37,7 +37,7 @@ def read_sdf(
         raise InputError(said, way_out="give the whole file")
     magic, *lines = records[0].splitlines()
     fields = _fields(name, lines)
-    nx, ny = (int(_number(name, fields, field, whole=True)) for field in COUNTS)
+    nx, ny = (int(_number(name, fields, field, whole=True)) for field in COUNT_FIELDS)
     for field in MUST_BE_ZERO:
         if fields.get(field, "0") != "0":
             raise InputError(f"{name}: {field} = {validate.shown(fields[field])}", allowed="0: export it without")
@@ -85,6 +85,6 @@ def _heights(name: str, record: str, count: int) -> FloatArray:
         said = f"{name} has {len(words)} heights, and its header states {count}"
         raise InputError(said, way_out="give the whole file")
     try:
-        return np.array(["nan" if word.lower() in UNMEASURED else word for word in words], float)
+        return np.array(["nan" if word.lower() in UNMEASURED_WORDS else word for word in words], float)
     except ValueError as problem:
         raise InputError(f"{name}: {validate.shown(str(problem))}", allowed="numbers, BAD where unmeasured") from None

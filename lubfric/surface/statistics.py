@@ -18,13 +18,18 @@ Surface = Any  # `lubfric.Surface`, which is built of these functions
 
 INVERSE_E = math.exp(-1)
 SMOOTHEST = 1e-7  # rms slope below which an instrument's heights and spacing cannot be in the same unit
-FINEST = 1e-11  # m: spacing of an instrument's map; a tenth of an atom
-COARSEST = 1e-2  # m
-STEEPEST = 3.0  # rms slope beyond which heights and spacing cannot be in the same unit
+SHORTEST_SPACING = 1e-11  # m: spacing of an instrument's map; a tenth of an atom
+LONGEST_SPACING = 1e-2  # m
+IMPOSSIBLE_SLOPE = 3.0  # rms slope beyond which heights and spacing cannot be in the same unit
 # Heights of a Gaussian surface over its Sq. Ra: exactly. Rz: an estimate, for a profile of L correlation lengths has
 # 4.3 Sq in a sampling length of L = 25, 5.3 at 80 and 5.8 at 160 (Rice's rate of its summits, Gaussian ACF).
 PER_SQ = {"ra": math.sqrt(2 / math.pi), "rz": 5.0}
-SAMPLING = ((2e-8, 8e-5), (1e-7, 2.5e-4), (2e-6, 8e-4), (1e-5, 2.5e-3))  # m: up to this Ra, sampling length (ISO 4288)
+SAMPLING_LENGTHS = (
+    (2e-8, 8e-5),
+    (1e-7, 2.5e-4),
+    (2e-6, 8e-4),
+    (1e-5, 2.5e-3),
+)  # m: up to this Ra, sampling length (ISO 4288)
 
 
 def sa(surface: Surface) -> float:
@@ -37,7 +42,7 @@ def rz(surface: Surface) -> tuple[float, float]:
     """(Rz, sampling length) [m]: the mean height from the lowest to the highest point of a sampling length, along the
     axis on which it is larger, which runs across a lay. The length is that of ISO 4288 for the map's Ra, or all of a
     shorter map."""
-    wanted = next((length for most, length in SAMPLING if sa(surface) <= most), 8e-3)
+    wanted = next((length for most, length in SAMPLING_LENGTHS if sa(surface) <= most), 8e-3)
     measured = np.isfinite(surface.heights) if surface.mask is None else surface.mask
     mean_heights = []
     z = np.where(measured, surface.heights, np.nan)
@@ -92,12 +97,12 @@ def rms_slope(surface: Surface) -> tuple[float, float, float]:
 def check_slopes(surface: Surface) -> None:
     """Raise `InputError` for slopes that no surface has."""
     slope = rms_slope(surface)[2] if min(surface.shape) > 1 else 0.0
-    if slope > STEEPEST:
+    if slope > IMPOSSIBLE_SLOPE:
         of = f"of heights with Sq {surface.sq:.3g} m on a spacing of {surface.spacing[0]:.3g} m"
         raise InputError(
             f": rms slope = {slope:.3g} {of}",
             "surface",
-            f"up to {STEEPEST:g}",
+            f"up to {IMPOSSIBLE_SLOPE:g}",
             "check the unit of the heights and of the spacing",
         )
 
@@ -106,19 +111,23 @@ def check_scale(surface: Surface) -> None:
     """Raise `InputError` for a map of a file whose lengths cannot be right: another program wrote or read them, and may
     have taken a unit for another."""
     dx, dy = surface.spacing
-    if not all(FINEST <= step <= COARSEST for step in (dx, dy)):
+    if not all(SHORTEST_SPACING <= step <= LONGEST_SPACING for step in (dx, dy)):
         said = f": spacing = {dx:.3g} x {dy:.3g} m"
         raise InputError(
-            said, "surface", f"{FINEST:g} to {COARSEST:g} m in a file of an instrument (a wrong unit, or none?)"
+            said,
+            "surface",
+            f"{SHORTEST_SPACING:g} to {LONGEST_SPACING:g} m in a file of an instrument (a wrong unit, or none?)",
         )
     if min(surface.shape) < 3 or np.count_nonzero(np.isfinite(surface.heights)) < 9:
         return
     rough = surface.level()
     slope = rms_slope(rough)[2]
-    if rough.sq > 0 and not SMOOTHEST <= slope <= STEEPEST:
+    if rough.sq > 0 and not SMOOTHEST <= slope <= IMPOSSIBLE_SLOPE:
         said = f": rms slope = {slope:.3g} of heights with Sq {rough.sq:.3g} m on a spacing of {dx:.3g} m"
         raise InputError(
-            said, "surface", f"{SMOOTHEST:g} to {STEEPEST:g} in a file of an instrument (a wrong unit, or none?)"
+            said,
+            "surface",
+            f"{SMOOTHEST:g} to {IMPOSSIBLE_SLOPE:g} in a file of an instrument (a wrong unit, or none?)",
         )
 
 

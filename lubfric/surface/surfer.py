@@ -6,16 +6,16 @@ import numpy as np
 
 from .._base import FloatArray
 from ..errors import InputError
-from .header import UNITS
+from .header import LENGTH_UNITS
 
-MAGIC = "DSAA"
+SURFER_FIRST_WORD = "DSAA"
 BINARY = (b"DSBB", b"DSRB")  # the first bytes of the other formats with the same suffix
 
 # A height from which on a point is blank (Surfer writes 1.70141e+38).
 BLANK = 1.7e38
 
 # Relative difference up to which the lowest and the highest height agree with those of the header, which are printed.
-SAME = 1e-3
+SAME_HEIGHT = 1e-3
 
 # Numbers of the header: the points along x and y, then the lowest and highest x, y and height.
 HEADER = 8
@@ -49,9 +49,9 @@ def read_surfer(
     if not np.isfinite(values).any():
         raise InputError(f"{name} has no point that is not blank")
     ends = np.array([np.nanmin(values), np.nanmax(values)])
-    if np.abs(ends - (lowest, highest)).max() > SAME * max(ends[1] - ends[0], np.abs(ends).max()):
+    if np.abs(ends - (lowest, highest)).max() > SAME_HEIGHT * max(ends[1] - ends[0], np.abs(ends).max()):
         said = f"{name} states heights from {lowest:g} to {highest:g} and has {ends[0]:g} to {ends[1]:g}"
         raise InputError(said, way_out="export it again")
-    steps = (UNITS[units[0]] * (x_high - x_low) / (nx - 1), UNITS[units[1]] * (y_high - y_low) / (ny - 1))
+    steps = (LENGTH_UNITS[units[0]] * (x_high - x_low) / (nx - 1), LENGTH_UNITS[units[1]] * (y_high - y_low) / (ny - 1))
     notes = (f"grid of Surfer, x, y and heights in {', '.join(units)} as given", "x runs along the lines of the file")
-    return UNITS[units[2]] * values.reshape(ny, nx).T, steps, notes
+    return LENGTH_UNITS[units[2]] * values.reshape(ny, nx).T, steps, notes

@@ -12,9 +12,9 @@ from .._base import FloatArray, text_of, validate
 from ..errors import InputError
 from ..quantities import counted
 from .header import (
+    LENGTH_UNITS,
     LENGTHS,
     UNIT_WORDS,
-    UNITS,
     Header,
     column_units,
     grid_of,
@@ -22,15 +22,15 @@ from .header import (
     statements,
     steps_in_unit,
 )
-from .layout import FEWEST, Border, border_of, kind_of_table, refuse_profile
+from .layout import FEWEST_COORDINATES, Border, border_of, kind_of_table, refuse_profile
 from .points import gridded
-from .sdf import MAGIC as SDF
+from .sdf import SDF_FIRST_WORDS as SDF
 from .sdf import read_sdf
-from .surfer import MAGIC as SURFER
+from .surfer import SURFER_FIRST_WORD as SURFER
 from .surfer import read_surfer
-from .zygo import PHASES, POINTS, read_zygo
+from .zygo import PHASES_TITLE, POINTS_TITLE, read_zygo
 
-MOST_BYTES = 2**30  # of a file of text
+MOST_TEXT_BYTES = 2**30  # of a file of text
 DECIMALS = (".", ",")
 UNCLEAR = "is neither numbers nor a title; use 'nan' where unmeasured, '#' before a line to be skipped"
 WYKO = "Wyko ASCII Data File Format"
@@ -38,11 +38,11 @@ _PROFILM = re.compile(r"(numCols)\s+(numRows)\s+(pixelSize) \((\w+)\)\s+(\S+)\s+
 _SMD = re.compile(r"[^\n]*\n[^\n]* PRF [^\n]*\n *CX ")  # a profile of ISO 5436-2, as Taylor Hobson writes .prf and .smd
 HEIGHT_BLOCKS = ("RAW_DATA", "RAW DATA", "OPD", "SAMPLE_DATA")  # of a Wyko file; others are intensities
 LATERAL = (1.0, 1e-3, 1e-6, 1e-9)  # m: units that coordinates without a stated one may be in
-NEAR = 0.02  # relative difference up to which the step of coordinates is the given spacing
+SAME_SPACING = 0.02  # relative difference up to which the step of coordinates is the given spacing
 
-_NUMBER = re.compile(r"[+-]?(?:(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?|nan|inf|infinity)", re.I)
+_NUMBER_IN_FIELD = re.compile(r"[+-]?(?:(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?|nan|inf|infinity)", re.I)
 _VALUE = r"(?:[+-]?(?:\d+(?:,\d+)?(?:[eE][+-]?\d+)?|[nN][aA][nN]))"
-_TWO_NUMBERS = re.compile(rf"{_NUMBER.pattern}[\s;,]{{1,9}}{_NUMBER.pattern}[\s;,]{{0,9}}", re.I)
+_TWO_NUMBERS = re.compile(rf"{_NUMBER_IN_FIELD.pattern}[\s;,]{{1,9}}{_NUMBER_IN_FIELD.pattern}[\s;,]{{0,9}}", re.I)
 _QUOTED = re.compile(
     r'"((?:[+-]?(?:\d{1,40}[.,]?\d{0,40}|[.,]\d{1,40})(?:[eE][+-]?\d{1,4})?|nan)?)"'
 )  # a comma is the decimal mark
@@ -69,7 +69,7 @@ Reader = Callable[[Path, str, Units], tuple[FloatArray, Pair, tuple[str, ...]]]
 
 # Formats that their first words name, and their readers: heights [m], spacing [m] and notes.
 BY_FIRST_WORDS: dict[tuple[str, ...], Reader] = {
-    (POINTS, PHASES): read_zygo,
+    (POINTS_TITLE, PHASES_TITLE): read_zygo,
     SDF: read_sdf,
     (SURFER,): read_surfer,
 }
@@ -113,7 +113,7 @@ def read_text(
     units : of x, y and the heights, as the caller gives them; None to find them in the file
     spacing : as the caller gives it [m], which the file must not contradict
     """
-    text = text_of(path, MOST_BYTES)
+    text = text_of(path, MOST_TEXT_BYTES)
     if text.startswith(WYKO):
         return _wyko(path, text, units, spacing)
     if reader := next((reader for marks, reader in BY_FIRST_WORDS.items() if text.lstrip().startswith(marks)), None):
@@ -252,7 +252,7 @@ def _coordinates(
 
 
 def _all_near(pair: Sequence[float | None], expected: tuple[float, float]) -> bool:
-    return all(step is None or abs(step / goal - 1) < NEAR for step, goal in zip(pair, expected))
+    return all(step is None or abs(step / goal - 1) < SAME_SPACING for step, goal in zip(pair, expected))
 
 
 def _same_spacing(path: Path, given: tuple[float, float], steps: tuple[float, float], *, either: bool) -> None:
@@ -269,14 +269,14 @@ def _height_scale(path: Path, table: NumberTable, units: Units) -> tuple[float, 
     stated = header.stated.get("z unit")
     factor = header.value("z factor") or 1.0
     if stated is not None:
-        if units is not None and UNITS[units[2]] != stated.value:
+        if units is not None and LENGTH_UNITS[units[2]] != stated.value:
             said = f"unit = {units[2]!r} is given, and file {path.name} says {stated.unit}: {stated.worded()}"
             raise InputError(said, way_out="leave unit out, or remove the wrong line from the file")
         return stated.value * factor, (f"heights in {stated.unit} by {stated.worded()}",)
     if units is None:
         _refuse_unit_words(path, table)
         return factor, ()
-    return UNITS[units[2]] * factor, ()
+    return LENGTH_UNITS[units[2]] * factor, ()
 
 
 def _refuse_unit_words(path: Path, table: NumberTable) -> None:
@@ -302,7 +302,7 @@ def _points(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
     named = column_units([*table.titles, *table.comments])
     notes = table.notes
     if named is not None:
-        if units is not None and [UNITS[unit] for unit in units] != [LENGTHS[unit] for unit in named[0]]:
+        if units is not None and [LENGTH_UNITS[unit] for unit in units] != [LENGTHS[unit] for unit in named[0]]:
             said = f"unit = {', '.join(units)} is given, and file {path.name} says {', '.join(named[0])}: {named[1]!r}"
             raise InputError(said, way_out="leave unit out, or correct the headings")
         scales = [LENGTHS[unit] for unit in named[0]]
@@ -312,7 +312,7 @@ def _points(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
     else:
         if units is None:
             _refuse_unit_words(path, table)
-        scales = [UNITS[unit] for unit in units or ("m", "m", "m")]
+        scales = [LENGTH_UNITS[unit] for unit in units or ("m", "m", "m")]
     heights, steps, made = gridded(path.name, numbers * np.array([scales[0], scales[1], 1.0]))
     if spacing is not None:
         _same_spacing(path, spacing, steps, either=False)
@@ -326,7 +326,7 @@ def _stated_scales(path: Path, table: NumberTable, units: Units) -> list[float]:
     scales = []
     for place, statement in enumerate(stated):
         unit = None if units is None else units[place]
-        given = None if unit is None else UNITS[unit]
+        given = None if unit is None else LENGTH_UNITS[unit]
         if statement is not None and given is not None and statement.value != given:
             said = f"unit = {unit!r} is given, and file {path.name} says {statement.unit}: {statement.worded()}"
             raise InputError(said, way_out="leave unit out, or remove the wrong line from the file")
@@ -533,18 +533,18 @@ def _split_titles(path: Path, lines: Lines) -> tuple[Lines, Lines]:
     doubtful: list[tuple[int, str, int]] = []
     for index, (number, text) in enumerate(lines):
         words = [w for w in re.split(r"[\s;,]+", text) if w]
-        numbers = sum(_NUMBER.fullmatch(w) is not None for w in words)
+        numbers = sum(_NUMBER_IN_FIELD.fullmatch(w) is not None for w in words)
         if numbers == len(words):
             for line, title, count in doubtful:
-                if line == lines[index - 1][0] and count == numbers - 1 >= FEWEST - 1:
+                if line == lines[index - 1][0] and count == numbers - 1 >= FEWEST_COORDINATES - 1:
                     cell = re.match(r"[^\s;,]+", title)
-                    if cell and not _NUMBER.fullmatch(cell[0]):  # the corner of a table with coordinates
+                    if cell and not _NUMBER_IN_FIELD.fullmatch(cell[0]):  # the corner of a table with coordinates
                         corner = (line, f"nan{title[cell.end() :]}")
                         return lines[: index - 1], [corner, *lines[index:]]
                 if 2 * count >= numbers:
                     raise _wrong(path, line, title, UNCLEAR)
             return lines[:index], lines[index:]
-        if not any(c.isalpha() for c in text) or numbers and _NUMBER.fullmatch(words[0]):
+        if not any(c.isalpha() for c in text) or numbers and _NUMBER_IN_FIELD.fullmatch(words[0]):
             raise _wrong(path, number, text, UNCLEAR)
         if numbers and not _is_heading(path, number, text):
             doubtful.append((number, text, numbers))
@@ -596,7 +596,7 @@ def _fault(lines: Lines, separator: str | None) -> str:
     width = len(lines[0][1].split(separator))
     for number, text in lines:
         fields = [f.strip() for f in text.split(separator)]
-        bad = [f for f in fields if _NUMBER.fullmatch(f) is None or "," in f]
+        bad = [f for f in fields if _NUMBER_IN_FIELD.fullmatch(f) is None or "," in f]
         if bad:
             return f"line {number} has {bad[0][:40]!r}"
         if len(fields) != width:

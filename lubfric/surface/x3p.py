@@ -22,7 +22,7 @@ from ..errors import InputError
 from .height_map import Surface
 
 MOST_XML = 4 * 2**20  # bytes of main.xml
-MOST_POINTS = 2**25  # 256 MiB of doubles
+MOST_X3P_POINTS = 2**25  # 256 MiB of doubles
 TYPES = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
 MOST_SUMS = 2**16  # bytes of the file of checksums
 CORRUPT = (
@@ -64,8 +64,8 @@ def _read(archive: zipfile.ZipFile, path: Path) -> Surface:
     nx, ny, layers = (_count(root, f"Record3/MatrixDimension/Size{a}") for a in "XYZ")
     if layers != 1:
         raise _bad("SizeZ", layers, "1 (one layer)")
-    if nx * ny > MOST_POINTS:
-        raise _bad("SizeX x SizeY", f"{nx} x {ny}", f"at most {MOST_POINTS} points")
+    if nx * ny > MOST_X3P_POINTS:
+        raise _bad("SizeX x SizeY", f"{nx} x {ny}", f"at most {MOST_X3P_POINTS} points")
     spacing = _increment(root, "CX"), _increment(root, "CY")
     axis = _text(root, "Record1/Axes/CZ/AxisType")
     name = _text(root, "Record1/Axes/CZ/DataType")

@@ -9,10 +9,10 @@ import numpy as np
 
 from .._base import FloatArray
 from ..errors import InputError
-from .header import UNITS
+from .header import LENGTH_UNITS
 
-POINTS = "Zygo XYZ Data File"
-PHASES = "Zygo ASCII Data File"
+POINTS_TITLE = "Zygo XYZ Data File"
+PHASES_TITLE = "Zygo ASCII Data File"
 
 # Lines of the header, at most: programs write 13 or 14.
 LONGEST_HEADER = 40
@@ -21,13 +21,13 @@ LONGEST_HEADER = 40
 INTENSITIES = 2
 SIZE = 3
 OPTICS = 7
-RESOLUTION = 10
+RESOLUTION_LINE = 10
 
 # Counts of a phase in one wave, by the code of the phase resolution.
-COUNTS = {0: 4096, 1: 32768, 2: 131072}
+COUNTS_OF_A_WAVE = {0: 4096, 1: 32768, 2: 131072}
 
 # A phase from which on a point is unmeasured.
-UNMEASURED = 2147483640
+UNMEASURED_PHASE = 2147483640
 
 
 def read_zygo(
@@ -46,7 +46,7 @@ def read_zygo(
         x0, y0, nx, ny = (int(word) for word in header[SIZE][:4])
         optics = [float(word) for word in header[OPTICS][:7]]
         pitch = optics[6]
-        resolution = int(header[RESOLUTION][0])
+        resolution = int(header[RESOLUTION_LINE][0])
         intensities = int(header[INTENSITIES][2]) * int(header[INTENSITIES][3])
     except (ValueError, IndexError):
         said = f"{name} begins as a text file of Zygo, but its header has another layout"
@@ -54,21 +54,21 @@ def read_zygo(
     blocks = _blocks(lines[end + 1 :])
     if not (nx > 0 and ny > 0 and nx * ny <= len(text) and np.isfinite(optics).all() and pitch >= 0 and blocks):
         raise InputError(f"{name} is cut off, or states a map of {nx} x {ny} points with a pixel of {pitch:g} m")
-    if text.startswith(POINTS):
+    if text.startswith(POINTS_TITLE):
         if units is None:
             said = f"{name} is a list of points of Zygo, which does not state the unit of its heights"
             way = "give unit: MetroPro writes 'um'; Mx writes the unit that was set (for waves: export again in nm)"
             raise InputError(said, way_out=way)
-        heights = UNITS[units[2]] * _points(name, blocks[0], (x0, y0), (nx, ny))
+        heights = LENGTH_UNITS[units[2]] * _points(name, blocks[0], (x0, y0), (nx, ny))
         notes: tuple[str, ...] = (f"points of Zygo, heights in {units[2]} as given",)
     else:
         if units is not None:
             raise InputError(f"unit = {units[2]!r} is given, and {name} carries its own", way_out="leave it out")
-        waves = COUNTS.get(resolution)
+        waves = COUNTS_OF_A_WAVE.get(resolution)
         scale = optics[1] * optics[2] * optics[4]
         if waves is None or not scale > 0:
             said = f"{name} has the phase resolution {resolution} and {scale:g} m a wave"
-            raise InputError(said, allowed=f"{', '.join(map(str, COUNTS))}, and a wave above 0")
+            raise InputError(said, allowed=f"{', '.join(map(str, COUNTS_OF_A_WAVE))}, and a wave above 0")
         heights = scale / waves * _phases(name, blocks[-1], len(blocks) - 1, intensities, (nx, ny))
         notes = (f"phases of Zygo, {scale / waves:.6g} m each",)
     return heights, (pitch, pitch) if pitch > 0 else None, notes
@@ -113,4 +113,4 @@ def _phases(name: str, lines: list[str], before: int, intensities: int, shape: t
         raise InputError(f"{name} has phases that are no numbers") from None
     if phases.size != shape[0] * shape[1] or before > (intensities > 0):
         raise InputError(f"{name} has {phases.size} phases, and states {shape[0]} x {shape[1]}")
-    return np.where(phases >= UNMEASURED, np.nan, phases).reshape(shape[1], shape[0]).T
+    return np.where(phases >= UNMEASURED_PHASE, np.nan, phases).reshape(shape[1], shape[0]).T

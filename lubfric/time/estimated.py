@@ -21,10 +21,10 @@ STEPS_OF_SWING = 80.0
 STEPS_OF_START = 30.0
 
 # Processor seconds of the film in a step.
-FILM_STEP = 6e-3
+FILM_STEP_SECONDS = 6e-3
 
 # Processor seconds of the contact in a step, over its cells.
-CELL_STEP = 1.5e-7
+CELL_STEP_SECONDS = 1.5e-7
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,7 +60,7 @@ def estimated_load_sharing(scene: Scene, sample: Sample, surface: Surface) -> Ru
     swings = max((periods(history, plan.duration) or 1.0 for history in plan.histories), default=0.5)
     changing = STEPS_OF_SWING * swings * (STEP_TOLERANCE / tolerance) ** (1 / 3)
     steps = max(plan.outputs, changing) + STEPS_OF_START
-    seconds = seconds_of_points(points) + steps * (FILM_STEP + CELL_STEP * cells)
+    seconds = seconds_of_points(points) + steps * (FILM_STEP_SECONDS + CELL_STEP_SECONDS * cells)
     return RunEstimate(steps=steps, seconds=seconds, widest=widest)
 
 

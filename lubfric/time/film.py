@@ -9,7 +9,7 @@ from ..errors import CONVERGED, ConvergenceError, InputError, Report, returned
 from ..film import smallest
 from ..oil import Lubricant
 from ..scene import Harmonic, Ramp, Table, checked_history
-from .film_setting import FINER, TIME_SHARE, LineHistory, Setting, make_setting, steady_start
+from .film_setting import NODE_FACTORS, TIME_SHARE, LineHistory, Setting, make_setting, steady_start
 from .march import Plan, Residual, Step, checked_times, grid_residual, initial_progress, plan_of, report_of, steps
 
 
@@ -112,7 +112,7 @@ def _start(line_history: LineHistory, tolerance: float) -> tuple[Setting, Step, 
     if line_history.speed.before(0.0) == 0.0:
         said = " = 0 m/s before t = 0 carries no steady film"
         raise InputError(said, "entrainment_speed", way_out="give initial_film > 0 m, or a speed")
-    for finer in FINER:
+    for finer in NODE_FACTORS:
         setting = make_setting(line_history, tolerance, finer=finer)
         start, error = steady_start(setting)
         if error <= tolerance:

@@ -18,8 +18,8 @@ from ..film import UPWIND, face_weights, hat_kernel, trapezoidal
 # smallest cell / length of the pressure rise; growth with distance
 EDGE_CELL = 0.16
 EDGE_GROWTH = 0.3
-CORE = 12.0  # cells spread evenly over the contact, which fronts of the film travel through
-FAR = 40.0  # reach in units of sqrt(2 R h), beyond three half-widths
+EVEN_CELLS_WEIGHT_IN_TIME = 12.0  # cells spread evenly over the contact, which fronts of the film travel through
+FAR_REACH = 40.0  # reach in units of sqrt(2 R h), beyond three half-widths
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,12 +96,12 @@ def symmetric_nodes(
 
     ``edges`` are the smallest and the largest Hertz half-width, ``films`` the smallest and the largest film, all in the
     units x and h = x²/R. The cells resolve the rise of the smallest film's pressure at every edge. The domain reaches
-    beyond three half-widths by ``FAR`` sqrt(2 h) of the largest film, and at least to ``reach``.
+    beyond three half-widths by ``FAR_REACH`` sqrt(2 h) of the largest film, and at least to ``reach``.
     """
     inner, outer = edges
     small, large = (math.sqrt(2.0 * h) for h in films)
     rise = small * (small / (small + outer)) ** 0.42
-    far = max(3.0 * outer + FAR * large, reach)
+    far = max(3.0 * outer + FAR_REACH * large, reach)
     fine = EDGE_CELL * rise
     low = max(0.0, inner - 0.5 * rise)
     high = outer + 0.5 * rise
@@ -109,7 +109,7 @@ def symmetric_nodes(
 
     def density(x: FloatArray) -> FloatArray:
         away = np.maximum(low - x, 0.0) + np.maximum(x - high, 0.0)
-        return 1.0 / np.hypot(fine, EDGE_GROWTH * away) + CORE / np.hypot(scale, x)
+        return 1.0 / np.hypot(fine, EDGE_GROWTH * away) + EVEN_CELLS_WEIGHT_IN_TIME / np.hypot(scale, x)
 
     away = np.concatenate([[0.0], np.geomspace(1e-3 * fine, far + high, 3000)])
     table = np.unique(np.clip(np.concatenate([low - away, high + away, np.linspace(low, high, 400)]), 0.0, far))

@@ -14,13 +14,13 @@ from .film_equations import Spring, StepEquations, StepTerms
 from .film_grid import FixedGrid, make_fixed_grid, symmetric_nodes
 from .march import Memory, Step
 
-FINER = (1.0, 1.5, 2.25, 3.4)  # factors of the number of nodes, tried until the steady start is accurate enough
-RESOLUTION = 1.1  # nodes per unit of the grid's index at a tolerance of 3e-3
-SLOWEST = 0.03  # of the largest speed: slower passages are not resolved finer, squeeze rules there
-WET = 1e-3  # of the largest pressure: where the error of the film counts
-FIRST_STEP = 1e-3  # of the time in which the surfaces pass the contact, after a start or a jump
+NODE_FACTORS = (1.0, 1.5, 2.25, 3.4)  # factors of the number of nodes, tried until the steady start is accurate enough
+NODE_DENSITY = 1.1  # nodes per unit of the grid's index at a tolerance of 3e-3
+SLOWEST_RESOLVED = 0.03  # of the largest speed: slower passages are not resolved finer, squeeze rules there
+WET_PRESSURE = 1e-3  # of the largest pressure: where the error of the film counts
+FIRST_TIME_PART = 1e-3  # of the time in which the surfaces pass the contact, after a start or a jump
 TIME_SHARE = 0.01  # of the film tolerance: largest local error of a step, unless it is said
-LIGHTEST = 0.3  # share of the load that the film is taken to carry at least, when it shares it
+LEAST_FILM_LOAD = 0.3  # share of the load that the film is taken to carry at least, when it shares it
 SMALLEST_STAGE = 0.01  # of the logarithm of a change of the load
 
 
@@ -96,7 +96,7 @@ class Setting:
     def error_of(self, solution: Step, difference: np.ndarray) -> float:
         """Root mean square of a difference of films over the pressurised film, relative to the film."""
         P = solution.terms.P
-        weights = self.grid.weights * (P > WET * P.max())
+        weights = self.grid.weights * (P > WET_PRESSURE * P.max())
         return math.sqrt(float(weights @ (difference / solution.film) ** 2 / max(weights.sum(), 1e-300)))
 
     def undeformed(self, film: float) -> Step:
@@ -110,7 +110,7 @@ class Setting:
         contact = self.line_history
         fastest = max(abs(u) for u in contact.speed.range(contact.duration))
         width = math.hypot(self.problem.half_width, 3.0) * self.problem.length_unit
-        return FIRST_STEP * (min(width / fastest, contact.duration) if fastest else contact.duration)
+        return FIRST_TIME_PART * (min(width / fastest, contact.duration) if fastest else contact.duration)
 
 
 def make_setting(
@@ -122,14 +122,14 @@ def make_setting(
     grid extends to ``reach`` [m] at least. ``finer``: factor on the number of nodes.
     """
     problem, films = _reference(line_history, sq)
-    share = LIGHTEST if sq > 0.0 else 1.0
+    share = LEAST_FILM_LOAD if sq > 0.0 else 1.0
     load, radius = (history.range(line_history.duration) for history in (line_history.load, line_history.radius))
 
     def edge(load: float, radius: float) -> float:
         return hertz.line_half_width(load / line_history.width, radius, line_history.e_prime) / problem.length_unit
 
     edges = edge(share * load[0], radius[0]), edge(load[1], radius[1])
-    x = symmetric_nodes(finer * RESOLUTION * math.sqrt(3e-3 / tolerance), edges, films, reach / problem.length_unit)
+    x = symmetric_nodes(finer * NODE_DENSITY * math.sqrt(3e-3 / tolerance), edges, films, reach / problem.length_unit)
     length = line_history.lubricant.inlet_length
     if length is not None and length < x[-1] * problem.length_unit:
         every_other = x[len(x) // 2 % 2 :: 2]  # nodes of the coarser grid of `discretisation` too
@@ -165,7 +165,7 @@ def _reference(line_history: LineHistory, sq: float) -> tuple[FilmProblem, tuple
         ).moes_film
 
     if fastest:
-        slowest = max(0.0 if low < 0.0 < high else min(abs(low), abs(high)), SLOWEST * fastest)
+        slowest = max(0.0 if low < 0.0 < high else min(abs(low), abs(high)), SLOWEST_RESOLVED * fastest)
         films += [moes(load[0], radius[1], eta[1], fastest), moes(load[1], radius[0], eta[0], slowest)]
     else:
         scale = math.sqrt(c.radius.at(0.0) * films[0])

@@ -25,14 +25,14 @@ from ..scene import History
 from ..units import plain_number, worded
 
 # of the step; BDF2 is stable for growth below 2.41
-SAFETY = 0.85
-SHRINK = 0.2
-GROWTH = 2.0
+TIME_STEP_SAFETY = 0.85
+LEAST_TIME_STEP_RATIO = 0.2
+TIME_STEP_GROWTH = 2.0
 FAILED = 0.25  # step after a solve that failed
 LEAST_LEFT = 0.2  # of an unknown that is positive: what extrapolation leaves of it
-SHORTEST = 1e-11  # of the duration: below it a step has failed for good
-CLOSE = 0.01  # of the time between two stops: another one is not wanted
-ROUNDING = 1e-13  # relative: times that are closer are one time; below that of `lubfric.scene.history`
+LEAST_TIME_STEP_PART = 1e-11  # of the duration: below it a step has failed for good
+SKIPPED_REST = 0.01  # of the time between two stops: another one is not wanted
+STOP_ROUNDING = 1e-13  # relative: times that are closer are one time; below that of `lubfric.scene.history`
 
 
 @dataclass(frozen=True)
@@ -124,7 +124,7 @@ def plan_of(
     stops = np.union1d(stops, _onto(stops, [t for h in histories for t in h.stops(end)]))
     others = np.array([*more], float)
     apart = np.min(np.abs(others[:, None] - stops), axis=1, initial=math.inf)
-    stops = np.union1d(stops, others[(apart > CLOSE * np.diff(others, prepend=0.0)) & (others < end)])
+    stops = np.union1d(stops, others[(apart > SKIPPED_REST * np.diff(others, prepend=0.0)) & (others < end)])
     return Plan(
         times=times,
         stops=tuple(stops.tolist()),
@@ -138,10 +138,10 @@ def _onto(known: np.ndarray, candidates: list[float]) -> np.ndarray:
     """The times ``candidates`` [s], rising. One that differs only by rounding from one of ``known``, or from the one before
     it, is replaced by that."""
     times = np.unique(np.array(candidates, float))
-    times = times[np.diff(times, prepend=-np.inf) > ROUNDING * np.abs(times)]
+    times = times[np.diff(times, prepend=-np.inf) > STOP_ROUNDING * np.abs(times)]
     right = np.clip(np.searchsorted(known, times), 1, max(known.size - 1, 1))
     for near in (known[right - 1], known[np.minimum(right, known.size - 1)]):
-        times = np.where(np.abs(near - times) <= ROUNDING * np.abs(times), near, times)
+        times = np.where(np.abs(near - times) <= STOP_ROUNDING * np.abs(times), near, times)
     return np.unique(times)
 
 
@@ -170,7 +170,7 @@ def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:
     time is before ``plan.end``.) A run can continue from any progress, so the caller needs to keep nothing else."""
     for stop in plan.stops:
         while now.time < stop:
-            advanced = advance(now, stop, solver, plan.tolerance, SHORTEST * plan.end)
+            advanced = advance(now, stop, solver, plan.tolerance, LEAST_TIME_STEP_PART * plan.end)
             if advanced is None:
                 return
             now = replace(advanced, at_output=advanced.time == stop and bool(np.any(plan.times == stop)))
@@ -257,9 +257,9 @@ def advance(now: Progress, until: float, solver: Solver, tolerance: float, short
             step, rejected = FAILED * planned, rejected + 1
             continue
         levels, solution, error, order = attempt
-        change = max(SAFETY * (tolerance / max(error, 1e-30)) ** (1 / (order + 1)), SHRINK)
+        change = max(TIME_STEP_SAFETY * (tolerance / max(error, 1e-30)) ** (1 / (order + 1)), LEAST_TIME_STEP_RATIO)
         if error <= tolerance:
-            step, error = planned * min(change, GROWTH), error / tolerance
+            step, error = planned * min(change, TIME_STEP_GROWTH), error / tolerance
             worst = max(now.worst, error)
             return Progress(
                 levels=levels,

@@ -31,7 +31,7 @@ from ..models.shared import (
 from ..oil import shear_stress
 from ..scene import Scene
 from .film_equations import outside_shear
-from .film_setting import WET
+from .film_setting import WET_PRESSURE
 from .load_sharing_solver import LoadSharingSolver
 from .march import Progress, Step
 from .scene_in_time import scene_at, sliding_at
@@ -40,9 +40,11 @@ NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film
 STEADY_ONLY = (
     "a run in time has no other deflection; compare it with the steady f, which has numerics.film_deflection = 'scaled'"
 )
-# m/s; of ln F_H
-AT_REST = 1e-6
-LOAD_STEP = 0.05
+# Entrainment speed [m/s] of a film at rest, which was drawn in slowly.
+STANDSTILL_SPEED = 1e-6
+
+# Step of ln F_H [-] for the slope of the film over its load.
+LOG_LOAD_STEP = 0.05
 
 
 def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[str, float], tuple[Violation, ...]]:
@@ -156,13 +158,13 @@ def _violated(
 
 
 def _mass(model: LoadSharingSolver, solution: Step) -> dict[str, float]:
-    """Balance of the lubricant per unit width and time [m²/s] where the film carries load (pressure above ``WET`` of
+    """Balance of the lubricant per unit width and time [m²/s] where the film carries load (pressure above ``WET_PRESSURE`` of
     the largest): flow into it, lubricant stored there; and the growth of the gap in the cavitated zone that nothing
     fills. mass_residual: what is missing in the balance, over the larger of the flow and ``NO_FLOW``."""
     t = solution.terms
     p = model.setting.problem
     unit = p.film_unit * p.line.entrainment_speed
-    film = t.P[1:-1] > WET * t.P.max()
+    film = t.P[1:-1] > WET_PRESSURE * t.P.max()
     stored = float(np.sum(t.stored[1:-1][film]))
     inflow = -float(np.sum(np.diff(t.flux)[film]))
     inside = np.abs(t.flux)[1:-1][film[1:] & film[:-1]]
@@ -299,8 +301,8 @@ def film_thinning(scene: Scene, film_load: float) -> float:
     slowly; 1 without load."""
     if film_load <= 0.0:
         return 1.0
-    line = scene.line_contact(scene.motion.entrainment_speed or AT_REST)
-    more = math.exp(LOAD_STEP)
+    line = scene.line_contact(scene.motion.entrainment_speed or STANDSTILL_SPEED)
+    more = math.exp(LOG_LOAD_STEP)
     line = replace(line, load_per_width=film_load / scene.bodies.width)
     heavier = replace(line, load_per_width=more * line.load_per_width)
-    return math.log(line.moes_film / heavier.moes_film) / LOAD_STEP
+    return math.log(line.moes_film / heavier.moes_film) / LOG_LOAD_STEP

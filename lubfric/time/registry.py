@@ -48,14 +48,14 @@ LOAD_SHARING = RunModel(
     described=_load_sharing_in_words,
     moves_roughness=False,
 )
-DETERMINISTIC = RunModel(
+DETERMINISTIC_RUN = RunModel(
     start=start_deterministic,
     check=check_deterministic,
     estimate_work=estimated_deterministic,
     described=lambda _: "deterministic model at all times (numerics.model); the interval has no model-form error",
     moves_roughness=True,
 )
-RUNS = {"paper": LOAD_SHARING, "quick": LOAD_SHARING, "deterministic": DETERMINISTIC}
+RUNS = {"paper": LOAD_SHARING, "quick": LOAD_SHARING, "deterministic": DETERMINISTIC_RUN}
 
 
 def run_model_of(scene: Scene) -> RunModel:

@@ -21,8 +21,7 @@ from ..models.shared import (
     student,
 )
 from ..quantities import OF_MOMENT, axis_label
-from ..scene import FRICTION as FRICTION_KEY
-from ..scene import Scene, value_of
+from ..scene import BOUNDARY_FRICTION_KEY, Scene, value_of
 from ..units import worded
 from .march import Plan, Progress, Residual, grid_residual, report_of
 from .model import Output, TimeModel
@@ -30,7 +29,7 @@ from .model import Output, TimeModel
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-MANY = 30  # blocks less one: of a strip
+MANY_BLOCKS = 30  # blocks less one: of a strip
 NOT_IN = "not in the interval, as a run in time is solved with its value alone; solve it with both ends to see"
 TINY = 1e-30  # no f is divided by less
 POWER = ("power_loss", "power_loss_low", "power_loss_high")  # columns whose means are those of the whole run
@@ -228,7 +227,7 @@ class TransientResult(Renamed, Shown):
         begin = np.flatnonzero(moving)[:1]
         axes.plot(speed, friction, color=figures.BLUE)
         axes.plot(speed[begin], friction[begin], "o", color=figures.GREY, label="start")
-        axes.set(xlabel=axis_label("speed"), ylabel=figures.FRICTION)
+        axes.set(xlabel=axis_label("speed"), ylabel=figures.FRICTION_LABEL)
         axes.legend(frameon=False)
         return axes
 
@@ -262,7 +261,7 @@ def errors_in_time(
     not known. ``inputs_down``, ``inputs_up`` (nt,) [-]: how far the range of f_b moves f."""
     f = columns["coefficient"]
     size = np.abs(f)
-    sampling = student(MANY) * columns["sampling_error"] * size
+    sampling = student(MANY_BLOCKS) * columns["sampling_error"] * size
     numerical = columns.get("shear_error", np.zeros(f.size)) * size
     unknown = np.full(f.size, math.nan)
     to_zero, away = (columns.get(f"model_error_{end}", unknown) * size for end in ("low", "high"))
@@ -352,7 +351,7 @@ def collect(
     renewal = prepared.sample.renewal_length(prepared.scene.bodies.half_width)
     ends = {name: [end - value_of(prepared.scene, name) for end in both] for name, *both in prepared.scene.ranges}
     by_load = columns["contact_load"] / columns["load"] * (columns["sliding_speed"] != 0)
-    low, high = ends.pop(FRICTION_KEY, (0.0, 0.0))
+    low, high = ends.pop(BOUNDARY_FRICTION_KEY, (0.0, 0.0))
     inputs = np.outer((-low, high), by_load)
     not_in = tuple(f"{name.partition('.')[2]} in its range: {NOT_IN}" for name in ends)
     report = report_of("run in time", plan, progress, f"{model.cells}; surface: {surface}", residuals, most_work)
@@ -420,7 +419,7 @@ def friction_over_time(axes: "Axes", c: dict[str, np.ndarray]) -> None:
     if not moving.all():
         rest: dict[str, Any] = {"where": ~moving, "transform": axes.get_xaxis_transform(), "label": "at rest: no f"}
         axes.fill_between(c["time"] * scale, 0, 1, color=figures.GREY, alpha=0.2, lw=0, **rest)
-    axes.set(xlabel=f"time ({unit})", ylabel=figures.FRICTION)
+    axes.set(xlabel=f"time ({unit})", ylabel=figures.FRICTION_LABEL)
     figures.key_above(axes)
 
 

@@ -30,7 +30,7 @@ from .registry import estimated_run, run_model_of
 from .result import TransientResult, collect
 from .scene_in_time import transient_of
 
-CLASSES = classes_of(Progress, Output, ContactStep, Violation, State)  # that a state or an output may hold
+RUN_CLASSES = classes_of(Progress, Output, ContactStep, Violation, State)  # that a state or an output may hold
 STATE = tuple[int, Progress]  # what is kept of a run: how many outputs there are, and its progress
 
 
@@ -91,7 +91,7 @@ def transient(
     if raise_on_failure:
         raise_if_failed(result, accept=scene_of(scene).numerics.accept)
     if result.report.converged:
-        with opened(checkpoint, CLASSES, "checkpoint") as store:
+        with opened(checkpoint, RUN_CLASSES, "checkpoint") as store:
             store.clear(keys)
     return result
 
@@ -129,7 +129,7 @@ def run_in_time(
     if math.isinf(limit):
         seconds = estimated_run(model.scene, model.prepared.sample, model.prepared.surface).seconds
         limit = max(LEAST_LIMIT, TIMES_ESTIMATE * seconds)
-    with opened(checkpoint, CLASSES, "checkpoint") as store:
+    with opened(checkpoint, RUN_CLASSES, "checkpoint") as store:
         progress, outputs, ended = _marched(
             model, start.state, course, store, key, on_step, most_work=limit - begun.spent
         )

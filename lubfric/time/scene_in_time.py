@@ -9,7 +9,7 @@ import numpy as np
 from ..models.shared import film_lubricant, inlet_at
 from ..scene import Constant, History, Scene, Transient
 
-FASTER = 1e6  # [-] slide-roll ratio beyond which a moment counts as one of sliding alone
+MOST_SLIDE_ROLL_RATIO = 1e6  # [-] slide-roll ratio beyond which a moment counts as one of sliding alone
 SAMPLED_TIMES = 257  # number of times at which the histories are sampled before a run begins
 
 SLIDING_PART = {"surface": -0.5, "counterface": 0.5}  # [-] the speed of a body is U plus this part of u2 - u1
@@ -42,8 +42,8 @@ def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:
         boundary_friction_table=None,
     )
     oil = replace(oil, viscosity=now("viscosity", oil.viscosity))
-    alone = abs(sliding) > FASTER * abs(speed)
-    ratio = math.copysign(FASTER, sliding) if alone else sliding / speed if sliding else 0.0
+    alone = abs(sliding) > MOST_SLIDE_ROLL_RATIO * abs(speed)
+    ratio = math.copysign(MOST_SLIDE_ROLL_RATIO, sliding) if alone else sliding / speed if sliding else 0.0
     motion = replace(scene.motion, entrainment_speed=speed, slide_roll_ratio=ratio, speeds=())
     return replace(scene, bodies=bodies, lubricant=oil, motion=motion, ranges=())
 

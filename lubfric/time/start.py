@@ -18,20 +18,20 @@ from ..samples import (
     Sample,
 )
 from ..scene import Constant, Scene
-from .film_setting import FINER, LineHistory, make_setting, steady_start
+from .film_setting import NODE_FACTORS, LineHistory, make_setting, steady_start
 from .load_sharing_solver import ContactStep
 from .march import Step
 from .model import Start
 from .scene_in_time import inlet_viscosity, sampled_times, scene_at, sliding_at, transient_of
 from .transient_load_sharing import TransientLoadSharing, make_load_sharing
 
-SPEEDS = 4  # looked at between the fastest and the slowest of a run
-SLOWEST = 1e-3  # of the fastest: slower ones are boundary lubrication
+JUDGED_SPEEDS = 4  # looked at between the fastest and the slowest of a run
+SLOWEST_JUDGED = 1e-3  # of the fastest: slower ones are boundary lubrication
 SUPPORTED = {  # what a run does of the steady options; the film is deflected by its own pressure, whatever the default says
     "film_deflection": ("scaled", "hydrodynamic"),
     "cavitated_shear": ("none",),
 }
-SOFT = 0.3  # of the mean gap: softness of the contact, until a step has measured it
+START_SOFTNESS = 0.3  # of the mean gap: softness of the contact, until a step has measured it
 
 
 def start_load_sharing(scene: Scene | Prepared) -> Start:
@@ -49,7 +49,7 @@ def start_load_sharing(scene: Scene | Prepared) -> Start:
         raise InputError(f"smooth surfaces at rest have no film to start from; give {ways}")
     reach = float(np.max(np.abs(prepared.rough_contact.x))) if sq > 0.0 else 0.0
     tolerance = base.numerics.tolerance_of("film")
-    for finer in FINER:
+    for finer in NODE_FACTORS:
         setting = make_setting(line_history, tolerance, sq=max(sq, 0.0), reach=reach, finer=finer)
         model = make_load_sharing(
             prepared,
@@ -122,7 +122,7 @@ def _first_state(model: TransientLoadSharing) -> tuple[Step, float]:
 
 def _untouched(model: TransientLoadSharing, film: Step) -> Step:
     state = model.patch.close(model.to_patch @ film.terms.H, 0.0)
-    return replace(film, payload=ContactStep(0.0, state, max(SOFT * state.mean_gap, 1e-12)))
+    return replace(film, payload=ContactStep(0.0, state, max(START_SOFTNESS * state.mean_gap, 1e-12)))
 
 
 def _flying(model: TransientLoadSharing, film: float) -> Step:
@@ -149,7 +149,7 @@ def _resting(model: TransientLoadSharing) -> Step:
         raise InputError(f"{said}; give {ways}")
     undeformed = setting.undeformed(film)
     state = replace(state, mean_film=float(model.mean_row @ undeformed.terms.H))
-    return replace(undeformed, payload=ContactStep(load, state, SOFT * state.mean_gap))
+    return replace(undeformed, payload=ContactStep(load, state, START_SOFTNESS * state.mean_gap))
 
 
 def _steady(model: TransientLoadSharing) -> tuple[Step, float]:
@@ -171,7 +171,7 @@ def _steady(model: TransientLoadSharing) -> tuple[Step, float]:
     if balance.contact_load == 0.0:
         return _untouched(model, film), error
     state = balance.contact_state
-    step = model.solve(0.0, None, film.z, ContactStep(balance.contact_load, state, SOFT * state.mean_gap))
+    step = model.solve(0.0, None, film.z, ContactStep(balance.contact_load, state, START_SOFTNESS * state.mean_gap))
     if step.status != CONVERGED:
         raise ConvergenceError("transient: film and contact of the steady start do not balance on the grid of the run")
     return step, error
@@ -231,8 +231,8 @@ def speeds_of_run(scene: Scene) -> list[float]:
     fastest = max(abs(low), abs(high))
     if fastest == 0.0:
         return []
-    slowest = max(min(abs(low), abs(high)) if low * high > 0 else 0.0, SLOWEST * fastest)
-    return np.unique(np.geomspace(fastest, slowest, SPEEDS)).tolist() if slowest < fastest else [fastest]
+    slowest = max(min(abs(low), abs(high)) if low * high > 0 else 0.0, SLOWEST_JUDGED * fastest)
+    return np.unique(np.geomspace(fastest, slowest, JUDGED_SPEEDS)).tolist() if slowest < fastest else [fastest]
 
 
 def _needs(prepared: Prepared, sample: Sample, speeds: list[float]) -> np.ndarray:

@@ -20,9 +20,9 @@ from ..estimate import (
 from ..models import prepare
 from ..models.deterministic import (
     BOUNDARY_FILM,
-    KRYLOV,
+    FACTORISATIONS_IN_A_STEP,
+    KRYLOV_IN_A_STEP,
     RUPTURED,
-    STEPS,
     TOUCHING,
     Iterate,
     Problem,
@@ -47,23 +47,23 @@ from ..models.deterministic import (
 from ..models.shared import Prepared, Violation, block_error, warn_motion, warn_thickness
 from ..quantities import OF_MOMENT
 from ..scene import Constant, Scene, moving_bodies
-from .film_setting import WET
+from .film_setting import WET_PRESSURE
 from .march import Memory, Progress, Step
 from .model import Output, Start
 from .scene_in_time import SLIDING_PART, sampled_times, scene_at, sliding_at, surface_speed, transient_of
 from .start import check_start
 
 TIME_ERROR = 2e-3  # of the film: local error of a step, unless it is said
-EXACT = 1e-3  # residuals of a step
-MOST = 25  # Newton steps in a step
+RUN_STEP_RESIDUAL = 1e-3  # residuals of a step
+MOST_NEWTON_STEPS = 25  # Newton steps in a step
 REST = 1e-6  # of the fastest entrainment (without any, of b over the duration): slower one counts as that
 LEAST_FLOW = 1e-3  # of the film of the fastest entrainment times that: what residuals are relative to, at least
-FIRST = 0.1  # cells by which the fastest surface moves in the step after a start or a jump
+FIRST_STEP_CELLS = 0.1  # cells by which the fastest surface moves in the step after a start or a jump
 # Steps beside those that end at an output or a cell of motion, about: 21 to 26 in all were seen with 20 outputs.
-START = 5
+OTHER_STEPS = 5
 # Processor time of a step over its counted work by the steps of a steady point, about.
 STEP_SECONDS = 0.7
-MOST_CELLS = 100_000  # by which the roughness may move in a run
+MOST_PASSED_CELLS = 100_000  # by which the roughness may move in a run
 TRAVEL_TIMES = 20_001  # times at which the speeds are looked up to find the steps
 ISOTHERMAL = "the deterministic model in time is isothermal; a real film is thinner and shears more easily"
 
@@ -78,7 +78,7 @@ class TransientDeterministic:
     base: Problem
     heights: dict[str, Callable[[float], np.ndarray]]
     correlation_length: float
-    tolerance = EXACT
+    tolerance = RUN_STEP_RESIDUAL
     time_error = TIME_ERROR
     notes = ()
 
@@ -107,7 +107,9 @@ class TransientDeterministic:
     def first_step(self) -> float:
         """After a start or a jump [s]."""
         return (
-            FIRST * self.base.spacing[0] / self.fastest if self.fastest else FIRST * transient_of(self.scene).duration
+            FIRST_STEP_CELLS * self.base.spacing[0] / self.fastest
+            if self.fastest
+            else FIRST_STEP_CELLS * transient_of(self.scene).duration
         )
 
     @cached_property
@@ -118,10 +120,10 @@ class TransientDeterministic:
         times = np.linspace(0.0, duration, TRAVEL_TIMES)
         speed = np.max([0 * times, *(_body_speed(self.scene, body, times) for body in self.heights)], axis=0)
         way = np.append(0.0, np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(times)))
-        if way[-1] > MOST_CELLS * dx:
+        if way[-1] > MOST_PASSED_CELLS * dx:
             said = f" = {duration:g} s: the roughness would move by {way[-1] / dx:.2g} cells, a step each"
             way_out = "a shorter run, or numerics.model = 'paper'"
-            raise InputError(said, "transient.duration", f"up to {MOST_CELLS:g} cells", way_out)
+            raise InputError(said, "transient.duration", f"up to {MOST_PASSED_CELLS:g} cells", way_out)
         return tuple(np.interp(dx * np.arange(1, math.floor(way[-1] / dx) + 1), way, times).tolist())
 
     def problem_at(self, time: float) -> Problem:
@@ -158,15 +160,22 @@ class TransientDeterministic:
             extrapolated = np.maximum((1.0 + part) * film - part * last, 0.5 * last)
             history = TimeHistory(extrapolated=extrapolated, step=memory.step, last=last, part=part)
         start = _turned(replace(payload, approach=float(z[0])), back)
-        solution = newton(self.problem_at(time), start, Work(MOST), tolerance=EXACT, most=MOST, history=history)
-        status = CONVERGED if solution.residual <= EXACT else ITERATION_LIMIT
+        solution = newton(
+            self.problem_at(time),
+            start,
+            Work(MOST_NEWTON_STEPS),
+            tolerance=RUN_STEP_RESIDUAL,
+            most=MOST_NEWTON_STEPS,
+            history=history,
+        )
+        status = CONVERGED if solution.residual <= RUN_STEP_RESIDUAL else ITERATION_LIMIT
         return self._step(solution.at, back, status)
 
     def error_of(self, step: Step, difference: np.ndarray) -> float:
         """Root mean square, over the pressurised film, of the mean over y of a ``difference`` of masses, over the mean
         there. (Roughness that passes is resolved by the steps of one cell.)"""
         p, lost, film = (f.mean(axis=1) for f in (step.payload.pressure, difference, step.film))
-        wet = p > WET * p.max()
+        wet = p > WET_PRESSURE * p.max()
         return float(np.sqrt(np.mean(lost[wet] ** 2)) / film[wet].mean()) if wet.any() else 0.0
 
     def start(self) -> Step:
@@ -177,7 +186,7 @@ class TransientDeterministic:
         back = self.back(0.0)
         still = (plan.speed or Constant(self.scene.motion.entrainment_speed)).before(0.0) == 0.0
         if plan.initial_film is None and not (plan.initial == "rest" or plan.initial == "auto" and still):
-            return self._step(evaluated(problem, solve_point(problem, tolerance=EXACT).state), back)
+            return self._step(evaluated(problem, solve_point(problem, tolerance=RUN_STEP_RESIDUAL).state), back)
         nothing = np.zeros_like(problem.heights)
         kind = np.full(problem.heights.shape, RUPTURED, np.int8)
         state = State(
@@ -254,8 +263,10 @@ def work_of_run(scene: Scene) -> tuple[int, float]:
     """Return about how many steps a run takes, and its processor time [s of a usual core]."""
     solver = make_deterministic(scene)
     plan = transient_of(scene)
-    steps = max(len(solver.stops), plan.outputs) + START
-    return steps, STEP_SECONDS * steps * work_of_steps(solver.base.heights.size, STEPS, KRYLOV)
+    steps = max(len(solver.stops), plan.outputs) + OTHER_STEPS
+    return steps, STEP_SECONDS * steps * work_of_steps(
+        solver.base.heights.size, FACTORISATIONS_IN_A_STEP, KRYLOV_IN_A_STEP
+    )
 
 
 def check_deterministic(scene: Scene) -> None:
@@ -317,7 +328,7 @@ def deterministic_moment(
             CONVERGED,
             iterations=1,
             residual=max(left.values()),
-            tolerance=EXACT,
+            tolerance=RUN_STEP_RESIDUAL,
             residuals=left,
         ),
     )

@@ -118,7 +118,7 @@ def test_coefficients_that_the_lu_omits_do_not_change_a_step_in_time():
     ends = []
     for omitted in (0.0, 0.03):
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(linear, "NEGLIGIBLE", omitted)
+            patch.setattr(linear, "OMITTED_COEFFICIENT", omitted)
             passing = moments(
                 travelling(PROBLEM, [RoughBody(MAP, 0.05)]),
                 step,

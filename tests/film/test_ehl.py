@@ -350,7 +350,7 @@ def test_iteration_limit_raises_with_report_and_result():
 
 
 def test_a_grid_too_coarse_for_the_tolerance_is_reported(monkeypatch):
-    monkeypatch.setattr(solve, "FINEST", 96)
+    monkeypatch.setattr(solve, "FINEST_CELLS", 96)
     arguments, _ = contact(1000, 20, tolerance=1e-4)
     with pytest.raises(ConvergenceError, match="iteration_limit") as caught:
         solve_ehl(**arguments)

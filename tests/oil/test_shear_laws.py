@@ -9,7 +9,7 @@ from scene_text import paper_scene
 import lubfric
 from lubfric.film import heated_stress
 from lubfric.models.deterministic import solve_strip, thinning
-from lubfric.oil import FLOW_LAWS, LIMITS, Eyring, Lubricant, ShearLaw, lubricant
+from lubfric.oil import FLOW_LAWS, LIMIT_LAWS, Eyring, Lubricant, ShearLaw, lubricant
 from lubfric.surface import Surface
 
 LAWS = {"eyring_stress": 1e6, "carreau": (1e6, 0.6), "limiting_stress_coefficient": 0.002}  # values that matter
@@ -28,7 +28,7 @@ def differences(function, at, step):
     return (function(at + step) - function(at - step)) / (2 * step)
 
 
-@pytest.mark.parametrize("key", [law.key for law in (*FLOW_LAWS, *LIMITS)])
+@pytest.mark.parametrize("key", [law.key for law in (*FLOW_LAWS, *LIMIT_LAWS)])
 def test_the_parts_of_a_law_agree(key):
     oil = Lubricant(0.04, 2e-8, **{key: LAWS[key]}, **WARM)
     p = 1e8

@@ -11,7 +11,7 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 from lubfric.output import ProgressLine, main
 from lubfric.output import progress as module
 from lubfric.output.commands import say
-from lubfric.output.progress import CLEAR
+from lubfric.output.progress import CLEAR_LINE
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
@@ -49,8 +49,8 @@ def test_a_terminal_sees_a_line_that_other_lines_replace(monkeypatch, quick):
         say("a finished line")
         time.sleep(0.05)
     text = stream.getvalue()
-    assert f"{CLEAR}1 of 4 points" in text and " left" in text
-    assert f"{CLEAR}a finished line\n" in text and text.endswith(CLEAR)
+    assert f"{CLEAR_LINE}1 of 4 points" in text and " left" in text
+    assert f"{CLEAR_LINE}a finished line\n" in text and text.endswith(CLEAR_LINE)
 
 
 def test_a_file_gets_no_progress(monkeypatch, quick, tmp_path):

@@ -79,7 +79,7 @@ def test_each_writer_of_a_run_in_may_fail(name, missing, whole, tmp_path, capsys
     code, said = run(capsys, "run-in", scene_file, tmp_path / "out")
     assert code == 2 and "broken on purpose" in said and "Traceback" not in said
     assert sorted(path.name for path in (tmp_path / "out").iterdir() if path.name[0] != ".") == sorted(
-        {*run_in_command.NAMES} - {missing}
+        {*run_in_command.FOLDER_FILES} - {missing}
     )
 
 
@@ -146,5 +146,5 @@ def test_a_kill_at_any_write_leaves_a_folder_that_the_same_command_completes(
             continue  # every fourth is continued
         assert run(capsys, kind, scene_file, out)[0] == 0
         assert (out / TABLES[kind]).read_text() == table
-        assert not list(Path(out).glob(f"{files.PART}*"))
+        assert not list(Path(out).glob(f"{files.PART_PREFIX}*"))
     assert last >= 6

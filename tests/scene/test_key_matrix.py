@@ -603,7 +603,7 @@ ELSEWHERE = {  # keys that no corner undoes; the tests above, or those named, sh
         "inlet_film",
         "shear_modulus",
     }  # the last: tests/film/test_elastic_shear.py; and, in tests/oil/test_shear_laws.py, the shear laws
-    | {law.key for law in (*lubfric.oil.FLOW_LAWS, *lubfric.oil.LIMITS)},
+    | {law.key for law in (*lubfric.oil.FLOW_LAWS, *lubfric.oil.LIMIT_LAWS)},
     "surface": {
         "file",
         *FILE,

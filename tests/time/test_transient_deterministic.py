@@ -142,7 +142,7 @@ def test_integrals_of_histories(history):
 
 def test_steps_are_of_second_order(monkeypatch):
     """A rough body under a load that swings: BDF2 from its own memory, in steps of a half and a quarter."""
-    monkeypatch.setattr("lubfric.time.transient_deterministic.EXACT", 1e-9)
+    monkeypatch.setattr("lubfric.time.transient_deterministic.RUN_STEP_RESIDUAL", 1e-9)
     plan = Transient(1.0, load=Harmonic(mean=15.0, amplitude=4.0, frequency=4e3))
     begin = start_deterministic(SCENE.with_(transient=plan, surface={"sq": 5e-9}))
     solver = begin.model

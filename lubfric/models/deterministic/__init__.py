@@ -10,8 +10,8 @@ from .model import DeterministicModel, DeterministicSolution
 from .moving import Moment, RoughBody, moments, travelling
 from .moving_strip import (
     ECONOMICAL,
-    KRYLOV,
-    STEPS,
+    FACTORISATIONS_IN_A_STEP,
+    KRYLOV_IN_A_STEP,
     TIGHT,
     MovingEffort,
     MovingStripSolution,

@@ -11,10 +11,10 @@ import numpy as np
 from ...errors import ConvergenceError
 from ...quantities import depending_on
 from ...samples import is_measured
-from ...scene import Scene, has_moving_roughness, value_of
+from ...scene import HARDNESS_KEY, Scene, has_moving_roughness, value_of
 from ..contract import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
-    TOO_SHORT,
+    SAMPLE_TOO_SHORT,
     Decision,
     Heat,
     Prepared,
@@ -39,7 +39,7 @@ from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
 from .levels import Levels, mean
 from .moving_strip import MovingStripSolution, continued_strip
 from .result import DeterministicResult, stress_with_oil
-from .rough_bodies import HARDNESS, bodies_of, map_of
+from .rough_bodies import bodies_of, map_of
 from .strip import StripSolution, change_by_flow, solve_strip
 from .strip_on_two_grids import surface_and_factors
 
@@ -69,7 +69,7 @@ BY_FLOW = "change of f with half the thinning of the flow at the limiting stress
 BOUNDARY_FILM_KEY = "bodies.boundary_film"
 OF_LIMIT = "the limiting stress of the oil, which is not given: lubricant.limiting_stress_coefficient narrows it"
 LIMITED = ("coefficient", "at_least_limit", "at_most_limit")
-LOOSER = "a larger numerics.tolerance"
+LARGER_TOLERANCE = "a larger numerics.tolerance"
 
 # Change of f at rest, by the flow of an oil with another stress, above which that oil is solved in motion too. Up to .006
 # the shear of the solved moments gave f within 7 % of its change (needle rollers, bearings, light contacts); at .023, a
@@ -189,7 +189,7 @@ def fine_fields_of(prepared: Prepared, speed: float) -> ContactFields:
 def _stays_elastic(strip: StripSolution, scene: Scene, name: str, ends: tuple[Scene, ...]) -> bool:
     """Return whether the input of this ``name`` is a hardness that no cell of ``strip`` reaches at any moment, neither in
     its scene nor at the ``ends`` of the range."""
-    return name == HARDNESS and all(strip.peak_pressure < value_of(one, HARDNESS) for one in (scene, *ends))
+    return name == HARDNESS_KEY and all(strip.peak_pressure < value_of(one, HARDNESS_KEY) for one in (scene, *ends))
 
 
 def _changes_without_solve(
@@ -238,8 +238,8 @@ def _at_inputs(prepared: Prepared, strip: StripSolution, speed: float) -> AtInpu
 def _at_end_of_range(prepared: Prepared, strip: StripSolution, speed: float, middle: float, scene: Scene) -> float:
     """Return f at the ``scene`` of one end of a range (`_at_end`), of which ``middle`` is the middle: the same at a hardness
     that no cell reaches, neither there nor in the middle."""
-    is_other_hardness = value_of(scene, HARDNESS) != value_of(prepared.scene, HARDNESS)
-    if is_other_hardness and _stays_elastic(strip, prepared.scene, HARDNESS, (scene,)):
+    is_other_hardness = value_of(scene, HARDNESS_KEY) != value_of(prepared.scene, HARDNESS_KEY)
+    if is_other_hardness and _stays_elastic(strip, prepared.scene, HARDNESS_KEY, (scene,)):
         return middle
     return _at_end(prepared, strip, speed, scene)
 
@@ -308,10 +308,10 @@ def _recommendation(prepared: Prepared) -> str:
     scene = prepared.scene
     sample = prepared.sample
     if not sample.cells.is_native and (has_moving_roughness(scene) or not sample.is_only_map):
-        return f"numerics.grid = 'given' for shorter cells, or {LOOSER}"
+        return f"numerics.grid = 'given' for shorter cells, or {LARGER_TOLERANCE}"
     if prepared.is_given or is_measured(scene):
-        return f"{LOOSER}, or a map with shorter cells"
-    return f"a finer contact.spacing with numerics.grid = 'given', or {LOOSER}"
+        return f"{LARGER_TOLERANCE}, or a map with shorter cells"
+    return f"a finer contact.spacing with numerics.grid = 'given', or {LARGER_TOLERANCE}"
 
 
 def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[str, ...]:
@@ -319,7 +319,7 @@ def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[s
     sample = prepared.sample
     tolerance = prepared.scene.numerics.sampling_tolerance
     if math.isnan(sampling):
-        return TOO_SHORT.format(length / sample.correlation_lengths[1]), BIASED
+        return SAMPLE_TOO_SHORT.format(length / sample.correlation_lengths[1]), BIASED
     return (
         (f"the standard error of sampling, {percent(sampling)}, is above its target of {percent(tolerance)}",)
         if sampling > tolerance

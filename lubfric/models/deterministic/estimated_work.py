@@ -5,12 +5,12 @@ import math
 from dataclasses import replace
 
 from ...samples import Sample
-from ...scene import FRICTION, Scene, has_moving_roughness, why_gap_not_resolved
+from ...scene import BOUNDARY_FRICTION_KEY, Scene, has_moving_roughness, why_gap_not_resolved
 from ...surface import Surface
 from ..contract import WorkEstimate
-from ..shared import FREEDOM_NOT_COUNTED, SAFETY, peak_hertz_pressure, smooth_over_cells, student
+from ..shared import FREEDOM_NOT_COUNTED, STRIPS_SAFETY, peak_hertz_pressure, smooth_over_cells, student
 from .counted_work import work_of_steps
-from .levels import DIFFERENCE
+from .levels import DIFFERENCE_SHARE
 from .linear import HIGH_PRESSURE
 from .moving_strip import OF_SHEAR
 from .problem import are_soft, reach
@@ -19,7 +19,7 @@ from .shorter_cells import SHORT
 from .strip_on_two_grids import factors_of
 
 # Newton steps on a strip, about.
-STEPS = 9
+STRIP_STEPS = 9
 
 # Newton steps on cells half as long, which begin there.
 FINER_STEPS = 6
@@ -42,15 +42,15 @@ AGAIN = 4
 
 # Factor on the work at rest where the heights are not smooth over a cell: cells a quarter as long, and more steps on all
 # (3 to 5 in four of five points of `python -m verification.campaigns.estimates`).
-ROUGH = 3.5
+ROUGH_WORK = 3.5
 
 # Factor on the work at rest where the bodies are soft (`are_soft`): Newton's method does not converge from the dry contact,
 # and steps in time take 60 to 500 factorisations, where a steel contact takes 5 to 20 (28 strips of E' 0.1 to 200 GPa;
 # points of 0.26 and 19 GPa took 33 and 36 times what they would otherwise be estimated to).
-SOFT = 30.0
+SOFT_WORK = 30.0
 
 # The same where a given film arrives at the inlet: 60 nm on 80 nm of roughness took 6 to 9 times as long.
-STARVED = 8.0
+STARVED_WORK = 8.0
 
 # Processor time of moving roughness over its counted work [-]: .38 to .66 in seven random points, for their matrices have cuts
 # one cell wide and omit what is small; less where fewer steps are needed than are counted.
@@ -78,7 +78,7 @@ UNLIKE = 0.65
 UNLIKE_IN_MOTION = 0.45
 
 # What is not solved takes nothing.
-NOTHING = WorkEstimate(strips=0, seconds=0.0)
+NO_WORK = WorkEstimate(strips=0, seconds=0.0)
 
 
 def estimated_work(
@@ -89,21 +89,21 @@ def estimated_work(
     numerics = scene.numerics
     sq = surface.sq
     if speed == 0 or sq == 0 or not sample.is_resolved:
-        return NOTHING
+        return NO_WORK
     both = factors_of(scene, sample)
     one_strip = moving_point_work(scene, sample, sq, speed, both) if has_moving_roughness(scene) else 0.0
     if scene.transient is not None or why_gap_not_resolved(scene):
         return WorkEstimate(strips=0, seconds=0.0, strip_seconds=one_strip)
     scatter = 0.0
     if numerics.model == "auto" and cheaper is not None and cheaper.model_error <= numerics.model_tolerance:
-        return NOTHING
+        return NO_WORK
     if cheaper is not None and math.isfinite(cheaper.sampling):
         scatter = cheaper.sampling * math.sqrt(sample.first)
     allowed = math.hypot(
-        DIFFERENCE * numerics.model_tolerance / student(FREEDOM_NOT_COUNTED), numerics.sampling_tolerance
+        DIFFERENCE_SHARE * numerics.model_tolerance / student(FREEDOM_NOT_COUNTED), numerics.sampling_tolerance
     )
     unlike = UNLIKE_IN_MOTION if has_moving_roughness(scene) else UNLIKE
-    count = min(max(1, math.ceil(SAFETY * (unlike * scatter / allowed) ** 2)), sample.available)
+    count = min(max(1, math.ceil(STRIPS_SAFETY * (unlike * scatter / allowed) ** 2)), sample.available)
     if has_moving_roughness(scene):
         if one_strip > MOST_WORK_IN_AUTO and numerics.model == "auto":
             return WorkEstimate(strips=0, seconds=0.0, strip_seconds=one_strip)
@@ -114,7 +114,7 @@ def estimated_work(
             strip_seconds=one_strip,
             length=sample.line_length(count),
         )
-    ends = 2 * sum(name != FRICTION for name, *_ in scene.ranges)
+    ends = 2 * sum(name != BOUNDARY_FRICTION_KEY for name, *_ in scene.ranges)
     is_smooth = smooth_over_cells(surface.heights)
     return WorkEstimate(strips=count, seconds=_work_at_rest(scene, sample, sq, speed, count, ends, is_smooth=is_smooth))
 
@@ -131,7 +131,7 @@ def _work_at_rest(
     if sample.is_only_map:  # it may be solved down to its own cells, and the ends on the same
         finer = 0.5 * cells * fx * fy * ux * uy
         again = work_of_steps(finer, AGAIN) * (ends + (ends > 0))
-        return work_of_steps(cells, STEPS) + work_of_steps(finer, FINER_STEPS) + again
+        return work_of_steps(cells, STRIP_STEPS) + work_of_steps(finer, FINER_STEPS) + again
     is_piece = (
         sample.strip_length < SHORT * sample.correlation_lengths[1]
     )  # all of a short strip is solved on shorter cells
@@ -139,12 +139,12 @@ def _work_at_rest(
     again = work_of_steps(cells, AGAIN) * (1 + ends + (ends > 0))  # once for the slope
     short = is_piece and fx * ux >= 4 <= fy * uy
     shorter = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if short else 0.0
-    seconds = count * work_of_steps(cells, STEPS) + work_of_steps(finer, _finer_steps(scene, sq, speed)) + again
+    seconds = count * work_of_steps(cells, STRIP_STEPS) + work_of_steps(finer, _finer_steps(scene, sq, speed)) + again
     if are_soft(scene.line_contact(abs(speed)), sq):
-        return SOFT * seconds + shorter
+        return SOFT_WORK * seconds + shorter
     if scene.lubricant.inlet_film is not None:
-        return STARVED * seconds + shorter
-    return seconds + shorter if is_smooth or short else ROUGH * seconds
+        return STARVED_WORK * seconds + shorter
+    return seconds + shorter if is_smooth or short else ROUGH_WORK * seconds
 
 
 def _finer_steps(scene: Scene, sq: float, speed: float) -> int:
@@ -179,7 +179,7 @@ def work_on_strips(
     (ux, uy) = sample.refinement
     length = sum(reach(scene.line_contact(abs(speed)), sq))
     cells = length / (fx * dx / ux) * sample.strip_length / (fy * dy / uy)
-    ends = 2 * sum(name != FRICTION for name, *_ in scene.ranges)
+    ends = 2 * sum(name != BOUNDARY_FRICTION_KEY for name, *_ in scene.ranges)
     thickened = scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene)
-    steps = HEAVY_LONG_CELL_STEPS if thickened > HIGH_PRESSURE else STEPS
+    steps = HEAVY_LONG_CELL_STEPS if thickened > HIGH_PRESSURE else STRIP_STEPS
     return count * work_of_steps(cells, steps) + work_of_steps(cells, AGAIN) * (ends + (ends > 0))

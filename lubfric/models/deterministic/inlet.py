@@ -27,22 +27,22 @@ if TYPE_CHECKING:
 
 # Gauss points of the closed solution upstream of the grid. Half and twice as many change f of the scene "paper" by
 # 1e-8.
-POINTS = 24
+INLET_POINTS = 24
 
 # Largest Q times alpha there: no converged film has as much.
-MOST = 0.8
+MOST_ALPHA_Q = 0.8
 
 
 @cache
 def _rule() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Gauss points and weights on (0, 1), and the matrix of the integrals from 0 to each point."""
-    node, weight = np.polynomial.legendre.leggauss(POINTS)
-    values = np.polynomial.legendre.legvander(node, POINTS)  # of P_0..P_n at the nodes
-    order = np.arange(POINTS)
-    coefficients = (2 * order[:, None] + 1) / 2 * (values[:, :POINTS].T * weight)
-    integral = np.empty((POINTS, POINTS))
+    node, weight = np.polynomial.legendre.leggauss(INLET_POINTS)
+    values = np.polynomial.legendre.legvander(node, INLET_POINTS)  # of P_0..P_n at the nodes
+    order = np.arange(INLET_POINTS)
+    coefficients = (2 * order[:, None] + 1) / 2 * (values[:, :INLET_POINTS].T * weight)
+    integral = np.empty((INLET_POINTS, INLET_POINTS))
     integral[:, 0] = node + 1
-    integral[:, 1:] = (values[:, 2:] - values[:, : POINTS - 1]) / (2 * order[1:] + 1)
+    integral[:, 1:] = (values[:, 2:] - values[:, : INLET_POINTS - 1]) / (2 * order[1:] + 1)
     return (node + 1) / 2, weight / 2, integral @ coefficients / 2
 
 
@@ -99,7 +99,7 @@ def inlet(problem: Problem, pressure: FloatArray, thickness: FloatArray) -> Inle
     if fed.any():  # from the pressure at the face upstream
         Q += np.where(fed, reduced - (speed * thickness - flow) / T - (A - flow * B), 0.0)[:, None]
     wet = ~fed[:, None] | (Q > 0)
-    p = true_pressure(lubricant)(np.clip(Q, 0.0, MOST / max(lubricant.pressure_viscosity_coefficient, 1e-30)))
+    p = true_pressure(lubricant)(np.clip(Q, 0.0, MOST_ALPHA_Q / max(lubricant.pressure_viscosity_coefficient, 1e-30)))
     slope = np.exp(cell_fluid(lubricant, p).log_viscosity)
     by_flow = -(slope * up_to) @ (weight * stretch)
     at_given_flow = np.where(fed, (slope * wet) @ (weight * stretch) * reduced_slope, by_flow * by_pressure)

@@ -54,16 +54,16 @@ from .time_and_place import mean_over_blocks
 
 # Part of numerics.model_tolerance that the half-width by the scatter of the difference may take [-]; the rest is for what
 # is added to it. Half: twice the time.
-DIFFERENCE = 0.95
+DIFFERENCE_SHARE = 0.95
 
 # Scatter of the deterministic f between strips over that of blocks [-], without a control variate. From the first
 # campaigns of strips, whose numbers are not kept; half and twice change nothing there.
-ALONE = 1.3
+STRIP_OVER_BLOCKS = 1.3
 
 # Scatter between strips, over that of blocks, of the difference of f from the control [-]. From the same
 # campaigns; with it the stated sampling error is 1.06 times the scatter of 200 surfaces in mixed lubrication
 # (docs/measurements.md, answers-seeds). Half narrows the interval by 32 %, twice takes twice the time.
-LINED = 1.2
+DIFFERENCE_OVER_BLOCKS = 1.2
 
 # Strips that the scatter of blocks weighs as much as, where both are pooled [-]. Half changes the interval by .4 %, twice
 # takes a third more time.
@@ -78,18 +78,20 @@ FREEDOM = 5
 BALANCED = 1.3
 
 # Factors by which the number of strips may grow, the first time and later [-] (`required_strips`).
-GROWTH = (4.0, 2.0)
+STRIPS_GROWTH = (4.0, 2.0)
 
 # Factor on the strips that an error needs, and least growth [-] (`required_strips`).
-SPARE = (1.1, 1.2)
+STRIPS_SPARE = (1.1, 1.2)
 
 # Counted work of the strips of one point [s], at most: `rough_bodies.MOST_WORK_IN_AUTO`, from which "auto" declines.
 MOST_WORK_OF_STRIPS = 120.0
 
 # Strips whose scatter tells an error [-]: two degrees of freedom. A convention.
-FEWEST = 3
+STRIPS_FOR_SCATTER = 3
 
-SUMMITS = "f corrected by {:+.2g} %, because the summits of the sample differ from those of the endless surface"
+CORRECTED_BY_SUMMITS = (
+    "f corrected by {:+.2g} %, because the summits of the sample differ from those of the endless surface"
+)
 OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
 
 
@@ -157,10 +159,13 @@ class TwoLevelEstimate:
         f = abs(self.numbers["coefficient"])
         tolerance = numerics.sampling_tolerance
         if not self.control_strips:
-            return required_strips(count, 1, most, self.error, f * tolerance, growth=GROWTH, spare=SPARE)
-        allowed = f * DIFFERENCE * numerics.model_tolerance / student(self.difference.freedom)
+            return required_strips(count, 1, most, self.error, f * tolerance, growth=STRIPS_GROWTH, spare=STRIPS_SPARE)
+        allowed = f * DIFFERENCE_SHARE * numerics.model_tolerance / student(self.difference.freedom)
         errors = (self.error, math.hypot(f * tolerance, allowed)), (self.difference, allowed)
-        return max(required_strips(count, 1, most, error, limit, growth=GROWTH, spare=SPARE) for error, limit in errors)
+        return max(
+            required_strips(count, 1, most, error, limit, growth=STRIPS_GROWTH, spare=STRIPS_SPARE)
+            for error, limit in errors
+        )
 
 
 def solve_strips(
@@ -182,7 +187,7 @@ def two_levels(
     the mean of the strips alone.
 
     Strips are needed until the standard error of f is within ``numerics.sampling_tolerance``. With the first level, the
-    difference of the models may leave a half-width of `DIFFERENCE` times ``numerics.model_tolerance`` beside it. No
+    difference of the models may leave a half-width of `DIFFERENCE_SHARE` times ``numerics.model_tolerance`` beside it. No
     more are wanted than `MOST_WORK_OF_STRIPS` allows. ``numerics``: whose tolerances count (None: those of the scene).
     """
     numerics = prepared.scene.numerics if numerics is None else numerics
@@ -329,7 +334,7 @@ def _of_moving(
     numbers["shear_force"] = load * friction.value - numbers["boundary_force"]
     numbers["couette_force"] = numbers["shear_force"] - numbers["rolling_force"]
     between = friction.plain.error * math.sqrt(len(strips))
-    note = SUMMITS.format(100 * friction.correction / friction.value) if friction.correction else ""
+    note = CORRECTED_BY_SUMMITS.format(100 * friction.correction / friction.value) if friction.correction else ""
     return TwoLevelEstimate(
         control_strips=0,
         numbers=numbers,
@@ -347,7 +352,7 @@ def mean(values: Iterable[float]) -> float:
 
 def _errors(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], numbers: dict[str, float]) -> dict[str, float]:
     """Relative standard errors of the ``numbers`` by their scatter between strips."""
-    if len(pairs) < FEWEST:
+    if len(pairs) < STRIPS_FOR_SCATTER:
         return {}
     rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
     errors = {name: float(np.std([row[name] for row in rows], ddof=1)) / math.sqrt(len(rows)) for name in numbers}
@@ -372,14 +377,14 @@ def _scatter(
         places = [values - share * control.deviations(k, values.size) for k, values in enumerate(places)]
         f -= share * control.numbers["coefficient"][:count]
     within = _block_error(places, sample, pairs[0])
-    by_blocks = count * (within.error * (LINED if control else ALONE)) ** 2
+    by_blocks = count * (within.error * (DIFFERENCE_OVER_BLOCKS if control else STRIP_OVER_BLOCKS)) ** 2
     if count == 1:
         return StandardError(math.sqrt(by_blocks), min(within.freedom, FREEDOM))
     by_strips = float(np.var(f, ddof=1))
     if not math.isfinite(by_blocks):  # a short strip has no blocks
         return StandardError(math.sqrt(by_strips / count), count - 1)
     pooled = (PRIOR * by_blocks + (count - 1) * by_strips) / (PRIOR + count - 1)
-    if not sample.is_homogeneous and count >= FEWEST and by_strips > pooled:
+    if not sample.is_homogeneous and count >= STRIPS_FOR_SCATTER and by_strips > pooled:
         return StandardError(math.sqrt(by_strips / count), count - 1)
     return StandardError(math.sqrt(pooled / count), FREEDOM + count - 1)
 

@@ -29,10 +29,10 @@ from .state import RUPTURED, TOUCHING, Iterate, State, stored
 
 # Residual of the linear system over its right side, at which GMRES ends [-]. Half and twice change the work by 1 %; 0.03
 # fails at 1 GPa and 0.03 m/s.
-ACCURACY = 0.01
+GMRES_RESIDUAL = 0.01
 
 # The same at rest where rows are scaled [-]. A roller of 1 GPa at 1, 0.3, 0.1, 0.03 m/s: 9, 9, -1 and 41 % less time than
-# with `ACCURACY` in rows that are not scaled; light contacts 7 % more. Half and twice: 1 % more work.
+# with `GMRES_RESIDUAL` in rows that are not scaled; light contacts 7 % more. Half and twice: 1 % more work.
 SCALED_ACCURACY = 0.1
 
 # Pressure-viscosity coefficient times Hertz pressure, from which on rows are scaled at rest [-]: 2 and 18 were measured.
@@ -47,11 +47,11 @@ SMALLEST_DIAGONAL = 1e-12
 # lubricant omits it [-]. A roller of 1 GPa (162 x 64 cells) with 0, 0.01, 0.03, 0.1 takes 285, 291, 289, 510 Newton
 # steps, and an LU 11.4, 10.6, 8.1, 4.6 ms; with 0.03 light, needle and gear contacts take as many steps as with 0, and 2
 # to 7 % fewer iterations of GMRES. At rest, where lubricant flows with U, 0.01 takes up to three times the steps.
-NEGLIGIBLE = 0.03
+OMITTED_COEFFICIENT = 0.03
 
 # Iterations of GMRES, after which it begins anew [-]: a bound of its memory. Half and twice change nothing; some 10 are
 # usual.
-KRYLOV = 40
+MOST_KRYLOV = 40
 
 # Times that GMRES begins, at most [-]: a bound. Half and twice change nothing.
 CYCLES = 3
@@ -64,7 +64,7 @@ PANEL = 1
 
 # Cells that nested dissection does not cut again [-]: with 6, 12, 24, 48, 96 the LU of a five-point stencil on 162 x 64
 # cells takes 8.8, 9.1, 9.3, 10.6, 12.3 ms.
-SMALL = 24
+UNCUT_CELLS = 24
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -189,7 +189,7 @@ class System:
         approach = (rows[-1] - float(self.load_row @ inner)) / self.schur
         return np.append(inner - approach * self.solved_column, approach)
 
-    def solve(self, accuracy: float = ACCURACY) -> tuple[Change, int]:
+    def solve(self, accuracy: float = GMRES_RESIDUAL) -> tuple[Change, int]:
         """Return the Newton step, and the iterations of GMRES.
 
         The right side is minus the equations at the state: mass of fluid cells, gap of touching ones, load. GMRES ends
@@ -215,10 +215,10 @@ class System:
 
 
 def _notable(data: FloatArray) -> np.ndarray:
-    """Return the coefficients ``data`` (6, nx, ny) with zeros where one is smaller than `NEGLIGIBLE` of the cell's own."""
+    """Return the coefficients ``data`` (6, nx, ny) with zeros where one is smaller than `OMITTED_COEFFICIENT` of the cell's own."""
     own = Stencil.NAMES.index(0)
     size = np.abs(data)
-    least = NEGLIGIBLE * size[own]
+    least = OMITTED_COEFFICIENT * size[own]
     notable = size >= least
     notable[own] = True
     return np.where(notable, data, 0.0)
@@ -234,8 +234,8 @@ def gmres(
     apply: Callable[..., Any],
     precondition: Callable[..., Any],
     right: FloatArray,
-    accuracy: float = ACCURACY,
-    most: int = KRYLOV,
+    accuracy: float = GMRES_RESIDUAL,
+    most: int = MOST_KRYLOV,
     cycles: int = CYCLES,
 ) -> tuple[np.ndarray, int]:
     """Solve ``apply(x) = right`` by right-preconditioned GMRES until |residual| <= accuracy |right|; restarted after
@@ -370,7 +370,7 @@ def _ring(cells: np.ndarray, width: int) -> list[np.ndarray]:
 
 def _box(cells: np.ndarray, width: int) -> list[np.ndarray]:
     nx, ny = cells.shape
-    if cells.size <= SMALL:
+    if cells.size <= UNCUT_CELLS:
         return [cells.ravel()]
     if nx >= width * ny:
         return _cut_across(cells, width, _box)

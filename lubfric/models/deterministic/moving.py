@@ -32,7 +32,7 @@ from ..._base import FloatArray
 from ...errors import CONVERGED, ITERATION_LIMIT, Report
 from ...film import LineContact
 from ...surface import Surface
-from .linear import ACCURACY
+from .linear import GMRES_RESIDUAL
 from .newton import Work, newton
 from .problem import Problem, shifted
 from .result import DeterministicResult, assemble
@@ -42,21 +42,21 @@ from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, e
 # The effects of half and twice a constant are those named in `moving_strip`.
 
 # Residual of a step (`residuals`), unless another is given [-]. With 0.2 instead f of a roller of 1 GPa is the same to 1e-4.
-EXACT = 1e-3
+MOVING_STEP_RESIDUAL = 1e-3
 
 # LU factorisations of a step, at most [-]; a usual step takes 3 to 4. Half and twice change nothing.
-MOST = 160
+MOST_STEP_FACTORISATIONS = 160
 
 # Euler steps that lead to a step that Newton's method does not solve [-]. Half and twice change nothing.
-PARTS = 4
+EULER_STEPS = 4
 
 # Orders of a step along the lubricant [-]: the first, and those that follow where it is not solved. On an exponential
 # surface (verification/campaigns/moving_coverage, seed 2) one step of 52 needs the second, which takes 5 LU factorisations.
-ORDERS = (3, 2, 1)
+STEP_ORDERS = (3, 2, 1)
 
 # Distance over which the pressure is smoothed, to separate what goes with the roughness [half-widths]. Half takes 12 %
 # more time, twice 3 %; f moves by 0.2 %, within the residual of a step.
-SMOOTH = 0.4
+SMOOTHED_HALF_WIDTHS = 0.4
 
 # Part of the last change of the pressure with the roughness that a step begins with [-]. With none a needle roller at .05
 # m/s takes 9 % more Newton steps, a flank with a slide-roll ratio of 1.28 5 to 30 %.
@@ -68,18 +68,18 @@ EXTRAPOLATED = 0.5
 SUDDEN = 2
 
 # Relative difference up to which the lubricant passes one cell in a step [-]. A convention, far above rounding.
-SAME = 1e-9
+SAME_STEP = 1e-9
 
 
 @dataclass(frozen=True)
 class Moment:
     """The film ``at`` a ``time`` [s] since the roughness began to move; ``work``: what this step took; ``order`` (of
-    `ORDERS`): of a step along the lubricant."""
+    `STEP_ORDERS`): of a step along the lubricant."""
 
     time: float
     at: Iterate
     work: Work
-    order: int = ORDERS[0]
+    order: int = STEP_ORDERS[0]
 
     @cached_property
     def result(self) -> DeterministicResult:
@@ -102,9 +102,9 @@ def moments(
     step: float,
     *,
     start: State | None = None,
-    tolerance: float = EXACT,
+    tolerance: float = MOVING_STEP_RESIDUAL,
     carries_imbalance: bool = False,
-    linear_accuracy: float = ACCURACY,
+    linear_accuracy: float = GMRES_RESIDUAL,
     shift: int = 0,
 ) -> Iterator[Moment]:
     """Yield the film from moment to moment, without end, while the heights of its surfaces change with time.
@@ -129,15 +129,19 @@ def moments(
     count = 0
     imbalance: np.ndarray | None = None
     at = before = earlier = evaluated(problem, solve_point(problem).state if start is None else start)
-    smooth = max(1, round(SMOOTH * half_width(problem.line) / problem.spacing[0]))
+    smooth = max(1, round(SMOOTHED_HALF_WIDTHS * half_width(problem.line) / problem.spacing[0]))
     yield Moment(0.0, at, Work(0))
     while True:
         count += 1
-        work = Work(MOST)
+        work = Work(MOST_STEP_FACTORISATIONS)
         problem = problem_at(count * step)
         history = _history(problem, (at, before, earlier), step, imbalance)
-        how: dict[str, Any] = {"tolerance": tolerance, "most": MOST // 4, "linear_accuracy": linear_accuracy}
-        order = ORDERS[0]
+        how: dict[str, Any] = {
+            "tolerance": tolerance,
+            "most": MOST_STEP_FACTORISATIONS // 4,
+            "linear_accuracy": linear_accuracy,
+        }
+        order = STEP_ORDERS[0]
         rate = EXTRAPOLATED if count > SUDDEN else 0.0
         near = (_moved(at.state, before.state, shift, smooth, rate),) if shift else ()
         for state in (*near, at.state):
@@ -146,7 +150,7 @@ def moments(
                 break
         else:
             nearby = _in_parts(problem_at, at, (count - 1) * step, step, work, how)
-            for order in ORDERS if history.follows_lubricant else ORDERS[:1]:
+            for order in STEP_ORDERS if history.follows_lubricant else STEP_ORDERS[:1]:
                 history = _history(problem, (at, before, earlier), step, imbalance, order=order)
                 result = newton(problem, nearby, work, history=history, **how)
                 if result.residual <= tolerance:
@@ -179,7 +183,7 @@ def _history(
     step: float,
     imbalance: np.ndarray | None = None,
     *,
-    order: int = ORDERS[0],
+    order: int = STEP_ORDERS[0],
 ) -> TimeHistory:
     """Return the history of the step to ``problem``; ``past``: the last three moments, from the last one on (of the
     first step all are one); ``imbalance`` [m/s]: what the last step left in each cell; ``order``: of a step along the
@@ -187,7 +191,7 @@ def _history(
     (at, before, earlier) = past
     cell = problem.spacing[0]
     lost = 0.0 if imbalance is None else step * imbalance
-    if max(abs(end.speed * step - cell) for end in (problem, at.problem)) > SAME * cell:
+    if max(abs(end.speed * step - cell) for end in (problem, at.problem)) > SAME_STEP * cell:
         if at is before:
             return TimeHistory(extrapolated=at.mass, step=step)
         return TimeHistory(extrapolated=extrapolated_mass(at.mass, before.mass) - lost, step=step, last=at.mass)
@@ -199,13 +203,13 @@ def _history(
             mass = np.concatenate([entering, mass[:-1]])
         return mass
 
-    earlier_mass = upstream(earlier.mass, 2) if order == ORDERS[0] else None
+    earlier_mass = upstream(earlier.mass, 2) if order == STEP_ORDERS[0] else None
     left = extrapolated_mass(at.mass, upstream(before.mass), 0.5 if order > 1 else 0.0, earlier_mass) - lost
     return TimeHistory(
         extrapolated=np.concatenate([0.0 * left[:1], left[:-1]]),  # what enters has no history
         step=step,
         last=upstream(at.mass) if order > 1 else None,
-        earlier=upstream(before.mass, 2) if order == ORDERS[0] else None,
+        earlier=upstream(before.mass, 2) if order == STEP_ORDERS[0] else None,
         follows_lubricant=True,
     )
 
@@ -213,11 +217,11 @@ def _history(
 def _in_parts(
     problem_at: Callable[[float], Problem], at: Iterate, time: float, step: float, work: Work, how: dict[str, Any]
 ) -> State:
-    """Return the state after the step after ``time`` in `PARTS` Euler steps, as far as they are solved: a start only,
+    """Return the state after the step after ``time`` in `EULER_STEPS` Euler steps, as far as they are solved: a start only,
     because they do not keep the mass that the steps of second order keep."""
-    for part in range(1, PARTS + 1):
-        problem = problem_at(time + part * step / PARTS)
-        history = TimeHistory(extrapolated=at.mass, step=step / PARTS)
+    for part in range(1, EULER_STEPS + 1):
+        problem = problem_at(time + part * step / EULER_STEPS)
+        history = TimeHistory(extrapolated=at.mass, step=step / EULER_STEPS)
         result = newton(problem, at.state, work, history=history, **how)
         if not result.residual <= how["tolerance"]:
             break

@@ -15,8 +15,8 @@ from ...oil import Lubricant
 from ...scene import Scene
 from ...surface import Surface
 from ...units import worded
-from .linear import ACCURACY
-from .moving import ORDERS, SAME, Moment, RoughBody, half_width, moments, travelling
+from .linear import GMRES_RESIDUAL
+from .moving import SAME_STEP, STEP_ORDERS, Moment, RoughBody, half_width, moments, travelling
 from .problem import HERTZ_INLET, HERTZ_OUTLET, Problem, reach
 from .result import DeterministicResult, LoadSplit, change_with_oil
 from .state import State
@@ -29,14 +29,14 @@ from .time_and_place import TimeAndPlace, mean_over_blocks
 
 # Cells in the Hertz half-width [-], from which on steps may be loose. On fewer, one cell that changed its kind moved the
 # asperity load ratio by 0.013 (verification/campaigns/moving_effort).
-RESOLVED = 8
+CELLS_FOR_LOOSE_STEPS = 8
 
 # LU factorisations in a step in time [-], for the estimate of the work: 3.0 to 4.1 on four contacts of
 # verification/campaigns/moving_coverage.
-STEPS = 4.0
+FACTORISATIONS_IN_A_STEP = 4.0
 
 # GMRES iterations in a step in time [-], for the estimate of the work: 23 to 34 on the same contacts.
-KRYLOV = 25.0
+KRYLOV_IN_A_STEP = 25.0
 
 # Film of the smooth contact over Sq [-], from which on waves are small, and steps tight. A convention: loose steps were
 # compared up to there (verification/campaigns/moving_effort).
@@ -47,18 +47,18 @@ SMALL_WAVES = 3.0
 ON_LONGER = 0.5
 
 # Steps in time that the strip at rest is worth, on two lengths of cells [-], for the estimate of the work: 3 to 6 on the
-# contacts of `STEPS`, more on a light one whose asperities carry the load (the bodies of the scene "paper" at 0.01 m/s).
-AT_REST = 12.0
+# contacts of `FACTORISATIONS_IN_A_STEP`, more on a light one whose asperities carry the load (the bodies of the scene "paper" at 0.01 m/s).
+STEPS_WORTH_OF_REST = 12.0
 
 # Mean square height below which a body is smooth [m²]. A convention.
 SMALLEST_SQUARE = 1e-30
 
 # Speed of the roughness over U [-]: where all is slower, the fastest passes one cell in a step; else the lubricant does.
 # There that takes twice as many steps as the roughness needs; `moving` has what slower roughness would gain.
-SLOW = 0.5
+SLOW_ROUGHNESS = 0.5
 
 # The same where some roughness is faster [-]: then it passes one cell in a step, and not more.
-FAST = 2.0
+FAST_ROUGHNESS = 2.0
 
 # Distance that the lubricant travels in the moments on longer cells that are compared with those of a strip [half-widths].
 # The change of f on a needle roller is 4.8 % after 0.4, 3.8 % after 1.0, 3.0 % after 2.0 and 2.6 % after 10. Half and twice
@@ -70,7 +70,7 @@ COMPARED = 1.0
 CONTINUED = 0.4
 
 # Moments of a continuation that count, at least [-]. Half and twice change nothing there.
-FEWEST = 8
+FEWEST_CONTINUED = 8
 
 # Distance that the roughness travels in the moments that count before the error of the mean is known first [half-widths]:
 # half of a block of time (`time_and_place.TIME_BLOCK`).
@@ -78,14 +78,14 @@ PILOT = 1.5
 
 # Factors by which the moments that count may grow from one check of that error to the next [-]. A convention: more
 # than a few checks cost nothing, and an error from few blocks is too uncertain to grow by more.
-MORE = (1.25, 2.5)
+MOMENTS_GROWTH = (1.25, 2.5)
 
 # Distance that the roughness travels in the moments that count [half-widths], for the estimate of the work: bearing 2
 # to 3, gear flank 6, needle roller 10 (verification/campaigns/moving_coverage).
 EXPECTED = 5.0
 
 # Moments over those that the error needs [-]. A convention.
-SPARE = 1.1
+MOMENTS_SPARE = 1.1
 
 # Numbers of a strip that are kept at every moment.
 SERIES = "coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film", "peak_pressure"
@@ -117,7 +117,7 @@ class MovingEffort:
 TIGHT = MovingEffort(
     residual=1e-4,
     carries_imbalance=False,
-    linear=ACCURACY,
+    linear=GMRES_RESIDUAL,
     inlet=HERTZ_INLET,
     outlet=HERTZ_OUTLET,
     discarded=2.5,  # from 1.5 half-widths before the middle of the contact to one behind it
@@ -174,7 +174,7 @@ class MovingStripSolution(StripSolution):
     @property
     def follows_lubricant(self) -> bool:
         """Whether the lubricant passed one cell in a step, so that the steps are of third order along it."""
-        return abs(self.problem.speed * float(self.times[0]) / self.problem.spacing[0] - 1.0) < SAME
+        return abs(self.problem.speed * float(self.times[0]) / self.problem.spacing[0] - 1.0) < SAME_STEP
 
     @property
     def peak_pressure(self) -> float:
@@ -237,7 +237,7 @@ def solve_moving_strip(
             break
     count = required
     speeds = " and ".join(f"{body.speed:.4g}" for body in bodies)
-    lower = sum(row["order"] < ORDERS[0] for row in rows)
+    lower = sum(row["order"] < STEP_ORDERS[0] for row in rows)
     note = (
         f"the roughness moves at {speeds} m/s: mean over {count} steps of {worded(step, 's')}, after {discarded} discarded ones; "
         f"at rest f = {rest.result.coefficient:.4g}{f'; {lower} steps by lower order' if lower else ''}"
@@ -317,8 +317,8 @@ def _required_moments(places: TimeAndPlace, target: SampleTarget, required: int,
     reached = friction.error.error * (1 + 1 / math.sqrt(freedom)) / abs(friction.value) if freedom else math.inf
     if reached <= target.error:
         return required
-    times = SPARE * (reached / target.error) ** 2
-    return min(most, math.ceil(required * min(max(times, MORE[0]), MORE[1])))
+    times = MOMENTS_SPARE * (reached / target.error) ** 2
+    return min(most, math.ceil(required * min(max(times, MOMENTS_GROWTH[0]), MOMENTS_GROWTH[1])))
 
 
 def _pilot(line: LineContact, bodies: Sequence[RoughBody], step: float) -> int:
@@ -364,7 +364,7 @@ def continued_moments(line: LineContact, cell: float, way: float, effort: Moving
     """Return the numbers of moments of a continuation that are discarded, and that count, on cells [m] along x; ``way``
     [m]: that the lubricant travels in a step."""
     width = half_width(line)
-    return math.ceil(effort.discarded_again * width / way), max(FEWEST, math.ceil(CONTINUED * width / cell))
+    return math.ceil(effort.discarded_again * width / way), max(FEWEST_CONTINUED, math.ceil(CONTINUED * width / cell))
 
 
 def strip_at_rest(
@@ -486,7 +486,7 @@ def effort_for(line: LineContact, sq: float, cell: float) -> MovingEffort:
     starved = oil.inlet_film is not None or oil.inlet_length is not None
     light = half_width(line) > line.half_width
     smooth = line.moes_film > SMALL_WAVES * sq
-    narrow = line.half_width < RESOLVED * cell
+    narrow = line.half_width < CELLS_FOR_LOOSE_STEPS * cell
     return TIGHT if starved or light or smooth or narrow else ECONOMICAL
 
 
@@ -504,7 +504,7 @@ def _steps(
     """Return the length [s] of a step, and the numbers of steps that are discarded and that count, for cells [m] along
     x and a ``fastest`` body [m/s] whose map has this ``length`` [m]."""
     speed = line.entrainment_speed
-    step = cell / (speed if SLOW <= abs(fastest) / speed <= FAST else abs(fastest))
+    step = cell / (speed if SLOW_ROUGHNESS <= abs(fastest) / speed <= FAST_ROUGHNESS else abs(fastest))
     discarded = math.ceil(effort.discarded * half_width(line) / (speed * step))
     return step, discarded, max(1, round(length / (abs(fastest) * step)))
 
@@ -520,4 +520,6 @@ def moving_work(
     expected = math.ceil(EXPECTED * half_width(line) / (abs(fastest) * step))
     compared = min(count, expected, math.ceil(COMPARED * half_width(line) / (line.entrainment_speed * step)))
     steps = discarded + min(count, expected) + continuations * once_more + ON_LONGER * (discarded + compared)
-    return AT_REST * work_of_steps(cells, STEPS, KRYLOV) + steps * work_of_steps(cells, STEPS, KRYLOV)
+    return STEPS_WORTH_OF_REST * work_of_steps(
+        cells, FACTORISATIONS_IN_A_STEP, KRYLOV_IN_A_STEP
+    ) + steps * work_of_steps(cells, FACTORISATIONS_IN_A_STEP, KRYLOV_IN_A_STEP)

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..._base import BoolArray, count_work
 from .counted_work import work_of_steps
-from .linear import ACCURACY, Change, System
+from .linear import GMRES_RESIDUAL, Change, System
 from .problem import Problem
 from .state import TOUCHING, Iterate, State, TimeHistory, evaluated, residuals, update_active_sets
 
@@ -21,70 +21,70 @@ KEEP = 0.2
 
 # Floors by which a cell may nevertheless sink below the floor in a step [-]: closed cells would stop all others. Half takes
 # 2 % less work (15 % less on a soft film), twice changes nothing.
-BELOW = 3.0
+MOST_SINKING = 3.0
 
 # Part of a Newton step that is taken, whatever the gap of a cell says [-]. Half and twice change the work by 1 %.
-SHORTEST = 0.1
+LEAST_STEP_PART = 0.1
 
 # Halvings of a step, at most, while the mass residual grows [-]: a bound. Half and twice change nothing.
-HALVINGS = 10
+STEP_HALVINGS = 10
 
 # Factor by which the residual may grow in a step [-]. Half of it, which asks the residual to halve, takes 69 % more work
 # , twice 8 % more. On last levels of a roller of 1 GPa 2 takes 9, 13, 8, 9, 15, 24 Newton steps where 1.05 takes 11, 12,
 # 12, 11, 13, 16, and 10 takes up to 35.
-GROWTH = 1.05
+RESIDUAL_GROWTH = 1.05
 
-# The same in a step as short as `SHORTEST` [-]. Half and twice change nothing.
+# The same in a step as short as `LEAST_STEP_PART` [-]. Half and twice change nothing.
 SURGE = 2.0
 
 # Steps in which the residual has to fall [-]. Half and twice change nothing.
-PATIENCE = 20
+NEWTON_PATIENCE = 20
 
 # Residual over the least one before these steps, to which it has to fall [-]. Half changes nothing, twice takes 6 % more
 # work on a soft film.
 PROGRESS = 0.95
 
 # First step in time over dx/U [-]. Half and twice take 14 % less work on a soft film: it is not tuned to it.
-FIRST = 3.0
+FIRST_TIME_STEP = 3.0
 
 # Factor of a step in time after one that was not solved [-]. Half takes 15 % less work on a soft film,
 # twice 26 % more.
-SHRINK = 0.25
+TIME_STEP_SHRINKAGE = 0.25
 
 # Steps in time solved in a row, from which on they grow [-]: where the next one fails, its Newton steps are lost. With
-# `SHRINK` = 0.5, no waiting and `PART` = 0.3, four films of a soft roller (E' 19 GPa, film/Sq 0.05) took 723
+# `TIME_STEP_SHRINKAGE` = 0.5, no waiting and `IMBALANCE_PART` = 0.3, four films of a soft roller (E' 19 GPa, film/Sq 0.05) took 723
 # factorisations from the dry contact; with these values they take 315. Alone, half takes 8 % and
 # twice 55 % less work on the soft film of the campaign.
 WAIT = 3
 
-# Factors of a step in time after one that was solved [-]: after at most `EASY` Newton steps, and after more. Half, so
+# Factors of a step in time after one that was solved [-]: after at most `EASY_STEPS` Newton steps, and after more. Half, so
 # that they never grow, takes 39 % less work on a soft film, twice 24 % more.
 GROW = (2.0, 1.5)
 
 # Newton steps, up to which a step in time was easy [-]. Half takes 9 % less work on a soft film;
 # twice changes nothing.
-EASY = 5
+EASY_STEPS = 5
 
 # Step in time over dx/U, below which the steps in time have failed [-]: a bound. Half and twice change
 # nothing.
-LEAST = 1e-3
+LEAST_TIME_STEP = 1e-3
 
 # Step in time over dx/U, above which the film is steady [-]: a bound. Half and twice change nothing.
-LAST = 1e5
+LAST_TIME_STEP = 1e5
 
 # Newton steps in a step in time, at most [-]. Half takes 27 % less work on a soft film, twice 55 % more.
 INNER = 8
 
 # Residual of a step in time, at most [-]. Half takes 13 % less work on a soft film, twice changes nothing.
-LOOSE = 0.1
+MOST_STEP_RESIDUAL = 0.1
 
 # Residual of a step in time over the steady imbalance of mass [-]. Half takes 16 % less work
 # on a soft film; with twice it is not solved.
-PART = 0.6
+IMBALANCE_PART = 0.6
 
 # Part of the tolerance of a solution to which steps in time are solved, at least [-]. Half and twice change
 # nothing.
-FINER = 1 / 3
+STEP_TOLERANCE_PART = 1 / 3
 
 
 @dataclass
@@ -127,8 +127,8 @@ def newton(
     most: int,
     least: float = 0.0,
     history: TimeHistory | None = None,
-    linear_accuracy: float = ACCURACY,
-    patience: int = PATIENCE,
+    linear_accuracy: float = GMRES_RESIDUAL,
+    patience: int = NEWTON_PATIENCE,
 ) -> NewtonResult:
     """At most ``most`` steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
 
@@ -178,19 +178,19 @@ def _advanced(at: Iterate, step: Change) -> tuple[Iterate, float, float]:
     length = _longest(at, step)
     before = _merit(at, apart)
     merits: list[float] = []
-    for _ in range(HALVINGS):
+    for _ in range(STEP_HALVINGS):
         new = evaluated(at.problem, step.added(at.state, length), at.history)
         merits.append(_merit(new, apart))
-        if merits[-1] <= (GROWTH if length > SHORTEST else SURGE) * before:
+        if merits[-1] <= (RESIDUAL_GROWTH if length > LEAST_STEP_PART else SURGE) * before:
             break
         length /= 2
     return new, merits[0], length
 
 
 def _longest(at: Iterate, step: Change) -> float:
-    lost = -step.gap - BELOW * at.problem.floor
+    lost = -step.gap - MOST_SINKING * at.problem.floor
     falling = (lost > 0) & (at.gap > at.problem.floor)
-    return float(max(SHORTEST, ((1 - KEEP) * at.gap[falling] / lost[falling]).min(initial=1.0)))
+    return float(max(LEAST_STEP_PART, ((1 - KEEP) * at.gap[falling] / lost[falling]).min(initial=1.0)))
 
 
 def _merit(at: Iterate, apart: BoolArray) -> float:
@@ -208,15 +208,15 @@ def march(problem: Problem, state: State, work: Work, *, tolerance: float, most:
     Behind closed furrows it is long, because valleys fill by what leaks in.
     """
     unit = problem.spacing[0] / problem.speed
-    step = FIRST * unit
+    step = FIRST_TIME_STEP * unit
     last = work.factorisations + min(most, work.left)
     at = evaluated(problem, state)
     solved = 0
-    while work.factorisations < last and LEAST * unit <= step <= LAST * unit:
+    while work.factorisations < last and LEAST_TIME_STEP * unit <= step <= LAST_TIME_STEP * unit:
         left = residuals(update_active_sets(at))["mass"]
         if left <= tolerance:
             break
-        goal = max(FINER * tolerance, min(LOOSE, PART * left))
+        goal = max(STEP_TOLERANCE_PART * tolerance, min(MOST_STEP_RESIDUAL, IMBALANCE_PART * left))
         begun = work.factorisations
         most = min(INNER, last - begun)
         history = TimeHistory(extrapolated=at.mass, step=step)
@@ -226,8 +226,8 @@ def march(problem: Problem, state: State, work: Work, *, tolerance: float, most:
             at = evaluated(problem, result.at.state)
             solved += 1
             if solved >= WAIT:
-                step *= GROW[work.factorisations - begun > EASY]
+                step *= GROW[work.factorisations - begun > EASY_STEPS]
         else:
-            step *= SHRINK
+            step *= TIME_STEP_SHRINKAGE
             solved = 0
     return at.state

@@ -9,13 +9,13 @@ import numpy as np
 from ..._base import figures
 from .moving_strip import Moment, MovingStripSolution, half_width
 
-MOST = 8  # moments side by side
+MOST_MOMENTS = 8  # moments side by side
 TIME = "time since the roughness began to move (ms)"
 
 
 def plot_moments(path: Path | str, moments: Sequence[Moment]) -> None:
     """Gap and pressure at up to eight ``moments``, one column each."""
-    shown = moments[:: -(-len(moments) // MOST)]
+    shown = moments[:: -(-len(moments) // MOST_MOMENTS)]
     figure = figures.new_figure(figsize=(2.4 * len(shown) + 1, 6))
     for column, moment in zip(figure.subplots(2, len(shown), squeeze=False, sharex=True, sharey="row").T, shown):
         _fields(column, moment, *_limits(shown))

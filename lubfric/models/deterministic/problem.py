@@ -56,7 +56,7 @@ FILM_OUTLET = 0.8
 # took long by Newton's method alone, and one of 0.7 did at 19 GPa.
 ISOVISCOUS = 1.0
 
-LARGEST = 2**20  # cells
+MOST_GRID_CELLS = 2**20  # cells
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -182,7 +182,7 @@ def lay_out(
     (fx, fy) times as long, which take every fx-th and fy-th of its heights where they are.
 
     If the grid is longer than the map, the map is repeated, or mirrored if it is not periodic along x. ``ends`` [m]:
-    lengths up and down stream (default: `reach`). Raises `InputError` for more cells than `LARGEST`, and for factors
+    lengths up and down stream (default: `reach`). Raises `InputError` for more cells than `MOST_GRID_CELLS`, and for factors
     that do not divide the map.
     """
     (nx, ny) = surface.shape
@@ -201,10 +201,10 @@ def lay_out(
     first = math.floor((middle - taken) / fx - upstream / dx)
     last = math.ceil((middle - taken) / fx + downstream / dx)
     index = taken + fx * np.arange(first, last + 1)
-    if index.size * (ny // fy) > LARGEST:
+    if index.size * (ny // fy) > MOST_GRID_CELLS:
         raise InputError(
             f"contact: a deterministic film needs {index.size} x {ny // fy} cells of {dx:.3g} x {dy:.3g} m here; "
-            f"allowed: up to {LARGEST:.3g} cells (larger contact.spacing, or a narrower patch)"
+            f"allowed: up to {MOST_GRID_CELLS:.3g} cells (larger contact.spacing, or a narrower patch)"
         )
     period = nx if surface.periodic_axes[0] else 2 * nx
     place = index % period

@@ -5,7 +5,8 @@ from dataclasses import replace
 from ...contact import HalfSpaceContact
 from ...samples import Sample
 from ...scene import (
-    FRICTION,
+    BOUNDARY_FRICTION_KEY,
+    HARDNESS_KEY,
     Scene,
     has_moving_roughness,
     moving_bodies,
@@ -23,7 +24,6 @@ from .problem import (
 )
 from .summits import SummitControl, control_of
 
-HARDNESS = "bodies.hardness"
 MOST_WORK_IN_AUTO = (
     120.0  # s, counted: a point whose estimate is above it is left to load sharing by "auto" (docs/models.md)
 )
@@ -93,7 +93,7 @@ def moving_point_work(scene: Scene, sample: Sample, sq: float, speed: float, fac
     ends = reach(line, sq, inlet=effort.inlet, outlet=effort.outlet)
     cells = sum(ends) / (fx * dx) * sample.strip_length / (fy * dy)
     fastest = abs(speed) * max(abs(ratio) for _, ratio in moving_bodies(scene))
-    solved_ends = 2 * sum(name not in (FRICTION, HARDNESS) for name, *_ in scene.ranges)
+    solved_ends = 2 * sum(name not in (BOUNDARY_FRICTION_KEY, HARDNESS_KEY) for name, *_ in scene.ranges)
     continuations = (
         solved_ends + 1 if solved_ends else 0
     )  # with the one at the prepared inputs, which they are compared with

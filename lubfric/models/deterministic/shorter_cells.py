@@ -50,10 +50,10 @@ from .strip_on_two_grids import (
 
 # Part of numerics.sampling_tolerance: standard error that the effect of the cells may leave [-]. Half takes 25 % more time
 # and moves f by 0.8 %, within the stated error; twice widens the interval by 4 %.
-CELLS = 0.7
+PIECES_SAMPLING_SHARE = 0.7
 
 # Pieces, at most [-]. Half and twice change nothing.
-MOST_PIECES = 32
+MOST_SOLVED_PIECES = 32
 
 # Counted work [s] of pieces beyond which no more are solved: a quarter of `MOST_WORK_IN_AUTO`. Half and twice change
 # nothing.
@@ -89,7 +89,7 @@ ALONG_Y_THIN = 0.6
 # LU factorisations of a piece on longer cells, from which it starts, at most [-]. Half and twice change nothing.
 AS_START = 100
 
-# Relative error of f that the tolerance of a strip may leave [-]: twice the change of f by it (`strip.ENOUGH`). Half and
+# Relative error of f that the tolerance of a strip may leave [-]: twice the change of f by it (`strip.STRIP_RESIDUAL`). Half and
 # twice change the interval by 0.02 %.
 SOLVED = 2e-3
 
@@ -98,7 +98,7 @@ SHORT = 60.0
 
 # Length [correlation lengths] of the piece of the last level: a third of `PIECE`. Half and twice change nothing on these
 # points, which do not need it.
-SHORTEST = 14.0
+LAST_PIECE = 14.0
 
 # Part of what so short a piece changes by which it may be off the mean [-]. A convention.
 OFF = 0.5
@@ -116,12 +116,12 @@ SPEED_MATTERS = 1.0
 PIECES_SHARE = 0.6
 
 # Factor on the estimated effect of shorter cells where these were not solved [-]. A convention.
-UNSOLVED = 2.0
+UNSOLVED_FACTOR = 2.0
 
 # Times (cell along x over Hertz half-width)²: error of f of soft bodies at rest, at least [-]. Their film builds up in the
 # Hertz strip itself, and changes of f from cells to cells may have either sign: 1.5, 3, 6 and 12 cells in the half-width of
 # a roller of E' 19 GPa give f of .00652, .00682, .00590, .00574 at Λ 1.0, and .01114, .01029, .01001, .01000 at Λ 2.2.
-SOFT = 1.5
+SOFT_CELL_ERROR = 1.5
 
 # A piece of the surface, solved on shorter and shorter cells.
 Piece = tuple[StripSolution, ...]
@@ -156,7 +156,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     rests.
 
     - The third level is needed where the estimated error by the cells of the strips is above the tolerance, or where the
-      heights are not smooth over a cell. Where it is not solved, the error is `UNSOLVED` times the estimate.
+      heights are not smooth over a cell. Where it is not solved, the error is `UNSOLVED_FACTOR` times the estimate.
     - The fourth level is needed where the third leaves more than the tolerance, and solved where `MOST_WORK_IN_AUTO`
       allows it. What it estimates from one short piece may be off by half.
     - A single patch has one piece: all of it, on shorter and shorter cells. Raises `ConvergenceError` if that does not
@@ -181,7 +181,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
         with limited_work(PIECES_SHARE * work_left()):
             pieces, scatter = _third_level(prepared, speed, pairs)
     except ConvergenceError:
-        return ShorterCells(error=UNSOLVED * error, has_unsolved=True)
+        return ShorterCells(error=UNSOLVED_FACTOR * error, has_unsolved=True)
     changes = [piece[-1].result.coefficient / piece[1].result.coefficient - 1 for piece in pieces]
     change = abs(float(np.mean(changes)))  # its error is reported
     factors = zip(factors_of(scene, sample), sample.cells.coarsening)
@@ -192,9 +192,9 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
         return ShorterCells(pieces=pieces, sampling=scatter, error=error)
     try:
         with limited_work(PIECES_SHARE * work_left()):
-            shortest = _refined(prepared, speed, 0, None, pairs[0].resolved.slope, times=4, length=SHORTEST)
+            shortest = _refined(prepared, speed, 0, None, pairs[0].resolved.slope, times=4, length=LAST_PIECE)
     except ConvergenceError:
-        return ShorterCells(pieces=pieces, sampling=scatter, error=UNSOLVED * error, has_unsolved=True)
+        return ShorterCells(pieces=pieces, sampling=scatter, error=UNSOLVED_FACTOR * error, has_unsolved=True)
     coarse, fine = (strip.result for strip in shortest[-2:])
     further = abs(1 - coarse.coefficient / fine.coefficient)
     of_mean = math.sqrt(max(changes_of(shortest[-2:])[0] ** 2 - further**2, 0.0))  # scatter of it over places
@@ -209,7 +209,7 @@ def error_of_soft_bodies(strip: StripSolution) -> float:
     problem = strip.problem
     if not are_soft(problem.line, float(problem.heights.std())):
         return 0.0
-    return SOFT * (problem.spacing[0] / problem.line.half_width) ** 2
+    return SOFT_CELL_ERROR * (problem.spacing[0] / problem.line.half_width) ** 2
 
 
 def _are_enough(prepared: Prepared, error: float) -> bool:
@@ -243,7 +243,7 @@ def _is_costly(sample: Sample, pairs: Sequence[StripOnTwoGrids], pieces: Sequenc
     finest = pieces[0][-1]
     spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
     length = finest.result.load_at.size * finest.result.spacing[1]
-    share = min(SHORTEST * sample.correlation_lengths[1] / length, 1.0)  # a short map is all of both pieces
+    share = min(LAST_PIECE * sample.correlation_lengths[1] / length, 1.0)  # a short map is all of both pieces
     return spent + 4 * share * finest.work > MOST_WORK_IN_AUTO
 
 
@@ -355,11 +355,13 @@ def _pieces(prepared: Prepared, speed: float, first: StripOnTwoGrids | None) -> 
     """Pieces at ``speed`` [m/s] until the standard error of their mean relative change of f is small; ``first``: the
     strip that is the first of them (None: all are pieces)."""
     sample = prepared.sample
-    tolerance = CELLS * prepared.scene.numerics.sampling_tolerance
+    tolerance = PIECES_SAMPLING_SHARE * prepared.scene.numerics.sampling_tolerance
     pieces: list[Piece] = []
     error = StandardError(math.inf, 0)
     spent = 0.0
-    while len(pieces) < min(sample.pieces, MOST_PIECES) and not (error.error <= tolerance or spent > PIECES_WORK):
+    while len(pieces) < min(sample.pieces, MOST_SOLVED_PIECES) and not (
+        error.error <= tolerance or spent > PIECES_WORK
+    ):
         slope = pieces[0][1].slope if pieces else None
         pieces.append(_refined(prepared, speed, len(pieces), None if pieces else first, slope))
         error, spent = _error(pieces, sample), spent + sum(strip.work for strip in pieces[-1])

@@ -10,7 +10,7 @@ from ..._base import FloatArray, IntArray
 from ...contact import ContactResult, solve_contact
 from ...errors import CONVERGED, DIVERGED, ITERATION_LIMIT, Report, returned
 from .linear import has_high_pressure
-from .newton import PATIENCE, NewtonResult, Work, march, newton
+from .newton import NEWTON_PATIENCE, NewtonResult, Work, march, newton
 from .problem import Problem, are_soft
 from .result import DeterministicResult, assemble
 from .state import FLUID, RUPTURED, State, evaluated, residuals
@@ -19,10 +19,10 @@ from .state import FLUID, RUPTURED, State, evaluated, residuals
 # (`python -m verification.campaigns.newton_constants lubfric.models.deterministic.solve.`).
 
 # The largest residual of a solution, unless another is given [-] (`residuals`): a convention; strips have their own.
-TOLERANCE = 1e-5
+SOLVE_RESIDUAL = 1e-5
 
 # LU factorisations from a state nearby, at most [-]: a bound. Half and twice change nothing.
-NEAR = 40
+FACTORISATIONS_FROM_NEARBY = 40
 
 # LU factorisations from the dry contact, at most [-]: a bound. Half and twice change nothing; a roller of 1 GPa took up to
 # 27.
@@ -32,22 +32,22 @@ DIRECT = 50
 MARCHED = 500
 
 # LU factorisations of all ways together, unless another number is given [-]: a bound. Half and twice change nothing.
-MOST = 800
+MOST_FACTORISATIONS = 800
 
 # Times the speed [-], where a cold start is tried when it fails at the speed itself. No film of the campaign
 # needs it.
-FASTER = (16.0, 256.0)
+START_SPEEDS = (16.0, 256.0)
 
 # Residual of solutions on the way [-]. No film of the campaign needs it.
-LOOSE = 1e-3
+RESIDUAL_ON_THE_WAY = 1e-3
 
 # Factor of a step in ln(speed) after one that was solved [-]. No film of the campaign
 # needs it.
-LONGER = 1.5
+SPEED_STEP_GROWTH = 1.5
 
 # The least step in ln(speed) [-]: a bound. No film of the campaign needs it.
-SHORTEST = 0.05
-ADVICE = "longer cells may lead there, or a higher speed"
+LEAST_SPEED_STEP = 0.05
+FILM_ADVICE = "longer cells may lead there, or a higher speed"
 
 # Limiting stress over the pressure of the fluid from which a Newtonian one starts [-]. No film of the
 # campaign needs it; an oil has .05 to .1.
@@ -62,7 +62,7 @@ DRY_TOLERANCE = 1e-4
 
 # Distance behind the middle over sqrt(2 R h), from which on a start has ruptured [-]: a little behind where a rigid film
 # ruptures, 0.475. Half and twice change the work by 1 %, of one film by +31 and -13 %.
-RUPTURE = 0.55
+START_RUPTURE = 0.55
 
 # Part of Moes' film by which the dry contact is lifted for a start where the pressure is high (`has_high_pressure`): a film
 # under loaded asperities is thinner than Moes'. A roller of 1 GPa at 10, 3, 1, 0.3, 0.1, 0.03 m/s takes 12, 15, 14, 14, 16, 28
@@ -83,7 +83,7 @@ LAST_LIFTS = (0.2, 2.0)
 
 # Asperity load ratio [-], from which on a finer grid does not start from interpolated pressure: contacts are too sharp for
 # that. Levels of a roller of 1 GPa with 0.011 and 0.023 take 16 and 10 Newton steps so, and 10 from sharp contacts.
-SHARP = 0.02
+SHARP_LOAD_RATIO = 0.02
 
 # Residuals over those of the dry start, from which on an interpolated start is not taken [-]. A roller of 1 GPa at 1 m/s
 # took 33 Newton steps from one whose residuals were some 20 times as large, and 14 from the laid-on film.
@@ -92,20 +92,25 @@ WORSE = 2.0
 # Asperity load ratio [-], up to which the film of longer cells is laid on the dry contact of shorter ones. Levels of a
 # roller of 1 GPa take 7 Newton steps so where it is 0.05 to 0.09, and 12 from the lifted dry contact; where it is 0.19,
 # 0.53 and 0.83, 20, 19 and 37 for 11, 13 and 16.
-WET = 0.1
+WET_LOAD_RATIO = 0.1
 
 # Part of the pressure of the film between the asperity contacts of the longer cells that a start from the dry contact has
 # [-]. Last levels of a roller of 1 GPa at 0.3, 0.1, 0.03 m/s take 17, 27, 81 Newton steps from the dry contact with a half
 # of Moes' film, 15, 21, 33 with 0, 12, 15, 21 with 0.12, 13, 14, 36 with 0.25, 21 (not solved), 13, 45 with 0.5.
-BETWEEN = 0.125
+FILM_PRESSURE_PART = 0.125
 
 # Part of a Newton step [-], below which a start from laid-on film is given up: the solution follows by steps that are longer,
-# or not at all (7 steps where it does, see `WET`).
-WHOLE = 0.3
+# or not at all (7 steps where it does, see `WET_LOAD_RATIO`).
+LEAST_LAID_ON_STEP = 0.3
 
 
 def solve_point(
-    problem: Problem, *, start: State | None = None, least: float = 0.0, tolerance: float = TOLERANCE, most: int = MOST
+    problem: Problem,
+    *,
+    start: State | None = None,
+    least: float = 0.0,
+    tolerance: float = SOLVE_RESIDUAL,
+    most: int = MOST_FACTORISATIONS,
 ) -> DeterministicResult:
     """Solve gap, pressure and friction of ``problem`` on its own grid.
 
@@ -148,7 +153,7 @@ def solve_point(
             f"started {name}; {work.factorisations} factorisations, {work.krylov} iterations, {work.steps} "
             "steps in time",
         ),
-        advice=f"tried in {spent}, with the residual left: {ways}; {ADVICE}",
+        advice=f"tried in {spent}, with the residual left: {ways}; {FILM_ADVICE}",
     )
     return returned(assemble(result.at, report))
 
@@ -157,9 +162,11 @@ def _attempts(
     problem: Problem, start: State | None, least: float, tolerance: float, work: Work
 ) -> Iterator[tuple[str, NewtonResult]]:
     is_soft = are_soft(problem.line, float(problem.heights.std()))
-    patience = SOFT_PATIENCE if is_soft else PATIENCE
+    patience = SOFT_PATIENCE if is_soft else NEWTON_PATIENCE
     if start is not None:
-        near = newton(problem, start, work, tolerance=tolerance, most=NEAR, least=least, patience=patience)
+        near = newton(
+            problem, start, work, tolerance=tolerance, most=FACTORISATIONS_FROM_NEARBY, least=least, patience=patience
+        )
         yield "from a neighbouring state", near
     dry = dry_contact(problem)
     lifts = _lifts(problem)
@@ -185,10 +192,10 @@ def _attempts(
     if start is not None:
         yield "in time from a neighbouring state", _in_time(problem, start, tolerance, work)
     faster: list[tuple[float, State]] = []
-    for times in FASTER:
+    for times in START_SPEEDS:
         fast = problem.at_speed(times * problem.speed)
-        helped = newton(fast, dry_start(fast, dry, _lifts(fast)[0]), work, tolerance=LOOSE, most=DIRECT)
-        if helped.residual <= LOOSE:
+        helped = newton(fast, dry_start(fast, dry, _lifts(fast)[0]), work, tolerance=RESIDUAL_ON_THE_WAY, most=DIRECT)
+        if helped.residual <= RESIDUAL_ON_THE_WAY:
             faster.append((times, helped.at.state))
             result = _from_faster(problem, helped.at.state, times, tolerance, work, failures=0)
             yield "step by step from a faster speed", result
@@ -196,7 +203,7 @@ def _attempts(
     if start is None and not is_soft:
         yield "in time from the dry contact", _in_time(problem, cold, tolerance, work)
     for times, state in faster:
-        result = _from_faster(problem, state, times, tolerance, work, failures=MOST)
+        result = _from_faster(problem, state, times, tolerance, work, failures=MOST_FACTORISATIONS)
         yield "step by step from a faster speed", result
     yield from lifted(LAST_LIFTS, DIRECT)
 
@@ -235,7 +242,7 @@ def dry_start(problem: Problem, dry: ContactResult, lift: float = 1.0) -> State:
     p = dry.pressure
     film = problem.line.expected_film
     dent = np.where(p >= problem.hardness, np.maximum(-dry.gap, 0.0), 0.0)
-    full = max(RUPTURE * math.sqrt(2 * problem.radius * film), problem.line.half_width)
+    full = max(START_RUPTURE * math.sqrt(2 * problem.radius * film), problem.line.half_width)
     kind = np.where((p <= 0) & (problem.x > full)[:, None], RUPTURED, FLUID).astype(np.int8)
     return State(
         pressure=p.copy(),
@@ -257,16 +264,18 @@ def _from_faster(
     failed = 0
     while True:
         to = max(left - step, 0.0)
-        goal = tolerance if to == 0 else max(tolerance, LOOSE)
-        result = newton(problem.at_speed(math.exp(to) * problem.speed), state, work, tolerance=goal, most=NEAR)
+        goal = tolerance if to == 0 else max(tolerance, RESIDUAL_ON_THE_WAY)
+        result = newton(
+            problem.at_speed(math.exp(to) * problem.speed), state, work, tolerance=goal, most=FACTORISATIONS_FROM_NEARBY
+        )
         if result.residual <= goal:
             left = to
             state = result.at.state
-            step *= LONGER
+            step *= SPEED_STEP_GROWTH
         else:
             step = (left - to) / 2
             failed += 1
-        if left == 0 or step < SHORTEST or failed > failures:
+        if left == 0 or step < LEAST_SPEED_STEP or failed > failures:
             return result
 
 
@@ -279,9 +288,9 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
     """Return the state of ``result``, a solution of ``coarse``, on the smaller cells of ``problem``, linear between cells;
     and the least Newton step to take from there.
 
-    Where asperities carry more than `WET` of the load, their asperity contacts are too sharp to be interpolated to
+    Where asperities carry more than `WET_LOAD_RATIO` of the load, their asperity contacts are too sharp to be interpolated to
     smaller cells. Then the start is the dry contact of the finer grid, lifted as far as the film lifts the coarser one
-    from its own, with the part `BETWEEN` of the pressure of the film between the asperity contacts.
+    from its own, with the part `FILM_PRESSURE_PART` of the pressure of the film between the asperity contacts.
 
     Where they carry less, and the residuals of ``result`` on the finer grid are `WORSE` times those of `dry_start`, as
     under heavy loads, it is the dry contact of the finer grid plus what the film changes of the coarser one (as in a
@@ -323,7 +332,7 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
     new = dry_contact(problem)
     rubbing_share = result.split.rubbing / result.load
 
-    if rubbing_share < SHARP:
+    if rubbing_share < SHARP_LOAD_RATIO:
         starts = (smooth, dry_start(problem, new))
         left, left_by_dry = (max(residuals(evaluated(problem, start)).values()) for start in starts)
         if left <= WORSE * left_by_dry:
@@ -334,10 +343,10 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
         sunk = np.where((kind == RUPTURED) & (pressure <= 0), RUPTURED, FLUID), np.maximum(-new.gap, 0.0)
         return state(pressure, *sunk, old.approach + bare.approach - new.approach)
 
-    if rubbing_share > WET:
+    if rubbing_share > WET_LOAD_RATIO:
         film = _interpolated(np.where(bare.pressure > 0, 0.0, old.pressure), along, across)
-        return on_dry(np.where(new.pressure > 0, new.pressure, BETWEEN * film)), 0.0
-    return on_dry(new.pressure + _interpolated(old.pressure - bare.pressure, along, across)), WHOLE
+        return on_dry(np.where(new.pressure > 0, new.pressure, FILM_PRESSURE_PART * film)), 0.0
+    return on_dry(new.pressure + _interpolated(old.pressure - bare.pressure, along, across)), LEAST_LAID_ON_STEP
 
 
 def _interpolated(field: FloatArray, along: FloatArray, across: FloatArray) -> np.ndarray:

@@ -21,7 +21,7 @@ TOUCHING = 2
 CURVATURE = 1.0 / 3.0
 
 # Of the mass of a cell: how far it is extrapolated at most, as by the limiter of the Couette flow (`flow.couette_flow`).
-LIMIT = 0.5
+MOST_EXTRAPOLATED = 0.5
 PULL = 0.01  # of U times the floor over dx: suction in a touching cell, below which it is left alone
 
 
@@ -122,9 +122,9 @@ def stored(mass: np.ndarray, history: TimeHistory) -> tuple[np.ndarray, np.ndarr
     now = extrapolated_mass(mass, last, part, history.earlier)
     change = now - mass
     slope = part + (0.0 if history.earlier is None else CURVATURE)
-    highest = max(LIMIT, part)
-    free = (change > -LIMIT * mass) & (change < highest * mass)
-    limited = np.where(change > 0, highest, -LIMIT)
+    highest = max(MOST_EXTRAPOLATED, part)
+    free = (change > -MOST_EXTRAPOLATED * mass) & (change < highest * mass)
+    limited = np.where(change > 0, highest, -MOST_EXTRAPOLATED)
     return (now - history.extrapolated) / step, (1.0 + np.where(free, slope, limited)) / step
 
 
@@ -132,7 +132,7 @@ def extrapolated_mass(
     mass: np.ndarray, before: np.ndarray, part: float = 0.5, earlier: np.ndarray | None = None
 ) -> np.ndarray:
     """Return ``mass`` [m] of cells extrapolated by a ``part`` of its change since the moment ``before`` (a half where
-    steps are equal), by `LIMIT` of itself, or that part, at most. With the moment ``earlier`` than that, `CURVATURE` of the second
+    steps are equal), by `MOST_EXTRAPOLATED` of itself, or that part, at most. With the moment ``earlier`` than that, `CURVATURE` of the second
     difference is added: the differences of such masses from step to step are those of BDF3.
 
     So the Couette flow is limited in space. Without the limit a cell that a summit closes would give off more than it
@@ -141,7 +141,7 @@ def extrapolated_mass(
     change = part * (mass - before)
     if earlier is not None:
         change = change + CURVATURE * (mass - 2.0 * before + earlier)
-    return mass + np.clip(change, -LIMIT * mass, max(LIMIT, part) * mass)
+    return mass + np.clip(change, -MOST_EXTRAPOLATED * mass, max(MOST_EXTRAPOLATED, part) * mass)
 
 
 def evaluated(problem: Problem, state: State, history: TimeHistory | None = None) -> Iterate:

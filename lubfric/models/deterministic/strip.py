@@ -17,33 +17,33 @@ from ..shared import film_lubricant
 from .counted_work import work_of_steps
 from .problem import BOUNDARY_FILM, Problem, lay_out, shifted
 from .result import DeterministicResult, assemble
-from .solve import MOST, refined_start, solve_point
+from .solve import MOST_FACTORISATIONS, refined_start, solve_point
 from .state import evaluated
 
 # The effects of half and twice a constant are those on three points of the scene "paper" (`python -m
 # verification.campaigns.constants lubfric.models.deterministic.strip.`).
 
 # Tolerance of a strip's residuals [-]: f moves by some .1 %.
-ENOUGH = 3e-3
+STRIP_RESIDUAL = 3e-3
 
 # The same on longer cells, from which a strip starts [-]. Half and twice change nothing.
-LOOSE = 1e-2
+LONGER_CELLS_RESIDUAL = 1e-2
 
-FIRST = 12_000  # cells from which longer ones come first
+MANY_CELLS = 12_000  # cells from which longer ones come first
 
 # Load of the second solve, for the slope, over that of the first [-]. Far from 1 the slope is a secant: 2.06 times
 # changes f by 3 %, for more strips are solved then.
-HEAVIER = 1.03
+SECOND_LOAD = 1.03
 
 # Ratios of successive changes from grid to grid between which they are taken to fall [-]. Half changes nothing, twice
 # the interval by .2 %.
-RATIO = (0.25, 0.75)
+CHANGE_RATIOS = (0.25, 0.75)
 
 GROWING = 2.0  # the same, where the series ends; 1.7 to 2.2 was seen at 110 N on cells from 1.8 to 0.45 um
 UNKNOWN_RATIO = 0.6  # from two grids: as measured on cells of 3.6, 1.8 and 0.9 um of the built-in surface
 
 # Columns of the coarser of two grids in a place that changes by itself [-]. Half and twice change the interval by .01 %.
-BLOCK = 2
+COLUMNS_OF_A_PLACE = 2
 
 
 @dataclass(frozen=True)
@@ -84,10 +84,10 @@ def solve_strip(
     factors: tuple[int, int] = (1, 1),
     start: StripSolution | None = None,
     slope: bool = False,
-    tolerance: float = ENOUGH,
+    tolerance: float = STRIP_RESIDUAL,
     upper: Surface | None = None,
     ends: tuple[float, float] | None = None,
-    most: int = MOST,
+    most: int = MOST_FACTORISATIONS,
 ) -> StripSolution:
     """Solve ``surface``, a strip that is periodic along y, under the bodies of ``scene`` at ``speed`` [m/s], not 0.
 
@@ -106,15 +106,17 @@ def solve_strip(
     work = 0.0
     rise = math.nan
     longer = (2 * factors[0], 2 * factors[1])
-    if start is None and problem.heights.size > FIRST and surface.shape[1] % longer[1] == 0:
+    if start is None and problem.heights.size > MANY_CELLS and surface.shape[1] % longer[1] == 0:
         with suppress(ConvergenceError):
-            start = solve_strip(scene, surface, speed, factors=longer, tolerance=LOOSE, upper=upper, ends=ends)
+            start = solve_strip(
+                scene, surface, speed, factors=longer, tolerance=LONGER_CELLS_RESIDUAL, upper=upper, ends=ends
+            )
             work = start.work
     near, least = (None, 0.0) if start is None else refined_start(start.problem, problem, start.result)
     result = solve_point(problem, start=near, least=least, tolerance=tolerance, most=most)
     work += work_of(result)
     if slope:
-        heavier = problem.at_load(HEAVIER * problem.load)
+        heavier = problem.at_load(SECOND_LOAD * problem.load)
         second = solve_point(heavier, start=result.state, tolerance=tolerance)
         work += work_of(second)
         rise = (second.coefficient * second.load - result.coefficient * result.load) / (second.load - result.load)
@@ -129,7 +131,7 @@ def change_by_flow(strip: StripSolution, lubricant: Lubricant) -> float:
     if lubricant == problem.lubricant:
         return 0.0
     other = replace(problem, line=replace(problem.line, lubricant=lubricant))
-    solution = solve_point(other, start=result.state, tolerance=ENOUGH)
+    solution = solve_point(other, start=result.state, tolerance=STRIP_RESIDUAL)
     return assemble(evaluated(problem, solution.state), solution.report).coefficient / result.coefficient - 1
 
 
@@ -195,8 +197,8 @@ def error_by_cells(changes: Sequence[float], left: float = math.inf) -> float:
     ratio = UNKNOWN_RATIO
     endless = math.isinf(left)
     if len(changes) > 1 and changes[-2] > 0:
-        times, most = (1.0, RATIO[1]) if endless else (2.0, GROWING)
-        ratio = min(max(times * changes[-1] / changes[-2], RATIO[0]), most)
+        times, most = (1.0, CHANGE_RATIOS[1]) if endless else (2.0, GROWING)
+        ratio = min(max(times * changes[-1] / changes[-2], CHANGE_RATIOS[0]), most)
     return changes[-1] * (ratio / (1 - ratio) if endless else sum(ratio ** (k + 1) for k in range(int(left))))
 
 
@@ -226,7 +228,7 @@ def change_of_places(coarse: Places, fine: Places, mean_load: float) -> float:
     Places change by themselves, some up and some down. On a short map the mean may be small by chance; the scatter of
     the places shows by how much. Friction that goes with a place's load is omitted, since their mean load is kept.
     """
-    count = max(coarse.load.size // BLOCK, 2)
+    count = max(coarse.load.size // COLUMNS_OF_A_PLACE, 2)
     load = _blocks(fine.load, count) - _blocks(coarse.load, count)
     friction = _blocks(fine.friction, count) - _blocks(coarse.friction, count)
     own = friction - load * ((friction @ load) / max(load @ load, 1e-300))

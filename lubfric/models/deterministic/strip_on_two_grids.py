@@ -24,7 +24,7 @@ PER_HALF_WIDTH = 1.0
 MOVING_SAMPLE = 0.6
 
 # Cells in a correlation length along x, at least, where roughness moves (docs/levels.md).
-MOVING = 4.0
+PER_LENGTH_IN_MOTION = 4.0
 
 
 @dataclass(frozen=True)
@@ -58,12 +58,13 @@ class StripOnTwoGrids:
 
 def factors_of(scene: Scene, sample: Sample) -> tuple[int, int]:
     """Length of the cells of the deterministic model in cells of the ``sample``, along x and y: 2, or 1 where 2 would
-    leave less than `PER_LENGTH` (or `MOVING`) in a correlation length or `PER_HALF_WIDTH` in half the Hertz strip, or
+    leave less than `PER_LENGTH` (or `PER_LENGTH_IN_MOTION`) in a correlation length or `PER_HALF_WIDTH` in half the Hertz strip, or
     does not divide the rows of a strip."""
     (lx, ly) = sample.correlation_lengths
     (dx, dy) = sample.cells.spacing
     longest = min(
-        lx / (MOVING if has_moving_roughness(scene) else PER_LENGTH), scene.bodies.half_width / PER_HALF_WIDTH
+        lx / (PER_LENGTH_IN_MOTION if has_moving_roughness(scene) else PER_LENGTH),
+        scene.bodies.half_width / PER_HALF_WIDTH,
     )
     along = longest >= 2 * dx * (1 - 1e-9)
     across = ly / PER_LENGTH >= 2 * dy * (1 - 1e-9) and sample.rows % 2 == 0

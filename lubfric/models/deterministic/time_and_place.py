@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..shared import StandardError
+from ..shared import SHARED_LENGTH, StandardError
 from .strip import Places
 from .summits import SummitControl
 
@@ -24,9 +24,6 @@ TIME_LENGTH = 1.3
 
 # Correlation lengths along y in a block, at least.
 PLACE_BLOCK = 4.0
-
-# Correlation lengths of a block at whose ends it is as its neighbours, for a Gaussian correlation (`block_error`).
-ENDS = 1 / math.sqrt(math.pi)
 
 # Degrees of freedom below which the error is not known.
 LEAST_FREEDOM = 4
@@ -80,8 +77,8 @@ class TimeAndPlace:
         way = self.friction.shape[0] // in_time * self.travelled / TIME_LENGTH
         width = self.friction.shape[1] // along_y * self.spacing / correlation_length
         # where a rough body rests, time is one block without neighbours, and all that scatters does so from place to place
-        of_time = max(1 - ENDS / way, 0.1) if way > 0 else 1.0
-        return of_time * max(1 - ENDS / width, 0.1)
+        of_time = max(1 - SHARED_LENGTH / way, 0.1) if way > 0 else 1.0
+        return of_time * max(1 - SHARED_LENGTH / width, 0.1)
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from .limits import limits_exceeded
 from .response import contact_length, quantities
 from .scatter import film_stress
 
-CLOSER = "f has that error; a smaller numerics.tolerance or a larger map reduces it"
+SMALLER_TOLERANCE = "f has that error; a smaller numerics.tolerance or a larger map reduces it"
 
 
 def answer_of(balanced: BalancedSample) -> ModelAnswer:
@@ -56,7 +56,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
             *violations_of_sample(balanced),
             *_finer(balanced.change("finer_grid_change"), scene.numerics.tolerance),
         ),
-        recommendation=CLOSER,
+        recommendation=SMALLER_TOLERANCE,
         fields=fields_of(balanced),
         fine_fields=None if balanced.on_cells is None else partial(fine_fields_of, balanced),
         details=replace(

@@ -26,36 +26,36 @@ SAFE_FILM = 2.0
 BOUNDS = (-40.0, 30.0)
 
 # Bound of ln(F_H/F_C) of a film that arrives: it is none if it carries less and leaves the gap empty.
-EMPTY = math.log(1e-4)
+EMPTY_LOG_RATIO = math.log(1e-4)
 
 # First step of ln(F_H/F_C) from a guess. Half and twice as much take 6 and 15 % longer (`python -m
 # verification.campaigns.constants`).
-FIRST_STEP = 1.5
+FIRST_RATIO_STEP = 1.5
 
 # First step of ln(F_H/F_C) from a balance at another speed. Half and twice as much take 10 % longer.
 NEXT_STEP = 0.7
 
 # Steps of Newton's method, at most.
-STEPS = 30
+MOST_NEWTON_ITERATIONS = 30
 
 # Longest step of Newton's method in ln(F_H/F_C).
-FARTHEST = 1.0
+LONGEST_NEWTON_STEP = 1.0
 
 # Step in ln(F_H/F_C) at which Newton's method ends: it gives a start only.
-NEAR = 1e-3
+LAST_NEWTON_STEP = 1e-3
 
 # Part of the load on the film, at most, at which the root is looked for without a start. Not measured: a start only.
 MOST_FILM_SHARE = 0.9
 
 # Rounds, each with tighter tolerances, at most.
-ROUNDS = 6
+BALANCE_ROUNDS = 6
 
 # Distance in ln(F_H/F_C) from the balance up to which a response is its own.
-SETTLED = 0.3
+OWN_RESPONSE = 0.3
 
 # Rigid film of the total load over Sq below which the film carries less than the last digit of the load: at 1e-12 m/s the load
 # of two films was balanced to 2e-11 (a film of 4e-18 m on 100 nm).
-NOTHING = 1e-14
+NEGLIGIBLE_FILM = 1e-14
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -124,7 +124,7 @@ def solve_balance(
     """
     if speed == 0:
         return _dry(scene, rough_contact, "no entrainment")
-    if sq > 0 and scene.lubricant.inlet_film is None and scene.line_contact(speed).rigid_film < NOTHING * sq:
+    if sq > 0 and scene.lubricant.inlet_film is None and scene.line_contact(speed).rigid_film < NEGLIGIBLE_FILM * sq:
         return _dry(scene, rough_contact, "the film carries less than the rounding error of the load")
     alone: EHLResult | None = None
     notes: tuple[str, ...] = ()
@@ -209,12 +209,12 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
     if start is not None and start.film is not None and start.film.entrainment_speed == point.speed:
         response = start.response
         response_at = start.log_load_ratio
-    for _ in range(ROUNDS):
+    for _ in range(BALANCE_ROUNDS):
         point, root = _seen_root(point, near)
         trial: Trial | None = root.payload
         if trial is None:
             return _dry(point.scene, point.rough_contact, "the film in the inlet does not fill the gap")
-        if response is None or abs(root.x - response_at) > SETTLED:
+        if response is None or abs(root.x - response_at) > OWN_RESPONSE:
             response = _response(point, trial)
             response_at = root.x
         balance = _balance(point, root, response)
@@ -265,7 +265,7 @@ def _beginning(point: Point, sq: float, start: Balance | None) -> RootStart:
     if start is None or start.film is None or start.response is None:
         thickness = max(2 * sq, 1e-12)
         share = min(point.line(point.scene.bodies.load).rigid_film / thickness, MOST_FILM_SHARE)
-        return RootStart(log_load_ratio=math.log(share / (1 - share)), step=FIRST_STEP)
+        return RootStart(log_load_ratio=math.log(share / (1 - share)), step=FIRST_RATIO_STEP)
     trial = Trial(
         film=start.film,
         contact_state=start.contact_state,
@@ -294,15 +294,16 @@ def predicted(point: Point, start: Balance) -> tuple[float, float | None]:
     before, exponent, _ = exponents(replace(line, entrainment_speed=start.film.entrainment_speed))
     stiffness = max(2 * slope * load - exponent * start.contact_load, 0.0) / start.film_load
     log_load_ratio = start.log_load_ratio
-    for _ in range(STEPS):
+    for _ in range(MOST_NEWTON_ITERATIONS):
         film_load, contact_load = loads_at(load, log_load_ratio)
         film, exponent, _ = exponents(point.line(film_load))
         steepness = (stiffness * film_load + exponent * contact_load) / load
         excess = -stiffness * math.log(contact_load / start.contact_load) - math.log(film / before)
         log_load_ratio = min(
-            max(log_load_ratio + min(max(-excess / steepness, -FARTHEST), FARTHEST), BOUNDS[0]), BOUNDS[1]
+            max(log_load_ratio + min(max(-excess / steepness, -LONGEST_NEWTON_STEP), LONGEST_NEWTON_STEP), BOUNDS[0]),
+            BOUNDS[1],
         )
-        if abs(excess) <= NEAR * steepness:
+        if abs(excess) <= LAST_NEWTON_STEP * steepness:
             break
     return log_load_ratio, 0.5 * steepness
 
@@ -351,9 +352,9 @@ def _root(point: Point, near: RootStart) -> Root:
         tolerance=point.settings.balance_tolerance,
         slope=near.slope,
         first=(near.value, near.last),
-        bounds=(max(lowest, EMPTY) if is_fed else lowest, BOUNDS[1]),
+        bounds=(max(lowest, EMPTY_LOG_RATIO) if is_fed else lowest, BOUNDS[1]),
     )
-    return replace(root, payload=None) if is_fed and root.x == EMPTY and root.value > 0 else root
+    return replace(root, payload=None) if is_fed and root.x == EMPTY_LOG_RATIO and root.value > 0 else root
 
 
 def _balance(point: Point, root: Root, response: Response) -> Balance:
@@ -402,7 +403,7 @@ def _needed(point: Point, balance: Balance) -> Settings:
             allowed /= budget.SLOPE
         if response.log_load_ratio_per_gap:  # f may be anything farther off
             allowed = min(
-                allowed, (budget.MOST_MOVED if now.correctable else SETTLED) / abs(response.log_load_ratio_per_gap)
+                allowed, (budget.MOST_MOVED if now.correctable else OWN_RESPONSE) / abs(response.log_load_ratio_per_gap)
             )
         closed = min(0.5 * allowed, budget.LOOSEST_VOLUME * min(mean_film, balance.film.central_film))
         volume = _tightened(volume, max(closed / mean_film, budget.TIGHTEST_VOLUME))
@@ -428,7 +429,7 @@ def _cells(point: Point, film: EHLResult, friction: Forces) -> int:
     resolved = friction.quadrature <= budget.SHEAR_SUM * numerics.tolerance or meaningless(friction.shear)
     if numerics.film_tolerance is not None or resolved:
         return now
-    return min(2 * film.cells, max(budget.MOST_CELLS, now))
+    return min(2 * film.cells, max(budget.MOST_FILM_CELLS, now))
 
 
 def _report(

@@ -18,8 +18,8 @@ from ...errors import LubfricError
 from ...samples import Sample
 from ...scene import budget
 from ..shared import (
-    FEW,
-    MATTERS,
+    FEW_CONTACTS,
+    SAMPLING_MATTERS,
     Prepared,
     ReferenceKey,
     StandardError,
@@ -60,14 +60,14 @@ from .undetected import (
 )
 
 # Change of ln(F_H/F_C) that cells may make and be corrected for to first order.
-FARTHEST = 0.5
+MOST_CORRECTED_LOG_RATIO = 0.5
 
 # Change of gap or film over the mean gap that is to first order, at most.
-LARGEST = 0.2
+MOST_CORRECTED_GAP = 0.2
 
 # Clearance [Sq] below which asperities may be lost to the cells. Half and twice change nothing on the points of `python -m
 # verification.campaigns.constants`.
-CLOSE = 1.0
+LARGE_CLEARANCE = 1.0
 
 # Expected films of the total load over Sq at the speeds of reference points: contact, mixed, and about lift-off.
 REFERENCES = (0.05, 0.4, 1.6)
@@ -194,14 +194,18 @@ class BalancedSample:
         tolerance = self.prepared.scene.numerics.sampling_tolerance
         contacts = self.scatter.effective_contacts
         few = self.response is not None and has_too_few_contacts(contacts, self.sampling, tolerance)
-        at_least = min(FEW / contacts, (self.sampling / (MATTERS * tolerance)) ** 2) if few else 0.0
+        at_least = min(FEW_CONTACTS / contacts, (self.sampling / (SAMPLING_MATTERS * tolerance)) ** 2) if few else 0.0
         error = self.sampling_error
         count = required_strips(self.count, self.sample.first, self.sample.available, error, tolerance, at_least)
         return count if count == self.count else min(self.sample.available, fft.next_fast_len(count, real=True))
 
     def takes_more_strips_first(self) -> bool:
         """Where few asperity contacts graze each other, more strips are cheaper than shorter cells."""
-        return self.count == self.sample.first and self.response is not None and self.scatter.effective_contacts < FEW
+        return (
+            self.count == self.sample.first
+            and self.response is not None
+            and self.scatter.effective_contacts < FEW_CONTACTS
+        )
 
     @cached_property
     def is_too_coarse(self) -> bool:
@@ -217,19 +221,22 @@ class BalancedSample:
         allowed = budget.CONTACT_GRID * scene.numerics.tolerance
         if response is not None:
             moved = abs(response.log_load_ratio_per_gap * self.corrected_gap)
-            if max(abs(self.corrected_gap), abs(self.effect.film_change)) > LARGEST * solved.contact_state.mean_gap:
+            if (
+                max(abs(self.corrected_gap), abs(self.effect.film_change))
+                > MOST_CORRECTED_GAP * solved.contact_state.mean_gap
+            ):
                 return True
             by_contact = solved.forces.boundary / max(solved.forces.total, 1e-300)
             part = max(by_contact, solved.contact_load / scene.bodies.load)  # of the friction, or of the load
             if (
-                self.count == sample.available or self.scatter.effective_contacts >= FEW
+                self.count == sample.available or self.scatter.effective_contacts >= FEW_CONTACTS
             ):  # else it is known to a factor anyway
                 part = math.inf
-            if moved > FARTHEST and part * math.expm1(min(moved, 30.0)) > allowed:
+            if moved > MOST_CORRECTED_LOG_RATIO and part * math.expm1(min(moved, 30.0)) > allowed:
                 return True
             return response.relative("coefficient", self.second_order) > allowed
         clearance = solved.contact_state.mean_film - solved.contact_state.mean_gap
-        if self.count > sample.first or clearance > CLOSE * self.prepared.surface.sq:
+        if self.count > sample.first or clearance > LARGE_CLEARANCE * self.prepared.surface.sq:
             return False
         depth = lost_summits(self.prepared, self.point, solved, sample) - clearance
         native = contact_on_piece(self.prepared, sample, 0, (1, 1))

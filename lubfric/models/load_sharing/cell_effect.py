@@ -42,19 +42,19 @@ from .scatter import (
 
 # Largest ratio of successive changes with which a series of halvings is continued. Not measured: heights of an
 # exponential correlation change by sqrt(1/2) from halving to halving.
-SLOWEST = 0.75
+MOST_CHANGE_RATIO = 0.75
 
 # Least ratio of successive changes: second order.
-FASTEST = 0.25
+LEAST_CHANGE_RATIO = 0.25
 
 # Pieces that state a scatter where each is too short for blocks.
-FEWEST = 3
+FEWEST_PIECES = 3
 
 # Pieces, at most: 504 correlation lengths. Not measured: it bounds the work, and the error that is left is reported.
-MOST_PIECES = 12
+MOST_COMPARED_PIECES = 12
 
 # Cells of a piece, at most, where a coarser one would do: memory and time.
-MOST_CELLS = 300_000
+MOST_PIECE_CELLS = 300_000
 
 # Part of the sampling tolerance that the scatter between pieces may take.
 PIECE_SHARE = 0.5
@@ -129,7 +129,7 @@ def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, sample: 
     enough = response.gap_for("coefficient", budget.CONTACT_GRID * numerics.tolerance)
     scatter = response.gap_for("coefficient", PIECE_SHARE * numerics.sampling_tolerance)
     steps: list[CellStep] = []
-    while not _settled(steps, min(MOST_PIECES, sample.pieces), scatter):
+    while not _settled(steps, min(MOST_COMPARED_PIECES, sample.pieces), scatter):
         steps.append(_step(prepared, point, balance, sample, len(steps), enough))
     error = StandardError(0.0, 1) if sample.is_only_map else mean_error(steps)
 
@@ -157,18 +157,22 @@ def _error_of_area(steps: Sequence[CellStep]) -> float:
     if math.isfinite(within):
         return within
     factors = np.array([step.area_factor for step in steps])
-    return float(factors.std(ddof=1) / factors.mean() / math.sqrt(factors.size)) if factors.size >= FEWEST else math.nan
+    return (
+        float(factors.std(ddof=1) / factors.mean() / math.sqrt(factors.size))
+        if factors.size >= FEWEST_PIECES
+        else math.nan
+    )
 
 
 def _settled(steps: Sequence[CellStep], most: float, scatter: float) -> bool:
     """Whether these pieces are enough: the error of their mean is within ``scatter`` [m], there are no more pieces, or
     there are three that are too short for blocks."""
-    short = len(steps) >= FEWEST and not math.isfinite(steps[0].error.error)
+    short = len(steps) >= FEWEST_PIECES and not math.isfinite(steps[0].error.error)
     return len(steps) > 0 and (short or len(steps) >= most or mean_error(steps).error <= scatter)
 
 
 def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, index: int, enough: float) -> CellStep:
-    """Piece number ``index`` on finer and finer cells. Where that takes more than `MOST_CELLS` cells, it ends when the
+    """Piece number ``index`` on finer and finer cells. Where that takes more than `MOST_PIECE_CELLS` cells, it ends when the
     rest is within ``enough`` [m]. The change is averaged over blocks along y, each with its influence on the mean
     gap."""
     assert balance.film is not None and balance.response is not None
@@ -181,7 +185,7 @@ def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, in
     rest = math.inf
     for factors in ladder:
         rough_contact = contact_on_piece(prepared, sample, index, factors)
-        if rest <= enough and rough_contact.heights.size > MOST_CELLS:
+        if rest <= enough and rough_contact.heights.size > MOST_PIECE_CELLS:
             break
         start = states[-1] if states else None
         states.append(point.pressed(rough_contact, balance.film, balance.contact_load, start))
@@ -244,7 +248,7 @@ def mean_error(steps: Sequence[CellStep]) -> StandardError:
         within = add_errors(*(step.error for step in steps))
         return StandardError(within.error / len(steps), within.freedom)
     gaps = np.array([step.gap_change for step in steps])
-    few = gaps.size < FEWEST
+    few = gaps.size < FEWEST_PIECES
     scatter = float(np.sqrt(np.mean(gaps**2))) if few else float(np.std(gaps, ddof=1))
     return StandardError(scatter / math.sqrt(gaps.size), gaps.size if few else gaps.size - 1)
 
@@ -254,7 +258,7 @@ def remaining(changes: Sequence[float]) -> float:
     changes (1/4 to 3/4; 1/2 if there is only one change)."""
     last = abs(changes[-1])
     before = abs(changes[-2]) if len(changes) > 1 else 0.0
-    ratio = min(max(last / before, FASTEST), SLOWEST) if before > 0 else 0.5
+    ratio = min(max(last / before, LEAST_CHANGE_RATIO), MOST_CHANGE_RATIO) if before > 0 else 0.5
     return last * ratio / (1 - ratio)
 
 

@@ -22,7 +22,7 @@ MOST_OF_FILM = 0.3
 OF_ROLLING = 8.0
 
 # Error of f below and above, over the filled part of the gap, where a given film arrives (`starved_error`).
-STARVED = (0.5, 0.1)
+STARVED_ERROR = (0.5, 0.1)
 
 # Least error of f over the film-to-roughness ratio, up to 1, where there is a film between rough surfaces.
 LEAST_WITH_FILM = 0.1
@@ -68,7 +68,7 @@ def starved_error(inlet_film: float, gap: float) -> tuple[float, float]:
     `paper` with 80 and 160 nm). ``inlet_film`` [m]: that arrives; ``gap`` [m]: mean gap of the rough surfaces.
     """
     filled = min(inlet_film / gap, 1.0) if gap > 0 else 1.0
-    return STARVED[0] * filled, STARVED[1] * filled
+    return STARVED_ERROR[0] * filled, STARVED_ERROR[1] * filled
 
 
 def least_error(film_to_roughness_ratio: float) -> float:

@@ -5,7 +5,15 @@ from dataclasses import dataclass
 
 from ...quantities import depending_on
 from ...scene import Scene, budget, has_moving_roughness, why_gap_not_resolved
-from ..shared import FEW, FREEDOM_NOT_COUNTED, TOO_SHORT, StandardError, error_by_heat, has_too_few_contacts, percent
+from ..shared import (
+    FEW_CONTACTS,
+    FREEDOM_NOT_COUNTED,
+    SAMPLE_TOO_SHORT,
+    StandardError,
+    error_by_heat,
+    has_too_few_contacts,
+    percent,
+)
 from .balance import Balance
 from .balanced_sample import BalancedSample
 from .error_of_eq8 import least_error, load_sharing_error, starved_error
@@ -20,7 +28,7 @@ NO_CELLS = "not known: this contact has no places along y to compare"
 # Errors below and above f where the model has none.
 NONE = (0.0, 0.0)
 UNKNOWN = (math.nan, math.nan)
-EMPTY = "the film that arrives does not fill the gap: Eq. (8) neglects it, and f may be lower"
+GAP_NOT_FILLED = "the film that arrives does not fill the gap: Eq. (8) neglects it, and f may be lower"
 NOT_STUDIED = "the error of the model itself is not known for this contact"
 MODEL_UNKNOWN = "the error of the model itself is not known and not in the interval: {}"
 MISSED = "not known: the patch is too short along y to estimate the undetected contact"
@@ -227,7 +235,7 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
         return (
             (NONE, ())
             if fed is None or balanced.speed == 0
-            else (starved_error(fed, balance.contact_state.mean_gap), (EMPTY,))
+            else (starved_error(fed, balance.contact_state.mean_gap), (GAP_NOT_FILLED,))
         )
     if balanced.on_cells is None:
         return UNKNOWN, (NOT_STUDIED,)
@@ -287,7 +295,7 @@ def _notes(balanced: BalancedSample, scene: Scene, sampling: float) -> tuple[str
             return (NO_CELLS,)
         if balanced.response is None:
             return (MISSED,)
-        return (TOO_SHORT.format(balanced.scatter.length / sample.correlation_lengths[1]),)
+        return (SAMPLE_TOO_SHORT.format(balanced.scatter.length / sample.correlation_lengths[1]),)
     if sampling > tolerance and needed > 1:
         times = float(f"{needed:.2g}")
         notes.append(
@@ -297,7 +305,7 @@ def _notes(balanced: BalancedSample, scene: Scene, sampling: float) -> tuple[str
         notes.append(f"more than the requested {percent(tolerance)}")
     if has_too_few_contacts(balanced.scatter.effective_contacts, sampling, tolerance):
         notes.append(
-            f"few asperity contacts carry the load (as {balanced.scatter.effective_contacts:.2g} equal ones would, fewer than {FEW:g}): the "
+            f"few asperity contacts carry the load (as {balanced.scatter.effective_contacts:.2g} equal ones would, fewer than {FEW_CONTACTS:g}): the "
             "interval is too narrow more often than it says"
         )
     return tuple(notes)

@@ -9,12 +9,12 @@ from ...samples import Sample
 from ...scene import Scene, has_moving_roughness
 from ...surface import Surface
 from ..contract import WorkEstimate
-from ..shared import SAFETY, smooth_over_cells
+from ..shared import GAP_IN_CONTACT, STRIPS_SAFETY, smooth_over_cells
 from .error_of_eq8 import load_sharing_error
 
 # Processor time [s] of a cell of the strips in balance: a fit to 33 points of `python -m
 # verification.campaigns.estimates`, as the two constants below.
-CELL_SECONDS = 1.0e-6
+STRIP_CELL_SECONDS = 1.0e-6
 
 # Cells of a strip above which each takes longer, because the contact takes more iterations and the memory is slower.
 LARGE = 5e4
@@ -37,7 +37,7 @@ POINT_SECONDS = 0.09
 
 # Part of the work on strips and pieces that a further point of the same scene is spared, because their dry contacts are
 # known: the second to ninth speed of a random scene took .06 to .26 s, the first .35 s.
-KNOWN = 0.7
+SPARED_PART = 0.7
 
 # Processor time [s] of the films of a point without heat.
 FILM_SECONDS = 0.015
@@ -46,16 +46,16 @@ FILM_SECONDS = 0.015
 HOT = 5.0
 
 # Factor on the time where the heights are not smooth over a cell and the film carries a part of the load (`SHARED`),
-# because shorter cells change f there, and are solved: seen 1 to 2, and 3 to 6 on cells longer than `LONG`.
-ROUGH = 1.5
-ROUGH_ON_LONG_CELLS = 6.0
+# because shorter cells change f there, and are solved: seen 1 to 2, and 3 to 6 on cells longer than `FEW_CELLS_OF_LENGTH`.
+ROUGH_TIMES = 1.5
+ROUGH_TIMES_ON_LONG_CELLS = 6.0
 
 # The same where the heights are smooth over a cell, and cells are longer than those of the map: shorter ones may follow. Four
 # random runs were estimated to .56 to 1.4 of what they took without it, and to .64 to 1.7 with it.
 REFINED = 1.3
 
 # Cells in a correlation length along x below which cells are long.
-LONG = 12.0
+FEW_CELLS_OF_LENGTH = 12.0
 
 # Part of the gap that the film of the whole load fills, between which that happens.
 SHARED = (0.08, 0.6)
@@ -66,20 +66,17 @@ SCATTER = 1.8
 # Film [Sq] at which that has fallen to 1/e, because the film carries the load everywhere.
 SEPARATED = 2.6
 
-# Mean gap of a contact that carries most of the load, in Sq, about.
-GAP = 1.6
-
 # Part of the film of the whole load by which it is wider, about.
 RISE = 0.4
 
 # Friction where the film carries most of the load, over f_b, about.
-FLOOR = 0.25
+FILM_FRICTION = 0.25
 
 # Film that hardly meets an asperity, in Sq.
-CLEAR = 3.5
+CLEAR_OF_ASPERITIES = 3.5
 
 # Factor between the expected film and any film: outside of it contact or separation is certain.
-SURE = 2.0
+CERTAIN_FACTOR = 2.0
 
 
 def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float) -> WorkEstimate:
@@ -93,7 +90,13 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     sq = surface.sq
     summit = float(surface.heights.max() - surface.heights.mean())
     seconds = FILM_SECONDS * (HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0)
-    touching = "touching" if SURE * film < summit else "none" if film > SURE * summit else "none or a few summits"
+    touching = (
+        "touching"
+        if CERTAIN_FACTOR * film < summit
+        else "none"
+        if film > CERTAIN_FACTOR * summit
+        else "none or a few summits"
+    )
     error_of_model = expected_model_error(scene, film, sq, speed)
     if sample.is_only_map:
         if touching != "none":
@@ -103,12 +106,14 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     first = sample.first * sample.strip_length
     target = scene.numerics.sampling_tolerance
     error = 0.0
-    if speed and film <= CLEAR * sq:
-        gap = GAP * sq + RISE * film
+    if speed and film <= CLEAR_OF_ASPERITIES * sq:
+        gap = GAP_IN_CONTACT * sq + RISE * film
         share = min(film / gap, 1.0)
         scatter = sq * math.sqrt(math.pi * lx * ly / (first * (2 * scene.bodies.half_width + math.sqrt(math.pi) * lx)))
-        error = SCATTER * math.exp(-((film / (SEPARATED * sq)) ** 4)) * scatter / gap * share / (1 - share + FLOOR)
-    count = math.ceil(sample.first * max(1.0, SAFETY * (error / target) ** 2 if error > target else 1.0))
+        error = (
+            SCATTER * math.exp(-((film / (SEPARATED * sq)) ** 4)) * scatter / gap * share / (1 - share + FILM_FRICTION)
+        )
+    count = math.ceil(sample.first * max(1.0, STRIPS_SAFETY * (error / target) ** 2 if error > target else 1.0))
     count = min(count, sample.available)
     cells = sample.cells
     (fx, fy) = cells.coarsening
@@ -116,17 +121,17 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     once = 0.0
     piece = 0.0 if cells.is_native else cells.columns * fx * fy * sample.strip_length / dy / 2
     if touching != "none":
-        share = film / (GAP * sq + RISE * film)
+        share = film / (GAP_IN_CONTACT * sq + RISE * film)
         strip = cells.columns * sample.strip_length / dy
-        work = CELL_SECONDS * strip * count + PIECE_SECONDS * piece
+        work = STRIP_CELL_SECONDS * strip * count + PIECE_SECONDS * piece
         work *= max(1.0, strip / LARGE) ** LARGE_POWER
         if SHARED[0] < share < SHARED[1]:
             if not smooth_over_cells(surface.heights):
-                work *= ROUGH_ON_LONG_CELLS if lx < LONG * cells.spacing[0] else ROUGH
+                work *= ROUGH_TIMES_ON_LONG_CELLS if lx < FEW_CELLS_OF_LENGTH * cells.spacing[0] else ROUGH_TIMES
             elif not cells.is_native:
                 work *= REFINED
         seconds += POINT_SECONDS + work
-        once = KNOWN * work
+        once = SPARED_PART * work
     return WorkEstimate(
         strips=count,
         seconds=seconds,

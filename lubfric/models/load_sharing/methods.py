@@ -2,7 +2,7 @@
 
 from ..shared import Prepared
 
-OWN = {  # names of lubfric's own rough contacts; another may have been given
+CONTACT_METHODS = {  # names of lubfric's own rough contacts; another may have been given
     "half-space": ("semi-periodic", "flat periodic curve"),
     "summits": ("independent summits", "flat periodic curve"),
     "patches": ("independent patches", "flat periodic curve"),
@@ -16,7 +16,7 @@ def methods_of_load_sharing(prepared: Prepared, *, has_contact: bool, has_film: 
     """Return the names of the methods; ``has_contact``, ``has_film``: whether asperities, or a film, carry load."""
     scene = prepared.scene
     names = ["load sharing"]
-    if has_contact and prepared.rough_contact.name in OWN[scene.contact.model]:
+    if has_contact and prepared.rough_contact.name in CONTACT_METHODS[scene.contact.model]:
         names.append(CONTACTS[scene.contact.model])
     if has_contact and has_film and scene.numerics.film_deflection == "scaled" and scene.transient is None:
         names.append("scaled modulus")

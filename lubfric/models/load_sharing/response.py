@@ -13,7 +13,7 @@ from .forces import Forces, forces
 
 # Step of ln(F_H/F_C), each way, for the rates of the film. Half and twice as much change f by less than 0.01 %
 # (`python -m verification.campaigns.constants`).
-STEP = 0.05
+LOG_RATIO_STEP = 0.05
 
 # Relative step of the contact load for the slope of its gap. Half and twice as much change f by less than 0.05 %
 # (`python -m verification.campaigns.constants`).
@@ -143,9 +143,9 @@ def respond(
             forces(scene, shared, with_contact_area_scaled(contact_state, factor), loads[1]), shared, loads, mean_film
         )
 
-    low = at(log_load_ratio - STEP)
-    high = at(log_load_ratio + STEP)
-    film_rate = (high["mean_gap"] - low["mean_gap"]) / (2 * STEP)
+    low = at(log_load_ratio - LOG_RATIO_STEP)
+    high = at(log_load_ratio + LOG_RATIO_STEP)
+    film_rate = (high["mean_gap"] - low["mean_gap"]) / (2 * LOG_RATIO_STEP)
     ds_dgap = -1.0 / (-slopes.gap * load * film_load / (total * width) - film_rate)
     return Response(slopes, ds_dgap, {name: _log_rate(low[name], high[name]) for name in low}, film_load / load)
 
@@ -190,4 +190,4 @@ def contact_length(contact_state: ContactState) -> float:
 
 def _log_rate(low: float, high: float) -> float:
     middle = 0.5 * (low + high)
-    return (high - low) / (2 * STEP * middle) if middle else 0.0
+    return (high - low) / (2 * LOG_RATIO_STEP * middle) if middle else 0.0

@@ -18,13 +18,13 @@ if TYPE_CHECKING:
 
 
 # Blocks, below which nothing is known.
-FEWEST = 4
+FEWEST_BLOCKS = 4
 
 # Blocks with which the scale of the extreme values is known: 14 blocks of `SPOT` correlation lengths are 25 of these.
-ENOUGH = 14
+BLOCKS_FOR_SCALE = 14
 
 # Factor on the scale that fewer blocks show. Not measured: that scale is known to 1/sqrt(2 (n - 1)), 40 % with four.
-UNSURE = 2.0
+UNSURE_SCALE = 2.0
 
 # Mean of (excess/scale)^1.5 of an exponential excess.
 OVERLAP = math.gamma(2.5)
@@ -68,9 +68,11 @@ def undetected_load(
     size = max(1, round(SPOT * correlation_length / step))
     rows = height.max(axis=0)
     blocks = rows[: rows.size // size * size].reshape(-1, size).max(axis=1)
-    if blocks.size < FEWEST:
+    if blocks.size < FEWEST_BLOCKS:
         return math.nan
-    scale = float(blocks.std(ddof=1)) * math.sqrt(6) / math.pi * (UNSURE if blocks.size < ENOUGH else 1.0)
+    scale = (
+        float(blocks.std(ddof=1)) * math.sqrt(6) / math.pi * (UNSURE_SCALE if blocks.size < BLOCKS_FOR_SCALE else 1.0)
+    )
     place = float(blocks.mean()) - EULER * scale
     if scale == 0:
         return 0.0

@@ -25,10 +25,10 @@ OUTSIDE = (
 )
 
 # Distance in ln, below which the bounds widen by so little that nothing is reported: a hundredth of their width.
-NEGLIGIBLE = 0.01
+NEGLIGIBLE_DISTANCE = 0.01
 
 # Factor on the bounds far outside the range of the campaign.
-WIDEST = 3.0
+MOST_WIDENING = 3.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -136,10 +136,10 @@ def out_of_range(
 
 def reported(outside: Iterable[Outside]) -> Iterator[Outside]:
     """Yield what is so far outside of the range of the campaign that a warning reports it."""
-    return (part for part in outside if part.distance > NEGLIGIBLE)
+    return (part for part in outside if part.distance > NEGLIGIBLE_DISTANCE)
 
 
 def widening(distances: Iterable[float]) -> float:
     """Return the factor on the bounds at ``distances`` outside the range of the campaign, in ln: 1 + their sum, at most
-    `WIDEST`. Nothing was measured there."""
-    return min(1.0 + sum(distances), WIDEST)
+    `MOST_WIDENING`. Nothing was measured there."""
+    return min(1.0 + sum(distances), MOST_WIDENING)

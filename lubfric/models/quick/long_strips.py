@@ -27,17 +27,17 @@ from ..deterministic import (
 
 # Cells in a correlation length along x and along y, at least, where roughness rests: f differs from that on cells half as
 # long by 1.4 % (median of 276 cases), and a strip takes .16 s.
-AT_REST = (2.5, 2.0)
+CELLS_AT_REST = (2.5, 2.0)
 
 # The same where it moves: 3.4 % (median of 198 cases), and .7 s.
-MOVING = (2.0, 1.25)
+CELLS_IN_MOTION = (2.0, 1.25)
 
 # Effort in the place of `TIGHT`: steps end at 5 times its residual, which goes into the next step. f of four rollers moves by
 # up to .06 %, their counted work falls by 15 to 25 %.
-LOOSER = replace(TIGHT, residual=5e-4, carries_imbalance=True, linear=0.1)
+LOOSER_EFFORT = replace(TIGHT, residual=5e-4, carries_imbalance=True, linear=0.1)
 
 # Cells in the Hertz half-width along x, at least: as in the solved cases.
-PER_HALF_WIDTH = 2.0
+LONG_CELLS_OF_HALF_WIDTH = 2.0
 
 # ln of f on cells twice as long, at most, that a feature takes as it is: beyond it, and where they have no solution, the
 # change says only that it is large.
@@ -73,8 +73,8 @@ def factors_of_long_cells(
 ) -> tuple[int, int]:
     """Return the length of the long cells in those of a map of this ``spacing`` [m] with so many ``rows`` along y, along
     both axes; ``lengths`` [m]: the correlation lengths. Along y it divides the map."""
-    per_length = MOVING if has_moving_roughness(scene) else AT_REST
-    longest_x = min(lengths[0] / per_length[0], scene.bodies.half_width / PER_HALF_WIDTH)
+    per_length = CELLS_IN_MOTION if has_moving_roughness(scene) else CELLS_AT_REST
+    longest_x = min(lengths[0] / per_length[0], scene.bodies.half_width / LONG_CELLS_OF_HALF_WIDTH)
     longest_y = lengths[1] / per_length[1]
     along = max(1, math.floor(longest_x / spacing[0] * (1 + 1e-9)))
     most = max(1, math.floor(longest_y / spacing[1] * (1 + 1e-9)))
@@ -119,9 +119,9 @@ def effort_on_long_cells(
     scene: Scene, bodies: Sequence[RoughBody], speed: float, factors: tuple[int, int]
 ) -> MovingEffort:
     """Return how accurately the film under moving ``bodies`` is followed at ``speed`` [m/s] on cells ``factors`` times as
-    long as those of their maps: as `effort_of` says, with the steps of `LOOSER` instead of tight ones."""
+    long as those of their maps: as `effort_of` says, with the steps of `LOOSER_EFFORT` instead of tight ones."""
     effort = effort_of(scene, bodies, speed, factors)
-    return LOOSER if effort == TIGHT else effort
+    return LOOSER_EFFORT if effort == TIGHT else effort
 
 
 def numbers_of_strip(pair: StripOnTwoGrids) -> dict[str, float]:

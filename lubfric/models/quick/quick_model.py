@@ -63,7 +63,7 @@ EXPECTED_STRIPS = 2
 
 # Standard error of f by the sample that strips are solved for, relative, at least: a smaller one takes more time than the
 # error by the cells is worth.
-SAMPLING = 0.03
+LEAST_SAMPLING_ERROR = 0.03
 
 # The same, over the half-width of the bounds of f by the cells: with Student's t it widens the interval by a tenth.
 OF_BOUNDS = 0.2
@@ -80,8 +80,8 @@ ELASTIC = "elastic shear (lubricant.shear_modulus) is not calibrated: friction b
 NOT_FLOODED = (
     "f of Eq. (9) with the error of load sharing: the campaign behind the calibration has flooded contacts only"
 )
-THICK = "f of Eq. (9): the film is thick and touches no asperity, where the error of load sharing is small"
-UNSOLVED = "f of Eq. (9) with the error of load sharing: the strips on long cells were not solved ({})"
+THICK_FILM_NOTE = "f of Eq. (9): the film is thick and touches no asperity, where the error of load sharing is small"
+STRIPS_NOT_SOLVED = "f of Eq. (9) with the error of load sharing: the strips on long cells were not solved ({})"
 NARROWER = "numerics.model = 'deterministic' reduces the error of f, at the cost that `lubfric info` estimates"
 NARROWED = "take numerics.model = 'deterministic', which narrows it"
 OF_CELLS = "the error of long cells, calibrated on {} contacts: numerics.model = 'deterministic' reduces it"
@@ -207,7 +207,7 @@ class QuickSolution(SampleSolution):
         if not lubricant.floods:
             return NOT_FLOODED
         if self._is_thick:
-            return THICK
+            return THICK_FILM_NOTE
         return self._solved if isinstance(self._solved, str) else ""
 
     @cached_property
@@ -228,7 +228,7 @@ class QuickSolution(SampleSolution):
         try:
             return solve_long_strips(self.prepared, self.speed, control)
         except ConvergenceError as error:
-            return UNSOLVED.format(error)
+            return STRIPS_NOT_SOLVED.format(error)
 
     @property
     def strips(self) -> LongStrips:
@@ -267,7 +267,7 @@ def solve_long_strips(prepared: Prepared, speed: float, control: ControlVariate 
     scene = prepared.scene
     numerics = replace(
         scene.numerics,
-        sampling_tolerance=max(scene.numerics.sampling_tolerance, SAMPLING),
+        sampling_tolerance=max(scene.numerics.sampling_tolerance, LEAST_SAMPLING_ERROR),
         model_tolerance=max(scene.numerics.model_tolerance, LEAST_TOLERANCE),
     )
     pairs = [_solve_strip(prepared, speed, 0, numerics, None)]

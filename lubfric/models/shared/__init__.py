@@ -49,11 +49,12 @@ from .prepared import (
 )
 from .rolling import rolling_model_error, smooth_rolling_resistance
 from .statistics import (
-    FEW,
+    FEW_CONTACTS,
     FREEDOM_NOT_COUNTED,
-    MATTERS,
-    SAFETY,
-    TOO_SHORT,
+    SAMPLE_TOO_SHORT,
+    SAMPLING_MATTERS,
+    SHARED_LENGTH,
+    STRIPS_SAFETY,
     StandardError,
     add_errors,
     block_error,
@@ -67,6 +68,7 @@ from .statistics import (
 )
 from .unknown_limit import LIMIT_RANGE, limit_bounds, limit_in_words
 from .unmodelled import (
+    GAP_IN_CONTACT,
     ExpectedEffect,
     UnmodelledEffect,
     change_in_words,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..._base import FloatArray
 from ...contact import ridges
-from ...film import FAST, LARGEST, SLIDING, LineContact, ShearForce
+from ...film import FAST_PECLET_NUMBER, MOST_SLIDE_ROLL_RATIO_OF_INLET, MOST_THERMAL_LOADING, LineContact, ShearForce
 from ...oil import CELSIUS, NO_LIQUID
 from ...units import worded
 from .heat import TYPICAL, Heat
@@ -43,7 +43,7 @@ ROELANDS_LIMIT = 1e9
 BARUS_LIMIT = 3e8
 
 # Film over the radius from which it is not thin: at sqrt(2 R h) the parabola for the circle is off by 5 %.
-THICK = 0.1
+THICK_FILM = 0.1
 
 # Part of the mean gap that the undeformed cylinder may rise over the Hertz strip. Not measured: it decides a warning, no
 # number.
@@ -57,13 +57,13 @@ ANOTHER = "numerics.film_deflection = 'scaled'"
 # Share of the contact load on the two edge columns of a patch from which its ends cut off the contact. Not measured:
 # it decides where a point is refused, no number.
 ON_ENDS = 0.01
-LONGER = "make the patch longer in x: contact.shape, or for a measured map surface.extension = 'mirror'"
+LONGER_PATCH = "make the patch longer in x: contact.shape, or for a measured map surface.extension = 'mirror'"
 
 # Share of f from stresses that no oil carries from which on f is refused. Not measured: a convention.
-SHARE = 0.2
+REFUSED_SHARE = 0.2
 
 # Friction coefficient of a film that no lubricant reaches: traction fluids have some 0.1 (typical.toml).
-FRICTION = 0.2
+MOST_FILM_FRICTION = 0.2
 
 
 def warn_motion(scene: Scene, speed: float, thickness: float) -> Iterator[Violation]:
@@ -160,13 +160,13 @@ def warn_pressure(scene: Scene, peak: float) -> Iterator[Violation]:
 def warn_thickness(scene: Scene, thickness: float) -> Iterator[Violation]:
     """Yield the violations by the central film thickness ``thickness`` [m]."""
     radius = scene.bodies.radius
-    if not thickness > THICK * radius:
+    if not thickness > THICK_FILM * radius:
         return
     why = "the film is not thin compared with the cylinder"
     yield Violation(
         what="film over radius",
         value=thickness / radius,
-        limit=THICK,
+        limit=THICK_FILM,
         unit="",
         consequence=why,
         remedy="check bodies.radius, viscosity and speed",
@@ -218,7 +218,13 @@ def warn_ends(share: float, length: float) -> Iterator[Violation]:
         why = f"the ends of the patch, {worded(length, 'm')} apart, cut the contact off"
         what = "share of the contact load on the edge columns of the patch"
         yield Violation(
-            what=what, value=100 * share, limit=100 * ON_ENDS, unit="%", consequence=why, remedy=LONGER, severe=True
+            what=what,
+            value=100 * share,
+            limit=100 * ON_ENDS,
+            unit="%",
+            consequence=why,
+            remedy=LONGER_PATCH,
+            severe=True,
         )
 
 
@@ -261,21 +267,21 @@ def warn_shear(scene: Scene, shear: ShearForce, film_load: float, friction_force
     law = "Newtonian shear" if scene.lubricant.newtonian else "the shear law"
     remedy = "give lubricant.eyring_stress (some 5e6 Pa) and limiting_stress_coefficient (some 0.05 to 0.1)"
     if share > tolerance:
-        severe = share > SHARE
+        severe = share > REFUSED_SHARE
         yield Violation(
             what="share of f from shear stresses that no oil carries",
             value=share,
-            limit=SHARE if severe else tolerance,
+            limit=REFUSED_SHARE if severe else tolerance,
             unit="",
             consequence=f"{law} reaches {shear.stress_ratio:.2g} times the 5 MPa + 0.12 p that an oil carries, and gives the film a friction "
             f"coefficient of {friction:.2g}",
             remedy=remedy,
             severe=severe,
         )
-    elif friction > FRICTION and abs(shear.couette) > tolerance * friction_force:
+    elif friction > MOST_FILM_FRICTION and abs(shear.couette) > tolerance * friction_force:
         what = "friction coefficient of the film"
         why = "more than any lubricant gives"
-        yield Violation(what=what, value=friction, limit=FRICTION, unit="", consequence=why, remedy=remedy)
+        yield Violation(what=what, value=friction, limit=MOST_FILM_FRICTION, unit="", consequence=why, remedy=remedy)
 
 
 def warn_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
@@ -283,7 +289,10 @@ def warn_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
     tolerance = scene.numerics.tolerance
     if heat.is_used and heat.inlet is not None:
         spread = abs(heat.inlet.other / max(heat.inlet.factor, 1e-12) - 1)
-        extrapolated = abs(scene.motion.slide_roll_ratio) > SLIDING or heat.inlet.thermal_number > LARGEST
+        extrapolated = (
+            abs(scene.motion.slide_roll_ratio) > MOST_SLIDE_ROLL_RATIO_OF_INLET
+            or heat.inlet.thermal_number > MOST_THERMAL_LOADING
+        )
         if extrapolated and spread > tolerance:
             yield Violation(
                 what="difference of two published inlet heating factors",
@@ -298,7 +307,7 @@ def warn_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
         yield Violation(
             what="Péclet number of the faster surface",
             value=heat.peclet,
-            limit=FAST,
+            limit=FAST_PECLET_NUMBER,
             unit="",
             consequence="the heat source moves slowly: the flash temperature "
             f"used is too high, and f too low by at most {100 * heat.change:.2g} %",

@@ -15,28 +15,28 @@ from .checks import peak_hertz_pressure, warn_motion, warn_pressure, warn_shear
 from .violation import Violation
 
 # Nodes across the Hertz strip of the estimate of the shear: their sum is off by 6e-5 with an Eyring stress.
-NODES = 201
+STRIP_NODES = 201
 
 # Half-width of the Hertz strip over R from which a parabola for the circle is off: by b²/(4 R²) = 0.25 % of the
 # height.
-WIDE = 0.1
+WIDE_STRIP = 0.1
 
 # Half-width of the Hertz strip over R from which a half-space means nothing. Not measured: a convention.
-WIDEST = 0.5
+WIDEST_STRIP = 0.5
 
 # Rms slope from which slopes are not small: the contact is solved for infinitesimal ones, which errs by the square,
 # 25 %.
 STEEP = 0.5
 
 # Rms slope of no real surface: heights or spacing are in a wrong unit. Not measured: a convention.
-STEEPEST = 1.5
+REFUSED_SLOPE = 1.5
 
 # Cells in a correlation length below which a map is noise: independent cells have 0.63.
 NOISE = 0.8
 FILTERED = "lines in the right order, or surface.s_filter"
 
 # Correlation lengths that a patch should be wide: the fewest for two blocks (statistics.py).
-FEW = 10
+LEAST_PATCH_LENGTHS = 10
 
 # Peak Hertz pressure [Pa] that hard steel does not carry elastically: static ratings of bearings allow 4.0 to 4.6 GPa
 # (ISO 76).
@@ -79,18 +79,18 @@ def _cells_of_length(surface: Surface, axis: int) -> float:
 def warn_bodies(bodies: Bodies) -> Iterator[Violation]:
     """Half-space and elasticity of the Hertz contact."""
     wide = bodies.half_width / bodies.radius
-    if wide > WIDE:
+    if wide > WIDE_STRIP:
         remedy = "check bodies.load, e_prime and radius; a lighter load or a stiffer body"
         why = "the contact is about as wide as the body, which is then no half-space"
         what = "contact half-width over radius"
         yield Violation(
             what=what,
             value=wide,
-            limit=WIDEST if wide > WIDEST else WIDE,
+            limit=WIDEST_STRIP if wide > WIDEST_STRIP else WIDE_STRIP,
             unit="",
             consequence=why,
             remedy=remedy,
-            severe=wide > WIDEST,
+            severe=wide > WIDEST_STRIP,
         )
     if bodies.width < 2 * bodies.half_width:
         why = "the contact is wider than long: no line contact"
@@ -127,18 +127,18 @@ def warn_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Itera
         yield Violation(
             what=what,
             value=slope,
-            limit=STEEPEST if slope > STEEPEST else STEEP,
+            limit=REFUSED_SLOPE if slope > REFUSED_SLOPE else STEEP,
             unit="",
             consequence=why,
             remedy=remedy,
-            severe=slope > STEEPEST,
+            severe=slope > REFUSED_SLOPE,
         )
-    if lengths < FEW:
+    if lengths < LEAST_PATCH_LENGTHS:
         why = "few asperities: another patch of the same surface would give another f"
         yield Violation(
             what="width of the map over its correlation length",
             value=lengths,
-            limit=FEW,
+            limit=LEAST_PATCH_LENGTHS,
             unit="",
             consequence=why,
             remedy="a larger map",
@@ -185,7 +185,7 @@ def _warn_film(scene: Scene, speed: float, thickness: float) -> list[Violation]:
     bodies = scene.bodies
     lubricant = scene.lubricant
     w = scene.bodies.load / scene.bodies.width
-    x = np.linspace(-1, 1, NODES) * bodies.half_width
+    x = np.linspace(-1, 1, STRIP_NODES) * bodies.half_width
     pressure = np.asarray(hertz.line_pressure(x, w, bodies.radius, bodies.e_prime))
     with np.errstate(over="ignore"):
         sliding = abs(scene.motion.slide_roll_ratio * speed)

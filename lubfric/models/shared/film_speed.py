@@ -11,7 +11,7 @@ from ...scene import Scene
 NUDGE = 1e-3
 
 # Relative accuracy of the speed that gives a film: of a start or of a reference point, which needs no more.
-ACCURACY = 1e-6
+SPEED_ACCURACY = 1e-6
 
 
 def exponents(line: LineContact) -> tuple[float, float, float]:
@@ -33,4 +33,4 @@ def speed_of(scene: Scene, thickness: float) -> float:
     def excess(log_speed: float) -> float:
         return math.log(scene.line_contact(math.exp(log_speed)).expected_film / thickness)
 
-    return math.exp(newton(excess, 0.0, tol=ACCURACY))
+    return math.exp(newton(excess, 0.0, tol=SPEED_ACCURACY))

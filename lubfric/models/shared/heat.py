@@ -13,8 +13,8 @@ import numpy as np
 from ..._base import FloatArray
 from ...errors import InputError
 from ...film import (
-    FAST,
-    LARGEST,
+    FAST_PECLET_NUMBER,
+    MOST_THERMAL_LOADING,
     EHLResult,
     FilmHeat,
     InletHeat,
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 # Relative change of the film by the heat of its inlet that is none: rounding. Half and twice as much change nothing.
-NOTHING = 1e-9
+NEGLIGIBLE_HEAT = 1e-9
 # Temperature [K] and temperature coefficient of the viscosity [1/K] of a mineral oil of ISO VG 68 at 70 °C.
 TYPICAL = (343.15, 0.035)
 
@@ -42,7 +42,7 @@ TYPICAL = (343.15, 0.035)
 DOUBT = 0.5
 
 # Exponent of the viscosity in Moes' film, about: it changes slowly, between 0.5 and 1.
-EXPONENT = 0.7
+VISCOSITY_EXPONENT = 0.7
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,7 +113,7 @@ class Heat:
     @property
     def is_slow(self) -> bool:
         """Whether the surfaces move too slowly for the formula of the flash temperature, which is then too high."""
-        return self.peclet < FAST
+        return self.peclet < FAST_PECLET_NUMBER
 
     def text(self, tolerance: float) -> str:
         """The heat as text, each number with its budget."""
@@ -154,12 +154,12 @@ def film_lubricant(scene: Scene, speed: float) -> Lubricant:
     """The lubricant with which the film is solved: with the viscosity in the heated inlet at which Moes' film is
     thinner by the factor of `inlet_at`."""
     inlet, used = inlet_at(scene, speed)
-    if inlet is None or not used or inlet.factor > 1 - NOTHING:
+    if inlet is None or not used or inlet.factor > 1 - NEGLIGIBLE_HEAT:
         return scene.lubricant
     if inlet.factor <= 0:
         raise InputError(
             f"heat of the inlet: thermal number eta0 beta U²/k = {inlet.thermal_number:.3g} leaves no film by the "
-            f"factor of Gupta et al. (1992); allowed: up to about {LARGEST:g}, or numerics.heat = 'off' (speed, "
+            f"factor of Gupta et al. (1992); allowed: up to about {MOST_THERMAL_LOADING:g}, or numerics.heat = 'off' (speed, "
             "viscosity, temperature_coefficient and their units?)"
         )
     from scipy.optimize import newton
@@ -172,7 +172,7 @@ def film_lubricant(scene: Scene, speed: float) -> Lubricant:
         return math.log(replace(whole, lubricant=made).moes_film / whole.moes_film)
 
     wanted = math.log(inlet.factor)
-    share = newton(lambda share: thinner(share) - wanted, wanted / EXPONENT)
+    share = newton(lambda share: thinner(share) - wanted, wanted / VISCOSITY_EXPONENT)
     return replace(lubricant, viscosity=lubricant.viscosity * math.exp(share))
 
 

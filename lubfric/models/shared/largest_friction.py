@@ -15,7 +15,7 @@ from .checks import peak_hertz_pressure
 from .unknown_limit import LIMIT_RANGE
 
 # Thinnest film [m] where the scene gives no boundary film: half of lubfric's own value, as in the error of f.
-THINNEST = 10e-9
+THINNEST_FILM = 10e-9
 
 # Pressure [Pa] of films between asperities, up to which the stress of an oil over the pressure counts: above it, deterministic
 # films were seen on few cells only. A convention.
@@ -25,7 +25,7 @@ MOST_PRESSURE = 3e9
 PRESSURES = 30
 
 # Points of the Hertz pressure, at equal steps of the angle: the mean of a smooth stress is known to 1e-3. A convention.
-POINTS = 60
+HERTZ_POINTS = 60
 
 
 def largest_of_oil(oil: Lubricant, friction: float, peak: float, sliding: float, thickness: float) -> float:
@@ -38,7 +38,7 @@ def largest_of_oil(oil: Lubricant, friction: float, peak: float, sliding: float,
     """
     if oil.newtonian:
         return friction if oil.limited_by_boundary_friction else max(friction, LIMIT_RANGE[1])
-    angle = (np.arange(POINTS) + 0.5) * math.pi / POINTS
+    angle = (np.arange(HERTZ_POINTS) + 0.5) * math.pi / HERTZ_POINTS
     hertz = peak * np.sin(angle)
     higher = np.geomspace(math.pi / 4 * peak, max(MOST_PRESSURE, peak), PRESSURES)
     with np.errstate(over="ignore"):
@@ -71,6 +71,6 @@ def largest_at_load(scene: Scene, load: float, sliding: float) -> float:
     if sliding == 0:
         return math.inf
     bodies = scene.bodies
-    film = THINNEST if bodies.boundary_film is None else bodies.boundary_film
+    film = THINNEST_FILM if bodies.boundary_film is None else bodies.boundary_film
     peak = peak_hertz_pressure(scene) * math.sqrt(load / bodies.load)
     return largest_of_oil(scene.lubricant, bodies.boundary_friction_coefficient, peak, sliding, film)

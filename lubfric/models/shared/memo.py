@@ -21,7 +21,7 @@ MOST_ENTRIES = 64
 
 # Cells of all entries but the last, at most, for memory: 64 MB of heights. Half and twice as many change no time by
 # more than 8 %.
-MOST_CELLS = 8_000_000
+MOST_MEMO_CELLS = 8_000_000
 
 
 class Key(Generic[T]):
@@ -105,7 +105,7 @@ class Memo:
         """Keep ``value``, which has so many ``cells``."""
         self._kept[key] = (value, cells)
         entries = list(self._kept.items())
-        while len(entries) > MOST_ENTRIES or sum(size for _, (_, size) in entries[:-1]) > MOST_CELLS:
+        while len(entries) > MOST_ENTRIES or sum(size for _, (_, size) in entries[:-1]) > MOST_MEMO_CELLS:
             self._kept.pop(entries.pop(0)[0], None)
 
     def keep_surface_of(self, other: Memo) -> None:

@@ -18,7 +18,7 @@ from ...surface import Surface
 from .memo import Memo, OperatorKey, PieceKey, PieceMapKey, StackKey, StripKey
 from .violation import Violation
 
-OWN = HalfSpaceContact, FlatContact, AsperityContact
+OWN_CONTACTS = HalfSpaceContact, FlatContact, AsperityContact
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
@@ -48,7 +48,7 @@ class Prepared(FieldsOnly, Renamed, Shown):
     @property
     def has_own_contact(self) -> bool:
         """Whether the rough contact is one of lubfric's own."""
-        return isinstance(self.rough_contact, OWN)
+        return isinstance(self.rough_contact, OWN_CONTACTS)
 
     @property
     def is_joint(self) -> bool:

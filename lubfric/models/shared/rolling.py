@@ -28,10 +28,10 @@ MOST_OF_RESISTANCE = 0.15
 
 # Share of the load on the film, at least, at which its resistance is solved: below it, the resistance is too small to
 # matter beside friction.
-LEAST_SHARE = 1e-3
+LEAST_FILM_SHARE = 1e-3
 
 # Relative tolerance of the film.
-TOLERANCE = 3e-3
+RESISTANCE_TOLERANCE = 3e-3
 
 
 def rolling_model_error(lambda_ratio: float) -> float:
@@ -52,14 +52,14 @@ def smooth_rolling_resistance(scene: Scene, speed: float, film_load: float) -> t
     `ConvergenceError`.
     """
     bodies = scene.bodies
-    share = max(film_load / bodies.load, LEAST_SHARE)
+    share = max(film_load / bodies.load, LEAST_FILM_SHARE)
     line = replace(
         scene.line_contact(abs(speed)),
         load_per_width=share * bodies.load / bodies.width,
         e_prime=share * bodies.e_prime,
         lubricant=film_lubricant(scene, abs(speed)),
     )
-    film = solve_line_contact(line, Effort(TOLERANCE, 0))
+    film = solve_line_contact(line, Effort(RESISTANCE_TOLERANCE, 0))
     shear = shear_force(
         film,
         line.lubricant,

@@ -9,7 +9,7 @@ from ..._base import FloatArray
 
 # Mean square of the change of the heights over two cells, over that over one, of smooth heights, at least: 4 of a
 # parabola, 2 of an exponential autocorrelation.
-SMOOTH = 3.0
+SMOOTH_RATIO = 3.0
 
 # Blocks of a line, at most. The constants of this module are judged by the coverage of the 95 % intervals (`python -m
 # verification sampling`, docs/measurements.md: 91 to 99 %); `python -m verification.campaigns.constants` halves and
@@ -22,26 +22,26 @@ ENOUGH_BLOCKS = 8
 # Blocks, below which the error is not known: four degrees of freedom.
 LEAST_BLOCKS = 5
 
-# Correlation lengths along y in a block, wanted: neighbouring blocks share 6 % of their variance (`ENDS`).
-WIDE = 9.0
+# Correlation lengths along y in a block, wanted: neighbouring blocks share 6 % of their variance (`SHARED_LENGTH`).
+WANTED_BLOCK_LENGTH = 9.0
 
-# Correlation lengths along y in a block, at least: neighbouring blocks share 11 % of their variance (`ENDS`).
-BLOCK = 5.0
+# Correlation lengths along y in a block, at least: neighbouring blocks share 11 % of their variance (`SHARED_LENGTH`).
+LEAST_BLOCK_LENGTH = 5.0
 
 # Correlation lengths of a block that are as those of its neighbour: ∫ |y| exp(-y²) dy/∫ exp(-y²) dy, of a Gaussian
 # correlation.
-ENDS = 1 / math.sqrt(math.pi)
+SHARED_LENGTH = 1 / math.sqrt(math.pi)
 
 # Factor on the number of strips that an error needs, because this error is itself known to 1/sqrt(2 nu) only.
-SAFETY = 1.3
+STRIPS_SAFETY = 1.3
 
 # Factor by which a sample grows, at least: fewer new strips tell little that is new. Not measured:
 # as a default argument, the campaign above does not change it.
-LEAST = 1.5
+LEAST_GROWTH = 1.5
 
 # Factors by which a sample grows, at most: the first one, and a longer one. A standard error from few blocks is no
 # guide further.
-GROWTH = 4.0, 8.0
+SAMPLE_GROWTH = 4.0, 8.0
 
 # Confidence of the intervals.
 CONFIDENCE = 0.95
@@ -51,12 +51,12 @@ FREEDOM_NOT_COUNTED = 30
 
 # Effective asperity contacts below which an interval covers less often than it states: 91.5 % at 55 N
 # (docs/measurements.md, `python -m verification sampling`).
-FEW = 10.0
+FEW_CONTACTS = 10.0
 
 # Part of the sampling tolerance below which an error needs no more asperity contacts. Half and twice change nothing on
 # the points of the campaign above.
-MATTERS = 0.25
-TOO_SHORT = (
+SAMPLING_MATTERS = 0.25
+SAMPLE_TOO_SHORT = (
     "not known: {:.2g} correlation lengths along y are too few for an interval (omit numerics.sampling and "
     "surface.extension, or give a map that is longer along y)"
 )
@@ -86,8 +86,8 @@ def block_error(
     ``exact`` (ny,): a quantity of every place whose mean over the line is known exactly. Scatter that the blocks share
     with it is no error: s is then that of the residuals of a straight line through the blocks.
     """
-    count = min(MOST_BLOCKS, int(values.size * step / (WIDE * correlation_length)))
-    count = max(count, min(ENOUGH_BLOCKS, int(values.size * step / (BLOCK * correlation_length))))
+    count = min(MOST_BLOCKS, int(values.size * step / (WANTED_BLOCK_LENGTH * correlation_length)))
+    count = max(count, min(ENOUGH_BLOCKS, int(values.size * step / (LEAST_BLOCK_LENGTH * correlation_length))))
     count = min(count, values.size)
     if count < LEAST_BLOCKS:
         return StandardError(math.inf, 0)
@@ -100,7 +100,7 @@ def block_error(
             means, freedom = means - known * (float(known @ means) / square), count - 2
     square = float(np.sum((means - means.mean()) ** 2))
     length = values.size // count * step / correlation_length
-    return StandardError(math.sqrt(square / (freedom * count * (1 - ENDS / length))), freedom)
+    return StandardError(math.sqrt(square / (freedom * count * (1 - SHARED_LENGTH / length))), freedom)
 
 
 def means_of_blocks(values: np.ndarray, count: int) -> np.ndarray:
@@ -127,8 +127,8 @@ def required_strips(
     target: float,
     at_least: float = 0.0,
     *,
-    growth: tuple[float, float] = GROWTH,
-    spare: tuple[float, float] = (SAFETY, LEAST),
+    growth: tuple[float, float] = SAMPLE_GROWTH,
+    spare: tuple[float, float] = (STRIPS_SAFETY, LEAST_GROWTH),
 ) -> int:
     """Return how many strips bring a standard ``error`` on ``count`` of them within ``target``, as it falls with the root
     of their number: ``count`` if it is within.
@@ -157,7 +157,7 @@ def required_strips(
 def has_too_few_contacts(effective_contacts: float, reached: float, target: float) -> bool:
     """Whether so few asperity contacts carry the load that an interval is too narrow more often than it says, and the
     standard error ``reached`` is not small compared with ``target``. 0 contacts: nothing touches."""
-    return 0 < effective_contacts < FEW and reached > MATTERS * target
+    return 0 < effective_contacts < FEW_CONTACTS and reached > SAMPLING_MATTERS * target
 
 
 def student(freedom: float) -> float:
@@ -188,4 +188,4 @@ def smooth_over_cells(heights: FloatArray) -> bool:
     """Return whether ``heights`` (nx, ny) are smooth over a cell along y: over two cells they change twice as much as over
     one. Of an exponential autocorrelation it is sqrt(2), and one change of f by shorter cells says nothing of the next."""
     one, two = (float(np.mean(np.square(heights - np.roll(heights, k, axis=1)))) for k in (1, 2))
-    return two >= SMOOTH * one
+    return two >= SMOOTH_RATIO * one

@@ -16,10 +16,11 @@ import numpy as np
 from ...film import flooded_inlet, hertz, starved_inlet
 from ...oil import carried_stress, shear_stress
 from ...scene import Scene, has_moving_roughness
+from .checks_before import STRIP_NODES
 from .heat import TYPICAL
 
 # Film over that of a full inlet, of the example of a starved one. A convention, not measured.
-STARVED = 0.7
+STARVED_EXAMPLE = 0.7
 
 # Sq after running-in over that before, of the example. Not measured: `lubfric.run_in` computes it for a scene.
 WORN = 0.6
@@ -31,35 +32,33 @@ WARMER = 10.0
 RUBBED = 0.75
 
 # Mean gap of a contact that carries most of the load [Sq], about: 1.67 in the scene "paper" at 1 mm/s.
-GAP = 1.6
+GAP_IN_CONTACT = 1.6
 
 # Film over Sq from which roughness that moves hardly matters.
-THICK = 3.0
+FILM_THAT_HIDES_ROUGHNESS = 3.0
 
 # E' [Pa] below which a body is a covered roller or a seal.
-SOFT = 5e9
+SOFT_E_PRIME = 5e9
 
 # Half-widths of the Hertz strip that a cover must be thick to count as a half-space.
 DEEP = 5.0
 
 # Least share of asperities or film of the load that is scaled to that of a result.
-SURE = 1e-6
+LEAST_SCALED_SHARE = 1e-6
 
 # Distance that a film reaches before a narrow contact, in sqrt(2 R h): the pressure of a rigid one has
 # fallen to 4 % of its largest there.
 UPSTREAM = 4.0
 
 # Distance that a film reaches behind a narrow contact, in sqrt(2 R h), by Reynolds' condition on a rigid cylinder.
-RUPTURE = 0.475
+REYNOLDS_RUPTURE = 0.475
 
 # Part of f by asperities below which the film makes it.
-ALONE = 0.1
+LEAST_ASPERITY_PART = 0.1
 
 # Part by which the least film of a rigid contact is thinner than that which flows: 1 - 1/1.226, Reynolds' condition.
-NARROW = 0.184
+REYNOLDS_THINNING = 0.184
 
-# Nodes of the sums along x, as in checks_before.py.
-NODES = 201
 
 # Powers of the guess of s between which that of a result lies, and 0: the built-in contact, by three models, has those
 # of 0.17 to 1.7 at Λ from 0.3 to 1.7, and moving roughness by the deterministic model next to no load on asperities.
@@ -97,7 +96,7 @@ def expected_effects(
     rubs, friction = _parts(scene, sq, speed)
     f_b = scene.bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0)
     share = rubs / f_b if f_b else 0.0
-    shear = (friction - rubs) / max(1.0 - share, SURE)
+    shear = (friction - rubs) / max(1.0 - share, LEAST_SCALED_SHARE)
     ranges: dict[str, tuple[float, float, str]] = {}
     for power in POWERS if f_b and speed else (1.0,):
         of_load = share**power
@@ -153,7 +152,7 @@ def _of_film(
     before = _parts(scene, sq, speed)
     rubs = scene.bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0)
     narrow = line.expected_film * 2 * line.radius > line.half_width**2
-    alone = (known or before)[0] < ALONE * (known or before)[1]
+    alone = (known or before)[0] < LEAST_ASPERITY_PART * (known or before)[1]
 
     def change(other: Scene, rough: float, times: float = 1.0) -> float:
         after = _parts(other, rough, speed, times)
@@ -164,8 +163,8 @@ def _of_film(
     effects: list[UnmodelledEffect] = []
     if lubricant.floods:
         words = f"the inlet is flooded if oil reaches {1e3 * reach:.2g} mm ahead of the contact line; if not, give lubricant.inlet_length"
-        size = math.nan if narrow and alone else change(scene, sq, STARVED)  # the rolling part may fall by more
-        effects.append((f"a starved inlet (film x {STARVED:g})", size, words))
+        size = math.nan if narrow and alone else change(scene, sq, STARVED_EXAMPLE)  # the rolling part may fall by more
+        effects.append((f"a starved inlet (film x {STARVED_EXAMPLE:g})", size, words))
     words = f"oil in the inlet {WARMER:g} K warmer than the given temperature"
     effects.append((words, change(warm, sq), "give lubricant.temperature at the inlet of the contact"))
     if sq > 0:
@@ -173,11 +172,11 @@ def _of_film(
         effects.append(
             (words, change(scene, WORN * sq), "give a height map measured after running-in, or use lubfric.run_in")
         )
-        if has_moving_roughness(scene) and not includes_motion and line.expected_film < THICK * sq:
+        if has_moving_roughness(scene) and not includes_motion and line.expected_film < FILM_THAT_HIDES_ROUGHNESS * sq:
             effects.append(
                 ("motion of the roughness through the contact", math.nan, "numerics.model = 'deterministic' models it")
             )
-    if scene.bodies.e_prime < SOFT:
+    if scene.bodies.e_prime < SOFT_E_PRIME:
         words = f"a cover that is thinner than {1e3 * DEEP * line.half_width:.2g} mm, and its damping"
         effects.append((words, math.nan, "give e_prime so that the contact is as wide as measured"))
     return effects
@@ -190,7 +189,7 @@ def _scaled(
     mu in proportion."""
     if not f_b:
         return 0.0, after[1] / before[1] * known[1]
-    shares = [min(max(parts[0] / f_b, SURE), 1 - SURE) for parts in (before, after, known)]
+    shares = [min(max(parts[0] / f_b, LEAST_SCALED_SHARE), 1 - LEAST_SCALED_SHARE) for parts in (before, after, known)]
     guessed, changed, there = (math.log(1 / share) for share in shares)
     share = math.exp(-there * changed / guessed)
     shears = [max(parts[1] - parts[0], 0.0) / (1 - s) for parts, s in zip((before, after, known), shares)]
@@ -213,9 +212,9 @@ def _parts(scene: Scene, sq: float, speed: float, times: float = 1.0) -> tuple[f
     begins = b + UPSTREAM * rise
     if times < 1:
         begins = min(begins, starved_inlet(times, math.sqrt(2 * line.radius * line.expected_film), b))
-    x = np.linspace(-begins, b + RUPTURE * rise, NODES)
+    x = np.linspace(-begins, b + REYNOLDS_RUPTURE * rise, STRIP_NODES)
     shape = line.load_per_width, line.radius, line.e_prime
-    least = math.hypot(thickness * (1 - NARROW * rise / (rise + b)), GAP * sq)
+    least = math.hypot(thickness * (1 - REYNOLDS_THINNING * rise / (rise + b)), GAP_IN_CONTACT * sq)
     gap = least + hertz.line_gap(x, *shape)
     with np.errstate(over="ignore"):
         pressure = hertz.line_pressure(x, *shape)

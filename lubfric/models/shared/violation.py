@@ -11,9 +11,9 @@ from typing import Any
 from ...errors import ValidityError
 
 # The value in the text of a violation.
-_NUMBER = re.compile(r" is (-?[0-9.]+(?:e[-+]?[0-9]+)?)")
+_VALUE_IN_TEXT = re.compile(r" is (-?[0-9.]+(?:e[-+]?[0-9]+)?)")
 # What is between the texts of a cell.
-BETWEEN = " | "
+TEXT_SEPARATOR = " | "
 # Runs of points that are named in one sentence, at most.
 MOST_PLACES = 12
 
@@ -96,7 +96,7 @@ def violations_of(point: Any, error: Exception | None) -> tuple[Violation, ...]:
 
 def in_a_cell(violations: Iterable[Violation]) -> str:
     """The texts of ``violations`` in one cell of a table."""
-    return BETWEEN.join(violation.text for violation in violations)
+    return TEXT_SEPARATOR.join(violation.text for violation in violations)
 
 
 def gathered(
@@ -138,11 +138,11 @@ def gathered_texts(cells: Sequence[str]) -> list[str]:
     of each point (`in_a_cell`). Points are named by their number, from 1."""
     groups: dict[str, dict[int, str]] = {}
     for number, cell in enumerate(cells, 1):
-        for text in cell.split(BETWEEN) if cell else ():
+        for text in cell.split(TEXT_SEPARATOR) if cell else ():
             groups.setdefault(text.partition(" is ")[0], {})[number] = text
     lines = []
     for group in sorted(groups.values(), key=len, reverse=True):
-        matches = [(match, text) for text in group.values() if (match := _NUMBER.search(text))]
+        matches = [(match, text) for text in group.values() if (match := _VALUE_IN_TEXT.search(text))]
         values = sorted((float(match[1]), match[1], text) for match, text in matches)
         text = next(iter(group.values()))
         if len(values) == len(group):

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 import lubfric
-from lubfric.oil import FLOW_LAWS, LIMITS
+from lubfric.oil import FLOW_LAWS, LIMIT_LAWS
 from lubfric.quantities import KEYS
 
 from ...fem.parts import case_of_scene
@@ -72,7 +72,7 @@ def _seconds(job: Callable[[], object]) -> float:
 
 def shear_laws() -> Cells:
     """The keys of the shear laws."""
-    keys = [key for law in (*FLOW_LAWS, *LIMITS) for key in (law.key, *law.others)]
+    keys = [key for law in (*FLOW_LAWS, *LIMIT_LAWS) for key in (law.key, *law.others)]
     rows = [(key, KEYS[f"lubricant.{key}"]) for key in keys]
     return ["key, unit", "meaning"], [
         [f"`{key}`, {quantity.unit}".removesuffix(", -"), quantity.note] for key, quantity in rows
