@@ -1,8 +1,9 @@
 """The quick answer as a `lubfric.models.Model`: a few strips of the deterministic model on long cells, with the bias and
 the error that solved cases give them.
 
-It answers for ``numerics.model = "quick"``. The balance of Eq. (8) on the line is the control of strips whose
-roughness rests, and answers alone, with the friction of Eq. (9), where the campaign has no such contacts.
+It answers for ``numerics.model = "quick"``. The balance of Eq. (8) on the line answers in its place, with the friction
+of Eq. (9), where the campaign has no such contacts. It is no control of the strips: on eight random contacts at rest it
+took 70 % of the time, and the interval with it was as wide as that of the strips alone.
 """
 
 from __future__ import annotations
@@ -152,7 +153,7 @@ class LongStrips:
 class QuickSolution(SampleSolution):
     """A few strips by the deterministic model on long cells, which are solved when they are needed.
 
-    ``known_paper_solution``: the line by load sharing, where it is solved: the control of strips whose roughness rests.
+    ``known_paper_solution``: the line by load sharing, where it is solved.
     """
 
     prepared: Prepared
@@ -189,9 +190,6 @@ class QuickSolution(SampleSolution):
             else replace(self, known_paper_solution=self.known_paper_solution.corrected())
         )
 
-    def control(self) -> ControlVariate | None:
-        return self.paper_solution.control()
-
     def heat(self) -> Heat:
         return self.paper_solution.heat()
 
@@ -201,11 +199,8 @@ class QuickSolution(SampleSolution):
     @property
     def why_by_equation(self) -> str:
         """Why f is that of Eq. (9), as text; "" where strips on long cells give it."""
-        lubricant = self.prepared.scene.lubricant
-        if lubricant.shear_modulus is not None:
-            return ELASTIC
-        if not lubricant.floods:
-            return NOT_FLOODED
+        if why := _why_not_calibrated(self.prepared.scene):
+            return why
         if self._is_thick:
             return THICK_FILM_NOTE
         return self._solved if isinstance(self._solved, str) else ""
@@ -224,9 +219,8 @@ class QuickSolution(SampleSolution):
     @cached_property
     def _solved(self) -> LongStrips | str:
         """The strips on long cells, or why they have no solution, as text."""
-        control = None if self.known_paper_solution is None else self.known_paper_solution.control()
         try:
-            return solve_long_strips(self.prepared, self.speed, control)
+            return solve_long_strips(self.prepared, self.speed)
         except ConvergenceError as error:
             return STRIPS_NOT_SOLVED.format(error)
 
@@ -261,9 +255,8 @@ class QuickSolution(SampleSolution):
         return quick_answer_of(self.prepared, self.speed, self.strips)
 
 
-def solve_long_strips(prepared: Prepared, speed: float, control: ControlVariate | None) -> LongStrips:
-    """Return the strips of ``prepared`` at ``speed`` [m/s], not 0, on long cells; ``control``: of the line by load
-    sharing. Raises `ConvergenceError`."""
+def solve_long_strips(prepared: Prepared, speed: float) -> LongStrips:
+    """Return the strips of ``prepared`` at ``speed`` [m/s], not 0, on long cells. Raises `ConvergenceError`."""
     scene = prepared.scene
     numerics = replace(
         scene.numerics,
@@ -273,7 +266,7 @@ def solve_long_strips(prepared: Prepared, speed: float, control: ControlVariate 
     pairs = [_solve_strip(prepared, speed, 0, numerics, None)]
     most = 1 if has_moving_roughness(scene) else MOST_STRIPS
     while True:
-        estimate, wanted = two_levels(prepared, pairs, control, numerics)
+        estimate, wanted = two_levels(prepared, pairs, None, numerics)
         if len(pairs) >= min(wanted, most):
             break
         pairs.append(_solve_strip(prepared, speed, len(pairs), numerics, pairs[0].resolved.slope))
@@ -396,7 +389,7 @@ class QuickModel(Model):
         alone = PaperModel().estimate_work(scene, sample, surface, speed, None)
         if alone.touching == "none" and alone.model_error <= _error_of_thick_films(scene, surface.sq, speed):
             return replace(alone, seconds=alone.seconds if cheaper is None else 0.0)
-        has_line = cheaper is None and not has_moving_roughness(scene)
+        has_line = cheaper is None and _may_answer_by_equation(scene, surface.sq, speed)
         seconds = alone.seconds if has_line else 0.0
         if speed and surface.sq and sample.is_resolved and scene.transient is None:
             count = 1 if has_moving_roughness(scene) else EXPECTED_STRIPS
@@ -427,11 +420,26 @@ class QuickModel(Model):
         start: SampleSolution | None = None,
         control: ControlVariate | None = None,
     ) -> QuickSolution:
-        """Solve the line by load sharing where it is a control of the strips, which follow when they are needed."""
-        if has_moving_roughness(prepared.scene):
+        """Solve the line by load sharing where it may answer; the strips follow when they are needed."""
+        if not _may_answer_by_equation(prepared.scene, prepared.surface.sq, speed):
             return QuickSolution(prepared=prepared, sample=sample, count=count, speed=speed)
         line = start.known_paper_solution if isinstance(start, QuickSolution) else None
         return _beside(PaperModel().solve(prepared, sample, count, speed, start=line))
+
+
+def _why_not_calibrated(scene: Scene) -> str:
+    """Return why the campaign has no contacts like ``scene``, as text; "" if it has."""
+    if scene.lubricant.shear_modulus is not None:
+        return ELASTIC
+    return "" if scene.lubricant.floods else NOT_FLOODED
+
+
+def _may_answer_by_equation(scene: Scene, sq: float, speed: float) -> bool:
+    """Return whether the line by load sharing may answer at ``speed`` [m/s], because the campaign has no such contacts or
+    because the film over ``sq`` [m] is thick; of moving roughness it is solved only when it has to."""
+    if has_moving_roughness(scene):
+        return False
+    return bool(_why_not_calibrated(scene)) or _error_of_thick_films(scene, sq, speed) > 0
 
 
 def _stated_sq(scene: Scene) -> float | None:
