@@ -317,9 +317,9 @@ def test_a_continuation_with_another_oil_is_that_of_the_same_moments():
         for inputs in (scene, thinner)
     )
     before, after = (each.series["coefficient"][-counted:].mean() for each in (strip, whole))
-    unchanged, _ = continued_strip(scene, body, 0.3, strip)
+    unchanged, _ = continued_strip(scene, 0.3, strip)
     assert unchanged.coefficient == pytest.approx(before, rel=1e-2)
-    continued, _ = continued_strip(thinner, body, 0.3, strip)
+    continued, _ = continued_strip(thinner, 0.3, strip)
     change = continued.coefficient / unchanged.coefficient - 1
     assert change == pytest.approx(after / before - 1, rel=0.05)
     assert change > 0.02

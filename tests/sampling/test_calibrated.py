@@ -17,7 +17,9 @@ from lubfric.models.quick import (
     error_models,
     factors_of_long_cells,
     features,
+    long_cells_in_motion,
     numbers_of_strip,
+    on_cells_along_x,
     solve_at_rest,
     solve_moving,
     widening,
@@ -42,19 +44,52 @@ def patch(shape=(96, 64), spacing=(0.9e-6, 1.2e-6), seed=3):
     return replace(made, periodic_axes=(True, True))
 
 
-@given(
-    st.floats(0.05, 3.0), st.floats(0.05, 3.0), st.integers(1, 400), st.floats(1.0, 50.0), st.sampled_from([2.0, 0.5])
-)
-def test_long_cells_divide_the_map_and_resolve_roughness_and_contact(dx, dy, rows, length, slip):
+@given(st.floats(0.05, 3.0), st.floats(0.05, 3.0), st.integers(1, 400), st.floats(1.0, 50.0))
+def test_long_cells_divide_the_map_and_resolve_roughness_and_contact(dx, dy, rows, length):
     """On a map that resolves both; the cells of another are its own. Cells one longer would be too long."""
-    scene = PAPER.with_(motion={"slide_roll_ratio": slip})
-    half_width = scene.bodies.half_width
-    (fx, fy) = factors_of_long_cells(scene, (dx * 1e-6, dy * 1e-6), rows, (length * 1e-6, length * 1e-6))
+    half_width = PAPER.bodies.half_width
+    (fx, fy) = factors_of_long_cells(PAPER, (dx * 1e-6, dy * 1e-6), rows, (length * 1e-6, length * 1e-6))
     assert fx >= 1 <= fy and rows % fy == 0
-    longest = min(length * 1e-6 / (2.5 if slip == 2 else 2.0), half_width / 2)
+    longest = min(length * 1e-6 / 2.5, half_width / 2)
     assert fx == 1 or fx * dx * 1e-6 <= longest * (1 + 1e-6)
     assert (fx + 1) * dx * 1e-6 > longest * (1 - 1e-6)
-    assert fy == 1 or fy * dy * 1e-6 <= length * 1e-6 / (2.0 if slip == 2 else 1.25) * (1 + 1e-6)
+    assert fy == 1 or fy * dy * 1e-6 <= length * 1e-6 / 2.0 * (1 + 1e-6)
+
+
+@pytest.mark.parametrize(("film", "per_length"), [(2.0, 2.0), (0.4, 3.0), (0.1, 2.0)])
+def test_cells_in_motion_are_shorter_where_f_hangs_on_the_boundary_film(film, per_length):
+    """On one map: neither where the film separates the surfaces nor where asperities carry the load. As many cells as are needed, and not one more, are in the
+    shorter one of the correlation length and the half-width."""
+    scene = HEAVIER.with_(motion={"slide_roll_ratio": 0.5}, bodies={"boundary_film": 2e-8})
+    surface = patch((48, 16), (1.8e-6, 2.4e-6))
+    speed = speed_of(scene, film * surface.sq)
+    lengths = (8e-6, 8e-6)
+    cells = long_cells_in_motion(scene, [RoughBody(surface, 0.75 * speed)], speed, lengths)
+    (map_of_cells,) = (body.surface for body in cells.bodies)
+    shortest = min(lengths[0], scene.bodies.half_width)
+    count = map_of_cells.shape[0]
+    assert count == math.ceil(surface.size[0] * per_length / shortest - 1e-9)
+    assert map_of_cells.size == pytest.approx(surface.size)
+
+
+@given(st.integers(1, 40), st.booleans(), st.integers(0, 5))
+def test_a_map_on_other_cells_has_the_heights_of_its_waves(count, periodic, wave):
+    """A cosine that is symmetric about the ends is its own mirror image, and any wave shorter than that is left as it is. On
+    cells three times as long the heights are those of every third cell."""
+    nx = 42
+    dx = 0.5e-6
+
+    def heights(centres):
+        return np.cos(2 * np.pi * wave * centres / (nx * dx))[:, None] * np.ones(3)
+
+    centres = (np.arange(nx) + 0.5) * dx
+    surface = lubfric.Surface(heights(centres), (dx, 1e-6), periodic_axes=(periodic, True))
+    made = on_cells_along_x(surface, count)
+    assert made.spacing == pytest.approx((nx * dx / count, 1e-6))
+    expected = heights((np.arange(count) + 0.5) * nx * dx / count)
+    np.testing.assert_allclose(made.heights, expected, atol=1e-12)
+    rough = replace(patch((nx, 64)), periodic_axes=(periodic, True))
+    np.testing.assert_allclose(on_cells_along_x(rough, nx // 3).heights, rough.heights[1::3], atol=1e-20)
 
 
 def test_a_strip_on_long_cells_is_the_strip_of_the_heights_that_they_take():
@@ -83,7 +118,8 @@ def test_the_strips_of_a_line_have_one_slope_and_show_their_scatter_by_blocks():
 
 def test_a_strip_that_moves_on_long_cells_starts_at_rest():
     scene = HEAVIER.with_(motion={"slide_roll_ratio": 0.5})
-    pair = solve_moving(scene, [RoughBody(patch((48, 16), (1.8e-6, 2.4e-6)), 0.075)], 0.1, (2, 2))
+    cells = long_cells_in_motion(scene, [RoughBody(patch((48, 16), (1.8e-6, 2.4e-6)), 0.075)], 0.1, (8e-6, 8e-6))
+    pair = solve_moving(scene, cells, 0.1)
     numbers = numbers_of_strip(pair)
     assert math.isnan(numbers["by_cells"]) and math.isfinite(numbers["by_motion"])
     at_rest = pair.longer.result

@@ -39,7 +39,7 @@ from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
 from .levels import Levels, mean
 from .moving_strip import MovingStripSolution, continued_strip
 from .result import DeterministicResult, stress_with_oil
-from .rough_bodies import bodies_of, map_of
+from .rough_bodies import map_of
 from .strip import StripSolution, change_by_flow, solve_strip
 from .strip_on_two_grids import surface_and_factors
 
@@ -252,7 +252,7 @@ def _at_end(prepared: Prepared, strip: StripSolution, speed: float, scene: Scene
     cells twice as long. Where the roughness moves, it is a continuation of the strip (`continued_strip`).
     """
     if isinstance(strip, MovingStripSolution):
-        result, _ = continued_strip(scene, bodies_of(prepared, 0, speed), speed, strip)
+        result, _ = continued_strip(scene, speed, strip)
         return _with_heat(scene, result)
     surface, _ = surface_and_factors(prepared, 0)
     spacing = strip.problem.spacing

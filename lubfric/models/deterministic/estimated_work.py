@@ -166,7 +166,7 @@ def _seconds_in_motion(scene: Scene, sample: Sample, sq: float, speed: float, wo
 
 
 def work_on_strips(
-    scene: Scene, sample: Sample, sq: float, speed: float, factors: tuple[int, int], count: int
+    scene: Scene, sample: Sample, sq: float, speed: float, factors: tuple[float, float], count: int
 ) -> float:
     """Return the counted work [s] of ``count`` strips on cells ``factors`` times as long as those of ``sample``, and of the
     ends of input ranges; ``sq`` [m]: of the surface."""

@@ -154,6 +154,7 @@ class MovingStripSolution(StripSolution):
     - ``rest``: the same strip at rest, from which it started. ``times`` [s] (n,): all moments after it, the first
       ``discarded`` of which count nothing: the film had not passed the contact yet. ``series``: of each the numbers
       `SERIES`: ``share``, of the load that rubs with f_b, ``peak_pressure`` [Pa] of any cell.
+    - ``bodies``: the rough bodies that moved.
     - ``places``: friction and load of all places at the moments that count, with the control of the `SampleTarget`.
     - ``state_after_discard``: the state of the last moment that is discarded, from which `continued_strip` starts.
       ``effort`` and ``ends`` [m], of the grid up and down stream: with which it was solved.
@@ -162,6 +163,7 @@ class MovingStripSolution(StripSolution):
     """
 
     rest: StripSolution
+    bodies: tuple[RoughBody, ...] = field(repr=False)
     times: np.ndarray
     discarded: int
     series: dict[str, np.ndarray] = field(repr=False)
@@ -249,6 +251,7 @@ def solve_moving_strip(
         slope=rest.slope,
         work=rest.work + sum(row["work"] for row in rows),
         rest=rest,
+        bodies=tuple(bodies),
         times=step * np.arange(1, 1 + discarded + count),
         discarded=discarded,
         places=sample,
@@ -277,9 +280,7 @@ def with_oils(
     }
 
 
-def continued_strip(
-    scene: Scene, bodies: Sequence[RoughBody], speed: float, strip: MovingStripSolution
-) -> tuple[DeterministicResult, float]:
+def continued_strip(scene: Scene, speed: float, strip: MovingStripSolution) -> tuple[DeterministicResult, float]:
     """Return the means over time of ``strip`` with the inputs of another ``scene`` that has the same bodies and motion,
     and the counted work [s].
 
@@ -289,6 +290,7 @@ def continued_strip(
     does not depend on the few places that pass in that time. Raises `ConvergenceError`.
     """
     rest = strip.rest
+    bodies = strip.bodies
     cell = rest.problem.spacing[0]
     (dx, dy) = bodies[0].surface.spacing
     factors = (round(cell / dx), round(rest.problem.spacing[1] / dy))

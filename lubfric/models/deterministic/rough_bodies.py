@@ -80,7 +80,7 @@ def summit_control(prepared: Prepared) -> SummitControl | None:
     return prepared.memo.get(key, make)
 
 
-def moving_point_work(scene: Scene, sample: Sample, sq: float, speed: float, factors: tuple[int, int]) -> float:
+def moving_point_work(scene: Scene, sample: Sample, sq: float, speed: float, factors: tuple[float, float]) -> float:
     """Estimate the counted work [s] of a point on one strip of moving roughness, ends of input ranges included.
 
     The cells are ``factors`` times as long as those of ``sample``; ``sq`` [m]: of the surface. The ends of a range of

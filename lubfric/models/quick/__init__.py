@@ -6,5 +6,18 @@
 """
 
 from .calibrated_error import error_models, widening
-from .long_strips import factors_of_long_cells, features, numbers_of_strip, solve_at_rest, solve_moving
+from .long_strips import (
+    CELLS_IN_MOTION,
+    CELLS_OF_THIN_FILM,
+    THIN_BY_FILM,
+    factors_in_motion,
+    factors_of_long_cells,
+    features,
+    long_cells_in_motion,
+    long_cells_of,
+    numbers_of_strip,
+    on_cells_along_x,
+    solve_at_rest,
+    solve_moving,
+)
 from .quick_model import QuickModel

@@ -7,10 +7,12 @@ on: they come from the same solves.
 import math
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from ...errors import ConvergenceError
-from ...scene import Scene, has_moving_roughness
+from ...scene import Scene
 from ...surface import Surface
 from ..deterministic import (
     TIGHT,
@@ -23,6 +25,7 @@ from ..deterministic import (
     effort_of,
     solve_moving_strip,
     solve_strip,
+    strip_at_rest,
 )
 
 # Cells in a correlation length along x and along y, at least, where roughness rests: f differs from that on cells half as
@@ -32,11 +35,20 @@ CELLS_AT_REST = (2.5, 2.0)
 # The same where it moves: 3.4 % (median of 198 cases), and .7 s.
 CELLS_IN_MOTION = (2.0, 1.25)
 
+# Cells along x in the place of the first of these where f hangs on the boundary film, because a film that long cells make
+# too thin changes f most there: of 11 such cases cells twice as short along x explain half of the error, along y less. A
+# step in time takes 1.5 times as long, and there are 1.5 times as many.
+CELLS_OF_THIN_FILM = 3.0
+
+# Change of f at rest, from half to twice the boundary film, over its sliding part, from which on it does.
+THIN_BY_FILM = 0.2
+
 # Effort in the place of `TIGHT`: steps end at 5 times its residual, which goes into the next step. f of four rollers moves by
 # up to .06 %, their counted work falls by 15 to 25 %.
 LOOSER_EFFORT = replace(TIGHT, residual=5e-4, carries_imbalance=True, linear=0.1)
 
-# Cells in the Hertz half-width along x, at least: as in the solved cases.
+# Cells in the Hertz half-width along x, at least, where roughness rests: as in the solved cases. Where it moves, there are as
+# many as in a correlation length.
 LONG_CELLS_OF_HALF_WIDTH = 2.0
 
 # ln of f on cells twice as long, at most, that a feature takes as it is: beyond it, and where they have no solution, the
@@ -48,6 +60,12 @@ LEAST_BY_CELLS = 0.01
 
 # The middle of it.
 MIDDLE_BY_CELLS = 0.05
+
+# Relative length by which a cell may be longer than allowed: that of rounding.
+ROUNDING = 1e-9
+
+# Sliding part of f, at least, over which a change of f is taken.
+LEAST_SLIDING = 1e-9
 
 # Change of f by the boundary film, from half to twice its thickness, that counts at most.
 MOST_BY_FILM = 4.0
@@ -71,15 +89,89 @@ MOST_ROLLING = 1.5
 def factors_of_long_cells(
     scene: Scene, spacing: Sequence[float], rows: int, lengths: Sequence[float]
 ) -> tuple[int, int]:
-    """Return the length of the long cells in those of a map of this ``spacing`` [m] with so many ``rows`` along y, along
-    both axes; ``lengths`` [m]: the correlation lengths. Along y it divides the map."""
-    per_length = CELLS_IN_MOTION if has_moving_roughness(scene) else CELLS_AT_REST
-    longest_x = min(lengths[0] / per_length[0], scene.bodies.half_width / LONG_CELLS_OF_HALF_WIDTH)
-    longest_y = lengths[1] / per_length[1]
-    along = max(1, math.floor(longest_x / spacing[0] * (1 + 1e-9)))
-    most = max(1, math.floor(longest_y / spacing[1] * (1 + 1e-9)))
-    across = next(factor for factor in range(most, 0, -1) if rows % factor == 0)
-    return along, across
+    """Return the length of the long cells in those of a map of roughness at rest, of this ``spacing`` [m] and with so many
+    ``rows`` along y, along both axes; ``lengths`` [m]: the correlation lengths. Along y it divides the map."""
+    longest = min(lengths[0] / CELLS_AT_REST[0], scene.bodies.half_width / LONG_CELLS_OF_HALF_WIDTH)
+    along = max(1, math.floor(longest / spacing[0] * (1 + ROUNDING)))
+    return along, _divisor(rows, lengths[1] / CELLS_AT_REST[1] / spacing[1])
+
+
+def _divisor(rows: int, most: float) -> int:
+    """Return the largest divisor of ``rows`` that is no larger than ``most``, or 1."""
+    largest = max(1, math.floor(most * (1 + ROUNDING)))
+    return next(factor for factor in range(largest, 0, -1) if rows % factor == 0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class LongCellsInMotion:
+    """Rough ``bodies`` that move, with their maps on long cells along x; ``factors``: what is left of the length of the long
+    cells in those of these maps; ``effort``: how accurately the film is followed; ``rest``: the strip at rest there."""
+
+    bodies: tuple[RoughBody, ...]
+    factors: tuple[int, int]
+    effort: MovingEffort
+    rest: StripSolution
+
+    @property
+    def by_film(self) -> float:
+        """The change of f at rest, from half to twice the boundary film, over its sliding part."""
+        result = self.rest.result
+        sliding = abs(result.coefficient - result.rolling / result.load)
+        return abs(result.at_twice_film - result.at_half_film) / max(sliding, LEAST_SLIDING)
+
+
+def long_cells_in_motion(
+    scene: Scene, bodies: Sequence[RoughBody], speed: float, lengths: Sequence[float]
+) -> LongCellsInMotion:
+    """Return rough ``bodies`` on the long cells for ``speed`` [m/s]: on those of `CELLS_IN_MOTION`, or, where f hangs on the
+    boundary film, on those of `CELLS_OF_THIN_FILM`. ``lengths`` [m]: the correlation lengths. Raises `ConvergenceError`."""
+    cells = long_cells_of(scene, bodies, speed, lengths, CELLS_IN_MOTION[0])
+    if cells.by_film <= THIN_BY_FILM:
+        return cells
+    return long_cells_of(scene, bodies, speed, lengths, CELLS_OF_THIN_FILM)
+
+
+def long_cells_of(
+    scene: Scene, bodies: Sequence[RoughBody], speed: float, lengths: Sequence[float], per_length: float
+) -> LongCellsInMotion:
+    """Return rough ``bodies`` on cells of which ``per_length`` along x are in a correlation length, and in the Hertz
+    half-width; other arguments as of `long_cells_in_motion`."""
+    (nx, ny) = bodies[0].surface.shape
+    (along, across) = factors_in_motion(scene, bodies[0].surface.spacing, ny, lengths, per_length)
+    count = math.ceil(nx / along * (1 - ROUNDING))
+    bodies = tuple(body._replace(surface=on_cells_along_x(body.surface, count)) for body in bodies)
+    factors = (1, across)
+    effort = effort_of(scene, bodies, speed, factors)
+    effort = LOOSER_EFFORT if effort == TIGHT else effort
+    rest = strip_at_rest(scene, bodies, speed, factors=factors, effort=effort)
+    return LongCellsInMotion(bodies=bodies, factors=factors, effort=effort, rest=rest)
+
+
+def factors_in_motion(
+    scene: Scene, spacing: Sequence[float], rows: int, lengths: Sequence[float], per_length: float
+) -> tuple[float, int]:
+    """Return the same as `factors_of_long_cells` where roughness moves: along x as long as they may be, because the maps are
+    laid out anew there; ``per_length`` as of `long_cells_of`."""
+    longest = min(lengths[0], scene.bodies.half_width) / per_length
+    return max(1.0, longest / spacing[0]), _divisor(rows, lengths[1] / CELLS_IN_MOTION[1] / spacing[1])
+
+
+def on_cells_along_x(surface: Surface, count: int) -> Surface:
+    """Return ``surface`` with so many cells along x in the same length, at whose centres its heights are read off its Fourier
+    series, without smoothing. One that is not periodic is continued by its mirror image."""
+    (nx, _) = surface.shape
+    (dx, dy) = surface.spacing
+    if count == nx:
+        return surface
+    heights = surface.heights
+    if not surface.periodic_axes[0]:
+        heights = np.concatenate([heights, heights[::-1]])
+    period = heights.shape[0]
+    waves = np.fft.rfft(heights, axis=0)
+    waves[1 : (period + 1) // 2] *= 2.0  # those of negative frequency
+    place = (np.arange(count) + 0.5) * nx / count - 0.5
+    phases = np.exp(2j * np.pi * np.outer(place, np.fft.rfftfreq(period)))
+    return replace(surface, heights=(phases @ waves).real / period, spacing=(nx * dx / count, dy), mask=None)
 
 
 def solve_at_rest(
@@ -100,28 +192,15 @@ def solve_at_rest(
 
 
 def solve_moving(
-    scene: Scene,
-    bodies: Sequence[RoughBody],
-    speed: float,
-    factors: tuple[int, int],
-    target: SampleTarget | None = None,
-    start: StripSolution | None = None,
+    scene: Scene, cells: LongCellsInMotion, speed: float, target: SampleTarget | None = None
 ) -> StripOnTwoGrids:
-    """Solve the strip of rough ``bodies`` that move, at ``speed`` [m/s], not 0, on cells ``factors`` times as long as
-    those of their maps, until the ``target`` is reached (None: for a pass of the map). The second strip is at rest, from
-    which the motion starts; ``start``: that strip, if it is solved. Raises `ConvergenceError`."""
-    effort = effort_on_long_cells(scene, bodies, speed, factors)
-    strip = solve_moving_strip(scene, bodies, speed, factors=factors, target=target, effort=effort, start=start)
+    """Solve the strip of rough bodies that move, at ``speed`` [m/s], not 0, on these ``cells``, until the ``target`` is
+    reached (None: for a pass of the map). The second strip is at rest, from which the motion starts. Raises
+    `ConvergenceError`."""
+    strip = solve_moving_strip(
+        scene, cells.bodies, speed, factors=cells.factors, target=target, effort=cells.effort, start=cells.rest
+    )
     return StripOnTwoGrids(strip, strip.rest)
-
-
-def effort_on_long_cells(
-    scene: Scene, bodies: Sequence[RoughBody], speed: float, factors: tuple[int, int]
-) -> MovingEffort:
-    """Return how accurately the film under moving ``bodies`` is followed at ``speed`` [m/s] on cells ``factors`` times as
-    long as those of their maps: as `effort_of` says, with the steps of `LOOSER_EFFORT` instead of tight ones."""
-    effort = effort_of(scene, bodies, speed, factors)
-    return LOOSER_EFFORT if effort == TIGHT else effort
 
 
 def numbers_of_strip(pair: StripOnTwoGrids) -> dict[str, float]:
@@ -155,7 +234,7 @@ def features(numbers: Mapping[str, float], friction: float) -> dict[str, float]:
     - "rolling": part of f by the gradient of the pressure, over the sliding part;
     - "ln below": ln of how far the sliding part of f is below f_b, over f_b; "ln near": the same, to `NEAR_FRICTION` only.
     """
-    sliding = max(numbers["coefficient"] - numbers["rolling"], 1e-9)
+    sliding = max(numbers["coefficient"] - numbers["rolling"], LEAST_SLIDING)
     below = 1 - sliding / friction
     by_cells = numbers["by_cells"]
     size = MOST_BY_CELLS if math.isnan(by_cells) else min(abs(by_cells), MOST_BY_CELLS)

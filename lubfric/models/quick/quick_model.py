@@ -26,7 +26,6 @@ from ..deterministic import (
     bodies_of,
     levels_of,
     sample_target,
-    strip_at_rest,
     strip_surface,
     two_levels,
     warn_model_error,
@@ -48,9 +47,11 @@ from ..shared import (
 )
 from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, reported, widening
 from .long_strips import (
-    effort_on_long_cells,
+    CELLS_OF_THIN_FILM,
+    factors_in_motion,
     factors_of_long_cells,
     features,
+    long_cells_in_motion,
     numbers_of_strip,
     solve_at_rest,
     solve_moving,
@@ -286,10 +287,13 @@ def solve_long_strips(prepared: Prepared, speed: float) -> LongStrips:
     )
 
 
-def long_factors_of(scene: Scene, sample: Sample) -> tuple[int, int]:
-    """Return the length of the long cells in those of ``sample``, of a patch at rest in those of the map."""
-    (fx, fy) = (1, 1) if has_moving_roughness(scene) else sample.refinement
+def long_factors_of(scene: Scene, sample: Sample) -> tuple[float, float]:
+    """Return the length of the long cells in those of ``sample``, of a patch at rest in those of the map; where roughness
+    moves those of a thin film, which are the shorter ones."""
     (dx, dy) = sample.cells.spacing
+    if has_moving_roughness(scene):
+        return factors_in_motion(scene, (dx, dy), sample.rows, sample.correlation_lengths, CELLS_OF_THIN_FILM)
+    (fx, fy) = sample.refinement
     return factors_of_long_cells(scene, (dx / fx, dy / fy), sample.rows * fy, sample.correlation_lengths)
 
 
@@ -300,18 +304,18 @@ def _solve_strip(
     scene = prepared.scene
     sample = prepared.sample
     surface = strip_surface(prepared, index)
-    factors = factors_of_long_cells(scene, surface.spacing, surface.shape[1], sample.correlation_lengths)
+    lengths = sample.correlation_lengths
     is_mirrored = sample.distinct_rows(surface.heights) < surface.shape[1]
     if not has_moving_roughness(scene):
+        factors = factors_of_long_cells(scene, surface.spacing, surface.shape[1], lengths)
         return replace(solve_at_rest(scene, surface, speed, factors, slope), mirrored=is_mirrored)
-    bodies = bodies_of(prepared, index, speed)
-    effort = effort_on_long_cells(scene, bodies, speed, factors)
-    rest = strip_at_rest(scene, bodies, speed, factors=factors, effort=effort)
-    at_rest = features(numbers_of_strip(StripOnTwoGrids(rest, rest)), scene.bodies.boundary_friction_coefficient)
+    cells = long_cells_in_motion(scene, bodies_of(prepared, index, speed), speed, lengths)
+    at_rest = features(
+        numbers_of_strip(StripOnTwoGrids(cells.rest, cells.rest)), scene.bodies.boundary_friction_coefficient
+    )
     bounds = error_model_of(scene).log_half_width(at_rest)
     target = sample_target(prepared, max(numerics.sampling_tolerance, OF_BOUNDS * min(bounds, 1.0)))
-    pair = solve_moving(scene, bodies, speed, factors, target, rest)
-    return replace(pair, mirrored=is_mirrored)
+    return replace(solve_moving(scene, cells, speed, target), mirrored=is_mirrored)
 
 
 def quick_answer_of(prepared: Prepared, speed: float, strips: LongStrips) -> ModelAnswer:

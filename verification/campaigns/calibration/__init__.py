@@ -2,8 +2,8 @@
 excluded.
 
 Random contacts are solved by load sharing, and by the deterministic model on long and on short cells. ``python -m verification.campaigns.calibration
-MOTION COUNT`` extends the table of solved cases; ``... fit --solve all`` solves them again on long cells, and writes the error
-model of lubfric anew.
+MOTION COUNT`` extends the table of solved cases; ``... numbers`` solves those that are missing on long cells, and ``... fit`` writes the
+error model of lubfric anew.
 """
 
 from ... import frame

@@ -1,30 +1,38 @@
 """``python -m verification.campaigns.calibration rest|rolling COUNT [--budget S]``: extend a table of solved cases.
-``... fit [--solve all|missing]``: write calibration.toml of lubfric anew; with ``--solve`` the numbers on long cells too."""
+``... numbers [--workers N] [--seconds S] [--out FOLDER]``: solve the cases that are missing on long cells by today's model.
+``... fit``: write calibration.toml of lubfric anew."""
 
+import math
+import time
 from collections.abc import Sequence
+from pathlib import Path
 
 from .. import extending
 
 # isort: split
 from . import fit
-from .table import extend, to_repeat
+from .table import TABLES, extend, to_repeat
 
 
 def main() -> None:
     """Run the command."""
     p = extending.parser("verification.campaigns.calibration", __doc__)
-    p.add_argument("motion", choices=("rest", "rolling", "fit"))
+    p.add_argument("motion", choices=("rest", "rolling", "numbers", "fit"))
     p.add_argument("count", type=int, nargs="?", default=0, help="number of cases that the table shall have")
     p.add_argument("--repeat", type=int, default=0, help="solve the known cases on the map of this repeat (1, 2, ...)")
     p.add_argument("--first", type=int, default=0, help="number of the first case (default: %(default)s)")
-    p.add_argument(
-        "--solve", choices=("all", "missing"), help="solve cases on long cells by today's model before the fit"
-    )
+    p.add_argument("--workers", type=int, default=1, help="processes that solve cases on long cells")
+    p.add_argument("--seconds", type=float, default=math.inf, help="after which no case on long cells is begun")
+    p.add_argument("--out", type=Path, default=TABLES, help="folder of the tables of numbers on long cells")
     options = p.parse_args()
     if options.motion == "fit":
-        for motion in fit.MOTIONS if options.solve else ():
-            fit.solve_numbers(motion, again=options.solve == "all")
         fit.write()
+        return
+    if options.motion == "numbers":
+        ends = time.monotonic() + options.seconds
+        for motion in reversed(fit.MOTIONS):  # those that take longer first
+            file = fit.numbers_file(motion, options.out)
+            fit.solve_numbers(file, motion, workers=options.workers, seconds=ends - time.monotonic())
         return
     seeds: Sequence[int] = range(options.first, options.count)
     if options.repeat:

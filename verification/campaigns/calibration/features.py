@@ -2,20 +2,35 @@
 
 import time
 
-from lubfric.models.quick import factors_of_long_cells, numbers_of_strip, solve_at_rest, solve_moving
+from lubfric.models.quick import (
+    CELLS_IN_MOTION,
+    CELLS_OF_THIN_FILM,
+    factors_of_long_cells,
+    long_cells_of,
+    numbers_of_strip,
+    solve_at_rest,
+    solve_moving,
+)
 
 from .case import Case
 
+# Cells along x in a correlation length on which a case is solved, by motion: at rest those of the model alone; where the
+# roughness moves both that it chooses from.
+PER_LENGTH = {"rest": (0.0,), "rolling": (CELLS_IN_MOTION[0], CELLS_OF_THIN_FILM)}
 
-def quick(case: Case) -> dict[str, float]:
-    """Return the numbers of the strip of ``case`` on long cells, and the processor time [s] that it takes."""
+
+def quick(case: Case, per_length: float) -> dict[str, float]:
+    """Return the numbers of the strip of ``case`` on long cells, of which so many along x are in a correlation length (at rest
+    it does not count); ``film_at_rest``: the number by which the model chooses them; ``seconds``: processor time [s]."""
     begun = time.process_time()
     facts = case.facts
-    (nx, ny) = case.surface.shape
     lengths = (facts["length_x"], facts["length_y"])
-    factors = factors_of_long_cells(case.scene, case.surface.spacing, ny, lengths)
     if facts["motion"] == "rolling":
-        pair = solve_moving(case.scene, case.bodies, case.speed, factors)
+        cells = long_cells_of(case.scene, case.bodies, case.speed, lengths, per_length)
+        pair = solve_moving(case.scene, cells, case.speed)
+        film_at_rest = cells.by_film
     else:
+        factors = factors_of_long_cells(case.scene, case.surface.spacing, case.surface.shape[1], lengths)
         pair = solve_at_rest(case.scene, case.surface, case.speed, factors)
-    return numbers_of_strip(pair) | {"seconds": time.process_time() - begun}
+        film_at_rest = 0.0
+    return numbers_of_strip(pair) | {"film_at_rest": film_at_rest, "seconds": time.process_time() - begun}

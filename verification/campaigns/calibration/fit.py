@@ -1,23 +1,31 @@
 """The error model of the quick answer, fitted to the tables: calibration.toml of lubfric."""
 
 import math
-from collections.abc import Iterator, Sequence
+import multiprocessing
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
 
 import lubfric
-from lubfric.models.quick import features
+from lubfric.models.quick import THIN_BY_FILM, features
 
+from ...types import PlainRow
 from .. import table_file
 from .case import drawn
-from .features import quick
+from .features import PER_LENGTH, quick
+from .solve import limited
 from .table import DIGITS as TABLE_DIGITS
 from .table import TABLES, rows
 
 HOME = Path(lubfric.__path__[0]) / "models/quick/calibration.toml"
 MOTIONS = ("rest", "rolling")
+COLUMNS_OF_CASE = ("seed", "repeat", "per_length")  # of the table of numbers: what a row is of
+
 # Features of the bias, the mean of ln of the ratio of both sliding parts of f, by motion. Chosen by the half-width on
 # kinds of cases that were left out; of features that did equally well the fewer.
 BIAS = {"rest": ("one", "cells"), "rolling": ("one",)}
@@ -50,6 +58,7 @@ QUARTERS = 4  # kinds of load, and of slide-roll ratio
 EDGES = (0.005, 0.995)  # quantiles of the cases: the range of the campaign
 ROLLING = 0.95  # quantile of the error of the part of f by the gradient of the pressure
 DIGITS = 10  # of the numbers of `quick` in their table
+LONGEST_CASE = 60.0  # s: processor time of a case on long cells, at most
 
 
 @dataclass(frozen=True)
@@ -71,17 +80,17 @@ def numbers_file(motion: str, folder: Path = TABLES) -> Path:
     return folder / f"{motion}-long-cells.csv"
 
 
-def key(row: dict[str, str]) -> tuple[str, str]:
+def key(row: Mapping[str, object]) -> tuple[int, int]:
     """Return what a case has for itself in the tables of its motion."""
-    return row["seed"], row["repeat"]
+    return int(str(row["seed"])), int(str(row["repeat"]))
 
 
 def cases(motion: str, folder: Path = TABLES) -> list[Solved]:
     """Return the solved cases of the table of a ``motion``, with the numbers of `quick` from their table."""
-    known = {
-        key(row): {name: float(text) for name, text in row.items() if name not in ("seed", "repeat")}
-        for row in table_file.rows(numbers_file(motion, folder))
-    }
+    known: dict[tuple[int, int], list[dict[str, float]]] = {}
+    for row in table_file.rows(numbers_file(motion, folder)):
+        numbers = {name: float(text) for name, text in row.items() if name not in ("seed", "repeat")}
+        known.setdefault(key(row), []).append(numbers)
     solved = (solved_case(row, known[key(row)]) for row in usable(motion, folder) if key(row) in known)
     return [case for case in solved if case is not None]
 
@@ -91,13 +100,26 @@ def usable(motion: str, folder: Path = TABLES) -> Iterator[dict[str, str]]:
     yield from (row for row in rows(motion, folder) if not row["failure"])
 
 
-def solved_case(row: dict[str, str], numbers: dict[str, float]) -> Solved | None:
-    """Return the case of a ``row`` with the ``numbers`` of `quick`; None where a sliding part of f is not positive."""
-    reference = float(row["det_f"]) - float(row["det_rolling"])
-    sliding = numbers["coefficient"] - numbers["rolling"]
-    if not reference > 0 < sliding:
+def solved_case(row: dict[str, str], known: Sequence[dict[str, float]]) -> Solved | None:
+    """Return the case of a ``row`` with the numbers of `quick` on the cells that the model takes, of those that are
+    ``known``; None where it is not among them, or a sliding part of f is not positive.
+
+    What the cells of the reference would still change is taken of its change from the longest cells.
+    """
+    by_cells = {numbers["per_length"]: numbers for numbers in known}
+    (first, last) = PER_LENGTH[row["motion"]][0], PER_LENGTH[row["motion"]][-1]
+    longest = by_cells.get(first)
+    if longest is None:
         return None
-    return Solved(row, numbers, (1 + remaining(row)) * math.log(reference / sliding))
+    numbers = by_cells.get(last) if longest["film_at_rest"] > THIN_BY_FILM else longest
+    if numbers is None:
+        return None
+    reference = float(row["det_f"]) - float(row["det_rolling"])
+    before, sliding = (each["coefficient"] - each["rolling"] for each in (longest, numbers))
+    if not min(reference, before, sliding) > 0:
+        return None
+    left = remaining(row) * math.log(reference / before)
+    return Solved(row, numbers, math.log(reference / sliding) + left)
 
 
 def remaining(row: dict[str, str]) -> float:
@@ -106,21 +128,35 @@ def remaining(row: dict[str, str]) -> float:
     return REMAINING_FAST if row["motion"] == "rolling" and abs(float(row["slip"])) > FAST else REMAINING
 
 
-def solve_numbers(motion: str, folder: Path = TABLES, *, again: bool = True) -> None:
-    """Solve all usable cases of a ``motion`` on long cells by today's model, ``again`` or those that are missing, and
-    write the table of their numbers."""
-    file = numbers_file(motion, folder)
-    if again:
-        file.unlink(missing_ok=True)
-    known = {key(row) for row in table_file.rows(file)}
-    for row in usable(motion, folder):
-        if key(row) in known:
-            continue
-        try:
-            numbers = quick(drawn(motion, int(row["seed"]), int(row["repeat"])))
-        except lubfric.LubfricError:
-            continue
-        table_file.append(file, ["seed", "repeat", *numbers], dict(zip(("seed", "repeat"), key(row))) | numbers, DIGITS)
+def solve_numbers(file: Path, motion: str, *, workers: int = 1, seconds: float = math.inf) -> None:
+    """Solve the usable cases of a ``motion`` that are missing in the table of numbers in ``file`` on long cells by today's
+    model, on so many ``workers``, and append each when it is solved; after so many ``seconds`` none is begun."""
+    begun = time.monotonic()
+    known = {(*key(row), float(row["per_length"])) for row in table_file.rows(file)}
+    cases = [(*key(row), cells) for row in usable(motion) for cells in PER_LENGTH[motion]]
+    missing = iter([case for case in cases if case not in known])
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(workers, mp_context=context) as pool:
+        running = {pool.submit(numbers_of_case, motion, case) for case in islice(missing, workers)}
+        while running:
+            ended, running = wait(running, return_when=FIRST_COMPLETED)
+            for future in ended:
+                if row := future.result():
+                    table_file.append(file, list(row), row, DIGITS)
+                if time.monotonic() - begun < seconds and (case := next(missing, None)):
+                    running.add(pool.submit(numbers_of_case, motion, case))
+
+
+def numbers_of_case(motion: str, case: tuple[int, int, float]) -> PlainRow:
+    """Return the row of a ``case``: its seed, its repeat, and the cells along x in a correlation length; {} where it has no
+    solution."""
+    (seed, repeat, per_length) = case
+    try:
+        with limited(LONGEST_CASE):
+            numbers = quick(drawn(motion, seed, repeat), per_length)
+    except (lubfric.LubfricError, FloatingPointError):
+        return {}
+    return dict(zip(COLUMNS_OF_CASE, case)) | numbers
 
 
 def kinds(solved: Sequence[Solved]) -> Iterator[tuple[str, np.ndarray]]:
