@@ -9,6 +9,7 @@ from scipy.stats import norm
 
 import lubfric
 from lubfric.models.deterministic import (
+    CellsInMotion,
     RoughBody,
     SampleTarget,
     SummitControl,
@@ -16,8 +17,6 @@ from lubfric.models.deterministic import (
     attenuated,
     cells_in_a_step,
     control_of,
-    error_along_x,
-    error_along_y,
     mean_over_blocks,
     solve_moving_strip,
 )
@@ -130,17 +129,34 @@ def test_two_rough_bodies_start_a_step_where_their_common_roughness_is():
     assert cells((rough, 0.36), (smooth, 1.64)) == 0 and cells((smooth, 0.36), (rough, 1.64)) == 2
 
 
-def test_the_error_by_the_cells_of_moving_roughness_falls_by_second_order_and_grows_with_the_boundary_film():
-    """Half as long cells: a quarter. Its part by the boundary film is quadratic in what that film changes. Steps of
-    third order leave less, heights that change from cell to cell more."""
+def cells_in_motion(film_ratio=1.0, times=1.0, by_longer=0.0, *, third=True, is_smooth=True):
+    return CellsInMotion(
+        film_ratio=film_ratio,
+        coarse_x=0.25 * times,
+        coarse_y=0.5 * times,
+        by_longer=by_longer,
+        follows_lubricant=third,
+        is_smooth=is_smooth,
+    )
 
-    def error(by_film=0.0, coarse=0.25, *, third=True, is_smooth=True):
-        return error_along_x(by_film, coarse, follows_lubricant=third, is_smooth=is_smooth)
 
-    assert error(0.3, 0.125) == pytest.approx(error(0.3) / 4)
-    by_film = [error(change) - error() for change in (0.2, 0.4)]
-    assert by_film[1] == pytest.approx(4 * by_film[0]) and by_film[0] > 0
-    assert error(third=False) > error() > 0 and error(0.3, third=False) > error(0.3)
-    assert error(is_smooth=False) > error()
-    assert error_along_y(0.3, 0.25) == pytest.approx(4 * error_along_y(0.3, 0.125))
-    assert error(0.4) > error_along_y(0.4, 0.25) > error_along_y(0.2, 0.25) > 0
+def test_the_effect_of_the_cells_of_moving_roughness_falls_by_second_order():
+    """Half as long cells: a quarter. What remains of the change from longer cells does not change with them."""
+    (long, short) = (cells_in_motion(1.5, times) for times in (1.0, 0.5))
+    assert short.expected == pytest.approx(long.expected / 4) and short.error == pytest.approx(long.error / 4)
+    assert cells_in_motion(times=1e-9, by_longer=0.03).error == pytest.approx(0.01)
+
+
+def test_shorter_cells_act_as_a_thinner_boundary_film():
+    """Where f = c delta^n, twice the film gives 2^n f, and a film thinner by the factor q gives q^n f: the expected change is a
+    power law of the ratio, none where the film does not matter, and of the other sign where f falls with the film."""
+    changes = [1 + cells_in_motion(2.0**n).change for n in (0.3, 0.6, -0.3, 0.0)]
+    assert changes[0] < 1 and changes[1] == pytest.approx(changes[0] ** 2)
+    assert changes[2] == pytest.approx(1 / changes[0]) and changes[3] == 1
+
+
+def test_errors_of_cells_grow_where_less_is_known():
+    """Steps of second order, heights that change from cell to cell, and a change from longer cells add to the error."""
+    error = cells_in_motion(1.3).error
+    others = [cells_in_motion(1.3, third=False), cells_in_motion(1.3, is_smooth=False), cells_in_motion(1.3, by_longer=0.1)]
+    assert all(other.error > error for other in (*others, cells_in_motion(1.6)))

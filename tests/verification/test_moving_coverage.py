@@ -1,6 +1,11 @@
 """The judge of moving answers, on tables whose coverage is known."""
 
+import math
+
+import numpy as np
 import pytest
+
+from lubfric.models.deterministic.shorter_cells import EXPECTED_BY_CELLS
 
 from verification.campaigns import table_file
 from verification.campaigns.moving_cells.table import COLUMNS, TABLE, errors
@@ -17,10 +22,11 @@ def test_answers_that_miss_the_reference_lower_the_coverage(tmp_path, inside, pa
         table_file.append(tmp_path / REFERENCES, REFERENCE_COLUMNS, row, 7)
     row = {"contact": "gear flank", "kind": "cells", "seed": 0, "f": 0.925, "error": 0.0, "failure": ""}
     table_file.append(tmp_path / REFERENCES, REFERENCE_COLUMNS, row, 7)
+    cells = {"change": 0.0, "film_ratio": 1.0, "coarse_x": 0.0, "coarse_y": 0.0, "follows_lubricant": 1, "is_smooth": 1}
     for seed in range(20):
         f = 0.045 if seed < inside else 0.053
-        row = {"contact": "gear flank", "seed": seed, "f": f, "sampling": 0.02, "freedom": 30, "numerical": 0.03}
-        table_file.append(tmp_path / ANSWERS, ANSWER_COLUMNS, row | {"seconds": 1.0, "failure": ""}, 7)
+        row = {"contact": "gear flank", "seed": seed, "f": f, "sampling": 0.02, "freedom": 30} | cells
+        table_file.append(tmp_path / ANSWERS, ANSWER_COLUMNS, row | {"by_longer": 0.09, "seconds": 1.0, "failure": ""}, 7)
     table, check, _ = coverage("quick", folder=tmp_path)
     assert isinstance(table, Table) and isinstance(check, Check)
     assert check.measured == pytest.approx(inside / 20) and check.passed is passes
@@ -45,12 +51,13 @@ def test_the_limit_is_that_of_second_order(tmp_path):
     (strip,) = errors(tmp_path / "table.csv")
     assert strip["limit"] == pytest.approx(0.05) and strip["error"] == pytest.approx(0.08)
     assert strip["order"] == pytest.approx(2.0)
-    assert strip["stated"] == pytest.approx((0.3 + 2.5 * 0.2**2) / 16)
+    assert strip["expected"] == pytest.approx(EXPECTED_BY_CELLS[0] * math.log(1.2) / 16)
 
 
 def test_the_stated_error_holds_that_of_the_cells():
-    """On every contact of the committed table."""
-    strips = list(errors(TABLE))
-    assert len({strip["contact"] for strip in strips}) >= 9
-    for strip in strips:
-        assert abs(strip["error"]) <= strip["stated"], strip
+    """On strips of random contacts and of the contacts with names: as often as an error at 95 % should, and it is not larger
+    than it has to be: the errors have a root mean square above a quarter of it."""
+    strips = [strip for strip in errors(TABLE) if strip["axis"] == "xy"]
+    assert len({strip["contact"] for strip in strips}) >= 20
+    left = np.array([(strip["error"] - strip["expected"]) / strip["stated"] for strip in strips])
+    assert np.mean(np.abs(left) <= 1.0) >= 0.9 and np.sqrt(np.mean(left**2)) > 0.25

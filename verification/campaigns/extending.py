@@ -5,8 +5,13 @@ Linear algebra takes one thread, which this module sets: import it before whatev
 
 import argparse
 import os
-from collections.abc import Iterable
+import time
+from collections.abc import Iterable, Iterator, Sequence
+from multiprocessing import TimeoutError, get_context
 from pathlib import Path
+from typing import Protocol
+
+from ..types import PlainRow
 
 for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
@@ -27,7 +32,40 @@ def parser(package: str, description: str | None, table: Path | None = None) -> 
     return result
 
 
+def add_processes(result: argparse.ArgumentParser) -> None:
+    """Add to a parser the options of a campaign whose rows are solved in several processes."""
+    result.add_argument("--workers", type=int, default=1, help="processes (default: %(default)s)")
+    result.add_argument(
+        "--seconds", type=float, default=BUDGET, help="elapsed time after which it ends [s] (default: %(default)s)"
+    )
+
+
 def show(rows: Iterable[object]) -> None:
     """Print each row when it is solved."""
     for row in rows:
         print(row, flush=True)
+
+
+class Job(Protocol):
+    """What one row of a table takes."""
+
+    def row(self) -> PlainRow:
+        """Return the row, solved."""
+
+
+def row_of(job: Job) -> PlainRow:
+    """Return the row of ``job``."""
+    return job.row()
+
+
+def solved_in_processes(jobs: Sequence[Job], seconds: float, workers: int) -> Iterator[PlainRow]:
+    """Yield the rows of ``jobs``, solved in so many processes, as they come; after so many ``seconds`` of elapsed time
+    those that are not ready are left out, and their processes end."""
+    end = time.monotonic() + seconds
+    with get_context("spawn").Pool(workers) as pool:
+        rows = pool.imap_unordered(row_of, jobs)
+        for _ in jobs:
+            try:
+                yield rows.next(max(0.0, end - time.monotonic()))
+            except TimeoutError:
+                return

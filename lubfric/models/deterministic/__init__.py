@@ -37,7 +37,7 @@ from .rough_bodies import (
     moving_point_work,
     strip_surface,
 )
-from .shorter_cells import error_along_x, error_along_y
+from .shorter_cells import CellsInMotion, cells_in_motion
 from .solve import dry_contact, solve_point
 from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, residuals
 from .strip import (

@@ -34,6 +34,7 @@ from .rough_bodies import summit_control
 from .shorter_cells import (
     NO_SHORTER_CELLS,
     changed,
+    changed_as_expected,
     on_shorter_cells,
 )
 from .strip import (
@@ -92,6 +93,7 @@ STRIPS_FOR_SCATTER = 3
 CORRECTED_BY_SUMMITS = (
     "f corrected by {:+.2g} %, because the summits of the sample differ from those of the endless surface"
 )
+CORRECTED_BY_CELLS = "f corrected by {:+.2g} % for shorter cells, as estimated from its change by the boundary film"
 OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
 
 
@@ -222,7 +224,8 @@ def levels_of(
     change of f from longer ones is not within ``numerics.tolerance``; without ``with_shorter_cells`` the error by the cells
     is for others to state. Raises `ConvergenceError`."""
     shorter = on_shorter_cells(prepared, speed, pairs) if with_shorter_cells else NO_SHORTER_CELLS
-    numbers = changed(prepared, estimate.numbers, [(piece[1], piece[-1]) for piece in shorter.pieces])
+    numbers = changed_as_expected(estimate.numbers, shorter.change)
+    numbers = changed(prepared, numbers, [(piece[1], piece[-1]) for piece in shorter.pieces])
     numbers = changed(prepared, numbers, [shorter.shortest[-2:]] if shorter.shortest else [])
     results = [pair.resolved.result for pair in pairs]
     numbers = with_divided_contact_load(prepared.scene, numbers, results)
@@ -256,7 +259,7 @@ def levels_of(
         difference=difference,
         numerical=shorter.error,
         length=length,
-        note=estimate.note,
+        note="; ".join(filter(None, (estimate.note, CORRECTED_BY_CELLS.format(100 * shorter.change) if shorter.change else ""))),
     )
 
 

@@ -59,32 +59,33 @@ MOST_SOLVED_PIECES = 32
 # nothing.
 PIECES_WORK = 30.0
 
-# The constants of the error by the cells where roughness moves are those of `verification.campaigns.moving_cells`: f of
-# narrow strips on shorter cells, extrapolated. One change may be small by chance, so they are least errors. Surfaces of
-# seed 0 chose them. On fresh ones, which did not (seed 1), the stated error held that of f on all nine contacts, along x
-# and along y (that of a needle roller 7.0 of 8.8 and 6.4 of 7.6 %).
+# The constants of the effect of the cells where roughness moves are fitted to `verification.campaigns.moving_cells`: f of
+# narrow strips of random contacts on cells half as long along both axes, extrapolated by second order. They are judged by
+# `verification.campaigns.moving_coverage`, on other contacts and surfaces. Shorter cells let more lubricant into the narrow
+# gaps, by a part of their height that falls with the square of the cells: f changes as if the boundary film were
+# thinner. So the effect is in proportion to the octaves by which f changes with twice the boundary film, ln(f2/f).
 
-# Times (cell along x/correlation length)² [-]: least error of f, by steps of second order, and along the lubricant, of
-# third. Cells of an eighth of a correlation length instead of a quarter move f of nine Gaussian maps by 0 to 2 % by steps
-# of second order; steps of third order leave 0 to 0.8 % on seven contacts.
-ALONG_X = (0.5, 0.3)
+# Times (cell/correlation length)² along x and along y, and ln(f2/f): the expected relative fall of f on short cells [-].
+EXPECTED_BY_CELLS = (1.0, 0.25)
 
-# Factor on that where heights change from cell to cell (`smooth_over_cells`) [-]: f of an exponential surface, by steps
-# of third order, is off by 0.9 % (fresh: 1.5 %; stated: 3.0 %). It has no order: shorter cells show new summits.
-UNSMOOTH = 2.0
+# Part of this by which single contacts differ from it, at 95 % [-].
+SCATTER_BY_CELLS = 0.8
 
-# Times (cell along x/correlation length)² and the square of the relative change of f by twice the boundary film [-]: the
-# same error where f hangs on that film. By steps of second order cells of an eighth instead of a quarter move f of a
-# needle roller by -20 %, where that change is 58 %; of third order f is 6.5 % too high, where it is 61 %.
-ALONG_X_THIN = (8.0, 2.5)
+# Times (cell along x/correlation length)² [-]: relative error of f, at 95 %, that does not depend on the boundary film; by
+# steps of second order, and along the lubricant, of third.
+ALONG_X = (0.3, 0.12)
 
-# Times (cell along y/correlation length)² [-]: least error of f by these cells. The change from cells longer still may
-# have the other sign: +1.4 % on a needle roller at rest, where shorter cells give -2 to -7 %.
-ALONG_Y = 0.05
+# The same along y.
+ALONG_Y = 0.02
 
-# Times that and the square of the relative change of f by twice the boundary film [-]: 3 to 11 % (mean 7 %) on three maps
-# of the needle roller and 3 to 7 % on two of a light contact, where that change is 57 to 86 %.
-ALONG_Y_THIN = 0.6
+# Factor on both where heights change from cell to cell (`smooth_over_cells`) [-]: shorter cells show new summits.
+UNSMOOTH = 3.0
+
+# Factor on the change of f from cells twice as long along y [-]: by second order a third of it is left.
+BY_LONGER = 1 / 3
+
+# Ratio of f with twice the boundary film to f, up to which the effect is fitted [-]; beyond, it grows no more.
+MOST_RATIO = 2.5
 
 # LU factorisations of a piece on longer cells, from which it starts, at most [-]. Half and twice change nothing.
 AS_START = 100
@@ -136,6 +137,7 @@ class ShorterCells:
     pieces : those of the third level; (): it is not needed, or not solved
     shortest : the piece of the fourth level; (): it is not needed, or not solved
     sampling : standard error of the mean relative change of f on ``pieces``, from place to place
+    change : expected relative change of f by short cells where roughness moves, which are not solved
     error : relative error of f that the last cells leave
     has_unsolved : whether shorter cells were needed, and did not converge or would have taken too much work
     """
@@ -143,8 +145,50 @@ class ShorterCells:
     pieces: tuple[Piece, ...] = ()
     shortest: Piece = ()
     sampling: StandardError = StandardError(0.0, 1)
+    change: float = 0.0
     error: float
     has_unsolved: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class CellsInMotion:
+    """What is known of the cells on which roughness moves, and their expected effect on f.
+
+    Attributes
+    ----------
+    film_ratio : f with twice the boundary film over f
+    coarse_x, coarse_y : length of the cells over the correlation length
+    by_longer : relative change of f from cells twice as long along y
+    follows_lubricant : whether steps were of third order along the lubricant
+    is_smooth : whether the heights are smooth over the cells
+    """
+
+    film_ratio: float
+    coarse_x: float
+    coarse_y: float
+    by_longer: float
+    follows_lubricant: bool
+    is_smooth: bool
+
+    @property
+    def expected(self) -> float:
+        """The expected relative fall of f on short cells."""
+        (along_x, along_y) = EXPECTED_BY_CELLS
+        thin = math.log(min(max(self.film_ratio, 1 / MOST_RATIO), MOST_RATIO))
+        return (along_x * self.coarse_x**2 + along_y * self.coarse_y**2) * thin
+
+    @property
+    def change(self) -> float:
+        """The expected relative change of f from the cells of an answer to short ones."""
+        return math.expm1(-self.expected)
+
+    @property
+    def error(self) -> float:
+        """The relative error of f after this change, at 95 %."""
+        floor = ALONG_X[self.follows_lubricant] * self.coarse_x**2 + ALONG_Y * self.coarse_y**2
+        if not self.is_smooth:
+            floor *= UNSMOOTH
+        return math.hypot(floor, SCATTER_BY_CELLS * self.expected, BY_LONGER * self.by_longer)
 
 
 # What `on_shorter_cells` returns where none are solved, and another model states the error by the cells.
@@ -153,7 +197,7 @@ NO_SHORTER_CELLS = ShorterCells(error=SOLVED)
 
 def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]) -> ShorterCells:
     """Solve the third and fourth level for ``pairs``, as far as ``numerics.tolerance`` needs them, if the roughness
-    rests.
+    rests; where it moves, the effect of shorter cells is the expected one (`CellsInMotion`).
 
     - The third level is needed where the estimated error by the cells of the strips is above the tolerance, or where the
       heights are not smooth over a cell. Where it is not solved, the error is `UNSOLVED_FACTOR` times the estimate.
@@ -168,9 +212,11 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     is_moving = has_moving_roughness(scene)
     by_longer = sum(pair.change_by_cells for pair in pairs) / len(pairs)
     strips = [pair.resolved for pair in pairs]
-    by_cells = _error_in_motion(prepared, strips, by_longer) if is_moving else error_by_cells([by_longer])
-    error = max(by_cells, SOLVED, 0.0 if is_moving else error_of_soft_bodies(strips[0]))
-    if is_moving or _are_enough(prepared, error):
+    if is_moving:
+        cells = cells_in_motion(prepared, strips, by_longer)
+        return ShorterCells(change=cells.change, error=max(cells.error, SOLVED))
+    error = max(error_by_cells([by_longer]), SOLVED, error_of_soft_bodies(strips[0]))
+    if _are_enough(prepared, error):
         return ShorterCells(error=error)
     if sample.is_only_map:
         patch = _refined(prepared, speed, 0, pairs[0])
@@ -247,49 +293,10 @@ def _is_costly(sample: Sample, pairs: Sequence[StripOnTwoGrids], pieces: Sequenc
     return spent + 4 * share * finest.work > MOST_WORK_IN_AUTO
 
 
-def _error_in_motion(prepared: Prepared, strips: Sequence[StripSolution], by_longer: float) -> float:
-    """Return the relative error of f by the cells of ``strips`` whose roughness moves; ``by_longer``: its change from cells
-    twice as long along y.
-
-    The errors along x and y add up, and not their squares: cells that are too long along either let too little film
-    through the narrow gaps of the inlet, so that both errors have one sign on a needle roller, a light contact and a gear
-    flank.
-    """
-    follows = all(isinstance(strip, MovingStripSolution) and strip.follows_lubricant for strip in strips)
-    smooth = smooth_over_cells(surface_and_factors(prepared, 0)[0].heights)
-    by_film = _by_boundary_film(strips)
-    (coarse_x, coarse_y) = _coarse(prepared)
-    along_x = error_along_x(by_film, coarse_x, follows_lubricant=follows, is_smooth=smooth)
-    return along_x + max(error_along_y(by_film, coarse_y), error_by_cells([by_longer]))
-
-
-def error_along_x(by_film: float, coarse: float, *, follows_lubricant: bool, is_smooth: bool) -> float:
-    """Return the relative error of f by the cells along x where roughness moves: larger where f hangs on the boundary
-    film, because shorter cells leave fewer gaps that are so thin.
-
-    ``by_film``: relative change of f by twice that film; ``coarse``: length of the cells over the correlation length;
-    ``follows_lubricant``: whether steps were of third order along it; ``is_smooth``: whether the heights are smooth over
-    the cells.
-    """
-    order = int(follows_lubricant)
-    roughness = ALONG_X[order] * (1.0 if is_smooth else UNSMOOTH)
-    return (roughness + ALONG_X_THIN[order] * by_film**2) * coarse**2
-
-
-def error_along_y(by_film: float, coarse: float) -> float:
-    """Return the least relative error of f by the cells along y where roughness moves; arguments as of
-    `error_along_x`."""
-    return (ALONG_Y + ALONG_Y_THIN * by_film**2) * coarse**2
-
-
-def _by_boundary_film(strips: Sequence[StripSolution]) -> float:
-    """Return the relative change of f by twice the boundary film."""
+def cells_in_motion(prepared: Prepared, strips: Sequence[StripSolution], by_longer: float) -> CellsInMotion:
+    """Return what is known of the cells of ``strips`` whose roughness moves; ``by_longer``: the change of their f from cells
+    twice as long along y."""
     results = [strip.result for strip in strips]
-    return sum(abs(result.at_twice_film / result.coefficient - 1) for result in results) / len(results)
-
-
-def _coarse(prepared: Prepared) -> tuple[float, float]:
-    """Return the lengths along x and y of the cells of the deterministic model over the correlation lengths."""
     sample = prepared.sample
     (coarse_x, coarse_y) = (
         factor * cell / length
@@ -297,7 +304,30 @@ def _coarse(prepared: Prepared) -> tuple[float, float]:
             factors_of(prepared.scene, sample), sample.cells.spacing, sample.correlation_lengths, strict=True
         )
     )
-    return coarse_x, coarse_y
+    return CellsInMotion(
+        film_ratio=sum(result.at_twice_film / result.coefficient for result in results) / len(results),
+        coarse_x=coarse_x,
+        coarse_y=coarse_y,
+        by_longer=by_longer,
+        follows_lubricant=all(isinstance(strip, MovingStripSolution) and strip.follows_lubricant for strip in strips),
+        is_smooth=smooth_over_cells(surface_and_factors(prepared, 0)[0].heights),
+    )
+
+
+def changed_as_expected(numbers: dict[str, float], change: float) -> dict[str, float]:
+    """Return ``numbers`` of a point with f, its forces and the asperity load changed by this relative ``change``."""
+    if not change:
+        return numbers
+    names = ("coefficient", "shear_force", "couette_force", "rolling_force", "boundary_force", "contact_load")
+    names += ("boundary_film_load", "real_contact_area", "real_contact_area_fraction")
+    new = numbers | {name: (1.0 + change) * numbers[name] for name in names}
+    return new | {"film_load": numbers["film_load"] + numbers["contact_load"] - new["contact_load"]}
+
+
+def _by_boundary_film(strips: Sequence[StripSolution]) -> float:
+    """Return the relative change of f by twice the boundary film."""
+    results = [strip.result for strip in strips]
+    return sum(abs(result.at_twice_film / result.coefficient - 1) for result in results) / len(results)
 
 
 def changed(

@@ -3,18 +3,21 @@ the same roughness at the same places; and what the answer states as its error b
 
 import math
 import time
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 import lubfric
-from lubfric.models.deterministic import effort_of, error_along_x, error_along_y, solve_moving_strip
+from lubfric.models.deterministic import CellsInMotion, effort_of, solve_moving_strip
 from lubfric.models.deterministic.moving import half_width
-from lubfric.models.deterministic.strip import error_by_cells
 
 from ...types import PlainRow
-from .. import table_file
-from ..moving_coverage.table import RollingContact, contacts, narrow_strip
+from .. import extending, table_file
+from ..calibration.solve import limited
+from ..moving_coverage.contacts import RollingContact, contact_named, contacts
+from ..moving_coverage.table import MOST_SECONDS, narrow_strip
 
 TABLE = Path(__file__).parent / "table.csv"
 COLUMNS = (
@@ -32,10 +35,11 @@ COLUMNS = (
     "follows",
     "seconds",
     "failure",
+    "coarse_y",
 )
 
 # Halvings of the cells along x and y on which the maps are made, by the axis along which cells are halved.
-HALVINGS = {"x": (2, 0), "y": (0, 1)}
+HALVINGS = {"x": (2, 0), "y": (0, 1), "xy": (1, 1)}
 
 # Half-widths of the film whose moments count.
 WAY = 1.5
@@ -46,24 +50,28 @@ SLIDING = 1.6  # slide-roll ratio at which no mass is followed along the lubrica
 DIGITS = 6  # of a number in the table
 
 
-def cases() -> tuple[RollingContact, ...]:
+def cases() -> dict[str, RollingContact]:
     """Return the contacts of `moving_coverage`, the needle roller at other speeds, and the light contact sliding more."""
     every = {contact.name: contact for contact in contacts()}
     needle = every["needle roller"]
     others = [replace(needle, name=f"needle roller, {speed:g} m/s", speed=speed) for speed in SPEEDS]
     light = every["light contact"]
     scene = light.scene.with_(motion={"slide_roll_ratio": SLIDING})
-    return (*every.values(), *others, replace(light, name="light contact, sliding", scene=scene))
+    sliding = replace(light, name="light contact, sliding", scene=scene)
+    return {contact.name: contact for contact in (*every.values(), *others, sliding)}
 
 
 def followed(contact: RollingContact, seed: int, axis: str, halvings: int) -> PlainRow:
-    """Return the row of ``contact`` on the surface ``seed`` and cells halved so often along ``axis``; doubled for -1."""
+    """Return the row of ``contact`` on the surface ``seed`` and cells halved so often along ``axis``, "x", "y" or "xy" for
+    both; for -1 doubled along y."""
     prepared, bodies, (fx, fy) = narrow_strip(contact, seed, HALVINGS[axis])
     scene = prepared.scene
-    factors = (round(fx / 2**halvings), fy) if axis == "x" else (fx, round(fy / 2**halvings))
+    along_x = max(halvings, 0) if "x" in axis else 0
+    along_y = halvings if "y" in axis else 0
+    factors = (round(fx / 2**along_x), round(fy / 2**along_y))
     cell = factors[0] * bodies[0].surface.spacing[0]
-    along = "xy".index(axis)
-    length = factors[along] * bodies[0].surface.spacing[along]
+    (lx, ly) = prepared.sample.correlation_lengths
+    coarse_y = factors[1] * bodies[0].surface.spacing[1] / ly
     steps = round(WAY * half_width(scene.line_contact(contact.speed)) / cell)
     effort = effort_of(scene, bodies, contact.speed, (fx, fy))  # that of the answer
     strip = solve_moving_strip(scene, bodies, contact.speed, factors=factors, effort=effort, most_steps=steps)
@@ -75,39 +83,57 @@ def followed(contact: RollingContact, seed: int, axis: str, halvings: int) -> Pl
         "share": result.split.rubbing / result.load,
         "mean_gap": result.mean_gap,
         "min_gap": result.min_gap,
-        "coarse": length / prepared.sample.correlation_lengths[along],
+        "coarse": coarse_y if axis == "y" else cell / lx,
+        "coarse_y": coarse_y,
         "follows": int(strip.follows_lubricant),
     }
 
 
-def extend(halvings: int, seeds: int, budget: float, file: Path = TABLE) -> Iterator[PlainRow]:
-    """Solve what the table has not, the longest cells first, as long as the processor time of this process is below
-    ``budget`` [s], and append each row as it is solved. Along y the longest cells are twice those of an answer."""
+@dataclass(frozen=True)
+class CellJob:
+    """One row of the table."""
+
+    name: str
+    seed: int
+    axis: str
+    halvings: int
+
+    def row(self) -> PlainRow:
+        """Return the row, solved."""
+        contact = cases()[self.name] if self.name in cases() else contact_named(self.name)
+        row: PlainRow = {"contact": self.name, "seed": self.seed, "axis": self.axis, "halvings": self.halvings}
+        begun = time.process_time()
+        try:
+            with limited(MOST_SECONDS):
+                row |= followed(contact, self.seed, self.axis, self.halvings) | {"failure": ""}
+        except (lubfric.LubfricError, FloatingPointError, np.linalg.LinAlgError) as error:
+            row["failure"] = f"{type(error).__name__}: {error}".replace("\n", " ")[:120]
+        return row | {"seconds": time.process_time() - begun}
+
+
+def jobs_left(halvings: int, seeds: int, numbers: Sequence[int], file: Path) -> list[CellJob]:
+    """Return what the table has not, the longest cells first: so many ``halvings`` of the cells of `cases`, and one of both
+    axes of the random contacts of these ``numbers``. Along y the longest cells are twice those of an answer."""
     known = {(row["contact"], row["seed"], row["axis"], row["halvings"]) for row in table_file.rows(file)}
     levels = [
         ("y", -1),
         *((axis, count) for count in range(halvings + 1) for axis in "xy" if count <= HALVINGS[axis]["xy".index(axis)]),
     ]
-    for seed in range(seeds):
-        for axis, count in levels:
-            for contact in cases():
-                if (contact.name, str(seed), axis, str(count)) in known:
-                    continue
-                if time.process_time() > budget:
-                    return
-                begun = time.process_time()
-                row: PlainRow = {"contact": contact.name, "seed": seed, "axis": axis, "halvings": count}
-                try:
-                    row |= followed(contact, seed, axis, count) | {"failure": ""}
-                except lubfric.LubfricError as error:
-                    row["failure"] = f"{type(error).__name__}: {error}".replace("\n", " ")[:120]
-                row["seconds"] = time.process_time() - begun
-                table_file.append(file, COLUMNS, row, DIGITS)
-                yield row
+    jobs = [CellJob(name, seed, *level) for seed in range(seeds) for level in levels for name in cases()]
+    jobs += [CellJob(f"random {number}", 0, "xy", count) for number in numbers for count in (-1, 0, 1)]
+    return [job for job in jobs if (job.name, str(job.seed), job.axis, str(job.halvings)) not in known]
+
+
+def extend(jobs: Sequence[CellJob], seconds: float, file: Path = TABLE, workers: int = 1) -> Iterator[PlainRow]:
+    """Solve ``jobs`` in so many processes for so many ``seconds``, and append each row as it is solved."""
+    for row in extending.solved_in_processes(jobs, seconds, workers):
+        table_file.append(file, COLUMNS, row, DIGITS)
+        yield row
 
 
 def errors(file: Path = TABLE) -> Iterator[PlainRow]:
-    """Yield of each strip and axis the error of f on the cells of an answer, relative, and the ``stated`` one.
+    """Yield of each strip and axis the error of f on the cells of an answer, relative, the ``expected`` one, by which f is
+    corrected, and the ``stated`` error of what this leaves.
 
     The limit of f is that of second order from the two shortest cells, because the flow by the pressure is of second
     order; ``order`` [-]: the seen one (NaN: from fewer than three lengths of cells, or where they do not converge).
@@ -133,19 +159,27 @@ def errors(file: Path = TABLE) -> Iterator[PlainRow]:
             "limit": limit,
             "error": f[0] / limit - 1,
             "order": math.log2(seen) if seen > 0 else math.nan,
-            "stated": _stated(rows, axis),
+            "expected": cells_of(rows, axis).expected,
+            "stated": cells_of(rows, axis).error,
         }
 
 
-def _stated(rows: dict[int, dict[str, str]], axis: str) -> float:
-    """Return the error by the cells along ``axis`` that an answer states, at least."""
+def cells_of(rows: dict[int, dict[str, str]], axis: str) -> CellsInMotion:
+    """Return the cells of an answer along ``axis``, of the ``rows`` of one strip by their halvings; as if those along the
+    other one were short."""
     row = rows[0]
     f = float(row["f"])
-    by_film = abs(float(row["twice"]) / f - 1.0)
-    coarse = float(row["coarse"])
-    if axis == "y":
-        by_longer = abs(1.0 - float(rows[-1]["f"]) / f) if -1 in rows else 0.0
-        return max(error_along_y(by_film, coarse), error_by_cells([by_longer]))
-    follows = row["follows"] == "1"
-    is_smooth = "exponential" not in row["contact"]
-    return error_along_x(by_film, coarse, follows_lubricant=follows, is_smooth=is_smooth)
+    return CellsInMotion(
+        film_ratio=float(row["twice"]) / f,
+        coarse_x=float(row["coarse"]) if "x" in axis else 0.0,
+        coarse_y=float(row["coarse_y"] or row["coarse"]) if "y" in axis else 0.0,
+        by_longer=abs(1.0 - float(rows[-1]["f"]) / f) if -1 in rows else 0.0,
+        follows_lubricant=row["follows"] == "1",
+        is_smooth=not is_exponential(row["contact"]),
+    )
+
+
+def is_exponential(name: str) -> bool:
+    """Return whether the heights of the contact of this ``name`` change from cell to cell."""
+    contact = cases()[name] if name in cases() else contact_named(name)
+    return contact.scene.surface.acf == "exponential"

@@ -1,11 +1,12 @@
-"""``python -m verification.campaigns.moving_coverage [--seeds N] [--budget S]``: extend the tables of answers and references."""
+"""``python -m verification.campaigns.moving_coverage [--seeds N] [--random A B]``: extend the tables of answers and references."""
 
 from pathlib import Path
 
 from .. import extending
 
 # isort: split
-from .table import FOLDER, covered, extend
+from .contacts import contacts
+from .table import FOLDER, covered, extend, jobs_left
 
 
 def main() -> None:
@@ -13,11 +14,18 @@ def main() -> None:
     p = extending.parser("verification.campaigns.moving_coverage", __doc__)
     p.add_argument("--seeds", type=int, default=10, help="surfaces of each contact (default: %(default)s)")
     p.add_argument("--folder", type=Path, default=FOLDER, help="of both tables (default: %(default)s)")
-    p.add_argument("--contacts", nargs="+", default=[], help="names (default: all)")
-    p.add_argument("--answers", action="store_true", help="no references")
+    p.add_argument("--contacts", nargs="+", default=[], help="names (default: all that have names)")
+    p.add_argument(
+        "--random", type=int, nargs=2, default=[0, 0], help="first random contact, and the one after the last"
+    )
+    p.add_argument("--references", type=int, default=3, help="strips of each reference (default: %(default)s)")
+    p.add_argument("--narrow", type=int, default=3, help="strips on shorter cells of each (default: %(default)s)")
+    extending.add_processes(p)
     options = p.parse_args()
-    rows = extend(options.seeds, options.budget, options.folder, options.contacts, references=not options.answers)
-    extending.show(rows)
+    names = [f"random {number}" for number in range(*options.random)]
+    names += options.contacts or ([] if names else [contact.name for contact in contacts()])
+    jobs = jobs_left(options.seeds, options.folder, names, references=options.references, narrow=options.narrow)
+    extending.show(extend(jobs, options.seconds, options.folder, options.workers))
     extending.show(covered(options.folder))
 
 

@@ -9,7 +9,7 @@ limit of second order (`moving_cells`).
 
 import math
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -20,10 +20,12 @@ from lubfric.estimate import sampled
 from lubfric.models import DeterministicModel, prepare
 from lubfric.models.deterministic import (
     TIGHT,
+    CellsInMotion,
     DeterministicSolution,
     MovingStripSolution,
     RoughBody,
     SampleTarget,
+    cells_in_motion,
     effort_of,
     mean_over_blocks,
     solve_moving_strip,
@@ -34,8 +36,10 @@ from lubfric.models.shared import Prepared, student
 from lubfric.scene import Scene, moving_bodies
 from lubfric.surface import generate_surface
 
-from ...types import Option, PlainRow
-from .. import table_file
+from ...types import PlainRow
+from .. import extending, table_file
+from ..calibration.solve import limited
+from .contacts import RollingContact, contact_named, contacts
 
 # The tables of answers and references.
 FOLDER = Path(__file__).parent
@@ -45,11 +49,15 @@ ANSWER_COLUMNS = (
     "contact",
     "seed",
     "f",
+    "change",
     "sampling",
     "freedom",
-    "numerical",
+    "film_ratio",
+    "coarse_x",
+    "coarse_y",
     "by_longer",
-    "by_film",
+    "follows_lubricant",
+    "is_smooth",
     "strips",
     "steps",
     "work",
@@ -81,101 +89,10 @@ OF_REFERENCE = 2.0
 
 DIGITS = 7  # of a number in the tables
 
+ANSWER = "answer"  # the kind of a job that is no reference
 
-@dataclass(frozen=True)
-class RollingContact:
-    """A rolling contact: its scene, its speed [m/s], and whether it is heavily loaded, at 1 GPa."""
-
-    name: str
-    scene: Scene
-    speed: float
-    heavy: bool = False
-
-
-def _contact(name: str, speed: float, *, heavy: bool = False, **sections: Option) -> RollingContact:
-    """Return a contact of steel bodies with a stated boundary film, so that only cells and sample are uncertain."""
-    bodies = {"boundary_film": 2e-8, "hardness": None, "boundary_friction_coefficient": 0.12} | sections.pop("bodies")
-    scene = lubfric.load_scene("paper").with_(bodies=bodies, **sections)
-    return RollingContact(name, scene, speed, heavy)
-
-
-def contacts() -> tuple[RollingContact, ...]:
-    """Return the contacts; the surfaces have no seeds of their own yet."""
-    return (
-        _contact(
-            "needle roller",
-            2.0,
-            heavy=True,
-            bodies={"radii": (3e-3, 30e-3), "width": 10e-3, "load": 800.0, "material": "steel"},
-            lubricant={"viscosity": 0.0105, "pressure_viscosity_coefficient": 17e-9, "eyring_stress": 5e6},
-            motion={"slide_roll_ratio": 0.01},
-            surface={"sq": 1.88e-7, "correlation_length": 20e-6, "acf": "gaussian"},
-            counterface={"sq": 1.0e-7, "correlation_length": 20e-6, "acf": "gaussian"},
-            contact={"shape": (100, 100), "spacing": 5e-6},
-        ),
-        _contact(
-            "roller bearing",
-            3.0,
-            heavy=True,
-            bodies={"radii": (6e-3, 30e-3), "width": 14e-3, "load": 2000.0, "material": "steel"},
-            lubricant={
-                "viscosity": 0.018,
-                "pressure_viscosity_coefficient": 18e-9,
-                "eyring_stress": 5e6,
-                "limiting_stress_coefficient": 0.06,
-            },
-            motion={"slide_roll_ratio": 0.1},
-            surface={"sq": 2.5e-7, "correlation_length": 30e-6, "acf": "gaussian"},
-            counterface={"sq": 1.2e-7, "correlation_length": 30e-6, "acf": "gaussian"},
-            contact={"shape": (80, 80), "spacing": 7e-6},
-        ),
-        _contact(
-            "gear flank",
-            2.5,
-            bodies={"radii": (8e-3, 14e-3), "width": 14e-3, "load": 1750.0, "material": "steel"},
-            lubricant={
-                "viscosity": 0.03,
-                "pressure_viscosity_coefficient": 18e-9,
-                "eyring_stress": 5e6,
-                "limiting_stress_coefficient": 0.05,
-            },
-            motion={"slide_roll_ratio": 0.4},
-            surface={"sq": 3e-7, "correlation_length": 25e-6, "acf": "gaussian"},
-            counterface={"sq": 3e-7, "correlation_length": 25e-6, "acf": "gaussian"},
-            contact={"shape": (96, 96), "spacing": 6e-6},
-        ),
-        _contact(
-            "light contact",
-            0.6,
-            bodies={"radius": 5e-3, "width": 10e-3, "load": 150.0, "material": "steel"},
-            lubricant={"viscosity": 0.05, "pressure_viscosity_coefficient": 15e-9, "eyring_stress": 5e6},
-            motion={"slide_roll_ratio": -0.5},
-            surface={"sq": 1.5e-7, "correlation_length": 15e-6, "acf": "gaussian"},
-            contact={"shape": (80, 80), "spacing": 3.5e-6},
-        ),
-        _contact(
-            "sliding roller",
-            1.5,
-            bodies={"radius": 6e-3, "width": 10e-3, "load": 500.0, "material": "steel"},
-            lubricant={
-                "viscosity": 0.02,
-                "pressure_viscosity_coefficient": 16e-9,
-                "limiting_stress_coefficient": 0.08,
-            },
-            motion={"slide_roll_ratio": 1.0},
-            surface={"sq": 1.2e-7, "correlation_length": 20e-6, "acf": "gaussian"},
-            contact={"shape": (80, 80), "spacing": 5e-6},
-        ),
-        _contact(
-            "exponential surface",
-            1.0,
-            bodies={"radius": 6e-3, "width": 10e-3, "load": 700.0, "material": "steel"},
-            lubricant={"viscosity": 0.03, "pressure_viscosity_coefficient": 18e-9, "eyring_stress": 8e6},
-            motion={"slide_roll_ratio": 0.1},
-            surface={"sq": 2e-7, "correlation_length": 45e-6, "acf": "exponential"},
-            contact={"shape": (96, 96), "spacing": 5e-6},
-        ),
-    )
+# Processor time of a job [s], at most.
+MOST_SECONDS = 150.0
 
 
 def with_seed(contact: RollingContact, seed: int) -> Scene:
@@ -192,18 +109,35 @@ def answer(contact: RollingContact, seed: int) -> PlainRow:
     pairs = solution.pairs
     first = pairs[0].resolved
     assert isinstance(first, MovingStripSolution)
-    results = [pair.resolved.result for pair in pairs]
+    strips = [pair.resolved for pair in pairs]
+    by_longer = float(np.mean([pair.change_by_cells for pair in pairs]))
+    cells = cells_in_motion(solution.prepared, strips, by_longer)
     return {
         "f": parts.numbers["coefficient"],
+        "change": cells.change,
         "sampling": parts.sampling.error,
         "freedom": parts.sampling.freedom,
-        "numerical": parts.numerical,
-        "by_longer": float(np.mean([pair.change_by_cells for pair in pairs])),
-        "by_film": float(np.mean([abs(result.at_twice_film / result.coefficient - 1) for result in results])),
         "strips": len(pairs),
         "steps": first.times.size - first.discarded,
-        "work": sum(pair.resolved.work for pair in pairs),
-    }
+        "work": sum(strip.work for strip in strips),
+    } | {name: float(value) for name, value in vars(cells).items()}
+
+
+def cells_of(row: dict[str, str]) -> CellsInMotion:
+    """Return the cells of the answer in a ``row`` of the table, whose effect is that by the law of today."""
+    return CellsInMotion(
+        film_ratio=float(row["film_ratio"]),
+        coarse_x=float(row["coarse_x"]),
+        coarse_y=float(row["coarse_y"]),
+        by_longer=float(row["by_longer"]),
+        follows_lubricant=float(row["follows_lubricant"]) == 1.0,
+        is_smooth=float(row["is_smooth"]) == 1.0,
+    )
+
+
+def coefficient_of(row: dict[str, str]) -> float:
+    """Return f of the answer in a ``row`` of the table, with the effect of cells by the law of today."""
+    return float(row["f"]) / (1.0 + float(row["change"])) * (1.0 + cells_of(row).change)
 
 
 def reference_strip(contact: RollingContact, seed: int) -> PlainRow:
@@ -276,43 +210,48 @@ def change_by_cells(contact: RollingContact, seed: int) -> PlainRow:
 KINDS = {"strip": reference_strip, "cells": change_by_cells, "tight": tight_strip}
 
 
-def extend(
-    seeds: int, budget: float, folder: Path = FOLDER, names: Sequence[str] = (), *, references: bool = True
-) -> Iterator[PlainRow]:
-    """Solve what the tables have not, as long as the processor time of this process is below ``budget`` [s], and append
-    each row as it is solved: all references (none without ``references``), then the answers of so many ``seeds``; of the
-    contacts whose name is in ``names``, or all."""
-    chosen = [contact for contact in contacts() if not names or contact.name in names]
-    kept = {(row["contact"], row["kind"], row["seed"]) for row in table_file.rows(folder / REFERENCES)}
-    for kind, number in (*((kind, k) for k in range(REFERENCE_SEEDS) for kind in ("strip", "cells")), ("tight", 0)):
-        for contact in chosen if references else ():
-            if time.process_time() > budget:
-                return
-            if (contact.name, kind, str(number)) not in kept and (contact.heavy or kind != "tight"):
-                row = {"contact": contact.name, "kind": kind, "seed": number} | _timed(KINDS[kind], contact, number)
-                yield _appended(folder / REFERENCES, REFERENCE_COLUMNS, row)
-    known = {(row["contact"], row["seed"]) for row in table_file.rows(folder / ANSWERS)}
-    for seed in range(seeds):
-        for contact in chosen:
-            if time.process_time() > budget:
-                return
-            if (contact.name, str(seed)) not in known:
-                row = {"contact": contact.name, "seed": seed} | _timed(answer, contact, seed)
-                yield _appended(folder / ANSWERS, ANSWER_COLUMNS, row)
+@dataclass(frozen=True)
+class Job:
+    """One row of a table: an answer, or a ``kind`` of reference, of the contact of this ``name`` on surfaces of ``seed``."""
+
+    kind: str
+    name: str
+    seed: int
+
+    def row(self) -> PlainRow:
+        """Return the row, solved; where it takes more than `MOST_SECONDS`, ``failure`` says so."""
+        contact = contact_named(self.name)
+        solve = answer if self.kind == ANSWER else KINDS[self.kind]
+        row: PlainRow = {"contact": self.name, "kind": self.kind, "seed": self.seed}
+        begun = time.process_time()
+        try:
+            with limited(MOST_SECONDS):
+                row |= solve(contact, self.seed) | {"failure": ""}
+        except (lubfric.LubfricError, FloatingPointError, np.linalg.LinAlgError) as error:
+            row["failure"] = f"{type(error).__name__}: {error}".replace("\n", " ")[:120]
+        return row | {"seconds": time.process_time() - begun}
 
 
-def _timed(solve: Callable[[RollingContact, int], PlainRow], contact: RollingContact, seed: int) -> PlainRow:
-    begun = time.process_time()
-    try:
-        row = solve(contact, seed) | {"failure": ""}
-    except lubfric.LubfricError as error:
-        row = {"failure": f"{type(error).__name__}: {error}".replace("\n", " ")[:120]}
-    return row | {"seconds": time.process_time() - begun}
+def jobs_left(
+    seeds: int, folder: Path, names: Sequence[str], *, references: int = REFERENCE_SEEDS, narrow: int = REFERENCE_SEEDS
+) -> list[Job]:
+    """Return what the tables have not of the contacts ``names``: so many strips and ``narrow`` strips of ``references``
+    first, then the answers of so many ``seeds``."""
+    kept = {(row["kind"], row["contact"], row["seed"]) for row in table_file.rows(folder / REFERENCES)}
+    kept |= {(ANSWER, row["contact"], row["seed"]) for row in table_file.rows(folder / ANSWERS)}
+    jobs = [Job("cells", name, seed) for seed in range(narrow) for name in names]
+    jobs += [Job("strip", name, seed) for seed in range(references) for name in names]
+    jobs += [Job(ANSWER, name, seed) for seed in range(seeds) for name in names]
+    return [job for job in jobs if (job.kind, job.name, str(job.seed)) not in kept]
 
 
-def _appended(file: Path, columns: tuple[str, ...], row: PlainRow) -> PlainRow:
-    table_file.append(file, columns, row, DIGITS)
-    return row
+def extend(jobs: Sequence[Job], seconds: float, folder: Path = FOLDER, workers: int = 1) -> Iterator[PlainRow]:
+    """Solve ``jobs`` in so many processes, and append each row to the tables in ``folder`` when it is solved; after so many
+    ``seconds`` of elapsed time those that are not ready are left out."""
+    for row in extending.solved_in_processes(jobs, seconds, workers):
+        (file, columns) = (ANSWERS, ANSWER_COLUMNS) if row["kind"] == ANSWER else (REFERENCES, REFERENCE_COLUMNS)
+        table_file.append(folder / file, columns, row, DIGITS)
+        yield row
 
 
 def covered(folder: Path = FOLDER) -> Iterator[PlainRow]:
@@ -335,7 +274,7 @@ def covered(folder: Path = FOLDER) -> Iterator[PlainRow]:
         of_strips = math.sqrt(sum(float(row["error"]) ** 2 for row in strips)) / len(strips) / mean_of_strips
         of_cells = float(np.std(limits, ddof=1)) / math.sqrt(len(limits)) if len(limits) > 1 else 0.0
         error = math.hypot(of_strips, of_cells)
-        deviations = np.array([1 - truth / float(row["f"]) for row in answers])  # over f, as its half-width is
+        deviations = np.array([1 - truth / coefficient_of(row) for row in answers])  # over f, as its half-width is
         widths = np.array([_half_width(row) for row in answers])
         yield {
             "contact": contact.name,
@@ -353,4 +292,4 @@ def covered(folder: Path = FOLDER) -> Iterator[PlainRow]:
 
 
 def _half_width(row: dict[str, str]) -> float:
-    return math.hypot(student(int(row["freedom"])) * float(row["sampling"]), float(row["numerical"]))
+    return math.hypot(student(int(row["freedom"])) * float(row["sampling"]), cells_of(row).error)
