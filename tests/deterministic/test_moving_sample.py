@@ -158,5 +158,9 @@ def test_shorter_cells_act_as_a_thinner_boundary_film():
 def test_errors_of_cells_grow_where_less_is_known():
     """Steps of second order, heights that change from cell to cell, and a change from longer cells add to the error."""
     error = cells_in_motion(1.3).error
-    others = [cells_in_motion(1.3, third=False), cells_in_motion(1.3, is_smooth=False), cells_in_motion(1.3, by_longer=0.1)]
+    others = [
+        cells_in_motion(1.3, third=False),
+        cells_in_motion(1.3, is_smooth=False),
+        cells_in_motion(1.3, by_longer=0.1),
+    ]
     assert all(other.error > error for other in (*others, cells_in_motion(1.6)))

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from lubfric.models.deterministic.shorter_cells import EXPECTED_BY_CELLS
-
 from verification.campaigns import table_file
 from verification.campaigns.moving_cells.table import COLUMNS, TABLE, errors
 from verification.campaigns.moving_coverage.items import coverage
@@ -20,13 +19,15 @@ def test_answers_that_miss_the_reference_lower_the_coverage(tmp_path, inside, pa
     for seed in range(2):
         row = {"contact": "gear flank", "kind": "strip", "seed": seed, "f": 0.05, "error": 1e-6, "failure": ""}
         table_file.append(tmp_path / REFERENCES, REFERENCE_COLUMNS, row, 7)
-    row = {"contact": "gear flank", "kind": "cells", "seed": 0, "f": 0.925, "error": 0.0, "failure": ""}
-    table_file.append(tmp_path / REFERENCES, REFERENCE_COLUMNS, row, 7)
+        row |= {"kind": "cells", "f": 0.925, "error": 0.0}
+        table_file.append(tmp_path / REFERENCES, REFERENCE_COLUMNS, row, 7)
     cells = {"change": 0.0, "film_ratio": 1.0, "coarse_x": 0.0, "coarse_y": 0.0, "follows_lubricant": 1, "is_smooth": 1}
     for seed in range(20):
         f = 0.045 if seed < inside else 0.053
         row = {"contact": "gear flank", "seed": seed, "f": f, "sampling": 0.02, "freedom": 30} | cells
-        table_file.append(tmp_path / ANSWERS, ANSWER_COLUMNS, row | {"by_longer": 0.09, "seconds": 1.0, "failure": ""}, 7)
+        table_file.append(
+            tmp_path / ANSWERS, ANSWER_COLUMNS, row | {"by_longer": 0.09, "seconds": 1.0, "failure": ""}, 7
+        )
     table, check, _ = coverage("quick", folder=tmp_path)
     assert isinstance(table, Table) and isinstance(check, Check)
     assert check.measured == pytest.approx(inside / 20) and check.passed is passes

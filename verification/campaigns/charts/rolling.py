@@ -17,7 +17,8 @@ import lubfric
 
 from ...types import PlainRow
 from .. import table_file
-from ..moving_coverage.table import ANSWERS, FOLDER, REFERENCES, RollingContact, contacts, covered, with_seed
+from ..moving_coverage.contacts import RollingContact, contacts
+from ..moving_coverage.table import ANSWERS, FOLDER, REFERENCES, coefficient_of, judged, with_seed
 from .measure import point, quartiles
 
 SEEDS = {True: (1,), False: (1, 2, 3)}
@@ -27,7 +28,7 @@ MODELS = {"quick": "quick answer", "paper": 'load sharing ("paper")'}
 
 def cases(*, quick: bool) -> dict[str, tuple[RollingContact, float, bool]]:
     """The contacts of the campaign that have a reference so far, with it."""
-    known = {row["contact"]: row["reference"] for row in covered()}
+    known = {answer.contact.name: answer.reference.coefficient for answer in judged()}
     chosen = [contact for contact in contacts() if contact.name in known]
     return {contact.name: (contact, known[contact.name], quick) for contact in chosen}
 
@@ -58,7 +59,7 @@ def measured(case: tuple[RollingContact, float, bool]) -> list[PlainRow]:
         f = [float(row["f"]) for row in before]
         add("default of version 0.2.0", f"{len(f)} surfaces", f, [float(row["seconds"]) for row in before])
     answers = _rows_of(FOLDER / ANSWERS, contact)
-    f = [float(row["f"]) for row in answers]
+    f = [coefficient_of(row) for row in answers]
     add("default", f"{len(answers)} surfaces", f, [float(row["seconds"]) for row in answers], default=True)
     return points
 

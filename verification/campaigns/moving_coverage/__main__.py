@@ -14,7 +14,7 @@ def main() -> None:
     p = extending.parser("verification.campaigns.moving_coverage", __doc__)
     p.add_argument("--seeds", type=int, default=10, help="surfaces of each contact (default: %(default)s)")
     p.add_argument("--folder", type=Path, default=FOLDER, help="of both tables (default: %(default)s)")
-    p.add_argument("--contacts", nargs="+", default=[], help="names (default: all that have names)")
+    p.add_argument("--contacts", nargs="+", default=[], help="of those with names (default: all)")
     p.add_argument(
         "--random", type=int, nargs=2, default=[0, 0], help="first random contact, and the one after the last"
     )
@@ -22,8 +22,8 @@ def main() -> None:
     p.add_argument("--narrow", type=int, default=3, help="strips on shorter cells of each (default: %(default)s)")
     extending.add_processes(p)
     options = p.parse_args()
-    names = [f"random {number}" for number in range(*options.random)]
-    names += options.contacts or ([] if names else [contact.name for contact in contacts()])
+    names = options.contacts or [contact.name for contact in contacts()]
+    names += [f"random {number}" for number in range(*options.random)]
     jobs = jobs_left(options.seeds, options.folder, names, references=options.references, narrow=options.narrow)
     extending.show(extend(jobs, options.seconds, options.folder, options.workers))
     extending.show(covered(options.folder))

@@ -29,6 +29,9 @@ HALF_WIDTHS = (1.5, 6.0)
 # Columns of an answer's grid, at most: a contact with more is drawn again.
 MOST_COLUMNS = 160
 
+# How the name of a random contact begins; its number follows.
+RANDOM = "random "
+
 PER_LENGTH = 4.0  # cells of the map in a correlation length
 CELLS = 80  # of the map, along x and y
 
@@ -179,11 +182,11 @@ def random_contact(number: int) -> RollingContact:
             continue
         speed = halved(1e-5, 1e3, lambda u, s=scene, h=ratio * sq: s.line_contact(u).moes_film < h)
         if sum(reach(scene.line_contact(speed), sq)) * PER_LENGTH / length <= MOST_COLUMNS:
-            return RollingContact(f"random {number}", scene, speed, pressure >= HEAVY[0])
+            return RollingContact(f"{RANDOM}{number}", scene, speed, pressure >= HEAVY[0])
 
 
 def contact_named(name: str) -> RollingContact:
     """Return the contact of this ``name``: one of `contacts`, or "random" and a number."""
-    if name.startswith("random "):
-        return random_contact(int(name.split()[1]))
+    if name.startswith(RANDOM):
+        return random_contact(int(name.removeprefix(RANDOM)))
     return {contact.name: contact for contact in contacts()}[name]

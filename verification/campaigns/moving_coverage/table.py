@@ -19,7 +19,6 @@ import lubfric
 from lubfric.estimate import sampled
 from lubfric.models import DeterministicModel, prepare
 from lubfric.models.deterministic import (
-    TIGHT,
     CellsInMotion,
     DeterministicSolution,
     MovingStripSolution,
@@ -39,7 +38,7 @@ from lubfric.surface import generate_surface
 from ...types import PlainRow
 from .. import extending, table_file
 from ..calibration.solve import limited
-from .contacts import RollingContact, contact_named, contacts
+from .contacts import RANDOM, RollingContact, contact_named
 
 # The tables of answers and references.
 FOLDER = Path(__file__).parent
@@ -86,6 +85,8 @@ LIMIT = 4.0 / 3.0
 
 # Standard errors of the reference that an answer may be off beyond its own half-width.
 OF_REFERENCE = 2.0
+
+FEWEST = 2  # strips, and narrow strips, of a reference
 
 DIGITS = 7  # of a number in the tables
 
@@ -156,17 +157,6 @@ def reference_strip(contact: RollingContact, seed: int) -> PlainRow:
     return {"f": mean.value, "error": mean.error.error} | plain
 
 
-def tight_strip(contact: RollingContact, seed: int) -> PlainRow:
-    """Return f of a whole pass of one strip in tight steps, without a control: as version 0.2.0 took it, but on its cells
-    of today."""
-    prepared = prepare(with_seed(contact, REFERENCE_SEED + seed))
-    _, factors = surface_and_factors(prepared, 0)
-    bodies = bodies_of(prepared, 0, contact.speed)
-    strip = solve_moving_strip(prepared.scene, bodies, contact.speed, factors=factors, effort=TIGHT)
-    mean = mean_over_blocks([strip.places], "friction", prepared.sample.correlation_lengths[1], None)
-    return {"f": mean.value, "error": mean.error.error}
-
-
 def narrow_strip(
     contact: RollingContact, seed: int, halvings: tuple[int, int]
 ) -> tuple[Prepared, list[RoughBody], tuple[int, int]]:
@@ -207,7 +197,7 @@ def change_by_cells(contact: RollingContact, seed: int) -> PlainRow:
     return {"f": f[1] / f[0], "error": 0.0}
 
 
-KINDS = {"strip": reference_strip, "cells": change_by_cells, "tight": tight_strip}
+KINDS = {"strip": reference_strip, "cells": change_by_cells}
 
 
 @dataclass(frozen=True)
@@ -254,42 +244,100 @@ def extend(jobs: Sequence[Job], seconds: float, folder: Path = FOLDER, workers: 
         yield row
 
 
-def covered(folder: Path = FOLDER) -> Iterator[PlainRow]:
-    """Yield of each contact how many answers hold the reference within their half-width, and within it and
-    `OF_REFERENCE` standard errors of the reference."""
-    for contact in contacts():
-        of_contact = [
-            row for row in table_file.rows(folder / REFERENCES) if row["contact"] == contact.name and not row["failure"]
-        ]
-        strips = [row for row in of_contact if row["kind"] == "strip"]
-        cells = [float(row["f"]) for row in of_contact if row["kind"] == "cells"]
-        answers = [
-            row for row in table_file.rows(folder / ANSWERS) if row["contact"] == contact.name and not row["failure"]
-        ]
-        if not strips or not cells or not answers:
+@dataclass(frozen=True, kw_only=True)
+class Reference:
+    """f of the infinite line contact on short cells, with its relative standard error; ``strips``: of other surfaces."""
+
+    coefficient: float
+    error: float
+
+
+def reference_of(rows: Sequence[dict[str, str]]) -> Reference | None:
+    """Return the reference by the ``rows`` of one contact; None where they lack strips, or narrow strips on shorter cells.
+
+    The error of the strips is that of their blocks, or that by their scatter where it is larger.
+    """
+    strips = [row for row in rows if row["kind"] == "strip" and not row["failure"]]
+    limits = [1.0 + LIMIT * (float(row["f"]) - 1.0) for row in rows if row["kind"] == "cells" and not row["failure"]]
+    if len(strips) < FEWEST or len(limits) < FEWEST:
+        return None
+    f = np.array([float(row["f"]) for row in strips])
+    by_blocks = math.sqrt(sum(float(row["error"]) ** 2 for row in strips)) / f.size
+    by_scatter = float(f.std(ddof=1)) / math.sqrt(f.size)
+    of_cells = float(np.std(limits, ddof=1)) / math.sqrt(len(limits)) / float(np.mean(limits))
+    error = math.hypot(max(by_blocks, by_scatter) / float(f.mean()), of_cells)
+    return Reference(coefficient=float(f.mean() * np.mean(limits)), error=error)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Judged:
+    """One answer and its reference: the relative ``deviation`` from it, the ``half_width`` of the answer and its part by the
+    ``cells``, and the standard error of the reference."""
+
+    contact: RollingContact
+    deviation: float
+    half_width: float
+    cells: float
+    reference: Reference
+    seconds: float
+
+    @property
+    def is_inside(self) -> bool:
+        """Whether the answer holds the reference, within its half-width and `OF_REFERENCE` standard errors of the reference."""
+        return abs(self.deviation) <= math.hypot(self.half_width, OF_REFERENCE * self.reference.error)
+
+    @property
+    def is_fast(self) -> bool:
+        """Whether its slide-roll ratio is above 1."""
+        return abs(self.contact.scene.motion.slide_roll_ratio) > 1.0
+
+
+def judged(folder: Path = FOLDER) -> Iterator[Judged]:
+    """Yield the answers whose contact has a reference, by contact, with the effect of cells by the law of today."""
+    references = [row for row in table_file.rows(folder / REFERENCES) if not row["failure"]]
+    answers = [row for row in table_file.rows(folder / ANSWERS) if not row["failure"]]
+    for name in dict.fromkeys(row["contact"] for row in answers):
+        reference = reference_of([row for row in references if row["contact"] == name])
+        if reference is None:
             continue
-        mean_of_strips = float(np.mean([float(row["f"]) for row in strips]))
-        limits = [1.0 + LIMIT * (ratio - 1.0) for ratio in cells]
-        truth = mean_of_strips * float(np.mean(limits))
-        of_strips = math.sqrt(sum(float(row["error"]) ** 2 for row in strips)) / len(strips) / mean_of_strips
-        of_cells = float(np.std(limits, ddof=1)) / math.sqrt(len(limits)) if len(limits) > 1 else 0.0
-        error = math.hypot(of_strips, of_cells)
-        deviations = np.array([1 - truth / coefficient_of(row) for row in answers])  # over f, as its half-width is
-        widths = np.array([_half_width(row) for row in answers])
-        yield {
-            "contact": contact.name,
-            "heavy": contact.heavy,
-            "answers": len(answers),
-            "reference": truth,
-            "reference_error": error,
-            "mean_deviation": float(deviations.mean()),
-            "scatter": float(deviations.std(ddof=1)) if len(answers) > 1 else math.nan,
-            "half_width": float(np.median(widths)),
-            "inside": int((np.abs(deviations) <= widths).sum()),
-            "inside_with_reference": int((np.abs(deviations) <= np.hypot(widths, OF_REFERENCE * error)).sum()),
-            "seconds": float(np.median([float(row["seconds"]) for row in answers])),
-        }
+        contact = contact_named(name)
+        for row in answers:
+            if row["contact"] == name:
+                of_sample = student(int(row["freedom"])) * float(row["sampling"])
+                cells = cells_of(row).error
+                yield Judged(
+                    contact=contact,
+                    deviation=1 - reference.coefficient / coefficient_of(row),  # over f, as its half-width is
+                    half_width=math.hypot(of_sample, cells),
+                    cells=cells,
+                    reference=reference,
+                    seconds=float(row["seconds"]),
+                )
 
 
-def _half_width(row: dict[str, str]) -> float:
-    return math.hypot(student(int(row["freedom"])) * float(row["sampling"]), cells_of(row).error)
+def summary(answers: Sequence[Judged]) -> PlainRow:
+    """Return what these ``answers`` say together: how many hold their reference, and their errors and half-widths."""
+    deviations = np.array([answer.deviation for answer in answers])
+    return {
+        "answers": len(answers),
+        "inside": sum(answer.is_inside for answer in answers),
+        "bias": float(deviations.mean()),
+        "error": float(np.sqrt(np.mean(deviations**2))),
+        "half_width": float(np.median([answer.half_width for answer in answers])),
+        "cells": float(np.median([answer.cells for answer in answers])),
+        "reference_error": float(np.median([answer.reference.error for answer in answers])),
+        "seconds": float(np.median([answer.seconds for answer in answers])),
+    }
+
+
+def covered(folder: Path = FOLDER) -> Iterator[PlainRow]:
+    """Yield the `summary` of each group of answers: of each contact with a name, and of the random ones by load and sliding."""
+    groups: dict[str, list[Judged]] = {}
+    for answer in judged(folder):
+        name = answer.contact.name
+        if name.startswith(RANDOM):
+            load = "heavy" if answer.contact.heavy else "light"
+            name = f"random, {load}, slide-roll {'1 to 2' if answer.is_fast else 'up to 1'}"
+        groups.setdefault(name, []).append(answer)
+    for name, answers in groups.items():
+        yield {"contact": name, "heavy": answers[0].contact.heavy} | summary(answers)
