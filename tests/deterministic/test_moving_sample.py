@@ -148,9 +148,9 @@ def test_the_effect_of_the_cells_of_moving_roughness_falls_by_second_order():
 
 
 def test_shorter_cells_act_as_a_thinner_boundary_film():
-    """Where f = c delta^n, twice the film gives 2^n f, and a film thinner by the factor q gives q^n f: the expected change is a
+    """Where f = c delta^n, four times the film gives 4^n f, and a film thinner by the factor q gives q^n f: the expected change is a
     power law of the ratio, none where the film does not matter, and of the other sign where f falls with the film."""
-    changes = [1 + cells_in_motion(2.0**n).change for n in (0.3, 0.6, -0.3, 0.0)]
+    changes = [1 + cells_in_motion(4.0**n).change for n in (0.3, 0.6, -0.3, 0.0)]
     assert changes[0] < 1 and changes[1] == pytest.approx(changes[0] ** 2)
     assert changes[2] == pytest.approx(1 / changes[0]) and changes[3] == 1
 

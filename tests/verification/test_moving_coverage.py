@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from lubfric.models.deterministic.shorter_cells import EXPECTED_BY_CELLS
+from lubfric.models.deterministic.shorter_cells import NARROWED
 from verification.campaigns import table_file
 from verification.campaigns.moving_cells.table import COLUMNS, TABLE, errors
 from verification.campaigns.moving_coverage.items import coverage
@@ -45,6 +45,7 @@ def test_the_limit_is_that_of_second_order(tmp_path):
             "halvings": halvings,
             "f": f,
             "twice": 1.2 * f,
+            "half": f,
             "failure": "",
         }
         row |= {"coarse": 0.25, "follows": 1}
@@ -52,7 +53,7 @@ def test_the_limit_is_that_of_second_order(tmp_path):
     (strip,) = errors(tmp_path / "table.csv")
     assert strip["limit"] == pytest.approx(0.05) and strip["error"] == pytest.approx(0.08)
     assert strip["order"] == pytest.approx(2.0)
-    assert strip["expected"] == pytest.approx(EXPECTED_BY_CELLS[0] * math.log(1.2) / 16)
+    assert strip["expected"] == pytest.approx(NARROWED[0] * math.log(1.2, 4) / 16)
 
 
 def test_the_stated_error_holds_that_of_the_cells():

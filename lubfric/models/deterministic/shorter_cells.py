@@ -63,12 +63,12 @@ PIECES_WORK = 30.0
 # narrow strips of random contacts on cells half as long along both axes, extrapolated by second order. They are judged by
 # `verification.campaigns.moving_coverage`, on other contacts and surfaces. Shorter cells let more lubricant into the narrow
 # gaps, by a part of their height that falls with the square of the cells: f changes as if the boundary film were
-# thinner. So the effect is in proportion to the octaves by which f changes with twice the boundary film, ln(f2/f).
+# thinner. So the effect is in proportion to d ln f/d ln(boundary film).
 
-# Times (cell/correlation length)² along x and along y, and ln(f2/f): the expected relative fall of f on short cells [-].
-EXPECTED_BY_CELLS = (1.0, 0.25)
+# Times (cell/correlation length)² along x and along y: the part by which the narrow gaps are too small [-].
+NARROWED = (1.4, 0.35)
 
-# Part of this by which single contacts differ from it, at 95 % [-].
+# Part of the effect of this by which single contacts differ from it, at 95 % [-].
 SCATTER_BY_CELLS = 0.8
 
 # Times (cell along x/correlation length)² [-]: relative error of f, at 95 %, that does not depend on the boundary film; by
@@ -84,8 +84,8 @@ UNSMOOTH = 3.0
 # Factor on the change of f from cells twice as long along y [-]: by second order a third of it is left.
 BY_LONGER = 1 / 3
 
-# Ratio of f with twice the boundary film to f, up to which the effect is fitted [-]; beyond, it grows no more.
-MOST_RATIO = 2.5
+# Change of ln f with ln of the boundary film, at most [-]: boundary friction in proportion to it has 1.
+STEEPEST = 1.0
 
 # LU factorisations of a piece on longer cells, from which it starts, at most [-]. Half and twice change nothing.
 AS_START = 100
@@ -156,7 +156,7 @@ class CellsInMotion:
 
     Attributes
     ----------
-    film_ratio : f with twice the boundary film over f
+    film_ratio : f with twice the boundary film over f with half of it
     coarse_x, coarse_y : length of the cells over the correlation length
     by_longer : relative change of f from cells twice as long along y
     follows_lubricant : whether steps were of third order along the lubricant
@@ -171,11 +171,16 @@ class CellsInMotion:
     is_smooth: bool
 
     @property
+    def steepness(self) -> float:
+        """The change of ln f with ln of the boundary film; 0 where f is so small that it changes its sign."""
+        slope = math.log(self.film_ratio) / math.log(4.0) if self.film_ratio > 0 else 0.0
+        return min(max(slope, -STEEPEST), STEEPEST)
+
+    @property
     def expected(self) -> float:
         """The expected relative fall of f on short cells."""
-        (along_x, along_y) = EXPECTED_BY_CELLS
-        thin = math.log(min(max(self.film_ratio, 1 / MOST_RATIO), MOST_RATIO))
-        return (along_x * self.coarse_x**2 + along_y * self.coarse_y**2) * thin
+        (along_x, along_y) = NARROWED
+        return (along_x * self.coarse_x**2 + along_y * self.coarse_y**2) * self.steepness
 
     @property
     def change(self) -> float:
@@ -305,7 +310,7 @@ def cells_in_motion(prepared: Prepared, strips: Sequence[StripSolution], by_long
         )
     )
     return CellsInMotion(
-        film_ratio=sum(result.at_twice_film / result.coefficient for result in results) / len(results),
+        film_ratio=sum(r.at_twice_film for r in results) / sum(r.at_half_film for r in results),
         coarse_x=coarse_x,
         coarse_y=coarse_y,
         by_longer=by_longer,

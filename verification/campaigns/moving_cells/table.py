@@ -170,7 +170,7 @@ def cells_of(rows: dict[int, dict[str, str]], axis: str) -> CellsInMotion:
     row = rows[0]
     f = float(row["f"])
     return CellsInMotion(
-        film_ratio=float(row["twice"]) / f,
+        film_ratio=float(row["twice"]) / float(row["half"]),
         coarse_x=float(row["coarse"]) if "x" in axis else 0.0,
         coarse_y=float(row["coarse_y"] or row["coarse"]) if "y" in axis else 0.0,
         by_longer=abs(1.0 - float(rows[-1]["f"]) / f) if -1 in rows else 0.0,
