@@ -134,6 +134,7 @@ def cells_in_motion(film_ratio=1.0, times=1.0, by_longer=0.0, *, third=True, is_
         film_ratio=film_ratio,
         coarse_x=0.25 * times,
         coarse_y=0.5 * times,
+        coarse_b=0.1 * times,
         by_longer=by_longer,
         follows_lubricant=third,
         is_smooth=is_smooth,
@@ -143,7 +144,7 @@ def cells_in_motion(film_ratio=1.0, times=1.0, by_longer=0.0, *, third=True, is_
 def test_the_effect_of_the_cells_of_moving_roughness_falls_by_second_order():
     """Half as long cells: a quarter. What remains of the change from longer cells does not change with them."""
     (long, short) = (cells_in_motion(1.5, times) for times in (1.0, 0.5))
-    assert short.expected == pytest.approx(long.expected / 4) and short.error == pytest.approx(long.error / 4)
+    assert short.of_narrow_gaps == pytest.approx(long.of_narrow_gaps / 4) and short.error == pytest.approx(long.error / 4)
     assert cells_in_motion(times=1e-9, by_longer=0.03).error == pytest.approx(0.01)
 
 
@@ -153,6 +154,7 @@ def test_shorter_cells_act_as_a_thinner_boundary_film():
     changes = [1 + cells_in_motion(4.0**n).change for n in (0.3, 0.6, -0.3, 0.0)]
     assert changes[0] < 1 and changes[1] == pytest.approx(changes[0] ** 2)
     assert changes[2] == pytest.approx(1 / changes[0]) and changes[3] == 1
+    assert cells_in_motion(2.0, is_smooth=False).change == 0
 
 
 def test_errors_of_cells_grow_where_less_is_known():

@@ -78,8 +78,14 @@ ALONG_X = (0.3, 0.12)
 # The same along y.
 ALONG_Y = 0.02
 
-# Factor on both where heights change from cell to cell (`smooth_over_cells`) [-]: shorter cells show new summits.
-UNSMOOTH = 3.0
+# Times (cell along x/Hertz half-width)² [-]: the same because the pressure has few cells; by steps of second order, and along
+# the lubricant, of third. Between 6 and 12 cells in the half-width f of a separated contact changes by 3.2 %.
+IN_HALF_WIDTH = (3.0, 1.2)
+
+# Factors on the errors by ALONG_X and ALONG_Y, and on the effect of the narrow gaps, where heights change from cell to cell
+# (`smooth_over_cells`) [-]: shorter cells then show new summits, which act against it, and nothing is expected.
+UNSMOOTH = 4.0
+UNSMOOTH_NARROWED = 2.0
 
 # Factor on the change of f from cells twice as long along y [-]: by second order a third of it is left.
 BY_LONGER = 1 / 3
@@ -158,6 +164,7 @@ class CellsInMotion:
     ----------
     film_ratio : f with twice the boundary film over f with half of it
     coarse_x, coarse_y : length of the cells over the correlation length
+    coarse_b : length of the cells along x over the Hertz half-width
     by_longer : relative change of f from cells twice as long along y
     follows_lubricant : whether steps were of third order along the lubricant
     is_smooth : whether the heights are smooth over the cells
@@ -166,6 +173,7 @@ class CellsInMotion:
     film_ratio: float
     coarse_x: float
     coarse_y: float
+    coarse_b: float
     by_longer: float
     follows_lubricant: bool
     is_smooth: bool
@@ -177,23 +185,26 @@ class CellsInMotion:
         return min(max(slope, -STEEPEST), STEEPEST)
 
     @property
-    def expected(self) -> float:
-        """The expected relative fall of f on short cells."""
+    def of_narrow_gaps(self) -> float:
+        """The relative change of f by a boundary film that is thicker by as much as the narrow gaps are too small."""
         (along_x, along_y) = NARROWED
         return (along_x * self.coarse_x**2 + along_y * self.coarse_y**2) * self.steepness
 
     @property
     def change(self) -> float:
         """The expected relative change of f from the cells of an answer to short ones."""
-        return math.expm1(-self.expected)
+        return math.expm1(-self.of_narrow_gaps) if self.is_smooth else 0.0
 
     @property
     def error(self) -> float:
         """The relative error of f after this change, at 95 %."""
-        floor = ALONG_X[self.follows_lubricant] * self.coarse_x**2 + ALONG_Y * self.coarse_y**2
-        if not self.is_smooth:
-            floor *= UNSMOOTH
-        return math.hypot(floor, SCATTER_BY_CELLS * self.expected, BY_LONGER * self.by_longer)
+        of_roughness = ALONG_X[self.follows_lubricant] * self.coarse_x**2 + ALONG_Y * self.coarse_y**2
+        return math.hypot(
+            of_roughness * (1.0 if self.is_smooth else UNSMOOTH),
+            IN_HALF_WIDTH[self.follows_lubricant] * self.coarse_b**2,
+            (SCATTER_BY_CELLS if self.is_smooth else UNSMOOTH_NARROWED) * self.of_narrow_gaps,
+            BY_LONGER * self.by_longer,
+        )
 
 
 # What `on_shorter_cells` returns where none are solved, and another model states the error by the cells.
@@ -313,6 +324,7 @@ def cells_in_motion(prepared: Prepared, strips: Sequence[StripSolution], by_long
         film_ratio=sum(r.at_twice_film for r in results) / sum(r.at_half_film for r in results),
         coarse_x=coarse_x,
         coarse_y=coarse_y,
+        coarse_b=strips[0].problem.spacing[0] / prepared.scene.bodies.half_width,
         by_longer=by_longer,
         follows_lubricant=all(isinstance(strip, MovingStripSolution) and strip.follows_lubricant for strip in strips),
         is_smooth=smooth_over_cells(surface_and_factors(prepared, 0)[0].heights),

@@ -100,7 +100,7 @@ class CellJob:
 
     def row(self) -> PlainRow:
         """Return the row, solved."""
-        contact = cases()[self.name] if self.name in cases() else contact_named(self.name)
+        contact = contact_of(self.name)
         row: PlainRow = {"contact": self.name, "seed": self.seed, "axis": self.axis, "halvings": self.halvings}
         begun = time.process_time()
         try:
@@ -159,7 +159,7 @@ def errors(file: Path = TABLE) -> Iterator[PlainRow]:
             "limit": limit,
             "error": f[0] / limit - 1,
             "order": math.log2(seen) if seen > 0 else math.nan,
-            "expected": cells_of(rows, axis).expected,
+            "expected": -cells_of(rows, axis).change,
             "stated": cells_of(rows, axis).error,
         }
 
@@ -169,17 +169,20 @@ def cells_of(rows: dict[int, dict[str, str]], axis: str) -> CellsInMotion:
     other one were short."""
     row = rows[0]
     f = float(row["f"])
+    contact = contact_of(row["contact"])
+    length = float(np.ravel(contact.scene.surface.correlation_length)[0])  # one, or those along x and y
+    cell = float(row["coarse"]) * length
     return CellsInMotion(
         film_ratio=float(row["twice"]) / float(row["half"]),
         coarse_x=float(row["coarse"]) if "x" in axis else 0.0,
         coarse_y=float(row["coarse_y"] or row["coarse"]) if "y" in axis else 0.0,
+        coarse_b=cell / contact.scene.bodies.half_width if "x" in axis else 0.0,
         by_longer=abs(1.0 - float(rows[-1]["f"]) / f) if -1 in rows else 0.0,
         follows_lubricant=row["follows"] == "1",
-        is_smooth=not is_exponential(row["contact"]),
+        is_smooth=contact.scene.surface.acf != "exponential",
     )
 
 
-def is_exponential(name: str) -> bool:
-    """Return whether the heights of the contact of this ``name`` change from cell to cell."""
-    contact = cases()[name] if name in cases() else contact_named(name)
-    return contact.scene.surface.acf == "exponential"
+def contact_of(name: str) -> RollingContact:
+    """Return the contact of this ``name``: one of `cases`, or a random one."""
+    return cases()[name] if name in cases() else contact_named(name)
