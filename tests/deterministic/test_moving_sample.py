@@ -144,7 +144,9 @@ def cells_in_motion(film_ratio=1.0, times=1.0, by_longer=0.0, *, third=True, is_
 def test_the_effect_of_the_cells_of_moving_roughness_falls_by_second_order():
     """Half as long cells: a quarter. What remains of the change from longer cells does not change with them."""
     (long, short) = (cells_in_motion(1.5, times) for times in (1.0, 0.5))
-    assert short.of_narrow_gaps == pytest.approx(long.of_narrow_gaps / 4) and short.error == pytest.approx(long.error / 4)
+    assert short.of_narrow_gaps == pytest.approx(long.of_narrow_gaps / 4) and short.error == pytest.approx(
+        long.error / 4
+    )
     assert cells_in_motion(times=1e-9, by_longer=0.03).error == pytest.approx(0.01)
 
 

@@ -21,7 +21,15 @@ def test_answers_that_miss_the_reference_lower_the_coverage(tmp_path, inside, pa
         table_file.append(tmp_path / REFERENCES, REFERENCE_COLUMNS, row, 7)
         row |= {"kind": "cells", "f": 0.925, "error": 0.0}
         table_file.append(tmp_path / REFERENCES, REFERENCE_COLUMNS, row, 7)
-    cells = {"change": 0.0, "film_ratio": 1.0, "coarse_x": 0.0, "coarse_y": 0.0, "coarse_b": 0.0, "follows_lubricant": 1, "is_smooth": 1}
+    cells = {
+        "change": 0.0,
+        "film_ratio": 1.0,
+        "coarse_x": 0.0,
+        "coarse_y": 0.0,
+        "coarse_b": 0.0,
+        "follows_lubricant": 1,
+        "is_smooth": 1,
+    }
     for seed in range(20):
         f = 0.045 if seed < inside else 0.053
         row = {"contact": "gear flank", "seed": seed, "f": f, "sampling": 0.02, "freedom": 30} | cells

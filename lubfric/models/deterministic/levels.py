@@ -259,7 +259,9 @@ def levels_of(
         difference=difference,
         numerical=shorter.error,
         length=length,
-        note="; ".join(filter(None, (estimate.note, CORRECTED_BY_CELLS.format(100 * shorter.change) if shorter.change else ""))),
+        note="; ".join(
+            filter(None, (estimate.note, CORRECTED_BY_CELLS.format(100 * shorter.change) if shorter.change else ""))
+        ),
     )
 
 
