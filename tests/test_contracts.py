@@ -95,7 +95,7 @@ class TestSample:
         heights = np.hstack([np.arange(6.0)[None], np.arange(6.0)[None, ::-1]])
         half_width = prepared.scene.bodies.half_width
         distance = sample.renewal_length(half_width)
-        if sample.is_only_map:
+        if not sample.represents_more:
             assert sample.distinct_rows(heights) == 6 and math.isnan(distance) and sample.in_words(1) == "the patch"
             assert sample.for_fields().cells.is_native and sample.coarsening_to_look_at(half_width) == (1, 1)
         else:

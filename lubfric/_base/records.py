@@ -3,13 +3,15 @@ as one line, or as the call that makes them."""
 
 import base64
 import io
+from collections.abc import Iterable
 from dataclasses import MISSING, fields, is_dataclass
 from html import escape
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
 
 import numpy as np
 
 from ..errors import LubfricError
+from .validate import nearest
 
 
 class FrozenArrays:
@@ -63,10 +65,14 @@ class Renamed:
     if not TYPE_CHECKING:  # to a type checker, an old name is one that the class does not have
 
         def __getattr__(self, name: str) -> Any:
-            kind = type(self)
-            if name in kind._RENAMED:
-                raise AttributeError(f"{kind.__name__}.{name} is called {kind._RENAMED[name]} now")
-            raise AttributeError(f"{kind.__name__!r} object has no attribute {name!r}")
+            self._refuse(name)
+
+    def _refuse(self, name: str, others: Iterable[str] = ()) -> NoReturn:
+        """Raise `AttributeError` for ``name``, with its name of today, or with the most alike of ``others``."""
+        kind = type(self)
+        if name in kind._RENAMED:
+            raise AttributeError(f"{kind.__name__}.{name} is called {kind._RENAMED[name]} now")
+        raise AttributeError(f"{kind.__name__!r} object has no attribute {name!r}{nearest(name, others)}")
 
 
 class Shown:

@@ -18,14 +18,15 @@ LEAST_REPORTED_CHANGE = 5e-4
 def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tuple[float, ...] | str]:
     """Return the changes of f [-] by the two ends of each of the `Scene.ranges`, by name; text: why it is not known.
 
-    f is linear in f_b at a given division of the load. At both ends of every other range it is solved again, by the
-    model of the ``answer`` (`ModelAnswer.at_inputs`), unless the model knows their changes from its solution
-    (`ModelAnswer.changes_without_solve`). The changes are relative to the middle on the same cells. An end that cannot be
+    f is linear in f_b at a given division of the load. At each end of every other range it is solved again, by the model
+    of the ``answer`` (`ModelAnswer.at_inputs`), unless the model knows its change there from its solution
+    (`ModelAnswer.change_without_solve`). The changes are relative to the middle on the same cells. An end that cannot be
     solved, and the hardness of a contact that is not lubfric's own, are not known.
     """
     scene = prepared.scene
     changes: dict[str, tuple[float, ...] | str] = {}
-    solved: dict[str, list[Scene]] = {}
+    by_model: dict[str, tuple[float | None, ...]] = {}
+    to_solve: list[Scene] = []
     for name, *ends in scene.at_ends():
         if name == BOUNDARY_FRICTION_KEY:
             load_ratio = answer.numbers["contact_load"] / scene.bodies.load
@@ -35,32 +36,32 @@ def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tupl
             changes[name] = "the contact was given by the caller"
         elif answer.at_inputs is None:
             changes[name] = "this model does not solve the ends of its range"
-        elif (known := answer.changes_without_solve(name, tuple(ends))) is not None:
-            changes[name] = tuple(answer.numbers["coefficient"] * change for change in known)
         else:
-            changes[name] = "the solve at an end of its range did not converge"  # unless it is
-            solved[name] = ends
-    for name, relative in _changes_at(answer, solved).items():
+            changes[name] = "the solve at an end of its range did not converge"  # unless it does
+            known = tuple(answer.change_without_solve(name, number, end) for number, end in enumerate(ends))
+            by_model[name] = known
+            to_solve += [end for end, change in zip(ends, known) if change is None]
+    solved = iter(_changes_at(answer, to_solve))
+    for name, known in by_model.items():
+        relative = [next(solved) if change is None else change for change in known]
         if all(map(math.isfinite, relative)):
             changes[name] = tuple(answer.numbers["coefficient"] * change for change in relative)
     return changes
 
 
-def _changes_at(answer: ModelAnswer, ends: dict[str, list[Scene]]) -> dict[str, list[float]]:
-    """Return the relative change of f from the middle to the ``ends`` of each input; NaN where an end is not solved."""
-    scenes = [scene for both in ends.values() for scene in both]
-    if not scenes or answer.at_inputs is None:
-        return {}
+def _changes_at(answer: ModelAnswer, ends: list[Scene]) -> list[float]:
+    """Return the relative change of f from the middle to each of the ``ends``; NaN where it is not solved."""
+    if not ends or answer.at_inputs is None:
+        return []
     try:
         around = answer.at_inputs()
     except ConvergenceError:  # the middle, on other cells than the point itself
-        return {name: [math.nan] * len(both) for name, both in ends.items()}
+        return [math.nan] * len(ends)
     if around.in_processes:
-        values = map_parts(_or_nan, scenes, around.coefficient)
+        values = map_parts(_or_nan, ends, around.coefficient)
     else:
-        values = [_or_nan(around.coefficient, scene) for scene in scenes]
-    changes = iter(value / around.middle - 1 for value in values)
-    return {name: [next(changes) for _ in both] for name, both in ends.items()}
+        values = [_or_nan(around.coefficient, end) for end in ends]
+    return [value / around.middle - 1 for value in values]
 
 
 def _or_nan(coefficient: Callable[[Scene], float], scene: Scene) -> float:

@@ -122,8 +122,8 @@ class ModelAnswer:
     fine_fields : solves a part of the surface again on cells fine enough to look at; None: ``fields`` are all there is
     details : what the model keeps of its solve, for those who know it
     at_inputs : makes what solves f again at other inputs; None: the model cannot
-    changes_without_solve : relative changes of f by the two ends of an input of this name, where they are known from the
-        solution; None: they have to be solved
+    change_without_solve : relative change of f at an end of the range of an input, from its name, the number of the end
+        (0 or 1) and the scene there, where the solution tells it; None: it has to be solved
     """
 
     numbers: dict[str, float]
@@ -149,7 +149,7 @@ class ModelAnswer:
     fine_fields: Callable[[], ContactFields] | None = None
     details: ModelDetails | None = None
     at_inputs: Callable[[], AtInputs] | None = None
-    changes_without_solve: Callable[[str, tuple[Scene, ...]], tuple[float, ...] | None] = lambda name, ends: None
+    change_without_solve: Callable[[str, int, Scene], float | None] = lambda name, number, end: None
 
 
 @dataclass(frozen=True, kw_only=True)

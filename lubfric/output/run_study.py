@@ -23,7 +23,7 @@ from ..units import ZERO_CELSIUS, converted, numbers_of, unit_for, with_interval
 from .command_line import scene_of
 from .commands import answer, check_outputs, keeping, made, paced, run_folder, say
 from .progress import ProgressLine
-from .study_report import answer_lines, point_in_words, study_page
+from .study_report import answer_lines, planned_point_in_words, study_page
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -192,8 +192,6 @@ def _point_reports(plan: studies.StudyPlan, begun: float) -> Callable[..., None]
     of up to `MOST_LINES` points, else of one a second."""
     due = paced()
     first = -1
-    shape = (*plan.curve_shape, 1) if plan.chooses_speeds else plan.shape
-    places = studies.StudyResult(plan, {}, np.full(shape, ""), np.full(shape, ""))
 
     def on_point(done: int, total: int, index: tuple[int, ...], outcome: Any) -> None:
         nonlocal first
@@ -205,17 +203,17 @@ def _point_reports(plan: studies.StudyPlan, begun: float) -> Callable[..., None]
         ends = f"{passed:.0f} s"
         if first < done < total:
             ends += f", about {studies.in_words(passed * (total - done) / (done - first))} left"
-        say(f"{head} {_place(places, index, outcome)}: {_in_a_line(outcome)}; {ends}")
+        say(f"{head} {_place(plan, index, outcome)}: {_in_a_line(outcome)}; {ends}")
 
     return on_point
 
 
-def _place(places: studies.StudyResult, index: tuple[int, ...], outcome: Any) -> str:
+def _place(plan: studies.StudyPlan, index: tuple[int, ...], outcome: Any) -> str:
     """Return where a point lies, as text; of a curve that chooses its speeds with the speed of the ``outcome``."""
-    if not places.chosen:
-        return point_in_words(places, index)
+    if not plan.chooses_speeds:
+        return planned_point_in_words(plan, index)
     speed = f"speed {worded(outcome.speed, 'm/s')}" if isinstance(outcome, FrictionResult) else ""
-    return ", ".join(filter(None, (studies.label(places, index[:-1]), speed)))
+    return ", ".join(filter(None, (studies.label(plan, index[:-1]), speed)))
 
 
 def _in_a_line(outcome: FrictionResult | Exception) -> str:

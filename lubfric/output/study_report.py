@@ -12,7 +12,16 @@ from .._base import __version__
 from ..models.shared import gathered_texts, percent, sentence, student
 from ..quantities import CHOICES, COLUMNS, counted, worded_value
 from ..scene import SLIDE_ROLL_RATIO_KEY
-from ..studies import DURATION, INTERVAL_COLUMNS, StudyResult, columns_of_study, label, mean_over_cycle
+from ..studies import (
+    DURATION,
+    INTERVAL_COLUMNS,
+    StudyPlan,
+    StudyResult,
+    columns_of_study,
+    label,
+    mean_over_cycle,
+    place_in_words,
+)
 from ..units import ZERO_CELSIUS, converted, plain_number, printed, unit_of_largest, with_interval
 from .inputs import INPUT_SECTIONS, inputs
 from .report import picture, style_sheet, table
@@ -219,13 +228,16 @@ def _budget_line(result: StudyResult) -> list[str]:
 
 def point_in_words(result: StudyResult, index: tuple[int, ...]) -> str:
     """Return where a point lies, as text; an operating point by its number in the tables and its coordinate alone."""
-    if result.chosen:
-        return result.place(index)
-    number = int(np.ravel_multi_index(index, result.status.shape)) + 1
-    if not result.paired:
-        return f"point {number}: {result.place(index)}"
-    known = (name for name in COORDINATE if name in result.coords)
-    place = "".join(f" ({name} {_coordinate(name, result.coords[name][1], index[-1])})" for name in known)
+    return result.place(index) if result.chosen else planned_point_in_words(result.plan, index)
+
+
+def planned_point_in_words(plan: StudyPlan, index: tuple[int, ...]) -> str:
+    """Return where a point of a ``plan`` lies that does not choose its speeds, as `point_in_words`."""
+    number = int(np.ravel_multi_index(index, plan.shape)) + 1
+    if not plan.paired:
+        return f"point {number}: {place_in_words(plan, index, plan.point_speed(index))}"
+    known = (name for name in COORDINATE if name in plan.coords)
+    place = "".join(f" ({name} {_coordinate(name, plan.coords[name][1], index[-1])})" for name in known)
     return f"point {number}{place}"
 
 
@@ -249,7 +261,7 @@ def _mean_lines(result: StudyResult) -> list[str]:
     weighed = "weighed by the duration" if "duration" in result.coords else "all with the same weight"
     rows = []
     for index in list(np.ndindex(*result.status.shape[:-1]))[:MOST_MEANS]:
-        where = f" for {place}" if (place := label(result, (*index, slice(None)))) else ""
+        where = f" for {place}" if (place := label(result.plan, (*index, slice(None)))) else ""
         low, high = (float(np.asarray(end)[index]) for end in result.mean_interval("power_loss"))
         mean = float(np.asarray(result.mean("power_loss"))[index])
         text = _mean_in_words(mean, low, high, "W")

@@ -3,10 +3,12 @@
 A sample represents the infinite rough line contact. Strip number k of a sample on given cells is always the same
 surface, so that a longer sample contains a shorter one. A model requests strips.
 
-What it does with them depends on three facts of the surface and the contact, not on the class of the sample:
+What it does with them depends on four facts of the surface and the contact, not on the class of the sample:
 
-- `Sample.is_only_map`: there is no more surface than one strip. Then nothing scatters by sampling; no control, no pieces
-  and no reference points of other strips exist; and shorter cells are those of the same strip, down to native ones.
+- `Sample.represents_more`: whether the strips stand for a larger surface. Then f scatters with the choice of strips, and
+  other strips show by how much; else nothing scatters, and no control and no reference points of other strips exist.
+- `Sample.refines_in_place`: whether shorter cells show the same strip, down to native ones. Else strips on other cells are
+  others, and pieces of the surface show what shorter cells change.
 - `Sample.is_resolved`: whether cells of the surface are solved at all. A contact curve has no places along the line to
   compare, and no gap for a film to flow in.
 - `Sample.is_homogeneous`: whether strips differ by chance alone. Windows of a measured map may also differ because the
@@ -46,7 +48,8 @@ class Sample(ABC):
     pieces : number of pieces that there are
     exact_sq : whether every strip has the Sq of the surface
     is_homogeneous : whether all strips are parts of one random surface; False: windows of a measured map
-    is_only_map : whether its one strip is all that there is
+    represents_more : whether its strips stand for a larger surface; False: they are all of it
+    refines_in_place : whether shorter cells, down to native ones, are those of the same strip; a piece is then all of it
     is_resolved : whether the rough half-space is solved on the cells of its strips; False: the contact is a curve, made
         of independent asperities, or from outside
     bodies : of two rough bodies the part of each, where the sample is cut from maps of both; () else
@@ -60,7 +63,8 @@ class Sample(ABC):
     pieces: int
     exact_sq: bool = False
     is_homogeneous: bool = True
-    is_only_map: bool = False
+    represents_more: bool = True
+    refines_in_place: bool = False
     is_resolved: bool = True
     bodies: tuple[Surface, ...] = ()
 
@@ -96,12 +100,13 @@ class Sample(ABC):
         return half_space_contact_of(scene, heights, surface.spacing, operator=made, x=self.cells.axis())
 
     def for_fields(self) -> Self:
-        """Return this sample on the cells on which its fields are shown; native ones if it is the only map."""
-        return self
+        """Return this sample on the cells on which its fields are shown: native ones if these show the same strip."""
+        return self.native() if self.refines_in_place else self
 
     def coarsening_to_look_at(self, half_width: float) -> tuple[int, int]:
-        """Return the length, in native cells, of cells that show a contact of this ``half_width`` [m]."""
-        return self.cells.coarsening_to_look_at(half_width)
+        """Return the length, in native cells, of cells that show a contact of this ``half_width`` [m]; native ones if
+        these are solved anyway."""
+        return (1, 1) if self.refines_in_place else self.cells.coarsening_to_look_at(half_width)
 
     def distinct_rows(self, heights: np.ndarray) -> int:
         """Return how many of the rows of ``heights`` (nx, ny), a strip or some joined, are not the image of others."""
@@ -139,9 +144,9 @@ class Sample(ABC):
 
     @property
     def refinement(self) -> tuple[int, int]:
-        """How many times shorter the cells of a strip can be made along each axis and it remains the same surface: (1, 1)
+        """How many times shorter the cells of a strip can be made along each axis while it remains the same surface: (1, 1)
         where strips on other cells are others."""
-        return 1, 1
+        return self.cells.coarsening if self.refines_in_place else (1, 1)
 
     def line_length(self, count: int) -> float:
         """Return the length [m] of the first ``count`` strips joined."""

@@ -7,7 +7,6 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Self
 
 import numpy as np
 
@@ -23,15 +22,11 @@ from .contract import PIECE, Sample
 class OnlyMap(Sample):
     """A sample whose map is all that there is: what its kinds share."""
 
-    def for_fields(self) -> Self:
-        return self.native()
-
-    def coarsening_to_look_at(self, half_width: float) -> tuple[int, int]:
-        return (1, 1)
-
-    @property
-    def refinement(self) -> tuple[int, int]:
-        return self.cells.coarsening
+    first = 1
+    available = 1
+    pieces = 1
+    represents_more = False
+    refines_in_place = True
 
     def distinct_rows(self, heights: np.ndarray) -> int:
         return heights.shape[1] // (2 if mirrored(heights) else 1)
@@ -60,10 +55,6 @@ class SinglePatch(OnlyMap):
     correlation_lengths: tuple[float, float]
     surface: Surface
     bodies: tuple[Surface, ...] = ()
-    first: int = 1
-    available: int = 1
-    pieces: int = 1
-    is_only_map: bool = True
 
     @property
     def strip_length(self) -> float:  # type: ignore[override]
@@ -94,10 +85,6 @@ class UnresolvedSample(FieldsOnly, OnlyMap):
 
     surface: Surface
     given_contact: RoughContact | None = None
-    first: int = 1
-    available: int = 1
-    pieces: int = 1
-    is_only_map: bool = True
     is_resolved: bool = False
 
     @property

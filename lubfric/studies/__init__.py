@@ -23,6 +23,7 @@ from .tables import (
     friction_over_speed,
     interval_band,
     label,
+    place_in_words,
     plot_map,
     plot_points,
 )

@@ -1,14 +1,16 @@
 """All points of a study, laid out before the first is solved: from arguments, or from a study file, which is read
 strictly."""
 
+import json
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, is_dataclass, replace
 from functools import cached_property
 from itertools import product
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from .._base import FieldsOnly, validate, with_default_errors
@@ -17,8 +19,8 @@ from ..samples import is_measured, whole_maps
 from ..scene import Scene, load_scene, read_toml, speeds_of_range
 from .choose import EXPECTED_SPEEDS, MOST_CHOSEN_SPEEDS, requested_speeds
 from .explain import explain, warnings_of
-from .operating_points import operating_points
-from .points import scene_key
+from .operating_points import POINT, operating_points
+from .points import SPEED, scene_key
 from .store import digest
 from .vary import VARIED_SLIDING, Axis, Between, axes_of, notes_of_sliding, sample, unit_of
 
@@ -82,6 +84,30 @@ class StudyPlan(FieldsOnly):
     def points(self) -> int:
         """Number of points. Where speeds are chosen it is an estimate."""
         return len(self.keys) * (1 if self.paired else len(self.speeds) or EXPECTED_SPEEDS)
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the axes of the results."""
+        axes = tuple(axis.name for axis in self.axes)
+        return axes if self.paired else (*axes, POINT if self.chooses_speeds else SPEED)
+
+    @cached_property
+    def coords(self) -> dict[str, tuple[str, np.ndarray]]:
+        """{key: (dimension, values along it)} of every varied key and, unless curves choose it, the speed [m/s]."""
+        varied = {}
+        for axis in self.axes:
+            for key, values in zip(axis.keys, zip(*axis.values)):
+                numbers = all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in values)
+                words = [v if isinstance(v, str) else repr(v) if is_dataclass(v) else json.dumps(v) for v in values]
+                varied[key] = axis.name, np.array(values, dtype=float) if numbers else np.array(words)
+        if self.paired:
+            coordinates = {name: (POINT, np.array(values)) for name, values in self.coordinates.items()}
+            return coordinates | varied | {SPEED: (POINT, np.array(self.point_speeds))}
+        return varied if self.chooses_speeds else varied | {SPEED: (SPEED, np.array(self.speeds))}
+
+    def point_speed(self, index: tuple[int, ...]) -> float:
+        """Return the speed [m/s] of the point at ``index`` of the results; of curves that do not choose it."""
+        return (self.point_speeds if self.paired else self.speeds)[index[-1]]
 
     def speeds_at(self, curve: int) -> tuple[float, ...]:
         """Return the speeds [m/s] that are requested of the curve at place ``curve`` of ``keys``; none if it chooses

@@ -3,11 +3,10 @@ was varied."""
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, is_dataclass
-from functools import cached_property, partial
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,15 +20,14 @@ from ..estimate import MethodUse, cited, methods_of
 from ..models import Model, candidates, prepare
 from ..quantities import NUMBERS
 from ..scene import Scene
-from ..units import worded
 from .interpolate import Interpolant, through
 from .law import law_of_study
-from .operating_points import DURATION, INTERVAL_COLUMNS, POINT, mean_over_cycle
+from .operating_points import DURATION, INTERVAL_COLUMNS, mean_over_cycle
 from .plan import StudyPlan, plan_study, scenes_of
 from .points import CONVERGED_COLUMN, MISSING, SPEED, UNUSED, MapError, solved_together
 from .store import PLANNED, Store, digest, opened, point_key
 from .study_table import StudyTable
-from .tables import label, plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
+from .tables import place_in_words, plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
 
 if TYPE_CHECKING:
     pass
@@ -82,22 +80,12 @@ class StudyResult(Shown):
     @property
     def dims(self) -> tuple[str, ...]:
         """Names of the axes of the arrays."""
-        axes = tuple(axis.name for axis in self.plan.axes)
-        return axes if self.paired else (*axes, POINT if self.chosen else SPEED)
+        return self.plan.dims
 
-    @cached_property
+    @property
     def coords(self) -> dict[str, tuple[str, np.ndarray]]:
         """{key: (dimension, values along it)} of every varied key and, unless chosen, the speed [m/s]."""
-        varied = {}
-        for axis in self.plan.axes:
-            for key, values in zip(axis.keys, zip(*axis.values)):
-                numbers = all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in values)
-                words = [v if isinstance(v, str) else repr(v) if is_dataclass(v) else json.dumps(v) for v in values]
-                varied[key] = axis.name, np.array(values, dtype=float) if numbers else np.array(words)
-        if self.paired:
-            coordinates = {name: (POINT, np.array(values)) for name, values in self.plan.coordinates.items()}
-            return coordinates | varied | {SPEED: (POINT, np.array(self.plan.point_speeds))}
-        return varied if self.chosen else varied | {SPEED: (SPEED, np.array(self.plan.speeds))}
+        return self.plan.coords
 
     @property
     def failures(self) -> tuple[str, ...]:
@@ -172,8 +160,8 @@ class StudyResult(Shown):
 
     def place(self, index: tuple[int, ...]) -> str:
         """Return where a point lies, as text: the values of what is varied, and the speed."""
-        speed = float(np.ravel(self.speeds(index if self.paired else index[:-1]))[0 if self.paired else index[-1]])
-        return ", ".join(filter(None, (label(self, index), f"speed {worded(speed, 'm/s')}")))
+        speed = self.columns[SPEED][index] if self.chosen else self.plan.point_speed(index)
+        return place_in_words(self.plan, index, float(speed))
 
     def mean(self, name: str) -> np.ndarray | float:
         """Return the mean of a number over the operating points, weighed by their ``duration`` (or all alike, if they

@@ -14,11 +14,12 @@ from .._base import FloatArray, __version__, figures, files, table_bytes, valida
 from ..errors import InputError
 from ..quantities import COLUMNS, Quantity, axis_label, described, heading, worded_value
 from ..scene import SLIDE_ROLL_RATIO_KEY
-from ..units import converted, unit_of_largest
+from ..units import converted, unit_of_largest, worded
 from .choose import between
 from .curve import numbers_of
 from .interpolate import through
 from .operating_points import INTERVAL_COLUMNS
+from .plan import StudyPlan
 from .points import SPEED, STATUS, UNUSED, VALIDITY
 
 if TYPE_CHECKING:
@@ -120,7 +121,7 @@ def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
         shades = np.array([scale(values[index[result.dims.index(dim)]]) for index in indices])
         axes.figure.colorbar(ScalarMappable(scale, colours), ax=axes, label=axis_label(key))
     for index, colour in zip(indices, colours(shades)):
-        named = figures.plain_words(label(result, index)) if few else None
+        named = figures.plain_words(label(result.plan, index)) if few else None
         own: dict[str, Any] = {"color": colour, "lw": 1.0, "label": named} | style
         speed = np.abs(result.speeds(index))
         f = result.columns["coefficient"][index]
@@ -160,7 +161,7 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
         values = times * result[quantity][index][order]
         breaks = _changes_of_direction(result, index)[order] if quantity == "coefficient" else np.zeros(0)
         ends = np.flatnonzero(np.diff(breaks)) + 1  # before these points a line ends
-        named = figures.plain_words(label(result, (*index, slice(None)))) if len(indices) > 1 else None
+        named = figures.plain_words(label(result.plan, (*index, slice(None)))) if len(indices) > 1 else None
         own: dict[str, Any] = {"marker": "o", "ms": 3, "lw": 1.2, "label": named or COLUMNS[quantity].label}
         own |= {"color": figures.BLUE} if len(indices) == 1 else {}
         (line,) = axes.plot(np.insert(over[order], ends, np.nan), np.insert(values, ends, np.nan), **own | style)
@@ -198,12 +199,17 @@ def _in_people_units(values: np.ndarray, name: str) -> tuple[np.ndarray, str]:
     return values * converted(1.0, COLUMNS[name].unit, unit), axis_label(name, unit)
 
 
-def label(result: Any, index: tuple[Any, ...]) -> str:
-    """What is varied at the position ``index`` along the axes of a study, as text."""
-    places = dict(zip(result.dims, index))
+def place_in_words(plan: StudyPlan, index: tuple[Any, ...], speed: float) -> str:
+    """Return where a point lies, as text: the values of what is varied, and its ``speed`` [m/s]."""
+    return ", ".join(filter(None, (label(plan, index), f"speed {worded(speed, 'm/s')}")))
+
+
+def label(plan: StudyPlan, index: tuple[Any, ...]) -> str:
+    """Return what is varied at the position ``index`` along the axes of a study, as text."""
+    places = dict(zip(plan.dims, index))
     along = {
         key: values[places[dim]]
-        for key, (dim, values) in result.coords.items()
+        for key, (dim, values) in plan.coords.items()
         if key != SPEED and isinstance(places.get(dim), int)
     }
     kinds = {key: COLUMNS.get(key, Quantity("-", key.rpartition(".")[2])) for key in along}

@@ -53,7 +53,7 @@ def estimated_load_sharing(scene: Scene, sample: Sample, surface: Surface) -> Ru
     points = [estimated_work_of_point(scene, sample, surface, speed) for speed in speeds_of_run(scene) or [0.0]]
     widest = None
     cells = surface.heights.size
-    if not sample.is_only_map:
+    if sample.represents_more:
         widest = max(points, key=lambda point: point.strips)
         cells = round(sample.cells.columns * widest.length / sample.cells.spacing[1])
     tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")

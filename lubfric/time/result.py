@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._base import FloatArray, Renamed, Shown, figures, validate
+from .._base import FloatArray, Renamed, Shown, figures
 from ..errors import Report
 from ..estimate import MethodUse, UncertaintyCurve, cited, methods_of
 from ..models import candidates
@@ -241,11 +241,7 @@ class TransientResult(Renamed, Shown):
 
     def __getattr__(self, name: str) -> FloatArray:
         columns = self.__dict__.get("columns", {})
-        if name in columns:
-            return columns[name]
-        if name in self._RENAMED:
-            raise AttributeError(f"TransientResult.{name} is called {self._RENAMED[name]} now")
-        raise AttributeError(f"TransientResult has no attribute {name!r}{validate.nearest(name, columns)}")
+        return columns[name] if name in columns else self._refuse(name, columns)
 
 
 def _mean_known(values: np.ndarray, weight: np.ndarray) -> float:

@@ -200,7 +200,7 @@ def strip_of_run(prepared: Prepared) -> RunStrip:
     speeds = speeds_of_run(prepared.scene)
     if not sample.is_resolved:
         return RunStrip(prepared=prepared, correlation_length=sample.correlation_lengths[1])
-    if sample.is_only_map:
+    if not sample.represents_more:
         return RunStrip(prepared=_made(prepared, sample.native(), 1), correlation_length=sample.correlation_lengths[1])
     if not speeds:
         known = 1.0 if sample.cells.is_native else math.nan

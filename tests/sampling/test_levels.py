@@ -192,7 +192,7 @@ def test_cells_along_y_are_twice_as_long_where_the_rows_of_a_strip_allow_it():
     for scene in (FINE, FINE.with_(contact={"spacing": 0.48e-6}), FINE.with_(contact={"spacing": 0.53e-6}), PATCH):
         strips = lubfric.prepare(scene).sample
         assert strips.rows == strips.strip(0).shape[1]
-        assert strips.is_only_map or factors_of(scene, strips)[1] == 2
+        assert not strips.represents_more or factors_of(scene, strips)[1] == 2
     odd = lubfric.prepare(PATCH.with_(contact={"shape": (40, 33)})).sample
     assert odd.rows == odd.strip(0).shape[1] == 33 and factors_of(PATCH, odd)[1] == 1
 

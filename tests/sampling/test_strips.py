@@ -63,7 +63,7 @@ def test_a_prepared_scene_is_used_again_or_made_again():
     same = lubfric.prepare(PAPER.with_(motion={"slide_roll_ratio": 1.0}), like=model)
     assert same.surface is model.surface and same.rough_contact.operator is model.rough_contact.operator
     patch = lubfric.prepare(PAPER.with_(numerics={"sampling": "patch"}), like=model)
-    assert patch.sample.is_only_map and patch.surface.shape == PAPER.contact.shape
+    assert not patch.sample.represents_more and patch.surface.shape == PAPER.contact.shape
     back = lubfric.prepare(PAPER, like=patch)
     np.testing.assert_array_equal(back.surface.heights, model.surface.heights)
     with pytest.raises(lubfric.InputError, match="surface = .* is not that of the prepared scene"):

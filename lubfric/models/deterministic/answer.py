@@ -37,11 +37,9 @@ from ..shared import (
 )
 from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
 from .levels import Levels, mean
-from .moving_strip import MovingStripSolution, continued_strip
 from .result import DeterministicResult, stress_with_oil
-from .rough_bodies import map_of
+from .rough_bodies import map_of, strip_surface
 from .strip import StripSolution, change_by_flow, solve_strip
-from .strip_on_two_grids import surface_and_factors
 
 # Half-widths of the Hertz strip along y that are solved again for a picture.
 PICTURED_LENGTH = 10.0
@@ -108,8 +106,6 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     by_limit = _by_limit(scene, results)
     parts_of_model[OF_LIMIT] = max(by_limit)
     reasons = dict.fromkeys(depending_on("heat"), heat.reason(scene) or ONE_HEAT)
-    finest = levels.pieces[0][-1] if sample.is_only_map and levels.pieces else levels.pairs[0].resolved
-    start = levels.pairs[0].resolved if has_moving_roughness(scene) else finest
     return ModelAnswer(
         numbers=numbers,
         numerical=levels.numerical,
@@ -134,11 +130,11 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
             *warn_model_error(prepared, model),
         ),
         recommendation=_recommendation(prepared),
-        fields=fields_of(finest, sample.in_words(1)),
+        fields=fields_of(levels.finest, sample.in_words(1)),
         fine_fields=None if has_moving_roughness(scene) else partial(fine_fields_of, prepared, speed),
-        details=finest.result,
-        at_inputs=lambda: _at_inputs(prepared, start, speed),
-        changes_without_solve=partial(_changes_without_solve, start, scene, speed),
+        details=levels.finest.result,
+        at_inputs=lambda: _at_inputs(prepared, levels.finest, speed),
+        change_without_solve=partial(_change_without_solve, levels.finest, scene, speed),
     )
 
 
@@ -153,9 +149,9 @@ def fields_of(strip: StripSolution, where: str) -> ContactFields:
     """Return the fields of ``strip``; of roughness that moves those of its last moment."""
     result = strip.result
     heights = strip.problem.heights
-    moment = ", the last moment of its motion" if isinstance(strip, MovingStripSolution) else ""
+    parts = filter(None, (where, strip.moment_in_words))
     return ContactFields(
-        solve=f"deterministic model on {where}{moment}",
+        solve=f"deterministic model on {', '.join(parts)}",
         x=result.x,
         y=np.arange(result.pressure.shape[1]) * result.spacing[1],
         heights=heights - heights.mean(),
@@ -186,62 +182,41 @@ def fine_fields_of(prepared: Prepared, speed: float) -> ContactFields:
     )
 
 
-def _stays_elastic(strip: StripSolution, scene: Scene, name: str, ends: tuple[Scene, ...]) -> bool:
-    """Return whether the input of this ``name`` is a hardness that no cell of ``strip`` reaches at any moment, neither in
-    its scene nor at the ``ends`` of the range."""
-    return name == HARDNESS_KEY and all(strip.peak_pressure < value_of(one, HARDNESS_KEY) for one in (scene, *ends))
+def _change_without_solve(
+    strip: StripSolution, scene: Scene, speed: float, name: str, number: int, end: Scene
+) -> float | None:
+    """Return the relative change of f at end ``number`` of the range of the input of this ``name``, where it needs no solve;
+    None where it needs one. ``end``: the scene there.
 
-
-def _changes_without_solve(
-    strip: StripSolution, scene: Scene, speed: float, name: str, ends: tuple[Scene, ...]
-) -> tuple[float, ...] | None:
-    """Return the relative changes of f by the ``ends`` of the range of an input that need no solve; None if they need one.
-
-    A hardness that no cell reaches changes nothing. Where roughness moves, an oil's own stress (`OF_SHEAR`) changes the
-    shear of the moments that are solved, if its flow at rest changes f by no more than `FLOW_MATTERS`. Continuations with
-    the other oil gave changes within 7 % of these.
+    A hardness that no cell of ``strip`` reaches at any moment changes nothing. Where roughness moves, an oil's own stress
+    (`OF_SHEAR`) changes the shear of the moments that are solved, if its flow at rest changes f by no more than
+    `FLOW_MATTERS`. Continuations with the other oil gave changes within 7 % of these.
     """
-    if _stays_elastic(strip, scene, name, ends):
-        return 0.0, 0.0
-    if not isinstance(strip, MovingStripSolution) or name not in strip.with_oils:
+    if name == HARDNESS_KEY:
+        hardness = min(value_of(scene, name), value_of(end, name))
+        return 0.0 if strip.peak_pressure < hardness else None
+    f = strip.coefficient_with_oil(name, number)
+    if f is None:
         return None
     try:
-        flow = [abs(change_by_flow(strip.rest, film_lubricant(end, speed))) for end in ends]
+        flow = abs(change_by_flow(strip.at_rest, film_lubricant(end, speed)))
     except ConvergenceError:
         return None
-    if max(flow) > FLOW_MATTERS:
+    if flow > FLOW_MATTERS:
         return None
-    middle = _with_heat(scene, strip.result)
-    sliding = strip.problem.sliding
-    changes = []
-    for end, f in zip(ends, strip.with_oils[name]):
-        sheared = replace(strip.result, coefficient=f, shear=stress_with_oil(strip.result, sliding, end.lubricant))
-        changes.append(_with_heat(end, sheared) / middle - 1)
-    return tuple(changes)
+    shear = stress_with_oil(strip.result, strip.problem.sliding, end.lubricant)
+    return _with_heat(end, replace(strip.result, coefficient=f, shear=shear)) / _with_heat(scene, strip.result) - 1
 
 
 def _at_inputs(prepared: Prepared, strip: StripSolution, speed: float) -> AtInputs:
     """Return f at other inputs, on the cells of ``strip``, which is solved at the prepared ones.
 
-    Where the roughness moves, the middle is a continuation like the ends: beside the strip itself, a continuation begins
-    its steps in time anew, which changed f of a needle roller by 1.5 %.
+    Where the roughness moves, the middle is a continuation like the ends: compared with the strip itself, a continuation
+    begins its steps in time anew, which changed f of a needle roller by 1.5 %.
     """
-    if isinstance(strip, MovingStripSolution):
-        middle = _at_end(prepared, strip, speed, prepared.scene)
-    else:
-        middle = _with_heat(prepared.scene, strip.result)
-    return AtInputs(
-        middle=middle, coefficient=partial(_at_end_of_range, prepared, strip, speed, middle), in_processes=True
-    )
-
-
-def _at_end_of_range(prepared: Prepared, strip: StripSolution, speed: float, middle: float, scene: Scene) -> float:
-    """Return f at the ``scene`` of one end of a range (`_at_end`), of which ``middle`` is the middle: the same at a hardness
-    that no cell reaches, neither there nor in the middle."""
-    is_other_hardness = value_of(scene, HARDNESS_KEY) != value_of(prepared.scene, HARDNESS_KEY)
-    if is_other_hardness and _stays_elastic(strip, prepared.scene, HARDNESS_KEY, (scene,)):
-        return middle
-    return _at_end(prepared, strip, speed, scene)
+    coefficient = partial(_at_end, prepared, strip, speed)
+    middle = coefficient(prepared.scene) if strip.moves else _with_heat(prepared.scene, strip.result)
+    return AtInputs(middle=middle, coefficient=coefficient, in_processes=True)
 
 
 def _at_end(prepared: Prepared, strip: StripSolution, speed: float, scene: Scene) -> float:
@@ -249,15 +224,10 @@ def _at_end(prepared: Prepared, strip: StripSolution, speed: float, scene: Scene
     model on the cells of ``strip``, which is solved at the prepared one and from which it begins.
 
     These are the cells of the answer, because the change of f by the stress of an oil is up to three times as large on
-    cells twice as long. Where the roughness moves, it is a continuation of the strip (`continued_strip`).
+    cells twice as long.
     """
-    if isinstance(strip, MovingStripSolution):
-        result, _ = continued_strip(scene, speed, strip)
-        return _with_heat(scene, result)
-    surface, _ = surface_and_factors(prepared, 0)
-    spacing = strip.problem.spacing
-    factors = (round(spacing[0] / surface.spacing[0]), round(spacing[1] / surface.spacing[1]))
-    return _with_heat(scene, solve_strip(scene, surface, speed, factors=factors, start=strip).result)
+    surface = partial(strip_surface, prepared, 0)
+    return _with_heat(scene, strip.at_inputs(scene, speed, surface))
 
 
 def _with_heat(scene: Scene, result: DeterministicResult) -> float:
@@ -307,7 +277,7 @@ def _recommendation(prepared: Prepared) -> str:
     """What makes the error by the cells smaller: shorter ones, if the map has them."""
     scene = prepared.scene
     sample = prepared.sample
-    if not sample.cells.is_native and (has_moving_roughness(scene) or not sample.is_only_map):
+    if not sample.cells.is_native and (has_moving_roughness(scene) or not sample.refines_in_place):
         return f"numerics.grid = 'given' for shorter cells, or {LARGER_TOLERANCE}"
     if prepared.is_given or is_measured(scene):
         return f"{LARGER_TOLERANCE}, or a map with shorter cells"

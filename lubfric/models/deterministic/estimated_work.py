@@ -128,7 +128,7 @@ def _work_at_rest(
     (dx, dy) = sample.cells.spacing
     (ux, uy) = sample.cells.coarsening
     cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * sample.strip_length / (fy * dy)
-    if sample.is_only_map:  # it may be solved down to its own cells, and the ends on the same
+    if sample.refines_in_place:  # it may be solved down to its own cells, and the ends on the same
         finer = 0.5 * cells * fx * fy * ux * uy
         again = work_of_steps(finer, AGAIN) * (ends + (ends > 0))
         return work_of_steps(cells, STRIP_STEPS) + work_of_steps(finer, FINER_STEPS) + again

@@ -28,7 +28,6 @@ from ..shared import (
     required_strips,
     student,
 )
-from .moving_strip import MovingStripSolution
 from .result import DeterministicResult
 from .rough_bodies import summit_control
 from .shorter_cells import (
@@ -47,7 +46,7 @@ from .strip_on_two_grids import (
     numbers_of,
     solve_pair,
 )
-from .time_and_place import mean_over_blocks
+from .time_and_place import TimeAndPlace, mean_over_blocks
 
 # The effects named here are those of half and twice a constant on three points of the scene "paper" (`python -m
 # verification.campaigns.constants lubfric.models.deterministic.levels`). Where f moves, more or fewer strips are
@@ -112,6 +111,7 @@ class Levels:
     pairs : the strips of the second level
     pieces : those of the third, each on shorter and shorter cells
     shortest : the piece of the fourth; (): none
+    finest : the first strip, on the shortest cells that it is solved on
     sampling : relative standard error of f, by the number of strips
     difference : relative standard error of f, by the difference between the models
     numerical : relative error of f, by the cells of the last level
@@ -129,6 +129,7 @@ class Levels:
     pairs: tuple[StripOnTwoGrids, ...]
     pieces: tuple[tuple[StripSolution, ...], ...]
     shortest: tuple[StripSolution, ...]
+    finest: StripSolution
     sampling: StandardError
     difference: StandardError
     numerical: float
@@ -195,7 +196,8 @@ def two_levels(
     numerics = prepared.scene.numerics if numerics is None else numerics
     load = prepared.scene.bodies.load
     most = max(1, min(prepared.sample.available, int(MOST_WORK_OF_STRIPS / pairs[0].resolved.work)))
-    moving = [pair.resolved for pair in pairs if isinstance(pair.resolved, MovingStripSolution)]
+    places = [pair.resolved.places_over_time for pair in pairs]
+    moving = [each for each in places if each is not None]
     if moving:
         estimate = _of_moving(prepared, pairs, moving)
         return estimate, max(estimate.required_strips(numerics, len(pairs), most), len(pairs))
@@ -241,7 +243,7 @@ def levels_of(
     )
     length = prepared.sample.line_length(max(estimate.control_strips, len(pairs)))
     first = pairs[0].resolved
-    at_rest = first.rest if isinstance(first, MovingStripSolution) else first
+    at_rest = first.at_rest
     oil = prepared.scene.lubricant
     flow, inlet = (change_by_flow(at_rest, other) for other in (thinned_less(at_rest.problem.lubricant), oil))
     return Levels(
@@ -255,6 +257,7 @@ def levels_of(
         pieces=shorter.pieces,
         has_unsolved_cells=shorter.has_unsolved,
         shortest=shorter.shortest,
+        finest=shorter.strip or pairs[0].resolved,
         sampling=sampling,
         difference=difference,
         numerical=shorter.error,
@@ -317,12 +320,13 @@ def _of_pairs(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], control: Con
 
 
 def _of_moving(
-    prepared: Prepared, pairs: Sequence[StripOnTwoGrids], strips: Sequence[MovingStripSolution]
+    prepared: Prepared, pairs: Sequence[StripOnTwoGrids], places: Sequence[TimeAndPlace]
 ) -> TwoLevelEstimate:
-    """Return the mean over ``strips`` whose roughness moves, with the control of their summits (`summits`)."""
-    rows = [numbers_of(prepared, strip.result) for strip in strips]
+    """Return the mean over strips whose roughness moves, with the control of their summits (`summits`); ``places``: of each
+    strip."""
+    rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
-    samples = [strip.places.half() if pair.mirrored else strip.places for pair, strip in zip(pairs, strips)]
+    samples = [each.half() if pair.mirrored else each for pair, each in zip(pairs, places)]
     control = summit_control(prepared)
     width = prepared.sample.correlation_lengths[1]
     friction = mean_over_blocks(samples, "friction", width, control)
@@ -338,7 +342,7 @@ def _of_moving(
     numbers["coefficient"] = friction.value
     numbers["shear_force"] = load * friction.value - numbers["boundary_force"]
     numbers["couette_force"] = numbers["shear_force"] - numbers["rolling_force"]
-    between = friction.plain.error * math.sqrt(len(strips))
+    between = friction.plain.error * math.sqrt(len(pairs))
     note = CORRECTED_BY_SUMMITS.format(100 * friction.correction / friction.value) if friction.correction else ""
     return TwoLevelEstimate(
         control_strips=0,

@@ -99,9 +99,8 @@ class DeterministicModel(Model):
         return rolling_model_error(lambda_ratio)
 
     def takes_control(self, prepared: Prepared) -> bool:
-        return not prepared.sample.is_only_map and not has_moving_roughness(
-            prepared.scene
-        )  # its summits control what moves
+        is_moving = has_moving_roughness(prepared.scene)  # the summits are the control of what moves
+        return prepared.sample.represents_more and not is_moving
 
     def solve(
         self,

@@ -20,7 +20,7 @@ from .moving import SAME_STEP, STEP_ORDERS, Moment, RoughBody, half_width, momen
 from .problem import HERTZ_INLET, HERTZ_OUTLET, Problem, reach
 from .result import DeterministicResult, LoadSplit, change_with_oil
 from .state import State
-from .strip import StripSolution, problem_of, solve_strip, work_of_steps
+from .strip import StripSolution, change_of_places, problem_of, solve_strip, work_of_steps
 from .summits import SummitControl, summits_over_time
 from .time_and_place import TimeAndPlace, mean_over_blocks
 
@@ -174,8 +174,38 @@ class MovingStripSolution(StripSolution):
     with_oils: dict[str, tuple[float, ...]] = field(default_factory=dict)
 
     @property
+    def moves(self) -> bool:
+        return True
+
+    @property
+    def at_rest(self) -> StripSolution:
+        return self.rest
+
+    @property
+    def places_over_time(self) -> TimeAndPlace:
+        return self.places
+
+    @property
+    def moment_in_words(self) -> str:
+        return "the last moment of its motion"
+
+    def change_from(self, longer: StripSolution) -> float:
+        """Return the change of f from this strip on ``longer`` cells to this one: over the same moments, each followed from
+        rest; at rest, where it was not followed on the longer cells."""
+        if not isinstance(longer, MovingStripSolution):
+            return self.rest.change_from(longer)
+        moments = min(self.places.friction.shape[0], longer.places.friction.shape[0])
+        return change_of_places(longer.places.places(moments), self.places.places(moments), self.places.mean_load)
+
+    def coefficient_with_oil(self, name: str, end: int) -> float | None:
+        return self.with_oils[name][end] if name in self.with_oils else None
+
+    def at_inputs(self, scene: Scene, speed: float, surface: Callable[[], Surface]) -> DeterministicResult:
+        """Return the means over time of a `continued_strip` at the inputs of another ``scene``."""
+        return continued_strip(scene, speed, self)[0]
+
+    @property
     def follows_lubricant(self) -> bool:
-        """Whether the lubricant passed one cell in a step, so that the steps are of third order along it."""
         return abs(self.problem.speed * float(self.times[0]) / self.problem.spacing[0] - 1.0) < SAME_STEP
 
     @property
@@ -209,7 +239,7 @@ def solve_moving_strip(
     target : None: the complete map passes
     """
     effort = effort_of(scene, bodies, speed, factors) if effort is None else effort
-    near = start.rest if isinstance(start, MovingStripSolution) else start
+    near = None if start is None else start.at_rest
     rest = strip_at_rest(scene, bodies, speed, factors=factors, start=near, slope=slope, effort=effort)
     step, discarded, count = _steps_of(scene, bodies, speed, rest.problem.spacing[0], effort)
     count = count if most_steps is None else min(count, most_steps)

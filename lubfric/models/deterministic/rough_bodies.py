@@ -37,7 +37,7 @@ CONTROL_CELLS = 4_000_000
 
 def strip_surface(prepared: Prepared, index: int) -> Surface:
     """The map of strip ``index``; of a patch at rest all of it, on its own cells."""
-    if prepared.sample.is_only_map and not has_moving_roughness(prepared.scene):
+    if prepared.sample.refines_in_place and not has_moving_roughness(prepared.scene):
         return prepared.surface
     return map_of(prepared, contact_on_strip(prepared, prepared.sample, index))
 
@@ -68,7 +68,7 @@ def maps_of(prepared: Prepared, index: int) -> dict[str, Surface]:
 def summit_control(prepared: Prepared) -> SummitControl | None:
     """Return the control of the moving roughness of ``prepared``; None where there are no other strips to know its mean
     from. It does not depend on the speed, and is made once."""
-    if prepared.sample.is_only_map:
+    if not prepared.sample.represents_more:
         return None
 
     def make() -> SummitControl:

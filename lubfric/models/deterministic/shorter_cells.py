@@ -25,7 +25,6 @@ from ..shared import (
     smooth_over_cells,
     speed_of,
 )
-from .moving_strip import MovingStripSolution
 from .problem import are_soft
 from .rough_bodies import (
     MOST_WORK_IN_AUTO,
@@ -142,6 +141,7 @@ class ShorterCells:
     ----------
     pieces : those of the third level; (): it is not needed, or not solved
     shortest : the piece of the fourth level; (): it is not needed, or not solved
+    strip : the first strip itself on the shortest cells, if the sample refines in place; None: it is not solved on them
     sampling : standard error of the mean relative change of f on ``pieces``, from place to place
     change : expected relative change of f by short cells where roughness moves, which are not solved
     error : relative error of f that the last cells leave
@@ -150,6 +150,7 @@ class ShorterCells:
 
     pieces: tuple[Piece, ...] = ()
     shortest: Piece = ()
+    strip: StripSolution | None = None
     sampling: StandardError = StandardError(0.0, 1)
     change: float = 0.0
     error: float
@@ -234,10 +235,12 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     error = max(error_by_cells([by_longer]), SOLVED, error_of_soft_bodies(strips[0]))
     if _are_enough(prepared, error):
         return ShorterCells(error=error)
-    if sample.is_only_map:
+    if sample.refines_in_place:
         patch = _refined(prepared, speed, 0, pairs[0])
         return ShorterCells(
-            pieces=(patch,), error=max(error_by_cells(changes_of(patch)), SOLVED, error_of_soft_bodies(patch[-1]))
+            pieces=(patch,),
+            strip=patch[-1],
+            error=max(error_by_cells(changes_of(patch)), SOLVED, error_of_soft_bodies(patch[-1])),
         )
     try:
         with limited_work(PIECES_SHARE * work_left()):
@@ -282,7 +285,7 @@ def _are_enough(prepared: Prepared, error: float) -> bool:
         return True
     if error > scene.numerics.tolerance:
         return False
-    if sample.is_only_map:
+    if sample.refines_in_place:
         return scene.numerics.grid != "given"
     return smooth_over_cells(sample.strip(0).heights)
 
@@ -326,7 +329,7 @@ def cells_in_motion(prepared: Prepared, strips: Sequence[StripSolution], by_long
         coarse_y=coarse_y,
         coarse_b=strips[0].problem.spacing[0] / prepared.scene.bodies.half_width,
         by_longer=by_longer,
-        follows_lubricant=all(isinstance(strip, MovingStripSolution) and strip.follows_lubricant for strip in strips),
+        follows_lubricant=all(strip.follows_lubricant for strip in strips),
         is_smooth=smooth_over_cells(surface_and_factors(prepared, 0)[0].heights),
     )
 
@@ -433,7 +436,7 @@ def _refined(
     scene = prepared.scene
     sample = prepared.sample
     surface, factors = surface_and_factors(prepared, index)
-    enough = scene.numerics.tolerance if sample.is_only_map and scene.numerics.grid != "given" else 0.0
+    enough = scene.numerics.tolerance if sample.refines_in_place and scene.numerics.grid != "given" else 0.0
     if first is not None:
         ladder = [first.longer, first.resolved]
     else:

@@ -1,11 +1,12 @@
 """A rough surface under the bodies of a scene at one speed: a strip of it on one grid, and on finer and finer grids,
 with an estimate of the error that is left."""
 
+from __future__ import annotations
+
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from .problem import BOUNDARY_FILM, Problem, lay_out, shifted
 from .result import DeterministicResult, assemble
 from .solve import MOST_FACTORISATIONS, refined_start, solve_point
 from .state import evaluated
+from .time_and_place import Places, TimeAndPlace
 
 # The effects of half and twice a constant are those on three points of the scene "paper" (`python -m
 # verification.campaigns.constants lubfric.models.deterministic.strip.`).
@@ -48,7 +50,7 @@ COLUMNS_OF_A_PLACE = 2
 
 @dataclass(frozen=True)
 class StripSolution:
-    """A strip that is solved by the deterministic model.
+    """A strip that is solved by the deterministic model: at rest, or moving (`MovingStripSolution`), under one contract.
 
     Attributes
     ----------
@@ -66,6 +68,50 @@ class StripSolution:
     def peak_pressure(self) -> float:
         """The largest pressure [Pa] of any cell, touching or not, at any moment."""
         return float(self.result.pressure.max())
+
+    @property
+    def moves(self) -> bool:
+        """Whether its roughness moved through the film, so that its numbers are means over time."""
+        return False
+
+    @property
+    def at_rest(self) -> StripSolution:
+        """This strip with its roughness at rest."""
+        return self
+
+    @property
+    def places_over_time(self) -> TimeAndPlace | None:
+        """Friction and load of all places at all moments that count; None where the roughness rests."""
+        return None
+
+    @property
+    def follows_lubricant(self) -> bool:
+        """Whether the lubricant passed one cell in a step in time, so that the steps are of third order along it."""
+        return False
+
+    @property
+    def moment_in_words(self) -> str:
+        """Which moment its fields are of, as text; "" where nothing moves."""
+        return ""
+
+    def change_from(self, longer: StripSolution) -> float:
+        """Return the change of f (`change_of_places`) from this strip on ``longer`` cells, at rest, to this one."""
+        return change_of(longer.result, self.result)
+
+    def coefficient_with_oil(self, name: str, end: int) -> float | None:
+        """Return f if the films were sheared as the oil at an ``end``, 0 or 1, of the range of the input of this ``name``;
+        None where that is not known without a solve."""
+        return None
+
+    def at_inputs(self, scene: Scene, speed: float, surface: Callable[[], Surface]) -> DeterministicResult:
+        """Return the result at the inputs of another ``scene`` with the same surface and motion, from this solution on.
+
+        ``surface``: makes the map of this strip, if it is needed. Raises `ConvergenceError`.
+        """
+        strip = surface()
+        dx, dy = self.problem.spacing
+        factors = (round(dx / strip.spacing[0]), round(dy / strip.spacing[1]))
+        return solve_strip(scene, strip, speed, factors=factors, start=self).result
 
     @property
     def deviations(self) -> np.ndarray:
@@ -205,14 +251,6 @@ def error_by_cells(changes: Sequence[float], left: float = math.inf) -> float:
 def changes_of(strips: Sequence[StripSolution]) -> list[float]:
     """The `change_of` f from each of ``strips`` to the next."""
     return [change_of(coarse.result, fine.result) for coarse, fine in zip(strips[:-1], strips[1:])]
-
-
-class Places(NamedTuple):
-    """f of a strip, and friction and load [N/m] of its places along y (ny,)."""
-
-    coefficient: float
-    friction: np.ndarray
-    load: np.ndarray
 
 
 def change_of(coarse: DeterministicResult, fine: DeterministicResult) -> float:

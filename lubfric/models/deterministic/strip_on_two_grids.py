@@ -10,10 +10,10 @@ from ...samples import Sample
 from ...scene import Scene, has_moving_roughness
 from ...surface import Surface
 from ..shared import Prepared
-from .moving_strip import MovingStripSolution, SampleTarget, compared_moments, solve_moving_strip, strip_at_rest
+from .moving_strip import SampleTarget, compared_moments, solve_moving_strip, strip_at_rest
 from .result import DeterministicResult
 from .rough_bodies import bodies_of, strip_surface, summit_control
-from .strip import StripSolution, change_of, change_of_places, solve_strip
+from .strip import StripSolution, solve_strip
 
 # Cells in a correlation length, at least.
 PER_LENGTH = 2.0
@@ -45,15 +45,8 @@ class StripOnTwoGrids:
 
     @property
     def change_by_cells(self) -> float:
-        """The change of f (`change_of_places`) from the longer cells to those of the strip. Where the roughness moves, it
-        is that of the same moments on both, each followed from rest."""
-        strip = self.resolved
-        longer = self.longer
-        if isinstance(strip, MovingStripSolution) and isinstance(longer, MovingStripSolution):
-            moments = min(strip.places.friction.shape[0], longer.places.friction.shape[0])
-            before, after = (solution.places.places(moments) for solution in (longer, strip))
-            return change_of_places(before, after, strip.places.mean_load)
-        return change_of(longer.result, strip.rest.result if isinstance(strip, MovingStripSolution) else strip.result)
+        """The change of f (`change_of_places`) from the longer cells to those of the strip."""
+        return self.resolved.change_from(self.longer)
 
 
 def factors_of(scene: Scene, sample: Sample) -> tuple[int, int]:
@@ -103,8 +96,8 @@ def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int
         bodies = bodies_of(prepared, index, speed)
         longer = strip_at_rest(scene, bodies, speed, factors=longer_cells)
         target = sample_target(prepared, MOVING_SAMPLE * scene.numerics.sampling_tolerance)
-        strip = solve_moving_strip(scene, bodies, speed, factors=factors, start=longer, target=target)
-        if isinstance(strip, MovingStripSolution) and longer_cells[1] > factors[1]:
+        strip = moving = solve_moving_strip(scene, bodies, speed, factors=factors, start=longer, target=target)
+        if longer_cells[1] > factors[1]:
             with suppress(ConvergenceError):  # then the change at rest is all that is known
                 longer = solve_moving_strip(
                     scene,
@@ -112,8 +105,8 @@ def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int
                     speed,
                     factors=longer_cells,
                     start=longer,
-                    effort=strip.effort,
-                    most_steps=compared_moments(strip),
+                    effort=moving.effort,
+                    most_steps=compared_moments(moving),
                 )
     else:
         longer = solve_strip(scene, surface, speed, factors=longer_cells)

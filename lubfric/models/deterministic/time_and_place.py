@@ -8,11 +8,11 @@ scatters by chance. So a part of a pass of the map shows its own error.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from ..shared import SHARED_LENGTH, StandardError
-from .strip import Places
 from .summits import SummitControl
 
 # Half-widths that roughness and film travel in a block, at least. At one place friction has a correlation over time of
@@ -27,6 +27,14 @@ PLACE_BLOCK = 4.0
 
 # Degrees of freedom below which the error is not known.
 LEAST_FREEDOM = 4
+
+
+class Places(NamedTuple):
+    """f of a strip, and friction and load [N/m] of its places along y (ny,)."""
+
+    coefficient: float
+    friction: np.ndarray
+    load: np.ndarray
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -150,7 +150,7 @@ def edge_load_share(balanced: BalancedSample) -> float:
     """Return the share of the load on the edge columns of the sample, on native cells: as it was found on these, or
     about as much smaller as they are shorter."""
     sample = balanced.sample
-    if sample.is_only_map and not sample.cells.is_native:
+    if sample.refines_in_place and not sample.cells.is_native:
         return balanced.effect.edge_load_share
     return balanced.rough_contact.on_the_ends(balanced.solved.contact_state) / sample.cells.coarsening[0]
 

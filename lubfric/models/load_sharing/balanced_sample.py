@@ -317,7 +317,7 @@ def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | No
     depends on which speeds were solved before."""
     scene = prepared.scene
     sq = prepared.surface.sq
-    if speed == 0 or sample.is_only_map or sq == 0 or scene.lubricant.inlet_film is not None:
+    if speed == 0 or not sample.represents_more or sq == 0 or scene.lubricant.inlet_film is not None:
         return None
     film = scene.line_contact(speed).expected_film / sq
     if film > CLEAR_OF_SUMMITS:

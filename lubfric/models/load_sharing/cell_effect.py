@@ -131,7 +131,7 @@ def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, sample: 
     steps: list[CellStep] = []
     while not _settled(steps, min(MOST_COMPARED_PIECES, sample.pieces), scatter):
         steps.append(_step(prepared, point, balance, sample, len(steps), enough))
-    error = StandardError(0.0, 1) if sample.is_only_map else mean_error(steps)
+    error = mean_error(steps) if sample.represents_more else StandardError(0.0, 1)
 
     def mean(name: str) -> float:
         return sum(getattr(step, name) for step in steps) / len(steps)
@@ -198,7 +198,7 @@ def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, in
     length = sample.correlation_lengths[1]
     difference = places[-1][0] - places[0][0]
     area, area_error = _ratio(places[-1][1], places[0][1], step, length)
-    if sample.is_only_map:
+    if not sample.represents_more:
         area_error = 0.0
     if not own:
         area_error = math.hypot(area_error, _ratio(places[-1][1], places[-2][1], step, length)[0] - 1)

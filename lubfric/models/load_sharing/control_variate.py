@@ -32,8 +32,8 @@ def control_for(solution: BalancedSample) -> ControlVariate | None:
     single patch, or does not know its own scatter."""
     prepared = solution.prepared
     sample = prepared.sample
-    same_strips = solution.sample.cells == sample.cells and not sample.is_only_map
-    return control_variate_of(prepared, solution) if same_strips and math.isfinite(solution.sampling) else None
+    has_others = solution.sample.cells == sample.cells and sample.represents_more
+    return control_variate_of(prepared, solution) if has_others and math.isfinite(solution.sampling) else None
 
 
 def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlVariate:

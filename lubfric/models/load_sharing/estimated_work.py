@@ -98,7 +98,7 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
         else "none or a few summits"
     )
     error_of_model = expected_model_error(scene, film, sq, speed)
-    if sample.is_only_map:
+    if not sample.represents_more:
         if touching != "none":
             seconds += PATCH_SECONDS + MAP_SECONDS * surface.heights.size
         return WorkEstimate(strips=1, seconds=seconds, model_error=error_of_model, touching=touching)

@@ -17,7 +17,6 @@ from ...surface import Surface
 from ..deterministic import (
     TIGHT,
     MovingEffort,
-    MovingStripSolution,
     RoughBody,
     SampleTarget,
     StripOnTwoGrids,
@@ -208,7 +207,7 @@ def numbers_of_strip(pair: StripOnTwoGrids) -> dict[str, float]:
     and ln of the sliding part of f over that on longer cells, ``by_cells``, or, of moving roughness, at rest, ``by_motion``
     (NaN: not known)."""
     result = pair.resolved.result
-    is_moving = isinstance(pair.resolved, MovingStripSolution)
+    is_moving = pair.resolved.moves
     longer = pair.longer.result
     sliding = result.coefficient - result.rolling / result.load
     before = longer.coefficient - longer.rolling / longer.load

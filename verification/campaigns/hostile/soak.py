@@ -118,7 +118,7 @@ def _features(prepared: Prepared, result: lubfric.FrictionResult) -> Iterator[st
     yield "asperities" if scene.contact.model != "half-space" else "height map"
     yield "separated" if share == 0 else "contact below 1 %" if share < 0.01 else "contact above 1 %"
     features = {
-        "strips": not prepared.sample.is_only_map,
+        "strips": prepared.sample.represents_more,
         "plastic limit": scene.bodies.hardness,
         "cells yielded": result.plastic_area_fraction > 0,
         "two rough bodies": scene.counterface,

@@ -168,7 +168,7 @@ def judge_of(prepared: Prepared, result: FrictionResult) -> Judge:
     scaled = scene.numerics.film_deflection == "scaled"
     sample = prepared.sample
     pairs: tuple[tuple[MappedStrip, MappedStrip], ...] = ()
-    if sample.is_only_map:
+    if not sample.represents_more:
         n = prepared.surface.shape[0]
         dx = prepared.surface.spacing[0]
         strip = _strip(prepared.surface, (np.arange(n) - 0.5 * (n - 1)) * dx)

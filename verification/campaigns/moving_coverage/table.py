@@ -21,7 +21,6 @@ from lubfric.models import DeterministicModel, prepare
 from lubfric.models.deterministic import (
     CellsInMotion,
     DeterministicSolution,
-    MovingStripSolution,
     RoughBody,
     SampleTarget,
     cells_in_motion,
@@ -109,8 +108,8 @@ def answer(contact: RollingContact, seed: int) -> PlainRow:
     assert isinstance(solution, DeterministicSolution)
     parts = solution.answer()
     pairs = solution.pairs
-    first = pairs[0].resolved
-    assert isinstance(first, MovingStripSolution)
+    places = pairs[0].resolved.places_over_time
+    assert places is not None  # the roughness moves
     strips = [pair.resolved for pair in pairs]
     by_longer = float(np.mean([pair.change_by_cells for pair in pairs]))
     cells = cells_in_motion(solution.prepared, strips, by_longer)
@@ -120,7 +119,7 @@ def answer(contact: RollingContact, seed: int) -> PlainRow:
         "sampling": parts.sampling.error,
         "freedom": parts.sampling.freedom,
         "strips": len(pairs),
-        "steps": first.times.size - first.discarded,
+        "steps": places.friction.shape[0],
         "work": sum(strip.work for strip in strips),
     } | {name: float(value) for name, value in vars(cells).items()}
 
