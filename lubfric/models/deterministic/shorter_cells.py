@@ -338,8 +338,8 @@ def changed_as_expected(numbers: dict[str, float], change: float) -> dict[str, f
     """Return ``numbers`` of a point with f, its forces and the asperity load changed by this relative ``change``."""
     if not change:
         return numbers
-    names = ("coefficient", "shear_force", "couette_force", "rolling_force", "boundary_force", "contact_load")
-    names += ("boundary_film_load", "real_contact_area", "real_contact_area_fraction")
+    forces = ("coefficient", "shear_force", "couette_force", "rolling_force", "boundary_force")
+    names = (*forces, "contact_load", "boundary_film_load", "real_contact_area", "real_contact_area_fraction")
     new = numbers | {name: (1.0 + change) * numbers[name] for name in names}
     return new | {"film_load": numbers["film_load"] + numbers["contact_load"] - new["contact_load"]}
 
