@@ -133,7 +133,7 @@ def extend(jobs: Sequence[CellJob], seconds: float, file: Path = TABLE, workers:
 
 def errors(file: Path = TABLE) -> Iterator[PlainRow]:
     """Yield of each strip and axis the error of f on the cells of an answer, relative, the ``expected`` one, by which f is
-    corrected, and the ``stated`` error of what this leaves.
+    corrected, what this has ``left``, and what the answer states for it.
 
     The limit of f is that of second order from the two shortest cells, because the flow by the pressure is of second
     order; ``order`` [-]: the seen one (NaN: from fewer than three lengths of cells, or where they do not converge).
@@ -150,6 +150,7 @@ def errors(file: Path = TABLE) -> Iterator[PlainRow]:
         limit = f[shortest] + (f[shortest] - f[shortest - 1]) / 3.0
         changes = [f[count] - f[count - 1] for count in f if count - 1 in f]
         seen = changes[-2] / changes[-1] if len(changes) > 1 and changes[-1] else math.nan
+        cells = cells_of(rows, axis)
         yield {
             "contact": contact,
             "seed": seed,
@@ -159,8 +160,9 @@ def errors(file: Path = TABLE) -> Iterator[PlainRow]:
             "limit": limit,
             "error": f[0] / limit - 1,
             "order": math.log2(seen) if seen > 0 else math.nan,
-            "expected": -cells_of(rows, axis).change,
-            "stated": cells_of(rows, axis).error,
+            "expected": -cells.change,
+            "left": 1 - limit / (f[0] * (1 + cells.change)),
+            "stated": cells.error,
         }
 
 
@@ -170,7 +172,8 @@ def cells_of(rows: dict[int, dict[str, str]], axis: str) -> CellsInMotion:
     row = rows[0]
     f = float(row["f"])
     contact = contact_of(row["contact"])
-    length = float(np.ravel(contact.scene.surface.correlation_length)[0])  # one, or those along x and y
+    length = contact.scene.surface.correlation_length
+    assert isinstance(length, float)  # the contacts of this campaign are isotropic
     cell = float(row["coarse"]) * length
     return CellsInMotion(
         film_ratio=float(row["twice"]) / float(row["half"]),

@@ -180,9 +180,14 @@ def random_contact(number: int) -> RollingContact:
         scene = lubfric.load_scene("paper").with_(**sections)
         if not HALF_WIDTHS[0] * length <= scene.bodies.half_width <= HALF_WIDTHS[1] * length:
             continue
-        speed = halved(1e-5, 1e3, lambda u, s=scene, h=ratio * sq: s.line_contact(u).moes_film < h)
+        speed = _speed_of_film(scene, ratio * sq)
         if sum(reach(scene.line_contact(speed), sq)) * PER_LENGTH / length <= MOST_COLUMNS:
             return RollingContact(f"{RANDOM}{number}", scene, speed, pressure >= HEAVY[0])
+
+
+def _speed_of_film(scene: Scene, film: float) -> float:
+    """Return the speed U [m/s] at which the smooth film of ``scene`` is this ``film`` [m]."""
+    return halved(1e-5, 1e3, lambda u: scene.line_contact(u).moes_film < film)
 
 
 def contact_named(name: str) -> RollingContact:
