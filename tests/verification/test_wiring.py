@@ -1,9 +1,12 @@
 """Every option reaches the number (the library as it is), and the checks that say so notice when one does not."""
 
+import time
+from functools import partial
+
 import pytest
 
 from verification.campaigns import mutants
-from verification.campaigns.mutants import FAILED, PASSED, ROOT, Mutant, table, trial
+from verification.campaigns.mutants import FAILED, PASSED, ROOT, Mutant, outcome_of, table
 from verification.catalogue import STUDIES
 from verification.check import Check
 from verification.run import load
@@ -20,7 +23,7 @@ def test_every_option_arrives(study):
 def test_a_lost_option_is_noticed():
     """One of them; ``python -m verification mutants`` tries all."""
     study = "wiring_contact"
-    assert trial(next(mutant for mutant in table() if study in mutant.noticed_by), (study,)) == FAILED
+    assert outcome_of(next(mutant for mutant in table() if study in mutant.noticed_by), (study,)) == FAILED
 
 
 def test_every_mutant_quotes_text_that_stands_once_in_its_place():
@@ -55,11 +58,27 @@ def test_a_verdict_holds_until_the_changed_function_or_its_test_changes(tmp_path
 
 
 def test_trials_that_are_up_to_date_are_not_repeated(tmp_path, monkeypatch):
-    monkeypatch.setattr(mutants, "TRIED", tmp_path / "tried.csv")
-    monkeypatch.setattr(mutants, "trial", lambda mutant, names: tried.append(mutant) or (FAILED if mutant else PASSED))
+    def outcome_of(mutant, names, longest):
+        tried.append(mutant)
+        return FAILED if mutant else PASSED
+
+    monkeypatch.setattr(mutants, "outcome_of", outcome_of)
     tried = []
-    checks = [item for item in mutants.mutants("default", ["estimate/power.py"]) if isinstance(item, Check)]
+    judge = partial(mutants.mutants, "default", ["estimate/power.py"], file=tmp_path / "tried.csv")
+    assert not [item for item in judge(seconds=0.0) if isinstance(item, Check)] and tried == []
+    checks = [item for item in judge() if isinstance(item, Check)]
     assert len(checks) == len(tried) > 2 and all(check.passed for check in checks)
+    assert tried.count(None) == len([check for check in checks if "as it is" in check.name]) > 0
     tried.clear()
-    again = [item for item in mutants.mutants("default", ["estimate/power.py"]) if isinstance(item, Check)]
-    assert tried == [] and len(again) == 2 and all(check.passed for check in again)
+    again = [item for item in judge() if isinstance(item, Check)]
+    assert tried == [] and [check.name for check in again] == [check.name for check in checks]
+
+
+def test_a_trial_that_the_deadline_stops_has_no_outcome_and_leaves_no_row(tmp_path, monkeypatch):
+    def outcome_of(mutant, names, longest):
+        time.sleep(longest)
+        return mutants.BROKEN
+
+    monkeypatch.setattr(mutants, "outcome_of", outcome_of)
+    items = list(mutants.mutants("default", ["estimate/power.py"], 0.2, tmp_path / "tried.csv"))
+    assert not (tmp_path / "tried.csv").exists() and [each for each in items if isinstance(each, Check)] == []

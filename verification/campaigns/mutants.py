@@ -1,18 +1,20 @@
-"""``python -m verification mutants [--places PLACE ...] [--budget S]``: errors in the text of `lubfric`, one at a time,
+"""``python -m verification mutants [--places PLACE ...] [--seconds S] [--file FILE]``: errors in the text of `lubfric`, one at a time,
 which tests or studies must detect.
 
 The table `mutants.txt` has one mutant on a line: ``place | text | replacement | detected by``. The place is a file or
 folder below `lubfric` that contains the text once. The last field names tests, as files below `tests` or
 ``file::test``, or studies, at their quick level, separated by blanks.
 
-The table `mutants_tried.csv` keeps what came of each mutant, with a fingerprint of the function that it changes and of
-what has to detect it (`Mutant.fingerprint`). A mutant is tried again only when one of these has changed.
+The table `mutants_tried.csv` keeps what came of each trial: of each mutant, with a fingerprint of the function that it
+changes and of what has to detect it (`Mutant.fingerprint`), and of each test or study on the library as it is. A trial is
+repeated only when one of these has changed.
 """
 
 import ast
 import hashlib
 import inspect
 import json
+import math
 import os
 import re
 import shutil
@@ -22,6 +24,7 @@ import tempfile
 import time
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -29,7 +32,7 @@ from .. import frame
 from ..catalogue import STUDIES
 from ..check import AT_LEAST, AT_MOST, Check, Item, Table
 from ..kept import Run
-from ..run import load, mapped
+from ..run import load
 from ..types import Keywords
 from . import table_file
 
@@ -45,6 +48,8 @@ PASSED = 0  # as pytest returns it where all tests pass
 FAILED = 1  # as pytest returns it where a test fails
 BROKEN = -1  # neither, such as a test that cannot be loaded
 ON_PURPOSE = "lubfric.errors."
+# Each worker has one core.
+ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 
 
 @dataclass(frozen=True)
@@ -56,10 +61,17 @@ class Mutant:
     wrong: str
     noticed_by: tuple[str, ...]
 
+    wanted = FAILED
+
     @property
     def name(self) -> str:
         """The mistake in a line."""
         return f"{self.place}: {self.text} -> {self.wrong}"
+
+    @property
+    def cells(self) -> tuple[str, ...]:
+        """The first cells of its row in the table of trials."""
+        return self.place, self.text, self.wrong, " ".join(self.noticed_by)
 
     def broken(self, library: Path) -> tuple[Path, str]:
         """Return the file that holds the text, and its content with the mistake.
@@ -85,6 +97,35 @@ class Mutant:
         parts = [self.text, self.wrong, source_around(before, line) if file.suffix == ".py" else before]
         parts += [source_of(name, root) for name in self.noticed_by]
         return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
+
+
+@dataclass(frozen=True)
+class Control:
+    """A test or study on the library as it is, which has to pass."""
+
+    detector: str
+
+    wanted = PASSED
+
+    @property
+    def name(self) -> str:
+        """What has to pass, in a line."""
+        return f"the library as it is: {self.detector}"
+
+    @property
+    def noticed_by(self) -> tuple[str, ...]:
+        """The test or study."""
+        return (self.detector,)
+
+    @property
+    def cells(self) -> tuple[str, ...]:
+        """The first cells of its row in the table of trials."""
+        return "", "", "", self.detector
+
+    def fingerprint(self, root: Path = ROOT) -> str:
+        """Return a hash of the test or study: as long as it stays, one trial is enough beside the daily run of the
+        tests."""
+        return hashlib.sha256(source_of(self.detector, root).encode()).hexdigest()[:16]
 
 
 def _first_difference(text: str, other: str) -> int:
@@ -132,49 +173,72 @@ def table(text: str | None = None) -> list[Mutant]:
     return [Mutant(place, right, wrong, tuple(by.split())) for place, right, wrong, by in parts]
 
 
-def mutants(level: str, places: Sequence[str] = (), budget: float = float("inf"), run: Run = Run()) -> Iterator[Item]:
-    """Judge every mutant of the table whose trial is up to date, after new trials of the others within the ``budget``
-    of time [s].
+def mutants(
+    level: str, places: Sequence[str] = (), seconds: float = math.inf, file: Path = TRIED, run: Run = Run()
+) -> Iterator[Item]:
+    """Judge every mutant of the table whose trial is up to date, after new trials of the others for so many
+    ``seconds``.
 
     Each has to make a test or a check of a study fail, or a study end with an error that `lubfric` raises on purpose. A
     test that cannot be loaded, and any other error, is no catch. The library as it is has to pass the tests and studies
-    of all mutants that are tried now. ``places``: those whose place begins so.
+    of each mutant (`Control`). ``places``: those whose place begins so. ``file``: the table of trials, which new ones
+    extend.
     """
     chosen = [mutant for mutant in table() if not places or mutant.place.startswith(tuple(places))]
     chosen.sort(key=lambda mutant: not mutant.place.startswith(FIRST))
-    prints = {mutant: mutant.fingerprint() for mutant in chosen}
-    known = {row["fingerprint"]: int(row["code"]) for row in table_file.rows(TRIED)}
-    missing = [mutant for mutant in chosen if prints[mutant] not in known]
-    used: dict[str, None] = {}
-    begun = time.perf_counter()
-    with mapped(run.workers) as each:
-        while missing and time.perf_counter() - begun < budget:
-            now, missing = missing[: run.workers], missing[run.workers :]
-            for mutant, (code, seconds) in zip(now, each(tried, now)):
-                values = (mutant.place, mutant.text, mutant.wrong, " ".join(mutant.noticed_by), prints[mutant])
-                row = dict(zip(COLUMNS, (*values, code, seconds)))
-                table_file.append(TRIED, COLUMNS, row, DIGITS)
-                known[prints[mutant]] = code
-                used |= dict.fromkeys(mutant.noticed_by)
-    for name, code in run.solved({name: name for name in used}, passes, "untouched"):
-        yield verdict(f"the library as it is: {name}", code, PASSED)
-    for mutant in chosen:
-        if prints[mutant] in known:
-            yield verdict(mutant.name, known[prints[mutant]], FAILED)
-    counts = [len(chosen) - len(missing), sum(known.get(each) == FAILED for each in prints.values()), len(missing)]
+    prints = {trial: trial.fingerprint() for trial in with_controls(chosen)}
+    extend([trial for trial, print_ in prints.items() if print_ not in known(file)], prints, seconds, run.workers, file)
+    codes = {trial: known(file)[print_] for trial, print_ in prints.items() if print_ in known(file)}
+    for trial, code in codes.items():
+        yield verdict(trial.name, code, trial.wanted)
+    tried = [codes[mutant] for mutant in chosen if mutant in codes]
+    counts = [len(tried), tried.count(FAILED), len(chosen) - len(tried)]
     yield Table("mutants", "Mutants of the table", ("tried", "detected", "not tried"), [[str(n) for n in counts]])
 
 
-def passes(name: str) -> int:
-    """Return the outcome of a test or study on the unchanged library."""
-    return trial(None, (name,))
+def with_controls(chosen: Sequence[Mutant]) -> dict[Mutant | Control, None]:
+    """Return the mutants in order, each after the controls of what has to detect it."""
+    trials: dict[Mutant | Control, None] = {}
+    for mutant in chosen:
+        trials |= dict.fromkeys(Control(name) for name in mutant.noticed_by)
+        trials[mutant] = None
+    return trials
 
 
-def tried(mutant: Mutant) -> tuple[int, float]:
-    """Return the outcome of a mutant, and how long its trial took [s]."""
-    begun = time.perf_counter()
-    code = trial(mutant, mutant.noticed_by)
-    return code, time.perf_counter() - begun
+def known(file: Path) -> dict[str, int]:
+    """Return the exit code of each trial in ``file``, by its fingerprint."""
+    return {row["fingerprint"]: int(row["code"]) for row in table_file.rows(file)}
+
+
+def extend(
+    trials: Sequence[Mutant | Control], prints: dict[Mutant | Control, str], seconds: float, workers: int, file: Path
+) -> None:
+    """Append the outcome of each trial to ``file`` as soon as it is known. After so many ``seconds`` the trials that
+    still run are stopped, and have no outcome."""
+    deadline = time.monotonic() + seconds
+    with ThreadPoolExecutor(workers) as pool:
+        futures = {pool.submit(tried, trial, deadline): trial for trial in trials}
+        for future in as_completed(futures):
+            outcome = future.result()
+            if outcome is not None:
+                trial = futures[future]
+                values = (*trial.cells, prints[trial], *outcome)
+                table_file.append(file, COLUMNS, dict(zip(COLUMNS, values, strict=True)), DIGITS)
+
+
+def tried(trial: Mutant | Control, deadline: float) -> tuple[int, float] | None:
+    """Return the exit code of a trial, and how long it took [s]; None where the ``deadline`` of the clock came first."""
+    begun = time.monotonic()
+    left = deadline - begun
+    if left <= 0:
+        return None
+    longest = min(left, LONGEST)
+    mutant = trial if isinstance(trial, Mutant) else None
+    code = outcome_of(mutant, trial.noticed_by, longest)
+    taken = time.monotonic() - begun
+    if code == BROKEN and taken >= longest and longest < LONGEST:
+        return None
+    return code, taken
 
 
 def is_test(name: str) -> bool:
@@ -182,8 +246,9 @@ def is_test(name: str) -> bool:
     return ".py" in name
 
 
-def trial(mutant: Mutant | None, names: tuple[str, ...]) -> int:
-    """What came of the tests or studies ``names`` on a copy of `lubfric` that has the mistake of ``mutant``."""
+def outcome_of(mutant: Mutant | None, names: tuple[str, ...], longest: float = LONGEST) -> int:
+    """Return the outcome of the tests or studies ``names`` on a copy of `lubfric` that has the mistake of ``mutant``;
+    `BROKEN` where they take longer than ``longest`` [s]."""
     with tempfile.TemporaryDirectory() as folder:
         library = Path(folder) / "lubfric"
         out = Path(folder) / "out"
@@ -207,9 +272,10 @@ def trial(mutant: Mutant | None, names: tuple[str, ...]) -> int:
             options = ["-x", "-q", "-p", "no:cacheprovider", f"--basetemp={out}", f"--rootdir={ROOT}"]
             files = [str(ROOT / "tests" / name) for name in names]
             command = [sys.executable, "-m", "pytest", *options, "-c", str(ROOT / "pyproject.toml"), *files]
-        environment = os.environ | {"PYTHONPATH": os.pathsep.join((folder, str(ROOT)))}
+        paths = (folder, str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")]))
+        environment = os.environ | {"PYTHONPATH": os.pathsep.join(paths)} | ONE_THREAD
         try:
-            code = subprocess.run(command, cwd=folder, env=environment, capture_output=True, timeout=LONGEST).returncode
+            code = subprocess.run(command, cwd=folder, env=environment, capture_output=True, timeout=longest).returncode
         except subprocess.TimeoutExpired:
             return BROKEN
         if code == FAILED and not is_test(names[0]):
@@ -238,11 +304,12 @@ def verdict(name: str, code: int, wanted: int) -> Check:
 
 def _options(parser: ArgumentParser) -> None:
     parser.add_argument("--places", nargs="+", default=[], metavar="PLACE", help="mutants whose place begins so")
-    parser.add_argument("--budget", type=float, default=float("inf"), metavar="S", help="time for new trials")
+    parser.add_argument("--seconds", type=float, default=math.inf, metavar="S", help="time for new trials")
+    parser.add_argument("--file", type=Path, default=TRIED, help="table of trials (default: %(default)s)")
 
 
 def _own(part: str, options: Namespace) -> Keywords:
-    return {"places": options.places, "budget": options.budget}
+    return {"places": options.places, "seconds": options.seconds, "file": options.file}
 
 
 PARTS: list[tuple[str, str, str, Keywords]] = [("mutants", "mutants:mutants", "Mistakes in the text of lubfric", {})]
