@@ -138,7 +138,20 @@ def source_around(text: str, line: int) -> str:
     around = [node for node in nodes if node.lineno <= line <= (node.end_lineno or node.lineno)]
     functions = [node for node in around if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))]
     chosen = functions[-1] if functions else around[0] if around else None
-    return text if chosen is None else ast.unparse(chosen)
+    return text if chosen is None else structure(chosen)
+
+
+def structure(part: ast.AST) -> str:
+    """Return the nodes of a ``part`` of a program as text that is the same in all versions of Python, wherever its lines
+    break and whatever its comments say."""
+
+    def nested(value: object) -> object:
+        if isinstance(value, ast.AST):
+            fields = [nested(each) for name, each in ast.iter_fields(value) if name != "type_params"]
+            return (type(value).__name__, *fields)
+        return [nested(each) for each in value] if isinstance(value, list) else value
+
+    return repr(nested(part))
 
 
 def source_of(name: str, root: Path = ROOT) -> str:
@@ -149,7 +162,7 @@ def source_of(name: str, root: Path = ROOT) -> str:
     path, _, test = name.partition("::")
     text = (root / "tests" / path).read_text(encoding="utf-8")
     functions = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef)]
-    chosen = [ast.unparse(node) for node in functions if node.name == test]
+    chosen = [structure(node) for node in functions if node.name == test]
     return chosen[0] if chosen else text
 
 
