@@ -116,13 +116,16 @@ class Result:
 
 def coverage(level: str, run: Run = Run(), seed: int = SEED) -> Iterator[Item]:
     """How often the 95 % interval holds the friction of an endless line, over trials on surfaces of their own."""
-    results = []
-    for case in SPEEDS if level == "quick" else CASES:
-        trials = min(TRIALS[level], TRIALS["full"] if case in SPEEDS else OTHERS)
-        f, error = truths([case], seed, run)[case.name]
-        cases = {f"{case.name}, {seed + k}": (case, seed + k) for k in range(trials)}
-        results.append(Result(case, [row for _, row in run.solved(cases, trial)], f, error))
-        yield from checks(results[-1])
+    chosen = SPEEDS if level == "quick" else CASES
+    friction_of = truths(chosen, seed, run)
+    numbers = {case.name: min(TRIALS[level], TRIALS["full"] if case in SPEEDS else OTHERS) for case in chosen}
+    trials = {f"{case.name}, {seed + k}": (case, seed + k) for case in chosen for k in range(numbers[case.name])}
+    rows: dict[str, list[PlainRow]] = {case.name: [] for case in chosen}
+    for (case, _), row_of_trial in run.solved(trials, trial):
+        rows[case.name].append(row_of_trial)
+    results = [Result(case, rows[case.name], *friction_of[case.name]) for case in chosen]
+    for result in results:
+        yield from checks(result)
     yield Table(
         "sampling-coverage", "Trials of every case compared with its infinite line contact", COLUMNS, map(row, results)
     )
