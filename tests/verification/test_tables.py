@@ -12,6 +12,7 @@ from verification.__main__ import main
 from verification.campaigns import benchmarks
 from verification.campaigns.tables import TABLES
 from verification.campaigns.tables.pages import BENCHMARKS, BLOCK, CAMPAIGNS, body, replaced
+from verification.campaigns.tables.studies import span
 from verification.check import Table
 
 CELLS = (["speed", "f"], [["0.1", "0.05"]])
@@ -85,3 +86,8 @@ def test_a_table_that_fails_costs_no_other_and_leaves_its_page_as_it_was(tmp_pat
     assert "| 0.1 | 0.05 |" in page.read_text()
     studies = json.loads((tmp_path / "report.json").read_text())["studies"]
     assert {s["name"]: s["passed"] for s in studies} == {"times": False, "roughness": False, "stribeck": True}
+
+
+def test_a_span_is_one_word_in_percent():
+    assert span([-0.045, 0.19, 0.01], "+") == "-4.5…+19"
+    assert span([0.05, 0.05]) == "5" and span([0.00104, 0.004]) == "0.1…0.4"

@@ -5,7 +5,6 @@ The marks are two comments, ``<!-- table: NAME -->`` and ``<!-- end of table -->
 scripts of `verification.campaigns.benchmarks` (`BENCHMARKS`).
 """
 
-import platform
 import re
 import time
 from pathlib import Path
@@ -63,10 +62,8 @@ def body(table: Table, command: str) -> str:
 
 
 def source(command: str) -> str:
-    """Return one line in italics: the command, the day, the version and the machine."""
+    """Return one line in italics: the command, the day and the version. The machine is on the page on verification."""
     from lubfric import __version__
 
-    day = time.strftime("%Y-%m-%d")
-    machine = platform.machine()
-    python = platform.python_version()
-    return f"*`{command}`, {day}, lubfric {__version__}, {machine}, Python {python}.*"
+    typed = command.removesuffix(" --docs docs")
+    return f"*`{typed}`, {time.strftime('%Y-%m-%d')}, lubfric {__version__}.*"

@@ -103,18 +103,32 @@ def publications_of(part: str) -> Cells:
             [
                 f"{citation(source)}: {source.place}",
                 f"{agreed}{weak and f', {weak} weak' or ''}",
-                deviations(of_source),
+                span([check.measured / check.expected - 1 for check in of_source if check.expected], "+"),
+                span([check.errors[1] / abs(check.expected) for check in of_source if check.expected]),
+                span([check.errors[0] / abs(check.expected) for check in of_source if check.expected]),
                 origin,
             ]
         )
-    return ["publication", "agree", "lubfric - published", "origin of the published values"], rows
+    columns = ["publication", "agree", "deviation (%)", "published bound (%)", "own bound (%)"]
+    return [*columns, "origin of the published values"], rows
 
 
-def deviations(checks: list[Check]) -> str:
-    """Return the lowest and the highest relative deviation; a published zero has none."""
-    relative = [100 * (check.measured / check.expected - 1) for check in checks if check.expected]
-    low, high = (f"{round(value, 2) + 0.0:+.2g}" for value in (min(relative), max(relative)))
-    return f"{low} %" if low == high else f"{low} to {high} %"
+def span(values: list[float], sign: str = "") -> str:
+    """Return the lowest and the highest of ``values`` in percent as one word, with a ``sign`` or none."""
+    low, high = (f"{round(100 * value, 2) + 0.0:{sign}.2g}" for value in (min(values), max(values)))
+    return low if low == high else f"{low}…{high}"
+
+
+def mixed_values() -> Cells:
+    """Return each value of mixed friction or load ratio with the 95 % bounds of both sides."""
+    rows = []
+    for check in ran("mixed", published=True).checks:
+        if check.unit == "1":
+            ours, theirs = check.errors
+            values = (f"{check.expected:.3g} ± {theirs:.2g}", f"{check.measured:.3g} ± {ours:.2g}")
+            difference = f"{check.units:.2g}"
+            rows.append([check.name, *values, difference])
+    return ["quantity", "published", "lubfric", "difference over both bounds"], rows
 
 
 def differing() -> Cells:
@@ -175,6 +189,7 @@ TABLES: dict[str, Callable[[], Cells]] = {
     "load-sharing": load_sharing,
     **{f"published-{part.name}": partial(publications_of, part.name) for part in PUBLISHED},
     "published-differing": differing,
+    "mixed-values": mixed_values,
     "masjedi": partial(table_of, "mixed", "masjedi", published=True),
     "rough-strip": partial(on_finest_grid, "rough_strip", "rough-strip"),
     "touching-strip": partial(on_finest_grid, "touching_strip", "touching-strip"),

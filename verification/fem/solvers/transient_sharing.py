@@ -3,9 +3,10 @@ not.
 
     s d(rho H)/dX - d/dX( m dP/dX ) + d(rho H)/dT = 0,   s = U(T)/U0,   T = U0 t/b,   integral of P = F_H(T)
 
-in the Hertz variables of the total load at a speed U0 (`ehl`). The rough strip is pressed with F_T - F_H under the
-shape of the film of the moment (`sharing.Bodies.under`). F_H is the root at which the mean gap of the contact is the
-mean film over the Hertz strip, closed in every step by `sharing.root`. Steps in time are BDF2, the first one Euler's.
+in the Hertz variables of the load at time 0 at a speed U0 (`ehl`). The rough strip is pressed with F_T(T) - F_H under
+the shape of the film of the moment (`sharing.Bodies.under`). F_H is the root at which the mean gap of the contact is the
+mean film over the Hertz strip of the load at time 0, closed in every step by `sharing.root`. Steps in time are BDF2, the
+first one Euler's.
 """
 
 from collections.abc import Callable, Iterator
@@ -51,6 +52,7 @@ def share_in_time(
     speed: Callable[[float], float],
     step: float,
     *,
+    load: Callable[[float], float] | None = None,
     tolerance: float = 1e-5,
     refinements: int = 0,
     max_evaluations: int = 30,
@@ -58,18 +60,21 @@ def share_in_time(
     """The division of the load at moments ``step`` [s] apart, without end, from the steady one at time 0 on.
 
     ``speed`` [m/s] of a time [s] is the entrainment speed, positive; that of ``bodies.contact`` is U0, the speed at time
-    0. ``tolerance``: on the balance of the volumes. Raises `SolveError` where a step is not solved.
+    0. ``load`` [N] of a time is F_T, that of ``bodies`` at time 0 (None: always). ``tolerance``: on the balance of the
+    volumes. Raises `SolveError` where a step is not solved.
     """
     contact = bodies.contact
     require(step > 0, f"step = {step} s", "> 0")
     require(
         abs(speed(0.0) / contact.entrainment_speed - 1) < 1e-9, f"speed(0) = {speed(0.0)} m/s", "that of the contact"
     )
+    if load is not None:
+        require(abs(load(0.0) / bodies.load - 1) < 1e-9, f"load(0) = {load(0.0)} N", "that of the bodies")
     begun = share_load(bodies, refinements=refinements, tolerance=1e-3)
     at = ehl.solve_ehl(contact, refinements=refinements)[-1]
     unit = step * contact.entrainment_speed / contact.half_width
     start = started(at, begun.film)
-    steady = Moving(at=at, now=0.0, before=0.0, rates=REST, length=unit, pace=1.0)
+    steady = Moving(at=at, now=0.0, before=0.0, rates=REST, length=unit, pace=1.0, load=bodies.load)
     state, moment, split = balanced(bodies, steady, start, begun.split, 0.0, tolerance, max_evaluations)
     yield moment
     now = content(at, state.P, film_of(at, state))
@@ -80,7 +85,15 @@ def share_in_time(
         time = count * step
         pace = speed(time) / contact.entrainment_speed
         require(pace > SMALLEST_SPEED, f"speed = {pace:g} U0", f"> {SMALLEST_SPEED:g} U0")
-        moving = Moving(at=at, now=now, before=before, rates=BDF2 if count > 1 else EULER, length=unit, pace=pace)
+        moving = Moving(
+            at=at,
+            now=now,
+            before=before,
+            rates=BDF2 if count > 1 else EULER,
+            length=unit,
+            pace=pace,
+            load=bodies.load if load is None else load(time),
+        )
         state, moment, split = balanced(bodies, moving, state, split, time, tolerance, max_evaluations)
         before = now
         now = content(at, state.P, film_of(at, state))
@@ -89,8 +102,8 @@ def share_in_time(
 
 @dataclass(frozen=True, kw_only=True)
 class Moving:
-    """A step in time of the film ``at`` the total load: its mass ``now`` and ``before``, the rates of BDF2 or Euler
-    (0: a steady film), its length [b/U0], and the speed over U0."""
+    """A step in time of the film in the variables ``at`` the load of time 0: its mass ``now`` and ``before``, the rates of
+    BDF2 or Euler (0: a steady film), its length [b/U0], the speed over U0, and F_T [N] at its end."""
 
     at: ehl.EHLSolution
     now: np.ndarray | float
@@ -98,6 +111,7 @@ class Moving:
     rates: tuple[float, float, float]
     length: float
     pace: float
+    load: float
 
 
 def balanced(
@@ -114,9 +128,9 @@ def balanced(
 
     def mismatch(split: float) -> float:
         """(gap - film)/(gap + film) at ln(F_H/F_C) = ``split``."""
-        film_load = bodies.load / (1 + np.exp(-split))
+        film_load = moving.load / (1 + np.exp(-split))
         state = stepped(moving, start, film_load / bodies.load)
-        tried[split] = state, moment_of(bodies, moving.at, state, film_load, time)
+        tried[split] = state, moment_of(bodies, moving, state, film_load, time)
         return signed(split)
 
     def signed(split: float) -> float:
@@ -146,7 +160,8 @@ def started(at: ehl.EHLSolution, film: ehl.EHLSolution) -> TransientFilmState:
     middle = int(np.argmin(np.abs(at.body.x)))
     gap = film.at(np.array([0.0]))[1][0] / at.contact.film_unit
     state = TransientFilmState(P, gap - float((at.body.compliance @ P)[middle]), P <= 0)
-    return stepped(Moving(at=at, now=0.0, before=0.0, rates=REST, length=1.0, pace=1.0), state, share)
+    steady = Moving(at=at, now=0.0, before=0.0, rates=REST, length=1.0, pace=1.0, load=np.nan)
+    return stepped(steady, state, share)
 
 
 def film_of(at: ehl.EHLSolution, state: TransientFilmState) -> np.ndarray:
@@ -157,7 +172,7 @@ def film_of(at: ehl.EHLSolution, state: TransientFilmState) -> np.ndarray:
 def stepped(
     moving: Moving, start: TransientFilmState, share: float, tolerance: float = 1e-8, max_iterations: int = 60
 ) -> TransientFilmState:
-    """Return the film at the end of a step under a ``share`` of the total load."""
+    """Return the film at the end of a step under a ``share`` of the load of time 0."""
     at = moving.at
     rates = moving.rates
     pace = moving.pace
@@ -192,18 +207,17 @@ def stepped(
     raise SolveError(f"film in time: error {error:.1e} after {max_iterations} steps of Newton's method")
 
 
-def moment_of(
-    bodies: Bodies, at: ehl.EHLSolution, state: TransientFilmState, film_load: float, time: float
-) -> SharedMoment:
+def moment_of(bodies: Bodies, moving: Moving, state: TransientFilmState, film_load: float, time: float) -> SharedMoment:
     """The contact under the film of the moment, and the volumes of both."""
-    film = replace(at, P=state.P, H=film_of(at, state))
+    film = replace(moving.at, P=state.P, H=film_of(moving.at, state))
     shape = cell_means(film, bodies.edges)
-    under = bodies.under(shape, bodies.load - film_load)
+    contact_load = moving.load - film_load
+    under = bodies.under(shape, contact_load)
     weight = bodies.weight / bodies.weight.sum()
     return SharedMoment(
         time=time,
         film_load=film_load,
-        contact_load=bodies.load - film_load,
+        contact_load=contact_load,
         mean_gap=float(weight @ under.gap),
         mean_film=float(weight @ shape),
         area=float(weight @ under.touching),

@@ -1,7 +1,8 @@
-"""Load sharing in time by finite elements, compared with `lubfric.transient`: the paper's cylinder slows down and
-speeds up."""
+"""Load sharing in time by finite elements, compared with `lubfric.transient`: the paper's cylinder slows down, and is
+unloaded, on ever finer grids and in ever shorter steps."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from itertools import islice
 
 import numpy as np
@@ -11,98 +12,218 @@ from lubfric.models import prepare
 from lubfric.scene import Table as History
 from lubfric.scene import Transient
 
-from ...check import ABSOLUTE, AT_LEAST, Check, Item, Table
+from ...check import ABSOLUTE, AT_LEAST, Check, Item, Table, bound
+from ..convergence import Series, convergence, extrapolated_by, order_of_three
+from ..solvers.sharing import Bodies
 from ..solvers.transient_sharing import SharedMoment, share_in_time
 from .load_sharing import LENGTH, averaged, cylinder, rough, scene, strip
 
-FIRST = 0.03  # m/s
-LAST = 0.015  # m/s
-RAMP = 3.0  # b/U0 that the speed takes from the first to the last
+SPEED = 0.03  # m/s, at the start
+RAMP = 3.0  # b/U0 within which speed or load fall
 UNTIL = 6.0  # b/U0
-CELLS = {"quick": 16, "default": 32, "full": 32}
+PARTS = 6  # of the run: the moments that are compared
 FINEST = 64  # cells on which the surface is made
-STEPS = {"quick": 24, "default": 48, "full": 96}
-REFINEMENTS = {"quick": 0, "default": 0, "full": 1}
+GRIDS = {"quick": (16,), "default": (16, 32, 64), "full": (16, 32, 64)}
+REFINED = {"quick": 0, "default": 1, "full": 1}  # times that the mesh of the film is refined
+STEPS = {"quick": 24, "default": 48, "full": 48}  # on every grid
+LONGER = (2.0, 1.0, 0.5)  # steps of the elements on the coarsest grid, over those on every grid
+TOLERANCES = (1e-4, 1e-5, 1e-6)  # of a step of lubfric; the last one is that of all comparisons
+DURING = 2  # of the moments: two thirds of the ramp
 SOURCE = "film in time and rough contact by finite elements"
-LOAD = 0.01  # of the load: difference that is allowed; twice as many cells, or steps, change less
-GAP = 0.005  # of the gap: likewise
+# of the load, and of the gap: the differences fall by half from each grid to the next
+LOAD = {"quick": 0.02, "default": 0.002, "full": 0.002}
+GAP = {"quick": 0.01, "default": 0.001, "full": 0.001}
+SHORT = 5e-4  # of the load: the last change by the tolerance of lubfric's steps
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What falls within the ramp: each is the last value over the first one."""
+
+    name: str
+    speed: float = 1.0
+    load: float = 1.0
+
+    def at(self, last: float, time: float) -> float:
+        """Return the value over the first one at a ``time`` [b/U0]."""
+        return 1.0 + (last - 1.0) * min(time / RAMP, 1.0)
+
+
+SLOWER = Motion("speed falls to half", speed=0.5)
+LIGHTER = Motion("load falls to 0.8", load=0.8)
+
+
+@dataclass(frozen=True)
+class Case:
+    """A motion of the cylinder on a grid of the rough contact."""
+
+    motion: Motion
+    heights: np.ndarray
+    bodies: Bodies
+
+    @property
+    def unit(self) -> float:
+        """b/U0 [s]."""
+        return self.bodies.contact.half_width / SPEED
+
+    @property
+    def times(self) -> list[float]:
+        """The moments [s] that are compared."""
+        return [UNTIL * self.unit * part / PARTS for part in range(PARTS + 1)]
 
 
 def sharing_in_time(level: str) -> Iterator[Item]:
-    """Contact load and mean gap over time while the speed falls to half within three half-widths of travel.
+    """Contact load and mean gap over time while the speed falls to half, or the load to 0.8, within three half-widths of travel.
 
     The film of the moment is thicker than the steady one at its speed, because it was made when the speed was higher.
-    Both programs start from their own steady state and take steps of their own: `lubfric` chooses them by its tolerance,
-    the finite elements take equal ones, a half of which changes the contact load by less than the tolerance here.
+    When the load falls, the bodies part and the film has to fill the gap. Both programs start from their own steady
+    state and take steps of their own: `lubfric` chooses them by its tolerance, the finite elements take equal ones. The
+    surface is the same on all grids, averaged over cells.
     """
-    cells = CELLS[level]
+    rows: list[tuple[str, ...]] = []
+    for motion in (SLOWER, LIGHTER):
+        runs = [compared_run(motion, cells, level) for cells in GRIDS[level]]
+        yield from checks_of(*runs[-1], level)
+        rows += rows_of(*runs[-1])
+        if len(runs) > 2:
+            yield from grids(motion, runs)
+            yield from steps(*runs[0], level)
+        if motion == SLOWER:
+            yield lag(*runs[0])
+    columns = ("what falls", "t U0/b", "F_C (N): elements", "lubfric", "mean gap (nm): elements", "lubfric")
+    yield Table("sharing-in-time", "Load sharing in time by both programs, on the finest grid", columns, rows)
+
+
+def case_of(motion: Motion, cells: int) -> Case:
+    """Return the cylinder with that many cells along and across."""
     heights = rough(FINEST, cells)
+    return Case(motion, heights, cylinder(scene(), SPEED, strip(cells, 1), heights))
+
+
+def compared_run(motion: Motion, cells: int, level: str) -> tuple[Case, list[SharedMoment], lubfric.TransientResult]:
+    """Return the run of both programs on a grid."""
+    case = case_of(motion, cells)
+    return case, by_elements(case, STEPS[level], REFINED[level]), by_lubfric(case, TOLERANCES[-1])
+
+
+def by_elements(case: Case, count: int, refinements: int) -> list[SharedMoment]:
+    """Return the moments of the run by finite elements in ``count`` steps."""
+    motion = case.motion
+    bodies = case.bodies
+    moments = share_in_time(
+        bodies,
+        lambda time: SPEED * motion.at(motion.speed, time / case.unit),
+        UNTIL * case.unit / count,
+        load=lambda time: bodies.load * motion.at(motion.load, time / case.unit),
+        refinements=refinements,
+    )
+    return list(islice(moments, count + 1))[:: count // PARTS]
+
+
+def by_lubfric(case: Case, tolerance: float) -> lubfric.TransientResult:
+    """Return the run by `lubfric`, with displacements that are means over cells as those of the elements are."""
+    motion = case.motion
+    cell = LENGTH / case.heights.shape[0]
+    end = UNTIL * case.unit
+    instants = (0.0, RAMP * case.unit, 2 * end)
+
+    def history(first: float, last: float) -> History:
+        return History(times=instants, values=(first, last * first, last * first))
+
     s = scene()
-    bodies = cylinder(s, FIRST, strip(cells, 1), heights)
-    b = bodies.contact.half_width
-    unit = b / FIRST
+    plan = Transient(
+        end, speed=history(SPEED, motion.speed), load=history(s.bodies.load, motion.load), tolerance=tolerance
+    )
+    model = prepare(s.with_(transient=plan), lubfric.Surface(case.heights, (cell, cell)))
+    return lubfric.transient(averaged(model), case.times)
 
-    def speed(time: float) -> float:
-        return FIRST + (LAST - FIRST) * min(time / (RAMP * unit), 1.0)
 
-    count = STEPS[level]
-    every = count // 6
-    length = UNTIL * unit / count
-    moments = list(islice(share_in_time(bodies, speed, length, refinements=REFINEMENTS[level]), count + 1))
-    chosen = moments[::every]
-    times = [moment.time for moment in chosen]
-    history = own_history(s, heights, times, unit)
-    rows = []
-    for k, moment in enumerate(chosen):
-        rows.append(row_of(moment, unit, speed(moment.time), history.contact_load[k], history.mean_gap[k]))
-        name = f"t = {moment.time / unit:.1f} b/U0"
-        load = Check(
-            f"{name}: asperity load over the total load",
-            history.contact_load[k] / bodies.load,
-            expected=moment.contact_load / bodies.load,
-            tolerance=LOAD,
+def checks_of(case: Case, moments: list[SharedMoment], history: lubfric.TransientResult, level: str) -> Iterator[Item]:
+    """Contact load and mean gap of both programs at each moment."""
+    for k, moment in enumerate(moments):
+        name = f"{case.motion.name}, t = {moment.time / case.unit:.1f} b/U0"
+        yield Check(
+            f"{name}: asperity load over the total load at the start",
+            history.contact_load[k] / case.bodies.load,
+            expected=moment.contact_load / case.bodies.load,
+            tolerance=LOAD[level],
             source=SOURCE,
             kind=ABSOLUTE,
         )
-        yield load
         yield Check(
-            f"{name}: mean gap", history.mean_gap[k], expected=moment.mean_gap, tolerance=GAP, source=SOURCE, unit="m"
+            f"{name}: mean gap",
+            history.mean_gap[k],
+            expected=moment.mean_gap,
+            tolerance=GAP[level],
+            source=SOURCE,
+            unit="m",
         )
-    steady = lubfric.friction(averaged(prepare(s, lubfric.Surface(heights, (LENGTH / cells, LENGTH / cells)))), LAST)
-    middle = moments[count // 2]
-    ahead = 1 - middle.contact_load / steady.contact_load
+
+
+def grids(motion: Motion, runs: list[tuple[Case, list[SharedMoment], lubfric.TransientResult]]) -> Iterator[Item]:
+    """The largest differences between both programs on each grid, with their orders."""
+    sizes = []
+    loads = []
+    gaps = []
+    for case, moments, history in runs:
+        sizes.append(1e6 * LENGTH / len(case.heights))
+        by_moment = np.array([(moment.contact_load, moment.mean_gap) for moment in moments])
+        loads.append(float(np.abs(history.contact_load - by_moment[:, 0]).max()) / case.bodies.load)
+        gaps.append(float(np.abs(history.mean_gap / by_moment[:, 1] - 1).max()))
+    why = "finite elements as fine as the cells: at least first order at the edges of asperity contacts"
+    name = f"{motion.name}: difference in mean gap: order in the cell size"
+    series = [Series("asperity load ratio", sizes, errors=loads), Series("mean gap", sizes, errors=gaps)]
+    yield replace(series[-1], order=1.0, check=name, tolerance=0.3, source=why, kind=AT_LEAST).check_order()
+    caption = f"{motion.name}: largest difference between lubfric and the finite elements over the cell of the contact."
+    stem = f"sharing_in_time_{'speed' if motion.speed < 1 else 'load'}"
+    yield from convergence(stem, caption, series, "cell (µm)", "difference")
+
+
+def steps(case: Case, moments: list[SharedMoment], history: lubfric.TransientResult, level: str) -> Iterator[Item]:
+    """The asperity load during the ramp in ever shorter steps of both programs."""
+    name = case.motion.name
+    counts = [round(STEPS[level] / longer) for longer in LONGER]
+    lengths = [UNTIL / count for count in counts]
+    long, short = (by_elements(case, count, REFINED[level]) for count in (counts[0], counts[-1]))
+    runs = (long, moments, short)
+    loads = [float(run[DURING].contact_load) for run in runs]
+    order = order_of_three(lengths, loads)
+    why = "BDF2: second order"
+    what = f"{name}: order of the asperity load in the step of the elements"
+    yield Check(what, order, expected=2.0, tolerance=0.5, source=why, kind=ABSOLUTE, grade="B")
+    without_steps = float(extrapolated_by(2.0, lengths, loads))
+    looser = [by_lubfric(case, tolerance) for tolerance in TOLERANCES[:-1]]
+    own_loads = [float(run.contact_load[DURING]) for run in (*looser, history)]
+    changes = np.abs(np.diff(own_loads)) / case.bodies.load
+    what = f"{name}: asperity load ratio of lubfric, changed by a ten times smaller tolerance"
+    yield bound(what, float(changes[-1]), SHORT, "a tolerance of the steps")
+    what = f"{name}: the change over that by the tolerance before"
+    yield bound(what, float(changes[-1] / changes[-2]), 0.7, "errors fall with the tolerance")
+    what = f"{name}: asperity load ratio of lubfric, and of the elements without steps: difference"
+    yield bound(what, abs(own_loads[-1] - without_steps) / case.bodies.load, LOAD[level], SOURCE)
+
+
+def lag(case: Case, moments: list[SharedMoment], _: lubfric.TransientResult) -> Check:
+    """The contact load at the end of the ramp compared with the steady one at that speed."""
+    cell = LENGTH / case.heights.shape[0]
+    model = averaged(prepare(scene(), lubfric.Surface(case.heights, (cell, cell))))
+    steady = lubfric.friction(model, SPEED * case.motion.speed)
+    ahead = 1 - moments[PARTS // 2].contact_load / steady.contact_load
     name = "the film lags: contact load below the steady one at the end of the ramp"
-    yield Check(
-        name,
-        ahead,
-        expected=0.02,
-        tolerance=0.0,
-        source="the film was made at a higher speed",
-        kind=AT_LEAST,
-        grade="B",
-    )
-    columns = ("t U0/b", "U (m/s)", "F_C (N): elements", "lubfric", "mean gap (nm): elements", "lubfric")
-    yield Table("sharing-in-time", "Load sharing while the speed falls to half, by both programs", columns, rows)
+    source = "the film was made at a higher speed"
+    return Check(name, ahead, expected=0.02, tolerance=0.0, source=source, kind=AT_LEAST, grade="B")
 
 
-def own_history(s: lubfric.Scene, heights: np.ndarray, times: list[float], unit: float) -> lubfric.TransientResult:
-    """The run in time by `lubfric`, with displacements that are means over cells as those of the elements are."""
-    cell = LENGTH / heights.shape[0]
-    end = UNTIL * unit
-    history = History(times=(0.0, RAMP * unit, 2 * end), values=(FIRST, LAST, LAST))
-    plan = Transient(end, speed=history, tolerance=1e-5)
-    moving = s.with_(transient=plan)
-    model = prepare(moving, lubfric.Surface(heights, (cell, cell)))
-    return lubfric.transient(averaged(model), times)
-
-
-def row_of(moment: SharedMoment, unit: float, speed: float, contact_load: float, mean_gap: float) -> tuple[str, ...]:
-    """A row of the table."""
-    return (
-        f"{moment.time / unit:.1f}",
-        f"{speed:.4g}",
-        f"{moment.contact_load:.4f}",
-        f"{contact_load:.4f}",
-        f"{1e9 * moment.mean_gap:.2f}",
-        f"{1e9 * mean_gap:.2f}",
-    )
+def rows_of(case: Case, moments: list[SharedMoment], history: lubfric.TransientResult) -> list[tuple[str, ...]]:
+    """The rows of the table."""
+    return [
+        (
+            case.motion.name,
+            f"{moment.time / case.unit:.1f}",
+            f"{moment.contact_load:.4f}",
+            f"{contact_load:.4f}",
+            f"{1e9 * moment.mean_gap:.2f}",
+            f"{1e9 * mean_gap:.2f}",
+        )
+        for moment, contact_load, mean_gap in zip(moments, history.contact_load, history.mean_gap)
+    ]
