@@ -24,7 +24,7 @@ class LubfricError(Exception):
         return " ".join((*self.hints, self.worded()))
 
     def worded(self) -> str:
-        """The message without the hints."""
+        """Return the message without the hints."""
         return str(self.args[0]) if self.args else ""
 
 
@@ -119,7 +119,7 @@ ADVICE = {
 
 
 def worst(residuals: dict[str, float]) -> float:
-    """The largest of them; infinite if one is no finite number."""
+    """Return the largest of ``residuals``; infinite if one is no finite number."""
     return max(residuals.values()) if all(map(math.isfinite, residuals.values())) else math.inf
 
 
@@ -185,13 +185,13 @@ class Report:
             raise ConvergenceError(self.message, self, result)
 
     def as_dict(self) -> dict[str, Any]:
-        """Plain types only, ready for JSON."""
+        """Return the report in plain types alone, ready for JSON."""
         return asdict(self) | {"converged": self.converged}
 
 
 def returned(result: T, *, raise_on_failure: bool = True) -> T:
-    """``result``, which has a ``report``; where that failed and an exception is requested, the `ConvergenceError` that carries
-    both."""
+    """Return ``result``, which has a ``report``; where that failed, and an exception is requested, raise the
+    `ConvergenceError` that carries both."""
     if raise_on_failure:
         result.report.raise_if_failed(result)
     return result

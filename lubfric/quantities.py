@@ -44,18 +44,18 @@ class Quantity(NamedTuple):
 
 
 def quantity(unit: str, label: str, symbol: str = "", **more: Any) -> Any:
-    """A field of a dataclass that is a `Quantity`. ``more``: ``error``, ``column``, ``note`` of it, ``default``."""
+    """Return a field of a dataclass that is a `Quantity`. ``more``: ``error``, ``column``, ``note`` of it, ``default``."""
     default = {"default": more.pop("default")} if "default" in more else {}
     return field(metadata={"quantity": Quantity(unit, label, symbol, **more)}, **default)
 
 
 def quantities(kind: type) -> dict[str, Quantity]:
-    """The quantities among the fields of a dataclass, by name."""
+    """Return the quantities among the fields of a dataclass, by name."""
     return {f.name: f.metadata["quantity"] for f in fields(kind) if "quantity" in f.metadata}
 
 
 def described_in_doc(kind: type[T]) -> type[T]:
-    """Class decorator: the attributes in the docstring begin with the quantities of ``kind``."""
+    """Return the class ``kind`` with its quantities at the begin of the attributes in its docstring."""
     head = "Attributes\n----------\n"
     lines = [f"{name} : {q.label} [{q.unit}]{q.note and '; ' + q.note}\n" for name, q in quantities(kind).items()]
     kind.__doc__ = cleandoc(kind.__doc__ or "").replace(head, head + "".join(lines))
@@ -125,7 +125,8 @@ class Quantities(Generic[T]):
     )
 
     def in_unit(self, name: str, unit: str) -> T:
-        """The number ``name`` in another unit, ``result.in_unit("min_film", "nm")``; `InputError` for other kinds."""
+        """Return the number ``name`` in another unit, ``result.in_unit("min_film", "nm")``; `InputError` for other
+        kinds."""
         if name not in NUMBERS:
             raise InputError(f" = {name!r} is no number of a result", "name", ", ".join(NUMBERS))
         return converted(getattr(self, name), _OF_POINT[name].unit, unit)
@@ -288,26 +289,26 @@ COLUMNS["ratio"] = KEYS["motion.slide_roll_ratio"]
 
 
 def worded_value(name: str, value: Any) -> str:
-    """A ``value`` of the column or key ``name``, in a common unit; that of the oil's temperature in °C."""
+    """Return a ``value`` of the column or key ``name``, in a common unit; that of the oil's temperature in °C."""
     if name == "lubricant.temperature":
         return f"{converted(value, 'K', '°C'):.4g} °C"
     return worded(value, COLUMNS[name].unit if name in COLUMNS else "-")
 
 
 def depending_on(error: str) -> tuple[str, ...]:
-    """Names of the quantities whose error depends on that: "split" (the division of the load), "shear", "area",
-    "contacts", "film", "heat"."""
+    """Return the names of the quantities whose error depends on ``error``: "split" (the division of the load), "shear",
+    "area", "contacts", "film", "heat"."""
     return tuple(name for name, q in QUANTITIES.items() if q.error == error)
 
 
 def described(name: str, table: dict[str, Quantity] = COLUMNS) -> dict[str, str]:
-    """Attributes of a column, in the words of the CF conventions."""
+    """Return the attributes of a column, in the words of the CF conventions."""
     unit, label = table.get(name, Quantity("", name.rpartition(".")[2].replace("_", " ")))[:2]
     return {"units": "1" if unit == "-" else unit, "long_name": label} if unit else {"long_name": label}
 
 
 def heading(name: str) -> str:
-    """The heading of a column: its name, and its unit in brackets; of words, the name alone."""
+    """Return the heading of a column: its name, and its unit in brackets; of words, the name alone."""
     return f"{name} [{COLUMNS[name].unit}]" if name in COLUMNS else name
 
 
@@ -319,11 +320,11 @@ def axis_label(name: str, in_unit: str = "") -> str:
 
 
 def in_words(values: Any, names: Iterable[str]) -> dict[str, str]:
-    """Attributes of ``values`` by symbol, to four digits and with their units: ``{"F_C": "3.2 N"}``."""
+    """Return the attributes of ``values`` by symbol, to four digits and with their units: ``{"F_C": "3.2 N"}``."""
     rows = [(COLUMNS[name], getattr(values, name)) for name in names]
     return {q.symbol or q.label: f"{value:.4g}" + (f" {q.unit}" if q.unit != "-" else "") for q, value in rows}
 
 
 def counted(count: int, plural: str) -> str:
-    """How many there are, as text: "1 speed", "2 speeds"."""
+    """Return how many there are, as text: "1 speed", "2 speeds"."""
     return f"{count} {plural if count != 1 else plural.removesuffix('s')}"

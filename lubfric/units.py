@@ -50,7 +50,8 @@ OTHER_WORDS = {"degC": "°C", "C": "°C", "micron": "um", "W/mK": "W/(m K)", "de
 
 
 def spelled(unit: str) -> str:
-    """``unit`` as in the table: a u for the sign of micro, digits for raised ones, single spaces between factors."""
+    """Return ``unit`` as in the table: a u for the sign of micro, digits for raised ones, single spaces between
+    factors."""
     text = " ".join(unit.translate(SPELLINGS).split())
     text = re.sub(r"(?<=Pa)\s?\.?\s?s$", " s", text)  # Pa.s
     text = re.sub(r"^1? ?/ ?", "1/", text)
@@ -61,7 +62,7 @@ def spelled(unit: str) -> str:
 
 
 def kind_of(unit: str) -> str:
-    """The SI unit of the row that holds ``unit``; KeyError for one that no row holds."""
+    """Return the SI unit of the row that holds ``unit``; KeyError for one that no row holds."""
     for si, row in UNITS.items():
         if unit in row:
             return si
@@ -69,8 +70,8 @@ def kind_of(unit: str) -> str:
 
 
 def converted(value: Any, unit: str, to: str) -> Any:
-    """``value`` (a number, an array, or a `Decimal`, which stays one) in the unit ``to`` instead of ``unit``, both in
-    one row of the table. Raises `InputError` for a unit that is not in the row of the other."""
+    """Return ``value`` (a number, an array, or a `Decimal`, which stays one) in the unit ``to`` instead of ``unit``,
+    both in one row of the table. Raises `InputError` for a unit that is not in the row of the other."""
     unit, to = spelled(unit), spelled(to)
     row = UNITS[kind_of(unit)]
     if to not in row:
@@ -116,13 +117,13 @@ def unit_of_largest(values: Any, unit: str) -> str:
 
 
 def printed(unit: str) -> str:
-    """``unit`` as printed: "µm", "m²"; "" for "-"."""
+    """Return ``unit`` as printed: "µm", "m²"; "" for "-"."""
     raised = re.sub(r"(?<=[A-Za-z])[23]", lambda digit: digit[0].translate(RAISED), unit)
     return "" if unit == "-" else re.sub(r"^u(?=m|s)", "µ", raised)
 
 
 def worded(value: Any, unit: str) -> str:
-    """A number, or several of one kind, in the SI ``unit``, to four digits in a common unit: "12 mm". What is no
+    """Return a number, or several of one kind, in the SI ``unit``, to four digits in a common unit: "12 mm". What is no
     number is left unchanged."""
     values = value if isinstance(value, (tuple, list)) else (value,)
     if not values or not all(isinstance(v, (int, float)) for v in values) or isinstance(values[0], bool):
@@ -198,7 +199,7 @@ def _shown(value: float, low: float, high: float, unit: str) -> list[str]:
 
 
 def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), depth: int = 3) -> Any:
-    """``value`` in ``unit`` where it is text with a unit, such as "12 mm"; anything else unchanged.
+    """Return ``value`` in ``unit`` where it is text with a unit, such as "12 mm"; anything else unchanged.
 
     Lists are gone through, nested up to ``depth`` times. ``unit`` may name several, "m/s, m/s, -", one for each part of
     a list. ``name``: of the key; ``named``: words that it takes too, and that are left as they are.
@@ -269,14 +270,15 @@ def numbers_of(name: str, words: list[str], units: list[str]) -> list[float]:
 
 
 def in_si(name: str, text: str) -> tuple[float, str]:
-    """The number that ``text`` with a unit gives, in SI, and that SI unit. Raises `InputError`, as `without_unit`."""
+    """Return the number that ``text`` with a unit gives, in SI, and that SI unit. Raises `InputError`, as
+    `without_unit`."""
     parts = number_and_unit(text)
     unit = next((si for si, row in UNITS.items() if parts and spelled(parts[1]) in row), "-")
     return without_unit(name, text, unit), unit
 
 
 def number_of(name: str, text: str, unit: str) -> float:
-    """The number in ``unit`` that ``text`` of a command line gives, alone ("0.01") or with a unit ("1 cm")."""
+    """Return the number in ``unit`` that ``text`` of a command line gives, alone ("0.01") or with a unit ("1 cm")."""
     if _NUMBER.fullmatch(text.strip()) and len(text) <= LONGEST_TEXT:
         return float(text)
     if text.strip().lower() in ("nan", "inf", "+inf", "-inf", "infinity", "-infinity"):

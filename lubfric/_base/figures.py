@@ -35,7 +35,7 @@ SLENDER_MAP = 4.0  # ratio of the sides beyond which a map is not drawn to scale
 
 
 def styled(plot: Plot) -> Plot:
-    """Decorator: what ``plot`` draws has the style of pictures.mplstyle."""
+    """Return ``plot`` with what it draws in the style of pictures.mplstyle."""
 
     @wraps(plot)
     def drawn(*args: Any, **options: Any) -> Any:
@@ -57,7 +57,7 @@ def in_unit_for(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
 
 
 def new_figure(*args: Any, layout: Any = "constrained", **kwargs: Any) -> Figure:
-    """A figure without a window."""
+    """Return a figure without a window."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -83,12 +83,12 @@ def animated(
 
 
 def plain_words(text: str) -> str:
-    """``text`` of a user, such as the name of a scene, for a picture, in which a $ would begin a formula."""
+    """Return ``text`` of a user, such as the name of a scene, for a picture, in which a $ would begin a formula."""
     return text.replace("$", r"\$")
 
 
 def axes_or_new(ax: Axes | None, layout: str = "constrained") -> Axes:
-    """``ax``, or the axes of a new figure."""
+    """Return ``ax``, or the axes of a new figure."""
     if ax is not None:
         return ax
     from matplotlib import pyplot
@@ -107,7 +107,7 @@ def friction_lines(axes: Axes, x: FloatArray, parts: Sequence[FloatArray], **sty
 
 
 def widened(x: FloatArray, *values: FloatArray) -> tuple[FloatArray, ...]:
-    """``x`` and ``values`` over it; a lone point as a short piece of x, as an area over a point shows nothing."""
+    """Return ``x`` and ``values`` over it; a lone point as a short piece of x, as an area over a point shows nothing."""
     return (x, *values) if np.size(x) != 1 else (np.multiply(x, (0.97, 1.03)), *(np.repeat(v, 2) for v in values))
 
 
@@ -120,8 +120,9 @@ def load_shares(axes: Axes, x: FloatArray, share: FloatArray) -> None:
 
 
 def plain_ticks(axis: XAxis | YAxis) -> None:
-    """Numbers such as 0.2 and 0.5 on a logarithmic ``axis`` (``ax.xaxis``) of less than two decades, where matplotlib
-    would write every tick as a product, so that they overlap, or none around a lone point. Ticks set by hand stay."""
+    """Write numbers such as 0.2 and 0.5 on a logarithmic ``axis`` (``ax.xaxis``) of less than two decades, where
+    matplotlib would write every tick as a product, so that they overlap, or none around a lone point. Ticks set by hand
+    stay."""
     from matplotlib.ticker import FormatStrFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
     low, high = sorted(axis.get_view_interval())
@@ -134,21 +135,21 @@ def plain_ticks(axis: XAxis | YAxis) -> None:
 
 
 def log_if_wide(axes: Axes, name: str, values: np.ndarray) -> None:
-    """A logarithmic axis "x" or "y" where the positive ``values`` on it spread over more than a factor of 20."""
+    """Make an axis "x" or "y" logarithmic where the positive ``values`` on it spread over more than a factor of 20."""
     if values.min() > 0 and values.max() > 20 * values.min():
         axes.set(**{f"{name}scale": "log"})
 
 
 def speed_label(speed: np.ndarray) -> str:
-    """The label of a logarithmic axis of entrainment ``speed`` [m/s], which shows its magnitude."""
+    """Return the label of a logarithmic axis of entrainment ``speed`` [m/s], which shows its magnitude."""
     if not (speed < 0).any():
         return axis_label("speed")
     return f"entrainment speed |U| (m/s), {'both directions' if (speed > 0).any() else 'backwards'}"
 
 
 def key_above(axes: Axes, columns: int = 3) -> int:
-    """The key of the lines above the axes, where it hides none, in so many ``columns`` at most as the figure has room
-    for; returns the number of rows."""
+    """Put the key of the lines above the axes, where it hides none, in so many ``columns`` at most as the figure has
+    room for; returns the number of rows."""
     from matplotlib import rcParams
 
     labels = axes.get_legend_handles_labels()[1]
@@ -175,8 +176,8 @@ def field_image(
     extend: str = "neither",
     **options: Any,
 ) -> AxesImage:
-    """``values`` (nx, ny) over cells at ``x`` and ``y`` [m], from above, with a bar of colours; returns the image. To
-    scale, unless it would be too slender; then the axis says so."""
+    """Draw ``values`` (nx, ny) over cells at ``x`` and ``y`` [m], from above, with a bar of colours; returns the image.
+    To scale, unless it would be too slender; then the axis says so."""
     half_x, half_y = (0.5 * (a[1] - a[0] if a.size > 1 else 1e-6) for a in (x, y))
     extent = (1e6 * (x[0] - half_x), 1e6 * (x[-1] + half_x), 1e6 * (y[0] - half_y), 1e6 * (y[-1] + half_y))
     ratio = (extent[3] - extent[2]) / (extent[1] - extent[0])

@@ -113,7 +113,7 @@ def _picture_of(shown: Any) -> str:
 
 
 def changed(part: Any) -> dict[str, Any]:
-    """The fields of a dataclass that differ from their defaults, by name."""
+    """Return the fields of a dataclass that differ from their defaults, by name."""
     values = {}
     for f in fields(part):
         value = getattr(part, f.name)

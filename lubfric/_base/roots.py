@@ -34,7 +34,7 @@ def increasing_root(
     first: tuple[float | None, Any] = (None, None),
     max_evaluations: int = 60,
 ) -> Root:
-    """Root of an increasing f, by expansion from ``guess`` and then Chandrupatla's method.
+    """Return the root of an increasing f, by expansion from ``guess`` and then Chandrupatla's method.
 
     ``f(x, last)`` returns (value, payload); ``last``: the payload before it. ``first``: value and payload at ``guess``
     inside the bounds, if they are known, which counts as an evaluation; or None and a payload to begin with. Stops when

@@ -30,12 +30,12 @@ BLANKS = "  "  # the separator of columns that two or more blanks separate
 
 @cache
 def packaged(package: str, name: str) -> dict[str, Any]:
-    """The table in the TOML file ``name`` of a ``package`` of lubfric."""
+    """Return the table in the TOML file ``name`` of a ``package`` of lubfric."""
     return tomllib.loads((resources.files(package) / name).read_text(encoding="utf-8"))
 
 
 def plain(value: Any) -> Any:
-    """JSON types only: numpy scalars and tuples unpacked, NaN and infinity as null."""
+    """Return ``value`` in JSON types alone: numpy scalars and tuples unpacked, NaN and infinity as null."""
     if isinstance(value, dict):
         return {str(k): plain(v) for k, v in value.items()}
     if isinstance(value, (list, tuple)):
@@ -48,8 +48,8 @@ def plain(value: Any) -> Any:
 
 
 def read_json(path: Path, remedy: str) -> Any:
-    """What is in a JSON file. Raises `InputError`, which ends with the ``remedy``, if it cannot be read, is cut off,
-    nested too deeply or binary."""
+    """Return what is in a JSON file. Raises `InputError`, which ends with the ``remedy``, if it cannot be read, is cut
+    off, nested too deeply or binary."""
     if not Path(path).is_file():  # nor is one waited for that is no file, such as a pipe
         raise InputError(f"{path} is no file; {remedy}")
     try:
@@ -85,8 +85,8 @@ class Columns(dict[str, Any]):
 
 
 def read_table(path: Path, content: bytes | None = None) -> Columns:
-    """The columns that `table_bytes` wrote, by name. ``content``: that of the file ``path`` where it is not yet there.
-    Raises `InputError` for a damaged table or another one."""
+    """Return the columns that `table_bytes` wrote, by name. ``content``: that of the file ``path`` where it is not yet
+    there. Raises `InputError` for a damaged table or another one."""
     try:
         text = (Path(path).read_bytes() if content is None else content).decode()
         heading, *rows = list(csv.reader(io.StringIO(text, newline="")))
@@ -295,8 +295,8 @@ def _number(path: Path, line: int, row: list[str], place: int) -> float:
 
 
 def text_of(path: Path, most: float = MOST_TABLE_BYTES) -> str:
-    """What is in a file of text of at most so many bytes, in UTF-8 (with or without a byte-order mark), in UTF-16 with
-    one, or in Windows-1252. Raises `InputError` for anything else."""
+    """Return what is in a file of text of at most so many bytes, in UTF-8 (with or without a byte-order mark), in
+    UTF-16 with one, or in Windows-1252. Raises `InputError` for anything else."""
     try:
         if not path.is_file():
             raise InputError(f"file {shown(str(path))} does not exist; give a CSV file")

@@ -29,8 +29,8 @@ NUMBER_KINDS = "iuf"  # kinds of NumPy types that are real numbers; not truth va
 
 
 def shown(value: Any) -> str:
-    """``value`` for a message: its ``repr``, cut where it is long. A value without one (an integer of 5000 digits)
-    is shown by its type."""
+    """Return ``value`` for a message: its ``repr``, cut where it is long. A value without one (an integer of 5000
+    digits) is shown by its type."""
     try:
         text = repr(value)
     except (ValueError, RecursionError):
@@ -71,8 +71,8 @@ def python_fields(part: Any, section: str) -> None:
 
 
 def in_plain(name: str, value: Any, unit: str) -> Any:
-    """``value`` with text such as "12 mm" as numbers in ``unit``, as far as that is one ("Pa (inf: rigid)" is). Raises
-    `InputError`, as `without_unit` does."""
+    """Return ``value`` with text such as "12 mm" as numbers in ``unit``, as far as that is one ("Pa (inf: rigid)" is).
+    Raises `InputError`, as `without_unit` does."""
     unit = "-" if unit in ("", "(-)") else spelled(re.sub(r" \(.*", "", unit))
     return without_unit(name, python_value(value), unit) if any(unit in row for row in UNITS.values()) else value
 
@@ -97,7 +97,7 @@ def _real(value: Any) -> float:
 def number(
     name: str, value: Any, unit: str, *, above: float = -math.inf, minimum: float = -math.inf, maximum: float = math.inf
 ) -> float:
-    """A finite real number with ``above < value``, ``minimum <= value <= maximum``.
+    """Return ``value`` as a finite real number with ``above < value``, ``minimum <= value <= maximum``.
 
     Whatever the limits, its magnitude is at most the largest of `SANE` for its unit, and zero or at least `SMALLEST_NUMBER`.
     """
@@ -105,7 +105,7 @@ def number(
 
 
 def positive(name: str, value: Any, unit: str, *, minimum: float = 0.0, maximum: float = math.inf) -> float:
-    """A finite number > 0, in [minimum, maximum] and in the range of `SANE` for its unit."""
+    """Return ``value`` as a finite number > 0, in [minimum, maximum] and in the range of `SANE` for its unit."""
     least = max(minimum, SANE.get(unit, (SMALLEST_NUMBER, LARGEST_NUMBER))[0])
     return _within(name, value, unit, 0.0, -math.inf, maximum, least)
 
@@ -133,7 +133,7 @@ def _within(name: str, value: float, unit: str, above: float, minimum: float, ma
 
 
 def nonnegative(name: str, value: Any, unit: str, *, maximum: float = math.inf) -> float:
-    """A finite number >= 0."""
+    """Return ``value`` as a finite number >= 0."""
     return number(name, value, unit, minimum=0.0, maximum=maximum)
 
 
@@ -151,7 +151,8 @@ def in_range(section: str, part: Any, prefix: str | None = None) -> None:
 
 
 def of_key(name: str, value: Any, called: str | None = None) -> float:
-    """A number that the key ``name`` of a scene can have, by keys.toml; ``called``: its name in messages."""
+    """Return ``value`` as a number that the key ``name`` of a scene can have, by keys.toml; ``called``: its name in
+    messages."""
     q = KEYS[name]
     unit = "(-)" if q.unit == "-" else q.unit
     if q.above == 0:
@@ -160,7 +161,7 @@ def of_key(name: str, value: Any, called: str | None = None) -> float:
 
 
 def integer(name: str, value: Any, *, minimum: int, maximum: int | None = None) -> int:
-    """An integer >= ``minimum`` and <= ``maximum``."""
+    """Return ``value`` as an integer >= ``minimum`` and <= ``maximum``."""
     whole = isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
     if not whole or value < minimum or maximum is not None and value > maximum:
         most = "" if maximum is None else f" and <= {maximum}"
@@ -169,7 +170,7 @@ def integer(name: str, value: Any, *, minimum: int, maximum: int | None = None) 
 
 
 def boolean(name: str, value: Any) -> bool:
-    """True or False; a word such as "no" is neither."""
+    """Return ``value`` as True or False; a word such as "no" is neither."""
     if not isinstance(value, (bool, np.bool_)):
         raise InputError(f" = {shown(value)} is neither true nor false", name, "true, false")
     return bool(value)
@@ -190,7 +191,7 @@ def called_back(name: str, value: Any, arguments: str) -> None:
 
 
 def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
-    """A non-empty array of finite floats with ``ndim`` axes; ``value`` itself if it is one.
+    """Return ``value`` as a non-empty array of finite floats with ``ndim`` axes; ``value`` itself if it is one.
 
     Refused with `InputError`: truth values, complex numbers, words, dates and None, which NumPy would turn into
     numbers, and a masked array with masked values, whose mask it would drop.
@@ -216,7 +217,7 @@ def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
 
 
 def numbers(name: str, values: Any, unit: str, most: float) -> np.ndarray:
-    """One number, or a list of them, as an array (n,) of its own, of magnitudes up to ``most``."""
+    """Return one number, or a list of them, as an array (n,) of its own, of magnitudes up to ``most``."""
     values_given = array(name, listed(values), unit, ndim=1).copy()
     for value in values_given.tolist():
         number(name, value, unit, minimum=-most, maximum=most)
@@ -224,7 +225,7 @@ def numbers(name: str, values: Any, unit: str, most: float) -> np.ndarray:
 
 
 def listed(values: Any) -> Any:
-    """One value as a list of one; anything else unchanged, for `array` to check."""
+    """Return one value as a list of one; anything else unchanged, for `array` to check."""
     try:
         return [values] if np.ndim(values) == 0 else values
     except ValueError:  # a list of lists of several lengths
@@ -232,7 +233,7 @@ def listed(values: Any) -> Any:
 
 
 def folder(name: str, value: Any) -> Path:
-    """A path as words or a `pathlib.Path` that the file system takes, whether or not there is anything."""
+    """Return a path as words or a `pathlib.Path` that the file system takes, whether or not there is anything."""
     if isinstance(value, (str, os.PathLike)) and "\0" not in str(value):
         path = Path(value)
         with suppress(OSError):
@@ -242,7 +243,7 @@ def folder(name: str, value: Any) -> Path:
 
 
 def real_array(name: str, value: Any, unit: str) -> np.ndarray:
-    """``value`` as an array of floats of any shape, which may contain NaN and infinity. A mask is dropped."""
+    """Return ``value`` as an array of floats of any shape, which may contain NaN and infinity. A mask is dropped."""
     odd = _odd_entry(value, DEEPEST)
     try:
         numbers_given = np.empty(0) if odd else np.asarray(value)
@@ -274,7 +275,7 @@ def _odd_entry(value: Any, depth: int) -> str:
 
 
 def choice(name: str, value: Any, options: Iterable[Any]) -> Any:
-    """One of ``options``; the error names the nearest valid one."""
+    """Return ``value`` if it is one of ``options``; the error names the nearest valid one."""
     options = tuple(options)
     if isinstance(value, (str, int, np.integer)) and not isinstance(value, bool) and value in options:
         return options[options.index(value)]
@@ -282,14 +283,14 @@ def choice(name: str, value: Any, options: Iterable[Any]) -> Any:
 
 
 def nearest(word: Any, options: Iterable[Any], cutoff: float = 0.4) -> str:
-    """' (did you mean ...?)' or an empty string; ``cutoff``: the least likeness, 0 to 1."""
+    """Return ' (did you mean ...?)' or an empty string; ``cutoff``: the least likeness, 0 to 1."""
     text = word[:LONGEST_SHOWN] if isinstance(word, str) else shown(word)
     matches = difflib.get_close_matches(text, [str(o) for o in options], n=1, cutoff=cutoff)
     return f" (did you mean {matches[0]!r}?)" if matches else ""
 
 
 def installed(name: str, extra: str) -> Any:
-    """The optional package ``name``, imported, of that ``extra``; `InputError` where it is not installed."""
+    """Import the optional package ``name`` of that ``extra``; `InputError` where it is not installed."""
     try:
         return import_module(name)
     except ImportError as problem:
@@ -310,8 +311,8 @@ def keys(where: str, given: Iterable[Any], allowed: Iterable[str], other: Callab
 
 
 def pair(name: str, value: Any, check: Callable[[str, Any], T], what: str) -> tuple[T, T]:
-    """Both parts of a pair for x and y, as ``check(name, part)`` returns them; one value represents both. ``what``:
-    one of them as text."""
+    """Return both parts of a pair for x and y, as ``check(name, part)`` returns them; one value represents both.
+    ``what``: one of them as text."""
     several = isinstance(value, (list, tuple)) or isinstance(value, np.ndarray) and value.ndim == 1
     if several and len(value) != 2:
         raise InputError(f" = {shown(value)} must be {what} or a pair of them, for x and y", name)
@@ -323,5 +324,5 @@ def pair(name: str, value: Any, check: Callable[[str, Any], T], what: str) -> tu
 
 
 def spacing(name: str, value: Any) -> tuple[float, float]:
-    """(dx, dy) in metres; one number means equal spacing."""
+    """Return (dx, dy) in metres; one number means equal spacing."""
     return pair(name, value, lambda n, step: positive(n, step, "m", minimum=1e-15, maximum=1e3), "one length in m")

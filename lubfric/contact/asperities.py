@@ -54,7 +54,7 @@ class AsperityContact(FieldsOnly, RoughContact):
     def close(
         self, film: np.ndarray, load: float, start: ContactState | None = None, shape: np.ndarray | None = None
     ) -> ContactState:
-        """Offset at which the asperities carry ``load`` [N] on the full width; ``start`` is not needed.
+        """Return the offset at which the asperities carry ``load`` [N] on the full width; ``start`` is not needed.
 
         The load of patches jumps where two of them join. Then the offset of the jump is taken, at which the gap is
         continuous. Raises `ConvergenceError` if the load cannot be reached.

@@ -108,7 +108,7 @@ def asperity_contact(
     hardness: float | None = None,
     periodic: bool | tuple[bool, bool] = True,
 ) -> AsperityResult:
-    """Contact of a rough surface with a rigid flat at a given separation, by independent Hertz contacts.
+    """Return the contact of a rough surface with a rigid flat at a given separation, by independent Hertz contacts.
 
     Parameters
     ----------

@@ -201,7 +201,7 @@ def _symbol(
 
 
 def wavenumber(shape: tuple[int, ...], spacing: tuple[float, ...]) -> np.ndarray:
-    """|k| [rad/m] at the non-negative frequencies (nx//2 + 1, ny//2 + 1)."""
+    """Return |k| [rad/m] at the non-negative frequencies (nx//2 + 1, ny//2 + 1)."""
     kx, ky = (2 * np.pi * fft.rfftfreq(n, d) for n, d in zip(shape, spacing))
     return np.hypot(kx[:, None], ky)
 

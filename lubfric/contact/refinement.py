@@ -132,7 +132,7 @@ def length_scale(
 
 
 def contact_residuals(pressure: np.ndarray, gap: np.ndarray, scale: float, hardness: float) -> dict[str, float]:
-    """Complementarity and penetration residuals, dimensionless; see `ContactResult` for formulas."""
+    """Return complementarity and penetration residuals, dimensionless; see `ContactResult` for formulas."""
     loaded, gap = np.flatnonzero(pressure > 0), gap.ravel()
     carried = pressure.ravel()[loaded]
     apart = np.abs(gap[loaded])

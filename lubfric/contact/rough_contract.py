@@ -73,7 +73,7 @@ class RoughContact:
     def close(
         self, film: np.ndarray, load: float, start: ContactState | None = None, shape: np.ndarray | None = None
     ) -> ContactState:
-        """The contact that carries ``load`` [N] (0: first touch) under ``film`` [m] (nx,).
+        """Return the contact that carries ``load`` [N] (0: first touch) under ``film`` [m] (nx,).
 
         ``shape`` [m] (nx,): what the surface is pressed under, up to a constant, if it is not the film itself;
         ``start``: a neighbour's state, on this grid or another. Raises `ConvergenceError` if it cannot be solved.

@@ -64,7 +64,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     _RENAMED = {"lacks": "unmodelled_effects"}
 
     def without_fields(self) -> FrictionResult:
-        """A copy with its numbers alone."""
+        """Return a copy with its numbers alone."""
         return replace(self, fields=None, compared_fields=None, details={})
 
     def _facts(self) -> dict[str, str]:
@@ -126,7 +126,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         return self._field("gap")
 
     def plot_contact(self, ax: "Axes | None" = None, rows: slice = slice(None)) -> "Axes":
-        """The pressure of the rough contact in the plane, in some ``rows`` along the line; returns the axes. Needs
+        """Draw the pressure of the rough contact in the plane, in some ``rows`` along the line; returns the axes. Needs
         ``fields=True``, and contact."""
         axes = figures.axes_or_new(ax)
         pressure, unit = figures.in_unit_for(self.pressure[:, rows], "Pa")

@@ -135,7 +135,7 @@ class UncertaintyCurve(Renamed, UncertaintyQuantities[np.ndarray]):
 
 
 def curve_of(points: Sequence[Any]) -> UncertaintyCurve:
-    """The `UncertaintyCurve` of ``points``, each an `Uncertainty` or None."""
+    """Return the `UncertaintyCurve` of ``points``, each an `Uncertainty` or None."""
     columns = {name: np.array([math.nan if p is None else getattr(p, name) for p in points]) for name in OF_UNCERTAINTY}
     both = np.array([(math.nan, math.nan) if p is None else p.interval for p in points]).reshape(len(points), 2)
     sides = np.array([(math.nan, math.nan) if p is None else p.model_sides for p in points]).reshape(len(points), 2)
@@ -153,7 +153,8 @@ class NumberErrors(Quantities[float]):
 
 
 def number_errors_of(known: dict[str, float], why: str, reasons: dict[str, str] | None = None) -> NumberErrors:
-    """`NumberErrors` of the errors ``known`` by name; ``why`` of those that are not, unless ``reasons`` has another."""
+    """Return `NumberErrors` of the errors ``known`` by name; ``why`` of those that are not, unless ``reasons`` has
+    another."""
     errors = {name: float(known.get(name, math.nan)) for name in ESTIMATED}
     errors = {name: value if math.isfinite(value) else math.nan for name, value in errors.items()}
     unknown = [name for name, value in errors.items() if math.isnan(value)]
@@ -161,8 +162,8 @@ def number_errors_of(known: dict[str, float], why: str, reasons: dict[str, str] 
 
 
 def interval(value: float, numerical: float, sampling: float, freedom: float, *model: float) -> tuple[float, float]:
-    """value (1 ± sqrt(numerical² + (t sampling)² + model²)), t the 97.5 % quantile of Student's t with ``freedom``
-    degrees; ``model``: of both sides, or towards 0 and away from it; it counts where it is known."""
+    """Return value (1 ± sqrt(numerical² + (t sampling)² + model²)), t the 97.5 % quantile of Student's t with
+    ``freedom`` degrees; ``model``: of both sides, or towards 0 and away from it; it counts where it is known."""
     if not math.isfinite(sampling):
         return math.nan, math.nan
     of_sample = student(freedom) * sampling if sampling else 0.0

@@ -136,7 +136,7 @@ def central_film(X: np.ndarray, H: np.ndarray) -> float:
 
 
 def smallest(x: np.ndarray, values: np.ndarray) -> float:
-    """Minimum of the parabola through the smallest value and its neighbours."""
+    """Return the minimum of the parabola through the smallest value and its neighbours."""
     i = int(np.clip(np.argmin(values), 1, values.size - 2))
     d1 = (values[i] - values[i - 1]) / (x[i] - x[i - 1])
     d2 = (values[i + 1] - values[i]) / (x[i + 1] - x[i])

@@ -14,7 +14,7 @@ ELASTIC_PIEZOVISCOUS = 1.311
 
 
 def moes_film(m: float, l: float) -> float:
-    """H in Moes units where dp/dx = 0 (the *flow* film), incompressible lubricant; M > 0, L >= 0.
+    """Return H in Moes units where dp/dx = 0 (the *flow* film), incompressible lubricant; M > 0, L >= 0.
 
     Joins the four asymptotes H_RI = 3/M, H_EI = 2.621 M^(-1/5), H_RP = 1.287 L^(2/3) and
     H_EP = 1.311 M^(-1/8) L^(3/4); within about 5 % of converged solutions for M 5..100, L 5..10.

@@ -63,7 +63,7 @@ class Grid:
 
 
 def node_positions(half_width: float, film: float, n: int, distance: float | None = None) -> np.ndarray:
-    """n + 1 positions from the inlet (``distance`` upstream of the rupture point) to 0.
+    """Return n + 1 positions from the inlet (``distance`` upstream of the rupture point) to 0.
 
     Cells are smallest at the rupture point and just inside the edge of the Hertz contact, where the
     pressure rises over a length that shrinks with sqrt(film)/half_width, and grow in proportion to the
@@ -142,7 +142,7 @@ def face_weights(x: np.ndarray, stencil: tuple[int, ...]) -> tuple[np.ndarray, n
 
 
 def hat_kernel(points: np.ndarray, nodes: np.ndarray) -> np.ndarray:
-    """Matrix K (points, nodes) of -(4/pi) ∫ phi_j(x') ln|x_i - x'| dx', exact.
+    """Return the matrix K (points, nodes) of -(4/pi) ∫ phi_j(x') ln|x_i - x'| dx', exact.
 
     phi_j are the hat functions on increasing ``nodes`` (half hats at both ends). With
     G(s) = s²/2 ln|s| - 3/4 s², G'' = ln|s|, each integral is the second divided difference of

@@ -111,8 +111,9 @@ class FilmHeat:
 
 
 def flash_matrix(x: np.ndarray, carried: float) -> np.ndarray:
-    """Matrix (n, n), lower triangular: from the heat [W/m²] at the nodes ``x`` (n,) [m], rising downstream, to the rise
-    [K] there. The heat is linear between the nodes, and zero upstream. carried: e1 √u1 + e2 √u2 [J/(m² K s^½) (m/s)^½].
+    """Return the matrix (n, n), lower triangular: from the heat [W/m²] at the nodes ``x`` (n,) [m], rising downstream,
+    to the rise [K] there. The heat is linear between the nodes, and zero upstream. carried: e1 √u1 + e2 √u2 [J/(m² K
+    s^½) (m/s)^½].
     """
     n = x.size
     step = np.diff(x)
@@ -234,8 +235,8 @@ def inlet_heat(
     slide_roll_ratio: float,
     pressure_ratio: float,
 ) -> InletHeat:
-    """Factors at eta0 [Pa s], beta [1/K], k [W/(m K)], entrainment speed U [m/s], slide-roll ratio [-] and p_h/E'
-    [-]."""
+    """Return the factors of inlet heating at eta0 [Pa s], beta [1/K], k [W/(m K)], entrainment speed U [m/s],
+    slide-roll ratio [-] and p_h/E' [-]."""
     number = viscosity * temperature_coefficient * speed**2 / conductivity
     sliding = abs(slide_roll_ratio) ** 0.83
     pressed = max(1 - 13.2 * pressure_ratio * number**0.42, 0.0)
@@ -251,7 +252,7 @@ def _thermal(lubricant: Lubricant) -> tuple[float, float]:
 
 
 def viscosity_at(lubricant: Lubricant, pressure: FloatArray, temperature: FloatArray) -> tuple[np.ndarray, np.ndarray]:
-    """ln(eta [Pa s]) and -d ln(eta)/dT [1/K] at each pressure [Pa] and temperature [K]."""
+    """Return ln(eta [Pa s]) and -d ln(eta)/dT [1/K] at each pressure [Pa] and temperature [K]."""
     t0, beta = _thermal(lubricant)
     cold = np.log(lubricant.viscosity) + log_viscosity_ratio(lubricant, pressure)[0]
     if lubricant.viscosity_law != "roelands":

@@ -24,8 +24,8 @@ RIGID_FILM_FACTOR = 4.894968493913369
 
 
 def composite_modulus(young_1: float, poisson_1: float, young_2: float, poisson_2: float) -> float:
-    """E' [Pa] of two bodies with Young's moduli [Pa] and Poisson ratios [-]:
-    ``2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2``.
+    """Return E' [Pa] of two bodies with Young's moduli [Pa] and Poisson ratios [-]: ``2/E' = (1 - nu1^2)/E1 + (1 -
+    nu2^2)/E2``.
 
     Raises `InputError` unless E > 0 and -1 <= nu <= 0.5. A rigid body has ``young = math.inf``.
     """
@@ -38,24 +38,24 @@ def composite_modulus(young_1: float, poisson_1: float, young_2: float, poisson_
 
 
 def line_half_width(load_per_width: float, radius: float, e_prime: float) -> float:
-    """b [m] = sqrt(8 w R / (pi E')); w [N/m], R [m], E' [Pa]."""
+    """Return b [m] = sqrt(8 w R / (pi E')); w [N/m], R [m], E' [Pa]."""
     return np.sqrt(8 * load_per_width * radius / (np.pi * e_prime))
 
 
 def line_peak_pressure(load_per_width: float, radius: float, e_prime: float) -> float:
-    """p_h [Pa] = 2 w / (pi b)."""
+    """Return p_h [Pa] = 2 w / (pi b)."""
     return 2 * load_per_width / (np.pi * line_half_width(load_per_width, radius, e_prime))
 
 
 def line_pressure(x: ArrayLike, load_per_width: float, radius: float, e_prime: float) -> float | FloatArray:
-    """p(x) [Pa] = p_h sqrt(1 - x^2/b^2) inside, 0 outside; x [m] from the centre line."""
+    """Return p(x) [Pa] = p_h sqrt(1 - x^2/b^2) inside, 0 outside; x [m] from the centre line."""
     ratio = np.asarray(x) / line_half_width(load_per_width, radius, e_prime)
     return line_peak_pressure(load_per_width, radius, e_prime) * np.sqrt(np.maximum(1 - ratio**2, 0))
 
 
 def line_gap(x: ArrayLike, load_per_width: float, radius: float, e_prime: float) -> float | FloatArray:
-    """Gap [m] of the loaded contact, 0 inside; with X = |x|/b >= 1,
-    ``g = b^2/(2R) [X sqrt(X^2-1) - ln(X + sqrt(X^2-1))]``."""
+    """Return the gap [m] of the loaded contact, 0 inside; with X = |x|/b >= 1, ``g = b^2/(2R) [X sqrt(X^2-1) - ln(X +
+    sqrt(X^2-1))]``."""
     b = line_half_width(load_per_width, radius, e_prime)
     big = np.maximum(np.abs(np.asarray(x)) / b, 1.0)
     return b**2 / (2 * radius) * (big * np.sqrt(big**2 - 1) - np.arccosh(big))

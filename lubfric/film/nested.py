@@ -68,7 +68,7 @@ def solved(problem: FilmProblem, effort: Effort, state: FilmState | None) -> Nes
 
 
 def warm(problem: FilmProblem, effort: Effort, state: FilmState) -> list[FilmSolution]:
-    """Two grids; the finer one is at least as fine as the error of ``state`` demands."""
+    """Solve on two grids, the finer of which is at least as fine as the error of ``state`` demands."""
     n = coarsest(problem)
     needed = max(effort.least_cells, state.pressure.size * min(4.0, math.sqrt(state.grid_error / effort.tolerance)))
     while 2 * n < min(needed, FINEST_CELLS):

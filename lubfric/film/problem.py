@@ -121,11 +121,11 @@ class FilmProblem:
         return thinned(law, s, b)
 
     def log_viscosity(self, P: FloatArray) -> tuple[np.ndarray, np.ndarray]:
-        """ln(eta/eta0) and its derivative with respect to P."""
+        """Return ln(eta/eta0) and its derivative with respect to P."""
         value, slope = log_viscosity_ratio(self.line.lubricant, P * self.pressure_unit)
         return value, slope * self.pressure_unit
 
     def density(self, P: FloatArray) -> tuple[np.ndarray, np.ndarray]:
-        """rho/rho0 and its derivative with respect to P."""
+        """Return rho/rho0 and its derivative with respect to P."""
         value, slope = density_ratio(self.line.lubricant, P * self.pressure_unit)
         return value, slope * self.pressure_unit

@@ -19,7 +19,8 @@ LAST_ALPHA_P = 1e4
 
 @lru_cache(maxsize=16)
 def true_pressure(lubricant: Lubricant) -> Callable[..., Any]:
-    """p(q) [Pa] by the lubricant's law: the inverse of q = ∫ dp eta0/eta(p), infinite above the largest possible q."""
+    """Return p(q) [Pa] by the lubricant's law: the inverse of q = ∫ dp eta0/eta(p), infinite above the largest possible
+    q."""
     if lubricant.viscosity_law == "constant":
         return np.positive
     alpha = lubricant.pressure_viscosity_coefficient

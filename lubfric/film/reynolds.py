@@ -66,7 +66,7 @@ class ReynoldsTerms:
 
 
 def log_mean_fluidity(log_eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Logarithmic mean of exp(-log_eta) over each cell and its derivatives by the left and right value."""
+    """Return the logarithmic mean of exp(-log_eta) over each cell and its derivatives by the left and right value."""
     d = np.diff(log_eta)
     left = np.exp(-log_eta[:-1])
     small = np.abs(d) < 1e-3
@@ -78,7 +78,7 @@ def log_mean_fluidity(log_eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.n
 
 
 def elastic_film(grid: Grid, z: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """H00 + X²/2 + K P at the nodes, and its derivatives by e and by the stretch of the grid."""
+    """Return H00 + X²/2 + K P at the nodes, and its derivatives by e and by the stretch of the grid."""
     X = grid.xi + z[-1]
     own = grid.kernel[:, :-1] @ z[:-3]
     by_stretch = own - 4.0 / np.pi * (grid.weights[:-1] @ z[:-3]) + X * grid.xi
@@ -130,8 +130,8 @@ def residual(grid: Grid, problem: FilmProblem, z: np.ndarray, H: np.ndarray) -> 
 
 
 def linearise(grid: Grid, problem: FilmProblem, terms: ReynoldsTerms) -> tuple[np.ndarray, np.ndarray]:
-    """Jacobian (n + 3, n + 3) with the film eliminated, and the change of the residual (n + 3) when the film's defect
-    is removed. Fortran order lets LAPACK factorise in place."""
+    """Return the Jacobian (n + 3, n + 3) with the film eliminated, and the change of the residual (n + 3) when the
+    film's defect is removed. Fortran order lets LAPACK factorise in place."""
     n = grid.n
     J = np.empty((n + 3, n + 3), order="F")
     shift = np.zeros(n + 3)

@@ -69,7 +69,7 @@ def shear_force(
     heated: Callable[..., Any] | None = None,
     elastic: ElasticContact | None = None,
 ) -> ShearForce:
-    """F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at the upper surface.
+    """Return F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at the upper surface.
 
     ``width`` B [m]; ``contact_fraction(x)``: for nodes x (n,) [m], the share of the width in contact, which carries no
     fluid shear, averaged over each of the n - 1 cells between them. The Couette term reaches from where the lubricant
@@ -143,7 +143,7 @@ def above_carried(pressure: np.ndarray, tau: np.ndarray, lengths: np.ndarray) ->
 
 
 def spike_error(x: np.ndarray, tau: np.ndarray) -> float:
-    """Possible error of a sum over nodes if a spike is between them.
+    """Return the possible error of a sum over nodes if a spike is between them.
 
     It is an eighth of the second-order error estimate from the sum over every second node. A spike makes that estimate
     at least eight times as large as the error.

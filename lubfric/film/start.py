@@ -38,7 +38,7 @@ def _expected_rupture(problem: FilmProblem) -> float:
 
 
 def rupture_guess(problem: FilmProblem) -> float:
-    """Rupture point of the guess, in units of x: nearer to the centre if a starved film is thin."""
+    """Return the rupture point of the guess, in units of x: nearer to the centre if a starved film is thin."""
     expected = _expected_rupture(problem)
     if problem.inlet is None:
         return expected

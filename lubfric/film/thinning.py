@@ -31,7 +31,7 @@ LAST_STEP = 1e-13
 
 
 def thinned(law: ShearLaw, s: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Φ, s dΦ/ds and b dΦ/db [-] at s and b, >= 0, (n,) each."""
+    """Return Φ, s dΦ/ds and b dΦ/db [-] at s and b, >= 0, (n,) each."""
     return _eyring(s, b) if isinstance(law, Eyring) else _by_quadrature(law, s, b)
 
 

@@ -102,7 +102,7 @@ def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -
 
 
 def prepared_with(scene: Scene | Prepared, tolerance: float | None, model: str | None) -> Prepared:
-    """``scene`` made ready, with another tolerance on f and another model if they are given."""
+    """Return ``scene`` made ready, with another tolerance on f and another model if they are given."""
     changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
     if not changed and isinstance(scene, Prepared):
         return scene

@@ -169,7 +169,7 @@ class Lubricant(Shown):
 
 
 def log_viscosity_ratio(lubricant: Lubricant, pressure: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-    """ln(eta/eta0) [-] and its derivative [1/Pa] at each pressure [Pa], any shape."""
+    """Return ln(eta/eta0) [-] and its derivative [1/Pa] at each pressure [Pa], any shape."""
     p = np.asarray(pressure, dtype=float)
     alpha = lubricant.pressure_viscosity_coefficient
     if lubricant.viscosity_law == "constant":
@@ -189,7 +189,7 @@ def viscosity(lubricant: Lubricant, pressure: ArrayLike) -> np.ndarray:
 
 
 def density_ratio(lubricant: Lubricant, pressure: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-    """rho/rho0 [-] and its derivative [1/Pa] at each pressure [Pa], any shape."""
+    """Return rho/rho0 [-] and its derivative [1/Pa] at each pressure [Pa], any shape."""
     p = np.asarray(pressure, dtype=float)
     if lubricant.density_law == "constant":
         return np.ones_like(p), np.zeros_like(p)
@@ -209,5 +209,5 @@ def shear_stress(lubricant: Lubricant, pressure: ArrayLike, shear_rate: ArrayLik
 
 
 def carried_stress(pressure: ArrayLike) -> np.ndarray:
-    """What an oil carries at most [Pa] at ``pressure`` [Pa], any shape: 5 MPa + 0.12 p."""
+    """Return what an oil carries at most [Pa] at ``pressure`` [Pa], any shape: 5 MPa + 0.12 p."""
     return CARRIED_AT_REST + CARRIED * np.maximum(pressure, 0.0)

@@ -67,7 +67,7 @@ class Oil(Shown):
             raise InputError(f"estimate = 'so-klaus' is for mineral oils, base = {self.base!r}; allowed: 'gold'")
 
     def kinematic_viscosity(self, temperature: ArrayLike) -> float:
-        """nu [m²/s] at ``temperature`` [K], one or an array of them."""
+        """Return nu [m²/s] at ``temperature`` [K], one or an array of them."""
         return at_each(self.viscosity_law, temperature)
 
     def density_at(self, temperature: ArrayLike) -> float:
@@ -95,7 +95,7 @@ class Oil(Shown):
         return self.kinematic_viscosity(temperature) * self.density_at(temperature)
 
     def temperature_coefficient(self, temperature: float) -> float:
-        """-d ln(eta)/dT [1/K] at ``temperature`` [K], from its law by a central difference."""
+        """Return -d ln(eta)/dT [1/K] at ``temperature`` [K], from its law by a central difference."""
         temperature = checked_temperature(temperature)
         low = temperature - TEMPERATURE_STEP
         high = temperature + TEMPERATURE_STEP
@@ -104,7 +104,7 @@ class Oil(Shown):
         return math.log(self.viscosity(low) / self.viscosity(high)) / (high - low)
 
     def pressure_viscosity_coefficient(self, temperature: float) -> Estimate:
-        """alpha at ``temperature`` [K], with the range in which measured oils lie. Where alpha is known it is
+        """Return alpha at ``temperature`` [K], with the range in which measured oils lie. Where alpha is known it is
         returned as given."""
         if self.alpha is not None:
             return Estimate(value=self.alpha, low=self.alpha, high=self.alpha, source="the scene")
@@ -113,8 +113,8 @@ class Oil(Shown):
         return self._estimated(self.estimate or ("so-klaus" if self.base == "mineral" else "gold"), temperature)
 
     def other_estimate(self, temperature: float) -> Estimate | None:
-        """alpha by the estimate that was not chosen, or None where there is no other. How far the two differ is a
-        warning."""
+        """Return alpha by the estimate that was not chosen, or None where there is no other. How far the two differ is
+        a warning."""
         known = self.alpha is not None or (self.measured is not None and self.estimate is None)
         if known or self.base != "mineral":
             return None
@@ -127,7 +127,7 @@ class Oil(Shown):
         return so_klaus(nu, self.slope(temperature), self.density_at(temperature))
 
     def slope(self, temperature: float) -> float:
-        """n of ASTM D341 [-] at ``temperature`` [K]."""
+        """Return n of ASTM D341 [-] at ``temperature`` [K]."""
         law = self.viscosity_law
         return law.n if isinstance(law, Walther) else law.piece(temperature).n
 

@@ -91,8 +91,8 @@ class Estimate:
 
 
 def gold(nu: float, base: str) -> Estimate:
-    """alpha by ``s nu^t``, with s and t of the ``base`` oil: "mineral", "pao", "ester" or "polyglycol". nu [m²/s]: at
-    the temperature in question and ambient pressure.
+    """Return alpha by ``s nu^t``, with s and t of the ``base`` oil: "mineral", "pao", "ester" or "polyglycol". nu
+    [m²/s]: at the temperature in question and ambient pressure.
 
     Source: P. W. Gold, A. Schmidt, H. Dicke, J. Loos, C. Assmann, J. Synthetic Lubrication 18 (2001) 51-79,
     doi:10.1002/jsl.3000180105. A second source, a public program for gears (GEARpie), has the same digits, but those of
@@ -108,8 +108,8 @@ def gold(nu: float, base: str) -> Estimate:
 
 
 def so_klaus(nu: float, slope: float, density: float) -> Estimate:
-    """So and Klaus's regression for mineral oils: nu [m²/s] and density [kg/m³] at the temperature in question,
-    ``slope`` n of ASTM D341 (`Walther`).
+    """Return alpha by So and Klaus's regression for mineral oils: nu [m²/s] and density [kg/m³] at the temperature in
+    question, ``slope`` n of ASTM D341 (`Walther`).
 
     With l = log10(nu in mm²/s), alpha in 10 /GPa is
     ``1.216 + 4.143 l^3.0627 + 2.848e-4 n^5.1903 l^1.5976 - 3.999 l^3.0975 rho^0.1162``, rho in g/cm³ (B. Y. C. So, E.

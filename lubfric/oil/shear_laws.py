@@ -41,15 +41,15 @@ class ShearLaw:
         return value
 
     def critical(self, pressure: ArrayLike) -> tuple[Any, Any]:
-        """tau_c [Pa] at each pressure [Pa], and its change with the pressure [-]; both numbers if that is 0."""
+        """Return tau_c [Pa] at each pressure [Pa], and its change with the pressure [-]; both numbers if that is 0."""
         self.refuse("critical", "everything", "leave the key out")
 
     def warmth(self, temperature: ArrayLike) -> FloatArray:
-        """tau_c at a temperature [K] over that at the temperature of the lubricant."""
+        """Return tau_c at a temperature [K] over that at the temperature of the lubricant."""
         self.refuse("warmth", "the heat of the film", "set numerics.heat = 'off'")
 
     def critical_at(self, pressure: ArrayLike, temperature: ArrayLike) -> FloatArray:
-        """tau_c [Pa] at pressure [Pa] and temperature [K]."""
+        """Return tau_c [Pa] at pressure [Pa] and temperature [K]."""
         return self.critical(pressure)[0] * self.warmth(temperature)
 
     def refuse(self, part: str, model: str, way_out: str) -> NoReturn:
@@ -58,15 +58,15 @@ class ShearLaw:
         raise InputError(said, f"lubricant.{self.key}", way_out=f"give it in lubfric/oil/shear_laws.py, or {way_out}")
 
     def f(self, s: float | np.ndarray) -> FloatArray:
-        """tau/tau_c, odd in s."""
+        """Return tau/tau_c, odd in s."""
         self.refuse("f", "everything", "leave the key out")
 
     def tangent(self, s: float | np.ndarray) -> tuple[FloatArray, FloatArray]:
-        """Φ = 1/f' and s dΦ/ds, at s >= 0."""
+        """Return Φ = 1/f' and s dΦ/ds, at s >= 0."""
         self.refuse("tangent", "the deterministic model", "set numerics.model = 'paper'")
 
     def inverse(self, x: float | np.ndarray) -> FloatArray:
-        """s of tau/tau_c = x, odd in x."""
+        """Return s of tau/tau_c = x, odd in x."""
         self.refuse("inverse", "the heat of the film", "set numerics.heat = 'off'")
 
     def as_temperature(self, temperature: ArrayLike) -> FloatArray:
@@ -82,8 +82,8 @@ class ShearLaw:
         return critical * self.inverse(stress / critical)
 
     def thinning(self, s: float | np.ndarray, *, along: bool) -> tuple[Any, Any]:
-        """Φ and s dΦ/ds of a small pressure flow in addition to the sliding: by the tangent 1/f' along it, by the
-        secant s/f across (perturbation of a Couette flow: T. F. Conry, S. Wang, C. Cusano, J. Tribol. 109 (1987)
+        """Return Φ and s dΦ/ds of a small pressure flow in addition to the sliding: by the tangent 1/f' along it, by
+        the secant s/f across (perturbation of a Couette flow: T. F. Conry, S. Wang, C. Cusano, J. Tribol. 109 (1987)
         648-654, doi:10.1115/1.3261526)."""
         if along:
             return self.tangent(s)
@@ -177,8 +177,8 @@ class LimitingStress(ShearLaw):
         return np.where(stress > critical, np.inf, stress)
 
     def thinning(self, s: float | np.ndarray, *, along: bool) -> tuple[Any, Any]:
-        """Φ and s dΦ/ds by the secant of ``1/eta_eff = 1/eta + Δu/(h tau_c)``, 1 + s, in both directions. (The tangent
-        of a fluid at its limit is infinite.)"""
+        """Return Φ and s dΦ/ds by the secant of ``1/eta_eff = 1/eta + Δu/(h tau_c)``, 1 + s, in both directions. (The
+        tangent of a fluid at its limit is infinite.)"""
         return 1.0 + s, s
 
 

@@ -32,8 +32,8 @@ ARGUMENT_KINDS: dict[str, dict[str, Any]] = {
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Entry point; returns the exit code: 0 done, 1 a solve failed, 2 bad input or a file that cannot
-    be written, 130 interrupted, 143 terminated."""
+    """Run the command and return the exit code: 0 done, 1 a solve failed, 2 bad input or a file that cannot be written,
+    130 interrupted, 143 terminated."""
     arguments = parser().parse_args(argv)
     try:
         with interruptible():
@@ -55,7 +55,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def parser() -> argparse.ArgumentParser:
-    """The parser of the command. What it returns has ``call``, the module and the function to call."""
+    """Return the parser of the command. What it returns has ``call``, the module and the function to call."""
     whole = argparse.ArgumentParser(prog="lubfric", description="Friction of mixed-lubricated rough line contacts.")
     whole.add_argument("--version", action="version", version=f"lubfric {__version__}")
     commands = whole.add_subparsers(required=True, metavar="COMMAND")
@@ -74,7 +74,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def scene_of(arguments: Namespace) -> Scene:
-    """The scene that the ``arguments`` name."""
+    """Return the scene that the ``arguments`` name."""
     from ..scene import load_scene
 
     return load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)

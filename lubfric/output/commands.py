@@ -105,7 +105,7 @@ def paced() -> Callable[..., bool]:
 
 @contextmanager
 def interruptible() -> Iterator[None]:
-    """SIGTERM ends what is inside as Ctrl-C does, so that locks are dropped and files closed."""
+    """Let SIGTERM end what is inside as Ctrl-C does, so that locks are dropped and files closed."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -122,7 +122,7 @@ def interruptible() -> Iterator[None]:
 
 @contextmanager
 def keeping(what: Callable[[], str]) -> Iterator[None]:
-    """On an interrupt, say ``what()`` is kept, and that the same command continues from there."""
+    """Say on an interrupt that ``what()`` is kept, and that the same command continues from there."""
     try:
         yield
     except KeyboardInterrupt as error:
@@ -183,7 +183,7 @@ def run_begun(
 
 
 def read_record(folder: Path) -> dict[str, Any]:
-    """What result.json of a run holds: at least the name of the scene. Raises `InputError` for anything else."""
+    """Return what result.json of a run holds: at least the name of the scene. Raises `InputError` for anything else."""
     path = folder / RESULT
     again = "give a folder that 'lubfric run' wrote, or run it again"
     if not os.path.lexists(path):
@@ -197,7 +197,8 @@ def read_record(folder: Path) -> dict[str, Any]:
 
 
 def files_read(paths: Iterable[Any]) -> list[Path]:
-    """The files among ``paths`` (None and what is no file: omitted), and those that the TOML files among them name."""
+    """Return the files among ``paths`` (None and what is no file: omitted), and those that the TOML files among them
+    name."""
     read: dict[Path, None] = {}
     waiting = [Path(path) for path in paths if path is not None]
     while waiting:
@@ -228,7 +229,7 @@ def check_outputs(arguments: Namespace, folder: Path, names: Iterable[str], patt
 
 
 def made(name: str, write: Callable[..., Any], *arguments: Any) -> bytes:
-    """The content of the file that ``write(path, *arguments)`` makes; ``name``: of the file."""
+    """Return the content of the file that ``write(path, *arguments)`` makes; ``name``: of the file."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / name
         write(path, *arguments)

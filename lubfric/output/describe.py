@@ -78,8 +78,8 @@ class SceneEstimate:
 
 
 def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
-    """Inputs, regime numbers (Hertz, Moes M and L, lambda at its speeds) and the plan, as text. Nothing is solved.
-    ``speeds`` [m/s]: instead of those of the scene; "auto": about those that a curve would choose."""
+    """Return inputs, regime numbers (Hertz, Moes M and L, lambda at its speeds) and the plan, as text. Nothing is
+    solved. ``speeds`` [m/s]: instead of those of the scene; "auto": about those that a curve would choose."""
     with warn_unusual_values(scene):
         if scene.transient is not None:
             check_run(scene)
@@ -97,8 +97,8 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
 def estimate_scene(
     scene: Scene, sample: Sample, surface: Surface, speeds: Sequence[float] | str = (), ratios: Sequence[float] = ()
 ) -> SceneEstimate:
-    """What is known of a ``scene`` before it is solved at ``speeds`` [m/s], as `describe_scene`; or at its own speed
-    and the slide-roll ``ratios``. ``sample`` and ``surface``: as `lubfric.prepare` makes them."""
+    """Return what is known of a ``scene`` before it is solved at ``speeds`` [m/s], as `describe_scene`; or at its own
+    speed and the slide-roll ``ratios``. ``sample`` and ``surface``: as `lubfric.prepare` makes them."""
     own = scene.motion.entrainment_speed
     chosen = np.geomspace(*span(scene, surface.sq), EXPECTED_SPEEDS).tolist() if isinstance(speeds, str) else speeds
     speeds = [own] if len(ratios) else list(chosen) or list(scene.motion.speeds) or [own]
@@ -288,7 +288,7 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
 
 
 def slopes_in_words(surface: Surface) -> str:
-    """Slopes and correlation lengths of the map, on its own grid."""
+    """Return slopes and correlation lengths of the map, on its own grid."""
     along_x, along_y, total = rms_slope(surface)
     lengths = []
     for axis, step in enumerate(surface.spacing):

@@ -63,7 +63,7 @@ def vtk_bytes(point: FrictionResult) -> bytes:
 
 
 def write_moments(folder: Path | str, moments: Iterable[Moment]) -> None:
-    """Gap [m], pressure [Pa], height [m] and filled part of moments (`lubfric.models.deterministic.moments`) as
+    """Write gap [m], pressure [Pa], height [m] and filled part of moments (`lubfric.models.deterministic.moments`) as
     moment_0000.vtk ... in ``folder``; and moments.vtk.series with their times [s], which ParaView plays."""
     home = validate.folder("folder", folder)
     files = []
@@ -80,7 +80,7 @@ def write_moments(folder: Path | str, moments: Iterable[Moment]) -> None:
 
 
 def grid_bytes(x: np.ndarray, y: np.ndarray, fields: dict[str, np.ndarray], title: str) -> bytes:
-    """Point data (nx, ny) on the grid ``x`` (nx,), ``y`` (ny,) [m]: legacy VTK format 3.0, big-endian binary."""
+    """Return point data (nx, ny) on the grid ``x`` (nx,), ``y`` (ny,) [m]: legacy VTK format 3.0, big-endian binary."""
     points = np.zeros((y.size, x.size, 3))
     points[..., 0] = x[None, :]
     points[..., 1] = y[:, None]
@@ -100,7 +100,7 @@ def _big_endian(values: np.ndarray) -> bytes:
 
 
 def npz_bytes(arrays: dict[str, np.ndarray]) -> bytes:
-    """``arrays`` as a compressed ``.npz`` file."""
+    """Return ``arrays`` as a compressed ``.npz`` file."""
     file = io.BytesIO()
     np.savez_compressed(file, **arrays)  # type: ignore[arg-type]  # NumPy types allow_pickle, not the arrays
     return file.getvalue()

@@ -19,8 +19,8 @@ INPUT_SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "co
 
 
 def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
-    """(what it is, the value with its unit, the key, and its range, its table, or the range of typical values) of every
-    input in a section of the scene."""
+    """Yield (what it is, the value with its unit, the key, and its range, its table, or the range of typical values) of
+    every input in a section of the scene."""
     for key, quantity in KEYS.items():
         value = getattr(getattr(scene, section, None), key.removeprefix(f"{section}."), None)
         if not key.startswith(f"{section}.") or value is None or value == ():
@@ -53,7 +53,7 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
 
 
 def input_rows(scene: Scene, section: str) -> list[str]:
-    """The `inputs` of a section of ``scene``, one line each."""
+    """Return the `inputs` of a section of ``scene``, one line each."""
     return [f"{label}: {text}  ({key}){note}" for label, text, key, note in inputs(scene, section)]
 
 

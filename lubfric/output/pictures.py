@@ -375,7 +375,7 @@ def _section(axes: Axes, fields: Any, row: int, *, touching: bool) -> None:
 
 @figures.styled
 def plot_surface(path: Path, prepared: Prepared) -> None:
-    """The map that the scene of ``prepared`` has, to scale, of a long line the beginning; and the bearing
+    """Draw the map that the scene of ``prepared`` has, to scale, of a long line the beginning; and the bearing
     (Abbott-Firestone) curve of the whole of it."""
     surface = prepared.sample.map
     x, y = (np.arange(count) * step for count, step in zip(surface.shape, surface.spacing))
@@ -441,7 +441,7 @@ def plot_history(
 
 @figures.styled
 def animate(path: Path, result: TransientResult, half_width: float) -> None:
-    """GIF of pressure and film along the contact over time."""
+    """Write a GIF of pressure and film along the contact over time."""
     count = result.time.size
     x = result.x
     h = result.film_thickness

@@ -111,7 +111,7 @@ def solve_differential_deflection(
 
 
 def domain_ends(problem: FilmProblem, domain: tuple[float, float] | None) -> tuple[float, float]:
-    """First and last node, in units of X."""
+    """Return the first and last node, in units of X."""
     b = problem.half_width
     unit = problem.length_unit
     rise = math.sqrt(2.0 * problem.film_guess)

@@ -89,7 +89,7 @@ def make_mesh(first: float, last: float, nodes: int, *, flooded: bool) -> Mesh:
 
 
 def convolve(transform: np.ndarray, P: np.ndarray) -> np.ndarray:
-    """sum_j kernel[|i-j|] P[j] at all nodes."""
+    """Return sum_j kernel[|i-j|] P[j] at all nodes."""
     from scipy.fft import irfft, rfft
 
     size = _padded(P.size)
@@ -153,7 +153,7 @@ class DifferentialTerms:
 
 
 def evaluate(mesh: Mesh, problem: FilmProblem, P: np.ndarray, H: np.ndarray) -> DifferentialTerms:
-    """Fluxes, balances and defects at pressures P and films H."""
+    """Return the fluxes, balances and defects at pressures P and films H."""
     log_eta, slope = problem.log_viscosity(P)
     rho, rho_slope = problem.density(P)
     fluidity, by_left, by_right = log_mean_fluidity(log_eta)
@@ -205,7 +205,7 @@ def tilt_row(mesh: Mesh) -> np.ndarray:
 
 
 def inlet_ratio(mesh: Mesh) -> float:
-    """P at the first node as a share of P at the second."""
+    """Return P at the first node as a share of P at the second."""
     return (mesh.X[1] / mesh.X[0]) ** 3 if mesh.flooded else 0.0
 
 

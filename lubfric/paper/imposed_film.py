@@ -53,7 +53,7 @@ class ImposedFilm:
         return self.mean(self.problem.gap0) - self.mean_film <= self.problem.gap0.min()
 
     def lubricated_offset(self, displacement: FloatArray, pressure: FloatArray) -> float:
-        """epsilon [m] of Eq. (8) as printed: the lubricated part of A contains the volume of the film.
+        """Return epsilon [m] of Eq. (8) as printed: the lubricated part of A contains the volume of the film.
 
         It is NaN when the pressure leaves no cell of A free, because Eq. (8) then has no solution.
         """
@@ -63,15 +63,16 @@ class ImposedFilm:
         return float((volume - self.mean_film) / wet) if wet > 0 else math.nan
 
     def offset(self, displacement: FloatArray, overlap: float | FloatArray = 0.0) -> float:
-        """epsilon [m] of Eq. (8) over all of A, where the gap of asperity contacts counts as zero: the same solution.
+        """Return epsilon [m] of Eq. (8) over all of A, where the gap of asperity contacts counts as zero: the same
+        solution.
 
         ``overlap`` [m] is a field: the overlap of yielded cells, which contains no lubricant.
         """
         return self.mean(self.problem.gap0 + displacement + overlap) - self.mean_film
 
     def surplus(self, state: TrialContact) -> float:
-        """By how much the film exceeds the volume between the surfaces: their difference over A, in the smaller of the
-        mean film and the length in which `lubfric.solve_contact` measures residuals."""
+        """Return by how much the film exceeds the volume between the surfaces: their difference over A, in the smaller
+        of the mean film and the length in which `lubfric.solve_contact` measures residuals."""
         return (self.mean_film - self.mean(np.maximum(state.gap, 0.0))) / min(state.scale, self.mean_film)
 
     def residual(self, pressure: FloatArray, displacement: FloatArray, offset: float) -> float:
@@ -151,7 +152,7 @@ def alternating(
     raise_on_failure: bool = True,
     **problem: Any,
 ) -> ContactResult:
-    """Contact under the separation ``h - epsilon``: system (3) is solved at one epsilon after the other.
+    """Solve the contact under the separation ``h - epsilon``: system (3) is solved at one epsilon after the other.
 
     This is the nested alternative to the single loop, the method of Morales-Espejel et al. as Akchurin et al. 2015
     (doi:10.1007/s11249-015-0536-z, end of Sec. 2.2) describe it: "iteratively solving the system (3) and Eq. (8)",

@@ -42,7 +42,8 @@ def single_loop(
     raise_on_failure: bool = True,
     **problem: Any,
 ) -> ContactResult:
-    """Contact of a rough surface under the separation ``h - epsilon``, with epsilon from the volume balance, Eq. (8).
+    """Solve the contact of a rough surface under the separation ``h - epsilon``, with epsilon from the volume balance,
+    Eq. (8).
 
     Parameters
     ----------

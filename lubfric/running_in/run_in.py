@@ -96,8 +96,8 @@ class RunIn(FrozenArrays, Shown):
         return self.before.heights - self.dented.heights
 
     def bearing(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The bearing (Abbott-Firestone) curves: the share of the area that is higher [-], and the heights [m] before
-        and after, about the mean before."""
+        """Return the bearing (Abbott-Firestone) curves: the share of the area that is higher [-], and the heights [m]
+        before and after, about the mean before."""
         before, after = (np.sort(surface.heights, axis=None)[::-1] for surface in (self.before, self.surface))
         level = before.mean()
         return (np.arange(before.size) + 0.5) / before.size, before - level, after - level
@@ -123,7 +123,7 @@ class RunIn(FrozenArrays, Shown):
         write_whole(path, table_bytes(self.columns()))
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
-        """The bearing curves before and after, on ``ax`` or new axes, which are returned."""
+        """Draw the bearing curves before and after, on ``ax`` or new axes, which are returned."""
         axes = figures.axes_or_new(ax)
         (share, *heights) = self.bearing()
         unit = unit_for([self.before.sq], "m")

@@ -74,7 +74,7 @@ class Cells:
         return self.coarsening == (1, 1)
 
     def halved(self) -> Cells:
-        """Cells half as long along each axis, or as near to that as the scene's own cells allow."""
+        """Return cells half as long along each axis, or as near to that as the scene's own cells allow."""
         coarsening = max(1, self.coarsening[0] // 2), max(1, self.coarsening[1] // 2)
         return replace(self, coarsening=coarsening, columns=self.columns * self.coarsening[0] // coarsening[0])
 
@@ -97,7 +97,8 @@ class Cells:
         return (1, 1)
 
     def rows(self, length: float) -> int:
-        """Number of cells along y of a strip of about ``length`` [m]: one that suits the Fourier transform."""
+        """Return the number of cells along y of a strip of about ``length`` [m]: one that suits the Fourier
+        transform."""
         from scipy.fft import next_fast_len
 
         return ROWS_MULTIPLE * next_fast_len(max(1, round(length / (ROWS_MULTIPLE * self.spacing[1]))), real=True)
@@ -121,7 +122,8 @@ class Cells:
 
 
 def choose_cells(spacing: tuple[float, float], lengths: tuple[float, float], half_width: float, reach: float) -> Cells:
-    """At least four cells in each of the correlation ``lengths`` [m], and two in the half-width of the Hertz strip.
+    """Return cells of which at least four are in each of the correlation ``lengths`` [m], and two in the half-width of
+    the Hertz strip.
 
     Their lengths are ``spacing`` [m] times powers of two. Along x they cover at least ``reach`` [m].
     """
@@ -150,7 +152,7 @@ def cells_of_a_box(
 
 
 def correlation_lengths(rough: Roughness) -> tuple[float, float]:
-    """Correlation lengths [m] at 1/e along x and y of a generated surface."""
+    """Return the correlation lengths [m] at 1/e along x and y of a generated surface."""
     decay = -math.log(rough.decay_level)
     factor = decay if rough.acf == "exponential" else math.sqrt(decay)
     both = np.broadcast_to(np.asarray(rough.correlation_length, dtype=float), 2)
@@ -172,7 +174,7 @@ def no_cells(bodies: Sequence[Roughness], reach: float = 0.0, name: str = "surfa
 
 
 def length_or_half(surface: Surface, axis: int) -> float:
-    """Correlation length [m] at 1/e; half the map where it is longer."""
+    """Return the correlation length [m] at 1/e; half the map where it is longer."""
     try:
         return correlation_length(surface, axis)
     except InputError:
@@ -203,7 +205,7 @@ def _power_of_two(ratio: float) -> int:
 
 
 def stacked(strips: list[np.ndarray], blend: int) -> np.ndarray:
-    """Arrays (nx, ny) joined one after the other along y, and the last to the first.
+    """Return arrays (nx, ny) joined one after the other along y, and the last to the first.
 
     The last ``blend`` cells of each are laid over the first of the next. Their weights are cos and sin, whose squares
     add to 1, about the mean of all.
@@ -231,18 +233,18 @@ def spread(count: int) -> list[int]:
 
 
 def starts_of(count: int, window: int, step: int, overhang: int) -> list[int]:
-    """First columns of windows that lie ``step`` apart on a map of ``count`` columns. ``overhang``: how many of them
-    reach over either end."""
+    """Return the first columns of windows that lie ``step`` apart on a map of ``count`` columns. ``overhang``: how many
+    of them reach over either end."""
     room = count + 2 * overhang - window
     most = room // step
     return [(room - most * step) // 2 - overhang + step * k for k in range(most + 1)]
 
 
 def blend_of(correlation: float, step: float) -> int:
-    """Cells of ``step`` [m] over which one strip passes into the next."""
+    """Return the number of cells of ``step`` [m] over which one strip passes into the next."""
     return max(1, round(BLEND * correlation / step))
 
 
 def mirrored(heights: np.ndarray) -> bool:
-    """Whether the second half along y is the mirror image of the first."""
+    """Return whether the second half along y is the mirror image of the first."""
     return heights.shape[1] > 1 and bool(np.array_equal(heights, heights[:, ::-1]))

@@ -44,13 +44,13 @@ def contact_maps(
 
 
 def rough_bodies(scene: Scene) -> list[tuple[Roughness, str]]:
-    """The roughness of each body that has one, and its section of the scene."""
+    """Return the roughness of each body that has one, and its section of the scene."""
     bodies = [(scene.surface, "surface"), (scene.counterface, "counterface")]
     return [(rough, name) for rough, name in bodies if rough is not None]
 
 
 def is_measured(scene: Scene) -> bool:
-    """Whether any of its maps comes from a file."""
+    """Return whether any of its maps comes from a file."""
     return any(rough.file is not None for rough, _ in rough_bodies(scene))
 
 
@@ -60,8 +60,8 @@ def is_extended(scene: Scene) -> bool:
 
 
 def whole_maps(scene: Scene) -> tuple[Surface, ...]:
-    """The heights of both bodies `combined_maps`, or of the only one: measured ones whole and on their own grid, generated
-    ones on the contact grid. A generated one that faces a measured one is made as large as that. If it were
+    """Return the heights of both bodies `combined_maps`, or of the only one: measured ones whole and on their own grid,
+    generated ones on the contact grid. A generated one that faces a measured one is made as large as that. If it were
     repeated instead, a few of its summits would represent all."""
     bodies = rough_bodies(scene)
     domain = scene.contact
@@ -80,7 +80,8 @@ def whole_maps(scene: Scene) -> tuple[Surface, ...]:
 
 
 def combined_maps(first: Surface, second: Surface) -> tuple[Surface, ...]:
-    """The maps of two bodies as one (`Surface.combined`), and each alone as part of that, with the other one flat."""
+    """Return the maps of two bodies as one (`Surface.combined`), and each alone as part of that, with the other one
+    flat."""
     flat = [replace(one, heights=np.zeros(one.shape)) for one in (first, second)]
     return first.combined(second), first.combined(flat[1]), flat[0].combined(second)
 
@@ -101,7 +102,7 @@ def _beside(scene: Scene, second: Surface) -> Surface:
 
 
 def over(surface: Surface, domain: ContactDomain) -> ContactDomain:
-    """``domain`` with a grid that covers ``surface``, on the spacing of ``domain`` or, if it has none, of
+    """Return ``domain`` with a grid that covers ``surface``, on the spacing of ``domain`` or, if it has none, of
     ``surface``."""
     spacing = surface.spacing if domain.spacing is None else validate.spacing("contact.spacing", domain.spacing)
     nx, ny = (next_fast_len(math.ceil(a / d * (1 - 1e-9))) for a, d in zip(surface.size, spacing))
@@ -133,7 +134,7 @@ def check_grid(scene: Scene, surface: Surface) -> None:
 
 
 def generated_map(rough: Roughness, domain: ContactDomain, name: str = "surface") -> Surface:
-    """A generated map on the grid of ``domain``. The counterface draws other random numbers from the same seed."""
+    """Return a generated map on the grid of ``domain``. The counterface draws other random numbers from the same seed."""
     if domain.shape is None or domain.spacing is None:
         raise no_cells([rough], name=name)
     surface = generate_surface(
@@ -155,13 +156,13 @@ def statistics(rough: Roughness) -> dict[str, Any]:
 
 
 def other_seed(seed: int) -> int:
-    """A seed whose random numbers are independent of those of ``seed``, and of those of its neighbours."""
+    """Return a seed whose random numbers are independent of those of ``seed``, and of those of its neighbours."""
     return int.from_bytes(np.random.SeedSequence([seed, 1]).generate_state(4).tobytes(), "little")
 
 
 def measured_map(rough: Roughness, name: str = "surface") -> Surface:
-    """A map from a file, prepared as ``rough`` says: form removed, outliers treated, filtered, filled, turned and
-    scaled."""
+    """Return a map from a file, prepared as ``rough`` says: form removed, outliers treated, filtered, filled, turned
+    and scaled."""
     surface = read_surface(
         rough.file,
         spacing=rough.spacing,

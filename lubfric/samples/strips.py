@@ -223,8 +223,8 @@ def strips_of(scene: Scene, read: tuple[Surface, ...] = ()) -> Sample:
 
 
 def generated_strips(scene: Scene) -> GeneratedStrips:
-    """Strips of the generated surface of ``scene``. Along x they are as long as its patch, or as the contact if that is
-    longer; where the patch is the area A, as the patch."""
+    """Return strips of the generated surface of ``scene``. Along x they are as long as its patch, or as the contact if
+    that is longer; where the patch is the area A, as the patch."""
     patch = scene.contact
     bodies = [rough for rough, _ in rough_bodies(scene)]
     sq = math.hypot(*(rough.sq or 0.0 for rough in bodies))
@@ -259,8 +259,8 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
 
 
 def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> MeasuredStrips:
-    """Windows of a measured map under the cylinder of ``scene``. The map is levelled and filled, with x along the
-    motion. ``bodies``: the part of each of two.
+    """Return windows of a measured map under the cylinder of ``scene``. The map is levelled and filled, with x along
+    the motion. ``bodies``: the part of each of two.
 
     A map with fewer than eight complete windows gets further ones, which reach over its ends, where it is continued by
     its mirror image. The Hertz strip of every window lies on the map itself: beyond it only single high summits touch.

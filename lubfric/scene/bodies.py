@@ -31,7 +31,7 @@ MOST_CONTACT_CELLS = 2**26  # cells of a contact grid
 
 
 def pair(name: str, value: tuple[float, float], unit: str) -> tuple[Any, ...]:
-    """A list or tuple of two values, one for each body."""
+    """Return a list or tuple of two values, one for each body."""
     if not isinstance(value, (list, tuple)) or len(value) != 2:
         raise InputError(f" = {validate.shown(value)} must be a pair, one value a body [{unit}]", name)
     return tuple(value)
@@ -73,7 +73,8 @@ class FrictionTable:
 
 
 def friction_of(given: Any) -> dict[str, Any]:
-    """f_b, and its table if it is given as one: ``{ sliding_speed = [...], values = [...] }``, or over temperature."""
+    """Return f_b, and its table if it is given as one: ``{ sliding_speed = [...], values = [...] }``, or over
+    temperature."""
     table = None
     if isinstance(given, dict):
         over = next((key for key in FRICTION_OVER if key in given), None)
@@ -136,7 +137,7 @@ class Bodies(Shown):
             object.__setattr__(self, name, tuple(validate.positive(f"bodies.{name}", v, unit) for v in both))
 
     def boundary_friction(self, sliding: float, temperature: float | None) -> float:
-        """f_b [-] at a sliding speed [m/s] and a temperature of the oil [K]."""
+        """Return f_b [-] at a sliding speed [m/s] and a temperature of the oil [K]."""
         table = self.boundary_friction_table
         if table is None:
             return self.boundary_friction_coefficient
@@ -246,6 +247,6 @@ class ContactDomain(Shown):
 
 
 def lengths(name: str, value: Any) -> float | tuple[float, float]:
-    """One length [m], or the pair of those along x and y, checked."""
+    """Return one length [m], or the pair of those along x and y, checked."""
     both = validate.spacing(name, value)
     return both if isinstance(value, (list, tuple)) else both[0]

@@ -67,7 +67,7 @@ def given_tables(source: str) -> dict[str, Any]:
 
 
 def read_toml(path: Path | Traversable, what: str) -> dict[str, Any]:
-    """The tables of a TOML file; raises `InputError`, which says ``what`` it should be, where it cannot be read."""
+    """Return the tables of a TOML file; raises `InputError`, which says ``what`` it should be, where it cannot be read."""
     try:
         size = path.stat().st_size if isinstance(path, Path) else 0
         if size > MOST_SCENE_BYTES:
@@ -118,12 +118,12 @@ def _map_path(name: str, given: str | Path, folder: Path) -> Path:
 
 
 def builtin_scenes() -> tuple[str, ...]:
-    """Names that `lubfric.load_scene` knows without a file."""
+    """Return the names that `lubfric.load_scene` knows without a file."""
     return tuple(sorted(f.name.removesuffix(".toml") for f in SCENES.iterdir() if f.name.endswith(".toml")))
 
 
 def scene_from_table(table: dict[str, Any], folder: Path, name: str) -> Scene:
-    """A validated `Scene` from the tables of a TOML file."""
+    """Return a validated `Scene` from the tables of a TOML file."""
     validate.keys("scene", table, ("name", *SECTIONS), lambda: meant("scene"))
     for section in SECTIONS:
         if not isinstance(table.get(section, {}), dict):

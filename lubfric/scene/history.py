@@ -22,27 +22,27 @@ class History:
     """A quantity that changes in time; the kinds below are its only ones in scene files."""
 
     def at(self, time: float) -> float:
-        """Value at (just after) ``time`` [s]."""
+        """Return the value at (just after) ``time`` [s]."""
         raise NotImplementedError
 
     def before(self, time: float) -> float:
-        """Value just before ``time`` [s]."""
+        """Return the value just before ``time`` [s]."""
         return self.at(time)
 
     def stops(self, duration: float) -> tuple[float, ...]:
-        """Times [s] inside the run, other than the jumps, at which a step ends."""
+        """Return the times [s] inside the run, other than the jumps, at which a step ends."""
         return ()
 
     def jumps(self, duration: float) -> tuple[float, ...]:
-        """Times [s] at which the value jumps."""
+        """Return the times [s] at which the value jumps."""
         return ()
 
     def range(self, duration: float) -> tuple[float, float]:
-        """Smallest and largest value from 0 to ``duration`` [s]; here of a quantity that never turns."""
+        """Return the smallest and largest value from 0 to ``duration`` [s]; here of a quantity that never turns."""
         return min(self.at(0.0), self.at(duration)), max(self.at(0.0), self.at(duration))
 
     def integral(self, time: float) -> float:
-        """Over the time from 0 to ``time`` [s]."""
+        """Return the integral over the time from 0 to ``time`` [s]."""
         raise NotImplementedError
 
     def _check_numbers(self, **units: str) -> None:
@@ -159,12 +159,12 @@ class Table(History):
         return next((row for row in t[max(i - 1, 0) : i + 1] if abs(row - time) <= near), time)
 
     def stops(self, duration: float) -> tuple[float, ...]:
-        """The corners, of every period."""
+        """Return the corners, of every period."""
         stop_times = [*corners(np.array(self.times), np.array(self.values)), self.times[-1]]
         return tuple(time for time in self._in_every_period(stop_times, duration) if time > 0.0)
 
     def jumps(self, duration: float) -> tuple[float, ...]:
-        """Times [s] at which the value jumps, 0 <= t < duration."""
+        """Return the times [s] at which the value jumps, 0 <= t < duration."""
         t = np.array(self.times)
         v = np.array(self.values)
         jump_times = t[1:][(np.diff(t) == 0.0) & (np.diff(v) != 0.0)]
@@ -221,12 +221,12 @@ class Ramp(History):
         return self.start * time + (self.end - self.start) * risen
 
     def stops(self, duration: float) -> tuple[float, ...]:
-        """The two corners."""
+        """Return the two corners."""
         return tuple(t for t in (self.begin, self.until) if 0.0 < t < duration)
 
 
 def corners(times: np.ndarray, values: np.ndarray) -> list[float]:
-    """Times [s] at which a line of straight pieces has to have a corner to follow ``values`` within 1 %.
+    """Return the times [s] at which a line of straight pieces has to have a corner to follow ``values`` within 1 %.
 
     Every piece begins at a row. It is as long as one straight line from there stays within `BEND` of the values of all
     rows (the cone of such lines gets narrower with every row). A jump, which is a time given twice, begins a new piece.

@@ -20,13 +20,13 @@ from .bodies import SLIDE_ROLL_RATIO_KEY, SLIP_KEY
 
 @cache
 def typical(name: str) -> dict[str, list[float]]:
-    """Words that represent a value of the key ``name`` (section.key): that value, and the lowest and highest that are
-    usual, in the unit of the key."""
+    """Return words that represent a value of the key ``name`` (section.key): that value, and the lowest and highest
+    that are usual, in the unit of the key."""
     return {word: without_unit(name, values, KEYS[name].unit) for word, (*values, _) in _rows(name).items()}
 
 
 def source_of(name: str, word: str) -> str:
-    """Where the `typical` value of the key ``name`` for ``word`` was seen in print."""
+    """Return where the `typical` value of the key ``name`` for ``word`` was seen in print."""
     return _rows(name)[word][-1]
 
 

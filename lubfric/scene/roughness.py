@@ -150,8 +150,8 @@ def named(section: str) -> Iterator[None]:
 
 
 def as_given(old: Roughness | None, values: dict[str, Any]) -> dict[str, Any]:
-    """The fields that ``values`` change in ``old``. If a file replaces a generated map, the fields of the generated map
-    go, and the reverse."""
+    """Return the fields that ``values`` change in ``old``. If a file replaces a generated map, the fields of the
+    generated map go, and the reverse."""
     if any(values.get(name) is not None for name in ("sk", "spk", "svk")) and "sq" not in values:
         values = {"sq": None} | values  # it follows from them
     if old is not None and old.file is None and values.get("file") is not None:

@@ -103,7 +103,7 @@ class Scene(Shown):
                 replace(getattr(self, section), **{key: end})  # refuses an end that is no value of it
 
     def with_(self, **sections: Any) -> Scene:
-        """A copy with some fields of its sections replaced: ``scene.with_(bodies={"load": 10.0})``.
+        """Return a copy with some fields of its sections replaced: ``scene.with_(bodies={"load": 10.0})``.
 
         The short forms of scene files may be used as well: ``scene.with_(lubricant={"temperature_celsius": 90})``.
         """
@@ -131,20 +131,20 @@ class Scene(Shown):
         return replace(made, ranges=as_ranges(kept | ranges))
 
     def at_ends(self) -> Iterator[tuple[str, Scene, Scene]]:
-        """Each key that is known to a range only, and the scene at both ends of it."""
+        """Yield each key that is known to a range only, and the scene at both ends of it."""
         for name, *ends in self.ranges:
             low, high = (replace(self, ranges=()).with_keys({name: end}) for end in ends)
             yield name, low, high
 
     def at_speed(self, speed: float) -> Scene:
-        """The scene with the f_b that it has at ``speed`` [m/s]."""
+        """Return the scene with the f_b that it has at ``speed`` [m/s]."""
         table = self.bodies.boundary_friction_table
         moves = table is not None and table.over == "sliding_speed"
         return self.with_(motion={"entrainment_speed": speed}) if moves else self
 
     def with_keys(self, values: dict[str, Any]) -> Scene:
-        """A copy with the ``values`` by "section.key", or by "section" for a whole one. All keys of a section act at
-        once, in any order: a Hertz pressure is that with the radius given with it."""
+        """Return a copy with the ``values`` by "section.key", or by "section" for a whole one. All keys of a section
+        act at once, in any order: a Hertz pressure is that with the radius given with it."""
         whole = {key: value for key, value in values.items() if "." not in key and not isinstance(value, dict)}
         parts: dict[str, dict[str, Any]] = {}
         for key, value in values.items():
@@ -154,8 +154,8 @@ class Scene(Shown):
         return self.with_(**whole).with_(**parts)
 
     def line_contact(self, speed: float) -> LineContact:
-        """The smooth line contact of the total load at ``speed`` [m/s], not 0. Shear thins its flow, by the law of the
-        lubricant."""
+        """Return the smooth line contact of the total load at ``speed`` [m/s], not 0. Shear thins its flow, by the law
+        of the lubricant."""
         bodies = self.bodies
         sliding = self.motion.slide_roll_ratio * abs(speed)
         return LineContact(
@@ -168,7 +168,8 @@ class Scene(Shown):
         )
 
     def to_toml(self) -> str:
-        """The complete scene as the text of a scene file, which `lubfric.load_scene` reads back to the same numbers.
+        """Return the complete scene as the text of a scene file, which `lubfric.load_scene` reads back to the same
+        numbers.
 
         Defaults are written except those of a roughness, and what is None is omitted. A ``surface.file`` is written
         with its complete path, and an oil as it was given, instead of its numbers at the temperature. Raises
@@ -237,13 +238,13 @@ def _toml(value: Any) -> str:
 
 
 def value_of(scene: Scene, name: str) -> Any:
-    """The value of the key ``name`` (section.key)."""
+    """Return the value of the key ``name`` (section.key)."""
     section, _, key = name.partition(".")
     return getattr(getattr(scene, section), key)
 
 
 def as_ranges(ends: dict[str, Any]) -> tuple[tuple[str, float, float], ...]:
-    """`Scene.ranges` of the ends by name, None where a value has no range."""
+    """Return `Scene.ranges` of the ends by name, None where a value has no range."""
     return tuple((name, *ends[name]) for name in sorted(ends) if ends[name] is not None)
 
 
@@ -271,7 +272,7 @@ def check_resolved_gap(scene: Scene, *, is_joint: bool = False) -> None:
 
 
 def moving_bodies(scene: Scene) -> list[tuple[str, float]]:
-    """The sections of the rough bodies, each with its speed over U: surface 1 - s/2, counterface 1 + s/2, s the
+    """Return the sections of the rough bodies, each with its speed over U: surface 1 - s/2, counterface 1 + s/2, s the
     slide-roll ratio."""
     half = 0.5 * scene.motion.slide_roll_ratio
     bodies = ("surface", 1 - half, scene.surface), ("counterface", 1 + half, scene.counterface)
@@ -279,7 +280,7 @@ def moving_bodies(scene: Scene) -> list[tuple[str, float]]:
 
 
 def has_moving_roughness(scene: Scene) -> bool:
-    """Whether roughness moves through the film."""
+    """Return whether roughness moves through the film."""
     return any(speed != 0 for _, speed in moving_bodies(scene))
 
 

@@ -27,7 +27,7 @@ NEEDED_SECTIONS = ("bodies", "lubricant", "motion", "surface")
 
 
 def meant(section: str) -> dict[str, str]:
-    """Other words for the keys of a section ("scene": for the sections), in small letters, and what to write."""
+    """Return other words for the keys of a section ("scene": for the sections), in small letters, and what to write."""
     groups = packaged(__package__, "other_words.toml").get(section, {})
     return {word: text for words, text in groups.items() for word in words.split()}
 
@@ -41,7 +41,7 @@ def check_keys(section: str, given: dict[str, Any], others: tuple[str, ...] = ()
 
 
 def made_section(section: str, given: dict[str, Any], old: Any = None) -> Any:
-    """The section that the keys ``given`` make, or ``old`` with them changed. An error has the likely slip."""
+    """Return the section that the keys ``given`` make, or ``old`` with them changed. An error has the likely slip."""
     check_keys(section, given)
     with naming_slips(section, dict(given)), named(section):
         given = {key: read_value(section, key, value)[0] for key, value in given.items()}
@@ -62,7 +62,8 @@ def _cleared(section: str, given: dict[str, Any], old: Any) -> dict[str, Any]:
 
 
 def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[float, float] | None]:
-    """``value`` as a number in the unit of the ``key``, and the range in which it is known to lie (None: it is given).
+    """Return ``value`` as a number in the unit of the ``key``, and the range in which it is known to lie (None: it is
+    given).
 
     It may be text with a unit; a name that represents a typical value and its range (typical.toml); and for such keys
     [low, high], whose middle is the value, or [value, low, high]. A key without a unit is used unchanged.
@@ -84,8 +85,8 @@ def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[float, fl
 
 
 def ranges_of(section: str, values: Any) -> dict[str, tuple[float, float] | None]:
-    """The ranges of ``values``, which are given for a ``section``, by "section.key" of each that may have one; of a
-    complete section, None for all."""
+    """Return the ranges of ``values``, which are given for a ``section``, by "section.key" of each that may have one;
+    of a complete section, None for all."""
     keys = SECTIONS[section].__dataclass_fields__ if not isinstance(values, dict) else values
     ranged = [key for key in keys if typical(f"{section}.{key}")]
     whole = not isinstance(values, dict)
@@ -93,8 +94,8 @@ def ranges_of(section: str, values: Any) -> dict[str, tuple[float, float] | None
 
 
 def changed_section(section: str, old: Any, values: Any) -> Any:
-    """``old`` with the fields in the dict ``values``. ``values`` may also be a complete section, which then replaces
-    ``old``."""
+    """Return ``old`` with the fields in the dict ``values``. ``values`` may also be a complete section, which then
+    replaces ``old``."""
     kind = SECTIONS.get(section, str)
     if isinstance(values, kind) or (section in ("transient", "counterface") and values is None):
         return values

@@ -39,13 +39,14 @@ OFFSET = Lubricant.limiting_stress_offset  # where none is given
 
 
 def short_keys(section: str) -> tuple[str, ...]:
-    """Keys of a section that are not fields of it."""
+    """Return the keys of a section that are not fields of it."""
     keys = tuple(key for keys, _, _ in FORMS.get(section, ()) for key in keys)
     return (*keys, *OIL_KEYS) if section == "lubricant" else keys
 
 
 def resolve(section: str, given: dict[str, Any], old: Any = None) -> dict[str, Any]:
-    """Plain fields of ``section`` from what was ``given``; ``old``: the section to be changed, None for a new one.
+    """Return plain fields of ``section`` from what was ``given``; ``old``: the section to be changed, None for a new
+    one.
 
     Raises `InputError` if two keys say the same thing, one lacks its partner, or a value is out of range.
     """
@@ -143,7 +144,7 @@ def _of_surface_speeds(speeds: Any, *_: Any) -> dict[str, Any]:
 
 
 def speeds_of_range(name: str, value: Any) -> tuple[float, ...]:
-    """The speeds [m/s] of [lowest, highest, count], in a geometric series; ``name``: of the key."""
+    """Return the speeds [m/s] of [lowest, highest, count], in a geometric series; ``name``: of the key."""
     if not isinstance(value, (list, tuple)) or len(value) != 3:
         raise InputError(f"{name} = {validate.shown(value)} must be [lowest, highest, count] in m/s, m/s, (-)")
     low = validate.positive(f"{name} lowest", value[0], "m/s")
@@ -167,7 +168,7 @@ def _of_heights(key: str, per_sq: float) -> Callable[..., dict[str, Any]]:
 
 
 def resolve_oil(given: dict[str, Any], old: Lubricant | None) -> dict[str, Any]:
-    """Plain fields of [lubricant] from an oil at ``temperature`` [K]: viscosity, pressure-viscosity coefficient,
+    """Return plain fields of [lubricant] from an oil at ``temperature`` [K]: viscosity, pressure-viscosity coefficient,
     temperature coefficient and law of the density (as given, else of the oil).
 
     The oil is given by ``viscosity_index`` with ``grade`` or ``nu40`` [m²/s], by ``nu40`` and ``nu100``, by
@@ -213,7 +214,7 @@ def _check_temperature(given: dict[str, Any], old: Lubricant | None) -> None:
 
 
 def fields_of(oil: Oil, temperature: float) -> dict[str, Any]:
-    """Fields of a `Lubricant` of ``oil`` at ``temperature`` [K]."""
+    """Return fields of a `Lubricant` of ``oil`` at ``temperature`` [K]."""
     temperature = checked_temperature(temperature, "lubricant.temperature")
     return {
         "viscosity": oil.viscosity(temperature),
@@ -227,7 +228,7 @@ def fields_of(oil: Oil, temperature: float) -> dict[str, Any]:
 
 
 def of_celsius(celsius: float, *_: Any) -> dict[str, Any]:
-    """The temperature [K] of ``lubricant.temperature_celsius``."""
+    """Return the temperature [K] of ``lubricant.temperature_celsius``."""
     degrees = validate.number("lubricant.temperature_celsius", celsius, "°C")
     if degrees > 250:
         error = InputError(f" = {degrees:g} °C", "lubricant.temperature_celsius", "up to 250 °C")
@@ -269,7 +270,8 @@ def _oil(source: dict[str, Any], before: Oil | None) -> Oil:
 
 
 def only_one(section: str, given: dict[str, Any], *keys: str) -> None:
-    """At most one of ``keys`` (each a key, or several that go together joined by '+') is given."""
+    """Raise `InputError` where more than one of ``keys`` is given, each a key, or several that go together joined by
+    '+'."""
     given_keys = [key for key in keys if any(k in given for k in key.split("+"))]
     if len(given_keys) > 1:
         names = " and ".join(given_keys)
@@ -277,7 +279,7 @@ def only_one(section: str, given: dict[str, Any], *keys: str) -> None:
 
 
 def together(section: str, given: dict[str, Any], *keys: str) -> bool:
-    """True when all ``keys`` are given, False when none is; an error when some are."""
+    """Return True when all ``keys`` are given, False when none is; an error when some are."""
     there = [key for key in keys if key in given]
     if there and len(there) < len(keys):
         missing = ", ".join(key for key in keys if key not in given)

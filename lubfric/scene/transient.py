@@ -79,7 +79,7 @@ class Transient:
 
 
 def history(name: str, given: Any, unit: str | None = None, folder: Path = Path()) -> History:
-    """A history from a number, a history, or an inline table ``{kind = ..., ...}`` of a scene file.
+    """Return a history from a number, a history, or an inline table ``{kind = ..., ...}`` of a scene file.
 
     ``unit``: SI unit of the quantity; ``folder``: which a file of the table is relative to.
     """
@@ -112,7 +112,7 @@ def history(name: str, given: Any, unit: str | None = None, folder: Path = Path(
 def read_history(
     path: str | Path, column: str, *, time_column: str = "time", repeat: bool = False, unit: str | None = None
 ) -> Table:
-    """The `Table` in two columns of a CSV file whose first row names the columns.
+    """Return the `Table` in two columns of a CSV file whose first row names the columns.
 
     Headings may carry units (``time [ms]``, ``load (kN)``); without them times are in s and values in SI. ``unit``: SI
     unit of the quantity ("m/s", "N", "m", "Pa s"); a column of another quantity is refused.
@@ -129,7 +129,7 @@ def _word(name: str, value: str) -> str:
 
 
 def checked_history(name: str, value: Any, unit: str, duration: float, *, positive: bool = True) -> History:
-    """A number or a history as a history that lasts for ``duration`` [s] and stays in its range."""
+    """Return a number or a history as a history that lasts for ``duration`` [s] and stays in its range."""
     given = history(name, value, unit)
     if isinstance(given, Table):
         last = given.times[-1]

@@ -28,8 +28,8 @@ ACCEPTED = {float: (float, int, np.floating, np.integer), int: (int, np.integer)
 
 
 def classes_of(*roots: type) -> dict[str, type]:
-    """A table of classes by name: the dataclasses of this package among ``roots``, and all that these lead to by the
-    types of their fields and by inheritance."""
+    """Return a table of classes by name: the dataclasses of this package among ``roots``, and all that these lead to by
+    the types of their fields and by inheritance."""
     seen: set[type] = set()
     waiting = list(roots)
     while waiting:
@@ -47,7 +47,7 @@ def _name(kind: type) -> str:
 
 
 def encode(value: Any, field: Callable[..., Any] = getattr) -> list[Any]:
-    """``value`` as bytes, in pieces that follow each other. It may be a tree of dataclasses, numbers, texts and
+    """Return ``value`` as bytes, in pieces that follow each other. It may be a tree of dataclasses, numbers, texts and
     arrays. ``field(object, name)`` gives what is encoded of a field of a dataclass."""
     arrays: list[bytes | memoryview] = []
     tree = json.dumps(_plain(value, arrays, field), allow_nan=False).encode()
@@ -55,9 +55,9 @@ def encode(value: Any, field: Callable[..., Any] = getattr) -> list[Any]:
 
 
 def decode(content: bytes, classes: dict[str, type], kind: Any = Any) -> Any:
-    """What `encode` was given, from its pieces joined. ``classes``: those that it may hold (`classes_of`); ``kind``:
-    the type that it must have, as in an annotation. Raises `ValueError` for anything else, such as what another version
-    stored."""
+    """Return what `encode` was given, from its pieces joined. ``classes``: those that it may hold (`classes_of`);
+    ``kind``: the type that it must have, as in an annotation. Raises `ValueError` for anything else, such as what
+    another version stored."""
     end = LENGTH_BYTES + int.from_bytes(content[:LENGTH_BYTES], "little")
     try:
         value = _value(json.loads(content[LENGTH_BYTES:end]), classes, memoryview(content)[end:])
@@ -69,9 +69,9 @@ def decode(content: bytes, classes: dict[str, type], kind: Any = Any) -> Any:
 
 
 def fits(value: Any, kind: Any) -> bool:
-    """Whether ``value`` has the type ``kind``, as in an annotation, and so have its parts. Fields of dataclasses were
-    looked at when these were built, and a named tuple is stored as a plain one. ``kind`` may also be a dict of kinds,
-    for a dict that has these keys at least, and a list of one kind."""
+    """Return whether ``value`` has the type ``kind``, as in an annotation, and so have its parts. Fields of dataclasses
+    were looked at when these were built, and a named tuple is stored as a plain one. ``kind`` may also be a dict of
+    kinds, for a dict that has these keys at least, and a list of one kind."""
     if kind is Any:
         return True
     if isinstance(kind, dict):

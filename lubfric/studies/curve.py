@@ -54,7 +54,7 @@ class CurveResult(Renamed, Shown):
         return np.array(rows).reshape(-1, 2)
 
     def violations(self, index: int) -> tuple[Violation, ...]:
-        """The assumptions that are violated at a point, refused or not."""
+        """Return the assumptions that are violated at a point, refused or not."""
         return violations_of(self.points[index], self.errors.get(index))
 
     @property
@@ -89,26 +89,27 @@ class CurveResult(Renamed, Shown):
 
 
 def parted(outcomes: Sequence[Any]) -> tuple[tuple[FrictionResult | None, ...], dict[int, Exception]]:
-    """The points (None for what is no result), and the errors by index, of results, exceptions, or None."""
+    """Return the points (None for what is no result), and the errors by index, of results, exceptions, or None."""
     points = tuple(outcome if isinstance(outcome, FrictionResult) else None for outcome in outcomes)
     return points, {i: outcome for i, outcome in enumerate(outcomes) if isinstance(outcome, Exception)}
 
 
 def without_rolling(point: FrictionResult) -> float:
-    """f of a point without the rolling part of the film's force [-]. That part points the way the surfaces entrain, and
-    the rest the way they slide. So the mean of f over both signs of slip is without it, as some rigs measure it."""
+    """Return f of a point without the rolling part of the film's force [-]. That part points the way the surfaces
+    entrain, and the rest the way they slide. So the mean of f over both signs of slip is without it, as some rigs
+    measure it."""
     return (point.boundary_force + point.couette_force) / (point.contact_load + point.film_load)
 
 
 def columns_of(points: Sequence[Any]) -> dict[str, np.ndarray]:
-    """Every number of ``points`` by name, NaN where one is None."""
+    """Return every number of ``points`` by name, NaN where one is None."""
     return {name: np.array([np.nan if p is None else getattr(p, name) for p in points]) for name in NUMBERS}
 
 
 def report_of(
     solver: str, names: list[str], plural: str, points: Sequence[Any], errors: dict[int, Exception]
 ) -> Report:
-    """The largest residual of the points over the largest of their tolerances, with a note for each that failed;
+    """Return the largest residual of the points over the largest of their tolerances, with a note for each that failed;
     ``names`` of the points."""
     status = ITERATION_LIMIT if errors else CONVERGED
     reports = [p.report for p in points if p is not None]
@@ -131,7 +132,8 @@ R = TypeVar("R", bound=CurveResult)
 
 
 def checked_curve(result: R, *, raise_on_failure: bool) -> R:
-    """``result``, or the exception that says what failed: `ValidityError` if all that failed was refused as invalid."""
+    """Return ``result``, or the exception that says what failed: `ValidityError` if all that failed was refused as
+    invalid."""
     if not raise_on_failure:
         return result
     errors = result.errors
@@ -144,7 +146,7 @@ def checked_curve(result: R, *, raise_on_failure: bool) -> R:
 
 
 def numbers_of(curve: CurveResult) -> dict[str, np.ndarray]:
-    """The columns of numbers of a curve by name: its quantities, then the uncertainty of f."""
+    """Return the columns of numbers of a curve by name: its quantities, then the uncertainty of f."""
     uncertainty = curve.uncertainty
     swept = {curve.SWEPT[0]: getattr(curve, curve.SWEPT[0])}
     low, high = uncertainty.interval.T
@@ -155,7 +157,7 @@ def numbers_of(curve: CurveResult) -> dict[str, np.ndarray]:
 
 
 def csv_bytes(curve: CurveResult) -> bytes:
-    """The table of a curve: one row a point, one column a quantity, the unit in the heading; then as text which
+    """Return the table of a curve: one row a point, one column a quantity, the unit in the heading; then as text which
     assumptions are violated there, and the uncertainty of f."""
     named = {heading(name): values for name, values in numbers_of(curve).items()}
     return table_bytes(named | {"validity": curve.validity_cells, "uncertainty": list(curve.uncertainty.text)})

@@ -29,8 +29,8 @@ LISTED = 4
 
 
 def curve_seconds(prepared: Prepared, speeds: Sequence[float]) -> float:
-    """Processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses), within a factor
-    of about 4."""
+    """Return the processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses),
+    within a factor of about 4."""
     at = speeds or first_speeds(prepared.scene, prepared.surface.sq)
     points = [estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed) for speed in at]
     return seconds_of_points(points, None if speeds else EXPECTED_SPEEDS)
@@ -99,7 +99,7 @@ def _expected(prepared: Prepared, speeds: Sequence[float]) -> tuple[Violation, .
 
 
 def in_words(seconds: float) -> str:
-    """A time in a suitable unit."""
+    """Return a time in a suitable unit."""
     for unit, size in (("h", 3600.0), ("min", 60.0)):
         if seconds > 2 * size:
             return f"{float(f'{seconds / size:.2g}'):g} {unit}"

@@ -110,7 +110,7 @@ class Measured:
         return self.coefficient if self.deviation is None else self.deviation
 
     def draw(self, axes: "Axes") -> None:
-        """The points on ``axes``, with their 95 % intervals, over the magnitude of what they are over."""
+        """Draw the points on ``axes``, with their 95 % intervals, over the magnitude of what they are over."""
         error = None if self.deviation is None else 1.96 * self.deviation
         for place, number in enumerate(self.branches):
             there = slice(None) if self.branch is None else self.branch == number
@@ -121,7 +121,7 @@ class Measured:
             axes.errorbar(np.abs(self.x[there]), self.coefficient[there], of_ramp, label=label, **style)
 
     def label(self, axes: "Axes") -> None:
-        """The axis of what they are over."""
+        """Label the axis of what the points are over."""
         if self.over == SPEED:
             axes.set(xscale="log", xlabel=figures.speed_label(self.x))
             figures.plain_ticks(axes.xaxis)
@@ -215,13 +215,13 @@ def ramps(x: np.ndarray) -> np.ndarray | None:
 
 
 def values_at(parameters: dict[str, Between], unit: np.ndarray) -> dict[str, float]:
-    """{key: value} of ``parameters`` at positions ``unit`` in [0, 1] between their bounds, (p,)."""
+    """Return {key: value} of ``parameters`` at positions ``unit`` in [0, 1] between their bounds, (p,)."""
     return {key: float(bounds.at(share)) for (key, bounds), share in zip(parameters.items(), unit)}
 
 
 def parameters_of(scene: Scene, bounds: Mapping[str, Any]) -> dict[str, Between]:
-    """What is sought, of {"section.key": (low, high)}: in its logarithm where the bounds are a factor of 10 or more
-    apart. The scene is checked at both ends of each."""
+    """Return what is sought, of {"section.key": (low, high)}: in its logarithm where the bounds are a factor of 10 or
+    more apart. The scene is checked at both ends of each."""
     if not isinstance(bounds, dict) or not bounds:
         raise InputError('parameters must be a dict such as {"bodies.boundary_friction_coefficient": (0.05, 0.2)}')
     check_temperature("parameters", scene, set(bounds))

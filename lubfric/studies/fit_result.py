@@ -227,7 +227,7 @@ class FitResult(Renamed, Shown):
         return facts if self.describes_data else {"": "does not describe the data"} | facts
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
-        """Measured points, fitted curve and its 95 % band; returns the axes."""
+        """Draw measured points, fitted curve and its 95 % band; returns the axes."""
         axes = figures.axes_or_new(ax)
         (low, high) = self.band
         self.measured.draw(axes)
@@ -242,7 +242,7 @@ class FitResult(Renamed, Shown):
         return axes
 
     def plot_residuals(self, ax: "Axes | None" = None) -> "Axes":
-        """Deviation of the points from the fitted curve, relative; returns the axes."""
+        """Draw the deviation of the points from the fitted curve, relative; returns the axes."""
         axes = figures.axes_or_new(ax)
         miss = 100 * (self.measured.coefficient / self.predicted - 1)
         axes.axhline(0, color=figures.GREY, lw=0.8)

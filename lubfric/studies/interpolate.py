@@ -77,7 +77,7 @@ class Samples:
         return int(np.count_nonzero(self.share > 0))
 
     def without(self, index: int) -> Samples:
-        """All samples but one."""
+        """Return all samples but one."""
         return Samples(**{part.name: np.delete(getattr(self, part.name), index) for part in fields(self)})
 
 
@@ -98,7 +98,7 @@ class Interpolant:
         return low, high
 
     def within(self, speeds: np.ndarray) -> np.ndarray:
-        """Which ``speeds`` [m/s] lie in the range."""
+        """Return which ``speeds`` [m/s] lie in the range."""
         low, high = self.samples.speed[[0, -1]]
         return (self.sense * speeds >= low * (1 - 1e-9)) & (self.sense * speeds <= high * (1 + 1e-9))
 
@@ -121,14 +121,14 @@ class Interpolant:
         return float(max(knee / away, least)), float(knee * away)
 
     def at(self, speed: FloatArray, *, smooth: bool = True) -> np.ndarray:
-        """f at speeds [m/s] within the range. ``smooth=False``: by the other cubics."""
+        """Return f at speeds [m/s] within the range. ``smooth=False``: by the other cubics."""
         speed = np.asarray(speed, dtype=float)
         return self.boundary(speed, smooth=smooth) + self.film(speed, smooth=smooth)
 
     def error(self, speed: FloatArray) -> np.ndarray:
-        """Estimated relative error at speeds [m/s]. It is the largest of three: the difference between the two kinds of
-        cubics; the effect of the uncertain place of the knee, and of the power with which the contact ends there; and a
-        share of the error at the neighbouring points when the curve goes through the other points only."""
+        """Return the estimated relative error at speeds [m/s]. It is the largest of three: the difference between the
+        two kinds of cubics; the effect of the uncertain place of the knee, and of the power with which the contact ends
+        there; and a share of the error at the neighbouring points when the curve goes through the other points only."""
         value = self.at(speed)
         spread = np.abs(self.at(speed, smooth=False) - value)
         s = self.samples
@@ -209,8 +209,8 @@ class Interpolant:
 
 
 def through(numbers: dict[str, np.ndarray]) -> Interpolant:
-    """The curve through points with these ``numbers``, as `lubfric.quantities` names them. Raises `InputError` for
-    speeds of both directions and for fewer than three different ones."""
+    """Return the curve through points with these ``numbers``, as `lubfric.quantities` names them. Raises `InputError`
+    for speeds of both directions and for fewer than three different ones."""
     speed = numbers["speed"]
     if (speed > 0).any() and (speed < 0).any():
         raise InputError("speeds run both ways; a curve between them has those of one direction: solve two curves")

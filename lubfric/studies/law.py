@@ -170,15 +170,15 @@ def _range(ends: tuple[float, float], unit: str) -> str:
 
 
 def conditions_of(scene: Scene) -> tuple[float, float, float, float]:
-    """What a law knows of a scene: temperature of the oil [K], its viscosity there [Pa s], -d ln(viscosity)/dT [1/K],
-    mean Hertz pressure [Pa]; NaN where not known."""
+    """Return what a law knows of a scene: temperature of the oil [K], its viscosity there [Pa s], -d ln(viscosity)/dT
+    [1/K], mean Hertz pressure [Pa]; NaN where not known."""
     oil = scene.lubricant
     temperature, slope = (np.nan if v is None else v for v in (oil.temperature, oil.temperature_coefficient))
     return temperature, oil.viscosity, slope, scene.bodies.mean_hertz_pressure
 
 
 def value(numbers: Mapping[str, float], U: Any, T: Any, p: Any) -> Any:
-    """f by the formula."""
+    """Return f by the formula."""
     names: dict[str, Any] = {**numbers, "U": U, "T": T, "p": p}
     with np.errstate(over="ignore", under="ignore", divide="ignore"):
         for name, expression in _expressions(numbers).items():
@@ -198,7 +198,7 @@ def law_of(
     high: FloatArray,
     model: FloatArray,
 ) -> Law:
-    """The `Law` of solved curves of ``scene`` with their conditions (`conditions_of`). ``f``, ``low``, ``high``,
+    """Return the `Law` of solved curves of ``scene`` with their conditions (`conditions_of`). ``f``, ``low``, ``high``,
     ``model``: of all points, arrays with their intervals, and their errors by the model. Raises `InputError` where
     there are too few points, or f is not positive."""
     rows = [np.zeros((7, 0))]
@@ -234,8 +234,8 @@ def law_of(
 
 
 def law_of_study(result: Any) -> Law:
-    """Friction of a study over speed and, as far as they were varied, temperature of the oil and load, as a formula for
-    system simulations (`lubfric.studies.law`). Raises `InputError` where anything else was varied."""
+    """Return the friction of a study over speed and, as far as they were varied, temperature of the oil and load, as a
+    formula for system simulations (`lubfric.studies.law`). Raises `InputError` where anything else was varied."""
     if result.paired:
         raise InputError("a law is over speed; this study has operating points: give speeds instead of points")
     others = [key for axis in result.plan.axes for key in axis.keys if key not in VARIED]

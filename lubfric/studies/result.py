@@ -136,8 +136,8 @@ class StudyResult(Shown):
         return self.columns[SPEED][index] if self.chosen else np.array(self.plan.speeds)
 
     def at(self, speed: ArrayLike) -> np.ndarray:
-        """f of every curve at ``speed`` [m/s], one or several, interpolated as in `StribeckResult.at`: an array over
-        the axes and, for several speeds, over these. NaN outside the speeds for which a curve is known, and in the
+        """Return f of every curve at ``speed`` [m/s], one or several, interpolated as in `StribeckResult.at`: an array
+        over the axes and, for several speeds, over these. NaN outside the speeds for which a curve is known, and in the
         other direction."""
         self._check_curves()
         speeds = validate.array("speed", validate.listed(speed), "m/s", ndim=1)
@@ -215,8 +215,8 @@ class StudyResult(Shown):
             raise InputError("this study has operating points and no curves; give speeds instead of points")
 
     def curve(self, index: tuple[int, ...]) -> Interpolant | None:
-        """The curve at one position along the axes, or None if fewer than three of its points are solved, if they run
-        both ways, or if no curve goes through their numbers, as those of a store that somebody changed."""
+        """Return the curve at one position along the axes, or None if fewer than three of its points are solved, if
+        they run both ways, or if no curve goes through their numbers, as those of a store that somebody changed."""
         if self.paired:
             return None
         numbers = {name: values[index] for name, values in self.columns.items()} | {SPEED: self.speeds(index)}
@@ -241,7 +241,8 @@ def study(
     on_point: Callable[..., Any] | None = None,
     workers: int = 1,
 ) -> StudyResult:
-    """Friction of a scene at every combination of given values, and at every entrainment speed or operating point.
+    """Solve the friction of a scene at every combination of given values, and at every entrainment speed or operating
+    point.
 
     Every point is solved from its scene alone, to the same bits on every executor. A point that fails is a row with
     its error as its status; the others are solved.

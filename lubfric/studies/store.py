@@ -82,8 +82,8 @@ class Store:
             write_checked(self._path(key), _name(key), *encode(stored), sync=sync)
 
     def get(self, key: str, kind: Any = Any) -> Any:
-        """What was added under ``key``, of the type ``kind``; None for what is absent. A record that cannot be read, is
-        damaged, or of another version, counts as absent; a `UserWarning` reports it."""
+        """Return what was added under ``key``, of the type ``kind``; None for what is absent. A record that cannot be
+        read, is damaged, or of another version, counts as absent; a `UserWarning` reports it."""
         if self.folder is None or not os.path.lexists(self._path(key)):
             return None
         try:
@@ -106,7 +106,7 @@ class Store:
         return self.folder is not None and os.path.lexists(self._path(key))
 
     def known(self, keys: Iterable[str], kind: Any = Any) -> dict[str, Any]:
-        """All sound records of ``keys``."""
+        """Return all sound records of ``keys``."""
         records = {key: self.get(key, kind) for key in keys} if self.folder is not None and self.folder.is_dir() else {}
         return {key: outcome for key, outcome in records.items() if outcome is not None}
 
@@ -125,8 +125,8 @@ class Store:
 def opened(
     folder: str | Path | None, classes: dict[str, type] = STORED_CLASSES, name: str = "store"
 ) -> Iterator[Store]:
-    """The `Store` in ``folder`` (None: none), which one caller at a time may fill. Raises `InputError` for a second.
-    ``name``: of the argument that gives the folder."""
+    """Return the `Store` in ``folder`` (None: none), which one caller at a time may fill. Raises `InputError` for a
+    second. ``name``: of the argument that gives the folder."""
     if folder is None:
         yield Store(None)
         return

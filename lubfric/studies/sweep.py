@@ -55,8 +55,9 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     plot = curve_axes
 
     def at(self, speed: ArrayLike) -> np.ndarray:
-        """f at any speeds [m/s] between the slowest and the fastest, interpolated (`lubfric.studies.interpolate`). They
-        have the direction of the curve: a finite piece of a surface slides differently back and forth."""
+        """Return f at any speeds [m/s] between the slowest and the fastest, interpolated
+        (`lubfric.studies.interpolate`). They have the direction of the curve: a finite piece of a surface slides
+        differently back and forth."""
         contact, film = self.parts_at(speed)
         return contact + film
 
@@ -100,7 +101,7 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         return through(columns_of(self.points))
 
     def law(self) -> Law:
-        """The curve as a formula for system simulations, `lubfric.studies.law`: at one temperature and pressure;
+        """Return the curve as a formula for system simulations, `lubfric.studies.law`: at one temperature and pressure;
         ``lubfric.study(...).law()`` has more of them. Raises `InputError` where f between the speeds is not known
         within 5 %."""
         if self.between > DRAWN_ERROR:
@@ -111,7 +112,7 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         return law_of(self.scene, curves, self.coefficient, low, high, self.uncertainty.model)
 
     def to_csv(self, path: str | Path) -> None:
-        """The table that ``lubfric run`` writes as stribeck.csv: one row a speed, the unit in the heading."""
+        """Write the table that ``lubfric run`` writes as stribeck.csv: one row a speed, the unit in the heading."""
         write_whole(path, csv_bytes(self))
 
 
@@ -130,7 +131,7 @@ def stribeck(
     raise_on_failure: bool = True,
     workers: int = 1,
 ) -> StribeckResult:
-    """The Stribeck curve of a scene: friction over the entrainment speed.
+    """Solve the Stribeck curve of a scene: friction over the entrainment speed.
 
     Every point is solved from the scene alone, as `lubfric.friction` does it, so a curve has the same bits whatever
     other speeds it has. A point that fails leaves NaN, and its exception in ``errors``. A fault of the program is
@@ -277,7 +278,7 @@ def traction(
     on_point: Callable[..., Any] | None = None,
     raise_on_failure: bool = True,
 ) -> TractionResult:
-    """The traction curve of a scene: friction over the slide-roll ratio, at one entrainment speed.
+    """Solve the traction curve of a scene: friction over the slide-roll ratio, at one entrainment speed.
 
     The ratio changes the shear of the film, its heat, and the heat of the inlet. f holds the rolling part of the film's
     force, which remains without slip; ``curve.without_rolling`` is f without it, as rigs measure it that average over

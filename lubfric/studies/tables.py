@@ -46,8 +46,8 @@ CONTOUR_VALUES = 6
 
 
 def to_xarray(result: Any) -> Any:
-    """An `xarray.Dataset`: a dimension for each varied key, units and long names as attributes. Needs the ``study``
-    extra."""
+    """Return an `xarray.Dataset`: a dimension for each varied key, units and long names as attributes. Needs the
+    ``study`` extra."""
     xarray = validate.installed("xarray", "study")
     data = {name: (result.dims, values, described(name)) for name, values in result.columns.items()}
     data[STATUS] = (result.dims, result.status.astype(str), {"long_name": "converged, or why there are no numbers"})
@@ -58,12 +58,12 @@ def to_xarray(result: Any) -> Any:
 
 
 def to_frame(result: Any) -> Any:
-    """A tidy `pandas.DataFrame`: one row a point. Needs the ``study`` extra."""
+    """Return a tidy `pandas.DataFrame`: one row a point. Needs the ``study`` extra."""
     return validate.installed("pandas", "study").DataFrame(columns_of_study(result))
 
 
 def to_parquet(result: Any, path: str | Path) -> None:
-    """The table of `to_frame` as a Parquet file. Needs the ``study`` extra."""
+    """Write the table of `to_frame` as a Parquet file. Needs the ``study`` extra."""
     frame = to_frame(result)
     buffer = io.BytesIO()
     validate.installed("pyarrow", "study")
@@ -72,7 +72,7 @@ def to_parquet(result: Any, path: str | Path) -> None:
 
 
 def to_netcdf(result: Any, path: str | Path) -> None:
-    """The Dataset of `to_xarray` as a NetCDF file, which appears complete. Needs the ``study`` extra."""
+    """Write the Dataset of `to_xarray` as a NetCDF file, which appears complete. Needs the ``study`` extra."""
     data = to_xarray(result)
     validate.installed("netCDF4", "study")
     with files.whole_file(path) as part:
@@ -80,7 +80,7 @@ def to_netcdf(result: Any, path: str | Path) -> None:
 
 
 def to_csv(result: Any, path: str | Path) -> None:
-    """One row a point, the unit in the heading; nothing beyond the standard library needed."""
+    """Write one row for each point, with units in the headings; nothing beyond the standard library is needed."""
     write_whole(path, table_bytes({heading(name): values for name, values in columns_of_study(result).items()}))
 
 
@@ -99,8 +99,8 @@ def columns_of_study(result: Any) -> dict[str, np.ndarray]:
 
 
 def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
-    """f over speed, a line for each curve, on ``ax`` or new axes, which are returned; ``style``: of the lines. Many
-    curves are coloured by the first number that is varied. Where speeds were chosen, the lines are interpolated."""
+    """Draw f over speed, a line for each curve, on ``ax`` or new axes, which are returned; ``style``: of the lines.
+    Many curves are coloured by the first number that is varied. Where speeds were chosen, the lines are interpolated."""
     from matplotlib import colormaps
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
@@ -228,8 +228,8 @@ def interval_band(
     columns: Columns | dict[str, FloatArray],
     line: Sequence[FloatArray] | None = None,
 ) -> None:
-    """The intervals of f as one band ``over`` speeds or ratios, if ``columns`` have them, with thin lines for what the
-    model and the finite surface leave by themselves. ``line``: (speeds, f) of a smooth curve to draw them about."""
+    """Draw the intervals of f as one band ``over`` speeds or ratios, if ``columns`` have them, with thin lines for what
+    the model and the finite surface leave by themselves. ``line``: (speeds, f) of a smooth curve to draw them about."""
     unknown = np.full(over.shape, np.nan)
     f = columns["coefficient"]
     x, y = (over, f) if line is None else line
@@ -267,9 +267,9 @@ def interval_band(
 
 
 def friction_over_speed(axes: Axes, columns: dict[str, np.ndarray], **style: Any) -> np.ndarray:
-    """Friction over the magnitude of the speed with its parts and the band of its intervals, by the ``columns`` of a
-    `lubfric.StribeckResult`; between its points where f is `DRAWN_ERROR` there. Returns the indices of the points drawn,
-    in order: those that failed, and rest, are omitted."""
+    """Draw friction over the magnitude of the speed with its parts and the band of its intervals, by the ``columns`` of
+    a `lubfric.StribeckResult`; between its points where f is `DRAWN_ERROR` there. Returns the indices of the points
+    drawn, in order: those that failed, and rest, are omitted."""
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = type(columns)((name, column[order]) for name, column in columns.items())
@@ -305,8 +305,8 @@ def _line(columns: dict[str, np.ndarray]) -> tuple[np.ndarray, ...] | None:
 
 
 def curve_axes(curve: Any, ax: Axes | None = None, **style: str) -> Axes:
-    """Friction over speed, with its parts and the band of its intervals, on ``ax`` or new axes, which are returned;
-    ``style``: of the line."""
+    """Draw friction over speed, with its parts and the band of its intervals, on ``ax`` or new axes, which are
+    returned; ``style``: of the line."""
     axes = figures.axes_or_new(ax)
     friction_over_speed(axes, numbers_of(curve), **style)
     return axes

@@ -50,19 +50,19 @@ class Between:
         validate.number("high", self.high, "(of the key)", above=low)
 
     def at(self, share: float) -> float | FloatArray:
-        """Values at ``share`` in [0, 1] of the range, a number or an array."""
+        """Return values at ``share`` in [0, 1] of the range, a number or an array."""
         if self.scale == "linear":
             return self.low + share * (self.high - self.low)
         return np.exp(math.log(self.low) + share * math.log(self.high / self.low))
 
     def share(self, value: float) -> float:
-        """Where a value lies in the range: 0 at its low end, 1 at its high end."""
+        """Return where a value lies in the range: 0 at its low end, 1 at its high end."""
         if self.scale == "linear":
             return (value - self.low) / (self.high - self.low)
         return math.log(value / self.low) / math.log(self.high / self.low) if value > 0 else -math.inf
 
     def slope(self, share: float) -> float:
-        """Change of the value over that of ``share``."""
+        """Return the change of the value over that of ``share``."""
         if self.scale == "linear":
             return self.high - self.low
         return float(self.at(share)) * math.log(self.high / self.low)
@@ -77,12 +77,12 @@ class Axis:
     values: tuple[tuple[Any, ...], ...]
 
     def at(self, index: int) -> dict[str, Any]:
-        """The values of position ``index`` by their keys."""
+        """Return the values of position ``index`` by their keys."""
         return dict(zip(self.keys, self.values[index]))
 
 
 def axes_of(scene: Scene, vary: Mapping[Any, Any]) -> tuple[Axis, ...]:
-    """The dimensions of ``vary`` (see `lubfric.study`), with each value put into the scene once as a check."""
+    """Return the dimensions of ``vary`` (see `lubfric.study`), with each value put into the scene once as a check."""
     validate.instance("vary", vary, dict, 'a dict such as {"bodies.load": [5.0, 10.0]}')
     seen: set[str] = set()
     axes = []
@@ -108,7 +108,7 @@ def axes_of(scene: Scene, vary: Mapping[Any, Any]) -> tuple[Axis, ...]:
 
 @with_default_errors
 def sample(ranges: Iterable[Any], count: int, sampler: str = "sobol", seed: int = 0) -> list[tuple[float, ...]]:
-    """Points of a box, as values for keys that `lubfric.study` varies together.
+    """Return points of a box, as values for keys that `lubfric.study` varies together.
 
     ``vary={("bodies.load", "lubricant.viscosity"): sample([Between("1 N", "10 N"), Between(0.01, 1, "log")], 64)}``
 
@@ -243,7 +243,7 @@ def _check_units(name: str, key: str, values: Iterable[Any]) -> None:
 
 
 def unit_of(key: str) -> str:
-    """The unit of a ``key`` of a scene, for messages too."""
+    """Return the unit of a ``key`` of a scene, for messages too."""
     return KEYS[key].unit if key in KEYS else "(of the key)"
 
 

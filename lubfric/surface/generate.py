@@ -108,8 +108,8 @@ def surface_generator(
     honing_angle: float | None = None,
     groove_width: float | None = None,
 ) -> Callable[[int], Surface]:
-    """The function that makes the `generate_surface` of a seed, without the correlation lengths found in it. What all
-    seeds share is made once."""
+    """Return the function that makes the `generate_surface` of a seed, without the correlation lengths found in it.
+    What all seeds share is made once."""
     from scipy import fft
 
     shape, spacing = pair("shape", shape), validate.spacing("spacing", spacing)

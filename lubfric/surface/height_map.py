@@ -104,8 +104,8 @@ class Surface(FrozenArrays, Shown):
         return f"{self.source}: {text}" if self.source else text
 
     def plot(self, ax: "Axes | None" = None) -> Axes:
-        """The heights in the plane, on ``ax`` or new axes, which are returned. The colours leave out single spikes,
-        which the title then states."""
+        """Draw the heights in the plane, on ``ax`` or new axes, which are returned. The colours leave out single
+        spikes, which the title then states."""
         axes = figures.axes_or_new(ax, "compressed")
         x, y = (np.arange(count) * step for count, step in zip(self.shape, self.spacing))
         z = (self.heights - np.nanmean(self.heights)) * 1e9
@@ -135,8 +135,8 @@ class Surface(FrozenArrays, Shown):
         return self._with(self.heights - fitted, f"{note} removed")
 
     def left_by(self) -> dict[str, float]:
-        """Sq [m] that each form of `level` would leave, and that of the unchanged map (""). A form that the points do
-        not fix is omitted."""
+        """Return Sq [m] that each form of `level` would leave, and that of the unchanged map (""). A form that the
+        points do not fix is omitted."""
         left = {"": self.sq}
         for form in prepare.FORM_POWERS:
             with suppress(InputError):
@@ -168,8 +168,8 @@ class Surface(FrozenArrays, Shown):
         return self._with(np.where(mask, self.heights, np.nan), note, mask=mask)
 
     def filtered(self, *, s: float | None = None, l: float | None = None) -> Surface:
-        """Areal Gaussian filters of ISO 16610-61 with nesting indices ``s`` and ``l`` [m] (None: not used), in this
-        order.
+        """Apply the areal Gaussian filters of ISO 16610-61 with nesting indices ``s`` and ``l`` [m] (None: not used),
+        in this order.
 
         S-filter: waves shorter than ``s`` are taken out; L-filter: waves longer than ``l``. Level first (F-operation:
         `level`), fill after it. Raises `InputError` for an index of fewer than 5 cells
@@ -194,7 +194,7 @@ class Surface(FrozenArrays, Shown):
         return prepare.gaussian_mean(self.heights, self.mask, self.spacing, self.periodic_axes, index)
 
     def scaled(self, *, sq: float) -> Surface:
-        """Heights about their mean, multiplied so that Sq is ``sq`` [m]."""
+        """Return the heights about their mean, multiplied so that Sq is ``sq`` [m]."""
         target = validate.nonnegative("sq", sq, "m")
         now = self.sq
         if now <= prepare.LEFT_BY_FORM * np.abs(self.measured).max():
@@ -203,7 +203,7 @@ class Surface(FrozenArrays, Shown):
         return self._with((self.heights - mean) * (target / now), f"scaled from Sq {now:.4e} m to {target:.4e} m")
 
     def transposed(self) -> Surface:
-        """x and y exchanged: run across the lay instead of along it."""
+        """Return the map with x and y exchanged: run across the lay instead of along it."""
         mask = None if self.mask is None else self.mask.T
         turned: dict[str, Any] = {
             "spacing": self.spacing[::-1],
@@ -222,7 +222,7 @@ class Surface(FrozenArrays, Shown):
         return new
 
     def cropped(self, shape: Sequence[int], start: Sequence[int] | None = None) -> Surface:
-        """``shape`` points from index ``start`` (default: centred); no longer periodic where cut."""
+        """Return ``shape`` points from index ``start`` (default: centred); no longer periodic where cut."""
         shape = regrid.pair("shape", shape)
         first = tuple((n - m) // 2 for n, m in zip(self.shape, shape)) if start is None else tuple(start)
         for axis in range(2):
@@ -250,8 +250,8 @@ class Surface(FrozenArrays, Shown):
         return new
 
     def patch(self, shape: tuple[int, int], spacing: float | tuple[float, float] | None = None) -> Surface:
-        """Exactly ``shape`` points at ``spacing`` [m] (default: its own) for a contact grid. Axes that are periodic are
-        repeated as often as needed; others are cut, and must be long enough."""
+        """Return exactly ``shape`` points at ``spacing`` [m] (default: its own) for a contact grid. Axes that are
+        periodic are repeated as often as needed; others are cut, and must be long enough."""
         shape, new = regrid.pair("shape", shape), self._filled("patch")
         if spacing is not None:
             new = new.resampled(spacing=spacing)
@@ -269,13 +269,13 @@ class Surface(FrozenArrays, Shown):
         return self
 
     def combined(self, other: Surface) -> Surface:
-        """The sum of this map and that of the body that faces it; see `regrid.combined`."""
+        """Return the sum of this map and that of the body that faces it; see `regrid.combined`."""
         validate.instance("other", other, Surface, "a Surface")
         return regrid.combined(self, other)
 
     def continued(self, length: float) -> Surface:
-        """The map, made at least ``length`` [m] long along x. A shorter one is followed by its mirror image, and so on,
-        and is periodic along x then."""
+        """Return the map, made at least ``length`` [m] long along x. A shorter one is followed by its mirror image, and
+        so on, and is periodic along x then."""
         length = validate.positive("length", length, "m")
         if self.size[0] * (1 + 1e-9) >= length:
             return self

@@ -116,8 +116,9 @@ def harmonic_fill(heights: np.ndarray, mask: np.ndarray, spacing: tuple[float, f
 
 
 def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool, bool]) -> np.ndarray:
-    """Deviations (nx, ny) by which each outlier of a filled, levelled map differs from its neighbours, negative below
-    them; 0 elsewhere. Outliers of a measured map are points that are isolated, far from all their neighbours.
+    """Return the deviations (nx, ny) by which each outlier of a filled, levelled map differs from its neighbours,
+    negative below them; 0 elsewhere. Outliers of a measured map are points that are isolated, far from all their
+    neighbours.
 
     The rule: a measured point is an outlier when it lies more than ``OUTLIER_LIMIT`` robust standard deviations both from the
     median of the complete map and from the median of the ``WINDOW`` x ``WINDOW`` points around it, on the same side.
@@ -160,7 +161,8 @@ def gaussian_mean(
     periodic: tuple[bool, bool],
     index: float,
 ) -> np.ndarray:
-    """The waviness (nx, ny) [m]: the weighted mean around each point, of the measured points (True in ``mask``) only.
+    """Return the waviness (nx, ny) [m]: the weighted mean around each point, of the measured points (True in ``mask``)
+    only.
 
     The areal Gaussian filter of ISO 16610-61: the weights are exp(-pi (r/(a L))^2) with a = sqrt(ln 2/pi), so that a
     wave as long as the nesting index L keeps half of its height. The filter is isotropic, so it works on one axis

@@ -23,7 +23,7 @@ EQUAL_LENGTHS = 1e-9  # relative difference of lengths that are equal
 
 
 def pair(name: str, value: Any) -> tuple[int, int]:
-    """Two integers >= 1; one represents both."""
+    """Return two integers >= 1; one represents both."""
     return validate.pair(name, value, partial(validate.integer, minimum=1), "a whole number >= 1")
 
 
@@ -44,7 +44,7 @@ def changed(
     closed: bool | None = None,
     mask: np.ndarray | None = None,
 ) -> Surface:
-    """A copy with new heights along one axis, and whatever else changes with them."""
+    """Return a copy with new heights along one axis, and whatever else changes with them."""
     spacing = list(surface.spacing)
     periodic = list(surface.periodic_axes)
     notes = (*surface.notes, note)
@@ -61,14 +61,14 @@ def changed(
 
 
 def mirrored(surface: Surface, axis: int) -> Surface:
-    """``surface`` made periodic along ``axis``: its points, followed by their mirror image."""
+    """Return ``surface`` made periodic along ``axis``: its points, followed by their mirror image."""
     heights = np.concatenate([surface.heights, np.flip(surface.heights, axis)], axis)
     mask = None if surface.mask is None else np.concatenate([surface.mask, np.flip(surface.mask, axis)], axis)
     return changed(surface, axis, heights, f"made periodic along {'xy'[axis]}: mirror", closed=True, mask=mask)
 
 
 def resampled(surface: Surface, axis: int, count: int | None, step: float | None) -> Surface:
-    """``surface`` on ``count`` points along ``axis``, or on points ``step`` [m] apart; see `resample_axis`."""
+    """Return ``surface`` on ``count`` points along ``axis``, or on points ``step`` [m] apart; see `resample_axis`."""
     n = surface.shape[axis]
     old = surface.spacing[axis]
     closed = surface.periodic_axes[axis]
@@ -92,7 +92,8 @@ def resampled(surface: Surface, axis: int, count: int | None, step: float | None
 
 
 def fitted(surface: Surface, axis: int, count: int) -> Surface:
-    """``surface`` on exactly ``count`` points of its own spacing along ``axis``: repeated where periodic, else cut."""
+    """Return ``surface`` on exactly ``count`` points of its own spacing along ``axis``: repeated where periodic, else
+    cut."""
     n = surface.shape[axis]
     if count == n:
         return surface
@@ -111,7 +112,7 @@ def fitted(surface: Surface, axis: int, count: int) -> Surface:
 
 
 def combined(first: Surface, second: Surface) -> Surface:
-    """Two rough surfaces that face each other, as one map.
+    """Return two rough surfaces that face each other as one map.
 
     It is z1(x, y) + z2(x, -y), on the finer of both spacings along each axis, over the length that both have.
 
@@ -154,7 +155,7 @@ def _common(axis: int, first: Surface, second: Surface) -> tuple[int, bool]:
 
 
 def resample_axis(heights: np.ndarray, axis: int, count: int, ratio: float, *, periodic: bool) -> np.ndarray:
-    """``count`` cells of ``ratio`` old cells each along ``axis``, from the start of the map.
+    """Return ``count`` cells of ``ratio`` old cells each along ``axis``, from the start of the map.
 
     Periodic: the Fourier series at the new cell centres. Open: heights are taken as cell averages;
     a cubic spline through their running integral gives the averages over the new cells, coarser or

@@ -33,15 +33,15 @@ SAMPLING_LENGTHS = (
 
 
 def sa(surface: Surface) -> float:
-    """Mean absolute height [m]."""
+    """Return the mean absolute height [m]."""
     z = surface.measured
     return float(np.abs(z - z.mean()).mean())
 
 
 def rz(surface: Surface) -> tuple[float, float]:
-    """(Rz, sampling length) [m]: the mean height from the lowest to the highest point of a sampling length, along the
-    axis on which it is larger, which runs across a lay. The length is that of ISO 4288 for the map's Ra, or all of a
-    shorter map."""
+    """Return (Rz, sampling length) [m]: the mean height from the lowest to the highest point of a sampling length,
+    along the axis on which it is larger, which runs across a lay. The length is that of ISO 4288 for the map's Ra, or
+    all of a shorter map."""
     wanted = next((length for most, length in SAMPLING_LENGTHS if sa(surface) <= most), 8e-3)
     measured = np.isfinite(surface.heights) if surface.mask is None else surface.mask
     mean_heights = []
@@ -56,18 +56,18 @@ def rz(surface: Surface) -> tuple[float, float]:
 
 
 def ssk(surface: Surface) -> float:
-    """Skewness [-]: negative for a plateau with valleys."""
+    """Return the skewness [-]: negative for a plateau with valleys."""
     return _moment(surface, 3)
 
 
 def sku(surface: Surface) -> float:
-    """Kurtosis [-]: 3 for a Gaussian distribution."""
+    """Return the kurtosis [-]: 3 for a Gaussian distribution."""
     return _moment(surface, 4)
 
 
 def largest_ratio(surface: Surface) -> float:
-    """Largest distance from the mean, max |z|/Sq [-]: 4 to 5.5 for a Gaussian map of 1e4 to 1e7 points; 0 for a flat
-    one."""
+    """Return the largest distance from the mean, max |z|/Sq [-]: 4 to 5.5 for a Gaussian map of 1e4 to 1e7 points; 0
+    for a flat one."""
     z = surface.measured - surface.measured.mean()
     rms = z.std()
     return float(np.abs(z).max() / rms) if rms > 0 else 0.0
@@ -82,7 +82,7 @@ def _moment(surface: Surface, power: int) -> float:
 
 
 def rms_slope(surface: Surface) -> tuple[float, float, float]:
-    """(x, y, total) root mean square slopes [-], between neighbouring measured points, one cell apart."""
+    """Return the (x, y, total) root mean square slopes [-], between neighbouring measured points, one cell apart."""
     slopes = []
     for axis in range(2):
         z = np.moveaxis(surface.heights, axis, 0)
@@ -132,7 +132,7 @@ def check_scale(surface: Surface) -> None:
 
 
 def autocorrelation(surface: Surface, axis: int = 0) -> tuple[np.ndarray, np.ndarray]:
-    """(lag [m], correlation [-]) along ``axis`` up to half the map, 1 at lag 0.
+    """Return (lag [m], correlation [-]) along ``axis`` up to half the map, 1 at lag 0.
 
     Circular along a periodic axis; otherwise every pair of measured points at that lag counts once
     (unbiased by the number of pairs). By FFT.
@@ -161,7 +161,7 @@ def autocorrelation(surface: Surface, axis: int = 0) -> tuple[np.ndarray, np.nda
 
 
 def correlation_length(surface: Surface, axis: int = 0, decay_level: float = INVERSE_E) -> float:
-    """First lag [m] at which the autocorrelation along ``axis`` falls to ``decay_level``.
+    """Return the first lag [m] at which the autocorrelation along ``axis`` falls to ``decay_level``.
 
     decay_level: 1/e by default; 0.1 (Whitehouse and Archard; Hu and Tonder) or 0.2 (Sal, ISO 25178-2)
     are in use too. Between two lags the logarithm of the correlation is linear. Raises `InputError`
@@ -171,7 +171,7 @@ def correlation_length(surface: Surface, axis: int = 0, decay_level: float = INV
 
 
 def first_crossing(lags: np.ndarray, acf: np.ndarray, decay_level: float) -> float:
-    """First lag at which ``acf`` falls to ``decay_level``."""
+    """Return the first lag at which ``acf`` falls to ``decay_level``."""
     level = validate.number("decay_level", decay_level, "(-)", above=0.0, maximum=0.99)
     below = np.flatnonzero(acf <= level)
     if below.size == 0:

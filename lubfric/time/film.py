@@ -53,7 +53,7 @@ def solve_transient_ehl(
     first_step: float | None = None,
     raise_on_failure: bool = True,
 ) -> TransientFilm:
-    """Film of a smooth line contact whose load, radius, speed or viscosity change in time.
+    """Solve the film of a smooth line contact whose load, radius, speed or viscosity change in time.
 
     Parameters
     ----------

@@ -54,7 +54,7 @@ class Spring:
     length: float
 
     def at(self, H: np.ndarray) -> tuple[float, float]:
-        """The load, and its derivative by the mean film."""
+        """Return the load, and its derivative by the mean film."""
         depth = (self.mean - float(self.weights @ H)) / self.length
         if depth > 1.0:
             return self.load * np.e * depth, -self.load * np.e / self.length
@@ -65,8 +65,8 @@ class Spring:
 def outside(
     a: float, film: float, curvature: float, nu: float, speed: float, flow: float, rate: float
 ) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """The pressure at a of the film beyond the last node, up to infinity, and its load. Each comes with its derivatives
-    by the flow f, the squeeze rate v and the film h_a.
+    """Return the pressure at a of the film beyond the last node, up to infinity, and its load. Each comes with its
+    derivatives by the flow f, the squeeze rate v and the film h_a.
 
     The film is parabolic and isoviscous. At the distance s > a from the line of centres it is h = h_a + c (s² - a²)/2.
     The flow towards the contact is f + v (s - a), with f the flow at a and v = dh/dt. Reynolds' equation in the units
@@ -92,7 +92,7 @@ def outside(
 def outside_shear(
     a: float, film: float, curvature: float, nu: float, speed: float, flow: float, rate: float
 ) -> tuple[float, float]:
-    """(∫ ds/h, ∫ (h/2) dp/ds ds) beyond a, of the film of `outside`."""
+    """Return (∫ ds/h, ∫ (h/2) dp/ds ds) beyond a, of the film of `outside`."""
     s, h, weight = _nodes(a, film, curvature)
     return float(np.sum(weight / h)), 3.0 * nu * float(np.sum(weight * (flow + rate * (s - a) - speed * h) / h**2))
 
@@ -151,7 +151,7 @@ class StepEquations:
         return upstream >= self.inlet * (1.0 - AT_INLET)
 
     def evaluate(self, z: np.ndarray) -> StepTerms:
-        """All equations at z."""
+        """Evaluate all equations at z."""
         grid = self.grid
         memory = self.memory
         speed = self.speed
@@ -207,7 +207,7 @@ class StepEquations:
         )
 
     def jacobian(self, t: StepTerms) -> np.ndarray:
-        """Derivatives (n + 2, n + 2) of (r, balance) by z."""
+        """Return the derivatives (n + 2, n + 2) of (r, balance) by z."""
         grid = self.grid
         memory = self.memory
         n = self.grid.n
@@ -273,9 +273,9 @@ class StepEquations:
         return G
 
     def residual(self, t: StepTerms) -> float:
-        """The largest relative residual: of the mass in the pressurised control volumes (relative to what they contain,
-        per step or per passage of their film), of tension in the cavitated ones and of lubricant created there, of the
-        load, and of the pressure at the ends."""
+        """Return the largest relative residual: of the mass in the pressurised control volumes (relative to what they
+        contain, per step or per passage of their film), of tension in the cavitated ones and of lubricant created
+        there, of the load, and of the pressure at the ends."""
         scale = t.H * (self.memory.rate * self.grid.weights + abs(self.speed)) + 1e-300
         top = max(float(t.P.max()), 1e-300)
         mass = t.r[1:-1] / scale[1:-1]

@@ -49,7 +49,7 @@ class FixedGrid:
         return self.cells.size
 
     def upwind(self, speed: float) -> Faces:
-        """The interpolation that takes its nodes against the flow."""
+        """Return the interpolation that takes its nodes against the flow."""
         return self.forward if speed >= 0.0 else self.backward
 
 
@@ -70,7 +70,7 @@ class Faces:
 
 
 def make_fixed_grid(x: np.ndarray) -> FixedGrid:
-    """The grid and its operators on increasing nodes ``x``."""
+    """Return the grid and its operators on increasing nodes ``x``."""
     cells = np.diff(x)
     kernel = hat_kernel(x, x)
 
@@ -92,7 +92,7 @@ def make_fixed_grid(x: np.ndarray) -> FixedGrid:
 def symmetric_nodes(
     resolution: float, edges: tuple[float, float], films: tuple[float, float], reach: float = 0.0
 ) -> np.ndarray:
-    """Nodes symmetric about 0; their number is ``resolution`` times what the ranges demand.
+    """Return nodes symmetric about 0; their number is ``resolution`` times what the ranges demand.
 
     ``edges`` are the smallest and the largest Hertz half-width, ``films`` the smallest and the largest film, all in the
     units x and h = x²/R. The cells resolve the rise of the smallest film's pressure at every edge. The domain reaches

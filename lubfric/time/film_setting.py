@@ -89,18 +89,18 @@ class Setting:
         )
 
     def solve(self, time: float, memory: Memory | None, z: np.ndarray, spring: Spring | None = None) -> Step:
-        """The step that ends at ``time`` [s] (a solver of `lubfric.time.march`). ``spring``: carries the rest of the
-        load."""
+        """Solve the step that ends at ``time`` [s] (a solver of `lubfric.time.march`). ``spring``: carries the rest of
+        the load."""
         return solve_step(self.equations(time, memory, spring), z)
 
     def error_of(self, solution: Step, difference: np.ndarray) -> float:
-        """Root mean square of a difference of films over the pressurised film, relative to the film."""
+        """Return the root mean square of a difference of films over the pressurised film, relative to the film."""
         P = solution.terms.P
         weights = self.grid.weights * (P > WET_PRESSURE * P.max())
         return math.sqrt(float(weights @ (difference / solution.film) ** 2 / max(weights.sum(), 1e-300)))
 
     def undeformed(self, film: float) -> Step:
-        """The state at t = 0 without pressure: a parabola with the smallest film [m]."""
+        """Return the state at t = 0 without pressure: a parabola with the smallest film [m]."""
         z = np.append(np.zeros(self.grid.n + 1), film / self.problem.film_unit)
         return solve_step(self.equations(0.0), z, max_steps=0)
 
@@ -116,7 +116,7 @@ class Setting:
 def make_setting(
     line_history: LineHistory, tolerance: float, *, sq: float = 0.0, reach: float = 0.0, finer: float = 1.0
 ) -> Setting:
-    """Units and grid that suit the complete range of the histories.
+    """Return the units and grid that suit the complete range of the histories.
 
     ``sq`` [m]: roughness of surfaces that carry part of the load (0: smooth); films of that size are resolved too. The
     grid extends to ``reach`` [m] at least. ``finer``: factor on the number of nodes.
@@ -177,8 +177,8 @@ def _reference(line_history: LineHistory, sq: float) -> tuple[FilmProblem, tuple
 
 
 def steady_start(setting: Setting, load: float | None = None) -> tuple[Step, float]:
-    """The steady state of the conditions just before t = 0, with ``load`` [N] instead of the history's if it is given;
-    and its `discretisation` error, infinite where it did not converge."""
+    """Solve the steady state of the conditions just before t = 0, with ``load`` [N] instead of the history's if it is
+    given; and its `discretisation` error, infinite where it did not converge."""
     c = setting.line_history
     p = setting.problem
     grid = setting.grid
@@ -209,7 +209,7 @@ def steady_start(setting: Setting, load: float | None = None) -> tuple[Step, flo
 
 
 def discretisation(setting: Setting, solution: Step) -> float:
-    """Relative error of minimum and central film of a steady solution, from the grid of every other node."""
+    """Return the relative error of minimum and central film of a steady solution, from the grid of every other node."""
     coarse = replace(setting, grid=make_fixed_grid(setting.grid.x[::2]))
     equations = replace(coarse.equations(0.0), load=solution.terms.carried)
     fine = solution.terms.H

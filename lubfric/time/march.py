@@ -105,7 +105,7 @@ class Plan:
 
 
 def checked_times(times: ArrayLike) -> np.ndarray:
-    """Output times [s]: increasing, the first >= 0, the last > 0."""
+    """Return the output times [s]: increasing, the first >= 0, the last > 0."""
     times = validate.array("times", times, "s", ndim=1)
     if times[0] < 0.0 or np.any(np.diff(times) <= 0.0) or times[-1] <= 0.0:
         raise InputError("times must increase from 0 s or later to a time above 0 s; allowed: 0 <= t1 < t2 < ... in s")
@@ -115,9 +115,9 @@ def checked_times(times: ArrayLike) -> np.ndarray:
 def plan_of(
     times: np.ndarray, histories: Iterable[History], first_step: float, tolerance: float, more: Iterable[float] = ()
 ) -> Plan:
-    """The plan of a run up to the last of ``times`` [s] in which ``histories`` change. Steps end at ``more`` [s] too,
-    which rise, unless a stop is close. Times that differ only by rounding become one, because no step is as short as
-    that."""
+    """Return the plan of a run up to the last of ``times`` [s] in which ``histories`` change. Steps end at ``more`` [s]
+    too, which rise, unless a stop is close. Times that differ only by rounding become one, because no step is as short
+    as that."""
     histories, end = tuple(histories), float(times[-1])
     jumps = _onto(times, [t for h in histories for t in h.jumps(end)])
     stops = np.union1d(times, jumps)
@@ -146,7 +146,7 @@ def _onto(known: np.ndarray, candidates: list[float]) -> np.ndarray:
 
 
 def initial_progress(first: Step, plan: Plan) -> Progress:
-    """The progress at t = 0 with the state ``first``."""
+    """Return the progress at t = 0 with the state ``first``."""
     return Progress(levels=(_level(first),), step=plan.first_step, payload=first.payload, solution=first)
 
 
@@ -166,8 +166,8 @@ class Solver(Protocol):
 
 
 def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:
-    """The progress after every step from ``now`` on, until the end or until the shortest step fails. (Then the last
-    time is before ``plan.end``.) A run can continue from any progress, so the caller needs to keep nothing else."""
+    """Yield the progress after every step from ``now`` on, until the end or until the shortest step fails. (Then the
+    last time is before ``plan.end``.) A run can continue from any progress, so the caller needs to keep nothing else."""
     for stop in plan.stops:
         while now.time < stop:
             advanced = advance(now, stop, solver, plan.tolerance, LEAST_TIME_STEP_PART * plan.end)
@@ -244,8 +244,8 @@ def report_of(
 
 
 def advance(now: Progress, until: float, solver: Solver, tolerance: float, shortest: float) -> Progress | None:
-    """One step towards ``until`` [s]. It is halved if it would leave a tiny last step. If its solve fails, or its error
-    is above ``tolerance``, it is repeated with a shorter step. None: even the shortest step [s] failed."""
+    """Take one step towards ``until`` [s]. It is halved if it would leave a tiny last step. If its solve fails, or its
+    error is above ``tolerance``, it is repeated with a shorter step. None: even the shortest step [s] failed."""
     rejected = now.rejected
     step = now.step
     while step >= shortest:

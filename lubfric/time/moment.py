@@ -48,7 +48,7 @@ LOG_LOAD_STEP = 0.05
 
 
 def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[str, float], tuple[Violation, ...]]:
-    """The numbers after the last step, by name, and the assumptions that do not hold then."""
+    """Return the numbers after the last step, by name, and the assumptions that do not hold then."""
     solution = now.solution
     time = now.time
     setting = model.setting
@@ -181,7 +181,7 @@ def _mass(model: LoadSharingSolver, solution: Step) -> dict[str, float]:
 def film_shear(
     model: LoadSharingSolver, scene: Scene, time: float, sliding: float, solution: Step, boundary: float
 ) -> tuple[ShearForce, Heat]:
-    """Forces [N] along +x on the upper surface, and the heat of these and of the ``boundary`` friction [N].
+    """Return the forces [N] along +x on the upper surface, and the heat of these and of the ``boundary`` friction [N].
 
     They act where the film is pressurised and not touched, and include the inlet tails. ``scene``: that of the moment.
     Film and surfaces are taken to be as hot as in steady motion at the speeds of the moment.
@@ -282,8 +282,8 @@ def _tails(model: LoadSharingSolver, time: float, drags: np.ndarray, solution: S
 
 
 def full_part(x: np.ndarray, pressure: np.ndarray) -> np.ndarray:
-    """Part of each cell between neighbouring ``x`` that the pressurised film fills. In the cell where it ruptures, the
-    pressure falls to zero like a square (p = dp/dx = 0 there); the two nodes before determine where."""
+    """Return the part of each cell between neighbouring ``x`` that the pressurised film fills. In the cell where it
+    ruptures, the pressure falls to zero like a square (p = dp/dx = 0 there); the two nodes before determine where."""
     wet = pressure > 0.0
     root = np.sqrt(np.maximum(pressure, 0.0))
     part = (wet[1:] & wet[:-1]).astype(float)
@@ -297,8 +297,8 @@ def full_part(x: np.ndarray, pressure: np.ndarray) -> np.ndarray:
 
 
 def film_thinning(scene: Scene, film_load: float) -> float:
-    """-d ln h/d ln F_H [-] of Moes' film that carries ``film_load`` [N]. At rest, that of a film that was drawn in
-    slowly; 1 without load."""
+    """Return -d ln h/d ln F_H [-] of Moes' film that carries ``film_load`` [N]. At rest, that of a film that was drawn
+    in slowly; 1 without load."""
     if film_load <= 0.0:
         return 1.0
     line = scene.line_contact(scene.motion.entrainment_speed or STANDSTILL_SPEED)

@@ -133,8 +133,9 @@ class TransientResult(Renamed, Shown):
         return f"Converged: all {count} outputs to t = {end} are solved, and every residual is within its tolerance."
 
     def average(self) -> TimeAverage:
-        """The average of f over the time in motion, by trapezes between the outputs (which have to be dense enough to
-        show f; one at a standstill counts nothing); its error; and its scatter for fixed and for moving roughness."""
+        """Return the average of f over the time in motion, by trapezes between the outputs (which have to be dense
+        enough to show f; one at a standstill counts nothing); its error; and its scatter for fixed and for moving
+        roughness."""
         half = 0.5 * np.diff(self.time)
         moving = in_motion(self.columns)
         weight = np.append(half, 0.0) + np.append(0.0, half) if half.size else np.ones(1)
@@ -208,7 +209,7 @@ class TransientResult(Renamed, Shown):
         )
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
-        """Friction over time, with its parts, on ``ax`` or new axes, which are returned."""
+        """Draw friction over time, with its parts, on ``ax`` or new axes, which are returned."""
         axes = figures.axes_or_new(ax)
         (low, high) = self.uncertainty.interval.T
         if (high > low).any():
@@ -218,8 +219,8 @@ class TransientResult(Renamed, Shown):
         return axes
 
     def plot_loop(self, ax: "Axes | None" = None) -> "Axes":
-        """Friction over speed, the hysteresis loop with its start marked, on ``ax`` or new axes, which are returned.
-        At a standstill no friction coefficient is defined, and none is drawn."""
+        """Draw friction over speed, the hysteresis loop with its start marked, on ``ax`` or new axes, which are
+        returned. At a standstill no friction coefficient is defined, and none is drawn."""
         axes = figures.axes_or_new(ax)
         speed = self.entrainment_speed
         moving = in_motion(self.columns)
@@ -399,12 +400,12 @@ def _residual(columns: dict[str, np.ndarray], name: str, tolerance: float, what:
 
 
 def in_motion(c: dict[str, np.ndarray]) -> np.ndarray:
-    """The times (bools) of the ``c`` of a `lubfric.TransientResult` at which a surface moves."""
+    """Return the times (bools) of the ``c`` of a `lubfric.TransientResult` at which a surface moves."""
     return (c["entrainment_speed"] != 0) | (c["sliding_speed"] != 0)
 
 
 def friction_over_time(axes: "Axes", c: dict[str, np.ndarray]) -> None:
-    """Friction over time with its parts, by the ``c`` of a `lubfric.TransientResult`. At rest there is none."""
+    """Draw friction over time with its parts, by the ``c`` of a `lubfric.TransientResult`. At rest there is none."""
     sense = np.where(c["sliding_speed"] != 0, c["sliding_speed"], c["entrainment_speed"])
     sense = np.where(sense < 0, -1.0, 1.0)  # of the coefficient
     scale, unit = time_scale(c["time"][-1])
@@ -420,7 +421,7 @@ def friction_over_time(axes: "Axes", c: dict[str, np.ndarray]) -> None:
 
 
 def time_scale(longest: float) -> tuple[float, str]:
-    """(factor, unit) that shows times up to ``longest`` [s] as numbers above one."""
+    """Return (factor, unit) that shows times up to ``longest`` [s] as numbers above one."""
     for scale, unit in ((1.0, "s"), (1e3, "ms")):
         if longest * scale >= 1.0:
             return scale, unit

@@ -43,7 +43,7 @@ def transient(
     on_step: Callable[[float, float, dict[str, float] | None], None] | None = None,
     raise_on_failure: bool = True,
 ) -> TransientResult:
-    """Film, load sharing and friction of a scene while speed, load, radius or viscosity change in time.
+    """Solve film, load sharing and friction of a scene while speed, load, radius or viscosity change in time.
 
     The film obeys Eq. (6) with its squeeze term (`lubfric.time.film_equations`: Swift-Stieber complementarity, either
     side may rupture, no entrainment needed), by variable-step BDF2 with error control. At every step film and rough

@@ -16,14 +16,14 @@ SLIDING_PART = {"surface": -0.5, "counterface": 0.5}  # [-] the speed of a body 
 
 
 def transient_of(scene: Scene) -> Transient:
-    """What changes in a scene of a run in time."""
+    """Return what changes in a scene of a run in time."""
     assert scene.transient is not None
     return scene.transient
 
 
 def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:
-    """``scene``, whose ``transient`` says what changes, just "before" ``time`` [s], or "at" it: just after. It has the
-    load, radius, speed, slide-roll ratio, f_b and viscosity of the moment. Its hardness is omitted, because the
+    """Return ``scene``, whose ``transient`` says what changes, just "before" ``time`` [s], or "at" it: just after. It
+    has the load, radius, speed, slide-roll ratio, f_b and viscosity of the moment. Its hardness is omitted, because the
     contact has it, and so are its ranges."""
 
     def now(name: str, constant: float) -> float:
@@ -49,7 +49,7 @@ def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:
 
 
 def sliding_at(scene: Scene, time: float, side: str = "before") -> float:
-    """u2 - u1 [m/s]."""
+    """Return u2 - u1 [m/s]."""
     motion = scene.motion
     speed = _value(scene, "speed", motion.entrainment_speed, time, side)
     return _value(scene, "sliding", motion.slide_roll_ratio * speed, time, side)
@@ -80,7 +80,7 @@ class WarmInlet(History):
         return self._warm(time, "before")
 
     def range(self, duration: float) -> tuple[float, float]:
-        """The range that `SAMPLED_TIMES` times and every stop show."""
+        """Return the range that `SAMPLED_TIMES` times and every stop show."""
         return self._seen
 
     @cached_property
@@ -94,8 +94,8 @@ class WarmInlet(History):
 
 
 def inlet_viscosity(scene: Scene) -> History:
-    """The viscosity [Pa s] with which the film is solved: that of the scene, or its history. If the heat of the inlet
-    would at some time thin the film by more than its share of the tolerance, it is that of the warm inlet."""
+    """Return the viscosity [Pa s] with which the film is solved: that of the scene, or its history. If the heat of the
+    inlet would at some time thin the film by more than its share of the tolerance, it is that of the warm inlet."""
     cold = transient_of(scene).viscosity or Constant(scene.lubricant.viscosity)
     if scene.numerics.heat == "off" or not scene.lubricant.heats:
         return cold
@@ -107,7 +107,8 @@ def inlet_viscosity(scene: Scene) -> History:
 
 
 def sampled_times(scene: Scene) -> list[float]:
-    """Times [s] at which a run is looked through before it begins: `SAMPLED_TIMES` of them evenly, and all stops and jumps."""
+    """Return the times [s] at which a run is looked through before it begins: `SAMPLED_TIMES` of them evenly, and all
+    stops and jumps."""
     plan = transient_of(scene)
     stops = {t for h in plan.histories for t in (*h.stops(plan.duration), *h.jumps(plan.duration))}
     return sorted({*np.linspace(0, plan.duration, SAMPLED_TIMES).tolist(), *stops})

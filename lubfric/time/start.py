@@ -225,7 +225,7 @@ def _made(prepared: Prepared, sample: Sample, count: int) -> Prepared:
 
 
 def speeds_of_run(scene: Scene) -> list[float]:
-    """Some speeds [m/s] of a run, at which its strip is judged; none where nothing is entrained."""
+    """Return some speeds [m/s] of a run, at which its strip is judged; none where nothing is entrained."""
     plan = transient_of(scene)
     low, high = (plan.speed or Constant(scene.motion.entrainment_speed)).range(plan.duration)
     fastest = max(abs(low), abs(high))

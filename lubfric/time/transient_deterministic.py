@@ -127,7 +127,7 @@ class TransientDeterministic:
         return tuple(np.interp(dx * np.arange(1, math.floor(way[-1] / dx) + 1), way, times).tolist())
 
     def problem_at(self, time: float) -> Problem:
-        """Just before ``time`` [s], in the mirror where U < 0."""
+        """Return the problem just before ``time`` [s], in the mirror where U < 0."""
         now = scene_at(self.scene, time)
         sliding = sliding_at(self.scene, time)
         speed = now.motion.entrainment_speed
@@ -150,7 +150,7 @@ class TransientDeterministic:
         )
 
     def solve(self, time: float, memory: Memory, z: np.ndarray, payload: State) -> Step:
-        """The step that ends at ``time`` [s]; the payload is its state."""
+        """Solve the step that ends at ``time`` [s]; the payload is its state."""
         back = self.back(time)
         film = memory.film[::back]
         history = TimeHistory(extrapolated=film, step=1.0 / memory.rate)
@@ -172,15 +172,15 @@ class TransientDeterministic:
         return self._step(solution.at, back, status)
 
     def error_of(self, step: Step, difference: np.ndarray) -> float:
-        """Root mean square, over the pressurised film, of the mean over y of a ``difference`` of masses, over the mean
-        there. (Roughness that passes is resolved by the steps of one cell.)"""
+        """Return the root mean square, over the pressurised film, of the mean over y of a ``difference`` of masses,
+        over the mean there. (Roughness that passes is resolved by the steps of one cell.)"""
         p, lost, film = (f.mean(axis=1) for f in (step.payload.pressure, difference, step.film))
         wet = p > WET_PRESSURE * p.max()
         return float(np.sqrt(np.mean(lost[wet] ** 2)) / film[wet].mean()) if wet.any() else 0.0
 
     def start(self) -> Step:
-        """The state at t = 0: steady, as if the roughness rested; at rest, with all load on the dry contact; or without
-        pressure at a flying height. In the last two the gap is full."""
+        """Return the state at t = 0: steady, as if the roughness rested; at rest, with all load on the dry contact; or
+        without pressure at a flying height. In the last two the gap is full."""
         plan = transient_of(self.scene)
         problem = self.problem_at(0.0)
         back = self.back(0.0)
@@ -234,7 +234,7 @@ class TransientDeterministic:
         return replace(progress, solution=None)
 
     def back(self, time: float) -> int:
-        """-1 where the film is solved in the mirror, else 1."""
+        """Return -1 where the film is solved in the mirror, else 1."""
         return -1 if scene_at(self.scene, time).motion.entrainment_speed < 0 else 1
 
     def _step(self, at: Iterate, back: int, status: str = CONVERGED) -> Step:
@@ -279,7 +279,7 @@ def check_deterministic(scene: Scene) -> None:
 
 
 def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
-    """The solver, on the first strip that a steady point takes, and on the same cells. Raises `InputError`."""
+    """Return the solver, on the first strip that a steady point takes, and on the same cells. Raises `InputError`."""
     prepared = scene if isinstance(scene, Prepared) else prepare(scene)
     scene = prepared.scene
     plan = transient_of(prepared.scene)
@@ -316,8 +316,8 @@ def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
 def deterministic_moment(
     solver: TransientDeterministic, now: Progress
 ) -> tuple[dict[str, float], tuple[Violation, ...]]:
-    """The numbers after the last step, by name, and the assumptions that do not hold then. As of `OF_MOMENT`, of the
-    rough gap; NaN where this model has no such number."""
+    """Return the numbers after the last step, by name, and the assumptions that do not hold then. As of `OF_MOMENT`, of
+    the rough gap; NaN where this model has no such number."""
     at = now.solution.terms
     scene = scene_at(solver.scene, now.time)
     left = residuals(at)

@@ -166,15 +166,15 @@ def _seconds_in_motion(scene: Scene, sample: Sample, sq: float, speed: float, wo
 
 
 def work_on_strips(
-    scene: Scene, sample: Sample, sq: float, speed: float, factors: tuple[float, float], count: int
+    scene: Scene, sample: Sample, sq: float, speed: float, cell_ratios: tuple[float, float], count: int
 ) -> float:
-    """Return the counted work [s] of ``count`` strips on cells ``factors`` times as long as those of ``sample``, and of the
+    """Return the counted work [s] of ``count`` strips on cells ``cell_ratios`` times as long as those of ``sample``, and of the
     ends of input ranges; ``sq`` [m]: of the surface."""
     if has_moving_roughness(scene):
         continued = tuple(ends for ends in scene.ranges if ends[0] not in OF_SHEAR)  # the others are not solved again
-        work = moving_point_work(replace(scene, ranges=continued), sample, sq, speed, factors)
+        work = moving_point_work(replace(scene, ranges=continued), sample, sq, speed, cell_ratios)
         return count * _seconds_in_motion(scene, sample, sq, speed, work)
-    (fx, fy) = factors
+    (fx, fy) = cell_ratios
     (dx, dy) = sample.cells.spacing
     (ux, uy) = sample.refinement
     length = sum(reach(scene.line_contact(abs(speed)), sq))

@@ -29,8 +29,8 @@ class PressureFlow:
 
 
 def pressure_flow(problem: Problem, fluid: CellFluid, p: FloatArray, h: FloatArray, axis: int) -> PressureFlow:
-    """Pressure flow through the faces behind the cells along ``axis``: along x behind all but the last row, along y
-    behind all (periodic)."""
+    """Return the pressure flow through the faces behind the cells along ``axis``: along x behind all but the last row,
+    along y behind all (periodic)."""
 
     def before(f: FloatArray) -> FloatArray:
         return f[:-1] if axis == 0 else f
@@ -75,8 +75,8 @@ class CouetteFlow:
 
 
 def couette_flow(problem: Problem, mass: FloatArray, fill: float | FloatArray, U: float) -> CouetteFlow:
-    """Couette flow U rho h through the faces. ``mass`` (nx, ny): rho h [m]; ``fill``: the filled part of the cells. In
-    the first cell the parabola gives the upstream difference."""
+    """Return the Couette flow U rho h through the faces. ``mass`` (nx, ny): rho h [m]; ``fill``: the filled part of the
+    cells. In the first cell the parabola gives the upstream difference."""
     step = np.empty_like(mass)
     step[1:] = mass[1:] - mass[:-1]
     step[0] = problem.x[0] / problem.radius * problem.spacing[0]
@@ -116,8 +116,8 @@ def mass_balance(
     *,
     follows_lubricant: bool = False,
 ) -> MassBalance:
-    """Steady mass balance of the cells at pressure [Pa], gap [m] and filled part [-] (nx, ny); ``follows_lubricant``: without the
-    Couette flow, of cells that move with it (`state.TimeHistory`)."""
+    """Return the steady mass balance of the cells at pressure [Pa], gap [m] and filled part [-] (nx, ny);
+    ``follows_lubricant``: without the Couette flow, of cells that move with it (`state.TimeHistory`)."""
     dx, dy = problem.spacing
     film = np.maximum(gap, problem.floor)
     fluid = cell_fluid(problem.lubricant, np.maximum(pressure, 0.0))
@@ -162,7 +162,8 @@ class Stencil:
     @staticmethod
     @lru_cache(maxsize=8)
     def neighbours(nx: int, ny: int) -> np.ndarray:
-        """Numbers (i ny + j) of the cells that the coefficients belong to (6, nx, ny); the own where there is none."""
+        """Return the numbers (i ny + j) of the cells that the coefficients belong to (6, nx, ny); the own where there
+        is none."""
         own = np.arange(nx * ny).reshape(nx, ny)
         neighbours = np.stack([own, own, np.roll(own, 1, axis=1), own, np.roll(own, -1, axis=1), own])
         neighbours[0, 2:] = own[:-2]
@@ -172,8 +173,8 @@ class Stencil:
 
 
 def derivatives(problem: Problem, at: MassBalance, open_: BoolArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """d residual/dp [m/(s Pa)], /dh [1/s] and /dfill [m/s] as the data of a `Stencil` each; by h of ``open_`` cells
-    (bool) (nx, ny) only."""
+    """Return d residual/dp [m/(s Pa)], /dh [1/s] and /dfill [m/s] as the data of a `Stencil` each; by h of ``open_``
+    cells (bool) (nx, ny) only."""
     dx, dy = problem.spacing
     by_p, by_h, by_fill = (Stencil(at.flow_gap.shape) for _ in range(3))
     for stencil, along, across in ((by_p, at.along.by_p, at.across.by_p), (by_h, at.along.by_h, at.across.by_h)):

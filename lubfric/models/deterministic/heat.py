@@ -29,7 +29,8 @@ MOST_CHANGE = 0.2
 
 
 def strip_heat(scene: Scene, result: DeterministicResult) -> Heat:
-    """The `Heat` of ``result``: ``change`` is the share of f that the temperatures of film and surfaces take away."""
+    """Return the `Heat` of ``result``: ``change`` is the share of f that the temperatures of film and surfaces take
+    away."""
     inlet, used = inlet_at(scene, result.speed)
     sliding = abs(scene.motion.slide_roll_ratio * result.speed)
     if inlet is None or sliding == 0:
@@ -47,7 +48,7 @@ def strip_heat(scene: Scene, result: DeterministicResult) -> Heat:
 
 
 def warmed(scene: Scene, numbers: dict[str, float], heat: Heat) -> dict[str, float]:
-    """``numbers`` of a point, by name, whose shear stress is isothermal, with ``heat``."""
+    """Return ``numbers`` of a point, by name, whose shear stress is isothermal, with ``heat``."""
     f = numbers["coefficient"]
     lost = abs(f) * heat.change * scene.bodies.load
     return numbers | {

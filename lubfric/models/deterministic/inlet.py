@@ -63,8 +63,8 @@ class Inlet:
 
 
 def inlet(problem: Problem, pressure: FloatArray, thickness: FloatArray) -> Inlet:
-    """The `Inlet` upstream of the first cells, whose ``pressure`` [Pa] and ``thickness`` [m] are given (ny,). To the face
-    before them the film continues up the parabola."""
+    """Return the `Inlet` upstream of the first cells, whose ``pressure`` [Pa] and ``thickness`` [m] are given (ny,). To
+    the face before them the film continues up the parabola."""
     lubricant = problem.lubricant
     speed = problem.speed
     radius = problem.radius

@@ -158,7 +158,8 @@ class TwoLevelEstimate:
     note: str = ""
 
     def required_strips(self, numerics: Numerics, count: int, most: int) -> int:
-        """Number of strips of the second level, at most ``most``, that the tolerances need; there are ``count``."""
+        """Return the number of strips of the second level, at most ``most``, that the tolerances need; there are
+        ``count``."""
         f = abs(self.numbers["coefficient"])
         tolerance = numerics.sampling_tolerance
         if not self.control_strips:

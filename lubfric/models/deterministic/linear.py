@@ -78,7 +78,7 @@ class Change:
     approach: float
 
     def added(self, state: State, part: float) -> State:
-        """``state`` with this ``part`` of the changes."""
+        """Return ``state`` with this ``part`` of the changes."""
         return replace(
             state,
             pressure=state.pressure + part * self.pressure,
@@ -162,7 +162,7 @@ class System:
         return inner
 
     def change(self, unknowns: FloatArray) -> Change:
-        """The `Change` of scaled ``unknowns`` (n + 1,)."""
+        """Return the `Change` of scaled ``unknowns`` (n + 1,)."""
         cells = unknowns[:-1].reshape(self.at.gap.shape)
         approach = float(unknowns[-1] * self.film)
         pressure, fill, dent = (cells * scale for scale in (self.to_pressure, self.to_fill, self.to_dent))
@@ -184,7 +184,7 @@ class System:
         return np.append(rows, float((self.load_by_p * pressure).sum() + self.load_by_h @ first_gap))
 
     def precondition(self, rows: FloatArray) -> FloatArray:
-        """The inverse of the sparse part, bordered by h0 and the load."""
+        """Apply the inverse of the sparse part, bordered by h0 and the load, to ``rows``."""
         inner = self._inner(rows[:-1])
         approach = (rows[-1] - float(self.load_row @ inner)) / self.schur
         return np.append(inner - approach * self.solved_column, approach)
@@ -314,7 +314,7 @@ class Patterns:
         return Patterns(order, _pattern(row, column), _pattern(place[column], place[row]))
 
     def rows(self, data: FloatArray) -> csr_matrix:
-        """The matrix of the coefficients ``data`` (6, nx, ny)."""
+        """Return the matrix of the coefficients ``data`` (6, nx, ny)."""
         return self._made(csr_matrix, self.by_row, data)
 
     def ordered(self, data: FloatArray) -> csc_matrix:

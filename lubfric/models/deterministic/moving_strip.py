@@ -200,7 +200,7 @@ class MovingStripSolution(StripSolution):
     def coefficient_with_oil(self, name: str, end: int) -> float | None:
         return self.with_oils[name][end] if name in self.with_oils else None
 
-    def at_inputs(self, scene: Scene, speed: float, surface: Callable[[], Surface]) -> DeterministicResult:
+    def at_inputs(self, scene: Scene, speed: float, make_map: Callable[[], Surface]) -> DeterministicResult:
         """Return the means over time of a `continued_strip` at the inputs of another ``scene``."""
         return continued_strip(scene, speed, self)[0]
 

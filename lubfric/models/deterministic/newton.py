@@ -130,7 +130,7 @@ def newton(
     linear_accuracy: float = GMRES_RESIDUAL,
     patience: int = NEWTON_PATIENCE,
 ) -> NewtonResult:
-    """At most ``most`` steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
+    """Take at most ``most`` Newton steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
 
     Before every step each cell gets the equation that its state requires (`update_active_sets`). A step leaves every
     cell at least a fifth of its gap, and is halved while the mass residual of the fluid cells grows. The method gives

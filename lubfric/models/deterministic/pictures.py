@@ -14,7 +14,7 @@ TIME = "time since the roughness began to move (ms)"
 
 
 def plot_moments(path: Path | str, moments: Sequence[Moment]) -> None:
-    """Gap and pressure at up to eight ``moments``, one column each."""
+    """Draw gap and pressure at up to eight ``moments``, one column each."""
     shown = moments[:: -(-len(moments) // MOST_MOMENTS)]
     figure = figures.new_figure(figsize=(2.4 * len(shown) + 1, 6))
     for column, moment in zip(figure.subplots(2, len(shown), squeeze=False, sharex=True, sharey="row").T, shown):
@@ -23,7 +23,7 @@ def plot_moments(path: Path | str, moments: Sequence[Moment]) -> None:
 
 
 def animate_moments(path: Path | str, moments: Sequence[Moment], frames_per_second: int = 10) -> None:
-    """Gap and pressure as an animated GIF, one frame a moment."""
+    """Write gap and pressure as an animated GIF, one frame a moment."""
     figure = figures.new_figure(figsize=(5, 5.5))
     limits = _limits(moments)
 
@@ -36,7 +36,7 @@ def animate_moments(path: Path | str, moments: Sequence[Moment], frames_per_seco
 
 
 def plot_passing(path: Path | str, strip: MovingStripSolution) -> None:
-    """Film, share of the load that rubs with f_b, and f over time; what does not count is grey."""
+    """Draw film, share of the load that rubs with f_b, and f over time; what does not count is grey."""
     figure = figures.new_figure(figsize=(7, 6.5))
     film, share, f = figure.subplots(3, 1, sharex=True)
     series = strip.series

@@ -178,8 +178,8 @@ def lay_out(
     ends: tuple[float, float] | None = None,
     factors: tuple[int, int] = (1, 1),
 ) -> Problem:
-    """The `Problem` of ``surface``, its middle under the line of contact, on its own cells or on cells ``factors``
-    (fx, fy) times as long, which take every fx-th and fy-th of its heights where they are.
+    """Return the `Problem` of ``surface``, its middle under the line of contact, on its own cells or on cells
+    ``factors`` (fx, fy) times as long, which take every fx-th and fy-th of its heights where they are.
 
     If the grid is longer than the map, the map is repeated, or mirrored if it is not periodic along x. ``ends`` [m]:
     lengths up and down stream (default: `reach`). Raises `InputError` for more cells than `MOST_GRID_CELLS`, and for factors

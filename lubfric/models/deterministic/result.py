@@ -174,7 +174,8 @@ class SurfaceShear:
 
 
 def surface_shear(at: Iterate, law: np.ndarray, boundary_film: float) -> SurfaceShear:
-    """With a boundary ``boundary_film`` [m]. ``law``: the stress [Pa] that the lubricant has by itself (nx, ny)."""
+    """Return the shear stress of the surfaces and its forces, with a boundary film of ``boundary_film`` [m]. ``law``:
+    the stress [Pa] that the lubricant has by itself (nx, ny)."""
     problem = at.problem
     p = at.state.pressure
     h = at.mass_balance.flow_gap
@@ -238,7 +239,7 @@ def with_limit(problem: Problem, sheared: SurfaceShear, pressure: np.ndarray, la
 
 
 def assemble(at: Iterate, report: Report) -> DeterministicResult:
-    """The result at a solved state."""
+    """Return the result at a solved state."""
     problem = at.problem
     state = at.state
     h = at.mass_balance.flow_gap

@@ -30,7 +30,7 @@ class CellFluid:
 
 
 def cell_fluid(lubricant: Lubricant, pressure: FloatArray) -> CellFluid:
-    """The laws of ``lubricant`` at ``pressure`` [Pa], any shape."""
+    """Return the laws of ``lubricant`` at ``pressure`` [Pa], any shape."""
     log_viscosity, log_slope = log_viscosity_ratio(lubricant, pressure)
     density, density_slope = density_ratio(lubricant, pressure)
     critical = tuple(law.critical(pressure) for law in lubricant.shear_laws)
@@ -44,8 +44,8 @@ def cell_fluid(lubricant: Lubricant, pressure: FloatArray) -> CellFluid:
 
 
 def mean_fluidity(left: FloatArray, right: FloatArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """ln of the mean of exp(-l) between l = ``left`` and ``right`` (l linear between them), and its derivatives by
-    both."""
+    """Return ln of the mean of exp(-l) between l = ``left`` and ``right`` (l linear between them), and its derivatives
+    by both."""
     d = right - left
     small = np.abs(d) < 1e-3
     size = np.abs(np.where(small, 1.0, d))
@@ -60,8 +60,8 @@ def mean_fluidity(left: FloatArray, right: FloatArray) -> tuple[np.ndarray, np.n
 def thinning(
     lubricant: Lubricant, newtonian_stress: FloatArray, critical: Sequence[FloatArray | float], *, along: bool
 ) -> tuple[Any, Any, list[FloatArray]]:
-    """Φ [-] at the Newtonian stress eta Δu/h [Pa] on faces, with the ``critical`` stress [Pa] of each law there; its
-    derivative d ln Φ/d ln s; and the parts of the derivative that belong to the laws."""
+    """Return Φ [-] at the Newtonian stress eta Δu/h [Pa] on faces, with the ``critical`` stress [Pa] of each law there;
+    its derivative d ln Φ/d ln s; and the parts of the derivative that belong to the laws."""
     factor = 1.0
     slopes = []
     for law, tau_c in zip(lubricant.shear_laws, critical):

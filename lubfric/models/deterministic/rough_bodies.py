@@ -36,19 +36,19 @@ CONTROL_CELLS = 4_000_000
 
 
 def strip_surface(prepared: Prepared, index: int) -> Surface:
-    """The map of strip ``index``; of a patch at rest all of it, on its own cells."""
+    """Return the map of strip ``index``; of a patch at rest all of it, on its own cells."""
     if prepared.sample.refines_in_place and not has_moving_roughness(prepared.scene):
         return prepared.surface
     return map_of(prepared, contact_on_strip(prepared, prepared.sample, index))
 
 
 def map_of(prepared: Prepared, rough_contact: HalfSpaceContact) -> Surface:
-    """The map of ``rough_contact``, a strip or a piece."""
+    """Return the map of ``rough_contact``, a strip or a piece."""
     return replace(prepared.surface, heights=rough_contact.heights, spacing=rough_contact.spacing, mask=None)
 
 
 def bodies_of(prepared: Prepared, index: int, speed: float) -> list[RoughBody]:
-    """The rough bodies of strip ``index``. In pure rolling two are one: surface 1."""
+    """Return the rough bodies of strip ``index``. In pure rolling two are one: surface 1."""
     moving = moving_bodies(prepared.scene)
     if len({ratio for _, ratio in moving}) == 1:
         return [RoughBody(strip_surface(prepared, index), abs(speed) * moving[0][1], moving[0][0] == "counterface")]
@@ -80,13 +80,13 @@ def summit_control(prepared: Prepared) -> SummitControl | None:
     return prepared.memo.get(key, make)
 
 
-def moving_point_work(scene: Scene, sample: Sample, sq: float, speed: float, factors: tuple[float, float]) -> float:
+def moving_point_work(scene: Scene, sample: Sample, sq: float, speed: float, cell_ratios: tuple[float, float]) -> float:
     """Estimate the counted work [s] of a point on one strip of moving roughness, ends of input ranges included.
 
-    The cells are ``factors`` times as long as those of ``sample``; ``sq`` [m]: of the surface. The ends of a range of
+    The cells are ``cell_ratios`` times as long as those of ``sample``; ``sq`` [m]: of the surface. The ends of a range of
     the hardness are omitted, because in most contacts no pressure reaches them.
     """
-    (fx, fy) = factors
+    (fx, fy) = cell_ratios
     (dx, dy) = sample.cells.spacing
     line = scene.line_contact(abs(speed))
     effort = effort_for(line, sq, fx * dx)

@@ -359,8 +359,8 @@ def _by_boundary_film(strips: Sequence[StripSolution]) -> float:
 def changed(
     prepared: Prepared, numbers: dict[str, float], pieces: Sequence[Sequence[StripSolution]]
 ) -> dict[str, float]:
-    """``numbers`` of a point as shorter cells change them: each by its ratio on ``pieces``, each on the longer and the
-    shorter cells; the loads by that of their ratio, and the force of the film such that the forces add up to f."""
+    """Return ``numbers`` of a point as shorter cells change them: each by its ratio on ``pieces``, each on the longer
+    and the shorter cells; the loads by that of their ratio, and the force of the film such that the forces add up to f."""
     if not pieces:
         return numbers
     rows = [[numbers_of(prepared, piece[k].result) for piece in pieces] for k in (0, 1)]

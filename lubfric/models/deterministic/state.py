@@ -216,7 +216,7 @@ def _pull(problem: Problem) -> float:
 
 
 def residuals(at: Iterate) -> dict[str, float]:
-    """How far a state is from a solution; all dimensionless.
+    """Return how far a state is from a solution; all dimensionless.
 
     - mass: Σ |r| over fluid and ruptured cells, relative to the flow that enters;
     - load: relative;

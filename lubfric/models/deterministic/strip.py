@@ -103,12 +103,12 @@ class StripSolution:
         None where that is not known without a solve."""
         return None
 
-    def at_inputs(self, scene: Scene, speed: float, surface: Callable[[], Surface]) -> DeterministicResult:
+    def at_inputs(self, scene: Scene, speed: float, make_map: Callable[[], Surface]) -> DeterministicResult:
         """Return the result at the inputs of another ``scene`` with the same surface and motion, from this solution on.
 
-        ``surface``: makes the map of this strip, if it is needed. Raises `ConvergenceError`.
+        ``make_map``: makes the map of this strip, if it is needed. Raises `ConvergenceError`.
         """
-        strip = surface()
+        strip = make_map()
         dx, dy = self.problem.spacing
         factors = (round(dx / strip.spacing[0]), round(dy / strip.spacing[1]))
         return solve_strip(scene, strip, speed, factors=factors, start=self).result
@@ -170,8 +170,8 @@ def solve_strip(
 
 
 def change_by_flow(strip: StripSolution, lubricant: Lubricant) -> float:
-    """Relative change of f of ``strip`` if another ``lubricant`` flowed in its film, with the shear stress that it has.
-    Raises `ConvergenceError`."""
+    """Return the relative change of f of ``strip`` if another ``lubricant`` flowed in its film, with the shear stress
+    that it has. Raises `ConvergenceError`."""
     problem = strip.problem
     result = strip.result
     if lubricant == problem.lubricant:
@@ -182,13 +182,14 @@ def change_by_flow(strip: StripSolution, lubricant: Lubricant) -> float:
 
 
 def thinned_less(lubricant: Lubricant) -> Lubricant:
-    """``lubricant``, the limit of its stress, if it has one, twice as high: it thins the flow half as much. How fast a
-    sheared oil at its limit flows is not known well."""
+    """Return ``lubricant``, the limit of its stress, if it has one, twice as high: it thins the flow half as much. How
+    fast a sheared oil at its limit flows is not known well."""
     return lubricant if lubricant.limit is None else replace(lubricant, **lubricant.limit.twice())
 
 
 def work_of(result: DeterministicResult) -> float:
-    """Counted work of a solve in seconds of a usual core: from its cells and steps alone, never from a clock."""
+    """Return the counted work of a solve in seconds of a usual core: from its cells and steps alone, never from a
+    clock."""
     return work_of_steps(result.pressure.size, result.report.iterations, result.report.evaluations)
 
 
@@ -232,8 +233,8 @@ def problem_of(
 
 
 def error_by_cells(changes: Sequence[float], left: float = math.inf) -> float:
-    """Relative error of f on the last of several grids, each twice as fine as the one before, by its ``changes`` from
-    grid to grid (`change_of`).
+    """Return the relative error of f on the last of several grids, each twice as fine as the one before, by its
+    ``changes`` from grid to grid (`change_of`).
 
     It is the geometric series of the last change, with the ratio q of the last two kept within 1/4 and 3/4 (0.6 from
     one change). ``left``: how often the cells can be halved until they are those that the answer is for. The series
@@ -249,7 +250,7 @@ def error_by_cells(changes: Sequence[float], left: float = math.inf) -> float:
 
 
 def changes_of(strips: Sequence[StripSolution]) -> list[float]:
-    """The `change_of` f from each of ``strips`` to the next."""
+    """Return the `change_of` f from each of ``strips`` to the next."""
     return [change_of(coarse.result, fine.result) for coarse, fine in zip(strips[:-1], strips[1:])]
 
 

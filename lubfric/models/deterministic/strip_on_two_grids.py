@@ -50,9 +50,9 @@ class StripOnTwoGrids:
 
 
 def factors_of(scene: Scene, sample: Sample) -> tuple[int, int]:
-    """Length of the cells of the deterministic model in cells of the ``sample``, along x and y: 2, or 1 where 2 would
-    leave less than `PER_LENGTH` (or `PER_LENGTH_IN_MOTION`) in a correlation length or `PER_HALF_WIDTH` in half the Hertz strip, or
-    does not divide the rows of a strip."""
+    """Return the length of the cells of the deterministic model in cells of the ``sample``, along x and y: 2, or 1
+    where 2 would leave less than `PER_LENGTH` (or `PER_LENGTH_IN_MOTION`) in a correlation length or `PER_HALF_WIDTH`
+    in half the Hertz strip, or does not divide the rows of a strip."""
     (lx, ly) = sample.correlation_lengths
     (dx, dy) = sample.cells.spacing
     longest = min(
@@ -74,8 +74,8 @@ def surface_and_factors(prepared: Prepared, index: int) -> tuple[Surface, tuple[
 
 
 def longer_than(surface: Surface, factors: tuple[int, int], *, moving: bool = False) -> tuple[int, int]:
-    """Cells of ``surface`` twice as long as ``factors``; as long along y where twice that does not divide the map, and
-    along x where roughness is ``moving``."""
+    """Return cells of ``surface`` twice as long as ``factors``; as long along y where twice that does not divide the
+    map, and along x where roughness is ``moving``."""
     along = factors[0] if moving else 2 * factors[0]
     return along, factors[1] if surface.shape[1] % (2 * factors[1]) else 2 * factors[1]
 

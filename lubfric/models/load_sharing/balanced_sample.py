@@ -164,7 +164,7 @@ class BalancedSample:
         return 0.0 if self.response is None else abs(self.response.log_load_ratio_per_gap) * self.corrected_gap**2
 
     def change(self, name: str) -> float:
-        """Relative change of f by the gap [m] that the `CellEffect` has under ``name``."""
+        """Return the relative change of f by the gap [m] that the `CellEffect` has under ``name``."""
         return 0.0 if self.response is None else self.response.relative("coefficient", getattr(self.effect, name))
 
     @property
@@ -200,7 +200,7 @@ class BalancedSample:
         return count if count == self.count else min(self.sample.available, fft.next_fast_len(count, real=True))
 
     def takes_more_strips_first(self) -> bool:
-        """Where few asperity contacts graze each other, more strips are cheaper than shorter cells."""
+        """Return whether more strips are cheaper than shorter cells: where few asperity contacts carry load."""
         return (
             self.count == self.sample.first
             and self.response is not None

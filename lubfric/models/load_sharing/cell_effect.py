@@ -111,8 +111,8 @@ class CellEffect:
     contact_load: float = 0.0
 
     def at_load(self, contact_load: float) -> CellEffect:
-        """The effect, used at another load: what that may change of it was seen to be less than 1.5 |ln| of the ratio
-        of loads times the change and its standard error, on Gaussian and measured surfaces."""
+        """Return the effect, used at another load: what that may change of it was seen to be less than 1.5 |ln| of the
+        ratio of loads times the change and its standard error, on Gaussian and measured surfaces."""
         if not self.contact_load:
             return self
         moved = abs(math.log(contact_load / self.contact_load))
@@ -239,7 +239,7 @@ def _ratio(fine: np.ndarray, coarse: np.ndarray, step: float, correlation: float
 
 
 def mean_error(steps: Sequence[CellStep]) -> StandardError:
-    """Error [m] of the mean change of the gap over several pieces.
+    """Return the error [m] of the mean change of the gap over several pieces.
 
     If the pieces are too short for blocks, it follows from the differences between them. Fewer than three of these have
     no scatter: it is taken to be as large as the changes themselves.
@@ -254,8 +254,8 @@ def mean_error(steps: Sequence[CellStep]) -> StandardError:
 
 
 def remaining(changes: Sequence[float]) -> float:
-    """The change by further halvings of the cells: the rest of a geometric series, from the ratio of the last two
-    changes (1/4 to 3/4; 1/2 if there is only one change)."""
+    """Return the change by further halvings of the cells: the rest of a geometric series, from the ratio of the last
+    two changes (1/4 to 3/4; 1/2 if there is only one change)."""
     last = abs(changes[-1])
     before = abs(changes[-2]) if len(changes) > 1 else 0.0
     ratio = min(max(last / before, LEAST_CHANGE_RATIO), MOST_CHANGE_RATIO) if before > 0 else 0.5
@@ -263,7 +263,7 @@ def remaining(changes: Sequence[float]) -> float:
 
 
 def predicted_next_change(changes: Sequence[float]) -> float:
-    """The change by the next halving, from the ``changes`` d1 (and d2) by the last halvings, the last first.
+    """Return the change by the next halving, from the ``changes`` d1 (and d2) by the last halvings, the last first.
 
     It is d1 r with r = d1/d2, kept between 1/8 (smooth, second order and better) and 1/2 (detail at every scale; also
     if there is no d2). It is at least d2/32, in case d1 is small by chance.
@@ -275,8 +275,8 @@ def predicted_next_change(changes: Sequence[float]) -> float:
 
 
 def lost_summits(prepared: Prepared, point: Point, balance: Balance, sample: Sample) -> float:
-    """Height [m] that the cells of ``sample`` take from the highest summit of the first piece, measured by its distance
-    to the film above it."""
+    """Return the height [m] that the cells of ``sample`` take from the highest summit of the first piece, measured by
+    its distance to the film above it."""
     assert balance.film is not None
     own, coarse = (
         point.pressed(contact_on_piece(prepared, sample, 0, factors), balance.film, 0.0, None).mean_gap

@@ -35,7 +35,7 @@ FLANKS = 1.5
 def load_sharing_error(
     film_to_roughness_ratio: float, share: float, boundary: float, shear: float, rolling: float = 0.0
 ) -> tuple[float, float]:
-    """Relative error of f by Eq. (8), at 95 % (docs/uncertainty.md): by how much f may be lower, and higher.
+    """Return the relative error of f by Eq. (8), at 95 % (docs/uncertainty.md): by how much f may be lower, and higher.
 
     ``film_to_roughness_ratio``: r, the central film over Sq; ``share``: s = F_C/F_T; ``boundary``, ``shear``: the two
     parts of f, of asperities and film; ``rolling``: the part of rolling in the latter, if roughness moves. Four things may be off: the load that asperities carry, by up to 0.7
@@ -61,7 +61,7 @@ def load_sharing_error(
 
 
 def starved_error(inlet_film: float, gap: float) -> tuple[float, float]:
-    """Relative error of f by Eq. (8), at 95 %, below and above f, where a given film arrives.
+    """Return the relative error of f by Eq. (8), at 95 %, below and above f, where a given film arrives.
 
     Eq. (8) takes a film that does not fill the gap for none, and f = f_b. The deterministic model finds lubricant
     between the asperities that lowers f, the more of the gap it fills: by 7 % at half and by 33 % at all of it (scene

@@ -227,7 +227,8 @@ def _shear_errors(forces: Forces, film_error: float) -> dict[str, float]:
 
 
 def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], tuple[str, ...]]:
-    """Relative error of f by load sharing itself, at 95 %, below and above f; where it is not known NaN, and why."""
+    """Return the relative error of f by load sharing itself, at 95 %, below and above f; where it is not known NaN, and
+    why."""
     balance = balanced.balance
     scene = balanced.prepared.scene
     if balance.film is None:

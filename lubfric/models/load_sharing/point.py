@@ -62,8 +62,8 @@ class Point:
     settings: Settings
 
     def line(self, film_load: float) -> LineContact:
-        """The smooth line contact of a film that carries ``film_load`` [N]. Unless the film is deflected by its own
-        pressure alone, it has Johnson's modulus E' F_H/F_T, with which the Hertz strip is that of the total load
+        """Return the smooth line contact of a film that carries ``film_load`` [N]. Unless the film is deflected by its
+        own pressure alone, it has Johnson's modulus E' F_H/F_T, with which the Hertz strip is that of the total load
         (K. L. Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91-108, doi:10.1016/0043-1648(72)90445-0)."""
         bodies = self.scene.bodies
         share = film_load / bodies.load if self.scene.numerics.film_deflection == "scaled" else 1.0
@@ -72,12 +72,13 @@ class Point:
         return replace(self.scene.line_contact(self.speed), load_per_width=load, e_prime=e_prime, lubricant=self.oil)
 
     def film(self, film_load: float, start: EHLResult | None = None, cells: int = 0) -> EHLResult:
-        """The film that carries ``film_load`` [N]."""
+        """Solve the film that carries ``film_load`` [N]."""
         effort = Effort(self.settings.film_tolerance, max(self.settings.film_cells, cells))
         return solve_line_contact(self.line(film_load), effort, start=start)
 
     def on(self, rough_contact: RoughContact, film: EHLResult) -> tuple[np.ndarray, np.ndarray]:
-        """Film [m] at the x of ``rough_contact``, and the shape under which the surface is pressed there, up to a constant.
+        """Return the film [m] at the x of ``rough_contact``, and the shape under which the surface is pressed there, up
+        to a constant.
 
         The shape is the film, unless the film contains the deflection by the total load (Johnson's modulus). Then it
         is the film less the contact's share, because the contact adds its own deflection.
@@ -89,7 +90,8 @@ class Point:
         return thickness, parabola + film.e_prime / self.scene.bodies.e_prime * (thickness - parabola)
 
     def trial(self, film_load: float, contact_load: float, last: Trial | None = None) -> Trial:
-        """The film of ``film_load`` [N], and under it the contact that carries ``contact_load`` [N], from ``last``."""
+        """Solve the film of ``film_load`` [N], and under it the contact that carries ``contact_load`` [N], from
+        ``last``."""
         start, last_touching, cells = (last.film, last.last_touching, last.film_cells) if last else (None, None, 0)
         film = self.film(film_load, start, cells)
         contact_state = self.pressed(self.rough_contact, film, contact_load, last_touching)
@@ -107,12 +109,12 @@ class Point:
     def pressed(
         self, rough_contact: RoughContact, film: EHLResult, load: float, start: ContactState | None
     ) -> ContactState:
-        """``rough_contact`` under ``film``, with ``load`` [N]."""
+        """Press ``rough_contact`` under ``film``, with ``load`` [N]."""
         thickness, shape = self.on(rough_contact, film)
         return self.tight(rough_contact).close(thickness, load, start, shape)
 
     def tight(self, rough_contact: RoughContact) -> RoughContact:
-        """``rough_contact``, solved as closely as the settings ask."""
+        """Return ``rough_contact``, solved as closely as the settings ask."""
         tolerance = self.settings.contact_tolerance
         return rough_contact if tolerance is None else rough_contact.tightened(tolerance)
 

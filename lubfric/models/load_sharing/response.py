@@ -44,7 +44,7 @@ class Slopes:
     contact_length: float
 
     def area_factor(self, more: float, width: float, area: float) -> float:
-        """By which factor a contact area fraction grows under ``more`` load [N] on the ``width`` [m]."""
+        """Return by which factor a contact area fraction grows under ``more`` load [N] on the ``width`` [m]."""
         return max(1 + self.area * more / (width * area), 0.0) if area else 1.0
 
 
@@ -66,15 +66,17 @@ class Response:
     load_ratio: float = 0.0
 
     def per_gap(self, name: str) -> float:
-        """Relative change of quantity ``name`` per change of the gap [1/m], for small changes; 0 without a film."""
+        """Return the relative change of quantity ``name`` per change of the gap [1/m], for small changes; 0 without a
+        film."""
         return abs(self.rates[name] * self.log_load_ratio_per_gap) if self.rates else 0.0
 
     def per_film(self, forces: Forces, mean_film: float) -> float:
-        """Relative change of f per relative change of the film, of mean thickness ``mean_film`` [m], at most."""
+        """Return the relative change of f per relative change of the film, of mean thickness ``mean_film`` [m], at
+        most."""
         return self.per_gap("coefficient") * mean_film + forces.film_sensitivity
 
     def relative(self, name: str, gap_error: float) -> float:
-        """Relative error [-] of quantity ``name`` for an error of the gap [m]; 0 without a film.
+        """Return the relative error [-] of quantity ``name`` for an error of the gap [m]; 0 without a film.
 
         The load of a light contact depends exponentially on the gap. Where s falls by m, it grows by (1 + F_H/F_C)/(1 +
         exp(-m) F_H/F_C) - 1, which is more than to first order.
@@ -87,7 +89,7 @@ class Response:
         )
 
     def gap_for(self, name: str, change: float) -> float:
-        """A gap error [m] that changes quantity ``name`` by no more than ``change``, relative."""
+        """Return a gap error [m] that changes quantity ``name`` by no more than ``change``, relative."""
         rate = self.per_gap(name)
         if not rate:
             return math.inf
@@ -96,8 +98,9 @@ class Response:
 
 
 def load_growth(moved: float, load_ratio: float) -> float:
-    """How much more the contact load grows than to first order, when ln(F_H/F_C) falls by ``moved`` >= 0 from
-    ln(``load_ratio``), ``load_ratio`` = F_H/F_C. As F_C = F_T/(1 + F_H/F_C), it is less than 1 where the contact carries most."""
+    """Return how much more the contact load grows than to first order, when ln(F_H/F_C) falls by ``moved`` >= 0 from
+    ln(``load_ratio``), ``load_ratio`` = F_H/F_C. As F_C = F_T/(1 + F_H/F_C), it is less than 1 where the contact
+    carries most."""
     moved = min(moved, LARGEST_GROWTH)
     if not moved or not load_ratio:
         return 1.0
@@ -113,7 +116,8 @@ def respond(
     shape: np.ndarray | None = None,
     film_of: Callable[[float], EHLResult] | None = None,
 ) -> Response:
-    """The `Response` of ``rough_contact``, which is in ``contact_state`` at ``load`` [N] under ``thickness`` and ``shape`` [m] (nx,).
+    """Return the `Response` of ``rough_contact``, which is in ``contact_state`` at ``load`` [N] under ``thickness`` and
+    ``shape`` [m] (nx,).
 
     Slopes are secants to a load 5 % larger (smaller where the contact carries no more). ``film_of``: the film that
     carries a load [N], where one shares the load. Its rates come from films at two other divisions of the load; no
@@ -153,8 +157,8 @@ def respond(
 def quantities(
     friction: Forces, film: EHLResult | None, loads: tuple[float, float], mean_gap: float
 ) -> dict[str, float]:
-    """The numbers of a point that a balance determines, by name (`lubfric.quantities`). ``friction``: forces of the
-    ``film`` (None: none), which carries the first of ``loads`` [N], and of the contact, which carries the second."""
+    """Return the numbers of a point that a balance determines, by name (`lubfric.quantities`). ``friction``: forces of
+    the ``film`` (None: none), which carries the first of ``loads`` [N], and of the contact, which carries the second."""
     return {
         "coefficient": friction.coefficient,
         "contact_load": loads[1],
@@ -175,7 +179,7 @@ def quantities(
 
 
 def with_contact_area_scaled(contact_state: ContactState, factor: float) -> ContactState:
-    """``contact_state`` with ``factor`` times its contact area, at every x up to the full width."""
+    """Return ``contact_state`` with ``factor`` times its contact area, at every x up to the full width."""
     return replace(
         contact_state,
         contact_fraction=np.minimum(contact_state.contact_fraction * factor, 1.0),
@@ -184,7 +188,7 @@ def with_contact_area_scaled(contact_state: ContactState, factor: float) -> Cont
 
 
 def contact_length(contact_state: ContactState) -> float:
-    """Contact area per length of the line [m]."""
+    """Return the contact area per length of the line [m]."""
     return float(contact_state.contact_fraction.sum() * (contact_state.x[1] - contact_state.x[0]))
 
 

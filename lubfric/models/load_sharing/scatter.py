@@ -135,9 +135,9 @@ def friction_influence(scene: Scene, rough_contact: HalfSpaceContact, balance: B
 def place_error(
     influence: FloatArray, step: float, sample: Sample, count: int, exact: FloatArray | None = None
 ) -> StandardError:
-    """Standard error of the mean of the ``influence`` of places along ``count`` strips, on cells of ``step`` [m]: from
-    blocks (`block_error`). If there are three windows of a measured map or more, it is the larger of that and the one
-    from windows, which show whether a surface differs from place to place."""
+    """Return the standard error of the mean of the ``influence`` of places along ``count`` strips, on cells of ``step``
+    [m]: from blocks (`block_error`). If there are three windows of a measured map or more, it is the larger of that and
+    the one from windows, which show whether a surface differs from place to place."""
     blocks = block_error(influence, step, sample.correlation_lengths[1], exact)
     if sample.is_homogeneous or count < FEWEST_WINDOWS:
         return blocks
@@ -147,7 +147,7 @@ def place_error(
 
 
 def film_stress(scene: Scene, rough_contact: HalfSpaceContact, film: EHLResult) -> np.ndarray:
-    """Shear stress [Pa] (nx,) of ``film`` at the columns of ``rough_contact``, signed as the friction."""
+    """Return the shear stress [Pa] (nx,) of ``film`` at the columns of ``rough_contact``, signed as the friction."""
     sliding = scene.motion.slide_roll_ratio * film.entrainment_speed
     pressure = np.interp(rough_contact.x, film.x, film.pressure)
     stress = shear_stress(scene.lubricant, pressure, abs(sliding) / film.film_at(rough_contact.x))
@@ -164,8 +164,8 @@ def moment_error(
     parts: tuple[float, float],
     thinning: float,
 ) -> float:
-    """Relative standard error of f at one moment, from a `ContactState` with fields on ``rough_contact``: 0 without contact,
-    NaN if the line is too short.
+    """Return the relative standard error of f at one moment, from a `ContactState` with fields on ``rough_contact``: 0
+    without contact, NaN if the line is too short.
 
     ``loads``: (F_C, F_H) [N]; ``softness``: -dG/d ln F_C [m] of the contact; ``parts``: boundary and viscous friction
     [N]; ``thinning``: -d ln h/d ln F_H of the film, 1 if it is rigid and some .1 if it is elastic. Film and contact are

@@ -55,8 +55,8 @@ def undetected_load(
     width: float,
     correlation_length: float,
 ) -> float:
-    """Expected contact load [N] of the full width on summits higher than the highest one of the line, to an order of
-    magnitude.
+    """Return the expected contact load [N] of the full width on summits higher than the highest one of the line, to an
+    order of magnitude.
 
     The least clearances of short blocks along y follow an extreme-value (Gumbel) distribution, which is fitted by its
     first two moments. It shows how many blocks lie below zero, exp(-...), and the scale a of their heights. Each
@@ -82,8 +82,8 @@ def undetected_load(
 
 
 def hidden_contact(scene: Scene, rough_contact: HalfSpaceContact, forces: Forces, depth: float) -> float:
-    """Relative effect on f of the highest summit of ``rough_contact``, a piece, that is pressed ``depth`` [m] into a body, if
-    every such piece has one."""
+    """Return the relative effect on f of the highest summit of ``rough_contact``, a piece, that is pressed ``depth``
+    [m] into a body, if every such piece has one."""
     bodies = scene.bodies
     length = rough_contact.heights.shape[1] * rough_contact.spacing[1]
     load = _spot(rough_contact.heights, rough_contact.spacing, bodies.e_prime, depth) / length * bodies.width
@@ -105,7 +105,7 @@ def _spot(heights: FloatArray, spacing: tuple[float, float], e_prime: float, dep
 
 
 def summit_radius(heights: FloatArray, spacing: tuple[float, float]) -> float:
-    """Radius [m] of the highest summit that has neighbours on all sides, the geometric mean of both axes."""
+    """Return the radius [m] of the highest summit that has neighbours on all sides, the geometric mean of both axes."""
     z = heights
     (dx, dy) = spacing
     i, j = np.unravel_index(int(z[1:-1].argmax()), z[1:-1].shape)

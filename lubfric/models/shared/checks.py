@@ -248,7 +248,7 @@ def warn_patches(scene: Scene, heights: FloatArray, area: float) -> Iterator[Vio
 
 
 def meaningless(shear: ShearForce) -> bool:
-    """Whether most of the force of ``shear`` (`ShearForce`) comes from stresses that no oil carries."""
+    """Return whether most of the force of ``shear`` (`ShearForce`) comes from stresses that no oil carries."""
     return not shear.excess <= 0.5 * abs(shear.couette)
 
 
@@ -285,7 +285,7 @@ def warn_shear(scene: Scene, shear: ShearForce, film_load: float, friction_force
 
 
 def warn_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
-    """``heat``: `lubfric.models.shared.Heat` of a point."""
+    """Yield warnings about the ``heat`` of a point that is large, or not known."""
     tolerance = scene.numerics.tolerance
     if heat.is_used and heat.inlet is not None:
         spread = abs(heat.inlet.other / max(heat.inlet.factor, 1e-12) - 1)
@@ -333,7 +333,8 @@ def warn_typical_heat(scene: Scene, change: float) -> Iterator[Violation]:
 
 
 def warn_error(error: float | None, tolerance: float, remedy: str) -> Iterator[Violation]:
-    """A warning if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known)."""
+    """Yield a warning if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not
+    known)."""
     if error is not None and error > tolerance:
         why = "the error of the solve is above the requested tolerance"
         yield Violation(

@@ -77,7 +77,7 @@ def _cells_of_length(surface: Surface, axis: int) -> float:
 
 
 def warn_bodies(bodies: Bodies) -> Iterator[Violation]:
-    """Half-space and elasticity of the Hertz contact."""
+    """Yield warnings about the half-space and the elasticity of the Hertz contact."""
     wide = bodies.half_width / bodies.radius
     if wide > WIDE_STRIP:
         remedy = "check bodies.load, e_prime and radius; a lighter load or a stiffer body"

@@ -28,6 +28,6 @@ class ControlVariate:
         return self.by_place.shape[0]
 
     def deviations(self, index: int, places: int) -> np.ndarray:
-        """Differences of f at so many ``places`` along strip ``index`` (places,), with a mean of 0."""
+        """Return the differences of f at so many ``places`` along strip ``index`` (places,), with a mean of 0."""
         values = self.by_place[index].reshape(places, -1).mean(axis=1)
         return values - values.mean()

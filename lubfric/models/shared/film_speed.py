@@ -15,7 +15,7 @@ SPEED_ACCURACY = 1e-6
 
 
 def exponents(line: LineContact) -> tuple[float, float, float]:
-    """The expected film h [m] of ``line``, and m and e of h ~ load^-m speed^e about it."""
+    """Return the expected film h [m] of ``line``, and m and e of h ~ load^-m speed^e about it."""
 
     def change(other: LineContact) -> float:
         return math.log(other.expected_film / line.expected_film) / math.log1p(NUDGE)

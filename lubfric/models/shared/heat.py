@@ -92,7 +92,7 @@ class Heat:
         return math.isfinite(self.peclet)
 
     def reason(self, scene: Scene) -> str:
-        """Why the temperatures were not computed, as text; "" if they were."""
+        """Return why the temperatures were not computed, as text; "" if they were."""
         if self.heated is not None:
             return ""
         if scene.numerics.heat == "off":
@@ -116,7 +116,7 @@ class Heat:
         return self.peclet < FAST_PECLET_NUMBER
 
     def text(self, tolerance: float) -> str:
-        """The heat as text, each number with its budget."""
+        """Return the heat as text, each number with its budget."""
         if self.inlet is None:
             return ""
         limit = f"{100 * budget.HEAT * tolerance:.2g} %"
@@ -131,7 +131,7 @@ class Heat:
 
 
 def inlet_at(scene: Scene, speed: float) -> tuple[InletHeat | None, bool]:
-    """Inlet heating of ``scene`` at ``speed`` [m/s], and whether the film is to be solved with it."""
+    """Return the inlet heating of ``scene`` at ``speed`` [m/s], and whether the film is to be solved with it."""
     lubricant = scene.lubricant
     numerics = scene.numerics
     coefficient = lubricant.temperature_coefficient
@@ -151,7 +151,7 @@ def inlet_at(scene: Scene, speed: float) -> tuple[InletHeat | None, bool]:
 
 
 def film_lubricant(scene: Scene, speed: float) -> Lubricant:
-    """The lubricant with which the film is solved: with the viscosity in the heated inlet at which Moes' film is
+    """Return the lubricant with which the film is solved: with the viscosity in the heated inlet at which Moes' film is
     thinner by the factor of `inlet_at`."""
     inlet, used = inlet_at(scene, speed)
     if inlet is None or not used or inlet.factor > 1 - NEGLIGIBLE_HEAT:
@@ -297,9 +297,9 @@ def surroundings(scene: Scene, speed: float, wet: FloatArray, boundary_stress: F
 def typical_heat(
     scene: Scene, film: Any, contact_state: ContactState, contact_load: float, force: float, shear: ShearForce
 ) -> float:
-    """Share of ``force`` = |f F_T| [N] that the heat of film and surfaces would take away, at most, if the viscosity
-    fell with the temperature as that of a typical oil (`TYPICAL`), from the stress of the isothermal film. 0 where the
-    lubricant says how it falls, where ``numerics.heat`` is off, and where nothing slides. Arguments as of
+    """Return the share of ``force`` = |f F_T| [N] that the heat of film and surfaces would take away, at most, if the
+    viscosity fell with the temperature as that of a typical oil (`TYPICAL`), from the stress of the isothermal film. 0
+    where the lubricant says how it falls, where ``numerics.heat`` is off, and where nothing slides. Arguments as of
     `point_heat`."""
     lubricant = scene.lubricant
     known = lubricant.heats or lubricant.temperature_coefficient == 0
@@ -314,15 +314,15 @@ def typical_heat(
 
 
 def peclet_at(scene: Scene, speed: float) -> float:
-    """u b rho c/(2 k) of the faster surface at U = ``speed`` [m/s]; the smaller of both bodies."""
+    """Return u b rho c/(2 k) of the faster surface at U = ``speed`` [m/s]; the smaller of both bodies."""
     bodies = scene.bodies
     faster = abs(speed) * (1 + 0.5 * abs(scene.motion.slide_roll_ratio))
     return min(faster * bodies.half_width * c / (2 * k) for k, c in zip(bodies.conductivity, bodies.volumetric_heat))
 
 
 def error_by_heat(heat: Heat, by_inlet: float) -> float:
-    """Relative error of f by ``heat``: half of what it does. ``by_inlet``: relative change of f without the heat of the
-    inlet, of which it is as much more as the other of two published factors has it."""
+    """Return the relative error of f by ``heat``: half of what it does. ``by_inlet``: relative change of f without the
+    heat of the inlet, of which it is as much more as the other of two published factors has it."""
     apart = DOUBT
     if heat.film_factor < 1 and heat.inlet is not None:
         apart = max(apart, abs(math.log(heat.inlet.other / heat.film_factor) / math.log(heat.film_factor)))

@@ -138,7 +138,7 @@ def cells_of_contact(rough_contact: RoughContact) -> int:
 
 
 def scene_of(scene: Scene | Prepared) -> Scene:
-    """The scene that was prepared, or the scene itself; anything else is an `InputError`."""
+    """Return the scene that was prepared, or the scene itself; anything else is an `InputError`."""
     if isinstance(scene, Prepared):
         return scene.scene
     validate.instance("scene", scene, Scene, "what lubfric.load_scene or lubfric.prepare returned")

@@ -73,7 +73,7 @@ class StandardError:
 def block_error(
     values: np.ndarray, step: float, correlation_length: float, exact: FloatArray | None = None
 ) -> StandardError:
-    """Standard error of the mean of ``values`` (ny,), on cells of ``step`` [m], from block means.
+    """Return the standard error of the mean of ``values`` (ny,), on cells of ``step`` [m], from block means.
 
     It is s/sqrt(n (1 - 0.56/b)) with n = 8 to 32 blocks, each at least b = 9 correlation lengths [m] long. If the line
     is too short for eight of these, 5 to 8 blocks of five lengths are taken. A remainder shorter than a block is
@@ -110,8 +110,8 @@ def means_of_blocks(values: np.ndarray, count: int) -> np.ndarray:
 
 
 def add_errors(*parts: StandardError) -> StandardError:
-    """Error of a sum of independent quantities. The degrees of freedom are by Welch and Satterthwaite
-    (F. E. Satterthwaite, Biometrics Bull. 2 (1946) 110-114, doi:10.2307/3002019)."""
+    """Return the error of a sum of independent quantities. The degrees of freedom are by Welch and Satterthwaite (F. E.
+    Satterthwaite, Biometrics Bull. 2 (1946) 110-114, doi:10.2307/3002019)."""
     terms = [(part.error**2, part.freedom) for part in parts]
     variance = sum(v for v, _ in terms)
     if variance == 0 or not math.isfinite(variance):
@@ -155,20 +155,21 @@ def required_strips(
 
 
 def has_too_few_contacts(effective_contacts: float, reached: float, target: float) -> bool:
-    """Whether so few asperity contacts carry the load that an interval is too narrow more often than it says, and the
-    standard error ``reached`` is not small compared with ``target``. 0 contacts: nothing touches."""
+    """Return whether so few asperity contacts carry the load that an interval is too narrow more often than it says,
+    and the standard error ``reached`` is not small compared with ``target``. 0 contacts: nothing touches."""
     return 0 < effective_contacts < FEW_CONTACTS and reached > SAMPLING_MATTERS * target
 
 
 def student(freedom: float) -> float:
-    """97.5 % quantile of Student's t."""
+    """Return the 97.5 % quantile of Student's t."""
     from scipy.special import stdtrit
 
     return float(stdtrit(max(freedom, 1.0), 0.5 + 0.5 * CONFIDENCE))
 
 
 def percent(value: float) -> str:
-    """Two digits (all of 100 and more) and a percent sign; "< 0.001 %" for what nobody can see, "not known" for NaN."""
+    """Return a ratio as text with two digits (all of 100 and more) and a percent sign; "< 0.001 %" for what nobody can
+    see, "not known" for NaN."""
     if math.isnan(value):
         return "not known"
     if value >= 0.995:

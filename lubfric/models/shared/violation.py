@@ -88,14 +88,14 @@ def refused(violations: tuple[Violation, ...], *, accept: bool, result: object =
 
 
 def violations_of(point: Any, error: Exception | None) -> tuple[Violation, ...]:
-    """Violated assumptions at ``point`` of a curve (None: failed), or at the result that ``error`` refused."""
+    """Return the violated assumptions at ``point`` of a curve (None: failed), or at the result that ``error`` refused."""
     refused = error.result if point is None and isinstance(error, ValidityError) else None
     checked = point if refused is None else refused
     return () if checked is None else checked.validity
 
 
 def in_a_cell(violations: Iterable[Violation]) -> str:
-    """The texts of ``violations`` in one cell of a table."""
+    """Return the texts of ``violations`` in one cell of a table."""
     return TEXT_SEPARATOR.join(violation.text for violation in violations)
 
 
