@@ -86,7 +86,7 @@ IN_HALF_WIDTH = (3.0, 14.0)
 # Factors on the errors by ALONG_X and ALONG_Y, and on the effect of the narrow gaps, where heights change from cell to cell
 # (`smooth_over_cells`) [-]: shorter cells then show new summits, which act against it, and nothing is expected.
 UNSMOOTH = 4.0
-UNSMOOTH_NARROWED = 4.0
+UNSMOOTH_NARROWED = 5.5
 
 # Factor on the change of f from cells twice as long along y [-]: by second order a third of it is left.
 BY_LONGER = 1 / 3

@@ -68,9 +68,6 @@ REFERENCE_COLUMNS = ("contact", "kind", "seed", "f", "error", "plain", "plain_er
 # Seeds of the strips of references, far from those of answers.
 REFERENCE_SEED = 1000
 
-# Surfaces of a reference: of its strips, and of the narrower strips on shorter cells.
-REFERENCE_SEEDS = 3
-
 # Half-widths that a strip of a reference discards.
 REFERENCE_DISCARDED = 4.0
 
@@ -223,16 +220,19 @@ class Job:
         return row | {"seconds": time.process_time() - begun}
 
 
-def jobs_left(
-    seeds: int, folder: Path, names: Sequence[str], *, references: int = REFERENCE_SEEDS, narrow: int = REFERENCE_SEEDS
-) -> list[Job]:
-    """Return what the tables have not of the contacts ``names``: so many strips and ``narrow`` strips of ``references``
-    first, then the answers of so many ``seeds``."""
+def jobs_left(folder: Path, names: Sequence[str], *, answers: int, strips: int, narrow: int) -> list[Job]:
+    """Return what the tables have not of the contacts ``names``: so many ``answers``, ``strips`` of the reference, and
+    ``narrow`` strips of it on shorter cells, a round of all contacts after the other."""
     kept = {(row["kind"], row["contact"], row["seed"]) for row in table_file.rows(folder / REFERENCES)}
     kept |= {(ANSWER, row["contact"], row["seed"]) for row in table_file.rows(folder / ANSWERS)}
-    jobs = [Job("cells", name, seed) for seed in range(narrow) for name in names]
-    jobs += [Job("strip", name, seed) for seed in range(references) for name in names]
-    jobs += [Job(ANSWER, name, seed) for seed in range(seeds) for name in names]
+    counts = {"cells": narrow, "strip": strips, ANSWER: answers}
+    jobs = [
+        Job(kind, name, seed)
+        for seed in range(max(counts.values()))
+        for kind, count in counts.items()
+        if seed < count
+        for name in names
+    ]
     return [job for job in jobs if (job.kind, job.name, str(job.seed)) not in kept]
 
 
