@@ -5,14 +5,16 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import socket
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from contextlib import contextmanager, suppress
 from itertools import islice
-from queue import SimpleQueue
+from queue import Empty, SimpleQueue
 from typing import Any
+from urllib.parse import urlsplit
 
 from ..errors import InputError
 from . import validate
@@ -28,6 +30,13 @@ LAST_WAIT = 2.0
 
 # Time that a scheduler has to answer [s].
 CONNECT = 10.0
+
+# Time after which the client of a scheduler that answers is given up [s].
+LONGEST_START = 60.0
+
+# Protocols of a scheduler over a connection of TCP; and those in which the client speaks first.
+SCHEMES = ("tcp", "tls", "ws", "wss")
+CLIENT_FIRST = ("tls:", "ws:", "wss:")
 
 # Jobs that an executor holds at a time: more than any cluster has workers, and few enough to hold in memory.
 IN_FLIGHT = 4096
@@ -55,16 +64,61 @@ def cluster(address: str) -> Iterator[Any]:
     """Yield an executor of the Dask cluster whose scheduler listens at ``address``, such as "tcp://host:8786". Raises
     `InputError` where none does."""
     distributed = validate.installed("distributed", "cluster")
+    (host, port) = _checked_address(address)
     try:
-        client = distributed.Client(address, timeout=CONNECT, set_as_default=False)  # leaves the configuration of Dask
-    except Exception as error:  # of many kinds, by the address; an AssertionError where the machine is very busy
-        said = f" = {validate.shown(address)}: no Dask scheduler answers ({validate.shown(str(error))})"
-        way_out = "start one with 'dask scheduler', and give its address, tcp://host:8786"
-        raise InputError(said, "--cluster", way_out=way_out) from None
+        with socket.create_connection((host, port), timeout=CONNECT) as connection:
+            if not address.startswith(CLIENT_FIRST) and not connection.recv(1):  # a scheduler speaks first
+                raise OSError("the connection was closed without a word")
+    except TimeoutError:
+        raise _no_scheduler(address, f"nothing came in {CONNECT:g} s") from None
+    except OSError as error:
+        raise _no_scheduler(address, str(error)) from None
+    client = _client(distributed, address)
     try:
         yield client.get_executor()
     finally:
         client.close(timeout=CONNECT)
+
+
+def _checked_address(address: str) -> tuple[str, int]:
+    """Return host and port of an ``address`` such as "tcp://host:8786", or "host:8786". Raises `InputError`."""
+    try:
+        parts = urlsplit(address if "://" in address else f"tcp://{address}")
+        host = parts.hostname
+        port = parts.port
+    except ValueError:  # a port that is no number, or a bracket without its end
+        raise _no_scheduler(address, "host or port cannot be read") from None
+    if parts.scheme not in SCHEMES or not host or not port:
+        raise _no_scheduler(address, f"it is not one of {', '.join(f'{scheme}://host:port' for scheme in SCHEMES)}")
+    return host, port
+
+
+def _client(distributed: Any, address: str) -> Any:
+    """Return a Dask client. Its thread was once not started, and waited for without end: so it is made in another one, and
+    waited for `LONGEST_START`."""
+    ended: SimpleQueue[Any] = SimpleQueue()
+
+    def make() -> None:
+        try:  # leaves the configuration of Dask
+            ended.put(distributed.Client(address, timeout=CONNECT, set_as_default=False))
+        except Exception as error:  # of many kinds; an AssertionError where the machine is very busy
+            ended.put(error)
+
+    if begin_beside(make) is None:
+        raise _no_scheduler(address, "this machine has no thread left for a client")
+    try:
+        made = ended.get(timeout=LONGEST_START)
+    except Empty:
+        raise _no_scheduler(address, f"its client did not start in {LONGEST_START:g} s") from None
+    if isinstance(made, Exception):
+        raise _no_scheduler(address, str(made))
+    return made
+
+
+def _no_scheduler(address: str, why: str) -> InputError:
+    said = f" = {validate.shown(address)}: no Dask scheduler answers ({validate.shown(why)})"
+    way_out = "start one with 'dask scheduler', and give its address, tcp://host:8786"
+    return InputError(said, "--cluster", way_out=way_out)
 
 
 def spread(executor: Any, jobs: Iterable[Callable[[], Iterator[Any]]]) -> Iterator[Any]:

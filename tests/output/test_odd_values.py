@@ -1,7 +1,6 @@
 """Values of a kind that nobody foresaw, in every place that takes a list, a path or a switch: answered by an
 `InputError` before any work, never by an error of Python or NumPy."""
 
-import importlib
 from functools import partial
 
 import numpy as np
@@ -9,7 +8,6 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric._base.processes import cluster
 
 RAGGED = [[1.0, 2.0], [3.0]]
 PATHS = (True, 3, b"x", "a\0b", 300 * "x", 3000 * "../x")
@@ -142,17 +140,3 @@ def test_a_film_below_the_last_digit_of_the_load_carries_nothing():
         found = lubfric.friction(scene, speed)
         assert found.coefficient == pytest.approx(rest.coefficient, rel=1e-9)
         assert found.contact_load == pytest.approx(rest.contact_load, rel=1e-9)
-
-
-@pytest.mark.parametrize("address", ["ucx://127.0.0.1:1", "x", "http://127.0.0.1:1"])
-def test_an_address_at_which_no_scheduler_answers_is_refused(address, monkeypatch):
-    distributed = pytest.importorskip("distributed")
-
-    def refused(*given, **how):
-        raise OSError("no answer")
-
-    monkeypatch.setattr(distributed, "Client", refused)  # its threads, once in a run of all tests, did not start
-    before = dict(importlib.import_module("dask").config.config)
-    with pytest.raises(lubfric.InputError, match="no Dask scheduler answers"), cluster(address):
-        pass
-    assert importlib.import_module("dask").config.config == before

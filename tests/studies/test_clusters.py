@@ -126,12 +126,35 @@ def test_a_scheduler_that_dies_and_comes_back_costs_no_point(cluster, serial, tm
         killer.join()
 
 
-def test_an_address_without_a_scheduler_is_one_line(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("lubfric._base.processes.CONNECT", 0.5)
+@pytest.mark.parametrize(
+    "address",
+    ["tcp://127.0.0.1:1", "http://127.0.0.1:80", "127.0.0.1", "tcp://127.0.0.1:x", "tcp://[::1", "", "tls://:1"],
+)
+def test_an_address_without_a_scheduler_is_one_line(tmp_path, capsys, monkeypatch, address):
+    """And no client is made, whose thread was once not started and waited for without end."""
+    monkeypatch.setattr("distributed.Client", None)
     (tmp_path / "study.toml").write_text('scene = "paper"\nspeeds = [0.01]\n')
     command = ["study", str(tmp_path / "study.toml"), "--out", str(tmp_path / "out")]
-    assert main([*command, "--cluster", "tcp://127.0.0.1:1"]) == 2
-    assert "no Dask scheduler answers" in capsys.readouterr().err.splitlines()[-1]
+    assert main([*command, "--cluster", address]) == 2
+    said = capsys.readouterr().err.splitlines()[-1]
+    assert "no Dask scheduler answers" in said and repr(address) in said and "tcp://host:8786" in said
+
+
+def test_a_server_that_says_nothing_is_no_scheduler(monkeypatch):
+    monkeypatch.setattr("distributed.Client", None)
+    monkeypatch.setattr("lubfric._base.processes.CONNECT", 0.2)
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        with pytest.raises(lubfric.InputError, match="nothing came in 0.2 s"):
+            with lubfric.studies.cluster("tcp://127.0.0.1:%d" % silent.getsockname()[1]):
+                pass
+
+
+def test_a_client_that_does_not_start_is_given_up(cluster, monkeypatch):
+    monkeypatch.setattr("distributed.Client", lambda *_, **__: time.sleep(5))
+    monkeypatch.setattr("lubfric._base.processes.LONGEST_START", 0.2)
+    with pytest.raises(lubfric.InputError, match="did not start in 0.2 s"):
+        with lubfric.studies.cluster(cluster.address):
+            pass
 
 
 class Elsewhere(ThreadPoolExecutor):
