@@ -2,10 +2,10 @@
 solved."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass
 
-from ..models import AUTO, WorkEstimate, models_up_to
+from ..models import AUTO, SharedWork, WorkEstimate, models_up_to
 from ..samples import Sample
 from ..scene import Scene
 from ..surface import Surface
@@ -25,7 +25,7 @@ class PointWorkEstimate:
     long_point_strips : number of strips by the model of long points (`lubfric.models.Model.has_long_points`); 0: it is
         not asked
     seconds : processor time [s]
-    once : the part of it that further points of the same scene are spared
+    shared : the parts of it that other points are spared
     long_strip_seconds : processor time [s] of one strip by that model if its roughness moves; 0 where it does not, or has little
         effect
     """
@@ -37,7 +37,7 @@ class PointWorkEstimate:
     length: float
     long_point_strips: int
     seconds: float
-    once: float = 0.0
+    shared: tuple[SharedWork, ...] = ()
     long_strip_seconds: float = 0.0
 
 
@@ -65,15 +65,25 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
         length=line.length,
         long_point_strips=max((estimates[k].strips for k in with_long_points if k in solved), default=0),
         seconds=sum(estimates[k].seconds for k in solved),
-        once=sum(estimates[k].once for k in solved),
+        shared=tuple(part for k in solved for part in estimates[k].shared),
         long_strip_seconds=max((estimates[k].strip_seconds for k in with_long_points), default=0.0),
     )
 
 
 def seconds_of_points(points: Sequence[PointWorkEstimate], count: float | None = None) -> float:
     """Return the processor time [s] of ``points`` of one scene, or of so many (``count``) like them."""
+    return seconds_of_curve(points, count, known=())
+
+
+def seconds_of_curve(points: Sequence[PointWorkEstimate], count: float | None, known: Container[str]) -> float:
+    """Return the processor time [s] of ``points`` of one scene, or of so many (``count``) like them, where the shared work
+    named in ``known`` is done."""
     if not points:
         return 0.0
-    once = max(point.once for point in points)
-    further = sum(point.seconds - point.once for point in points)
-    return once + further * (1.0 if count is None else count / len(points))
+    shared: dict[str, float] = {}
+    for point in points:
+        for part in point.shared:
+            if part.what not in known:
+                shared[part.what] = max(part.seconds, shared.get(part.what, 0.0))
+    each = sum(point.seconds - sum(part.seconds for part in point.shared) for point in points)
+    return sum(shared.values()) + each * (1.0 if count is None else count / len(points))

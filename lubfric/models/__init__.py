@@ -7,7 +7,7 @@
 have in common: the scene made ready, heat, limits of validity, statistics. `prepare` makes a scene ready.
 """
 
-from .contract import ContactFields, Model, ModelAnswer, ModelDetails, SampleSolution, WorkEstimate
+from .contract import ContactFields, Model, ModelAnswer, ModelDetails, SampleSolution, SharedWork, WorkEstimate
 from .deterministic import DeterministicModel, DeterministicResult
 from .load_sharing import Balance, PaperModel
 from .prepare import prepare, prepare_on_maps, prepared_with, with_friction_at

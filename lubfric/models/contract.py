@@ -153,6 +153,23 @@ class ModelAnswer:
 
 
 @dataclass(frozen=True, kw_only=True)
+class SharedWork:
+    """Work that points have in common, and that the first of them does.
+
+    Attributes
+    ----------
+    what : its name: work of one name is done once
+    seconds : processor time [s]
+    of_surface_alone : whether it serves other speeds, lubricants and tolerances on the same surface as well (as in
+        `lubfric.models.shared.memo.Key`); else all points of one scene
+    """
+
+    what: str
+    seconds: float
+    of_surface_alone: bool
+
+
+@dataclass(frozen=True, kw_only=True)
 class WorkEstimate:
     """What a model will take at one operating point, from closed forms and to an order of magnitude.
 
@@ -160,7 +177,7 @@ class WorkEstimate:
     ----------
     strips : number of strips that the tolerances need; 0: the model is not asked
     seconds : processor time [s] of all of it, beyond that of the cheaper models
-    once : the part of these seconds that further points of the same scene are spared
+    shared : the parts of these seconds that other points are spared
     strip_seconds : processor time [s] of one strip, where its roughness moves; 0 where it does not, or has little
         effect
     length : of the strips [m]; NaN: there is one patch
@@ -171,7 +188,7 @@ class WorkEstimate:
 
     strips: int
     seconds: float
-    once: float = 0.0
+    shared: tuple[SharedWork, ...] = ()
     strip_seconds: float = 0.0
     length: float = math.nan
     sampling: float = math.nan

@@ -6,6 +6,7 @@ not solved on cells). `maps` makes, reads and prepares the height maps, `cells` 
 `contacts` turns the keys of a scene into a contact of `lubfric.contact`.
 """
 
+from .cells import Cells
 from .choose import sample_of, takes_strips
 from .contacts import cylinder_of, flat_contact_of, half_space_contact_of
 from .contract import PIECE, Sample

@@ -319,10 +319,9 @@ def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | No
     sq = prepared.surface.sq
     if speed == 0 or not sample.represents_more or sq == 0 or scene.lubricant.inlet_film is not None:
         return None
-    film = scene.line_contact(speed).expected_film / sq
-    if film > CLEAR_OF_SUMMITS:
+    nearest = nearest_reference(scene.line_contact(speed).expected_film / sq)
+    if nearest is None:
         return None
-    nearest = min(REFERENCES, key=lambda reference: abs(math.log(film / reference)))
 
     def make() -> Balance | None:
         there = speed_of(scene, nearest * sq) * math.copysign(1.0, speed)
@@ -333,6 +332,14 @@ def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | No
 
     balance = prepared.memo.get(ReferenceKey(sample.cells.coarsening, "balance", nearest, speed > 0), make)
     return balance if balance is not None and balance.response is not None else None
+
+
+def nearest_reference(film: float) -> float | None:
+    """Return the expected film [Sq] of the reference point that is nearest to the expected ``film`` [Sq] of a point; None
+    where no contact is expected."""
+    if film > CLEAR_OF_SUMMITS or film <= 0:
+        return None
+    return min(REFERENCES, key=lambda reference: abs(math.log(film / reference)))
 
 
 def _effect(prepared: Prepared, point: Point, balance: Balance, sample: Sample) -> CellEffect:

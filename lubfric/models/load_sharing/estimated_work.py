@@ -5,26 +5,42 @@ import math
 
 from ...film import LineContact, flooded_inlet
 from ...oil import shear_stress
-from ...samples import Sample
+from ...samples import PIECE, Cells, Sample
 from ...scene import Scene, has_moving_roughness
 from ...surface import Surface
-from ..contract import WorkEstimate
+from ..contract import SharedWork, WorkEstimate
 from ..shared import GAP_IN_CONTACT, STRIPS_SAFETY, smooth_over_cells
+from .balanced_sample import nearest_reference
+from .cell_effect import MOST_CELLS
 from .error_of_eq8 import load_sharing_error
 
-# Processor time [s] of a cell of the strips in balance: a fit to 33 points of `python -m
-# verification.campaigns.estimates`, as the two constants below.
-STRIP_CELL_SECONDS = 1.0e-6
+# Processor time [s] of a film without heat in the balance of a point: 2.4 to 4.5 ms in 55 points of 11 random scenes of
+# `python -m verification.campaigns.estimates`.
+BALANCED_FILM = 3e-3
 
-# Cells of a strip above which each takes longer, because the contact takes more iterations and the memory is slower.
-LARGE = 5e4
+# Processor time [s] of a cell of the strips each time that they are pressed together: .5 to 1.5e-7 there.
+CELL_SECONDS = 1.0e-7
 
-# Power of the cells over that number by which each takes longer: strips of 2.2e5 and 3.8e5 cells took 6.9 and 4.3 times as
-# long as in proportion.
-LARGE_POWER = 0.7
+# The same of a piece on shorter cells, which starts from fewer known ones: .8 to 2.2e-7 there.
+PIECE_SECONDS = 1.5e-7
 
-# Processor time [s] of a cell of a piece on finer and finer cells, counted on the finest.
-PIECE_SECONDS = 1.0e-7
+# Processor time [s] of a cell of the map of a piece on native cells, which is generated: .7 to 1.8e-7 there.
+GENERATED_SECONDS = 1.1e-7
+
+# Films and contacts of the balance of a point that starts from a reference point, and of those of its response: 3 to 9 there.
+SOLVES = 6
+
+# The same on more strips, which start from fewer: 8 to 10 there.
+SOLVES_ON_MORE = 9
+
+# The same of the reference point, which no other is near: 6 to 9 there.
+SOLVES_OF_REFERENCE = 7
+
+# Sizes of cells on which a piece is solved, at least.
+FEWEST_CELLS = 2
+
+# Points, of all, that solve pieces at a load of their own, because the reference point is too far from it: 25 of 55 there.
+OWN_PIECES = 0.5
 
 # Processor time [s] of the contact on a map that is solved whole, however small.
 PATCH_SECONDS = 0.03
@@ -32,12 +48,8 @@ PATCH_SECONDS = 0.03
 # Processor time [s] of each cell of such a map.
 MAP_SECONDS = 4e-8
 
-# Processor time [s] of a point on strips, however small these are.
-POINT_SECONDS = 0.09
-
-# Part of the work on strips and pieces that a further point of the same scene is spared, because their dry contacts are
-# known: the second to ninth speed of a random scene took .06 to .26 s, the first .35 s.
-SPARED_PART = 0.7
+# Processor time [s] of what else a point on strips takes: .009 to .03 s there.
+POINT_SECONDS = 0.012
 
 # Processor time [s] of the films of a point without heat.
 FILM_SECONDS = 0.015
@@ -89,14 +101,9 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     film = scene.line_contact(speed).expected_film if speed else 0.0
     sq = surface.sq
     summit = float(surface.heights.max() - surface.heights.mean())
-    seconds = FILM_SECONDS * (HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0)
-    touching = (
-        "touching"
-        if CERTAIN_FACTOR * film < summit
-        else "none"
-        if film > CERTAIN_FACTOR * summit
-        else "none or a few summits"
-    )
+    hot = HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0
+    seconds = FILM_SECONDS * hot
+    touching = "touching" if CERTAIN_FACTOR * film < summit else "none" if film > CERTAIN_FACTOR * summit else "none or a few summits"
     error_of_model = expected_model_error(scene, film, sq, speed)
     if not sample.represents_more:
         if touching != "none":
@@ -118,29 +125,48 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     cells = sample.cells
     (fx, fy) = cells.coarsening
     (_, dy) = cells.spacing
-    once = 0.0
-    piece = 0.0 if cells.is_native else cells.columns * fx * fy * sample.strip_length / dy / 2
+    shared: tuple[SharedWork, ...] = ()
     if touching != "none":
-        share = film / (GAP_IN_CONTACT * sq + RISE * film)
+        one_film = BALANCED_FILM * hot
         strip = cells.columns * sample.strip_length / dy
-        work = STRIP_CELL_SECONDS * strip * count + PIECE_SECONDS * piece
-        work *= max(1.0, strip / LARGE) ** LARGE_POWER
+        work = SOLVES * (one_film + CELL_SECONDS * strip * sample.first)
+        if count > sample.first:
+            work += SOLVES_ON_MORE * (one_film + CELL_SECONDS * strip * count)
+        share = film / (GAP_IN_CONTACT * sq + RISE * film)
         if SHARED[0] < share < SHARED[1]:
             if not smooth_over_cells(surface.heights):
                 work *= ROUGH_TIMES_ON_LONG_CELLS if lx < FEW_CELLS_OF_LENGTH * cells.spacing[0] else ROUGH_TIMES
             elif not cells.is_native:
                 work *= REFINED
-        seconds += POINT_SECONDS + work
-        once = SPARED_PART * work
+        pieces = 0.0
+        if not cells.is_native:
+            native = cells.columns * fx * cells.rows(PIECE * ly) * fy
+            pieces = PIECE_SECONDS * cells_of_pieces(cells, native)
+            made = GENERATED_SECONDS * native
+            shared = (SharedWork(what=f"pieces on {cells.coarsening}", seconds=made, of_surface_alone=True),)
+        reference = nearest_reference(film / sq)
+        if reference is not None and scene.lubricant.inlet_film is None:
+            there = SOLVES_OF_REFERENCE * (one_film + CELL_SECONDS * strip * sample.first) + pieces
+            name = f"reference point at {reference} Sq on {cells.coarsening}"
+            shared = (*shared, SharedWork(what=name, seconds=there, of_surface_alone=False))
+            pieces *= OWN_PIECES
+        seconds += POINT_SECONDS + work + pieces + sum(part.seconds for part in shared)
     return WorkEstimate(
         strips=count,
         seconds=seconds,
-        once=once,
+        shared=shared,
         length=sample.line_length(count),
         sampling=error,
         model_error=error_of_model,
         touching=touching,
     )
+
+
+def cells_of_pieces(cells: Cells, native: float) -> float:
+    """Return the number of cells of a piece on ``cells`` and on ever shorter ones, summed; ``native``: that on native
+    cells."""
+    counts = [native / (fx * fy) for fx, fy in cells.coarsenings()]
+    return sum(count for place, count in enumerate(counts) if place < FEWEST_CELLS or count <= MOST_CELLS)
 
 
 def expected_model_error(scene: Scene, thickness: float, sq: float, speed: float) -> float:

@@ -399,8 +399,8 @@ class QuickModel(Model):
             count = 1 if has_moving_roughness(scene) else EXPECTED_STRIPS
             seconds += work_on_strips(scene, sample, surface.sq, speed, long_factors_of(scene, sample), count)
         if has_moving_roughness(scene):
-            return replace(alone, strips=1, length=sample.line_length(1), seconds=seconds, once=0.0)
-        return replace(alone, seconds=seconds, once=alone.once if has_line else 0.0)
+            return replace(alone, strips=1, length=sample.line_length(1), seconds=seconds, shared=())
+        return replace(alone, seconds=seconds, shared=alone.shared if has_line else ())
 
     def methods(self, prepared: Prepared, *, has_contact: bool, has_film: bool) -> tuple[str, ...]:
         return ("deterministic model", *methods_of_load_sharing(prepared, has_contact=has_contact, has_film=has_film))
