@@ -70,12 +70,9 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
     )
 
 
-def seconds_of_points(points: Sequence[PointWorkEstimate], count: float | None = None) -> float:
-    """Return the processor time [s] of ``points`` of one scene, or of so many (``count``) like them."""
-    return seconds_of_curve(points, count, known=())
-
-
-def seconds_of_curve(points: Sequence[PointWorkEstimate], count: float | None, known: Container[str]) -> float:
+def seconds_of_points(
+    points: Sequence[PointWorkEstimate], count: float | None = None, known: Container[str] = ()
+) -> float:
     """Return the processor time [s] of ``points`` of one scene, or of so many (``count``) like them, where the shared work
     named in ``known`` is done."""
     if not points:

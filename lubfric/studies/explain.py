@@ -28,12 +28,13 @@ SAMPLED = 8
 LISTED = 4
 
 
-def curve_seconds(prepared: Prepared, speeds: Sequence[float]) -> float:
-    """Return the processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses),
-    within a factor of about 4."""
+def curve_seconds(prepared: Prepared, speeds: Sequence[float], *, has_new_map: bool = True) -> float:
+    """Return the processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses), within a
+    factor of about 3; ``has_new_map``: whether what the surface alone demands is still to be done."""
     at = speeds or first_speeds(prepared.scene, prepared.surface.sq)
     points = [estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed) for speed in at]
-    return seconds_of_points(points, None if speeds else EXPECTED_SPEEDS)
+    known = {part.what for point in points for part in point.shared if part.of_surface_alone and not has_new_map}
+    return seconds_of_points(points, None if speeds else EXPECTED_SPEEDS, known)
 
 
 def estimated_study(plan: Any, store: str | Path | None = None) -> float:

@@ -30,8 +30,9 @@ LAST_CHANGE_OF_SUM = 1e-4
 # Most curves of the search, beside those of the differences.
 MOST_CURVES = 30
 
-# Curves of the search by the scene's own model, about, beside two for each parameter.
-USUAL_CURVES = 5
+# Curves of the search by the scene's own model, about, beside two for each parameter: 3 to 5 were computed for one parameter,
+# 5 for two.
+USUAL_CURVES = 2
 
 # Minima of the coarse search from which the scene's own model is fitted, where the first does not describe the data.
 MOST_FITTED_MINIMA = 3
@@ -223,12 +224,12 @@ def _start(scene: Scene, bounds: dict[str, Between], start: dict[str, float]) ->
 
 
 def _usual_seconds(curves: FitCurves, begin: np.ndarray) -> float:
-    """Return the estimated processor seconds of one of the ``curves``: between their mean and the longest of those at
-    ``begin`` and at corners of the bounds."""
+    """Return the estimated processor seconds of one of the ``curves``: the mean of those at ``begin`` and at corners of the
+    bounds. What curves share is done by one of many, and does not count."""
     corners = list(product((0.0, 1.0), repeat=begin.size))
     places = [begin, *map(np.array, corners[:: -(-len(corners) // CORNERS)])]
-    seconds = [curves.estimated_seconds(unit) for unit in places]
-    return 0.5 * (float(np.mean(seconds)) + max(seconds))
+    curves.prepared(begin)
+    return float(np.mean([curves.estimated_seconds(unit) for unit in places]))
 
 
 class _Progress:

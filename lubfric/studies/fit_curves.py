@@ -141,15 +141,17 @@ class FitCurves:
         return self._prepared
 
     def estimated_seconds(self, unit: np.ndarray) -> float:
-        """Return the estimated processor seconds of the curve at ``unit``, with those of its map."""
+        """Return the estimated processor seconds of the curve at ``unit``, with those of its map unless it is the last."""
+        last = self._prepared
         begun = time.process_time()
-        x = self.measured.x.tolist()
         prepared = self.prepared(unit)
+        seconds = time.process_time() - begun
+        has_new_map = last is None or prepared.sample is not last.sample
+        x = self.measured.x.tolist()
         if self.measured.over == SPEED:
-            return curve_seconds(prepared, x) + time.process_time() - begun
-        models = at_ratios(prepared, x)
+            return seconds + curve_seconds(prepared, x, has_new_map=has_new_map)
         speed = [prepared.scene.motion.entrainment_speed]
-        return sum(curve_seconds(model, speed) for model in models) + time.process_time() - begun
+        return seconds + sum(curve_seconds(model, speed, has_new_map=False) for model in at_ratios(prepared, x))
 
 
 def fit_tolerance(scene: Scene, measured: Measured) -> float:

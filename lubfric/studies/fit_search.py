@@ -22,6 +22,9 @@ MOST_SOBOL = 64
 # Curves at minima of the interpolation: for each parameter, beside two.
 REFINEMENTS_PER_PARAMETER = 3
 
+# The same, about, for each parameter: one and two parameters took one and two.
+USUAL_REFINEMENTS = 1
+
 # Starts of the minimisation of the interpolation, in a power of two: it costs no solve.
 SURROGATE_STARTS = 16
 
@@ -53,7 +56,7 @@ def sobol_count(parameters: int) -> int:
 
 def estimated_curves(parameters: int, starts: int) -> int:
     """Return about how many coarse curves `search_minima` computes, from so many ``starts`` of a Sobol sequence."""
-    return 1 + starts + (2 + REFINEMENTS_PER_PARAMETER * parameters if starts else 0)
+    return 1 + starts + (USUAL_REFINEMENTS * parameters if starts else 0)
 
 
 def search_minima(curves: FitCurves, start: np.ndarray, starts: int) -> list[Candidate]:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from ..estimate import PointWorkEstimate, estimated_work_of_point, seconds_of_points
+from ..models.load_sharing import expected_gap
 from ..samples import Sample
 from ..scene import Harmonic, History, Scene, Table
 from ..surface import Surface
@@ -47,9 +48,10 @@ def estimated_load_sharing(scene: Scene, sample: Sample, surface: Surface) -> Ru
     """Return the estimate of a run by load sharing; arguments as of `estimated_run`.
 
     The run first solves steady friction at some of its speeds, for its strips. The number of steps follows
-    from the tolerance of a step with the order of the march, 2.
+    from the tolerance of a step with the order of the march, 2, and from the part of the gap that the film fills.
     """
     plan = transient_of(scene)
+    moving = [speed for speed in speeds_of_run(scene) if speed]
     points = [estimated_work_of_point(scene, sample, surface, speed) for speed in speeds_of_run(scene) or [0.0]]
     widest = None
     cells = surface.heights.size
@@ -58,10 +60,18 @@ def estimated_load_sharing(scene: Scene, sample: Sample, surface: Surface) -> Ru
         cells = round(sample.cells.columns * widest.length / sample.cells.spacing[1])
     tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")
     swings = max((periods(history, plan.duration) or 1.0 for history in plan.histories), default=0.5)
+    carried = sum(_part_of_film(scene, surface.sq, speed) for speed in moving) / len(moving) if moving else 1.0
     changing = STEPS_OF_SWING * swings * (STEP_TOLERANCE / tolerance) ** (1 / 3)
-    steps = max(plan.outputs, changing) + STEPS_OF_START
+    steps = max(plan.outputs, carried ** (1 / 3) * changing) + carried ** (1 / 3) * STEPS_OF_START
     seconds = seconds_of_points(points) + steps * (FILM_STEP_SECONDS + CELL_STEP_SECONDS * cells)
     return RunEstimate(steps=steps, seconds=seconds, widest=widest)
+
+
+def _part_of_film(scene: Scene, sq: float, speed: float) -> float:
+    """Return the part of the gap, at rough surfaces of ``sq`` [m], that the film fills at ``speed`` [m/s]: of what changes
+    in time only so much moves the gap, by which a step is judged."""
+    film = scene.line_contact(abs(speed)).expected_film
+    return min(film / expected_gap(film, sq), 1.0)
 
 
 def periods(history: History, duration: float) -> float:

@@ -11,7 +11,7 @@ from ...surface import Surface
 from ..contract import SharedWork, WorkEstimate
 from ..shared import GAP_IN_CONTACT, STRIPS_SAFETY, smooth_over_cells
 from .balanced_sample import nearest_reference
-from .cell_effect import MOST_CELLS
+from .cell_effect import MOST_PIECE_CELLS
 from .error_of_eq8 import load_sharing_error
 
 # Processor time [s] of a film without heat in the balance of a point: 2.4 to 4.5 ms in 55 points of 11 random scenes of
@@ -114,7 +114,7 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     target = scene.numerics.sampling_tolerance
     error = 0.0
     if speed and film <= CLEAR_OF_ASPERITIES * sq:
-        gap = GAP_IN_CONTACT * sq + RISE * film
+        gap = expected_gap(film, sq)
         share = min(film / gap, 1.0)
         scatter = sq * math.sqrt(math.pi * lx * ly / (first * (2 * scene.bodies.half_width + math.sqrt(math.pi) * lx)))
         error = (
@@ -132,7 +132,7 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
         work = SOLVES * (one_film + CELL_SECONDS * strip * sample.first)
         if count > sample.first:
             work += SOLVES_ON_MORE * (one_film + CELL_SECONDS * strip * count)
-        share = film / (GAP_IN_CONTACT * sq + RISE * film)
+        share = film / expected_gap(film, sq)
         if SHARED[0] < share < SHARED[1]:
             if not smooth_over_cells(surface.heights):
                 work *= ROUGH_TIMES_ON_LONG_CELLS if lx < FEW_CELLS_OF_LENGTH * cells.spacing[0] else ROUGH_TIMES
@@ -162,11 +162,16 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     )
 
 
+def expected_gap(film: float, sq: float) -> float:
+    """Return the expected mean gap [m] of surfaces of ``sq`` [m] under the rigid ``film`` [m] of the total load."""
+    return GAP_IN_CONTACT * sq + RISE * film
+
+
 def cells_of_pieces(cells: Cells, native: float) -> float:
     """Return the number of cells of a piece on ``cells`` and on ever shorter ones, summed; ``native``: that on native
     cells."""
     counts = [native / (fx * fy) for fx, fy in cells.coarsenings()]
-    return sum(count for place, count in enumerate(counts) if place < FEWEST_CELLS or count <= MOST_CELLS)
+    return sum(count for place, count in enumerate(counts) if place < FEWEST_CELLS or count <= MOST_PIECE_CELLS)
 
 
 def expected_model_error(scene: Scene, thickness: float, sq: float, speed: float) -> float:

@@ -71,27 +71,31 @@ HALVINGS = 60
 
 @dataclass(frozen=True, kw_only=True)
 class Job:
-    """A run: its ``kind`` and ``scene``, the ``estimate`` [s], and the call that does it."""
+    """A run: its ``kind``, the number of its ``draw``, its ``scene``, the ``estimate`` [s], and the call that does it."""
 
     kind: str
+    draw: int
     scene: lubfric.Scene
     estimate: Callable[[], float]
     run: Callable[[], object]
 
 
-def drawn(seed: int) -> Job:
+def drawn(seed: int, draw: int | None = None) -> Job:
     """Return the random run number ``seed``. Its kind follows from the number. A run that is estimated to take more than
-    `LONGEST`, or that is refused, is drawn again."""
+    `LONGEST`, or that is refused, is drawn again; ``draw``: the number of the draw, where it is known."""
     kind = KINDS[seed % len(KINDS)]
+    if draw is not None:
+        return _drawn(seed, draw, kind)
     for draw in range(DRAWS):
-        job = _drawn(np.random.default_rng([48, seed, draw]), kind)
+        job = _drawn(seed, draw, kind)
         with suppress(lubfric.InputError):  # a map too short for its correlation length
             if 0 < job.estimate() <= LONGEST:
                 return job
     raise RuntimeError(f"no run of the kind {kind!r} is short enough")
 
 
-def _drawn(rng: np.random.Generator, kind: str) -> Job:
+def _drawn(seed: int, draw: int, kind: str) -> Job:
+    rng = np.random.default_rng([48, seed, draw])
     scene = _scene(rng, kind)
     speed = scene.motion.entrainment_speed
     model = kind.rpartition(" ")[2]
@@ -114,7 +118,7 @@ def _drawn(rng: np.random.Generator, kind: str) -> Job:
         estimate = partial(_of_study, scene, axes, speeds)
         run = partial(lubfric.study, scene, axes, speeds=speeds)
     elif kind == "fit":
-        return _fit(rng, scene, speed)
+        (estimate, run) = _fit(rng, scene, speed)
     elif kind.startswith("time"):
         scene = _in_time(rng, scene, speed, model)
         estimate = partial(_of_scene, scene)
@@ -129,7 +133,7 @@ def _drawn(rng: np.random.Generator, kind: str) -> Job:
         scene = scene.with_(motion={"speeds": speeds})
         estimate = partial(_of_scene, scene, speeds=[*speeds, speed], command=True)
         run = partial(_command, scene)
-    return Job(kind=kind, scene=scene, estimate=estimate, run=run)
+    return Job(kind=kind, draw=draw, scene=scene, estimate=estimate, run=run)
 
 
 def _scene(rng: np.random.Generator, kind: str) -> lubfric.Scene:
@@ -191,20 +195,17 @@ def _in_time(rng: np.random.Generator, scene: lubfric.Scene, speed: float, model
     return scene.with_(transient=Transient(duration=duration, speed=history, outputs=20))
 
 
-def _fit(rng: np.random.Generator, scene: lubfric.Scene, speed: float) -> Job:
-    """Return a fit of one or two parameters to a curve of a formula, with scatter."""
+def _fit(
+    rng: np.random.Generator, scene: lubfric.Scene, speed: float
+) -> tuple[Callable[[], float], Callable[[], object]]:
+    """Return the estimate and the call of a fit of one or two parameters to a curve of a formula, with scatter."""
     speeds = np.geomspace(0.2 * speed, 5 * speed, int(rng.integers(4, 9)))
     share = 1 / (1 + speeds / speed)
     f = 0.11 * share + 0.03 * (1 - share)
     measured = lubfric.Measured(x=speeds, coefficient=f * (1 + 0.02 * rng.standard_normal(f.size)))
     parameters = {"bodies.boundary_friction_coefficient": (0.05, 0.15), "surface.sq": (3e-8, 6e-7)}
     chosen = dict(list(parameters.items())[: int(rng.integers(1, 3))])
-    return Job(
-        kind="fit",
-        scene=scene,
-        estimate=partial(estimated_fit, scene, measured, chosen),
-        run=partial(lubfric.fit, scene, measured, chosen),
-    )
+    return partial(estimated_fit, scene, measured, chosen), partial(lubfric.fit, scene, measured, chosen)
 
 
 def _of_scene(

@@ -1,14 +1,20 @@
 """The table of runs: what each was estimated to take, the counted work, and the processor time that it took."""
 
 import math
+import time
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from functools import partial
+from itertools import takewhile
 from pathlib import Path
 
 import numpy as np
 
 import lubfric
 from lubfric._base import limited_work
+from lubfric._base.processes import pool, spread
 
+from ...check import Table
 from ...types import PlainRow
 from .. import table_file
 from .jobs import KINDS, MOST_WORK, drawn, seconds
@@ -16,7 +22,7 @@ from .jobs import KINDS, MOST_WORK, drawn, seconds
 TABLE = Path(__file__).parent / "table.csv"
 # Digits of a number in the table.
 DIGITS = 4
-COLUMNS = ("seed", "kind", "lambda_ratio", "pressure", "sq", "estimate", "work", "seconds", "failure")
+COLUMNS = ("seed", "draw", "kind", "lambda_ratio", "pressure", "sq", "estimate", "work", "seconds", "failure")
 
 
 def timed(seed: int) -> PlainRow:
@@ -27,6 +33,7 @@ def timed(seed: int) -> PlainRow:
     sq = scene.surface.sq or math.nan
     row: PlainRow = {
         "seed": seed,
+        "draw": job.draw,
         "kind": job.kind,
         "lambda_ratio": line.moes_film / sq,
         "pressure": 4 / math.pi * (scene.bodies.mean_hertz_pressure or math.nan),
@@ -54,19 +61,33 @@ def rows(file: Path = TABLE) -> list[dict[str, str]]:
 
 
 def extend(
-    count: int, budget: float, kinds: Sequence[str] = KINDS, file: Path = TABLE, first: int = 0
+    count: int, budget: float, kinds: Sequence[str] = KINDS, file: Path = TABLE, first: int = 0, *, workers: int = 1
 ) -> Iterator[PlainRow]:
-    """Do the runs of these ``kinds`` from number ``first`` to below ``count`` that the table has not, as long as the
-    processor time is below ``budget`` [s], and append each as it ends."""
+    """Do the runs of these ``kinds`` from number ``first`` to below ``count`` that the table has not, in so many processes
+    (``workers``), and append each as it ends. None begins after ``budget`` [s]."""
     known = {int(row["seed"]) for row in rows(file)}
-    for seed in range(first, count):
-        if seed in known or KINDS[seed % len(KINDS)] not in kinds:
-            continue
-        if seconds() > budget:
-            return
-        row = timed(seed)
-        table_file.append(file, COLUMNS, row, DIGITS)
-        yield row
+    left = iter(n for n in range(first, count) if n not in known and KINDS[n % len(KINDS)] in kinds)
+    begun = time.monotonic()
+    with pool(workers) as processes:
+        jobs = (partial(_rows, seed) for seed in takewhile(lambda _: time.monotonic() - begun < budget, left))
+        for row in spread(processes, jobs, at_a_time=workers):
+            table_file.append(file, COLUMNS, row, DIGITS)
+            yield row
+
+
+def _rows(seed: int) -> Iterator[PlainRow]:
+    yield timed(seed)
+
+
+def estimate_again(file: Path = TABLE) -> None:
+    """Estimate the runs of the table again, and write it anew: none is done."""
+    old = rows(file)
+    for row in old:
+        with suppress(lubfric.LubfricError):
+            row["estimate"] = f"{drawn(int(row['seed']), int(row['draw'])).estimate():.{DIGITS}g}"
+    file.unlink(missing_ok=True)
+    for row in old:
+        table_file.append(file, COLUMNS, dict(row), DIGITS)
 
 
 def ratios(file: Path = TABLE) -> dict[str, np.ndarray]:
@@ -78,15 +99,26 @@ def ratios(file: Path = TABLE) -> dict[str, np.ndarray]:
     return {kind: np.array(values) for kind, values in by_kind.items()}
 
 
-def summary(file: Path = TABLE) -> str:
-    """Return, by kind: runs, share within factors of 2 and 3, median and extremes of the ratio, as a Markdown table."""
-    lines = [
-        "| kind | runs | within 2 | within 3 | median | least | largest |",
-        "|---|---|---|---|---|---|---|",
-    ]
-    for kind, values in ratios(file).items():
+def table(file: Path = TABLE) -> Table:
+    """Return, of all runs and by kind: runs, parts within factors of 2 and 3, median and extremes of the ratio."""
+    of_kind = ratios(file)
+    both = {"all": np.concatenate(list(of_kind.values())), **of_kind} if of_kind else {}
+    lines = []
+    for kind, values in both.items():
         apart = np.abs(np.log(values))
         within = [f"{100 * np.mean(apart <= math.log(factor)):.0f} %" for factor in (2, 3)]
         numbers = [f"{value:.2g}" for value in (np.median(values), values.min(), values.max())]
-        lines.append(f"| {' | '.join([kind, str(values.size), *within, *numbers])} |")
-    return "\n".join(lines)
+        lines.append([kind, str(values.size), *within, *numbers])
+    columns = ["kind", "runs", "within 2", "within 3", "median", "least", "largest"]
+    return Table("estimates", "estimated over taken time", columns, lines)
+
+
+def outside(file: Path = TABLE) -> list[str]:
+    """Return the runs whose estimate is further than a factor of 3 from the time they took, as text."""
+    lines = []
+    for row in rows(file):
+        if row["seconds"] and row["estimate"] and "max_work" not in row["failure"]:
+            ratio = float(row["estimate"]) / float(row["seconds"])
+            if not 1 / 3 <= ratio <= 3:
+                lines.append(f"{row['seed']} {row['kind']}: {ratio:.2g} of {float(row['seconds']):.2g} s")
+    return lines

@@ -23,6 +23,7 @@ BENCHMARKS = {
 CAMPAIGNS = {  # command: its tables
     "calibration": ("calibration", "paper-limit"),
     "charts": ("contact-methods",),
+    "estimates": ("estimates",),
     "model": (
         "answers",
         "answers-rollers",
