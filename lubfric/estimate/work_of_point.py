@@ -26,6 +26,7 @@ class PointWorkEstimate:
         not asked
     seconds : processor time [s]
     shared : the parts of it that other points are spared
+    fine_fields_seconds : processor time [s] of fields on fine cells, if they are requested
     long_strip_seconds : processor time [s] of one strip by that model if its roughness moves; 0 where it does not, or has little
         effect
     """
@@ -38,6 +39,7 @@ class PointWorkEstimate:
     long_point_strips: int
     seconds: float
     shared: tuple[SharedWork, ...] = ()
+    fine_fields_seconds: float = 0.0
     long_strip_seconds: float = 0.0
 
 
@@ -65,6 +67,7 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
         length=line.length,
         long_point_strips=max((estimates[k].strips for k in with_long_points if k in solved), default=0),
         seconds=sum(estimates[k].seconds for k in solved),
+        fine_fields_seconds=max(estimates[k].fine_fields_seconds for k in solved),
         shared=tuple(part for k in solved for part in estimates[k].shared),
         long_strip_seconds=max((estimates[k].strip_seconds for k in with_long_points), default=0.0),
     )

@@ -178,6 +178,7 @@ class WorkEstimate:
     strips : number of strips that the tolerances need; 0: the model is not asked
     seconds : processor time [s] of all of it, beyond that of the cheaper models
     shared : the parts of these seconds that other points are spared
+    fine_fields_seconds : processor time [s] of fields on cells fine enough to look at, if they are requested
     strip_seconds : processor time [s] of one strip, where its roughness moves; 0 where it does not, or has little
         effect
     length : of the strips [m]; NaN: there is one patch
@@ -189,6 +190,7 @@ class WorkEstimate:
     strips: int
     seconds: float
     shared: tuple[SharedWork, ...] = ()
+    fine_fields_seconds: float = 0.0
     strip_seconds: float = 0.0
     length: float = math.nan
     sampling: float = math.nan

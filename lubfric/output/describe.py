@@ -109,12 +109,15 @@ def estimate_scene(
         over = "a run in time"
         own = max(speeds)
     model, seconds = _model(scene, sample, surface, speeds, ratios)
+    beside = COMMAND_SECONDS
+    if scene.transient is None and sample.is_resolved:
+        beside += estimated_work_of_point(scene, sample, surface, own).fine_fields_seconds
     cost = f"about {in_words(seconds)} of processor time for {over} ({WITHIN_WORDS})" if seconds else ""
     if scene.transient is not None:
         cost, seconds, lines = _course(scene, sample, surface, speeds)
         changing = [*_histories(scene), cost, *lines]
     elif cost:
-        model.append(f"cost: {cost}; 'lubfric run' takes {COMMAND_SECONDS:g} s more for start, pictures and files")
+        model.append(f"cost: {cost}; 'lubfric run' takes {in_words(beside)} more for start, pictures and files")
     model_asked_first = candidates(scene.numerics.model)[0]
     at = [
         *((None, violation) for violation in beforehand(scene, surface)),
@@ -146,7 +149,7 @@ def estimate_scene(
         sections=sections,
         cost=cost,
         seconds=seconds,
-        command_seconds=seconds + COMMAND_SECONDS,
+        command_seconds=seconds + beside,
         table=_speed_table(scene, sample, surface, speeds),
         refusals=refusals,
         effects=effects,

@@ -1,7 +1,7 @@
 """The deterministic mixed-lubrication model: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
 from .answer import MODEL_ERROR, answer_of, warn_model_error
-from .estimated_work import work_on_strips
+from .estimated_work import work_of_fine_fields, work_on_strips
 from .flow import derivatives, mass_balance
 from .heat import strip_heat, why_too_hot
 from .levels import Levels, levels_of, two_levels

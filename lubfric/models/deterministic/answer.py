@@ -35,17 +35,13 @@ from ..shared import (
     warn_pressure,
     warn_thickness,
 )
+from .estimated_work import pictured_length
 from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
 from .levels import Levels, mean
 from .result import DeterministicResult, stress_with_oil
 from .rough_bodies import map_of, strip_surface
 from .strip import StripSolution, change_by_flow, solve_strip
 
-# Half-widths of the Hertz strip along y that are solved again for a picture.
-PICTURED_LENGTH = 10.0
-
-# Correlation lengths along y of the same, at least.
-LEAST_PICTURED_LENGTH = 8.0
 MODEL_ERROR = "model-form error of f"
 FEW_STRIPS = "not known from fewer than three strips"
 UNSOLVED_CELLS = (
@@ -173,7 +169,7 @@ def fine_fields_of(prepared: Prepared, speed: float) -> ContactFields:
         sample,
         0,
         cells,
-        max(LEAST_PICTURED_LENGTH, PICTURED_LENGTH * half_width / sample.correlation_lengths[1]),
+        pictured_length(prepared.scene, sample),
     )
     strip = solve_strip(prepared.scene, map_of(prepared, rough_contact), speed)
     where = sample.piece_in_words()

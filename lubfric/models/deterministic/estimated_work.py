@@ -4,7 +4,7 @@
 import math
 from dataclasses import replace
 
-from ...samples import Sample
+from ...samples import PIECE, Sample
 from ...scene import BOUNDARY_FRICTION_KEY, Scene, has_moving_roughness, why_gap_not_resolved
 from ...surface import Surface
 from ..contract import WorkEstimate
@@ -15,7 +15,7 @@ from .linear import HIGH_PRESSURE
 from .moving_strip import OF_SHEAR
 from .problem import are_soft, reach
 from .rough_bodies import MOST_WORK_IN_AUTO, moving_point_work
-from .shorter_cells import SHORT
+from .shorter_cells import LAST_PIECE, SHORT
 from .strip_on_two_grids import factors_of
 
 # Newton steps on a strip, about.
@@ -49,6 +49,9 @@ ROUGH_WORK = 3.5
 # points of 0.26 and 19 GPa took 33 and 36 times what they would otherwise be estimated to).
 SOFT_WORK = 30.0
 
+# Pieces of such bodies on cells half as long.
+SOFT_PIECES = 2
+
 # The same where a given film arrives at the inlet: 60 nm on 80 nm of roughness took 6 to 9 times as long.
 STARVED_WORK = 8.0
 
@@ -76,6 +79,12 @@ UNLIKE = 0.65
 
 # The same where roughness moves: attenuated summits leave 12 to 20 % of the variance (docs/design-notes.md).
 UNLIKE_IN_MOTION = 0.45
+
+# Half-widths of the Hertz strip along y that are solved again for a picture.
+PICTURED_LENGTH = 10.0
+
+# Correlation lengths along y of the same, at least.
+LEAST_PICTURED_LENGTH = 8.0
 
 # What is not solved takes nothing.
 NO_WORK = WorkEstimate(strips=0, seconds=0.0)
@@ -116,7 +125,11 @@ def estimated_work(
         )
     ends = 2 * sum(name != BOUNDARY_FRICTION_KEY for name, *_ in scene.ranges)
     is_smooth = smooth_over_cells(surface.heights)
-    return WorkEstimate(strips=count, seconds=_work_at_rest(scene, sample, sq, speed, count, ends, is_smooth=is_smooth))
+    return WorkEstimate(
+        strips=count,
+        seconds=_work_at_rest(scene, sample, sq, speed, count, ends, is_smooth=is_smooth),
+        fine_fields_seconds=work_of_fine_fields(scene, sample, sq, speed),
+    )
 
 
 def _work_at_rest(
@@ -140,8 +153,13 @@ def _work_at_rest(
     short = is_piece and fx * ux >= 4 <= fy * uy
     shorter = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if short else 0.0
     seconds = count * work_of_steps(cells, STRIP_STEPS) + work_of_steps(finer, _finer_steps(scene, sq, speed)) + again
-    if are_soft(scene.line_contact(abs(speed)), sq):
-        return SOFT_WORK * seconds + shorter
+    if are_soft(scene.line_contact(abs(speed)), sq):  # the error by few cells demands pieces on shorter ones
+        lengths = sample.correlation_lengths[1] / sample.strip_length
+        pieces = [(SOFT_PIECES, 4 * PIECE, fx * ux), (1, 16 * LAST_PIECE, fx * ux / 2)]
+        on_pieces = sum(
+            n * work_of_steps(times * lengths * cells, STRIP_STEPS) for n, times, left in pieces if left >= 2
+        )
+        return SOFT_WORK * (seconds + on_pieces)
     if scene.lubricant.inlet_film is not None:
         return STARVED_WORK * seconds + shorter
     return seconds + shorter if is_smooth or short else ROUGH_WORK * seconds
@@ -163,6 +181,23 @@ def _seconds_in_motion(scene: Scene, sample: Sample, sq: float, speed: float, wo
     thickened = scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene)
     heavy_and_thin = thickened * sq / scene.line_contact(abs(speed)).moes_film / HEAVY_AND_THIN
     return IN_MOTION * work * steps / STEPS_COUNTED * min(max(heavy_and_thin, 1.0), MOST_FOR_THAT)
+
+
+def work_of_fine_fields(scene: Scene, sample: Sample, sq: float, speed: float) -> float:
+    """Return the counted work [s] of fields at ``speed`` [m/s] on cells fine enough to look at (`fine_fields_of`), which are
+    solved from the dry contact; ``sq`` [m]: of the surface."""
+    if sample.is_only_map:
+        return 0.0
+    (dx, dy) = sample.cells.native_spacing
+    (fx, fy) = sample.cells.coarsening_to_look_at(scene.bodies.half_width)
+    length = pictured_length(scene, sample) * sample.correlation_lengths[1]
+    cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * length / (fy * dy)
+    return work_of_steps(cells, STRIP_STEPS)
+
+
+def pictured_length(scene: Scene, sample: Sample) -> float:
+    """Return the length of the piece of the surface whose fields are drawn, in correlation lengths."""
+    return max(LEAST_PICTURED_LENGTH, PICTURED_LENGTH * scene.bodies.half_width / sample.correlation_lengths[1])
 
 
 def work_on_strips(

@@ -103,7 +103,13 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     summit = float(surface.heights.max() - surface.heights.mean())
     hot = HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0
     seconds = FILM_SECONDS * hot
-    touching = "touching" if CERTAIN_FACTOR * film < summit else "none" if film > CERTAIN_FACTOR * summit else "none or a few summits"
+    touching = (
+        "touching"
+        if CERTAIN_FACTOR * film < summit
+        else "none"
+        if film > CERTAIN_FACTOR * summit
+        else "none or a few summits"
+    )
     error_of_model = expected_model_error(scene, film, sq, speed)
     if not sample.represents_more:
         if touching != "none":

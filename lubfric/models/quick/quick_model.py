@@ -29,6 +29,7 @@ from ..deterministic import (
     strip_surface,
     two_levels,
     warn_model_error,
+    work_of_fine_fields,
     work_on_strips,
 )
 from ..deterministic import answer_of as deterministic_answer
@@ -400,7 +401,9 @@ class QuickModel(Model):
             seconds += work_on_strips(scene, sample, surface.sq, speed, long_factors_of(scene, sample), count)
         if has_moving_roughness(scene):
             return replace(alone, strips=1, length=sample.line_length(1), seconds=seconds, shared=())
-        return replace(alone, seconds=seconds, shared=alone.shared if has_line else ())
+        fine_fields = work_of_fine_fields(scene, sample, surface.sq, speed) if seconds else 0.0
+        shared = alone.shared if has_line else ()
+        return replace(alone, seconds=seconds, fine_fields_seconds=fine_fields, shared=shared)
 
     def methods(self, prepared: Prepared, *, has_contact: bool, has_film: bool) -> tuple[str, ...]:
         return ("deterministic model", *methods_of_load_sharing(prepared, has_contact=has_contact, has_film=has_film))
