@@ -98,6 +98,7 @@ def test_the_estimate_knows_the_contract_of_a_model_and_no_model():
         "ModelAnswer",
         "ModelDetails",
         "SampleSolution",
+        "SharedWork",
         "WorkEstimate",
         "with_friction_at",
         "prepared_with",

@@ -125,8 +125,8 @@ def spread(executor: Any, jobs: Iterable[Callable[[], Iterator[Any]]], at_a_time
     """Yield what the ``jobs`` yield. Done here, the values come at once; from an executor, those of a job come when it
     has ended.
 
-    ``executor``: None (here, one after the other) or a `concurrent.futures.Executor`, which holds so many jobs
-    ``at_a_time``, at most. A job must pickle (a `functools.partial` of what can be imported), and must catch what it may rightly
+    ``executor``: None (here, one after the other) or a `concurrent.futures.Executor`, which holds `IN_FLIGHT` jobs at
+    most at a time. A job must pickle (a `functools.partial` of what can be imported), and must catch what it may rightly
     raise. Any other exception is an error of the program: jobs not yet begun are cancelled, and it is raised. A *worker*
     or a scheduler may be lost: killed, or its machine gone. Then its jobs go to the executor again, and are done here if
     it takes them no more or loses them `ATTEMPTS` times.
@@ -150,7 +150,7 @@ def spread(executor: Any, jobs: Iterable[Callable[[], Iterator[Any]]], at_a_time
         future.add_done_callback(ended.put)
 
     try:
-        for job in islice(left, at_a_time):
+        for job in islice(left, IN_FLIGHT):
             submit(job, 1)
         while waiting or here:
             if not waiting:

@@ -20,13 +20,13 @@ for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
 BUDGET = 3600.0
 
 
-def parser(
-    package: str, description: str | None, table: Path | None = None, budget: str = "processor time [s]"
-) -> argparse.ArgumentParser:
+def parser(package: str, description: str | None, table: Path | None = None) -> argparse.ArgumentParser:
     """Return the parser of ``python -m package`` with the option ``--budget`` and, where the campaign has one ``table``
-    that the user may place elsewhere, ``--table``; ``budget``: what that option is, in words."""
+    that the user may place elsewhere, ``--table``."""
     result = argparse.ArgumentParser(f"python -m {package}", description=description)
-    result.add_argument("--budget", type=float, default=BUDGET, metavar="S", help=f"{budget} (default: %(default)s)")
+    result.add_argument(
+        "--budget", type=float, default=BUDGET, metavar="S", help="processor time [s] (default: %(default)s)"
+    )
     if table is not None:
         result.add_argument("--table", type=Path, default=table, help="file of the table (default: %(default)s)")
     return result

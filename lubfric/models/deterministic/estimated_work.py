@@ -189,7 +189,7 @@ def _seconds_in_motion(scene: Scene, sample: Sample, sq: float, speed: float, wo
 def work_of_fine_fields(scene: Scene, sample: Sample, sq: float, speed: float) -> float:
     """Return the counted work [s] of fields at ``speed`` [m/s] on cells fine enough to look at (`fine_fields_of`), which are
     solved from the dry contact; ``sq`` [m]: of the surface."""
-    if sample.is_only_map:
+    if sample.refines_in_place:
         return 0.0
     (dx, dy) = sample.cells.native_spacing
     (fx, fy) = sample.cells.coarsening_to_look_at(scene.bodies.half_width)

@@ -1,9 +1,10 @@
-"""``python -m verification.campaigns.estimates COUNT [--budget S] [--workers N] [--docs docs]``: extend the table of runs,
+"""``python -m verification.campaigns.estimates COUNT [--workers N] [--seconds S] [--docs docs]``: extend the table of runs,
 and show how far the estimates are from them."""
 
 from .. import extending
 
 # isort: split
+from argparse import ArgumentParser
 from pathlib import Path
 
 from ...wording import markdown
@@ -16,11 +17,12 @@ MODULE = "verification.campaigns.estimates"
 
 def main() -> None:
     """Run the command."""
-    p = extending.parser(MODULE, __doc__, TABLE, budget="time [s] after which no run begins")
+    p = ArgumentParser(f"python -m {MODULE}", description=__doc__)
     p.add_argument("count", type=int, help="number of runs that the table shall have")
     p.add_argument("--first", type=int, default=0, help="number of the first run (default: %(default)s)")
     p.add_argument("--kinds", nargs="+", default=list(KINDS), choices=KINDS, help="default: all")
-    p.add_argument("--workers", type=int, default=1, help="processes that share the runs (default: %(default)s)")
+    p.add_argument("--table", type=Path, default=TABLE, help="file of the table (default: %(default)s)")
+    extending.add_processes(p)
     p.add_argument("--again", action="store_true", help="estimate the runs of the table again; none of them is done")
     p.add_argument(
         "--docs", type=Path, metavar="DIR", help="write the table into the pages of this folder that name it"
@@ -28,8 +30,7 @@ def main() -> None:
     options = p.parse_args()
     if options.again:
         estimate_again(options.table)
-    kinds = options.kinds
-    for row in extend(options.count, options.budget, kinds, options.table, options.first, workers=options.workers):
+    for row in extend(options.count, options.seconds, options.workers, options.kinds, options.table, options.first):
         taken = row["failure"] or f"{row['seconds']:.3g} s"
         print(f"{row['seed']} {row['kind']}: estimated {row.get('estimate', float('nan')):.3g} s, {taken}", flush=True)
     result = table(options.table)

@@ -70,7 +70,7 @@ HALVINGS = 60
 
 
 @dataclass(frozen=True, kw_only=True)
-class Job:
+class RandomRun:
     """A run: its ``kind``, the number of its ``draw``, its ``scene``, the ``estimate`` [s], and the call that does it."""
 
     kind: str
@@ -80,7 +80,7 @@ class Job:
     run: Callable[[], object]
 
 
-def drawn(seed: int, draw: int | None = None) -> Job:
+def drawn(seed: int, draw: int | None = None) -> RandomRun:
     """Return the random run number ``seed``. Its kind follows from the number. A run that is estimated to take more than
     `LONGEST`, or that is refused, is drawn again; ``draw``: the number of the draw, where it is known."""
     kind = KINDS[seed % len(KINDS)]
@@ -94,14 +94,14 @@ def drawn(seed: int, draw: int | None = None) -> Job:
     raise RuntimeError(f"no run of the kind {kind!r} is short enough")
 
 
-def _drawn(seed: int, draw: int, kind: str) -> Job:
+def _drawn(seed: int, draw: int, kind: str) -> RandomRun:
     rng = np.random.default_rng([48, seed, draw])
     scene = _scene(rng, kind)
     speed = scene.motion.entrainment_speed
     model = kind.rpartition(" ")[2]
     model = MODELS.get(kind, model if model in ("auto", "paper", "deterministic") else "quick")
     scene = scene.with_(numerics={"model": model})
-    estimate = partial(_of_scene, scene)
+    estimate: Callable[[], float] = partial(_of_scene, scene)
     run: Callable[[], object] = partial(lubfric.friction, scene, speed)
     if kind == "curve":
         estimate = partial(_of_scene, scene, speeds="auto")
@@ -133,7 +133,7 @@ def _drawn(seed: int, draw: int, kind: str) -> Job:
         scene = scene.with_(motion={"speeds": speeds})
         estimate = partial(_of_scene, scene, speeds=[*speeds, speed], command=True)
         run = partial(_command, scene)
-    return Job(kind=kind, draw=draw, scene=scene, estimate=estimate, run=run)
+    return RandomRun(kind=kind, draw=draw, scene=scene, estimate=estimate, run=run)
 
 
 def _scene(rng: np.random.Generator, kind: str) -> lubfric.Scene:

@@ -1,22 +1,20 @@
 """The table of runs: what each was estimated to take, the counted work, and the processor time that it took."""
 
 import math
-import time
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from functools import partial
-from itertools import takewhile
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 import lubfric
 from lubfric._base import limited_work
-from lubfric._base.processes import pool, spread
 
 from ...check import Table
 from ...types import PlainRow
 from .. import table_file
+from ..extending import solved_in_processes
 from .jobs import KINDS, MOST_WORK, drawn, seconds
 
 TABLE = Path(__file__).parent / "table.csv"
@@ -60,23 +58,28 @@ def rows(file: Path = TABLE) -> list[dict[str, str]]:
     return table_file.rows(file)
 
 
+@dataclass(frozen=True)
+class RowOfRun:
+    """The row of run number ``seed``."""
+
+    seed: int
+
+    def row(self) -> PlainRow:
+        """Return the row: the run is done."""
+        return timed(self.seed)
+
+
 def extend(
-    count: int, budget: float, kinds: Sequence[str] = KINDS, file: Path = TABLE, first: int = 0, *, workers: int = 1
+    count: int, seconds: float, workers: int, kinds: Sequence[str] = KINDS, file: Path = TABLE, first: int = 0
 ) -> Iterator[PlainRow]:
     """Do the runs of these ``kinds`` from number ``first`` to below ``count`` that the table has not, in so many processes
-    (``workers``), and append each as it ends. None begins after ``budget`` [s]."""
+    (``workers``), and append each as it ends; those that take longer than ``seconds`` of elapsed time in all are left
+    out."""
     known = {int(row["seed"]) for row in rows(file)}
-    left = iter(n for n in range(first, count) if n not in known and KINDS[n % len(KINDS)] in kinds)
-    begun = time.monotonic()
-    with pool(workers) as processes:
-        jobs = (partial(_rows, seed) for seed in takewhile(lambda _: time.monotonic() - begun < budget, left))
-        for row in spread(processes, jobs, at_a_time=workers):
-            table_file.append(file, COLUMNS, row, DIGITS)
-            yield row
-
-
-def _rows(seed: int) -> Iterator[PlainRow]:
-    yield timed(seed)
+    left = [RowOfRun(n) for n in range(first, count) if n not in known and KINDS[n % len(KINDS)] in kinds]
+    for row in solved_in_processes(left, seconds, workers):
+        table_file.append(file, COLUMNS, row, DIGITS)
+        yield row
 
 
 def estimate_again(file: Path = TABLE) -> None:
