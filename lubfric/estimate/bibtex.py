@@ -1,36 +1,75 @@
-"""Papers as BibTeX entries, from their lines in papers.toml: "authors, place year, doi: what for"."""
+"""Sources (papers.toml) as lines of text, and as BibTeX entries."""
 
 import re
+from typing import Any
 
-AUTHOR = re.compile(r"(?:[A-Z]\.(?:-[A-Z]\.)?\s?)+(?:(?:van|de|den|der)\s)?[A-Z][\w'-]+")
-YEAR = re.compile(r"\((?:[^()]*\s)?(\d{4})\)")
-DOI = re.compile(r"doi:(10\.\S+?)(?=[:,;\s]|$)")
+# Fields of a BibTeX entry, in the order in which they are written.
+ENTRY_FIELDS = (
+    "author",
+    "title",
+    "journal",
+    "volume",
+    "number",
+    "pages",
+    "publisher",
+    "school",
+    "institution",
+    "version",
+    "year",
+    "doi",
+)
+
+# Types of source with one author, which is an organisation: BibTeX must not take its name for that of a person.
+BY_ORGANISATION = ("software", "techreport")
 
 
-def bibtex(lines: list[str]) -> str:
-    """Return one entry for each of ``lines``; keys are made of first author and year, and differ."""
+def source_in_words(source: dict[str, Any]) -> str:
+    """Return a ``source`` as a line: "authors, place (year), doi:...: what for"."""
+    year = source["year"]
+    authors = ", ".join(source["author"])
+    doi = f", doi:{source['doi']}" if "doi" in source else ""
+    if source["type"] == "software":
+        words = f"lubfric {source['version']}, {source['chapter']}"
+    elif source["type"] == "techreport":
+        words = f"{source['number']} ({year})"
+    elif source["type"] == "book":
+        words = f"{authors}, {source['title']}, {source['publisher']} ({year})"
+    elif source["type"] == "phdthesis":
+        words = f"{authors}, thesis, {source['school']} ({year})"
+    elif "-" in source.get("pages", ""):
+        words = f"{authors}, {source['journal']} {source['volume']} ({year}) {source['pages']}"
+    else:  # an article with a number in place of pages
+        number = ":".join(filter(None, (source["volume"], source.get("pages", ""))))
+        words = f"{authors}, {source['journal']} {number} ({year})"
+    return f"{words}{doi}: {source['purpose']}"
+
+
+def bibtex(sources: list[dict[str, Any]]) -> str:
+    """Return one entry for each of the ``sources``; keys are made of first author and year, and differ."""
     entries: dict[str, str] = {}
-    for line in lines:
-        source, _, purpose = line.rpartition(": ")
-        fields = {"author": " and ".join(_authors(source))}
-        year = YEAR.search(source)
-        doi = DOI.search(source)
-        place = DOI.sub("", source.removeprefix(", ".join(_authors(source)))).strip(" ,")
-        fields |= {"howpublished": YEAR.sub("", place).strip(" ,"), "year": year[1] if year else ""}
-        fields |= {"doi": doi[1] if doi else "", "note": purpose}
-        first = fields["author"].partition(" and ")[0].rpartition(" ")[2] or "lubfric"
-        name = re.sub(r"\W", "", first) + fields["year"]
+    for source in sources:
+        fields = {name: _field(source, name) for name in ENTRY_FIELDS if name in source}
+        name = _key(source)
         key = next(k for k in (name, *(f"{name}{letter}" for letter in "abcdefgh")) if k not in entries)
-        rows = ",\n".join(f"  {field} = {{{value}}}" for field, value in fields.items() if value)
-        entries[key] = f"@misc{{{key},\n{rows}\n}}"
+        rows = ",\n".join(f"  {field} = {{{value}}}" for field, value in fields.items())
+        entries[key] = f"@{source['type']}{{{key},\n{rows}\n}}"
     return "\n".join(entries.values())
 
 
-def _authors(source: str) -> list[str]:
-    """Return the authors at the begin of ``source``."""
-    names = []
-    for part in source.split(", "):
-        if not AUTHOR.fullmatch(part):
-            break
-        names.append(part)
-    return names
+def _field(source: dict[str, Any], name: str) -> str:
+    """Return a field of an entry: pages with the dash of BibTeX, capitals of a title kept, authors joined by "and"."""
+    value = source[name]
+    if name == "author":
+        names = " and ".join(value)
+        return f"{{{names}}}" if source["type"] in BY_ORGANISATION else names
+    if name == "title":
+        return re.sub(r"\b(\w*[A-Z][\w.-]*)", r"{\1}", value)
+    return str(value).replace("-", "--") if name == "pages" else str(value)
+
+
+def _key(source: dict[str, Any]) -> str:
+    if source["type"] == "software":
+        return "lubfric"
+    if source["type"] == "techreport":
+        return re.sub(r"\W", "", source["number"])
+    return re.sub(r"\W", "", source["author"][0].rpartition(" ")[2]) + str(source["year"])

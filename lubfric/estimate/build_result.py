@@ -25,8 +25,11 @@ AT_MOST = (
     "in the thinnest film"
 )
 
-# Slide-roll ratio, without its sign, at which one surface stands still: (u_2 - u_1)/U with u_1 = 0.
-ONE_STANDS_STILL = 2.0
+# Parts of the friction force that resist the sliding.
+SLIDING_FORCES = ("boundary_force", "couette_force")
+
+# Key of the slide-roll ratio, whose sign is that of the sliding.
+SLIDE_ROLL_RATIO = "motion.slide_roll_ratio"
 
 
 def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *, fine: bool = False) -> FrictionResult:
@@ -109,7 +112,7 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
     )
     known = with_missing_inputs(of_solve, f, answer.not_given)
     with_inputs = widened(known, f, changes_by_ranges(prepared, answer)) if scene.ranges else known
-    return _not_negative(scene, f, within_stress_limits(scene, answer, with_inputs))
+    return _not_driving(scene, answer, within_stress_limits(scene, answer, with_inputs))
 
 
 def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Uncertainty:
@@ -126,15 +129,28 @@ def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncerta
     return replace(uncertainty, interval=ends, notes=(*uncertainty.notes, AT_MOST.format(f"{sliding:.3g}")))
 
 
-def _not_negative(scene: Scene, f: float, uncertainty: Uncertainty) -> Uncertainty:
-    """Return ``uncertainty`` with an interval of ``f`` that is not below 0 where one surface is at rest.
+def _not_driving(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Uncertainty:
+    """Return ``uncertainty`` with an interval of f that is not below what the rolling part of the force leaves, where the
+    surfaces slide.
 
-    There the power of the contact is f F_T times the sliding speed, and no contact delivers power.
+    The sliding part of f resists the sliding, because it dissipates power; f is below 0 only by the rolling part of the
+    film's force, where that points the other way.
     """
+    f = answer.numbers["coefficient"]
+    sliding = sum(answer.numbers.get(force, math.nan) for force in SLIDING_FORCES) / scene.bodies.load
+    rolling = answer.rolling_times * (f - sliding)
+    least = min(0.0, 0.0 if math.isnan(rolling) else rolling, f)
     low, high = uncertainty.interval
-    if abs(scene.motion.slide_roll_ratio) != ONE_STANDS_STILL or not low < 0 <= f:
+    if not (_always_slides(scene) and low < least):
         return uncertainty
-    return replace(uncertainty, interval=(0.0, high))
+    return replace(uncertainty, interval=(least, high))
+
+
+def _always_slides(scene: Scene) -> bool:
+    """Return whether the surfaces slide, and one way, at all values in the ranges of the inputs."""
+    ratios = [scene.motion.slide_roll_ratio]
+    ratios += [end for name, *ends in scene.ranges if name == SLIDE_ROLL_RATIO for end in ends]
+    return min(ratios) > 0 or max(ratios) < 0
 
 
 def _power_loss(

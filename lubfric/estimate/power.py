@@ -76,6 +76,6 @@ def power_loss_of(
     parts = (coefficient_error * abs(coefficient * load * sliding), of_resistance * rolling if rolling else 0.0)
     return PowerLoss(
         value=loss,
-        interval=(loss - distances[0], loss + distances[1]),
+        interval=(max(loss - distances[0], min(loss, 0.0)), loss + distances[1]),  # no contact delivers power
         error=math.hypot(*parts) / abs(loss) if loss else 0.0,
     )

@@ -14,7 +14,7 @@ from ..errors import InputError, Report
 from ..models import ContactFields, ModelDetails
 from ..models.shared import Decision, UnmodelledEffect, Violation
 from ..quantities import PointQuantities, described_in_doc, in_words
-from .bibtex import bibtex
+from .bibtex import bibtex, source_in_words
 from .uncertainty import NumberErrors, Uncertainty
 
 if TYPE_CHECKING:
@@ -151,8 +151,9 @@ def cited(methods: Iterable[str], format: str = "text") -> str:
     "bibtex"."""
     validate.choice("format", format, ("text", "bibtex"))
     used = set(methods)
-    lines = [paper for name, paper in packaged(__package__, "papers.toml").items() if name in used]
-    return bibtex(lines) if format == "bibtex" else "\n".join(lines)
+    papers = packaged(__package__, "papers.toml")
+    sources = [source for name, group in papers.items() if name in used for source in group]
+    return bibtex(sources) if format == "bibtex" else "\n".join(map(source_in_words, sources))
 
 
 def cite_together(points: Iterable[FrictionResult], format: str = "text") -> str:

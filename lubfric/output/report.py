@@ -17,6 +17,7 @@ from ..models.shared import (
     Prepared,
     UnmodelledEffect,
     change_in_words,
+    percent,
     percent_of_sides,
     sentence,
 )
@@ -65,6 +66,9 @@ BUDGET = {
 TABLE_ROUNDING = 1e-9
 # Part of the power loss from which the report names the rolling resistance in it.
 SMALL_PART = 0.01
+
+# Largest error of f between the solved speeds that is stated: beyond it f is not known there. A convention.
+LARGEST_BETWEEN = 0.5
 
 # Columns of a table that a narrow screen shows as they are.
 NARROW_COLUMNS = 3
@@ -201,11 +205,12 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding
         largest = _place(curve, solved[f[solved].argmax()])
         ends = f"from {plain_number(f[solved].min())} {least} to {plain_number(f[solved].max())} {largest}"
         sentences.append(f"Over the {counted(solved.size, curve.SWEPT[3])} solved, f goes {ends}.")
-    return [*sentences, *_lift_off(curve)]
+    return [*sentences, *_lift_off(curve, point)]
 
 
-def _lift_off(curve: CurveResult) -> list[str]:
-    """Return the lift-off speed of a curve over the speed in sentences; none if its points do not determine it."""
+def _lift_off(curve: CurveResult, point: FrictionResult) -> list[str]:
+    """Return the lift-off speed of a curve over the speed in sentences, and how well f is known between its speeds; none
+    for too few points. ``point``: that of the answer."""
     if not isinstance(curve, StribeckResult):
         return []
     try:
@@ -218,11 +223,25 @@ def _lift_off(curve: CurveResult) -> list[str]:
         touching = np.nanmax(curve.contact_load[curve.speed != 0]) > 0
         where = "above" if touching else "below"
         return [f"The lift-off speed is {where} the speeds solved."]
-    known = f", and its minimum is {least[1]:.3g} at U = {least[0]:.3g} m/s" if curve.between <= DRAWN_ERROR else ""
-    return [
-        f"The lift-off speed, above which the film separates the surfaces, is "
-        f"{with_interval(speed, low, high, '', unit='m/s')}. Between the solved speeds f is interpolated within {100 * curve.between:.2g} %{known}."
-    ]
+    if math.isnan(speed):
+        first = (
+            f"The lift-off speed, above which the film separates the surfaces, lies between the solved speeds {low:.4g} and "
+            f"{high:.4g} m/s; more speeds between them determine it."
+        )
+    else:
+        surface = ", for this sample of the surface" if point.uncertainty.sampling else ""
+        known = with_interval(speed, low, high, "", unit="m/s")
+        first = f"The lift-off speed, above which the film separates the surfaces, is {known}{surface}."
+    if curve.between <= DRAWN_ERROR:
+        between = (
+            f"Between the solved speeds f is interpolated within {percent(curve.between)}, and its minimum is "
+            f"{least[1]:.3g} at U = {least[0]:.3g} m/s."
+        )
+    elif curve.between <= LARGEST_BETWEEN:
+        between = f"Between the solved speeds f is interpolated within {percent(curve.between)}."
+    else:
+        between = "Between the solved speeds f is not known; solve more of them (--speeds auto chooses them)."
+    return [f"{first} {between}"]
 
 
 def _budget(values: dict[str, float], words: dict[str, str], subject: str, notes: Iterable[str]) -> str:

@@ -41,6 +41,10 @@ BEYOND = 1.03
 # Error of an extrapolated lift-off, as a part of the logarithm of the ratio over which it is extrapolated.
 EXTRAPOLATED_ERROR = 0.05
 
+# Ratio of the two solved speeds around lift-off up to which its place between them is stated: an extrapolation over a
+# longer way rests on the power law of the film alone. A convention.
+WIDEST_BRACKET = 2.0
+
 # Error between the points, over that at a point which the curve through the others has.
 BETWEEN_POINTS_RATIO = 0.4
 
@@ -49,6 +53,9 @@ LITTLE = 0.02
 
 # Asperity load ratio below which chance rules: how a contact ends is not read off such a point.
 LEAST_LOAD_RATIO = 2e-3
+
+# Smallest divisor of an error relative to f.
+SMALLEST = 1e-300
 
 # Film load ratio below which the film counts as carrying nothing.
 NO_FILM_LOAD = 1e-9
@@ -103,13 +110,33 @@ class Interpolant:
         return (self.sense * speeds >= low * (1 - 1e-9)) & (self.sense * speeds <= high * (1 + 1e-9))
 
     @property
+    def bracket(self) -> tuple[float, float]:
+        """(fastest speed [m/s] with contact, slowest without), without their sign; NaN without a lift-off."""
+        s = self.samples
+        if self.lift_off is None:
+            return np.nan, np.nan
+        return float(s.speed[s.contacts - 1]), float(s.speed[s.contacts])
+
+    @property
+    def is_lift_off_supported(self) -> bool:
+        """Whether the solved speeds around lift-off are near enough to state its place between them."""
+        low, high = self.bracket
+        return high <= WIDEST_BRACKET * low
+
+    @property
     def lifted(self) -> float:
-        """Lift-off [m/s] in the direction of the curve; NaN without one."""
-        return np.nan if self.lift_off is None else self.sense * self.lift_off
+        """Lift-off [m/s] in the direction of the curve; NaN without one, and where the points do not support its place."""
+        return self.sense * self.lift_off if self.lift_off is not None and self.is_lift_off_supported else np.nan
 
     @property
     def lift_off_range(self) -> tuple[float, float]:
-        """(lowest, highest) speed [m/s] that lift-off may have, by the points alone; NaN without one."""
+        """(lowest, highest) speed [m/s] that lift-off may have, by the points alone, without the sign: where they do not
+        support its place, the solved speeds around it. NaN without a lift-off."""
+        return self._extrapolated_range if self.is_lift_off_supported else self.bracket
+
+    @property
+    def _extrapolated_range(self) -> tuple[float, float]:
+        """(lowest, highest) speed [m/s] of lift-off by the extrapolation of the film; NaN without one."""
         s = self.samples
         knee = knee_of(self.samples)
         if knee is None:
@@ -130,25 +157,26 @@ class Interpolant:
         two kinds of cubics; the effect of the uncertain place of the knee, and of the power with which the contact ends
         there; and a share of the error at the neighbouring points when the curve goes through the other points only."""
         value = self.at(speed)
-        spread = np.abs(self.at(speed, smooth=False) - value)
+        spread = _distance(self.at(speed, smooth=False), value)
         s = self.samples
         others = []
         if self.lift_off is not None:
-            others = [replace(self, lift_off=end) for end in self.lift_off_range if end != self.lift_off]
+            others = [replace(self, lift_off=end) for end in self._extrapolated_range if end != self.lift_off]
             others += [replace(self, end=power) for power in OTHER_POWERS]
         for other in others:
-            spread = np.maximum(spread, np.abs(other.at(speed) - value))
+            spread = np.maximum(spread, _distance(other.at(speed), value))
         change_without = np.zeros(s.speed.size)  # at each point, when that is left out
         for i in range(1, s.speed.size - 1):
             left = s.without(i)
             knee = self.lift_off if 0 < left.contacts < left.speed.size else None
             value_without = Interpolant(left, knee).at(s.speed[i : i + 1])[0]
-            change_without[i] = abs(value_without / (s.boundary[i] + s.film[i]) - 1.0)
+            at_point = s.boundary[i] + s.film[i]
+            change_without[i] = _distance(value_without, at_point) / max(abs(at_point), SMALLEST)
         right = np.clip(np.searchsorted(s.speed, speed), 1, s.speed.size - 1)
         low, high, at = (u**LOAD_RATIO_POWER for u in (s.speed[right - 1], s.speed[right], speed))
         between = 4.0 * (at - low) * (high - at) / (high - low) ** 2  # an error that is none at the points
         beside = BETWEEN_POINTS_RATIO * between * np.maximum(change_without[right - 1], change_without[right])
-        return np.maximum(spread / np.maximum(np.abs(value), 1e-300), beside)
+        return np.maximum(spread / np.maximum(np.abs(value), SMALLEST), beside)
 
     def boundary(self, speed: np.ndarray, *, smooth: bool = True) -> np.ndarray:
         """Return the part of f from the asperity contacts."""
@@ -161,7 +189,8 @@ class Interpolant:
 
     def film(self, speed: np.ndarray, *, smooth: bool = True) -> np.ndarray:
         """Return the part of f from the film."""
-        return self.traction(speed, smooth=smooth) * (1.0 - self.share(speed, smooth=smooth))
+        with np.errstate(invalid="ignore"):  # an overflow where the film carries nothing: not known
+            return self.traction(speed, smooth=smooth) * (1.0 - self.share(speed, smooth=smooth))
 
     def share(self, speed: np.ndarray, *, smooth: bool = True) -> np.ndarray:
         """Return the asperity load ratio F_C/F_T."""
@@ -173,7 +202,7 @@ class Interpolant:
         at = np.zeros(speed.shape)
         end = self.lift_off
         if end is None:
-            return 1 / (1 + np.exp(_cubic(np.log(s.speed[known]), log_load_ratio, np.log(speed), smooth=smooth)))
+            return _share_of(_cubic(np.log(s.speed[known]), log_load_ratio, np.log(speed), smooth=smooth))
         below = speed < end
         y = s.speed[known] / end
         there = speed[below] / end
@@ -185,7 +214,7 @@ class Interpolant:
             there**LOAD_RATIO_POWER,
             smooth=smooth,
         )
-        at[below] = 1 / (1 + np.exp(left) * there / (1 - there) ** self.end)
+        at[below] = _share_of(left, there / (1 - there) ** self.end)
         return at
 
     def traction(self, speed: np.ndarray, *, smooth: bool = True) -> np.ndarray:
@@ -256,6 +285,19 @@ def knee_of(samples: Samples) -> float | None:
     return float(min(lift_off, high))
 
 
+def _share_of(log_load_ratio: FloatArray, trend: FloatArray | float = 1.0) -> FloatArray:
+    """Return the asperity load ratio s of ln((1 - s)/s) - ln ``trend``; 0 where that overflows."""
+    with np.errstate(over="ignore"):
+        return 1 / (1 + np.exp(log_load_ratio) * trend)
+
+
+def _distance(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Return the distance of two interpolations of f; infinite where one of them overflows."""
+    with np.errstate(invalid="ignore"):
+        distance = np.abs(np.asarray(first) - second)
+    return np.where(np.isnan(distance), np.inf, distance)
+
+
 def _film_alone(speed: FloatArray, traction: FloatArray, at: FloatArray, *, smooth: bool) -> FloatArray:
     """Interpolation where nothing touches, by cubics of t/sqrt(U) over 1/sqrt(U): a sqrt(U) + b + c/sqrt(U) + .... The
     friction of a Newtonian film between rigid bodies is proportional to sqrt(U), and that of a film at its limiting
@@ -265,10 +307,11 @@ def _film_alone(speed: FloatArray, traction: FloatArray, at: FloatArray, *, smoo
 
 
 def _of_logarithms(x: FloatArray, values: FloatArray, at: FloatArray, *, smooth: bool) -> FloatArray:
-    """`_cubic` of ln ``values`` if all are positive, else of the values."""
+    """Return the exponential of the `_cubic` of ln ``values`` if all are positive, else the `_cubic` of the values."""
     if not np.all(values > 0.0):
         return _cubic(x, values, at, smooth=smooth)
-    return np.exp(_cubic(x, np.log(values), at, smooth=smooth))
+    with np.errstate(over="ignore"):  # far points: the error is then infinite
+        return np.exp(_cubic(x, np.log(values), at, smooth=smooth))
 
 
 def _steered(x: FloatArray, values: FloatArray, slopes: FloatArray, at: FloatArray, *, smooth: bool) -> FloatArray:

@@ -74,13 +74,14 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     @property
     def lift_off(self) -> float | None:
         """The speed [m/s], in the direction of the curve, at which the film lifts the surfaces off each other; None if
-        the curve does not reach it."""
+        the curve does not reach it. NaN where the solved speeds around it differ by more than a factor of 2:
+        ``lift_off_range`` has these."""
         return None if self._curve.lift_off is None else self._curve.lifted
 
     @property
     def lift_off_range(self) -> tuple[float, float]:
-        """(lowest, highest) speed [m/s] at which ``lift_off`` may lie, by the interpolation between the points; NaN
-        where there is none."""
+        """(lowest, highest) speed [m/s] at which ``lift_off`` may lie, by the interpolation between the points, without
+        the sampling error; the solved speeds around it where ``lift_off`` is NaN; NaN where there is none."""
         low, high = sorted(self._curve.sense * end for end in self._curve.lift_off_range)
         return low, high
 

@@ -3,6 +3,7 @@
 import importlib.metadata
 import re
 from functools import cache
+from pathlib import Path
 
 import numpy
 import pytest
@@ -115,24 +116,38 @@ def test_the_command_tells_its_version(capsys):
     assert importlib.metadata.version("lubfric")
 
 
-def test_papers_come_as_bibtex():
-    """Every line once, with its authors, year and DOI; keys differ."""
-    lines = [line for line in packaged("lubfric.estimate", "papers.toml").values()]
-    text = cited(packaged("lubfric.estimate", "papers.toml"), "bibtex")
-    keys = re.findall(r"@misc\{([^,]+),", text)
-    assert len(keys) == len(set(keys)) == len(lines) and text.count("{") == text.count("}")
-    first = text.partition("\n}")[0]
-    for words in (
-        "@misc{Akchurin2015,",
-        "author = {A. Akchurin and R. Bosman and P. M. Lugt and M. van Drogen}",
-        "doi = {10.1007/s11249-015-0536-z}",
-        "year = {2015}",
-        "howpublished = {Tribology Letters 59:19}",
-    ):
-        assert words in first
-    dois = re.findall(r"doi:(10\.[^\s,;]+[^\s,;:])", "\n".join(lines))
-    assert len(dois) > 15 and all(f"doi = {{{doi}}}" in text for doi in dois)
+def test_sources_come_as_bibtex():
+    """Every source once, of its own kind, with its authors, title, place and year; keys differ."""
+    papers = packaged("lubfric.estimate", "papers.toml")
+    sources = [source for group in papers.values() for source in group]
+    text = cited(papers, "bibtex")
+    entries = {}
+    for kind, key, body in re.findall(r"@(\w+)\{([^,]+),\n(.*?)\n\}", text, re.DOTALL):
+        entries[key] = {"kind": kind} | dict(re.findall(r"  (\w+) = \{(.*)\},?", body))
+    assert len(entries) == len(sources) == text.count("@") and text.count("{") == text.count("}")
+    needed = {
+        "article": {"journal", "volume"},
+        "book": {"publisher"},
+        "phdthesis": {"school"},
+        "techreport": {"institution", "number"},
+        "software": {"version"},
+    }
+    for entry in entries.values():
+        assert {"author", "title", "year"} | needed[entry["kind"]] <= set(entry), entry
+        assert all(entry.values()) and re.fullmatch(r"(18|19|20)\d\d", entry["year"])
+    articles = [entry for entry in entries.values() if entry["kind"] == "article"]
+    assert sum("pages" in entry for entry in articles) >= len(articles) - 1  # a whole issue has none
+    assert sum("doi" in entry for entry in articles) >= len(articles) - 5
+    paper = entries["Akchurin2015"]
+    assert paper["author"] == "A. Akchurin and R. Bosman and P. M. Lugt and M. van Drogen"
+    assert paper["doi"] == "10.1007/s11249-015-0536-z" and paper["journal"] == "Tribology Letters"
+    assert (paper["volume"], paper["pages"], paper["year"]) == ("59", "19", "2015")
+    citation = (Path(__file__).parents[2] / "CITATION.cff").read_text(encoding="utf-8")
+    for text in (paper["title"], entries["lubfric"]["title"]):
+        assert text.replace("{", "").replace("}", "") in citation
+    assert entries["lubfric"]["version"] == lubfric.__version__
+    assert "(1999) 206-219, doi:10.1016/S0043-1648(99)00113-1: contact" in cited(papers)
     point = lubfric.friction(PATCH, 0.1)
-    assert point.cite("bibtex").count("@misc") == len(point.cite().splitlines())
+    assert point.cite("bibtex").count("@") == len(point.cite().splitlines())
     with pytest.raises(lubfric.InputError, match="format"):
         point.cite(format="word")

@@ -405,10 +405,18 @@ def test_no_error_law_vanishes_while_a_film_is_present():
     assert low < starved.coefficient < high
 
 
-def test_f_is_not_negative_where_one_surface_stands_still():
-    scene = PAPER.with_(bodies={"load": 0.5}, numerics={"model": "quick", "sampling_tolerance": 0.3})
-    sliding = lubfric.friction(scene, 0.3)
-    assert sliding.uncertainty.interval[0] >= 0.0
+@pytest.mark.parametrize("ratio", [2.0, 0.5, -0.5])
+def test_friction_does_not_drive_the_sliding(ratio):
+    """A wide interval of a small f ends where the sliding part of f is 0: at 0, or at the rolling part that points the
+    other way. No interval of the power loss is below 0."""
+    scene = PAPER.with_(
+        bodies={"load": 0.5}, motion={"slide_roll_ratio": ratio}, numerics={"model": "quick", "sampling_tolerance": 0.3}
+    )
+    result = lubfric.friction(scene, 0.3)
+    sliding = (result.boundary_force + result.couette_force) / 0.5
+    rolling = result.coefficient - sliding
+    assert result.uncertainty.interval[0] >= 2.0 * min(rolling, 0.0)
+    assert 0.0 <= result.power_loss_interval[0] <= result.power_loss
 
 
 def test_every_model_of_the_scene_has_an_estimate_and_a_run_in_time():

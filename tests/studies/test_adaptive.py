@@ -1,5 +1,6 @@
 """The curve between its points: known curves come back, the knee is found, few solves, resume, what is refused."""
 
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -78,6 +79,39 @@ def test_a_known_curve_is_found_within_the_tolerance_from_few_points(lift_off, e
     assert found.lift_off == pytest.approx(lift_off, rel=0.01) and error <= tolerance
     assert found.lift_off_range[0] <= lift_off <= found.lift_off_range[1]
     assert len(speeds) <= (14 if tolerance == 0.01 else 11)
+
+
+@pytest.mark.parametrize("ratio", [1.3, 1.9, 2.2, 10.0])
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_lift_off_is_stated_where_the_solved_speeds_around_it_are_near(ratio, sense):
+    """A decade apart they enclose it, and say nothing of where it lies between them."""
+    curve = Made(0.05, 0.8)
+    low = 0.05 / ratio**0.7
+    samples = curve.samples(np.array([1e-3, 3e-3, low, ratio * low, 3.0]))
+    found = Interpolant(samples, knee_of(samples), sense=sense)
+    if ratio > 2:
+        assert np.isnan(found.lifted) and found.lift_off_range == pytest.approx((low, ratio * low))
+    else:
+        assert found.lifted == pytest.approx(sense * 0.05, rel=0.05)
+        assert low < found.lift_off_range[0] <= 0.05 <= found.lift_off_range[1] < ratio * low
+
+
+def test_f_between_points_that_a_spline_overshoots_is_not_known():
+    """The film's traction falls by 40 decades from one point to the next, and rises again: no overflow is hidden."""
+    samples = Samples(
+        speed=np.array([1e-3, 1.0, 1.001, 1e3]),
+        share=np.array([0.9, 0.6, 0.5, 0.4]),
+        boundary=np.array([0.09, 0.06, 0.05, 0.04]),
+        film=np.array([1e-3, 1e-3, 1e-43, 1e-3]),
+        thickness=np.ones(4),
+        clearance=np.full(4, np.nan),
+        steepness=np.full(4, np.nan),
+    )
+    found = Interpolant(samples, None)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        error = found.error(np.geomspace(1e-3, 1e3, 50))
+    assert np.isinf(error).any() and not np.isnan(error).any()
 
 
 @pytest.mark.parametrize("lift_off", [1e-6, 100.0])
