@@ -70,6 +70,9 @@ LARGER_TOLERANCE = "a larger numerics.tolerance"
 # gear flank, it gave -47 % for -30 %.
 FLOW_MATTERS = 0.01
 
+# Largest change of f by the load that another hardness moves, over f, above which that hardness is solved [-].
+HARDNESS_MATTERS = 0.01
+
 # Share of the lubricant out of touching cells above which a warning reports it.
 MOST_GIVEN_OFF = 0.1
 
@@ -178,19 +181,31 @@ def fine_fields_of(prepared: Prepared, speed: float) -> ContactFields:
     )
 
 
+def _change_by_hardness(strip: StripSolution, scene: Scene, end: Scene) -> float:
+    """Return the largest relative change of f by the hardness of ``end``: where the load that it moves on ``strip`` rubs with
+    f_b instead of with nothing, or the other way round; in pure rolling, where it changes the rolling resistance in
+    proportion. 0: no cell reaches it."""
+    hardness, other = (value_of(each, HARDNESS_KEY) for each in (scene, end))
+    moved = strip.share_moved(hardness, other)
+    if moved == 0 or scene.motion.slide_roll_ratio == 0:
+        return moved
+    return moved * scene.bodies.boundary_friction_coefficient / abs(strip.result.coefficient)
+
+
 def _change_without_solve(
     strip: StripSolution, scene: Scene, speed: float, name: str, number: int, end: Scene
 ) -> float | None:
     """Return the relative change of f at end ``number`` of the range of the input of this ``name``, where it needs no solve;
     None where it needs one. ``end``: the scene there.
 
-    A hardness that no cell of ``strip`` reaches at any moment changes nothing. Where roughness moves, an oil's own stress
-    (`OF_SHEAR`) changes the shear of the moments that are solved, if its flow at rest changes f by no more than
-    `FLOW_MATTERS`. Continuations with the other oil gave changes within 7 % of these.
+    A hardness that moves little of the load changes f by no more than what that rubs, here down at the lower end and up at
+    the upper one. Where roughness moves, an oil's own stress (`OF_SHEAR`) changes the shear of the moments that are solved,
+    if its flow at rest changes f by no more than `FLOW_MATTERS`. Continuations with the other oil gave changes within 7 %
+    of these.
     """
     if name == HARDNESS_KEY:
-        hardness = min(value_of(scene, name), value_of(end, name))
-        return 0.0 if strip.peak_pressure < hardness else None
+        most = _change_by_hardness(strip, scene, end)
+        return (-most, most)[number] if most <= HARDNESS_MATTERS else None
     f = strip.coefficient_with_oil(name, number)
     if f is None:
         return None

@@ -12,13 +12,13 @@ import numpy as np
 from ..._base.progress import report_progress
 from ...film import LineContact
 from ...oil import Lubricant
-from ...scene import Scene
+from ...scene import HARDNESS_KEY, Scene, value_of
 from ...surface import Surface
 from ...units import worded
 from .linear import GMRES_RESIDUAL
 from .moving import SAME_STEP, STEP_ORDERS, Moment, RoughBody, half_width, moments, travelling
 from .problem import HERTZ_INLET, HERTZ_OUTLET, Problem, reach
-from .result import DeterministicResult, LoadSplit, change_with_oil
+from .result import DeterministicResult, LoadSplit, change_with_oil, share_moved_by_hardness
 from .state import State
 from .strip import StripSolution, change_of_places, problem_of, solve_strip, work_of_steps
 from .summits import SummitControl, summits_over_time
@@ -88,7 +88,7 @@ EXPECTED = 5.0
 MOMENTS_SPARE = 1.1
 
 # Numbers of a strip that are kept at every moment.
-SERIES = "coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film", "peak_pressure"
+SERIES = "coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film"
 # Inputs that change the shear stress of a film, but hardly its pressure and gap (`MovingStripSolution.with_oils`).
 OF_SHEAR = "lubricant.eyring_stress", "lubricant.limiting_stress_coefficient"
 AVERAGED = tuple(f.name for f in fields(DeterministicResult) if f.type is float) + ("load_at", "friction_at")
@@ -153,13 +153,14 @@ class MovingStripSolution(StripSolution):
 
     - ``rest``: the same strip at rest, from which it started. ``times`` [s] (n,): all moments after it, the first
       ``discarded`` of which count nothing: the film had not passed the contact yet. ``series``: of each the numbers
-      `SERIES`: ``share``, of the load that rubs with f_b, ``peak_pressure`` [Pa] of any cell.
+      `SERIES`: ``share``, of the load that rubs with f_b.
     - ``bodies``: the rough bodies that moved.
     - ``places``: friction and load of all places at the moments that count, with the control of the `SampleTarget`.
     - ``state_after_discard``: the state of the last moment that is discarded, from which `continued_strip` starts.
       ``effort`` and ``ends`` [m], of the grid up and down stream: with which it was solved.
     - ``with_oils``: f if the films of all moments that count were sheared as the oils at both ends of the range of an
-      input (`OF_SHEAR`), by its name.
+      input (`OF_SHEAR`), by its name. ``moved``: share of the load that moves at each end of the range of the hardness [Pa]
+      (`share_moved_by_hardness`), mean over all moments that count.
     """
 
     rest: StripSolution
@@ -172,6 +173,7 @@ class MovingStripSolution(StripSolution):
     ends: tuple[float, float]
     state_after_discard: State = field(repr=False)
     with_oils: dict[str, tuple[float, ...]] = field(default_factory=dict)
+    moved: dict[float, float] = field(default_factory=dict)
 
     @property
     def moves(self) -> bool:
@@ -208,9 +210,8 @@ class MovingStripSolution(StripSolution):
     def follows_lubricant(self) -> bool:
         return abs(self.problem.speed * float(self.times[0]) / self.problem.spacing[0] - 1.0) < SAME_STEP
 
-    @property
-    def peak_pressure(self) -> float:
-        return max(self.rest.peak_pressure, float(self.series["peak_pressure"].max()))
+    def share_moved(self, hardness: float, other: float) -> float:
+        return self.moved[other]
 
 
 def solve_moving_strip(
@@ -247,6 +248,8 @@ def solve_moving_strip(
     passing = _passing(rest.problem, bodies, speed, step, effort, rest.result.state, 0.0)
     summits_at = _summits(rest.problem, bodies, speed, target)
     oils = oils_at_ends(scene)
+    ends_of_hardness = [value_of(end, name) for name, *ends in scene.at_ends() if name == HARDNESS_KEY for end in ends]
+    moved: list[list[float]] = []
     rows: list[dict[str, Any]] = []
     sheared: list[dict[str, list[float]]] = []
     state_after_discard = rest.result.state
@@ -256,6 +259,9 @@ def solve_moving_strip(
         rows.append(_row(moment) | {"summits_at": summits_at(number * step)})
         if number > discarded:
             sheared.append(with_oils(moment.result, moment.at.problem.sliding, oils))
+            pressure = moment.at.state.pressure
+            hardness = moment.at.problem.hardness
+            moved.append([share_moved_by_hardness(pressure, hardness, end) for end in ends_of_hardness])
         report_progress("moving roughness", number, last)
         if number == discarded:
             state_after_discard = moment.at.state
@@ -290,12 +296,13 @@ def solve_moving_strip(
         ends=_ends(scene, bodies, speed, effort),
         state_after_discard=state_after_discard,
         with_oils={name: tuple(np.mean([each[name] for each in sheared[:count]], axis=0).tolist()) for name in oils},
+        moved=dict(zip(ends_of_hardness, np.mean(moved[:count], axis=0).tolist())),
     )
 
 
 def oils_at_ends(scene: Scene) -> dict[str, tuple[Lubricant, ...]]:
     """Return the lubricants of ``scene`` at both ends of the ranges of `OF_SHEAR`, by name."""
-    if scene.lubricant.newtonian or scene.motion.slide_roll_ratio == 0:
+    if scene.lubricant.newtonian:
         return {}
     return {name: tuple(end.lubricant for end in ends) for name, *ends in scene.at_ends() if name in OF_SHEAR}
 
@@ -480,7 +487,6 @@ def _row(moment: Moment) -> dict[str, Any]:
     return row | {
         "share": result.split.rubbing / result.load,
         "contact_load_at": (result.pressure * result.rubbing).sum(axis=0) * result.spacing[0],
-        "peak_pressure": float(moment.at.state.pressure.max()),
         "order": moment.order,
         "work": work_of_steps(moment.at.gap.size, moment.work.factorisations, moment.work.krylov),
     }

@@ -221,6 +221,13 @@ def stress_with_oil(result: "DeterministicResult", sliding: float, lubricant: Lu
     return np.where(result.wet, law, result.shear)
 
 
+def share_moved_by_hardness(pressure: np.ndarray, hardness: float, other: float) -> float:
+    """Return the part of the load that leaves its cells, or comes to those that yield, if the ``hardness`` [Pa] were the
+    ``other`` one; ``pressure`` [Pa]: of the cells, up to the hardness."""
+    above = np.maximum(pressure - other, 0.0) if other < hardness else (pressure >= hardness) * (other - hardness)
+    return float(above.sum() / pressure.sum())
+
+
 def at_its_limit(lubricant: Lubricant, pressure: np.ndarray, stress: np.ndarray) -> np.ndarray:
     """Return where the ``stress`` [Pa] of ``lubricant`` is its limiting stress at the ``pressure`` [Pa]."""
     if lubricant.limit is None:

@@ -17,7 +17,7 @@ from ...surface import Surface
 from ..shared import film_lubricant
 from .counted_work import work_of_steps
 from .problem import BOUNDARY_FILM, Problem, lay_out, shifted
-from .result import DeterministicResult, assemble
+from .result import DeterministicResult, assemble, share_moved_by_hardness
 from .solve import MOST_FACTORISATIONS, refined_start, solve_point
 from .state import evaluated
 from .time_and_place import Places, TimeAndPlace
@@ -64,10 +64,9 @@ class StripSolution:
     slope: float
     work: float
 
-    @property
-    def peak_pressure(self) -> float:
-        """The largest pressure [Pa] of any cell, touching or not, at any moment."""
-        return float(self.result.pressure.max())
+    def share_moved(self, hardness: float, other: float) -> float:
+        """Return the `share_moved_by_hardness` from a ``hardness`` [Pa] to the ``other`` one."""
+        return share_moved_by_hardness(self.result.pressure, hardness, other)
 
     @property
     def moves(self) -> bool:
