@@ -95,6 +95,7 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
     f = answer.numbers["coefficient"]
     sampling = answer.sampling.error
     of_solve = Uncertainty(
+        coefficient=f,
         numerical=answer.numerical,
         sampling=sampling,
         interval=interval(f, answer.numerical, sampling, answer.sampling.freedom, *answer.model_error),

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .._base import Renamed
-from ..models.shared import has_too_few_contacts, percent, percent_of_sides, student
+from ..models.shared import MOST_RELATIVE, has_too_few_contacts, percent_of_sides, sides_in_f, student
 from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuantities, described_in_doc
 from ..units import interval_in_words, with_interval
 
@@ -27,6 +27,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
 
     Attributes
     ----------
+    coefficient : f, of which the parts are relative errors
     interval : 95 % interval of f, (low, high), from ``numerical``, ``sampling`` and ``model`` where that is known; by
         Student's t with ``freedom`` degrees of freedom
     tolerance : relative requested standard error
@@ -38,6 +39,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     largest_input : the input whose range changes f most
     """
 
+    coefficient: float = math.nan
     interval: tuple[float, float] = (math.nan, math.nan)
     freedom: float = 0.0
     tolerance: float = math.nan
@@ -67,11 +69,22 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
 
     @property
     def budget_in_words(self) -> dict[str, str]:
-        """The `budget` as text, by the same names: "42 %", and "-29 to +42 %" where the two sides differ."""
+        """The `budget` as text, by the same names: "42 %", and "-29 to +42 %" where the two sides differ; in f itself, as
+        "-0.0004 to +0.0025", where it `is_near_zero`."""
         sides = {"model-form": self.model_sides, "not given": self.not_given_sides, "input": self.input_sides}
-        return {
-            name: percent_of_sides(*sides.get(name, (math.nan, math.nan)), value) for name, value in self.budget.items()
-        }
+        unknown = (math.nan, math.nan)
+        if self.is_near_zero:
+            return {
+                name: sides_in_f(*sides.get(name, unknown), value, self.coefficient)
+                for name, value in self.budget.items()
+            }
+        return {name: percent_of_sides(*sides.get(name, unknown), value) for name, value in self.budget.items()}
+
+    @property
+    def is_near_zero(self) -> bool:
+        """Whether f is so near 0 that a part of its error is larger, so that errors are stated in f and not relative to it."""
+        known = [part for part in self.budget.values() if math.isfinite(part)]
+        return math.isfinite(self.coefficient) and max(known, default=0.0) > MOST_RELATIVE
 
     @property
     def largest_part(self) -> str:
@@ -99,13 +112,13 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         """The 95 % interval of f and the uncertainty budget, as text."""
         if not math.isfinite(self.sampling):
             return "; ".join((f"f: {self._in_words('not known')}", *self.notes))
-        sampling = f"{percent(self.budget['sampling'])} of a line of {1e3 * self.length:.3g} mm"
+        sampling = f"{self.budget_in_words['sampling']} of a line of {1e3 * self.length:.3g} mm"
         interval_text = interval_in_words(*self.interval)
         return "; ".join((f"95 % interval of f {interval_text}: {self._in_words(sampling)}", *self.notes))
 
     def short(self, coefficient: float) -> str:
         """Return f with its 95 % interval, and the uncertainty budget, as text."""
-        return f"f = {with_interval(coefficient, *self.interval)}; {self._in_words(percent(self.budget['sampling']))}"
+        return f"f = {with_interval(coefficient, *self.interval)}; {self._in_words(self.budget_in_words['sampling'])}"
 
     def _in_words(self, sampling: str) -> str:
         unknown = " (not included)" * math.isnan(self.model)
@@ -113,7 +126,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         inputs = f", input {words['input']}" if self.inputs != 0 else ""
         known = f"numerical {words['numerical']}, sampling {sampling}, model-form {words['model-form']}{unknown}"
         missing = f", {self.missing_input} not given {words['not given']}" if self.not_given else ""
-        return f"{known}{missing}{inputs}"
+        return f"{'errors of f itself, which is near 0: ' * self.is_near_zero}{known}{missing}{inputs}"
 
 
 @described_in_doc

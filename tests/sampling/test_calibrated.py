@@ -10,7 +10,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lubfric
-from lubfric.models.deterministic import RoughBody, continued_strip, lay_out, solve_point, solve_strip
+from lubfric.models.deterministic import (
+    RoughBody,
+    continued_strip,
+    lay_out,
+    solve_moving_strip,
+    solve_point,
+    solve_strip,
+)
 from lubfric.models.load_sharing import least_error, starved_error
 from lubfric.models.quick import (
     QuickModel,
@@ -190,8 +197,8 @@ def test_the_ends_of_an_input_are_those_of_the_quick_model():
 def test_the_stress_of_an_oil_in_rolling_is_solved_in_motion_only_where_its_flow_matters(monkeypatch):
     """The shear of the moments that are solved gives what whole solves at the ends give, and continuations."""
     calls = []
-    where = "lubfric.models.deterministic.answer"
-    monkeypatch.setattr(f"{where}.continued_strip", lambda *how: calls.append(1) or continued_strip(*how))
+    where = "lubfric.models.deterministic"
+    monkeypatch.setattr(f"{where}.moving_strip.continued_strip", lambda *how: calls.append(1) or continued_strip(*how))
     scene = HEAVIER.with_(
         bodies={"boundary_film": 2e-8},
         lubricant={"limiting_stress_coefficient": None},
@@ -206,10 +213,32 @@ def test_the_stress_of_an_oil_in_rolling_is_solved_in_motion_only_where_its_flow
     sides = [abs(f / ranged.coefficient - 1) for f in solved]
     assert min(sides) > 0.1
     assert ranged.uncertainty.input_sides == pytest.approx(sides, rel=0.1)
-    monkeypatch.setattr(f"{where}.FLOW_MATTERS", 0.0)
+    monkeypatch.setattr(f"{where}.answer.FLOW_MATTERS", 0.0)
     followed_ends = lubfric.friction(prepared, 0.3)
     assert len(calls) == 3 and followed_ends.coefficient == ranged.coefficient
     assert followed_ends.uncertainty.input_sides == pytest.approx(sides, rel=0.1)
+
+
+@pytest.mark.parametrize("slip", [0.5, 2.0])
+def test_a_hardness_that_moves_little_load_changes_f_by_no_more_than_it_rubs(slip):
+    """Solved with the other hardness, f is within that of the strip; a hardness that no cell reaches moves nothing."""
+    ends = (3.0e9, 4.5e9)
+    scene = HEAVIER.with_(motion={"slide_roll_ratio": slip}, bodies={"hardness": [3.9e9, *ends]})
+    (softer, untouched) = (scene.with_(bodies={"hardness": hardness}) for hardness in (ends[0], 1e10))
+    surface = patch((48, 16), (1.8e-6, 2.4e-6))
+
+    def solved(inputs):
+        if slip == 2.0:
+            return solve_strip(inputs, surface, 0.02)
+        return solve_moving_strip(inputs, [RoughBody(surface, 0.75 * 0.02)], 0.02, most_steps=12)
+
+    strip = solved(scene)
+    moved = strip.share_moved(3.9e9, ends[0])
+    change = solved(softer).result.coefficient / strip.result.coefficient - 1
+    most = moved * scene.bodies.boundary_friction_coefficient / strip.result.coefficient
+    assert 0 < abs(change) < most < 0.05
+    elastic = solved(untouched.with_(bodies={"hardness": [1e10, 9e9, 2e10]}))
+    assert elastic.share_moved(1e10, 9e9) == elastic.share_moved(1e10, 2e10) == 0
 
 
 @pytest.mark.parametrize("slip", [0.5, 2.0])

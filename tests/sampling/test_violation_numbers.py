@@ -1,10 +1,17 @@
 """Numbers in the sentence of a violated assumption."""
 
 import math
+import re
+from dataclasses import replace
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from lubfric.models.shared import Violation
+import lubfric
+from lubfric.estimate.uncertainty import Uncertainty
+from lubfric.models.deterministic import warn_model_error
+from lubfric.models.shared import Violation, percent_beside
 
 
 @pytest.mark.parametrize(
@@ -14,3 +21,47 @@ from lubfric.models.shared import Violation
 def test_value_has_three_digits_and_no_power_of_ten_up_to_a_million(value, shown):
     violation = Violation(what="it", value=value, limit=math.nan, unit="%", consequence="why", remedy="")
     assert violation.text == f"warning: it is {shown} %. Why."
+
+
+@given(st.floats(1e-4, 10.0), st.floats(1e-4, 1e-2))
+def test_a_value_and_its_target_are_told_apart(target, beyond):
+    """A number that is above its target does not print as it."""
+    value = target * (1 + beyond)
+    (stated, allowed) = percent_beside(value, target)
+    assert stated != allowed
+    violation = Violation(what="it", value=value, limit=target, unit="%", consequence="why", remedy="")
+    (shown, limit) = re.findall(r"is (\S+) %, above (\S+) %", violation.text)[0]
+    assert float(shown) > float(limit)
+
+
+def test_errors_of_an_f_near_zero_are_in_f_itself():
+    """The same numbers as relative to f, and the signs of an f below 0 as of its interval."""
+    known = Uncertainty(
+        coefficient=-1e-3,
+        numerical=0.002,
+        sampling=0.0,
+        freedom=4.0,
+        interval=(-3.5e-3, -8e-4),
+        model=2.5,
+        model_sides=(0.2, 2.5),
+        not_given=0.0,
+        inputs=0.0,
+        by_limit=0.0,
+        line_scatter=0.0,
+        effective_contacts=1e3,
+        length=1e-3,
+        area_needed=1.0,
+    )
+    assert known.budget_in_words["model-form"] == "-0.0025 to +0.0002"
+    assert known.budget_in_words["numerical"] == "2e-06" and "near 0" in known.text
+    usual = replace(known, model=0.9, model_sides=(0.2, 0.9))
+    assert usual.budget_in_words["model-form"] == "-20 to +90 %" and "near 0" not in usual.text
+
+
+def test_a_warning_of_the_error_of_an_f_near_zero_is_in_f_itself():
+    prepared = lubfric.prepare(lubfric.load_scene("paper").with_(numerics={"model_tolerance": 0.05}))
+    (relative,) = warn_model_error(prepared, 0.2, 0.04)
+    assert "is 20 %, above 5 %" in relative.text
+    (itself,) = warn_model_error(prepared, 88.0, -1e-5)
+    assert "near 0, in f itself, is 0.00088, above 5e-07." in itself.text
+    assert not list(warn_model_error(prepared, 0.04, 1e-5))

@@ -14,6 +14,7 @@ from ...samples import is_measured
 from ...scene import HARDNESS_KEY, Scene, has_moving_roughness, value_of
 from ..contract import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
+    MOST_RELATIVE,
     SAMPLE_TOO_SHORT,
     Decision,
     Heat,
@@ -26,7 +27,7 @@ from ..shared import (
     limit_bounds,
     limit_in_words,
     peak_hertz_pressure,
-    percent,
+    percent_beside,
     smooth_rolling_resistance,
     student,
     warn_heat,
@@ -43,6 +44,7 @@ from .rough_bodies import map_of, strip_surface
 from .strip import StripSolution, change_by_flow, solve_strip
 
 MODEL_ERROR = "model-form error of f"
+MODEL_ERROR_NEAR_ZERO = f"{MODEL_ERROR} near 0, in f itself,"
 FEW_STRIPS = "not known from fewer than three strips"
 UNSOLVED_CELLS = (
     "shorter cells did not converge within the work of a point: the numerical error is twice the estimate from longer "
@@ -70,8 +72,9 @@ LARGER_TOLERANCE = "a larger numerics.tolerance"
 # gear flank, it gave -47 % for -30 %.
 FLOW_MATTERS = 0.01
 
-# Largest change of f by the load that another hardness moves, over f, above which that hardness is solved [-].
-HARDNESS_MATTERS = 0.01
+# Largest change of f by the load that another hardness moves, over f, above which that hardness is solved [-]. Solved ends
+# of a strip at rest and of one in motion changed f by an eighth of it, or less.
+HARDNESS_MATTERS = 0.02
 
 # Share of the lubricant out of touching cells above which a warning reports it.
 MOST_GIVEN_OFF = 0.1
@@ -126,7 +129,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         ),
         violations=(
             *_violations(prepared, numbers, results, heat),
-            *warn_model_error(prepared, model),
+            *warn_model_error(prepared, model, numbers["coefficient"]),
         ),
         recommendation=_recommendation(prepared),
         fields=fields_of(levels.finest, sample.in_words(1)),
@@ -267,18 +270,20 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     )
 
 
-def warn_model_error(prepared: Prepared, error: float, remedy: str = "") -> Iterator[Violation]:
-    """Yield a warning where the model-form ``error`` of f, relative, is above ``numerics.model_tolerance``; ``remedy``: what
-    narrows it ("": a longer map, where the surface is measured)."""
+def warn_model_error(prepared: Prepared, error: float, f: float, remedy: str = "") -> Iterator[Violation]:
+    """Yield a warning where the model-form ``error`` of ``f``, relative, is above ``numerics.model_tolerance``; ``remedy``:
+    what narrows it ("": a longer map, where the surface is measured). Where f is near 0, it states the error in f itself."""
     scene = prepared.scene
     tolerance = scene.numerics.model_tolerance
     has_map = prepared.is_given or is_measured(scene)
     if error > tolerance:
+        is_relative = error <= MOST_RELATIVE
+        unit = 100.0 if is_relative else abs(f)
         yield Violation(
-            what=MODEL_ERROR,
-            value=100 * error,
-            limit=100 * tolerance,
-            unit="%",
+            what=MODEL_ERROR if is_relative else MODEL_ERROR_NEAR_ZERO,
+            value=unit * error,
+            limit=unit * tolerance,
+            unit="%" if is_relative else "",
             consequence="it comes from the law of the flow, heat, the scatter between the models, or cells",
             remedy=remedy or f"read f with its interval{', or give a longer map' if has_map else ''}",
         )
@@ -301,11 +306,10 @@ def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[s
     tolerance = prepared.scene.numerics.sampling_tolerance
     if math.isnan(sampling):
         return SAMPLE_TOO_SHORT.format(length / sample.correlation_lengths[1]), BIASED
-    return (
-        (f"the standard error of sampling, {percent(sampling)}, is above its target of {percent(tolerance)}",)
-        if sampling > tolerance
-        else ()
-    )
+    if sampling <= tolerance:
+        return ()
+    (stated, target) = percent_beside(sampling, tolerance)
+    return (f"the standard error of sampling, {stated}, is above its target of {target}",)
 
 
 def _words_of_levels(levels: Levels) -> str:

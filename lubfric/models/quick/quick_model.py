@@ -42,7 +42,7 @@ from ..shared import (
     StandardError,
     Violation,
     expected_on_hertz,
-    percent,
+    percent_beside,
     rolling_model_error,
     why_no_rough_film,
 )
@@ -107,17 +107,19 @@ class LongStrips:
     outside: tuple[Outside, ...]
 
     def numbers(self, scene: Scene) -> dict[str, float]:
-        """Return the numbers of the strips without their bias.
+        """Return the numbers of the strips without their bias, which is one of the sliding part of f.
 
         The bias of f is one of the asperity load, with f_b on asperities and the mean stress of the film beside it as
         they are. What f has beyond that, because asperities carry none or all of the load, or have the stress of the
         film, remains in the shear of the film. So the forces add up to f.
         """
         numbers = self.levels.numbers
+        if scene.motion.slide_roll_ratio == 0:
+            return numbers
         load = scene.bodies.load
         rolling = numbers["rolling_force"]
         force = rolling + (load * numbers["coefficient"] - rolling) * math.exp(self.bias)
-        rubs = scene.bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0)
+        rubs = scene.bodies.boundary_friction_coefficient
         share = numbers["contact_load"] / load
         contrast = rubs - (numbers["couette_force"] / numbers["film_load"] if numbers["film_load"] > 0 else rubs)
         new_share = share
@@ -139,10 +141,11 @@ class LongStrips:
         }
 
     def bounds(self, scene: Scene) -> tuple[float, float]:
-        """Return the 95 % bounds of f by the cells, relative, below and above."""
+        """Return the 95 % bounds of f by the cells, relative, below and above. In pure rolling all of f is the rolling
+        part."""
         numbers = self.numbers(scene)
         f = numbers["coefficient"]
-        rolling = numbers["rolling_force"] / scene.bodies.load
+        rolling = f if scene.motion.slide_roll_ratio == 0 else numbers["rolling_force"] / scene.bodies.load
         sliding = abs(f - rolling)
         if f == 0:
             return math.inf, math.inf
@@ -243,7 +246,8 @@ class QuickSolution(SampleSolution):
         )  # the limit is no error of a model
         if error > tolerance:
             return ""
-        return f"its model-form error, {percent(error)}, is within numerics.model_tolerance, {percent(tolerance)}"
+        (stated, target) = percent_beside(error, tolerance)
+        return f"its model-form error, {stated}, is within numerics.model_tolerance, {target}"
 
     def answer(self) -> ModelAnswer:
         return self._answer
@@ -331,7 +335,7 @@ def quick_answer_of(prepared: Prepared, speed: float, strips: LongStrips) -> Mod
     basis = f"deterministic model on long cells, calibrated on {strips.model.cases} solved cases"
     below, above = (math.hypot(part, bound) for part, bound in zip(answer.model_error, bounds))
     warnings = (
-        violation for violation in answer.violations if violation.what != MODEL_ERROR
+        violation for violation in answer.violations if not violation.what.startswith(MODEL_ERROR)
     )  # which was without the cells
     return replace(
         answer,
@@ -339,7 +343,7 @@ def quick_answer_of(prepared: Prepared, speed: float, strips: LongStrips) -> Mod
         largest_in_model=largest,
         violations=(
             *warnings,
-            *warn_model_error(prepared, max(below, above), NARROWED),
+            *warn_model_error(prepared, max(below, above), levels.numbers["coefficient"], NARROWED),
             *(part.violation for part in reported(strips.outside)),
         ),
         decision=replace(answer.decision, model="quick", basis=basis, notes=(NARROWER, *answer.decision.notes)),

@@ -51,6 +51,7 @@ from .rolling import rolling_model_error, smooth_rolling_resistance
 from .statistics import (
     FEW_CONTACTS,
     FREEDOM_NOT_COUNTED,
+    MOST_RELATIVE,
     SAMPLE_TOO_SHORT,
     SAMPLING_MATTERS,
     SHARED_LENGTH,
@@ -61,8 +62,10 @@ from .statistics import (
     has_too_few_contacts,
     means_of_blocks,
     percent,
+    percent_beside,
     percent_of_sides,
     required_strips,
+    sides_in_f,
     smooth_over_cells,
     student,
 )

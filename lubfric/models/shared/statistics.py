@@ -1,11 +1,18 @@
 """Standard errors of means along a line, the number of strips that a standard error needs, and their wording."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..._base import FloatArray
+
+# Digits of a number compared with another, at most. A convention.
+MOST_DIGITS = 6
+
+# Error of f over f above which it is stated in f itself [-]: then f is near 0, and a ratio to it says nothing. A convention.
+MOST_RELATIVE = 1.0
 
 # Mean square of the change of the heights over two cells, over that over one, of smooth heights, at least: 4 of a
 # parabola, 2 of an exponential autocorrelation.
@@ -167,14 +174,29 @@ def student(freedom: float) -> float:
     return float(stdtrit(max(freedom, 1.0), 0.5 + 0.5 * CONFIDENCE))
 
 
-def percent(value: float) -> str:
-    """Return a ratio as text with two digits (all of 100 and more) and a percent sign; "< 0.001 %" for what nobody can
-    see, "not known" for NaN."""
+def percent(value: float, digits: int = 2) -> str:
+    """Return a ratio as text with so many ``digits`` (all of 100 and more) and a percent sign; "< 0.001 %" for what nobody
+    can see, "not known" for NaN."""
     if math.isnan(value):
         return "not known"
     if value >= 0.995:
-        return f"{100 * value:.0f} %"
-    return "< 0.001 %" if 0 < value < 1e-5 else f"{100 * value:.2g} %"
+        return f"{100 * value:.{digits - 2}f} %"
+    return "< 0.001 %" if 0 < value < 1e-5 else f"{100 * value:.{digits}g} %"
+
+
+def percent_beside(value: float, target: float) -> tuple[str, str]:
+    """Return a ``value`` and its ``target`` as by `percent`, with as many digits as they need to differ as texts."""
+    return distinct_texts(value, target, percent)
+
+
+def distinct_texts(value: float, other: float, text_of: Callable[[float, int], str], least: int = 2) -> tuple[str, str]:
+    """Return both numbers as ``text_of`` a number and of a number of digits writes them, with as few digits, from ``least`` to
+    `MOST_DIGITS`, as they need to differ as texts. Equal ones have the ``least``."""
+    for digits in range(least, MOST_DIGITS + 1):
+        texts = text_of(value, digits), text_of(other, digits)
+        if texts[0] != texts[1]:
+            return texts
+    return text_of(value, least), text_of(other, least)
 
 
 def percent_of_sides(below: float, above: float, largest: float) -> str:
@@ -183,6 +205,17 @@ def percent_of_sides(below: float, above: float, largest: float) -> str:
     if not (math.isfinite(below) and math.isfinite(above)) or percent(below) == percent(above):
         return percent(largest)
     return f"-{percent(below).removesuffix(' %')} to +{percent(above)}"
+
+
+def sides_in_f(below: float, above: float, largest: float, f: float) -> str:
+    """Return the same as `percent_of_sides` in f itself, as "-0.0004 to +0.0025", or "0.0004" where both sides are equal."""
+    if not math.isfinite(largest):
+        return "not known"
+    size = abs(f)
+    if not (math.isfinite(below) and math.isfinite(above)) or f"{below:.2g}" == f"{above:.2g}":
+        return f"{largest * size:.2g}"
+    (down, up) = (below, above) if f >= 0 else (above, below)
+    return f"-{down * size:.2g} to +{up * size:.2g}"
 
 
 def smooth_over_cells(heights: FloatArray) -> bool:

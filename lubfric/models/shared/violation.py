@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...errors import ValidityError
+from .statistics import distinct_texts
 
 # The value in the text of a violation.
 _VALUE_IN_TEXT = re.compile(r" is (-?[0-9.]+(?:e[-+]?[0-9]+)?)")
@@ -18,9 +19,10 @@ TEXT_SEPARATOR = " | "
 MOST_PLACES = 12
 
 
-def _three_digits(value: float) -> str:
-    rounded = float(f"{value:.3g}")
-    return f"{rounded:.0f}" if 1e3 <= abs(rounded) < 1e6 else f"{rounded:.3g}"
+def _in_digits(value: float, digits: int) -> str:
+    """Return ``value`` with so many ``digits``, without a power of ten up to a million."""
+    rounded = float(f"{value:.{digits}g}")
+    return f"{rounded:.0f}" if 10**digits <= abs(rounded) < 1e6 else f"{rounded:.{digits}g}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,15 +58,20 @@ class Violation:
 
     @property
     def value_in_words(self) -> str:
-        """The value with three digits, without a power of ten up to a million."""
-        return _three_digits(self.value)
+        """The value with three digits, or with as many as it needs to differ from the limit."""
+        return self._beside_limit[0]
+
+    @property
+    def _beside_limit(self) -> tuple[str, str]:
+        """The value and the limit as texts that differ."""
+        return distinct_texts(self.value, self.limit, _in_digits, least=3)
 
     def text_of(self, values: str) -> str:
         """Return the `text` with ``values`` in place of the value, such as "5.2 (at 0.1 m/s) to 8.69 (at 3 m/s)"."""
         head = "not valid" if self.severe else "warning"
         unit = f" {self.unit}" if self.unit not in ("", "-") else ""
         side = "above" if self.value > self.limit else "below"
-        limit = f", {side} {_three_digits(self.limit)}{unit}" if math.isfinite(self.limit) else ""
+        limit = f", {side} {self._beside_limit[1]}{unit}" if math.isfinite(self.limit) else ""
         numbers = f"{values}{unit}{limit}"
         remedy = f" Recommendation: {self.remedy}." if self.remedy else ""
         return f"{head}: {self.what} is {numbers}. {sentence(self.consequence)}{remedy}"

@@ -107,11 +107,11 @@ def solved_case(row: dict[str, str], known: Sequence[dict[str, float]]) -> Solve
     What the cells of the reference would still change is taken of its change from the longest cells.
     """
     by_cells = {numbers["per_length"]: numbers for numbers in known}
-    (first, last) = PER_LENGTH[row["motion"]][0], PER_LENGTH[row["motion"]][-1]
-    longest = by_cells.get(first)
+    lengths = PER_LENGTH[row["motion"]]
+    longest = by_cells.get(lengths[0])
     if longest is None:
         return None
-    numbers = by_cells.get(last) if longest["film_at_rest"] > THIN_BY_FILM else longest
+    numbers = by_cells.get(lengths[-1]) if longest["film_at_rest"] > THIN_BY_FILM else longest
     if numbers is None:
         return None
     reference = float(row["det_f"]) - float(row["det_rolling"])
