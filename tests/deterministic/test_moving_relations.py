@@ -99,6 +99,18 @@ def test_what_must_not_change_the_coefficient(model, relation, results):
     assert results[model].contact_load > 0
 
 
+def test_f_is_that_of_the_strip_as_shorter_cells_change_it(results):
+    """They act as a thinner boundary film, so f falls where it grows with that film; forces and loads still add up."""
+    result = results["deterministic"]
+    strip = result.deterministic
+    change = result.coefficient / strip.coefficient - 1
+    slope = np.log(strip.at_twice_film / strip.at_half_film) / np.log(4.0)
+    assert slope > 1e-3 and -0.5 * slope < change < 0
+    assert f"f corrected by {100 * change:+.2g} % for shorter cells" in result.decision.text
+    assert result.shear_force + result.boundary_force == pytest.approx(result.coefficient * 60.0, rel=1e-9)
+    assert result.contact_load + result.film_load == pytest.approx(60.0, rel=1e-9)
+
+
 @pytest.mark.parametrize("model", MODELS)
 def test_similar_contacts_have_one_coefficient(model, results):
     """All lengths twice as long, at the same stresses: but the gap of touching bodies, 1 nm, which no summit reaches."""
