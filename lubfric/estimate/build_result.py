@@ -109,6 +109,7 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
         model_sides=answer.model_error,
         by_limit=answer.by_limit,
         largest_in_model=answer.largest_in_model,
+        narrows_numerical=answer.narrows_numerical,
         notes=answer.notes,
     )
     known = with_missing_inputs(of_solve, f, answer.not_given)

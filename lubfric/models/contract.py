@@ -108,6 +108,7 @@ class ModelAnswer:
     model_error : relative error of f by the model itself, at 95 %, below and above f; NaN: not known
     by_limit : part of ``model_error`` because the limiting stress of a Newtonian lubricant is not known
     largest_in_model : the largest part of the model error, as text; "": one part only
+    narrows_numerical : what narrows ``numerical``, as text
     rolling_times : the part of f by the gradient of the pressure is at most so many times its value
     not_given : relative changes of f at both ends of the range of an input that the scene does not give, by its name in
         words and its key; no part of ``model_error``
@@ -134,6 +135,7 @@ class ModelAnswer:
     decision: Decision
     by_limit: float = 0.0
     largest_in_model: str = ""
+    narrows_numerical: str = "a smaller numerics.tolerance narrows it"
     rolling_times: float = 2.0
     not_given: dict[str, tuple[float, float]] = field(default_factory=dict)
     errors: dict[str, float] = field(default_factory=dict)

@@ -17,6 +17,7 @@ from lubfric.models.deterministic import (
     attenuated,
     cells_in_a_step,
     control_of,
+    factors_of,
     mean_over_blocks,
     solve_moving_strip,
 )
@@ -169,3 +170,21 @@ def test_errors_of_cells_grow_where_less_is_known():
         cells_in_motion(1.3, by_longer=0.1),
     ]
     assert all(other.error > error for other in (*others, cells_in_motion(1.6)))
+
+
+def test_a_given_grid_takes_the_cells_of_the_scene_where_roughness_moves():
+    """Without it cells are as long as a quarter and half of a correlation length allow; at rest nothing changes."""
+    scene = lubfric.load_scene("paper").with_(
+        surface={"sq": 2e-7, "correlation_length": 16e-6, "acf": "gaussian"},
+        motion={"slide_roll_ratio": 0.1},
+        contact={"shape": (64, 64), "spacing": 2e-6},
+    )
+
+    def cell(scene):
+        sample = lubfric.prepare(scene).sample
+        return tuple(factor * step for factor, step in zip(factors_of(scene, sample), sample.cells.spacing))
+
+    given = scene.with_(numerics={"grid": "given"})
+    assert cell(scene) == pytest.approx((4e-6, 8e-6)) and cell(given) == pytest.approx((2e-6, 2e-6))
+    at_rest = given.with_(motion={"slide_roll_ratio": 2.0})
+    assert cell(at_rest) == pytest.approx((4e-6, 4e-6))

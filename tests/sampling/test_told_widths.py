@@ -158,3 +158,11 @@ def test_the_largest_part_of_an_interval_is_named_with_what_narrows_it():
     by_model = replace(known, model=0.3, largest_in_model="the boundary film: bodies.boundary_film narrows it")
     assert by_model.largest_part == "largest part: model-form 30 %, the boundary film: bodies.boundary_film narrows it"
     assert not replace(known, sampling=math.nan).largest_part
+
+
+def test_the_numerical_part_says_what_narrows_it():
+    known = Uncertainty(numerical=0.2, sampling=0.01, freedom=20.0, interval=(0.04, 0.06))
+    assert known.largest_part == "largest part: numerical 20 %, a smaller numerics.tolerance narrows it"
+    assert replace(known, narrows_numerical="shorter cells narrow it").largest_part.endswith(
+        ", shorter cells narrow it"
+    )

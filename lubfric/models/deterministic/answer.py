@@ -42,6 +42,7 @@ from .levels import Levels, mean
 from .result import DeterministicResult, stress_with_oil
 from .rough_bodies import map_of, strip_surface
 from .strip import StripSolution, change_by_flow, solve_strip
+from .strip_on_two_grids import factors_of
 
 MODEL_ERROR = "model-form error of f"
 MODEL_ERROR_NEAR_ZERO = f"{MODEL_ERROR} near 0, in f itself,"
@@ -66,6 +67,7 @@ BOUNDARY_FILM_KEY = "bodies.boundary_film"
 OF_LIMIT = "the limiting stress of the oil, which is not given: lubricant.limiting_stress_coefficient narrows it"
 LIMITED = ("coefficient", "at_least_limit", "at_most_limit")
 LARGER_TOLERANCE = "a larger numerics.tolerance"
+SMALLER_TOLERANCE = "a smaller numerics.tolerance"
 
 # Change of f at rest, by the flow of an oil with another stress, above which that oil is solved in motion too. Up to .006
 # the shear of the solved moments gave f within 7 % of its change (needle rollers, bearings, light contacts); at .023, a
@@ -132,6 +134,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
             *warn_model_error(prepared, model, numbers["coefficient"]),
         ),
         recommendation=_recommendation(prepared),
+        narrows_numerical=_narrows_numerical(prepared),
         fields=fields_of(levels.finest, sample.in_words(1)),
         fine_fields=None if has_moving_roughness(scene) else partial(fine_fields_of, prepared, speed),
         details=levels.finest.result,
@@ -293,11 +296,29 @@ def _recommendation(prepared: Prepared) -> str:
     """What makes the error by the cells smaller: shorter ones, if the map has them."""
     scene = prepared.scene
     sample = prepared.sample
-    if not sample.cells.is_native and (has_moving_roughness(scene) or not sample.refines_in_place):
+    if has_moving_roughness(scene):
+        return f"{_shorter_cells_in_motion(prepared)}, or {LARGER_TOLERANCE}"
+    if not sample.cells.is_native and not sample.refines_in_place:
         return f"numerics.grid = 'given' for shorter cells, or {LARGER_TOLERANCE}"
     if prepared.is_given or is_measured(scene):
         return f"{LARGER_TOLERANCE}, or a map with shorter cells"
     return f"a finer contact.spacing with numerics.grid = 'given', or {LARGER_TOLERANCE}"
+
+
+def _shorter_cells_in_motion(prepared: Prepared) -> str:
+    """Return how a scene whose roughness moves takes shorter cells, as text."""
+    scene = prepared.scene
+    if not prepared.sample.cells.is_native or factors_of(scene, prepared.sample) != (1, 1):
+        return "numerics.grid = 'given' for shorter cells"
+    if prepared.is_given or is_measured(scene):
+        return "a map with shorter cells and numerics.grid = 'given'"
+    return "a finer contact.spacing with numerics.grid = 'given'"
+
+
+def _narrows_numerical(prepared: Prepared) -> str:
+    """Return what narrows the numerical error, as text: where roughness moves no tolerance does."""
+    is_moving = has_moving_roughness(prepared.scene)
+    return f"{_shorter_cells_in_motion(prepared) if is_moving else SMALLER_TOLERANCE} narrows it"
 
 
 def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[str, ...]:

@@ -52,7 +52,10 @@ class StripOnTwoGrids:
 def factors_of(scene: Scene, sample: Sample) -> tuple[int, int]:
     """Return the length of the cells of the deterministic model in cells of the ``sample``, along x and y: 2, or 1
     where 2 would leave less than `PER_LENGTH` (or `PER_LENGTH_IN_MOTION`) in a correlation length or `PER_HALF_WIDTH`
-    in half the Hertz strip, or does not divide the rows of a strip."""
+    in half the Hertz strip, or does not divide the rows of a strip. Where roughness moves, whose cells are not refined,
+    ``numerics.grid = "given"`` takes those of the scene."""
+    if has_moving_roughness(scene) and scene.numerics.grid == "given":
+        return 1, 1
     (lx, ly) = sample.correlation_lengths
     (dx, dy) = sample.cells.spacing
     longest = min(
