@@ -54,7 +54,7 @@ LIGHTER = Motion("load falls to 0.8", load=0.8)
 
 
 @dataclass(frozen=True)
-class Case:
+class RampCase:
     """A motion of the cylinder on a grid of the rough contact."""
 
     motion: Motion
@@ -94,19 +94,21 @@ def sharing_in_time(level: str) -> Iterator[Item]:
     yield Table("sharing-in-time", "Load sharing in time by both programs, on the finest grid", columns, rows)
 
 
-def case_of(motion: Motion, cells: int) -> Case:
+def case_of(motion: Motion, cells: int) -> RampCase:
     """Return the cylinder with that many cells along and across."""
     heights = rough(FINEST, cells)
-    return Case(motion, heights, cylinder(scene(), SPEED, strip(cells, 1), heights))
+    return RampCase(motion, heights, cylinder(scene(), SPEED, strip(cells, 1), heights))
 
 
-def compared_run(motion: Motion, cells: int, level: str) -> tuple[Case, list[SharedMoment], lubfric.TransientResult]:
+def compared_run(
+    motion: Motion, cells: int, level: str
+) -> tuple[RampCase, list[SharedMoment], lubfric.TransientResult]:
     """Return the run of both programs on a grid."""
     case = case_of(motion, cells)
     return case, by_elements(case, STEPS[level], REFINED[level]), by_lubfric(case, TOLERANCES[-1])
 
 
-def by_elements(case: Case, count: int, refinements: int) -> list[SharedMoment]:
+def by_elements(case: RampCase, count: int, refinements: int) -> list[SharedMoment]:
     """Return the moments of the run by finite elements in ``count`` steps."""
     motion = case.motion
     bodies = case.bodies
@@ -120,7 +122,7 @@ def by_elements(case: Case, count: int, refinements: int) -> list[SharedMoment]:
     return list(islice(moments, count + 1))[:: count // PARTS]
 
 
-def by_lubfric(case: Case, tolerance: float) -> lubfric.TransientResult:
+def by_lubfric(case: RampCase, tolerance: float) -> lubfric.TransientResult:
     """Return the run by `lubfric`, with displacements that are means over cells as those of the elements are."""
     motion = case.motion
     cell = LENGTH / case.heights.shape[0]
@@ -138,7 +140,9 @@ def by_lubfric(case: Case, tolerance: float) -> lubfric.TransientResult:
     return lubfric.transient(averaged(model), case.times)
 
 
-def checks_of(case: Case, moments: list[SharedMoment], history: lubfric.TransientResult, level: str) -> Iterator[Item]:
+def checks_of(
+    case: RampCase, moments: list[SharedMoment], history: lubfric.TransientResult, level: str
+) -> Iterator[Item]:
     """Contact load and mean gap of both programs at each moment."""
     for k, moment in enumerate(moments):
         name = f"{case.motion.name}, t = {moment.time / case.unit:.1f} b/U0"
@@ -160,7 +164,7 @@ def checks_of(case: Case, moments: list[SharedMoment], history: lubfric.Transien
         )
 
 
-def grids(motion: Motion, runs: list[tuple[Case, list[SharedMoment], lubfric.TransientResult]]) -> Iterator[Item]:
+def grids(motion: Motion, runs: list[tuple[RampCase, list[SharedMoment], lubfric.TransientResult]]) -> Iterator[Item]:
     """The largest differences between both programs on each grid, with their orders."""
     sizes = []
     loads = []
@@ -179,7 +183,7 @@ def grids(motion: Motion, runs: list[tuple[Case, list[SharedMoment], lubfric.Tra
     yield from convergence(stem, caption, series, "cell (µm)", "difference")
 
 
-def steps(case: Case, moments: list[SharedMoment], history: lubfric.TransientResult, level: str) -> Iterator[Item]:
+def steps(case: RampCase, moments: list[SharedMoment], history: lubfric.TransientResult, level: str) -> Iterator[Item]:
     """The asperity load during the ramp in ever shorter steps of both programs."""
     name = case.motion.name
     counts = [round(STEPS[level] / longer) for longer in LONGER]
@@ -203,7 +207,7 @@ def steps(case: Case, moments: list[SharedMoment], history: lubfric.TransientRes
     yield bound(what, abs(own_loads[-1] - without_steps) / case.bodies.load, LOAD[level], SOURCE)
 
 
-def lag(case: Case, moments: list[SharedMoment], _: lubfric.TransientResult) -> Check:
+def lag(case: RampCase, moments: list[SharedMoment], _: lubfric.TransientResult) -> Check:
     """The contact load at the end of the ramp compared with the steady one at that speed."""
     cell = LENGTH / case.heights.shape[0]
     model = averaged(prepare(scene(), lubfric.Surface(case.heights, (cell, cell))))
@@ -214,7 +218,7 @@ def lag(case: Case, moments: list[SharedMoment], _: lubfric.TransientResult) -> 
     return Check(name, ahead, expected=0.02, tolerance=0.0, source=source, kind=AT_LEAST, grade="B")
 
 
-def rows_of(case: Case, moments: list[SharedMoment], history: lubfric.TransientResult) -> list[tuple[str, ...]]:
+def rows_of(case: RampCase, moments: list[SharedMoment], history: lubfric.TransientResult) -> list[tuple[str, ...]]:
     """The rows of the table."""
     return [
         (
