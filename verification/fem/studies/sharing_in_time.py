@@ -222,7 +222,7 @@ def rows_of(case: RampCase, moments: list[SharedMoment], history: lubfric.Transi
     """The rows of the table."""
     return [
         (
-            case.motion.name,
+            case.motion.name.split()[0],
             f"{moment.time / case.unit:.1f}",
             f"{moment.contact_load:.4f}",
             f"{contact_load:.4f}",
