@@ -45,12 +45,12 @@ def sample(prepared) -> Sample:
 
 class TestSample:
     def test_a_strip_depends_on_its_number_alone(self, sample):
-        last = min(sample.available, 3) - 1
+        last = min(sample.available_strips, 3) - 1
         assert np.array_equal(sample.strip(last).heights, sample.strip(last).heights)
         assert sample.strip(0).shape == (sample.cells.columns, sample.rows)
 
     def test_a_longer_sample_contains_a_shorter_one(self, sample):
-        if sample.available > 1:
+        if sample.available_strips > 1:
             stack = sample.stack(2).heights
             middle = slice(sample.rows // 2, sample.rows - sample.rows // 4)  # away from where strips are joined
             assert np.allclose(stack[:, middle], sample.strip(0).heights[:, middle], atol=1e-15)
@@ -82,10 +82,10 @@ class TestSample:
             asked.append((shape, spacing))
             return prepared.rough_contact.operator
 
-        contact = sample.contact(prepared.scene, sample.first, operator)
+        contact = sample.contact(prepared.scene, sample.first_strips, operator)
         assert type(contact) is type(prepared.rough_contact) and np.array_equal(contact.x, prepared.rough_contact.x)
         if asked:
-            first = sample.stack(sample.first)
+            first = sample.stack(sample.first_strips)
             assert asked == [(first.shape, first.spacing)]
             assert np.array_equal(contact.heights, first.heights - first.heights.mean())
 
@@ -199,7 +199,7 @@ def test_a_third_model_answers_through_the_same_contract():
         low, high = result.uncertainty.interval
         assert high - low >= result.coefficient and math.isnan(result.min_film)
         assert "highest summit" in result.decision.text or result.decision.model == "highest summit"
-    assert len(values) > prepared.sample.first
+    assert len(values) > prepared.sample.first_strips
 
 
 @pytest.fixture

@@ -4,7 +4,7 @@ The way of a point, in the order of the modules:
 
 1. `friction` checks the call, limits the work and hands the point on.
 2. `choice` finds the model that answers, and why: it asks the models of `lubfric.models.MODELS`, the cheapest first.
-3. `sampled` asks one model for more strips and shorter cells until the tolerances are met.
+3. `solve_to_tolerance` asks one model for more strips and shorter cells until the tolerances are met.
 4. `build_result` builds the one `FrictionResult` (`result`) from what the model answers (`ModelAnswer`): `uncertainty`
    makes the interval, `ranges` adds what the ranges of the inputs change, `power`, `full_load` and `methods` give power,
    lambda ratio and papers.
@@ -19,6 +19,6 @@ from .methods import MethodUse, methods_of
 from .power import power_of_forces
 from .ranges import widened
 from .result import FrictionResult, cite_together, cited
-from .sampled import sampled
+from .solve_to_tolerance import solve_to_tolerance
 from .uncertainty import Uncertainty, UncertaintyCurve, curve_of, interval
 from .work_of_point import PointWorkEstimate, estimated_work_of_point, seconds_of_points

@@ -123,7 +123,7 @@ def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncerta
     f = answer.numbers["coefficient"]
     rolling = abs(answer.numbers.get("rolling_force", 0.0)) / scene.bodies.load
     sliding = largest_sliding_friction(scene, answer.numbers["speed"])
-    most = max(sliding + answer.rolling_times * (0.0 if math.isnan(rolling) else rolling), abs(f))
+    most = max(sliding + answer.most_rolling_ratio * (0.0 if math.isnan(rolling) else rolling), abs(f))
     low, high = uncertainty.interval
     if not (high > most or low < -most):
         return uncertainty

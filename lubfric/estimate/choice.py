@@ -9,7 +9,7 @@ from .._base import limited_work, work_left
 from ..errors import ConvergenceError, WorkLimitError
 from ..models import AUTO, Model, SampleSolution, models_up_to
 from ..models.shared import Prepared
-from .sampled import sampled
+from .solve_to_tolerance import solve_to_tolerance
 
 # Counted work [s] that the cheapest model may take under "auto", however small numerics.max_work is: its answer is what
 # a point ends with. As much is left to the answer, and to the ends of input ranges, after a more expensive model was tried
@@ -44,7 +44,7 @@ def choose(prepared: Prepared, speed: float, requested: str | Model, *, for_fiel
     (`Sample.for_fields`). Raises `ConvergenceError`.
     """
     if isinstance(requested, Model):
-        return Choice(model=requested, solution=sampled(prepared, speed, requested, for_fields=for_fields))
+        return Choice(model=requested, solution=solve_to_tolerance(prepared, speed, requested, for_fields=for_fields))
     candidates = models_up_to(requested)
     able = [model for model in candidates if not model.why_unable(prepared, speed)]
     if requested == AUTO:
@@ -54,10 +54,10 @@ def choose(prepared: Prepared, speed: float, requested: str | Model, *, for_fiel
     if model is not candidates[-1]:
         why = f"the {model.name} model in place of the {requested} model: {candidates[-1].why_unable(prepared, speed)}"
     if not cheaper or not model.takes_control(prepared):
-        return Choice(model=model, solution=sampled(prepared, speed, model, for_fields=for_fields), why=why)
-    compared = (cheaper[0], sampled(prepared, speed, cheaper[0], for_fields=for_fields))
+        return Choice(model=model, solution=solve_to_tolerance(prepared, speed, model, for_fields=for_fields), why=why)
+    compared = (cheaper[0], solve_to_tolerance(prepared, speed, cheaper[0], for_fields=for_fields))
     control = compared[1].control()
-    solution = sampled(prepared, speed, model, for_fields=for_fields, control=control)
+    solution = solve_to_tolerance(prepared, speed, model, for_fields=for_fields, control=control)
     return Choice(model=model, solution=solution, why=why, compared=None if control is None else compared)
 
 
@@ -74,7 +74,7 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
     are the control of those that take one.
     """
     with limited_work(work_for_an_answer()):
-        first = sampled(prepared, speed, models[0], for_fields=for_fields)
+        first = solve_to_tolerance(prepared, speed, models[0], for_fields=for_fields)
     control = first.control()
     choice = Choice(model=models[0], solution=first)
     for model in models[1:]:
@@ -88,7 +88,7 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
             choice = Choice(model=model, solution=adopted)
             continue
         try:
-            solution = sampled(prepared, speed, model, for_fields=for_fields, control=control)
+            solution = solve_to_tolerance(prepared, speed, model, for_fields=for_fields, control=control)
         except ConvergenceError as error:
             why = f"the {model.name} model was not solved ({error})"
             return _given_up(replace(choice, why=why, gave_up=True))

@@ -1,7 +1,7 @@
 """The contract of a model: all that you need to know to write one.
 
 A `Model` solves the first strips of a sample at one speed. Its `SampleSolution` says how many strips the tolerances
-need and whether their cells are too coarse; `lubfric.estimate` asks it until both are enough, corrects it, and builds
+need and whether their cells are too coarse; `lubfric.estimate` solves more until both are enough, corrects it, and builds
 the `FrictionResult` from its `ModelAnswer`. What else a model knows of its strips, it may hand to a more expensive one as
 `ControlVariate`. `name` and `solve` of a model and two members of its solution are all that has to be written; the
 other members say what a model costs, where it applies and whether it is good enough, and have defaults. The three
@@ -36,7 +36,7 @@ from .shared import (
 
 @dataclass(frozen=True, kw_only=True)
 class ContactFields:
-    """The fields of one solve, all on the same cells (nx, ny), x along the motion; 0 and NaN mean what they say.
+    """The fields of one solve, all on the same cells (nx, ny), x along the motion; NaN: the solve has none.
 
     Attributes
     ----------
@@ -109,7 +109,7 @@ class ModelAnswer:
     by_limit : part of ``model_error`` because the limiting stress of a Newtonian lubricant is not known
     largest_in_model : the largest part of the model error, as text; "": one part only
     narrows_numerical : what narrows ``numerical``, as text
-    rolling_times : the part of f by the gradient of the pressure is at most so many times its value
+    most_rolling_ratio : the largest that the rolling part of f may be, over its value; it bounds the interval
     not_given : relative changes of f at both ends of the range of an input that the scene does not give, by its name in
         words and its key; no part of ``model_error``
     errors : relative errors of the other numbers, by name
@@ -123,8 +123,8 @@ class ModelAnswer:
     fine_fields : solves a part of the surface again on cells fine enough to look at; None: ``fields`` are all there is
     details : what the model keeps of its solve, for those who know it
     at_inputs : makes what solves f again at other inputs; None: the model cannot
-    change_without_solve : relative change of f at an end of the range of an input, from its name, the number of the end
-        (0 or 1) and the scene there, where the solution tells it; None: it has to be solved
+    change_without_solve : returns the relative change of f at an end of the range of an input, from its name, the number
+        of the end (0 or 1) and the scene there, if the solution shows it; None: it has to be solved
     """
 
     numbers: dict[str, float]
@@ -136,7 +136,7 @@ class ModelAnswer:
     by_limit: float = 0.0
     largest_in_model: str = ""
     narrows_numerical: str = "a smaller numerics.tolerance narrows it"
-    rolling_times: float = 2.0
+    most_rolling_ratio: float = 2.0
     not_given: dict[str, tuple[float, float]] = field(default_factory=dict)
     errors: dict[str, float] = field(default_factory=dict)
     why_no_error: str = "not known"
@@ -228,7 +228,9 @@ class SampleSolution(ABC):
     def required_strips(self) -> int:
         """Return the number of strips that the tolerances need: `count` if these are enough."""
         tolerance = self.prepared.scene.numerics.sampling_tolerance
-        return required_strips(self.count, self.sample.first, self.sample.available, self.sampling_error, tolerance)
+        return required_strips(
+            self.count, self.sample.first_strips, self.sample.available_strips, self.sampling_error, tolerance
+        )
 
     def is_too_coarse(self) -> bool:
         """Return whether the cells of the sample have to be shorter; never called on native ones."""
@@ -311,7 +313,7 @@ class Model(ABC):
 
     def first_strips(self, sample: Sample) -> int:
         """Return the number of strips that are solved first."""
-        return sample.first
+        return sample.first_strips
 
     def estimate_work(
         self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None

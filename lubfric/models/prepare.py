@@ -7,8 +7,7 @@ from typing import Any
 from .._base import validate, with_default_errors
 from ..contact import RoughContact
 from ..errors import InputError
-from ..samples import Sample, combined_maps, sample_of
-from ..samples import check_grid as check_map
+from ..samples import Sample, check_map, combined_maps, sample_of
 from ..scene import Bodies, Scene, warn_unusual_values
 from ..surface import Surface
 from .registry import check_by_model
@@ -75,8 +74,8 @@ def _on_sample(scene: Scene, sample: Sample, *, is_given: bool) -> Prepared:
     surface = sample.first_map()
     check_map(scene, surface)
     memo = Memo()
-    rough_contact = sample.contact(scene, sample.first, partial(operator_on, memo, scene))
-    memo.put(StackKey(sample.cells.coarsening, sample.first), rough_contact, cells_of_contact(rough_contact))
+    rough_contact = sample.contact(scene, sample.first_strips, partial(operator_on, memo, scene))
+    memo.put(StackKey(sample.cells.coarsening, sample.first_strips), rough_contact, cells_of_contact(rough_contact))
     prepared = Prepared(
         scene=scene,
         surface=surface,

@@ -22,7 +22,7 @@ from ..models.shared import (
 from ..quantities import counted
 from ..samples import (
     Sample,
-    check_grid,
+    check_map,
     sample_of,
     takes_strips,
 )
@@ -85,7 +85,7 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
             check_run(scene)
         sample = sample_of(scene)
         surface = sample.first_map()
-        check_grid(scene, surface)
+        check_map(scene, surface)
     estimate = estimate_scene(scene, sample, surface, speeds)
     sections = {name: [*input_rows(scene, name), *FACTS[name](scene)] for name in FACTS} | estimate.sections
     rows = [f"  {name}\n" + "\n".join(f"    {text}" for text in texts) for name, texts in sections.items() if texts]

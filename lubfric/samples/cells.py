@@ -220,7 +220,7 @@ def stacked(strips: list[np.ndarray], blend: int) -> np.ndarray:
     return np.concatenate(out, axis=1)
 
 
-def spread(count: int) -> list[int]:
+def spread_order(count: int) -> list[int]:
     """Return the numbers 0 .. count - 1 in an order that begins in the middle, each number as far from those before as possible."""
     left = set(range(count))
     order: list[int] = []

@@ -44,8 +44,8 @@ class Sample(ABC):
     cells : cells of a strip along x, and their length in native cells, those of the scene
     correlation_lengths : correlation lengths [m] at 1/e along x and y
     strip_length : what one strip adds to the line [m], along y
-    first, available : number of strips that are solved first, and that there are
-    pieces : number of pieces that there are
+    first_strips, available_strips : number of strips that are solved first, and that there are
+    available_pieces : number of pieces that there are
     exact_sq : whether every strip has the Sq of the surface
     is_homogeneous : whether all strips are parts of one random surface; False: windows of a measured map
     represents_more : whether its strips stand for a larger surface; False: they are all of it
@@ -58,9 +58,9 @@ class Sample(ABC):
     cells: Cells
     correlation_lengths: tuple[float, float]
     strip_length: float
-    first: int
-    available: int
-    pieces: int
+    first_strips: int
+    available_strips: int
+    available_pieces: int
     exact_sq: bool = False
     is_homogeneous: bool = True
     represents_more: bool = True
@@ -74,7 +74,7 @@ class Sample(ABC):
 
     @abstractmethod
     def piece(self, index: int, length: float = PIECE) -> Surface:
-        """Return piece ``index`` of `pieces`, on native cells, some ``length`` correlation lengths long.
+        """Return piece ``index`` of `available_pieces`, on native cells, some ``length`` correlation lengths long.
 
         Every n-th of its cells, along each axis, gives the coarse cells to compare it with (`Cells.thinned`).
         """
@@ -131,7 +131,7 @@ class Sample(ABC):
 
     def described(self, surface: Surface) -> list[str]:
         """Return the map that the scene has, and ``surface``, the part of it that is solved first, in words."""
-        joined = f"{self.first} strips, joined along the line" if self.first > 1 else "one strip"
+        joined = f"{self.first_strips} strips, joined along the line" if self.first_strips > 1 else "one strip"
         return [self.map_in_words(surface), f"solved first: {joined}; {replace(surface, source='').describe()}"]
 
     def map_in_words(self, surface: Surface) -> str:
@@ -172,7 +172,7 @@ class Sample(ABC):
 
     def first_map(self) -> Surface:
         """Return the map that is solved first; of a single patch on native cells."""
-        return self.stack(self.first)
+        return self.stack(self.first_strips)
 
     def halved(self) -> Self:
         """Return the same sample on cells half as long."""

@@ -35,11 +35,11 @@ def contact_maps(
     """
     maps = given or read or whole_maps(scene)
     if not given and is_measured(scene):
-        maps = tuple(_cut_to_contact(scene, one) for one in maps)
+        maps = tuple(_cut_to_contact(scene, surface) for surface in maps)
     if not np.isfinite(maps[0].heights).all():
         missing = f"{100 * maps[0].missing_fraction:.3g} % of the heights are unmeasured (NaN)"
         raise InputError(f"surface: {missing}; call level() and fill() first")
-    check_grid(scene, maps[0])
+    check_map(scene, maps[0])
     return maps
 
 
@@ -70,23 +70,23 @@ def whole_maps(scene: Scene) -> tuple[Surface, ...]:
         if rough.file is not None:
             with named(name):
                 maps_by_body[name] = measured_map(rough, name)
-            domain = over(maps_by_body[name], scene.contact)
+            domain = domain_over(maps_by_body[name], scene.contact)
     for rough, name in bodies:
         if rough.file is None:
             with named(name):
                 maps_by_body[name] = generated_map(rough, domain, name)
     maps = [maps_by_body[name] for _, name in bodies]
-    return (maps[0],) if len(maps) == 1 else combined_maps(maps[0], _beside(scene, maps[1]))
+    return (maps[0],) if len(maps) == 1 else combined_maps(maps[0], _facing(scene, maps[1]))
 
 
 def combined_maps(first: Surface, second: Surface) -> tuple[Surface, ...]:
     """Return the maps of two bodies as one (`Surface.combined`), and each alone as part of that, with the other one
     flat."""
-    flat = [replace(one, heights=np.zeros(one.shape)) for one in (first, second)]
+    flat = [replace(surface, heights=np.zeros(surface.shape)) for surface in (first, second)]
     return first.combined(second), first.combined(flat[1]), flat[0].combined(second)
 
 
-def _beside(scene: Scene, second: Surface) -> Surface:
+def _facing(scene: Scene, second: Surface) -> Surface:
     """The map of the ``second`` body, mirrored in y if that of the first is a mirror image.
 
     A map whose axes were exchanged (`measured_map`) is the mirror image of its body in y. For one map, or for two
@@ -101,7 +101,7 @@ def _beside(scene: Scene, second: Surface) -> Surface:
     return replace(second, heights=second.heights[:, ::-1], mask=mask, notes=(*second.notes, note))
 
 
-def over(surface: Surface, domain: ContactDomain) -> ContactDomain:
+def domain_over(surface: Surface, domain: ContactDomain) -> ContactDomain:
     """Return ``domain`` with a grid that covers ``surface``, on the spacing of ``domain`` or, if it has none, of
     ``surface``."""
     spacing = surface.spacing if domain.spacing is None else validate.spacing("contact.spacing", domain.spacing)
@@ -109,7 +109,7 @@ def over(surface: Surface, domain: ContactDomain) -> ContactDomain:
     return replace(domain, shape=(nx, ny), spacing=spacing)
 
 
-def check_grid(scene: Scene, surface: Surface) -> None:
+def check_map(scene: Scene, surface: Surface) -> None:
     """Raise `InputError` for slopes that no surface has, for cells too coarse for the Hertz strip, and for a patch too
     small for it."""
     check_slopes(surface)

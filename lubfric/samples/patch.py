@@ -22,9 +22,9 @@ from .contract import PIECE, Sample
 class OnlyMap(Sample):
     """A sample whose map is all that there is: what its kinds share."""
 
-    first = 1
-    available = 1
-    pieces = 1
+    first_strips = 1
+    available_strips = 1
+    available_pieces = 1
     represents_more = False
     refines_in_place = True
 

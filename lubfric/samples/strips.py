@@ -29,7 +29,7 @@ from .cells import (
     length_or_half,
     no_cells,
     reach_of,
-    spread,
+    spread_order,
     stacked,
     starts_of,
 )
@@ -84,9 +84,9 @@ class GeneratedStrips(FieldsOnly, Sample):
     cells: Cells
     correlation_lengths: tuple[float, float]
     strip_length: float
-    first: int
-    available: int
-    pieces: int
+    first_strips: int
+    available_strips: int
+    available_pieces: int
     exact_sq: bool
     roughness: tuple[tuple[Roughness, str], ...]
 
@@ -152,9 +152,9 @@ class MeasuredStrips(Sample):
     cells: Cells
     correlation_lengths: tuple[float, float]
     strip_length: float
-    first: int
-    available: int
-    pieces: int
+    first_strips: int
+    available_strips: int
+    available_pieces: int
     surface: Surface
     starts: tuple[int, ...]
     bodies: tuple[Surface, ...] = ()
@@ -174,7 +174,7 @@ class MeasuredStrips(Sample):
         return self.surface.describe()
 
     def ends_after(self, count: int) -> bool:
-        return count >= self.available
+        return count >= self.available_strips
 
     def joined(self, indices: Sequence[int]) -> Surface:
         fx, fy = self.cells.coarsening
@@ -250,9 +250,9 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
         cells=cells,
         correlation_lengths=lengths,
         strip_length=length,
-        first=first,
-        available=available,
-        pieces=available,
+        first_strips=first,
+        available_strips=available,
+        available_pieces=available,
         exact_sq=len(bodies) == 1 and bodies[0].sk is None,
         roughness=tuple(rough_bodies(scene)),
     )
@@ -267,9 +267,9 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
     """
     maps = surface, *bodies
     if scene.contact.spacing is not None:
-        maps = tuple(one.resampled(spacing=scene.contact.spacing) for one in maps)
+        maps = tuple(each.resampled(spacing=scene.contact.spacing) for each in maps)
     reach = reach_of(scene, maps[0].sq)
-    surface, *parts = (one.continued(reach) for one in maps) if is_extended(scene) else maps
+    surface, *parts = (each.continued(reach) for each in maps) if is_extended(scene) else maps
     lengths = length_or_half(surface, 0), length_or_half(surface, 1)
     cells = _cells_of_map(scene, surface, lengths, reach)
     starts = _window_starts(scene, surface, lengths, cells.columns * cells.coarsening[0])
@@ -283,14 +283,14 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
         )
     most = max(1, min(count, int(MOST_JOINED_CELLS * cells.spacing[1] / (cells.columns * length))))
     first = min(most, max(1, math.ceil(FIRST_LENGTHS * lengths[1] / length * (1 - 1e-9))))
-    starts = [starts[i] for i in spread(count)]
+    starts = [starts[i] for i in spread_order(count)]
     return MeasuredStrips(
         cells=cells,
         correlation_lengths=lengths,
         strip_length=length,
-        first=first,
-        available=most,
-        pieces=count,
+        first_strips=first,
+        available_strips=most,
+        available_pieces=count,
         surface=surface,
         starts=tuple(starts),
         bodies=tuple(parts),

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..contact import HalfSpaceContact
 from ..errors import CONVERGED, ConvergenceError, InputError, LubfricError, WorkLimitError
-from ..estimate import sampled
+from ..estimate import solve_to_tolerance
 from ..models import prepare
 from ..models.load_sharing import BalancedSample, PaperModel, PaperSolution, solve_balance
 from ..models.shared import Prepared, contact_on_strips, scene_of
@@ -210,7 +210,7 @@ def strip_of_run(prepared: Prepared) -> RunStrip:
         sample = sample.halved()
         needs = _needs(prepared, sample, speeds)
     return RunStrip(
-        prepared=_made(prepared, sample, min(int(max(needs[0])), sample.available)),
+        prepared=_made(prepared, sample, min(int(max(needs[0])), sample.available_strips)),
         correlation_length=sample.correlation_lengths[1],
         area=_mean(needs[2]),
         plastic=_mean(needs[3]),
@@ -245,7 +245,7 @@ def _needs(prepared: Prepared, sample: Sample, speeds: list[float]) -> np.ndarra
         except WorkLimitError:
             raise
         except LubfricError:
-            rows.append((sample.first, 0.0, math.nan, math.nan))
+            rows.append((sample.first_strips, 0.0, math.nan, math.nan))
             continue
         plastic = balanced.solved.contact_state.plastic_area_fraction
         corrected = balanced.balance.contact_state.plastic_area_fraction
@@ -258,7 +258,7 @@ def _needs(prepared: Prepared, sample: Sample, speeds: list[float]) -> np.ndarra
 
 def _balanced(prepared: Prepared, speed: float) -> BalancedSample:
     """Return the strips that load sharing needs at ``speed`` [m/s], in steady balance."""
-    solution = sampled(prepared, speed, PaperModel())
+    solution = solve_to_tolerance(prepared, speed, PaperModel())
     assert isinstance(solution, PaperSolution)
     return solution.balanced
 

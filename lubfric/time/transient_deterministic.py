@@ -84,7 +84,7 @@ class TransientDeterministic:
 
     @property
     def scene(self) -> Scene:
-        """With all that changes in time."""
+        """The scene, with all that changes in time."""
         return self.prepared.scene
 
     @property
@@ -105,7 +105,7 @@ class TransientDeterministic:
 
     @property
     def first_step(self) -> float:
-        """After a start or a jump [s]."""
+        """Step after a start or a jump [s]."""
         return (
             FIRST_STEP_CELLS * self.base.spacing[0] / self.fastest
             if self.fastest

@@ -114,7 +114,7 @@ def test_a_strip_on_long_cells_is_the_strip_of_the_heights_that_they_take():
 def test_the_strips_of_a_line_have_one_slope_and_show_their_scatter_by_blocks():
     scene = HEAVIER.with_(numerics={"sampling_tolerance": 0.03})
     prepared = lubfric.prepare(scene)
-    pairs = QuickModel().solve(prepared, prepared.sample, prepared.sample.first, 0.1).strips.levels.pairs
+    pairs = QuickModel().solve(prepared, prepared.sample, prepared.sample.first_strips, 0.1).strips.levels.pairs
     slopes = {pair.resolved.slope for pair in pairs}
     assert len(slopes) == 1 and math.isfinite(slopes.pop())
     first, second = (solve_at_rest(scene, patch(seed=seed), 0.1, (2, 2), slope=0.07).resolved for seed in (3, 4))
@@ -536,7 +536,7 @@ def test_outside_the_campaign_the_half_width_grows_with_the_distance():
     sq = PAPER.surface.sq
     largest = error_models()["rest"].range["lambda"][1]
     speeds = [speed_of(PAPER, sq * largest * factor) for factor in (0.99, 1.5)]
-    strips = [QuickModel().solve(prepared, prepared.sample, prepared.sample.first, u).strips for u in speeds]
+    strips = [QuickModel().solve(prepared, prepared.sample, prepared.sample.first_strips, u).strips for u in speeds]
     assert strips[0].outside == () and strips[0].widening == 1.0
     assert len(strips[1].outside) == 1
     assert strips[1].widening == pytest.approx(1 + math.log(1.5), rel=0.02)

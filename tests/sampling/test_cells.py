@@ -153,10 +153,10 @@ def test_no_piece_of_a_map_is_compared_twice(tmp_path):
         contact={"shape": None, "spacing": None},
     )
     strips = lubfric.prepare(scene).sample
-    pieces = {strips.piece(index).heights.tobytes() for index in range(strips.pieces)}
-    assert len(pieces) == strips.pieces
+    pieces = {strips.piece(index).heights.tobytes() for index in range(strips.available_pieces)}
+    assert len(pieces) == strips.available_pieces
     with pytest.raises(IndexError):
-        strips.piece(strips.pieces)
+        strips.piece(strips.available_pieces)
     unsure = lubfric.friction(scene, 0.01).uncertainty
     assert np.isnan([unsure.sampling, unsure.area_needed, *unsure.interval]).all()  # not "no more is needed"
     assert "correlation lengths along y are too few" in unsure.text

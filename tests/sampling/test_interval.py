@@ -8,7 +8,7 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.estimate import estimated_work_of_point, sampled
+from lubfric.estimate import estimated_work_of_point, solve_to_tolerance
 from lubfric.models import DeterministicModel, PaperModel
 from lubfric.output import describe_scene
 from verification.campaigns.hostile.soak_force import friction_force
@@ -188,8 +188,8 @@ def test_the_work_of_the_deterministic_model_is_forecast_to_a_factor_of_two(samp
     for speed in speeds:
         one = estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed)
         told -= estimated_work_of_point(cheaper, prepared.sample, prepared.surface, speed).seconds
-        control = sampled(prepared, speed, PaperModel()).control()
-        levels = sampled(prepared, speed, DeterministicModel(), control=control).levels
+        control = solve_to_tolerance(prepared, speed, PaperModel()).control()
+        levels = solve_to_tolerance(prepared, speed, DeterministicModel(), control=control).levels
         solved = [*(pair.resolved for pair in levels.pairs), *levels.shortest]
         counted += sum(strip.work for strip in [*solved, *(strip for piece in levels.pieces for strip in piece)])
         told += one.seconds

@@ -10,7 +10,7 @@ import pytest
 import scipy.stats
 
 import lubfric
-from lubfric.estimate import sampled
+from lubfric.estimate import solve_to_tolerance
 from lubfric.models import DeterministicModel, PaperModel
 from lubfric.models.deterministic import (
     StripOnTwoGrids,
@@ -72,7 +72,7 @@ def test_f_is_that_of_other_strips_one_by_one(prepared, found):
 
 def test_the_effect_of_shorter_cells_is_that_on_other_strips():
     """Three strips of other seeds on cells of 3.6 and 1.8 µm at .1 m/s, beside what pieces of the scene add."""
-    found = sampled(prepared := lubfric.prepare(FINE), 0.1, DeterministicModel()).levels
+    found = solve_to_tolerance(prepared := lubfric.prepare(FINE), 0.1, DeterministicModel()).levels
     alone = np.mean([pair.resolved.result.coefficient for pair in found.pairs])
     changes = []
     for k in range(3):
@@ -102,7 +102,7 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
 
         monkeypatch.setattr(levels, "solve_pair", lambda *_: replace(pair, resolved=on(3.6), longer=on(7.2)))
         monkeypatch.setattr(shorter, "_refined", ladder)
-        found = sampled(lubfric.prepare(FINE, like=prepared), 0.1, DeterministicModel()).levels
+        found = solve_to_tolerance(lubfric.prepare(FINE, like=prepared), 0.1, DeterministicModel()).levels
         truth = on(0.45).result.coefficient
         assert bool(found.shortest) == (order < 2)
         assert abs(found.numbers["coefficient"] / truth - 1) <= 1.1 * found.numerical <= 1.1 * most
@@ -117,12 +117,12 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
                 friction_at=pair.resolved.result.friction_at[:rows],
             ),
         )
-        found = sampled(lubfric.prepare(FINE, like=prepared), 0.1, DeterministicModel()).levels
+        found = solve_to_tolerance(lubfric.prepare(FINE, like=prepared), 0.1, DeterministicModel()).levels
         assert bool(found.shortest) == (rows == 100)
     solved = pair.resolved
     monkeypatch.setattr(levels, "solve_pair", lambda *_: replace(pair, resolved=on(3.6), longer=on(3.6)))
     for acf in ("gaussian", "exponential"):  # no change between cells is believed only where heights are smooth
-        found = sampled(lubfric.prepare(FINE.with_(surface={"acf": acf})), 0.1, DeterministicModel()).levels
+        found = solve_to_tolerance(lubfric.prepare(FINE.with_(surface={"acf": acf})), 0.1, DeterministicModel()).levels
         assert bool(found.pieces) == (acf == "exponential")
 
 
@@ -336,7 +336,7 @@ def test_a_line_knows_how_its_strips_differ_when_each_is_balanced_alone(prepared
     """Every strip of the line, solved by Eq. (8) as a line of its own: to first order f, the loads, the forces and the
     gap differ from those of the line as `control_variate_of` says, and over the line the differences are zero in the mean."""
     prepared = lubfric.prepare(SCENE.with_(numerics={"model": "paper", "sampling_tolerance": 0.004}))
-    found = sampled(prepared, 0.005, PaperModel()).balanced
+    found = solve_to_tolerance(prepared, 0.005, PaperModel()).balanced
     line = control_variate_of(prepared, found)
     rows = []
     scene = prepared.scene

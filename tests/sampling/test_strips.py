@@ -42,8 +42,8 @@ def test_a_measured_map_gives_its_own_columns_no_more_than_it_holds():
     )
     assert strips.rows == strips.strip(0).shape[1]
     assert np.diff(sorted(strips.starts)).min() * 0.45e-6 >= 4 * 3.5e-6
-    line = strips.stack(strips.available)
-    assert line.size[1] == pytest.approx(strips.available * strips.strip_length, rel=0.05)
+    line = strips.stack(strips.available_strips)
+    assert line.size[1] == pytest.approx(strips.available_strips * strips.strip_length, rel=0.05)
     own = surface.heights[strips.starts[0] + fx // 2 : strips.starts[0] + wide : fx, fy // 2 :: fy]
     np.testing.assert_array_equal(line.heights[:, 20:40], own[:, 20:40])
 

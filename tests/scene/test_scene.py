@@ -133,13 +133,13 @@ def test_another_surface_keeps_its_own_grid(tmp_path):
     ],
 )
 def test_a_grid_that_cannot_hold_the_contact_is_an_error(changes, words):
-    from lubfric.samples import check_grid
+    from lubfric.samples import check_map
 
     patch = {"shape": (200, 200), "spacing": 0.45e-6} | changes
     rng = np.random.default_rng(1)
     heights = rng.standard_normal(patch["shape"]) * (1.0 if "rms slope" in words else 1e-8)
     with pytest.raises(lubfric.InputError) as caught:
-        check_grid(PAPER, lubfric.Surface(heights, patch["spacing"]))
+        check_map(PAPER, lubfric.Surface(heights, patch["spacing"]))
     for word in words:
         assert word in str(caught.value)
 

@@ -110,12 +110,12 @@ def estimated_work(
     if numerics.model == "auto" and cheaper is not None and cheaper.model_error <= numerics.model_tolerance:
         return NO_WORK
     if cheaper is not None and math.isfinite(cheaper.sampling):
-        scatter = cheaper.sampling * math.sqrt(sample.first)
+        scatter = cheaper.sampling * math.sqrt(sample.first_strips)
     allowed = math.hypot(
         DIFFERENCE_SHARE * numerics.model_tolerance / student(FREEDOM_NOT_COUNTED), numerics.sampling_tolerance
     )
     unlike = UNLIKE_IN_MOTION if has_moving_roughness(scene) else UNLIKE
-    count = min(max(1, math.ceil(STRIPS_SAFETY * (unlike * scatter / allowed) ** 2)), sample.available)
+    count = min(max(1, math.ceil(STRIPS_SAFETY * (unlike * scatter / allowed) ** 2)), sample.available_strips)
     if has_moving_roughness(scene):
         if one_strip > MOST_WORK_IN_AUTO and numerics.model == "auto":
             return WorkEstimate(strips=0, seconds=0.0, strip_seconds=one_strip)

@@ -196,7 +196,7 @@ def two_levels(
     """
     numerics = prepared.scene.numerics if numerics is None else numerics
     load = prepared.scene.bodies.load
-    most = max(1, min(prepared.sample.available, int(MOST_WORK_OF_STRIPS / pairs[0].resolved.work)))
+    most = max(1, min(prepared.sample.available_strips, int(MOST_WORK_OF_STRIPS / pairs[0].resolved.work)))
     places = [pair.resolved.places_over_time for pair in pairs]
     moving = [each for each in places if each is not None]
     if moving:

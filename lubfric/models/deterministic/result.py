@@ -139,7 +139,7 @@ class DeterministicResult(Renamed, ModelDetails):
 
     @property
     def share_given_off(self) -> float:
-        """See above. In motion of the means over time: at moments nothing enters."""
+        """Share of the lubricant that touching cells give off (``given_off``); in motion that of the means over time [-]."""
         return self.given_off / (self.given_off + max(self.flow_film, 0.0)) if self.given_off > 0 else 0.0
 
 

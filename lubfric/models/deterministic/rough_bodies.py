@@ -73,7 +73,7 @@ def summit_control(prepared: Prepared) -> SummitControl | None:
 
     def make() -> SummitControl:
         sample = prepared.sample
-        count = max(1, min(sample.available, CONTROL_STRIPS, CONTROL_CELLS // sample.strip(0).heights.size))
+        count = max(1, min(sample.available_strips, CONTROL_STRIPS, CONTROL_CELLS // sample.strip(0).heights.size))
         return control_of([sample.strip(index) for index in range(count)], prepared.scene.bodies.half_width)
 
     key = ReferenceKey(prepared.sample.cells.coarsening, "attenuated summits", 0.0, forward=True)

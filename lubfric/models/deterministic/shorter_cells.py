@@ -415,7 +415,7 @@ def _pieces(prepared: Prepared, speed: float, first: StripOnTwoGrids | None) -> 
     pieces: list[Piece] = []
     error = StandardError(math.inf, 0)
     spent = 0.0
-    while len(pieces) < min(sample.pieces, MOST_SOLVED_PIECES) and not (
+    while len(pieces) < min(sample.available_pieces, MOST_SOLVED_PIECES) and not (
         error.error <= tolerance or spent > PIECES_WORK
     ):
         slope = pieces[0][1].slope if pieces else None

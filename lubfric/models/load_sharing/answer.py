@@ -13,7 +13,7 @@ from ..contract import AtInputs, ContactFields, ModelAnswer
 from ..shared import Violation, contact_at_inputs, contact_on_piece, contact_on_strips, exponents
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
-from .decision import decided
+from .decision import decision_of
 from .error_of_eq8 import OF_ROLLING
 from .errors_of import errors_of
 from .limits import limits_exceeded
@@ -42,9 +42,9 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         numerical=errors.numerical,
         sampling=errors.sampling,
         model_error=errors.model,
-        rolling_times=OF_ROLLING if has_moving_roughness(scene) else 2.0,
+        most_rolling_ratio=OF_ROLLING if has_moving_roughness(scene) else 2.0,
         report=replace(report, notes=(*report.notes, *estimated)),
-        decision=decided(scene, balanced.rough_contact, balanced.balance, numbers["clearance"], **sample),
+        decision=decision_of(scene, balanced.rough_contact, balanced.balance, numbers["clearance"], **sample),
         errors=errors.errors,
         why_no_error=errors.why_not,
         reasons=errors.reasons,
@@ -135,12 +135,12 @@ def _at_inputs(balanced: BalancedSample) -> AtInputs:
     prepared = balanced.prepared
     sample = prepared.sample
     surface = prepared.surface
-    rough_contact = contact_on_strips(prepared, sample, sample.first)
+    rough_contact = contact_on_strips(prepared, sample, sample.first_strips)
     start = solve_balance(prepared.scene, balanced.speed, rough_contact, surface.sq)
 
     def coefficient(scene: Scene) -> float:
         is_as_hard = scene.bodies.hardness == prepared.scene.bodies.hardness
-        there = rough_contact if is_as_hard else contact_at_inputs(prepared, sample, sample.first, scene)
+        there = rough_contact if is_as_hard else contact_at_inputs(prepared, sample, sample.first_strips, scene)
         return solve_balance(scene, balanced.speed, there, surface.sq, start).forces.coefficient
 
     return AtInputs(middle=coefficient(prepared.scene), coefficient=coefficient)

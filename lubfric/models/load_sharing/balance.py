@@ -60,7 +60,7 @@ NEGLIGIBLE_FILM = 1e-14
 
 @dataclass(frozen=True, kw_only=True)
 class Balance(Renamed, ModelDetails):
-    """One operating point by Eq. (8).
+    """Film and contact of one operating point in balance, by Eq. (8).
 
     Attributes
     ----------
@@ -275,11 +275,11 @@ def _beginning(point: Point, sq: float, start: Balance | None) -> RootStart:
     )
     if start.film.entrainment_speed == point.speed:
         return RootStart(log_load_ratio=start.log_load_ratio, slope=start.slope, last=trial)
-    log_load_ratio, slope = predicted(point, start)
+    log_load_ratio, slope = predict_log_load_ratio(point, start)
     return RootStart(log_load_ratio=log_load_ratio, slope=slope, last=trial)
 
 
-def predicted(point: Point, start: Balance) -> tuple[float, float | None]:
+def predict_log_load_ratio(point: Point, start: Balance) -> tuple[float, float | None]:
     """Predict ln(F_H/F_C) at ``point``, and the slope of the residual there, from the balance ``start`` at another
     speed.
 

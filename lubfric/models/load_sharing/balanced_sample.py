@@ -196,13 +196,15 @@ class BalancedSample:
         few = self.response is not None and has_too_few_contacts(contacts, self.sampling, tolerance)
         at_least = min(FEW_CONTACTS / contacts, (self.sampling / (SAMPLING_MATTERS * tolerance)) ** 2) if few else 0.0
         error = self.sampling_error
-        count = required_strips(self.count, self.sample.first, self.sample.available, error, tolerance, at_least)
-        return count if count == self.count else min(self.sample.available, fft.next_fast_len(count, real=True))
+        count = required_strips(
+            self.count, self.sample.first_strips, self.sample.available_strips, error, tolerance, at_least
+        )
+        return count if count == self.count else min(self.sample.available_strips, fft.next_fast_len(count, real=True))
 
     def takes_more_strips_first(self) -> bool:
         """Return whether more strips are cheaper than shorter cells: where few asperity contacts carry load."""
         return (
-            self.count == self.sample.first
+            self.count == self.sample.first_strips
             and self.response is not None
             and self.scatter.effective_contacts < FEW_CONTACTS
         )
@@ -229,14 +231,14 @@ class BalancedSample:
             by_contact = solved.forces.boundary / max(solved.forces.total, 1e-300)
             part = max(by_contact, solved.contact_load / scene.bodies.load)  # of the friction, or of the load
             if (
-                self.count == sample.available or self.scatter.effective_contacts >= FEW_CONTACTS
+                self.count == sample.available_strips or self.scatter.effective_contacts >= FEW_CONTACTS
             ):  # else it is known to a factor anyway
                 part = math.inf
             if moved > MOST_CORRECTED_LOG_RATIO and part * math.expm1(min(moved, 30.0)) > allowed:
                 return True
             return response.relative("coefficient", self.second_order) > allowed
         clearance = solved.contact_state.mean_film - solved.contact_state.mean_gap
-        if self.count > sample.first or clearance > LARGE_CLEARANCE * self.prepared.surface.sq:
+        if self.count > sample.first_strips or clearance > LARGE_CLEARANCE * self.prepared.surface.sq:
             return False
         depth = lost_summits(self.prepared, self.point, solved, sample) - clearance
         native = contact_on_piece(self.prepared, sample, 0, (1, 1))
@@ -326,7 +328,7 @@ def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | No
     def make() -> Balance | None:
         there = speed_of(scene, nearest * sq) * math.copysign(1.0, speed)
         try:
-            return solve_balance(scene, there, contact_on_strips(prepared, sample, sample.first), sq)
+            return solve_balance(scene, there, contact_on_strips(prepared, sample, sample.first_strips), sq)
         except LubfricError:
             return None
 

@@ -129,7 +129,7 @@ def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, sample: 
     enough = response.gap_for("coefficient", budget.CONTACT_GRID * numerics.tolerance)
     scatter = response.gap_for("coefficient", PIECE_SHARE * numerics.sampling_tolerance)
     steps: list[CellStep] = []
-    while not _settled(steps, min(MOST_COMPARED_PIECES, sample.pieces), scatter):
+    while not _settled(steps, min(MOST_COMPARED_PIECES, sample.available_pieces), scatter):
         steps.append(_step(prepared, point, balance, sample, len(steps), enough))
     error = mean_error(steps) if sample.represents_more else StandardError(0.0, 1)
 

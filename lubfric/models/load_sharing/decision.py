@@ -9,7 +9,7 @@ from ..shared import Decision
 from .balance import Balance
 
 
-def decided(
+def decision_of(
     scene: Scene, rough_contact: RoughContact, balance: Balance, clearance: float, **of_sample: Any
 ) -> Decision:
     """Return the decision of the paper's model behind ``balance`` on ``rough_contact``.

@@ -116,7 +116,7 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
             seconds += PATCH_SECONDS + MAP_SECONDS * surface.heights.size
         return WorkEstimate(strips=1, seconds=seconds, model_error=error_of_model, touching=touching)
     (lx, ly) = sample.correlation_lengths
-    first = sample.first * sample.strip_length
+    first = sample.first_strips * sample.strip_length
     target = scene.numerics.sampling_tolerance
     error = 0.0
     if speed and film <= CLEAR_OF_ASPERITIES * sq:
@@ -126,8 +126,8 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
         error = (
             SCATTER * math.exp(-((film / (SEPARATED * sq)) ** 4)) * scatter / gap * share / (1 - share + FILM_FRICTION)
         )
-    count = math.ceil(sample.first * max(1.0, STRIPS_SAFETY * (error / target) ** 2 if error > target else 1.0))
-    count = min(count, sample.available)
+    count = math.ceil(sample.first_strips * max(1.0, STRIPS_SAFETY * (error / target) ** 2 if error > target else 1.0))
+    count = min(count, sample.available_strips)
     cells = sample.cells
     (fx, fy) = cells.coarsening
     (_, dy) = cells.spacing

@@ -88,7 +88,7 @@ class PaperSolution(SampleSolution):
 
 
 class PaperModel(Model):
-    """The paper: film and asperity contacts share the load, Eq. (8); friction by Eq. (9) (Akchurin et al. 2015,
+    """The load-sharing model of the paper: film and asperity contacts share the load, Eq. (8); friction by Eq. (9) (Akchurin et al. 2015,
     doi:10.1007/s11249-015-0536-z)."""
 
     @property

@@ -77,7 +77,8 @@ class OperatorKey(Key[HalfSpace]):
 class ReferenceKey(Key[Any]):
     """A solution at a fixed speed, from which others start or take a correction.
 
-    ``what``: of it; ``at``: film or step that the fixed speed is found by, or that speed [m/s]; ``forward``: whether that speed is positive.
+    ``what``: what is taken from it; ``at``: film or step by which the fixed speed is found, or that speed [m/s];
+    ``forward``: whether that speed is positive.
     """
 
     of_surface_alone = False

@@ -29,7 +29,7 @@ class Prepared(FieldsOnly, Renamed, Shown):
     Attributes
     ----------
     scene : the scene
-    surface : the height map whose statistics hold: of strips the one that is solved first, of an only map that map on
+    surface : the height map whose statistics hold: of strips those that are solved first, joined; of a patch all of it, on
         native cells
     rough_contact : the rough contact that is solved first, on the cells of ``sample``
     violations : assumptions of the model that bodies and map violate, known before any solve

@@ -126,7 +126,7 @@ def _features(prepared: Prepared, result: lubfric.FrictionResult) -> Iterator[st
         "heat of the inlet": result.inlet_film_factor < 1,
         "heat of film and surfaces": result.film_temperature_rise > 0,
         "pure rolling": scene.motion.slide_roll_ratio == 0,
-        "more strips than at first": result.decision.strips > prepared.sample.first,
+        "more strips than at first": result.decision.strips > prepared.sample.first_strips,
         "corrected for its cells": result.decision.coarsening != (1, 1) and share > 0,
     }
     yield from (name for name, holds in features.items() if holds)

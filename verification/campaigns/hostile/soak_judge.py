@@ -177,7 +177,7 @@ def judge_of(prepared: Prepared, result: FrictionResult) -> Judge:
             sample = sample.halved()
         strip = _strip(sample.stack(result.decision.strips), sample.cells.axis())
         if not sample.cells.is_native:
-            pairs = tuple(_pair(sample, i) for i in range(min(PIECES, sample.pieces)))
+            pairs = tuple(_pair(sample, i) for i in range(min(PIECES, sample.available_pieces)))
     return Judge(
         prepared=prepared, speed=result.speed, scaled=scaled, strip=strip, pairs=pairs, film_tolerance=tolerance
     )

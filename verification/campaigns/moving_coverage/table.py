@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.estimate import sampled
+from lubfric.estimate import solve_to_tolerance
 from lubfric.models import DeterministicModel, prepare
 from lubfric.models.deterministic import (
     CellsInMotion,
@@ -101,7 +101,7 @@ def with_seed(contact: RollingContact, seed: int) -> Scene:
 
 def answer(contact: RollingContact, seed: int) -> PlainRow:
     """Return the row of one moving answer."""
-    solution = sampled(prepare(with_seed(contact, seed)), contact.speed, DeterministicModel())
+    solution = solve_to_tolerance(prepare(with_seed(contact, seed)), contact.speed, DeterministicModel())
     assert isinstance(solution, DeterministicSolution)
     parts = solution.answer()
     pairs = solution.pairs

@@ -7,7 +7,7 @@ from ..models.shared import ControlVariate, Prepared
 from ..samples import Sample
 
 
-def sampled(
+def solve_to_tolerance(
     prepared: Prepared,
     speed: float,
     model: Model,
