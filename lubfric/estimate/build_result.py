@@ -140,7 +140,7 @@ def _not_driving(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) ->
     """
     f = answer.numbers["coefficient"]
     sliding = sum(answer.numbers.get(force, math.nan) for force in SLIDING_FORCES) / scene.bodies.load
-    rolling = answer.rolling_times * (f - sliding)
+    rolling = answer.most_rolling_ratio * (f - sliding)
     least = min(0.0, 0.0 if math.isnan(rolling) else rolling, f)
     low, high = uncertainty.interval
     if not (_always_slides(scene) and low < least):

@@ -135,8 +135,8 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     if touching != "none":
         one_film = BALANCED_FILM * hot
         strip = cells.columns * sample.strip_length / dy
-        work = SOLVES * (one_film + CELL_SECONDS * strip * sample.first)
-        if count > sample.first:
+        work = SOLVES * (one_film + CELL_SECONDS * strip * sample.first_strips)
+        if count > sample.first_strips:
             work += SOLVES_ON_MORE * (one_film + CELL_SECONDS * strip * count)
         share = film / expected_gap(film, sq)
         if SHARED[0] < share < SHARED[1]:
@@ -152,7 +152,7 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
             shared = (SharedWork(what=f"pieces on {cells.coarsening}", seconds=made, of_surface_alone=True),)
         reference = nearest_reference(film / sq)
         if reference is not None and scene.lubricant.inlet_film is None:
-            there = SOLVES_OF_REFERENCE * (one_film + CELL_SECONDS * strip * sample.first) + pieces
+            there = SOLVES_OF_REFERENCE * (one_film + CELL_SECONDS * strip * sample.first_strips) + pieces
             name = f"reference point at {reference} Sq on {cells.coarsening}"
             shared = (*shared, SharedWork(what=name, seconds=there, of_surface_alone=False))
             pieces *= OWN_PIECES
