@@ -21,7 +21,8 @@ class LubfricError(Exception):
             self.hints += (text,)
 
     def __str__(self) -> str:
-        return " ".join((*self.hints, self.worded()))
+        is_question = any("did you mean" in hint for hint in self.hints)
+        return " ".join((*self.hints, *(["If not:"] if is_question else []), self.worded()))
 
     def worded(self) -> str:
         """Return the message without the hints."""

@@ -306,7 +306,8 @@ def keys(where: str, given: Iterable[Any], allowed: Iterable[str], other: Callab
         if key not in options:
             word = key.lower() if isinstance(key, str) else ""
             words = other()
-            near = f" (did you mean {words[word]}?)" if word in words else nearest(key, options, 0.6)
+            meant = repr(word) if word in options else words.get(word)
+            near = f" (did you mean {meant}?)" if meant else nearest(key, options, 0.6)
             raise InputError(f"unknown key {shown(key)} in {where}{near}; allowed: {', '.join(options)}")
 
 

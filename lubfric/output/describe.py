@@ -18,6 +18,7 @@ from ..models.shared import (
     effect_in_words,
     expected_effects,
     gathered,
+    warn_unusual,
 )
 from ..quantities import counted
 from ..samples import (
@@ -91,7 +92,8 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
     rows = [f"  {name}\n" + "\n".join(f"    {text}" for text in texts) for name, texts in sections.items() if texts]
     widths = [max(map(len, column)) for column in zip(*estimate.table)]
     table = ["  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)) for row in estimate.table]
-    return "\n".join([f"scene {scene.name}", *rows, f"  {TABLE_CAPTION}", *map(str.rstrip, table)])
+    first = [violation.text for violation in warn_unusual(scene)]
+    return "\n".join([*first, f"scene {scene.name}", *rows, f"  {TABLE_CAPTION}", *map(str.rstrip, table)])
 
 
 def estimate_scene(

@@ -116,7 +116,8 @@ def _motion(scene: Scene) -> list[str]:
     ratio = scene.motion.slide_roll_ratio
     u1 = u * (1 - ratio / 2)
     u2 = u * (1 + ratio / 2)
-    surfaces = f"surface speeds {u1:.4g} and {u2:.4g} m/s, sliding speed {abs(u2 - u1):.4g} m/s"
+    sliding = f"sliding speed {abs(u2 - u1):.4g} m/s" if ratio else "pure rolling: f is that of rolling alone"
+    surfaces = f"surface speeds {u1:.4g} and {u2:.4g} m/s, {sliding}"
     return [] if scene.transient is not None else [surfaces]
 
 

@@ -389,7 +389,10 @@ def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float =
     words = text.split(",")
     like_decimals = len(words) == 2 and re.fullmatch(r"\s*[+-]?0\s*,\s*\d+\s*", text) is not None  # '0,1'
     if like_decimals or any(re.match(r"[+-]?0\d", word.strip()) for word in words):
-        raise InputError(f"{option} {validate.shown(text)}: a comma separates values; write a point in decimals, 0.01")
+        likely = text.replace(" ", "").replace(",", ".") if like_decimals else "0.01"
+        raise InputError(
+            f"{option} {validate.shown(text)}: a comma separates values; write a point in decimals, {likely}"
+        )
     numbers = numbers_of(option, words, [unit] * len(words))
     for number in numbers:
         validate.number(option, number, unit, minimum=-most, maximum=most)

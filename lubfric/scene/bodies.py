@@ -131,7 +131,8 @@ class Bodies(Shown):
                 f" = {self.load:g} N is above the product of hardness and Hertz area: the bodies would yield everywhere"
             )
             most = self.hardness * 2 * self.half_width * self.width
-            raise InputError(said, "bodies.load", f"below {most:g} N", also=("bodies.hardness",))
+            allowed = f"below {most:.4g} N (check the units of the load, the width, the radii and the hardness)"
+            raise InputError(said, "bodies.load", allowed, also=("bodies.hardness",))
         for name, unit in (("conductivity", "W/(m K)"), ("volumetric_heat", "J/(m^3 K)")):
             both = pair(f"bodies.{name}", getattr(self, name), unit)
             object.__setattr__(self, name, tuple(validate.positive(f"bodies.{name}", v, unit) for v in both))

@@ -88,7 +88,7 @@ def read_toml(path: Path | Traversable, what: str) -> dict[str, Any]:
 
 def _put_map(table: dict[str, Any], section: str, path: str | Path) -> None:
     """Put the map at ``path`` instead of the roughness in ``section`` of a scene's ``table``."""
-    path = _map_path(f"{section}_file", path, Path())
+    path = _map_path(f"{section}.file", path, Path())
     if not all(isinstance(table.get(name, {}), dict) for name in (section, "contact")):
         return  # refused by what reads the tables
     rough, contact = ({**table.get(name, {})} for name in (section, "contact"))
@@ -114,7 +114,7 @@ def _map_path(name: str, given: str | Path, folder: Path) -> Path:
     meant = f" (did you mean {' or '.join(map(repr, near))}?)" if near else ""
     where = f" in {folder}" if folder.name else ""
     said = f" = {validate.shown(str(given))}: no such file{where}{meant}"
-    raise InputError(said, name, way_out="give its path from there, or all of it")
+    raise InputError(said, name, way_out=f"give its complete path, or its path from {folder.resolve()}")
 
 
 def builtin_scenes() -> tuple[str, ...]:
@@ -148,7 +148,7 @@ def scene_from_table(table: dict[str, Any], folder: Path, name: str) -> Scene:
         name=table.get("name", name),
         transient=plan,
         ranges=as_ranges(ranges),
-        doubtful=doubtful_values("motion", table["motion"]),
+        doubtful=tuple(row for section in SECTIONS for row in doubtful_values(section, table.get(section))),
     )
 
 

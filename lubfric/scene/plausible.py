@@ -14,8 +14,9 @@ from typing import Any
 from .._base import packaged
 from ..errors import ConvergenceError, InputError
 from ..quantities import KEYS
-from ..units import converted, printed, without_unit
+from ..units import converted, number_and_unit, printed, spelled, without_unit
 from .bodies import SLIDE_ROLL_RATIO_KEY, SLIP_KEY
+from .short_forms import fields_of_key
 
 
 @cache
@@ -43,6 +44,8 @@ MOST_RATIO = 2.0  # simple sliding, which is usual
 # Sq [m] that follows from Ra or Rz, above which these were written without a unit: rough castings have some 5e-5 m. A
 # smaller one may have been written with a unit, which must not be questioned.
 NO_ROUGHNESS = 1e-3
+# Numbers from here on are refused where they are read, and are no slip of a unit.
+MOST_READ = 1e300
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,6 +57,7 @@ class UnusualValue:
     key : section.key
     value, limit : the value, and the bound of the usual range that it exceeds (NaN: of a doubtful convention), in
         ``unit``
+    written : the value as the user wrote it, "10 mm" or "10 is read as 10 m"; of one that follows from others, its size
     question : what may have been meant, as a question; "" if nothing fits
     advice : what to write
     """
@@ -62,77 +66,110 @@ class UnusualValue:
     value: float
     limit: float
     unit: str
+    written: str
     question: str
     advice: str
 
 
 def slip(name: str, value: Any) -> str | None:
-    """Return the question what ``value`` of the key ``name`` (section.key) was meant to be. None: the value is usual; "":
-    nothing fits."""
+    """Return the question what ``value`` of the key ``name`` (section.key), a number in its unit or text with a unit, was
+    meant to be; of a list, of the first part that is unusual. None: the value is usual; "": nothing fits."""
+    parts = value if isinstance(value, (list, tuple)) else (value,)
+    return next((question for part in parts if (question := _question(name, part)) is not None), None)
+
+
+def _question(name: str, written: Any) -> str | None:
+    """Return what `slip` does, of one value."""
     q = KEYS.get(name)
     if q is None or not q.usual:
         return None
-    low, high = q.usual
-    numbers = value if isinstance(value, (list, tuple)) else (value,)
-    numbers = [v for v in numbers if isinstance(v, (int, float)) and not isinstance(v, bool) and abs(v) < 1e300]
-    v = next((v for v in numbers if not low <= abs(v) <= high), None)
-    if v is None or v == 0 and q.zero:
+    v = _in_si(name, written)
+    if v is None or q.usual[0] <= abs(v) <= q.usual[1] or v == 0 and q.zero:
         return None
-    unit = likely_unit(name, v)
+    number = v
+    if isinstance(written, str) and (parts := number_and_unit(written)):
+        number = float(parts[0])
+    unit = likely_unit(name, number, is_text=isinstance(written, str))
     if not unit:
         return ""
     advice = next((other[1] for other in q.meant if not isinstance(other, str) and other[0] == unit), "")
-    in_si = f"{converted(v, unit, q.unit):.4g} {printed(q.unit)}".rstrip()
+    in_si = f"{converted(number, unit, q.unit):.4g} {printed(q.unit)}".rstrip()
     text = f" {advice[0].upper()}{advice[1:]}." if advice else ""
-    return f"did you mean {v:.4g} {printed(unit)} ({in_si})?{text}"
+    same = spelled(unit) == spelled(q.unit)
+    return f"did you mean {number:.4g} {printed(unit)}{'' if same else f' ({in_si})'}?{text}"
 
 
-def likely_unit(name: str, value: float) -> str:
+def _in_si(name: str, written: Any) -> float | None:
+    """Return a value of the key ``name`` in its unit; None for one that is no number of usual size."""
+    value = written
+    if isinstance(written, str):
+        try:
+            value = without_unit(name, written, KEYS[name].unit, typical(name))
+        except InputError:
+            return None
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return float(value) if is_number and abs(value) < MOST_READ else None
+
+
+def likely_unit(name: str, value: float, *, is_text: bool = False) -> str:
     """Return the unit in which a plain ``value`` of the key ``name`` (section.key) is usual, where it is not in that of
-    the key; "" where it is, or where none fits."""
+    the key; "" where it is, or where none fits. ``is_text``: the value had another unit, so that that of the key fits
+    too."""
     q = KEYS.get(name)
     if q is None or not q.usual:
         return ""
     low, high = q.usual
-    if low <= abs(value) <= high or value == 0 and q.zero:
+    if not is_text and (low <= abs(value) <= high or value == 0 and q.zero):
         return ""
-    units = (other if isinstance(other, str) else other[0] for other in q.meant)
+    units = [other if isinstance(other, str) else other[0] for other in q.meant]
+    units = [q.unit, *units] if is_text else units
     return next((unit for unit in units if low <= abs(converted(value, unit, q.unit)) <= high), "")
 
 
 def unusual_values(scene: Any) -> tuple[UnusualValue, ...]:
-    """Return the values of a scene that are outside their usual range, or of a doubtful convention."""
-    unusual = [
-        UnusualValue(
-            key=key,
-            value=value,
-            limit=math.nan,
-            unit=KEYS[key].unit,
-            question=other_convention(key, [value]),
-            advice="",
-        )
-        for key, value in scene.doubtful
-    ]
-    for name, q in KEYS.items():
+    """Return the values of a scene that are outside their usual range, or of a doubtful convention: those that the user
+    wrote by the keys that he wrote, then those that follow from others."""
+    unusual = [_unusual(key, written) for key, written in scene.doubtful]
+    stated = {name for key, _ in scene.doubtful for name in fields_of_key(key)}
+    for name in KEYS:
         section, _, key = name.rpartition(".")
+        if name in stated:
+            continue
         value = _index(scene) if key == "viscosity_index" else getattr(getattr(scene, section, None), key, None)
         for number in value if isinstance(value, (list, tuple)) else (value,):
-            question = None if number is None else slip(name, number)
-            if question and name.endswith(".sq") and not _is_as_written(number):
-                unit = printed(likely_unit(name, number))
-                question = f"did you mean ra or rz in {unit}?" if number > NO_ROUGHNESS else ""
-            if question is not None:
-                unusual.append(
-                    UnusualValue(
-                        key=name,
-                        value=float(number),
-                        limit=q.usual[abs(number) > q.usual[1]],
-                        unit=q.unit,
-                        question=question,
-                        advice="check the value and its unit",
-                    )
-                )
+            if number is not None and slip(name, number) is not None:
+                unusual.append(_unusual(name, number))
     return tuple(unusual)
+
+
+def _unusual(key: str, written: Any) -> UnusualValue:
+    """Return what is unusual of the value ``written`` for a ``key``, which is outside its usual range or doubtful."""
+    q = KEYS[key]
+    value = _in_si(key, written)
+    if convention := other_convention(key, [written]):
+        return UnusualValue(
+            key=key,
+            value=written,
+            limit=math.nan,
+            unit=q.unit,
+            written=_read_as(written, q.unit),
+            question=convention,
+            advice="",
+        )
+    assert value is not None  # as `slip` found it unusual
+    question = slip(key, written) or ""
+    if question and key.endswith(".sq") and not isinstance(written, str) and not _is_as_written(value):
+        unit = printed(likely_unit(key, value))
+        question = f"did you mean ra or rz in {unit}?" if value > NO_ROUGHNESS else ""
+    return UnusualValue(
+        key=key,
+        value=value,
+        limit=q.usual[abs(value) > q.usual[1]],
+        unit=q.unit,
+        written=_read_as(written, q.unit),
+        question=question,
+        advice="check the value and its unit",
+    )
 
 
 def other_convention(key: str, values: Iterable[Any]) -> str:
@@ -153,12 +190,16 @@ def other_convention(key: str, values: Iterable[Any]) -> str:
     return ""
 
 
-def doubtful_values(section: str, given: Any) -> tuple[tuple[str, float], ...]:
-    """Return (section.key, value) of the plain numbers ``given`` for a section that are of a doubtful convention."""
-    if section != "motion" or not isinstance(given, dict):
-        return ()
-    names = {key: f"{section}.{key}" for key in given}
-    return tuple((names[key], float(value)) for key, value in given.items() if other_convention(names[key], [value]))
+def doubtful_values(section: str, given: Any) -> tuple[tuple[str, Any], ...]:
+    """Return (section.key, value as written) of what is ``given`` for a section and outside its usual range, or of a
+    doubtful convention."""
+    doubtful: list[tuple[str, Any]] = []
+    for key, value in given.items() if isinstance(given, dict) else ():
+        name = f"{section}.{key}"
+        for part in value if isinstance(value, (list, tuple)) else (value,):
+            if other_convention(name, [part]) or slip(name, part) is not None:
+                doubtful.append((name, part))
+    return tuple(doubtful)
 
 
 def _index(scene: Any) -> float | None:
@@ -177,10 +218,10 @@ def naming_slips(section: str, values: dict[str, Any]) -> Iterator[None]:
     except InputError as error:
         named = [name.rpartition(".")[2].partition("[")[0] for name in (error.quantity, *error.also)]
         for key in dict.fromkeys([*named, *values]):
-            question = None if error.hints or key not in values else slip(f"{section}.{key}", values[key])
+            name = f"{section}.{key}"
+            question = None if error.hints or key not in values else slip(name, values[key])
             if question:
-                unit = KEYS[f"{section}.{key}"].unit
-                error.hint(f"{section}.{key} = {_read_as(values[key], unit)}; {question}")
+                error.hint(f"{name} = {_read_as(values[key], KEYS[name].unit)}; {question}")
         raise
 
 
@@ -190,11 +231,9 @@ def warn_unusual_values(scene: Any) -> Iterator[None]:
     try:
         yield
     except (InputError, ConvergenceError) as error:
-        for slipped in unusual_values(scene):
-            if slipped.question:
-                error.hint(f"{slipped.key} = {_read_as(slipped.value, slipped.unit)}; {slipped.question}")
-            else:
-                error.hint(f"{slipped.key} = {slipped.value:g} {printed(slipped.unit)}".rstrip() + " is unusual.")
+        for unusual in unusual_values(scene):
+            ending = f"; {unusual.question}" if unusual.question else " is unusual."
+            error.hint(f"{unusual.key} = {unusual.written}{ending}")
         raise
 
 
@@ -204,8 +243,11 @@ def _is_as_written(value: float) -> bool:
 
 
 def _read_as(value: Any, unit: str) -> str:
-    """Return a value as given, and how it is read: "12 is read as 12 m"; one that follows from others as it is."""
+    """Return a value as given, and how it is read: "12 is read as 12 m"; text with a unit and one that follows from
+    others as they are."""
+    if isinstance(value, str):
+        return value
     if isinstance(value, (int, float)) and not _is_as_written(value):
-        return f"{value:.3g} {printed(unit)}"
-    shown = value if isinstance(value, str) else f"{value:.4g}" if isinstance(value, (int, float)) else f"{value}"
+        return f"{value:.3g} {printed(unit)}".rstrip()
+    shown = f"{value:.4g}" if isinstance(value, (int, float)) else f"{value}"
     return shown if unit == "-" else f"{shown} is read as {shown} {printed(unit)}"

@@ -19,7 +19,7 @@ from .numerics import Numerics
 from .plausible import doubtful_values
 from .roughness import Roughness
 from .sections import ROUGH_SECTIONS, SECTIONS, changed_section, ranges_of
-from .short_forms import fields_of
+from .short_forms import fields_of, fields_of_key
 from .transient import HISTORY_KINDS, Transient
 
 # Keys of [motion] that state the sliding.
@@ -49,8 +49,8 @@ class Scene(Shown):
     transient : what changes in time, a `lubfric.Transient`, or None
     name : for titles
     ranges : (section.key, lowest, highest) of the values that are known to a range only; f is reported for both ends
-    doubtful : (section.key, plain number as given) of a sliding that may be of the other convention, percent or ratio.
-        It changes no number
+    doubtful : (section.key, value as written) of what is outside its usual range, and of a sliding that may be of the
+        other convention, percent or ratio. It changes no number
     """
 
     bodies: Bodies
@@ -64,7 +64,7 @@ class Scene(Shown):
     transient: Transient | None = None
     counterface: Roughness | None = None
     ranges: tuple[tuple[str, float, float], ...] = ()
-    doubtful: tuple[tuple[str, float], ...] = field(default=(), compare=False)
+    doubtful: tuple[tuple[str, Any], ...] = field(default=(), compare=False)
 
     def __post_init__(self) -> None:
         if not isinstance(self.name, str) or _halved(self.name) or len(self.name) > LONGEST_NAME:
@@ -118,17 +118,30 @@ class Scene(Shown):
             new[section] = changed_section(section, getattr(self, section), values)
             if section in SECTIONS:
                 ranges |= ranges_of(section, values)
-        if isinstance(motion := sections.get("motion"), Motion) or motion and not SLIDING_KEYS.isdisjoint(motion):
-            # a ratio is set by traction curves too, a slip in percent by users alone
-            slipped = (
-                {key: value for key, value in motion.items() if key == "slip_percent"}
-                if isinstance(motion, dict)
-                else {}
-            )
-            new["doubtful"] = doubtful_values("motion", slipped)
         made = replace(self, **new, ranges=())
+        made = replace(made, doubtful=self._doubtful_with(sections, made))
         kept = {name: ends for name, *ends in self.ranges if value_of(made, name) == value_of(self, name)}
         return replace(made, ranges=as_ranges(kept | ranges))
+
+    def _doubtful_with(self, sections: dict[str, Any], made: Scene) -> tuple[tuple[str, Any], ...]:
+        """Return what is doubtful of the scene ``made`` of this one by ``sections``: what was, where it did not change,
+        and what is given. A slide-roll ratio is set by traction curves too, a slip in percent by users alone."""
+        changed = {section: dict(values) for section, values in sections.items() if isinstance(values, dict)}
+        given = {
+            field
+            for section, values in changed.items()
+            for key in values
+            for field in fields_of_key(f"{section}.{key}")
+        }
+        for key in SLIDING_KEYS - {"slip_percent"}:
+            changed.get("motion", {}).pop(key, None)
+        kept = [
+            (name, written)
+            for name, written in self.doubtful
+            if given.isdisjoint(fields_of_key(name)) and _stated_by(made, name) == _stated_by(self, name)
+        ]
+        new = [row for section, values in changed.items() for row in doubtful_values(section, values)]
+        return tuple(dict.fromkeys(kept + new))
 
     def at_ends(self) -> Iterator[tuple[str, Scene, Scene]]:
         """Yield each key that is known to a range only, and the scene at both ends of it."""
@@ -241,6 +254,14 @@ def value_of(scene: Scene, name: str) -> Any:
     """Return the value of the key ``name`` (section.key)."""
     section, _, key = name.partition(".")
     return getattr(getattr(scene, section), key)
+
+
+def _stated_by(scene: Scene, name: str) -> tuple[Any, ...]:
+    """Return the values that the key ``name`` (section.key) states: of its fields, else of the whole section."""
+    section = getattr(scene, name.partition(".")[0])
+    fields_of_section = [field.partition(".")[2] for field in fields_of_key(name)]
+    values = tuple(getattr(section, key) for key in fields_of_section if hasattr(section, key))
+    return values or (section,)
 
 
 def as_ranges(ends: dict[str, Any]) -> tuple[tuple[str, float, float], ...]:

@@ -22,6 +22,7 @@ from ..oil import (
     from_index,
     from_table,
     from_viscosities,
+    grade_viscosity,
     named_oil,
 )
 from ..surface import PER_SQ
@@ -256,6 +257,7 @@ def _oil(source: dict[str, Any], before: Oil | None) -> Oil:
     if "grade" in source:
         index = index if index is not None or before is None else before.index
         if index is None:
+            grade_viscosity(source["grade"])  # refuses a grade that is none
             raise InputError("[lubricant] grade needs viscosity_index as well (95 is common for mineral oils)")
         return from_grade(source["grade"], index, **kept)
     if index is None and together("lubricant", source, "nu40", "nu100"):
@@ -310,3 +312,10 @@ FORMS: dict[str, tuple[tuple[tuple[str, ...], tuple[str, ...], Callable[..., dic
     "surface": tuple(((key,), ("sq",), _of_heights(key, per_sq)) for key, per_sq in PER_SQ.items()),
 }
 FORMS["counterface"] = FORMS["surface"]
+
+
+def fields_of_key(name: str) -> tuple[str, ...]:
+    """Return the fields (section.field) that the key ``name`` (section.key) states: itself, and those of a short form."""
+    section, _, key = name.partition(".")
+    stated = [field for keys, fields, _ in FORMS.get(section, ()) if key in keys for field in fields]
+    return (name, *(f"{section}.{field}" for field in stated))

@@ -134,7 +134,10 @@ def scenes_of(scene: Scene, axes: tuple[Axis, ...]) -> Iterator[Scene]:
         values = {key: value for axis, i in zip(axes, row) for key, value in axis.at(i).items()}
         varied = replace(scene.with_keys(values), transient=None)
         # whether a varied sliding is doubtful is known of the values as they were given (`StudyPlan.notes`)
-        yield varied if VARIED_SLIDING.isdisjoint(values) else replace(varied, doubtful=())
+        if not VARIED_SLIDING.isdisjoint(values):
+            others = [row for row in varied.doubtful if not row[0].startswith("motion.")]
+            varied = replace(varied, doubtful=tuple(others))
+        yield varied
 
 
 @with_default_errors

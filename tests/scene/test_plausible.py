@@ -6,6 +6,7 @@ import pickle
 import pytest
 
 import lubfric
+from lubfric.output import describe_scene
 from lubfric.quantities import KEYS
 from lubfric.scene import unusual_values
 from lubfric.scene.plausible import slip
@@ -49,7 +50,7 @@ def test_an_error_carries_what_it_says():
     error.hint("another")
     error.hint("another")
     worded = f"{error.quantity}{error.said}; allowed: {error.allowed}"
-    assert str(error) == f"{error.hints[0]} another {worded}"
+    assert str(error) == f"{error.hints[0]} another If not: {worded}"
 
 
 @pytest.mark.parametrize(
@@ -86,7 +87,7 @@ def test_the_likely_cause_begins_a_message():
     with pytest.raises(lubfric.InputError) as caught:
         lubfric.load_scene("paper").with_(bodies={"hardness": 700})
     assert str(caught.value).startswith(
-        "bodies.hardness = 700 is read as 700 Pa; did you mean 700 HV (7.404e+09 Pa)? Give hardness_hv. bodies.load"
+        "bodies.hardness = 700 is read as 700 Pa; did you mean 700 HV (7.404e+09 Pa)? Give hardness_hv. If not: bodies.load"
     )
 
 
@@ -94,7 +95,47 @@ def test_a_height_in_another_unit_is_questioned_by_the_key_that_was_written():
     paper = lubfric.load_scene("paper")
     with pytest.raises(lubfric.InputError, match="^surface.ra = 150 is read as 150 m; did you mean 150 nm"):
         paper.with_(surface={"ra": 150})
-    with pytest.raises(lubfric.InputError, match="^surface.sq = 0.188 m; did you mean ra or rz in µm"):
+    with pytest.raises(lubfric.InputError, match="^surface.ra = 0.15 is read as 0.15 m; did you mean 0.15 µm"):
         lubfric.prepare(paper.with_(surface={"ra": 0.15}))
-    (derived,) = unusual_values(paper.with_(surface={"ra": "150 um"}))
-    assert derived.key == "surface.sq" and derived.question == ""  # it follows from Ra: no unit explains it
+    (unusual,) = unusual_values(paper.with_(surface={"ra": "150 um"}))
+    assert unusual.key == "surface.ra" and unusual.written == "150 um"
+    assert unusual.question == "did you mean 150 nm (1.5e-07 m)?"
+
+
+@pytest.mark.parametrize(
+    "section, given, key, question",
+    [
+        ("surface", {"correlation_length": "10 mm"}, "surface.correlation_length", "did you mean 10 µm (1e-05 m)?"),
+        ("surface", {"ra": "0.15 mm"}, "surface.ra", "did you mean 0.15 µm (1.5e-07 m)?"),
+        ("bodies", {"radii": [3, 30]}, "bodies.radii", "did you mean 30 mm (0.03 m)?"),
+        ("lubricant", {"eyring_stress": 5}, "lubricant.eyring_stress", "did you mean 5 MPa (5e+06 Pa)?"),
+    ],
+)
+def test_a_slip_is_told_by_the_key_and_the_number_that_were_written(section, given, key, question):
+    """In the number as it was written, 10 of "10 mm", not in that of the unit of the key; and no more once mended."""
+    paper = lubfric.load_scene("paper")
+    scene = paper.with_(**{section: given})
+    assert [(entry.key, entry.question) for entry in unusual_values(scene) if entry.question] == [(key, question)]
+    assert unusual_values(scene.with_(lubricant={"viscosity": 0.1})) == unusual_values(scene)
+    usual = {
+        "surface": {"sq": 1e-7, "correlation_length": 1e-5},
+        "bodies": {"radius": 0.01},
+        "lubricant": {"eyring_stress": 5e6},
+    }
+    assert unusual_values(scene.with_(**{section: usual[section]})) == ()
+
+
+def test_a_key_in_capitals_is_the_key_itself():
+    with pytest.raises(lubfric.InputError, match=r"unknown key 'Ra' in \[surface\] \(did you mean 'ra'\?\)"):
+        lubfric.load_scene("paper").with_(surface={"Ra": "0.15 um"})
+
+
+def test_a_grade_that_is_none_is_refused_before_its_index_is_missed():
+    with pytest.raises(lubfric.InputError, match="an SAE grade is no ISO grade"):
+        lubfric.load_scene("paper").with_(lubricant={"grade": "SAE 10W-30", "temperature": 343.15})
+
+
+def test_what_is_unusual_begins_the_description_of_a_scene():
+    scene = lubfric.load_scene("paper").with_(lubricant={"eyring_stress": 5})
+    first = describe_scene(scene).splitlines()[0]
+    assert first.startswith("warning: lubricant.eyring_stress") and "5 MPa" in first
