@@ -68,6 +68,6 @@ def test_the_stated_error_holds_that_of_the_cells():
     """On strips of random contacts and of the contacts with names: as often as an error at 95 % should, and it is not larger
     than it has to be: the errors have a root mean square above a quarter of it."""
     strips = [strip for strip in errors(TABLE) if strip["axis"] == "xy"]
-    assert len({strip["contact"] for strip in strips}) >= 12
+    assert len({strip["contact"] for strip in strips}) >= 25
     left = np.array([strip["left"] / strip["stated"] for strip in strips])
-    assert np.mean(np.abs(left) <= 1.0) >= 0.8 and np.sqrt(np.mean(left**2)) > 0.25
+    assert np.mean(np.abs(left) <= 1.0) >= 0.85 and np.sqrt(np.mean(left**2)) > 0.25
