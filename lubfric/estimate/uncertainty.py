@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .._base import Renamed
-from ..models.shared import MOST_RELATIVE, has_too_few_contacts, percent_of_sides, sides_in_f, student
+from ..models.shared import has_too_few_contacts, is_near_zero, percent_of_sides, sides_in_f, student
 from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuantities, described_in_doc
 from ..units import interval_in_words, with_interval
 
@@ -84,9 +84,9 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
 
     @property
     def is_near_zero(self) -> bool:
-        """Whether f is so near 0 that a part of its error is larger, so that errors are stated in f and not relative to it."""
+        """Whether f is near 0 and a part of its error is larger, so that errors are stated in f and not relative to it."""
         known = [part for part in self.budget.values() if math.isfinite(part)]
-        return math.isfinite(self.coefficient) and max(known, default=0.0) > MOST_RELATIVE
+        return is_near_zero(self.coefficient, max(known, default=0.0))
 
     @property
     def largest_part(self) -> str:

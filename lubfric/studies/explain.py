@@ -55,10 +55,10 @@ def warnings_of(plan: Any) -> list[str]:
 def _in_sentences(violations: Sequence[Sequence[Violation]], plural: str) -> list[str]:
     """Return a sentence for each assumption that fails in ``violations`` (of each scene), with its smallest and largest
     value; ``plural``: the name of what there is one of for each of ``violations``."""
-    groups: dict[tuple[str, bool], dict[int, Violation]] = {}
+    groups: dict[tuple[str, bool, bool], dict[int, Violation]] = {}
     for place, of_scene in enumerate(violations):
         for violation in of_scene:
-            groups.setdefault((violation.what, violation.severe), {})[place] = violation
+            groups.setdefault(violation.kind, {})[place] = violation
     lines = []
     for group in groups.values():
         ordered = sorted(group.values(), key=lambda violation: violation.value)

@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 
 import lubfric
 from lubfric.estimate.uncertainty import Uncertainty
-from lubfric.models.deterministic import warn_model_error
-from lubfric.models.shared import Violation, percent_beside
+from lubfric.models.shared import Violation, gathered, percent_beside, warn_model_error
 
 
 @pytest.mark.parametrize(
@@ -60,8 +59,21 @@ def test_errors_of_an_f_near_zero_are_in_f_itself():
 
 def test_a_warning_of_the_error_of_an_f_near_zero_is_in_f_itself():
     prepared = lubfric.prepare(lubfric.load_scene("paper").with_(numerics={"model_tolerance": 0.05}))
-    (relative,) = warn_model_error(prepared, 0.2, 0.04)
+    (relative,) = warn_model_error(prepared, 0.2, 0.04, consequence="why")
     assert "is 20 %, above 5 %" in relative.text
-    (itself,) = warn_model_error(prepared, 88.0, -1e-5)
+    (itself,) = warn_model_error(prepared, 88.0, -1e-5, consequence="why")
     assert "near 0, in f itself, is 0.00088, above 5e-07." in itself.text
-    assert not list(warn_model_error(prepared, 0.04, 1e-5))
+    assert not list(warn_model_error(prepared, 0.04, 1e-5, consequence="why"))
+
+
+def test_values_on_both_sides_of_a_range_are_two_sentences():
+    """A value below the range is not reported as above it."""
+
+    def at(value, limit):
+        return (Violation(what="lambda ratio", value=value, limit=limit, unit="", consequence="why", remedy=""),)
+
+    lines = gathered([(1.0, at(0.03, 0.05)), (2.0, at(0.04, 0.05)), (3.0, at(5.0, 3.0))])
+    assert lines == (
+        "at 2 speeds, 1 to 2 m/s: warning: lambda ratio is 0.03 (at 1 m/s) to 0.04 (at 2 m/s), below 0.05. Why.",
+        "at 3 m/s: warning: lambda ratio is 5, above 3. Why.",
+    )

@@ -14,7 +14,6 @@ from ...samples import is_measured
 from ...scene import HARDNESS_KEY, Scene, has_moving_roughness, value_of
 from ..contract import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
-    MOST_RELATIVE,
     SAMPLE_TOO_SHORT,
     Decision,
     Heat,
@@ -32,6 +31,7 @@ from ..shared import (
     student,
     warn_heat,
     warn_inlet,
+    warn_model_error,
     warn_motion,
     warn_pressure,
     warn_thickness,
@@ -44,8 +44,7 @@ from .rough_bodies import map_of, strip_surface
 from .strip import StripSolution, change_by_flow, solve_strip
 from .strip_on_two_grids import factors_of
 
-MODEL_ERROR = "model-form error of f"
-MODEL_ERROR_NEAR_ZERO = f"{MODEL_ERROR} near 0, in f itself,"
+FROM_PARTS = "it comes from the law of the flow, heat, the scatter between the models, or cells"
 FEW_STRIPS = "not known from fewer than three strips"
 UNSOLVED_CELLS = (
     "shorter cells did not converge within the work of a point: the numerical error is twice the estimate from longer "
@@ -131,7 +130,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         ),
         violations=(
             *_violations(prepared, numbers, results, heat),
-            *warn_model_error(prepared, model, numbers["coefficient"]),
+            *warn_model_error(prepared, model, numbers["coefficient"], consequence=FROM_PARTS),
         ),
         recommendation=_recommendation(prepared),
         narrows_numerical=_narrows_numerical(prepared),
@@ -271,25 +270,6 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
         heat_in_words=known,
         notes=notes,
     )
-
-
-def warn_model_error(prepared: Prepared, error: float, f: float, remedy: str = "") -> Iterator[Violation]:
-    """Yield a warning where the model-form ``error`` of ``f``, relative, is above ``numerics.model_tolerance``; ``remedy``:
-    what narrows it ("": a longer map, where the surface is measured). Where f is near 0, it states the error in f itself."""
-    scene = prepared.scene
-    tolerance = scene.numerics.model_tolerance
-    has_map = prepared.is_given or is_measured(scene)
-    if error > tolerance:
-        is_relative = error <= MOST_RELATIVE
-        unit = 100.0 if is_relative else abs(f)
-        yield Violation(
-            what=MODEL_ERROR if is_relative else MODEL_ERROR_NEAR_ZERO,
-            value=unit * error,
-            limit=unit * tolerance,
-            unit="%" if is_relative else "",
-            consequence="it comes from the law of the flow, heat, the scatter between the models, or cells",
-            remedy=remedy or f"read f with its interval{', or give a longer map' if has_map else ''}",
-        )
 
 
 def _recommendation(prepared: Prepared) -> str:

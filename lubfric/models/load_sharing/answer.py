@@ -10,7 +10,7 @@ from ...contact import ContactResult, HalfSpaceContact
 from ...oil import estimate_in_words
 from ...scene import Scene, has_moving_roughness
 from ..contract import AtInputs, ContactFields, ModelAnswer
-from ..shared import Violation, contact_at_inputs, contact_on_piece, contact_on_strips, exponents
+from ..shared import Violation, contact_at_inputs, contact_on_piece, contact_on_strips, exponents, warn_model_error
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
 from .decision import decision_of
@@ -20,6 +20,7 @@ from .limits import limits_exceeded
 from .response import contact_length, quantities
 from .scatter import film_stress
 
+FROM_EQUATION = "it comes from the friction of Eq. (9), and from heat, of whose effect half is counted as error"
 SMALLER_TOLERANCE = "f has that error; a smaller numerics.tolerance or a larger map reduces it"
 
 
@@ -54,6 +55,13 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         notes=errors.notes,
         violations=(
             *violations_of_sample(balanced),
+            *(
+                warn_model_error(
+                    balanced.prepared, max(errors.model), numbers["coefficient"], consequence=FROM_EQUATION
+                )
+                if scene.numerics.model == "auto"
+                else ()
+            ),
             *_finer(balanced.change("finer_grid_change"), scene.numerics.tolerance),
         ),
         recommendation=SMALLER_TOLERANCE,

@@ -14,13 +14,14 @@ from functools import cached_property
 
 import numpy as np
 
+from ..._base import work_left
 from ...errors import ConvergenceError
 from ...samples import Sample
-from ...scene import Numerics, Scene, has_moving_roughness, why_gap_not_resolved
+from ...scene import Scene, has_moving_roughness, why_gap_not_resolved
 from ...surface import Surface
 from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
 from ..deterministic import (
-    MODEL_ERROR,
+    FROM_PARTS,
     Levels,
     StripOnTwoGrids,
     bodies_of,
@@ -28,13 +29,13 @@ from ..deterministic import (
     sample_target,
     strip_surface,
     two_levels,
-    warn_model_error,
     work_of_fine_fields,
     work_on_strips,
 )
 from ..deterministic import answer_of as deterministic_answer
 from ..load_sharing import PaperModel, PaperSolution, expected_model_error, methods_of_load_sharing
 from ..shared import (
+    MODEL_ERROR,
     ControlVariate,
     ExpectedViolations,
     Heat,
@@ -44,6 +45,7 @@ from ..shared import (
     expected_on_hertz,
     percent_beside,
     rolling_model_error,
+    warn_model_error,
     why_no_rough_film,
 )
 from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, reported, widening
@@ -70,6 +72,9 @@ LEAST_SAMPLING_ERROR = 0.03
 
 # The same, over the half-width of the bounds of f by the cells: with Student's t it widens the interval by a tenth.
 OF_BOUNDS = 0.2
+
+# Part of the work that a point has left, which one more strip may take [-]: the rest is for the ends of input ranges.
+PART_OF_WORK = 0.25
 
 # numerics.model_tolerance below which "auto" does not try this model: the bounds are those of kinds of contacts, and a
 # point would be solved twice for the few whose bounds are narrower.
@@ -264,18 +269,18 @@ class QuickSolution(SampleSolution):
 def solve_long_strips(prepared: Prepared, speed: float) -> LongStrips:
     """Return the strips of ``prepared`` at ``speed`` [m/s], not 0, on long cells. Raises `ConvergenceError`."""
     scene = prepared.scene
+    pairs = [_solve_strip(prepared, speed, 0, None)]
     numerics = replace(
         scene.numerics,
-        sampling_tolerance=max(scene.numerics.sampling_tolerance, LEAST_SAMPLING_ERROR),
+        sampling_tolerance=_sampling_error(scene, pairs[0]),
         model_tolerance=max(scene.numerics.model_tolerance, LEAST_TOLERANCE),
     )
-    pairs = [_solve_strip(prepared, speed, 0, numerics, None)]
     most = 1 if has_moving_roughness(scene) else MOST_STRIPS
     while True:
         estimate, wanted = two_levels(prepared, pairs, None, numerics)
-        if len(pairs) >= min(wanted, most):
+        if len(pairs) >= min(wanted, most) or pairs[0].resolved.work > PART_OF_WORK * work_left():
             break
-        pairs.append(_solve_strip(prepared, speed, len(pairs), numerics, pairs[0].resolved.slope))
+        pairs.append(_solve_strip(prepared, speed, len(pairs), pairs[0].resolved.slope))
     friction = scene.bodies.boundary_friction_coefficient
     rows = [features(numbers_of_strip(pair), friction) for pair in pairs]
     x = {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
@@ -302,9 +307,15 @@ def long_factors_of(scene: Scene, sample: Sample) -> tuple[float, float]:
     return factors_of_long_cells(scene, (dx / fx, dy / fy), sample.rows * fy, sample.correlation_lengths)
 
 
-def _solve_strip(
-    prepared: Prepared, speed: float, index: int, numerics: Numerics, slope: float | None
-) -> StripOnTwoGrids:
+def _sampling_error(scene: Scene, pair: StripOnTwoGrids) -> float:
+    """Return the relative standard error of f by the sample that strips are solved for, by the bounds at the features of the
+    first ``pair``."""
+    x = features(numbers_of_strip(pair), scene.bodies.boundary_friction_coefficient)
+    bounds = min(error_model_of(scene).log_half_width(x), 1.0)
+    return max(scene.numerics.sampling_tolerance, LEAST_SAMPLING_ERROR, OF_BOUNDS * bounds)
+
+
+def _solve_strip(prepared: Prepared, speed: float, index: int, slope: float | None) -> StripOnTwoGrids:
     """Return strip ``index`` on long cells."""
     scene = prepared.scene
     sample = prepared.sample
@@ -315,11 +326,7 @@ def _solve_strip(
         factors = factors_of_long_cells(scene, surface.spacing, surface.shape[1], lengths)
         return replace(solve_at_rest(scene, surface, speed, factors, slope), mirrored=is_mirrored)
     cells = long_cells_in_motion(scene, bodies_of(prepared, index, speed), speed, lengths)
-    at_rest = features(
-        numbers_of_strip(StripOnTwoGrids(cells.rest, cells.rest)), scene.bodies.boundary_friction_coefficient
-    )
-    bounds = error_model_of(scene).log_half_width(at_rest)
-    target = sample_target(prepared, max(numerics.sampling_tolerance, OF_BOUNDS * min(bounds, 1.0)))
+    target = sample_target(prepared, _sampling_error(scene, StripOnTwoGrids(cells.rest, cells.rest)))
     return replace(solve_moving(scene, cells, speed, target), mirrored=is_mirrored)
 
 
@@ -329,9 +336,9 @@ def quick_answer_of(prepared: Prepared, speed: float, strips: LongStrips) -> Mod
     levels = replace(strips.levels, numbers=strips.numbers(scene))
     answer = deterministic_answer(prepared, speed, levels)
     bounds = strips.bounds(scene)
-    largest = answer.largest_in_model
-    if max(bounds) >= max(answer.model_error):
-        largest = OF_CELLS.format(strips.model.cases)
+    by_cells = max(bounds) >= max(answer.model_error)
+    largest = OF_CELLS.format(strips.model.cases) if by_cells else answer.largest_in_model
+    f = levels.numbers["coefficient"]
     basis = f"deterministic model on long cells, calibrated on {strips.model.cases} solved cases"
     below, above = (math.hypot(part, bound) for part, bound in zip(answer.model_error, bounds))
     warnings = (
@@ -343,10 +350,17 @@ def quick_answer_of(prepared: Prepared, speed: float, strips: LongStrips) -> Mod
         largest_in_model=largest,
         violations=(
             *warnings,
-            *warn_model_error(prepared, max(below, above), levels.numbers["coefficient"], NARROWED),
+            *warn_model_error(
+                prepared, max(below, above), f, consequence=FROM_PARTS, remedy=NARROWED if by_cells else ""
+            ),
             *(part.violation for part in reported(strips.outside)),
         ),
-        decision=replace(answer.decision, model="quick", basis=basis, notes=(NARROWER, *answer.decision.notes)),
+        decision=replace(
+            answer.decision,
+            model="quick",
+            basis=basis,
+            notes=(*((NARROWER,) if by_cells else ()), *answer.decision.notes),
+        ),
     )
 
 

@@ -36,6 +36,7 @@ from .film_speed import exponents, speed_of
 from .heat import Heat, error_by_heat, film_lubricant, inlet_at, peclet_at, point_heat, surroundings, typical_heat
 from .largest_friction import at_largest_ends, largest_at_load, largest_of_oil, largest_sliding_friction
 from .memo import Key, Memo, ReferenceKey, StackKey
+from .model_error import MODEL_ERROR, warn_model_error
 from .prepared import (
     Prepared,
     cells_of_contact,
@@ -51,7 +52,6 @@ from .rolling import rolling_model_error, smooth_rolling_resistance
 from .statistics import (
     FEW_CONTACTS,
     FREEDOM_NOT_COUNTED,
-    MOST_RELATIVE,
     SAMPLE_TOO_SHORT,
     SAMPLING_MATTERS,
     SHARED_LENGTH,
@@ -60,6 +60,7 @@ from .statistics import (
     add_errors,
     block_error,
     has_too_few_contacts,
+    is_near_zero,
     means_of_blocks,
     percent,
     percent_beside,

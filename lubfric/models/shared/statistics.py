@@ -11,8 +11,12 @@ from ..._base import FloatArray
 # Digits of a number compared with another, at most. A convention.
 MOST_DIGITS = 6
 
-# Error of f over f above which it is stated in f itself [-]: then f is near 0, and a ratio to it says nothing. A convention.
+# Error of f over f above which it is stated in f itself [-], where f is near 0: there a ratio to it says nothing. A convention.
 MOST_RELATIVE = 1.0
+
+# f below which it is near 0 [-]: as large is the rolling resistance of a film, beside which sliding friction is small. A
+# convention.
+NEAR_ZERO = 5e-3
 
 # Mean square of the change of the heights over two cells, over that over one, of smooth heights, at least: 4 of a
 # parabola, 2 of an exponential autocorrelation.
@@ -205,6 +209,11 @@ def percent_of_sides(below: float, above: float, largest: float) -> str:
     if not (math.isfinite(below) and math.isfinite(above)) or percent(below) == percent(above):
         return percent(largest)
     return f"-{percent(below).removesuffix(' %')} to +{percent(above)}"
+
+
+def is_near_zero(f: float, error: float) -> bool:
+    """Return whether ``f`` is so near 0 that its relative ``error`` says nothing."""
+    return abs(f) < NEAR_ZERO and error > MOST_RELATIVE
 
 
 def sides_in_f(below: float, above: float, largest: float, f: float) -> str:

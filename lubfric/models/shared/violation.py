@@ -57,6 +57,12 @@ class Violation:
         return self.text_of(self.value_in_words)
 
     @property
+    def kind(self) -> tuple[str, bool, bool]:
+        """What violations have in common that one sentence may report together: the quantity, whether they are severe, and on
+        which side of the limit they are."""
+        return self.what, self.severe, self.value > self.limit
+
+    @property
     def value_in_words(self) -> str:
         """The value with three digits, or with as many as it needs to differ from the limit."""
         return self._beside_limit[0]
@@ -114,10 +120,10 @@ def gathered(
 
     ``points``: pairs (value of the swept quantity, violations of that point).
     """
-    groups: dict[tuple[str, bool], list[tuple[float, Violation]]] = {}
+    groups: dict[tuple[str, bool, bool], list[tuple[float, Violation]]] = {}
     for value, violations in points:
         for violation in violations:
-            groups.setdefault((violation.what, violation.severe), []).append((value, violation))
+            groups.setdefault(violation.kind, []).append((value, violation))
     lines = []
     for group in groups.values():
         worst = max((violation for _, violation in group), key=_distance)

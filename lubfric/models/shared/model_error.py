@@ -1,0 +1,35 @@
+"""The warning that the model-form error of f is above its target."""
+
+from collections.abc import Iterator
+
+from ...samples import is_measured
+from .prepared import Prepared
+from .statistics import is_near_zero
+from .violation import Violation
+
+MODEL_ERROR = "model-form error of f"
+MODEL_ERROR_NEAR_ZERO = f"{MODEL_ERROR} near 0, in f itself,"
+
+
+def warn_model_error(
+    prepared: Prepared, error: float, f: float, *, consequence: str, remedy: str = ""
+) -> Iterator[Violation]:
+    """Yield a warning where the model-form ``error`` of ``f``, relative, is above ``numerics.model_tolerance``.
+
+    ``consequence``: where it comes from; ``remedy``: what narrows it ("": a longer map, where the surface is measured).
+    Where f is near 0, the warning states the error in f itself.
+    """
+    tolerance = prepared.scene.numerics.model_tolerance
+    has_map = prepared.is_given or is_measured(prepared.scene)
+    if not error > tolerance:
+        return
+    is_relative = not is_near_zero(f, error)
+    unit = 100.0 if is_relative else abs(f)
+    yield Violation(
+        what=MODEL_ERROR if is_relative else MODEL_ERROR_NEAR_ZERO,
+        value=unit * error,
+        limit=unit * tolerance,
+        unit="%" if is_relative else "",
+        consequence=consequence,
+        remedy=remedy or f"read f with its interval{', or give a longer map' if has_map else ''}",
+    )
