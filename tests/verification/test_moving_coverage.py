@@ -8,6 +8,7 @@ import pytest
 from lubfric.models.deterministic.shorter_cells import NARROWED
 from verification.campaigns import table_file
 from verification.campaigns.moving_cells.table import COLUMNS, TABLE, errors
+from verification.campaigns.moving_controls import variance_left
 from verification.campaigns.moving_coverage.items import coverage
 from verification.campaigns.moving_coverage.table import ANSWER_COLUMNS, ANSWERS, REFERENCE_COLUMNS, REFERENCES
 from verification.check import Check, Table
@@ -71,3 +72,17 @@ def test_the_stated_error_holds_that_of_the_cells():
     assert len({strip["contact"] for strip in strips}) >= 25
     left = np.array([strip["left"] / strip["stated"] for strip in strips])
     assert np.mean(np.abs(left) <= 1.0) >= 0.85 and np.sqrt(np.mean(left**2)) > 0.25
+
+
+def test_a_control_leaves_the_variance_that_a_line_in_it_does_not_explain():
+    """f = 3 c + noise: the variance of the noise over all, 1/10, on average over samples of eight strips."""
+    rng = np.random.default_rng(1)
+    left = []
+    for _ in range(2000):
+        control = rng.standard_normal(8)
+        left.append(variance_left(3 * control + rng.standard_normal(8), control))
+    assert np.mean(left) == pytest.approx(0.1, rel=0.4)
+    assert (
+        variance_left(control, 5 - 2 * control) == pytest.approx(0, abs=1e-12)
+        and variance_left(control, 0 * control) == 1
+    )

@@ -66,12 +66,13 @@ def left(folder: Path = FOLDER) -> Iterator[PlainRow]:
             "contact": contact.name,
             "strips": len(strips),
             "scatter": float(f.std(ddof=1) / f.mean()),
-            **{name: _left(f, control) for name, control in table.items()},
+            **{name: variance_left(f, control) for name, control in table.items()},
             "summits": float(np.mean([(float(row["error"]) / float(row["plain_error"])) ** 2 for row in strips])),
         }
 
 
-def _left(f: np.ndarray, control: np.ndarray) -> float:
+def variance_left(f: np.ndarray, control: np.ndarray) -> float:
+    """Return the part of the variance of ``f`` that a line in the ``control`` leaves, without bias; 1 where the control is constant."""
     if control.std() == 0:
         return 1.0
     correlation = float(np.corrcoef(f, control)[0, 1])
