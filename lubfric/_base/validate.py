@@ -162,8 +162,8 @@ def of_key(name: str, value: Any, called: str | None = None) -> float:
 
 def integer(name: str, value: Any, *, minimum: int, maximum: int | None = None) -> int:
     """Return ``value`` as an integer >= ``minimum`` and <= ``maximum``."""
-    whole = isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
-    if not whole or value < minimum or maximum is not None and value > maximum:
+    is_integer = isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
+    if not is_integer or value < minimum or maximum is not None and value > maximum:
         most = "" if maximum is None else f" and <= {maximum}"
         raise InputError(f" = {shown(value)} must be a whole number >= {minimum}{most}", name)
     return int(value)

@@ -69,7 +69,7 @@ def find_asperities(
     closed = validate.pair("periodic", periodic, validate.boolean, "True or False")
     spacing = validate.spacing("spacing", spacing)
     find = FINDERS[definition](heights, spacing, closed)
-    whole = heights.size * spacing[0] * spacing[1]
+    map_area = heights.size * spacing[0] * spacing[1]
 
     def at(separation: FloatArray) -> AsperityResult:
         index, overlap, radius = find(np.broadcast_to(np.asarray(separation, dtype=float), heights.shape))
@@ -83,10 +83,10 @@ def find_asperities(
         return AsperityResult(
             separation=separation,
             load=float(force.sum()),
-            mean_pressure=float(force.sum() / whole),
+            mean_pressure=float(force.sum() / map_area),
             contact_area=float(area.sum()),
-            contact_area_fraction=float(area.sum() / whole),
-            plastic_area_fraction=float(plastic.sum() / whole),
+            contact_area_fraction=float(area.sum() / map_area),
+            plastic_area_fraction=float(plastic.sum() / map_area),
             contacts=overlap.size,
             index=index,
             overlap=overlap,

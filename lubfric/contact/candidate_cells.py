@@ -56,18 +56,18 @@ class CandidateCells:
     def flagged(operator: HalfSpace, flags: BoolArray) -> CandidateCells:
         """Return the cells whose ``flags`` are set, or all if that is most of them. With a free axis x and a periodic
         y, only the rows that contain some."""
-        whole = flags.shape
+        shape = flags.shape
         rows = slice(None)
         deflection = operator.apply
         if operator.boundary == ("free", "periodic"):
             touched = np.flatnonzero(flags.any(axis=1))
-            count = min(ROUND * -(-int(touched[-1] - touched[0] + 1) // ROUND), whole[0])
-            first = min(int(touched[0]), whole[0] - count)
+            count = min(ROUND * -(-int(touched[-1] - touched[0] + 1) // ROUND), shape[0])
+            first = min(int(touched[0]), shape[0] - count)
             deflection = operator.window(count)
             rows = slice(first, first + count)
         flags = flags[rows]
         many = np.count_nonzero(flags) > DENSE * flags.size
-        return CandidateCells(deflection, None if many else np.flatnonzero(flags), rows, whole)
+        return CandidateCells(deflection, None if many else np.flatnonzero(flags), rows, shape)
 
     def gather(self, field: FloatArray) -> np.ndarray:
         """Return the values of a field of the rows, one axis."""
@@ -102,8 +102,8 @@ def nearest_coefficients(shape: tuple[int, int], spacing: tuple[float, float]) -
     k = np.hypot(x / spacing[0], y / spacing[1])
     along_x = np.cos(x) * (shape[0] > 1)
     along_y = np.cos(y) * (shape[1] > 1)
-    own, x_part, y_part, both = (float((k * wave).mean()) for wave in (1.0, along_x, along_y, along_x * along_y))
-    return own, x_part, y_part, both
+    same_cell, x_part, y_part, both = (float((k * wave).mean()) for wave in (1.0, along_x, along_y, along_x * along_y))
+    return same_cell, x_part, y_part, both
 
 
 def stencil(
@@ -144,14 +144,14 @@ def stencil(
 
 def _swept(padded: FloatArray, coefficients: Sequence[np.float32]) -> np.ndarray:
     """Return the sums for all cells, some rows at a time, within the cache."""
-    own, along_x, along_y, across = coefficients
+    same_cell, along_x, along_y, across = coefficients
     sums = np.empty((padded.shape[0] - 2, padded.shape[1] - 2), np.float32)
     rows = max(1, CACHED_CELLS // padded.shape[1])
     for begin in range(0, sums.shape[0], rows):
         points = padded[begin : begin + rows + 2]
         total = sums[begin : begin + rows]
         beside = points[:, :-2] + points[:, 2:]
-        np.multiply(points[1:-1, 1:-1], own, out=total)
+        np.multiply(points[1:-1, 1:-1], same_cell, out=total)
         total += along_y * beside[1:-1]
         beside *= across
         beside += along_x * points[:, 1:-1]
@@ -162,9 +162,9 @@ def _swept(padded: FloatArray, coefficients: Sequence[np.float32]) -> np.ndarray
 
 def _series(nearest: tuple[float, float, float, float], shape: tuple[int, ...]) -> np.ndarray:
     """Return the cut series at the waves of a grid of ``shape`` cells, each FACTOR cells long."""
-    own, along_x, along_y, across = nearest
+    same_cell, along_x, along_y, across = nearest
     x, y = (np.cos(2 * np.pi * np.fft.rfftfreq(n, FACTOR)) for n in shape)
-    return own + 2 * along_x * x[:, None] + 2 * along_y * y + 4 * across * x[:, None] * y
+    return same_cell + 2 * along_x * x[:, None] + 2 * along_y * y + 4 * across * x[:, None] * y
 
 
 def _summed(field: FloatArray) -> np.ndarray:

@@ -133,8 +133,8 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         spacing = (self.spacing[0] * fx, self.spacing[1] * fy)
         if self.boundary == ("free", "periodic"):
             kernel = semiperiodic_coefficients(shape, spacing, self.e_prime)
-            own = line_coefficients(1, self.spacing[0], self.e_prime, shape[0] * spacing[0])[0]
-            kernel[:, 0] += (self._kernel[0, 0] - self.layer - own) * fx  # gauge
+            own_coefficient = line_coefficients(1, self.spacing[0], self.e_prime, shape[0] * spacing[0])[0]
+            kernel[:, 0] += (self._kernel[0, 0] - self.layer - own_coefficient) * fx  # gauge
             symbol = even_transform(kernel, padded[0]) + self.layer
         else:
             symbol = np.ascontiguousarray(self.symbol[: padded[0] // 2 + 1, : padded[1] // 2 + 1])

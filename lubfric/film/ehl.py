@@ -175,5 +175,5 @@ def _searched_inlet(
     bounds = math.log(1e-3 * (guess - b)), math.log(furthest - b)
     root = increasing_root(surplus, math.log(guess - b), step=0.5, bounds=bounds, tolerance=1e-3 * effort.tolerance)
     there, levels, first, _ = root.payload
-    whole = root.value < 0 and root.x == bounds[1]  # on these cells the full inlet takes no more
-    return replace(there, fed=None if whole else flow), levels, spent + first, notes
+    takes_full_inlet = root.value < 0 and root.x == bounds[1]  # on these cells the full inlet takes no more
+    return replace(there, fed=None if takes_full_inlet else flow), levels, spent + first, notes

@@ -80,9 +80,9 @@ def log_mean_fluidity(log_eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.n
 def elastic_film(grid: Grid, z: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return H00 + X²/2 + K P at the nodes, and its derivatives by e and by the stretch of the grid."""
     X = grid.xi + z[-1]
-    own = grid.kernel[:, :-1] @ z[:-3]
-    by_stretch = own - 4.0 / np.pi * (grid.weights[:-1] @ z[:-3]) + X * grid.xi
-    return own + (z[-3] + 0.5 * X * X), X, by_stretch
+    deflection = grid.kernel[:, :-1] @ z[:-3]
+    by_stretch = deflection - 4.0 / np.pi * (grid.weights[:-1] @ z[:-3]) + X * grid.xi
+    return deflection + (z[-3] + 0.5 * X * X), X, by_stretch
 
 
 def residual(grid: Grid, problem: FilmProblem, z: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, ReynoldsTerms]:

@@ -56,9 +56,11 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def parser() -> argparse.ArgumentParser:
     """Return the parser of the command. What it returns has ``call``, the module and the function to call."""
-    whole = argparse.ArgumentParser(prog="lubfric", description="Friction of mixed-lubricated rough line contacts.")
-    whole.add_argument("--version", action="version", version=f"lubfric {__version__}")
-    commands = whole.add_subparsers(required=True, metavar="COMMAND")
+    lubfric_parser = argparse.ArgumentParser(
+        prog="lubfric", description="Friction of mixed-lubricated rough line contacts."
+    )
+    lubfric_parser.add_argument("--version", action="version", version=f"lubfric {__version__}")
+    commands = lubfric_parser.add_subparsers(required=True, metavar="COMMAND")
     table = packaged(__package__, "commands.toml")
     for name, row in table.items():
         if name != "groups":
@@ -70,7 +72,7 @@ def parser() -> argparse.ArgumentParser:
                 given = {key: value for key, value in options.items() if key != "kind"}
                 given |= {} if given.get("help") else {"help": argparse.SUPPRESS}
                 command.add_argument(argument, **kind | given)
-    return whole
+    return lubfric_parser
 
 
 def scene_of(arguments: Namespace) -> Scene:

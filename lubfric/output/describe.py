@@ -101,47 +101,47 @@ def estimate_scene(
 ) -> SceneEstimate:
     """Return what is known of a ``scene`` before it is solved at ``speeds`` [m/s], as `describe_scene`; or at its own
     speed and the slide-roll ``ratios``. ``sample`` and ``surface``: as `lubfric.prepare` makes them."""
-    own = scene.motion.entrainment_speed
+    scene_speed = scene.motion.entrainment_speed
     chosen = np.geomspace(*span(scene, surface.sq), EXPECTED_SPEEDS).tolist() if isinstance(speeds, str) else speeds
-    speeds = [own] if len(ratios) else list(chosen) or list(scene.motion.speeds) or [own]
+    speeds = [scene_speed] if len(ratios) else list(chosen) or list(scene.motion.speeds) or [scene_speed]
     changing = []
     over = counted(len(ratios), "ratios") if len(ratios) else counted(len(speeds), "speeds")
     if scene.transient is not None:
         speeds = list(speeds_of_run(scene)) or [0.0]
         over = "a run in time"
-        own = max(speeds)
+        scene_speed = max(speeds)
     model, seconds = _model(scene, sample, surface, speeds, ratios)
     beside = COMMAND_SECONDS
     if scene.transient is None and sample.is_resolved:
-        beside += estimated_work_of_point(scene, sample, surface, own).fine_fields_seconds
+        beside += estimated_work_of_point(scene, sample, surface, scene_speed).fine_fields_seconds
     cost = f"about {in_words(seconds)} of processor time for {over} ({WITHIN_WORDS})" if seconds else ""
     if scene.transient is not None:
         cost, seconds, lines = _course(scene, sample, surface, speeds)
         changing = [*_histories(scene), cost, *lines]
     elif cost:
         model.append(f"cost: {cost}; 'lubfric run' takes {in_words(beside)} more for start, pictures and files")
-    model_asked_first = candidates(scene.numerics.model)[0]
+    first_model = candidates(scene.numerics.model)[0]
     at = [
         *((None, violation) for violation in beforehand(scene, surface)),
-        *model_asked_first.expected_violations(scene, sorted(set(speeds))),
+        *first_model.expected_violations(scene, sorted(set(speeds))),
     ]
     refusals = _doubts([(speed, violation) for speed, violation in at if violation.severe])
-    whole = sample.map
-    notes = [note for note in whole.notes if "nm as measured" in note]
+    scene_map = sample.map
+    notes = [note for note in scene_map.notes if "nm as measured" in note]
     effects = expected_effects(
         _fastest_moment(scene),
-        whole.sq,
-        own,
+        scene_map.sq,
+        scene_speed,
         includes_motion=any(model.includes_motion for model in candidates(scene.numerics.model)),
     )
     changes = [
-        f"likely changes of f at {own:g} m/s, estimated by closed forms before the solve; the report has those of the "
+        f"likely changes of f at {scene_speed:g} m/s, estimated by closed forms before the solve; the report has those of the "
         "result:",
         *map(effect_in_words, effects),
     ]
     sections = {
         "transient": changing,
-        "surface": [*sample.described(surface), *notes, slopes_in_words(whole)],
+        "surface": [*sample.described(surface), *notes, slopes_in_words(scene_map)],
         "contact": [f"{_plan(scene, surface)}; {over}"],
         "model": model,
         "effects not modelled": changes if effects else ["none that would change f by more than its tolerance"],
@@ -273,8 +273,8 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
     table: list[tuple[str, ...]] = [("U [m/s]", "M", "L", "film [nm]", "lambda ratio", "asperity contact")]
     chosen = ("of them deterministic",) * (scene.numerics.model == AUTO)
     table[0] += ("strips", *chosen, "length of the line [mm]", "processor time [s]") * sampled
-    own = (scene.motion.entrainment_speed,) if steady else ()
-    for speed in sorted({*speeds[:: max(1, len(speeds) // TABLE_SPEEDS)], *own, speeds[-1]}):
+    scene_speeds = (scene.motion.entrainment_speed,) if steady else ()
+    for speed in sorted({*speeds[:: max(1, len(speeds) // TABLE_SPEEDS)], *scene_speeds, speeds[-1]}):
         one = estimated_work_of_point(scene, sample, surface, speed)
         film = ("", "", "0", "0", "no entrainment" + ": all load" * steady)
         if speed != 0:

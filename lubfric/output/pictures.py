@@ -236,7 +236,7 @@ def _mark(
 def plot_contact(path: Path, prepared: Prepared, point: FrictionResult) -> None:
     """Draw the fields of ``point``, a `lubfric.FrictionResult`, as PNG."""
     if point.deterministic is not None:
-        figure = _one_gap(point.fields, point.speed, prepared.scene.bodies.half_width)
+        figure = _deterministic_picture(point.fields, point.speed, prepared.scene.bodies.half_width)
     else:
         figure = _two_pressures(prepared, point, point.fields)
     figure.savefig(path)
@@ -248,7 +248,7 @@ def plot_compared(path: Path, prepared: Prepared, point: FrictionResult) -> None
     _two_pressures(prepared, point, point.compared_fields).savefig(path)
 
 
-def _one_gap(fields: Any, speed: float, half_width: float) -> Figure:
+def _deterministic_picture(fields: Any, speed: float, half_width: float) -> Figure:
     """Pressure, gap and shear around the Hertz strip, from above, in the part with the highest pressure."""
     from matplotlib.colors import LogNorm
     from matplotlib.layout_engine import ConstrainedLayoutEngine

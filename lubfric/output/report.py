@@ -356,8 +356,8 @@ def _nearest(scene: Scene, curve: CurveResult) -> tuple[FrictionResult, str, flo
     """Return the solved point nearest to the scene's own, its place as text, and its sliding speed [m/s]; None if no point
     has an answer."""
     name = curve.SWEPT[0]
-    own = scene.motion.entrainment_speed if name == "speed" else scene.motion.slide_roll_ratio
-    away = np.where(np.isfinite(curve["coefficient"]), np.abs(getattr(curve, name) - own), np.inf)
+    scene_value = scene.motion.entrainment_speed if name == "speed" else scene.motion.slide_roll_ratio
+    away = np.where(np.isfinite(curve["coefficient"]), np.abs(getattr(curve, name) - scene_value), np.inf)
     index = int(away.argmin())
     point = curve.points[index]
     if point is None:

@@ -88,7 +88,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
         parts_on(None if speeds_apart else executor),
     ):
         begun = run_begun(scene, arguments, names, kept, speeds, chosen, speeds=speeds)
-        with begun as (folder, prepared, estimate), progress_to(_moments_told()):
+        with begun as (folder, prepared, estimate), progress_to(_moment_reports()):
             curve = studies.stribeck(
                 prepared,
                 speeds,
@@ -445,7 +445,7 @@ def _range(option: str, words: list[str], unit: str, most: float, *, linear: boo
     return (np.linspace if linear else np.geomspace)(low, high, int(count)).tolist()
 
 
-def _moments_told(interval: float = PROGRESS_SECONDS) -> Callable[[str, int, int], None]:
+def _moment_reports(interval: float = PROGRESS_SECONDS) -> Callable[[str, int, int], None]:
     """Return what writes how far a point is, and the time left for this part of it, every ``interval`` [s] at most."""
     begun = last = time.monotonic()
 

@@ -74,7 +74,7 @@ def make_mesh(first: float, last: float, nodes: int, *, flooded: bool) -> Mesh:
     far = weights.copy()
     far[: BANDWIDTH + 1] = 0.0
     near = min(BANDWIDTH, nodes - 1)
-    whole = _transform(log_kernel)
+    transformed = _transform(log_kernel)
     outer = _transform(far)
     return Mesh(
         X=X,
@@ -82,7 +82,7 @@ def make_mesh(first: float, last: float, nodes: int, *, flooded: bool) -> Mesh:
         log_kernel=log_kernel,
         weights=weights,
         bandwidth=near,
-        log_transform=whole,
+        log_transform=transformed,
         far_transform=outer,
         flooded=flooded,
     )

@@ -110,9 +110,9 @@ class Cells:
         first = self.first_x
         if first is None:
             first = -0.5 * (self.columns - 1) * self.spacing[0] - fx // 2 * self.native_spacing[0]
-        own = first + np.arange(self.columns * fx) * self.native_spacing[0]
+        native_centres = first + np.arange(self.columns * fx) * self.native_spacing[0]
         step = fx if coarsening is None else coarsening[0]
-        return own[fx // 2 % step :: step]
+        return native_centres[fx // 2 % step :: step]
 
     def thinned(self, heights: np.ndarray, coarsening: tuple[int, int]) -> np.ndarray:
         """Return every n-th of ``heights`` on native cells, n the ``coarsening`` along each axis; along x those at

@@ -186,13 +186,13 @@ class MeasuredStrips(Sample):
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.spacing, note)
 
     def piece(self, index: int, length: float = PIECE) -> Surface:
-        whole = self._columns(self.starts[index])
+        window = self._columns(self.starts[index])
         blend = self._blend
         unit = 4 * self.cells.coarsening[1]
         wanted = round(length * self.correlation_lengths[1] / self.surface.spacing[1])
-        rows = min(whole.shape[1] - blend, wanted) // unit * unit
-        first = (whole.shape[1] - rows - blend) // 2
-        piece = stacked([whole[:, first : first + rows + blend]], blend)[:, :rows]
+        rows = min(window.shape[1] - blend, wanted) // unit * unit
+        first = (window.shape[1] - rows - blend) // 2
+        piece = stacked([window[:, first : first + rows + blend]], blend)[:, :rows]
         return self._made(piece, self.surface.spacing, "a piece on the map's own cells")
 
     def _rows(self, native_rows: int) -> int:

@@ -158,13 +158,13 @@ class Scene(Shown):
     def with_keys(self, values: dict[str, Any]) -> Scene:
         """Return a copy with the ``values`` by "section.key", or by "section" for a whole one. All keys of a section
         act at once, in any order: a Hertz pressure is that with the radius given with it."""
-        whole = {key: value for key, value in values.items() if "." not in key and not isinstance(value, dict)}
+        sections = {key: value for key, value in values.items() if "." not in key and not isinstance(value, dict)}
         parts: dict[str, dict[str, Any]] = {}
         for key, value in values.items():
             section, dot, name = key.partition(".")
-            if key not in whole:
+            if key not in sections:
                 parts.setdefault(section, {}).update({name: value} if dot else value)
-        return self.with_(**whole).with_(**parts)
+        return self.with_(**sections).with_(**parts)
 
     def line_contact(self, speed: float) -> LineContact:
         """Return the smooth line contact of the total load at ``speed`` [m/s], not 0. Shear thins its flow, by the law

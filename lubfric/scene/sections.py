@@ -89,8 +89,8 @@ def ranges_of(section: str, values: Any) -> dict[str, tuple[float, float] | None
     of a complete section, None for all."""
     keys = SECTIONS[section].__dataclass_fields__ if not isinstance(values, dict) else values
     ranged = [key for key in keys if typical(f"{section}.{key}")]
-    whole = not isinstance(values, dict)
-    return {f"{section}.{key}": None if whole else read_value(section, key, values[key])[1] for key in ranged}
+    is_complete = not isinstance(values, dict)
+    return {f"{section}.{key}": None if is_complete else read_value(section, key, values[key])[1] for key in ranged}
 
 
 def changed_section(section: str, old: Any, values: Any) -> Any:

@@ -322,9 +322,11 @@ def _steered(x: FloatArray, values: FloatArray, slopes: FloatArray, at: FloatArr
     if x.size < 2 or not np.isfinite(slopes).any():
         return _cubic(x, values, at, smooth=smooth)
     spline = CubicSpline(x, values)
-    own = spline(x, 1)
+    spline_slopes = spline(x, 1)
     weight = 0.5 if smooth else 1.0
-    cubics = CubicHermiteSpline(x, values, np.where(np.isfinite(slopes), weight * slopes + (1 - weight) * own, own))
+    cubics = CubicHermiteSpline(
+        x, values, np.where(np.isfinite(slopes), weight * slopes + (1 - weight) * spline_slopes, spline_slopes)
+    )
     inside = np.clip(at, x[0], x[-1])
     return cubics(inside) + cubics(inside, 1) * (at - inside)
 

@@ -218,8 +218,8 @@ def law_of(
     numbers |= {name: float(np.exp(np.log(v).mean())) for name, v in (("U0", U), ("eta0", eta), ("p0", p))}
     numbers |= _viscosity(T, eta, slope)
     sliding = scene.motion.slide_roll_ratio * U
-    rest = max(scene.bodies.boundary_friction(*at) for at in zip(sliding.tolist(), T.tolist()))
-    numbers |= _fitted(numbers, (U, T, p), boundary, film, eta, rest)
+    at_rest = max(scene.bodies.boundary_friction(*at) for at in zip(sliding.tolist(), T.tolist()))
+    numbers |= _fitted(numbers, (U, T, p), boundary, film, eta, at_rest)
     off = value(numbers, U, T, p) / (boundary + film) - 1
     ranges = {n: (float(v.min()), float(v.max())) for n, v in (("speed", U), ("temperature", T), ("pressure", p))}
     widths = np.where(np.isfinite(model), 0.5 * (high - low) / np.abs(f), np.nan)[np.isfinite(f)]
@@ -274,7 +274,7 @@ def _fitted(
     boundary: FloatArray,
     film: FloatArray,
     eta: FloatArray,
-    rest: float,
+    at_rest: float,
 ) -> dict[str, float]:
     """The other numbers, by least squares of ln f from several starts."""
     from scipy.optimize import least_squares
@@ -290,7 +290,7 @@ def _fitted(
     for exponents, moved in ((("a", "e1", "e2"), e), (("c", "d1", "d2"), q)):
         if np.ptp(moved) > 1e-9:
             free += exponents if most else exponents[1:]
-    bounds = POSITIVE | {"b": (POSITIVE["b"][0], OVER_REST * max(most, rest))}
+    bounds = POSITIVE | {"b": (POSITIVE["b"][0], OVER_REST * max(most, at_rest))}
     low, high = np.array([np.log(bounds[name]) if name in bounds else EXPONENT_BOUNDS for name in free]).T
 
     def read(z: FloatArray) -> dict[str, float]:

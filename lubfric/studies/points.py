@@ -58,12 +58,12 @@ def solved(
 
     def solve(speed: float) -> Outcome:
         fields: bool | str = ("fine" if fine_fields else True) if speed in kept else False
-        own = point_key(key, speed, fields=fields)
-        outcome = store.get(own, OUTCOME)
+        key_of_point = point_key(key, speed, fields=fields)
+        outcome = store.get(key_of_point, OUTCOME)
         if outcome is None:
             outcome = model if isinstance(model, LubfricError) else outcome_of(model, speed, fields=fields)
             if not isinstance(outcome, MapError):  # its file may be there again, next time
-                store.add(own, outcome)
+                store.add(key_of_point, outcome)
         return outcome
 
     choosing = chosen(model, first, solve) if isinstance(model, Prepared) and not speeds else None

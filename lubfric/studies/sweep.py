@@ -158,7 +158,7 @@ def stribeck(
     Returns a `StribeckResult`. Raises `InputError`, and, with the curve, `ConvergenceError` or `ValidityError`.
     """
     validate.called_back("on_point", on_point, "done, total, speed, outcome")
-    requested, kept = _asked(speeds, fields, scene_of(scene))
+    requested, kept = _requested(speeds, fields, scene_of(scene))
     executor, prepared = checked_executor(executor), prepared_with(scene, tolerance, model)
     if not requested:
         span(prepared.scene, prepared.surface.sq)  # raises where there is no range to choose from
@@ -198,7 +198,7 @@ def stribeck(
     return checked_curve(_collected(requested, outcomes, prepared), raise_on_failure=raise_on_failure)
 
 
-def _asked(speeds: str | ArrayLike | None, fields: Any, scene: Scene) -> tuple[list[float], list[float]]:
+def _requested(speeds: str | ArrayLike | None, fields: Any, scene: Scene) -> tuple[list[float], list[float]]:
     """Return the requested speeds [m/s], one or many, or those of the scene (none: chosen ones); and those whose
     film and contact are kept."""
     kept = []

@@ -122,7 +122,7 @@ def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
         axes.figure.colorbar(ScalarMappable(scale, colours), ax=axes, label=axis_label(key))
     for index, colour in zip(indices, colours(shades)):
         named = figures.plain_words(label(result.plan, index)) if few else None
-        own: dict[str, Any] = {"color": colour, "lw": 1.0, "label": named} | style
+        line_style: dict[str, Any] = {"color": colour, "lw": 1.0, "label": named} | style
         speed = np.abs(result.speeds(index))
         f = result.columns["coefficient"][index]
         curve = result.curve(index) if result.chosen else None
@@ -131,9 +131,9 @@ def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
         dots: dict[str, Any] = {"marker": "o", "ms": 3} if few or curve is None else {}
         if curve is not None:
             fine = np.geomspace(speed[good][0], speed[good][-1], LINE_POINTS)
-            axes.plot(fine, curve.at(fine), **own)
-            own |= {"ls": "", "label": None}
-        axes.plot(speed[good], f[good], **dots | own)
+            axes.plot(fine, curve.at(fine), **line_style)
+            line_style |= {"ls": "", "label": None}
+        axes.plot(speed[good], f[good], **dots | line_style)
     axes.set(xscale="log", xlabel=axis_label(SPEED), ylabel=figures.FRICTION_LABEL)
     figures.plain_ticks(axes.xaxis)
     rows = figures.key_above(axes, 2) if few and len(indices) > 1 else 0
@@ -162,9 +162,9 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
         breaks = _changes_of_direction(result, index)[order] if quantity == "coefficient" else np.zeros(0)
         ends = np.flatnonzero(np.diff(breaks)) + 1  # before these points a line ends
         named = figures.plain_words(label(result.plan, (*index, slice(None)))) if len(indices) > 1 else None
-        own: dict[str, Any] = {"marker": "o", "ms": 3, "lw": 1.2, "label": named or COLUMNS[quantity].label}
-        own |= {"color": figures.BLUE} if len(indices) == 1 else {}
-        (line,) = axes.plot(np.insert(over[order], ends, np.nan), np.insert(values, ends, np.nan), **own | style)
+        line_style: dict[str, Any] = {"marker": "o", "ms": 3, "lw": 1.2, "label": named or COLUMNS[quantity].label}
+        line_style |= {"color": figures.BLUE} if len(indices) == 1 else {}
+        (line,) = axes.plot(np.insert(over[order], ends, np.nan), np.insert(values, ends, np.nan), **line_style | style)
         if quantity in INTERVAL_COLUMNS:
             low, high = (times * result[name][index][order] for name in INTERVAL_COLUMNS[quantity])
             known: dict[str, Any] = {"label": BAND} if index == indices[-1] and np.isfinite(low).any() else {}

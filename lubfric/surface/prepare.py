@@ -44,8 +44,8 @@ def fitted_form(
         terms = _normal_solution(z, valid.astype(float), along, there)
         if terms is not None:
             fitted = _polynomial(terms, along)
-            rest = np.where(valid, z - fitted, 0.0)
-            fits.append((float(np.vdot(rest, rest)), float(np.abs(rest).max()), fitted, terms))
+            residual = np.where(valid, z - fitted, 0.0)
+            fits.append((float(np.vdot(residual, residual)), float(np.abs(residual).max()), fitted, terms))
     if not fits:
         curve = "line" if form == "plane" else "line or conic"
         said = f"{np.count_nonzero(valid)} measured points lie on one {curve}"
@@ -73,11 +73,11 @@ def _normal_solution(
     if values[0] <= DEPENDENT * values[-1]:
         return None
     coefficients = np.zeros(len(powers))
-    rest = z
+    residual = z
     for _ in range(2):
-        right = along[0].T @ rest @ along[1]
+        right = along[0].T @ residual @ along[1]
         coefficients = coefficients + np.linalg.solve(matrix, np.array([right[p, q] for p, q in powers]))
-        rest = np.where(weight > 0, z - _polynomial(dict(zip(powers, coefficients)), along), 0.0)
+        residual = np.where(weight > 0, z - _polynomial(dict(zip(powers, coefficients)), along), 0.0)
     return dict(zip(powers, coefficients.tolist()))
 
 

@@ -457,7 +457,7 @@ def _table(path: Path, text: str, decimal: str | None) -> NumberTable:
         comments = [(number, line) for number, line in comments if number < second]
         notes.append(f"first of several blocks; the next begins at line {second}")
     header = read_header(path.name, sorted([*comments, *titles]))
-    own = _own_spacing(path, comments)
+    own_spacing = _own_spacing(path, comments)
     for number, line in titles:
         how = "read" if number in header.lines_read else "skipped"
         notes.append(f"line {number} {how} as a title: {line[:60]!r}")
@@ -480,7 +480,7 @@ def _table(path: Path, text: str, decimal: str | None) -> NumberTable:
         notes.append(f"{counted(marked, 'marks')} of missing points taken for unmeasured")
     numbers = _numbers(path, lines, separator)
     return NumberTable(
-        numbers=numbers, header=header, titles=titles, comments=comments, own_spacing=own, notes=tuple(notes)
+        numbers=numbers, header=header, titles=titles, comments=comments, own_spacing=own_spacing, notes=tuple(notes)
     )
 
 
@@ -501,10 +501,10 @@ def _own_spacing(path: Path, comments: Lines) -> tuple[float, float] | None:
     """Return the spacing [m] of a comment '# spacing = dx dy', or None."""
     spacing = None
     for _, line in comments:
-        key, mark, rest = line[1:].replace(":", "=", 1).partition("=")
+        key, mark, value = line[1:].replace(":", "=", 1).partition("=")
         if key.strip() != "spacing" or not mark:
             continue
-        words = [word for word in re.split(r"[\s,;]+", rest) if word not in ("", "m")]
+        words = [word for word in re.split(r"[\s,;]+", value) if word not in ("", "m")]
         try:
             pair = [float(word) for word in words]
         except ValueError:

@@ -139,8 +139,8 @@ def _listed(root: ElementTree.Element, count: int, kind: str) -> np.ndarray:
         values = np.array([float(text) if text else math.nan for text in numbers])
     except ValueError as problem:
         raise _bad("Datum", str(problem)[:80], "a number, or none where unmeasured") from None
-    whole = kind in ("<i2", "<i4")
-    if whole and not (np.isnan(values) | (values == np.rint(values))).all():
+    are_integers = kind in ("<i2", "<i4")
+    if are_integers and not (np.isnan(values) | (values == np.rint(values))).all():
         raise _bad("Datum", "a fraction", "whole numbers for CZ DataType I or L")
     return values
 

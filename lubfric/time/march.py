@@ -288,12 +288,12 @@ def _pair(now: Progress, end: float, solver: Solver) -> Attempt | None:
     start = now.levels[-1]
     step = end - start.time
     middle = start.time + 0.5 * step
-    whole = _solved(solver, end, Memory(1.0 / step, start.film), start.z, now.payload)
-    first = whole and _solved(solver, middle, Memory(2.0 / step, start.film), start.z, now.payload)
+    single = _solved(solver, end, Memory(1.0 / step, start.film), start.z, now.payload)
+    first = single and _solved(solver, middle, Memory(2.0 / step, start.film), start.z, now.payload)
     second = first and _solved(solver, end, Memory(2.0 / step, first.film), first.z, first.payload)
-    if whole is None or first is None or second is None:
+    if single is None or first is None or second is None:
         return None
-    return (start, _level(first), _level(second)), second, solver.error_of(second, whole.film - second.film), 1
+    return (start, _level(first), _level(second)), second, solver.error_of(second, single.film - second.film), 1
 
 
 def _bdf2(now: Progress, end: float, solver: Solver) -> Attempt | None:

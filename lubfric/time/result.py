@@ -414,8 +414,12 @@ def friction_over_time(axes: "Axes", c: dict[str, np.ndarray]) -> None:
     parts = c["coefficient"], c["boundary_force"] * sense / c["load"], film
     figures.friction_lines(axes, c["time"] * scale, [np.where(moving, part, np.nan) for part in parts])
     if not moving.all():
-        rest: dict[str, Any] = {"where": ~moving, "transform": axes.get_xaxis_transform(), "label": "at rest: no f"}
-        axes.fill_between(c["time"] * scale, 0, 1, color=figures.GREY, alpha=0.2, lw=0, **rest)
+        rest_band: dict[str, Any] = {
+            "where": ~moving,
+            "transform": axes.get_xaxis_transform(),
+            "label": "at rest: no f",
+        }
+        axes.fill_between(c["time"] * scale, 0, 1, color=figures.GREY, alpha=0.2, lw=0, **rest_band)
     axes.set(xlabel=f"time ({unit})", ylabel=figures.FRICTION_LABEL)
     figures.key_above(axes)
 

@@ -164,11 +164,13 @@ class Stencil:
     def neighbours(nx: int, ny: int) -> np.ndarray:
         """Return the numbers (i ny + j) of the cells that the coefficients belong to (6, nx, ny); the own where there
         is none."""
-        own = np.arange(nx * ny).reshape(nx, ny)
-        neighbours = np.stack([own, own, np.roll(own, 1, axis=1), own, np.roll(own, -1, axis=1), own])
-        neighbours[0, 2:] = own[:-2]
-        neighbours[1, 1:] = own[:-1]
-        neighbours[5, :-1] = own[1:]
+        numbers = np.arange(nx * ny).reshape(nx, ny)
+        neighbours = np.stack(
+            [numbers, numbers, np.roll(numbers, 1, axis=1), numbers, np.roll(numbers, -1, axis=1), numbers]
+        )
+        neighbours[0, 2:] = numbers[:-2]
+        neighbours[1, 1:] = numbers[:-1]
+        neighbours[5, :-1] = numbers[1:]
         return neighbours
 
 
@@ -186,12 +188,12 @@ def derivatives(problem: Problem, at: MassBalance, open_: BoolArray) -> tuple[np
         stencil.add("N", across[1] / dy)
         stencil.add("S", -np.roll(across[0], 1, axis=1) / dy)
         stencil.add(0, -np.roll(across[1], 1, axis=1) / dy)
-    own = at.couette.by_own / dx
+    by_own_cell = at.couette.by_own / dx
     before = at.couette.by_before / dx
     for stencil, factor in ((by_h, at.fluid.density), (by_p, at.fluid.density_slope * at.flow_gap)):
-        stencil.add(0, own * factor)
+        stencil.add(0, by_own_cell * factor)
         stencil.add("W", before[1:] * factor[:-1], here=slice(1, None))
-        stencil.add("W", -own[:-1] * factor[:-1], here=slice(1, None))
+        stencil.add("W", -by_own_cell[:-1] * factor[:-1], here=slice(1, None))
         stencil.add("WW", -before[1:-1] * factor[:-2], here=slice(2, None))
     by_fill.add(0, at.couette.by_fill / dx)
     by_fill.add("W", -at.couette.by_fill[:-1] / dx, here=slice(1, None))

@@ -142,7 +142,7 @@ class System:
         at = self.at
         fluid = self.at.mass_balance.fluid
         fill = self.at.state.fill
-        own = Stencil.NAMES.index(0)
+        diagonal = Stencil.NAMES.index(0)
         open_ = ~self.touching  # also where h is still the floor: it is about to rise
         rows = derivatives(at.problem, at.mass_balance, open_)
         if at.history is not None:
@@ -150,10 +150,10 @@ class System:
             rate = stored(at.mass, at.history)[1]
             by = fluid.density_slope * film * fill, fluid.density * open_ * fill, fluid.density * film
             for data, mass in zip(rows, by):
-                data[own] += mass * rate
+                data[diagonal] += mass * rate
         for data in rows:
             data *= np.where(self.touching, 0.0, self.row)
-        rows[1][own] += self.touching / self.film
+        rows[1][diagonal] += self.touching / self.film
         return rows
 
     def _inner(self, rows: FloatArray) -> FloatArray:
@@ -216,11 +216,11 @@ class System:
 
 def _notable(data: FloatArray) -> np.ndarray:
     """Return the coefficients ``data`` (6, nx, ny) with zeros where one is smaller than `OMITTED_COEFFICIENT` of the cell's own."""
-    own = Stencil.NAMES.index(0)
+    diagonal = Stencil.NAMES.index(0)
     size = np.abs(data)
-    least = OMITTED_COEFFICIENT * size[own]
+    least = OMITTED_COEFFICIENT * size[diagonal]
     notable = size >= least
-    notable[own] = True
+    notable[diagonal] = True
     return np.where(notable, data, 0.0)
 
 

@@ -44,8 +44,8 @@ class DeterministicSolution(SampleSolution):
 
     @property
     def sampling_error(self) -> StandardError:
-        whole = self.estimate.error
-        return StandardError(whole.error / abs(self.estimate.numbers["coefficient"]), whole.freedom)
+        error = self.estimate.error
+        return StandardError(error.error / abs(self.estimate.numbers["coefficient"]), error.freedom)
 
     def required_strips(self) -> int:
         return self.wanted

@@ -161,8 +161,8 @@ def newton(
         count_work(work_of_steps(at.gap.size, 1, iterations))
         if not np.all(np.isfinite(step.gap)):
             return result
-        at, whole, length = _advanced(at, step)
-        promised.append(whole)
+        at, is_complete, length = _advanced(at, step)
+        promised.append(is_complete)
         if length < least:
             return result
 

@@ -65,8 +65,8 @@ def thinning(
     factor = 1.0
     slopes = []
     for law, tau_c in zip(lubricant.shear_laws, critical):
-        own, slope = law.thinning(newtonian_stress / tau_c, along=along)
-        factor = own + (factor - 1.0)
+        by_law, slope = law.thinning(newtonian_stress / tau_c, along=along)
+        factor = by_law + (factor - 1.0)
         slopes.append(slope)
     parts = [slope / factor for slope in slopes]
     return factor, sum(parts), parts

@@ -269,8 +269,8 @@ def change_of_places(coarse: Places, fine: Places, mean_load: float) -> float:
     count = max(coarse.load.size // COLUMNS_OF_A_PLACE, 2)
     load = _blocks(fine.load, count) - _blocks(coarse.load, count)
     friction = _blocks(fine.friction, count) - _blocks(coarse.friction, count)
-    own = friction - load * ((friction @ load) / max(load @ load, 1e-300))
-    scatter = float(np.std(own)) / math.sqrt(count - 1) / mean_load
+    unexplained = friction - load * ((friction @ load) / max(load @ load, 1e-300))
+    scatter = float(np.std(unexplained)) / math.sqrt(count - 1) / mean_load
     return math.hypot(fine.coefficient - coarse.coefficient, scatter) / abs(fine.coefficient)
 
 

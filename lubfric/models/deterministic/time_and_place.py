@@ -123,12 +123,12 @@ def mean_over_blocks(
     if control is None or not control.is_known:
         return MeanOverBlocks(mean, plain, plain, 0.0)
     columns.append((summits - control.mean) / control.threshold)
-    rest = _residual(values, columns, independence)
+    residual = _residual(values, columns, independence)
     slope = float(_fitted(values, columns)[-1])
     excess = sum(float(sample.summits.sum()) for sample in samples) / places - control.mean
     correction = -slope * excess / control.threshold
     of_mean = slope * control.error / control.threshold
-    error = StandardError(math.hypot(rest.error, of_mean), rest.freedom)
+    error = StandardError(math.hypot(residual.error, of_mean), residual.freedom)
     return MeanOverBlocks(mean + correction, error, plain, correction)
 
 

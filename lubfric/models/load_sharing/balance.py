@@ -325,12 +325,12 @@ def _seen_root(point: Point, near: RootStart) -> tuple[Point, Root]:
 def _contact_tolerance(point: Point, contact_state: ContactState, volume: float) -> float | None:
     """The tolerance that leaves less than ``volume`` of the gap of ``contact_state`` open: that of ``point`` if it does."""
     now = point.settings.contact_tolerance
-    own = point.rough_contact.adjustable_tolerance
+    adjustable = point.rough_contact.adjustable_tolerance
     fields = contact_state.fields
-    if own is None or fields is None or point.scene.numerics.contact_tolerance is not None:
+    if adjustable is None or fields is None or point.scene.numerics.contact_tolerance is not None:
         return now
     enough = max(volume * contact_state.mean_gap / fields.length, budget.TIGHTEST_CONTACT)
-    return now if (now or own) <= budget.SLACK * enough else 0.5 * enough
+    return now if (now or adjustable) <= budget.SLACK * enough else 0.5 * enough
 
 
 def _root(point: Point, near: RootStart) -> Root:

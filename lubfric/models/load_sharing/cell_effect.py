@@ -116,8 +116,10 @@ class CellEffect:
         if not self.contact_load:
             return self
         moved = abs(math.log(contact_load / self.contact_load))
-        rest = self.remaining_change + BY_LOAD * moved * (abs(self.gap_change) + self.error.error)
-        return replace(self, remaining_change=rest, area_error=self.area_error + abs(1 - self.area_factor) * moved)
+        remaining_change = self.remaining_change + BY_LOAD * moved * (abs(self.gap_change) + self.error.error)
+        return replace(
+            self, remaining_change=remaining_change, area_error=self.area_error + abs(1 - self.area_factor) * moved
+        )
 
 
 def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, sample: Sample) -> CellEffect:
@@ -182,31 +184,31 @@ def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, in
     places: list[tuple[np.ndarray, np.ndarray]] = []
     changes: list[float] = []
     states: list[ContactState] = []
-    rest = math.inf
+    remaining_change = math.inf
     for factors in ladder:
         rough_contact = contact_on_piece(prepared, sample, index, factors)
-        if rest <= enough and rough_contact.heights.size > MOST_PIECE_CELLS:
+        if remaining_change <= enough and rough_contact.heights.size > MOST_PIECE_CELLS:
             break
         start = states[-1] if states else None
         states.append(point.pressed(rough_contact, balance.film, balance.contact_load, start))
         places.append(_along_y(rough_contact, states[-1], slope, coarse.coarsening[1] // factors[1]))
         if len(places) > 1:
             changes.append(float(np.mean(places[-1][0]) - np.mean(places[-2][0])))
-            rest = remaining(changes)
-    own = len(places) == len(ladder)
+            remaining_change = remaining(changes)
+    reached_native = len(places) == len(ladder)
     step = coarse.spacing[1]
     length = sample.correlation_lengths[1]
     difference = places[-1][0] - places[0][0]
     area, area_error = _ratio(places[-1][1], places[0][1], step, length)
     if not sample.represents_more:
         area_error = 0.0
-    if not own:
+    if not reached_native:
         area_error = math.hypot(area_error, _ratio(places[-1][1], places[-2][1], step, length)[0] - 1)
     return CellStep(
         gap_change=float(difference.mean()),
         error=block_error(difference, step, length),
-        remaining_change=0.0 if own else rest,
-        finer_grid_change=predicted_next_change(changes[-1:-3:-1]) if own else math.nan,
+        remaining_change=0.0 if reached_native else remaining_change,
+        finer_grid_change=predicted_next_change(changes[-1:-3:-1]) if reached_native else math.nan,
         film_change=states[-1].mean_film - states[0].mean_film,
         area_factor=area,
         area_error=area_error,
@@ -278,8 +280,8 @@ def lost_summits(prepared: Prepared, point: Point, balance: Balance, sample: Sam
     """Return the height [m] that the cells of ``sample`` take from the highest summit of the first piece, measured by
     its distance to the film above it."""
     assert balance.film is not None
-    own, coarse = (
+    native, coarse = (
         point.pressed(contact_on_piece(prepared, sample, 0, factors), balance.film, 0.0, None).mean_gap
         for factors in ((1, 1), sample.cells.coarsening)
     )
-    return own - coarse
+    return native - coarse

@@ -77,8 +77,8 @@ def undetected_load(
     if scale == 0:
         return 0.0
     rate = -math.expm1(-math.exp(min(place / scale, 50.0)))  # of blocks that touch
-    spot = _spot(heights, spacing, e_prime, scale) * OVERLAP
-    return rate * spot / (size * step) * width
+    summit_load = _load_on_summit(heights, spacing, e_prime, scale) * OVERLAP
+    return rate * summit_load / (size * step) * width
 
 
 def hidden_contact(scene: Scene, rough_contact: HalfSpaceContact, forces: Forces, depth: float) -> float:
@@ -86,7 +86,7 @@ def hidden_contact(scene: Scene, rough_contact: HalfSpaceContact, forces: Forces
     [m] into a body, if every such piece has one."""
     bodies = scene.bodies
     length = rough_contact.heights.shape[1] * rough_contact.spacing[1]
-    load = _spot(rough_contact.heights, rough_contact.spacing, bodies.e_prime, depth) / length * bodies.width
+    load = _load_on_summit(rough_contact.heights, rough_contact.spacing, bodies.e_prime, depth) / length * bodies.width
     return _share(scene, load, forces)
 
 
@@ -95,11 +95,11 @@ def _share(scene: Scene, load: float, forces: Forces) -> float:
     that the film loses, to whose friction that is at most in proportion."""
     bodies = scene.bodies
     friction = abs(forces.coefficient)
-    own = bodies.boundary_friction_coefficient if scene.motion.slide_roll_ratio else 0.0
-    return load / bodies.load * max(own / friction, 1.0) if friction else math.inf
+    boundary_friction = bodies.boundary_friction_coefficient if scene.motion.slide_roll_ratio else 0.0
+    return load / bodies.load * max(boundary_friction / friction, 1.0) if friction else math.inf
 
 
-def _spot(heights: FloatArray, spacing: tuple[float, float], e_prime: float, depth: float) -> float:
+def _load_on_summit(heights: FloatArray, spacing: tuple[float, float], e_prime: float, depth: float) -> float:
     """Load [N] of the highest summit, as a sphere that is pressed in by ``depth`` [m]."""
     return 4 / 3 * 0.5 * e_prime * math.sqrt(summit_radius(heights, spacing)) * depth**1.5
 

@@ -165,11 +165,11 @@ def film_lubricant(scene: Scene, speed: float) -> Lubricant:
     from scipy.optimize import newton
 
     lubricant = scene.lubricant
-    whole = scene.line_contact(speed)
+    line = scene.line_contact(speed)
 
     def thinner(log_share: float) -> float:
         made = replace(lubricant, viscosity=lubricant.viscosity * math.exp(log_share))
-        return math.log(replace(whole, lubricant=made).moes_film / whole.moes_film)
+        return math.log(replace(line, lubricant=made).moes_film / line.moes_film)
 
     wanted = math.log(inlet.factor)
     share = newton(lambda share: thinner(share) - wanted, wanted / VISCOSITY_EXPONENT)
