@@ -194,7 +194,7 @@ def refuse_outliers(surface: Surface, name: str) -> None:
         raise InputError(
             f"surface {surface.source}: {alone} neighbours and would carry the load, the worst at (ix, iy) = {worst}, "
             f"{z:.3g} Sq high; give {name}.outliers = "
-            "'mask' to take them for unmeasured, 'keep' if they are real (lubfric.surface.outliers has the rule)"
+            "'mask' to take them for unmeasured, 'keep' if they are real (docs/inputs.md has the rule)"
         )
 
 

@@ -97,7 +97,7 @@ class Surface(FrozenArrays, Shown):
         curve = self.bearing()
         text = (
             f"{nx} x {ny} points, {lx * 1e6:.4g} x {ly * 1e6:.4g} µm, Sq {self.sq * 1e9:.4g} nm, "
-            f"Ra {self.sa * 1e9:.4g} nm, Rz {rz * 1e9:.4g} nm over {length * 1e3:.3g} mm, "
+            f"Ra {self.sa * 1e9:.4g} nm, Rz {rz * 1e9:.4g} nm (mean over lengths of {length * 1e3:.3g} mm), "
             f"Sk {curve.sk * 1e9:.4g}, Spk {curve.spk * 1e9:.4g}, Svk {curve.svk * 1e9:.4g} nm, "
             f"max |z|/Sq {self.largest_ratio:.3g}, {100 * self.missing_fraction:.3g} % missing"
         )
@@ -165,7 +165,11 @@ class Surface(FrozenArrays, Shown):
         count = np.count_nonzero(np.isfinite(self.heights) & ~mask)
         around = f"{prepare.WINDOW} x {prepare.WINDOW} points around"
         note = f"{count or 'no'} outliers masked (over {prepare.OUTLIER_LIMIT:g} deviations off {around})"
-        return self._with(np.where(mask, self.heights, np.nan), note, mask=mask)
+        masked = self._with(np.where(mask, self.heights, np.nan), note, mask=mask)
+        if not count:
+            return masked
+        note += f", which takes Sq from {self.sq * 1e9:.4g} to {masked.sq * 1e9:.4g} nm"
+        return replace(masked, notes=(*self.notes, note))
 
     def filtered(self, *, s: float | None = None, l: float | None = None) -> Surface:
         """Apply the areal Gaussian filters of ISO 16610-61 with nesting indices ``s`` and ``l`` [m] (None: not used),

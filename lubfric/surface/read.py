@@ -13,7 +13,7 @@ from ..errors import InputError
 from .header import LENGTH_UNITS
 from .height_map import Surface
 from .layout import kind_of_table, refuse_profile
-from .prepare import FORM_POWERS
+from .prepare import FORM_POWERS, outliers
 from .regrid import points
 from .sdf import SDF_FIRST_WORDS as SDF
 from .statistics import check_scale, check_slopes
@@ -232,7 +232,18 @@ def _prepared(surface: Surface, *, level: bool, fill: bool, form: str) -> Surfac
         if left[least] < BETTER * left[form]:
             words += f"; a form is left in it? give form = {least!r}"
         surface = replace(surface, notes=(*surface.notes, f"Sq {words}"))
-    return surface.fill() if fill else surface
+    surface = surface.fill() if fill else surface
+    return _with_outliers_noted(surface) if fill and level else surface
+
+
+def _with_outliers_noted(surface: Surface) -> Surface:
+    """Return the map with a note of its isolated points, which scenes refuse."""
+    count = np.count_nonzero(outliers(surface.heights, surface.mask, surface.periodic_axes) > 0)
+    if not count:
+        return surface
+    stand = "1 isolated point stands above its" if count == 1 else f"{count} isolated points stand above their"
+    note = f"{stand} neighbours: surface.outliers of a scene states what to do with them (docs/inputs.md)"
+    return replace(surface, notes=(*surface.notes, note))
 
 
 def _read_npy(path: Path) -> np.ndarray:

@@ -107,6 +107,10 @@ def check_slopes(surface: Surface) -> None:
         )
 
 
+# What to do about lengths that no surface has.
+WHERE_UNIT_IS_WRONG = "check the unit; where the file names none, give it: unit = 'um'"
+
+
 def check_scale(surface: Surface) -> None:
     """Raise `InputError` for a map of a file whose lengths cannot be right: another program wrote or read them, and may
     have taken a unit for another."""
@@ -116,7 +120,8 @@ def check_scale(surface: Surface) -> None:
         raise InputError(
             said,
             "surface",
-            f"{SHORTEST_SPACING:g} to {LONGEST_SPACING:g} m in a file of an instrument (a wrong unit, or none?)",
+            f"{SHORTEST_SPACING:g} to {LONGEST_SPACING:g} m in a file of an instrument",
+            WHERE_UNIT_IS_WRONG,
         )
     if min(surface.shape) < 3 or np.count_nonzero(np.isfinite(surface.heights)) < 9:
         return
@@ -127,7 +132,8 @@ def check_scale(surface: Surface) -> None:
         raise InputError(
             said,
             "surface",
-            f"{SMOOTHEST:g} to {IMPOSSIBLE_SLOPE:g} in a file of an instrument (a wrong unit, or none?)",
+            f"{SMOOTHEST:g} to {IMPOSSIBLE_SLOPE:g} in a file of an instrument",
+            WHERE_UNIT_IS_WRONG,
         )
 
 

@@ -459,8 +459,8 @@ def _table(path: Path, text: str, decimal: str | None) -> NumberTable:
     header = read_header(path.name, sorted([*comments, *titles]))
     own_spacing = _own_spacing(path, comments)
     for number, line in titles:
-        how = "read" if number in header.lines_read else "skipped"
-        notes.append(f"line {number} {how} as a title: {line[:60]!r}")
+        is_read = number in header.lines_read or bool(column_units([(number, line)]))
+        notes.append(f"line {number} {'read' if is_read else 'skipped'} as a title: {line[:60]!r}")
     separator, comma = _marks(path, lines, decimal)
     if separator is not None and all(line.endswith(separator) for _, line in lines):
         lines = [(number, line[:-1].rstrip(" ")) for number, line in lines]  # a separator behind every line

@@ -144,7 +144,20 @@ def test_points_in_a_unit_that_nobody_states_are_refused(heights, tmp_path):
     """In µm they would be a map of 48 x 72 m; with the unit they are read."""
     path = tmp_path / "sensofar.dat"
     path.write_text("\n".join(triplets(heights, (1e-6, 1e-6, 1e-6), " ")))
-    with pytest.raises(lubfric.InputError, match="spacing = 1 x 2 m; allowed: .*a wrong unit, or none"):
+    with pytest.raises(lubfric.InputError, match="spacing = 1 x 2 m; allowed: .*give it: unit = 'um'"):
         lubfric.read_surface(path)
     surface = lubfric.read_surface(path, unit="um")
     assert surface.spacing == pytest.approx(STEPS) and np.allclose(surface.heights, heights, atol=1e-11)
+
+
+def test_isolated_points_are_noted_where_a_map_is_read_and_what_masking_does_to_sq(tmp_path):
+    rough = np.random.default_rng(3).normal(scale=1e-8, size=(40, 50))
+    rough[7, 9] = 1e-6
+    np.save(tmp_path / "spike.npy", rough)
+    surface = lubfric.read_surface(tmp_path / "spike.npy", spacing=1e-6)
+    assert any(note.startswith("1 isolated point stands above its neighbours") for note in surface.notes)
+    masked = surface.without_outliers()
+    (note,) = (note for note in masked.notes if "outliers masked" in note)
+    assert f"takes Sq from {surface.sq * 1e9:.4g} to {masked.sq * 1e9:.4g} nm" in note and masked.sq < surface.sq
+    np.save(tmp_path / "clean.npy", rough - rough * (rough > 1e-7))
+    assert not any("isolated" in note for note in lubfric.read_surface(tmp_path / "clean.npy", spacing=1e-6).notes)
