@@ -191,6 +191,9 @@ def test_it_stops_where_the_asperity_load_has_vanished(monkeypatch):
     assert "less than 0.1 %" in wear.stopped and wear.distance[-1] < 100
     assert wear.asperity_load_ratio[-1] < 0.01 and wear.lift_off_speed[-1] < 0.25
     assert wear.notes == ()
+
+
+def test_without_asperity_load_nothing_wears():
     lifted = run_in(ROUGH.with_(motion={"entrainment_speed": 2.0}), distance=1.0, wear_coefficient=1e-6)
     np.testing.assert_array_equal(lifted.surface.heights, lifted.dented.heights)
     assert "less than 0.1 %" in lifted.wear.stopped
