@@ -228,7 +228,8 @@ def solve_step(equations: StepEquations, z: np.ndarray, *, tolerance: float = 1e
     """Solve the complementarity equations from z until ``equations.residual`` <= tolerance.
 
     A node counts as cavitated when the pressure that its own equation requires, P - r/(dr/dP), is negative. This
-    primal-dual active set is a semismooth Newton method. If it fails, the load is changed in stages from the load of z
+    primal-dual active set is a semismooth Newton method. A node upstream of the lubricant has no pressure at all: rounding
+    that left some there would count it as filled. If it fails, the load is changed in stages from the load of z
     to the requested one. (With a spring that is not needed.)
     """
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
@@ -262,7 +263,7 @@ def _iterated(equations: StepEquations, z: np.ndarray, tolerance: float, max_ste
         if status != ITERATION_LIMIT or step == max_steps:
             break
         J = equations.jacobian(t)
-        cavitated = t.P - t.r / np.diagonal(J)[:-1] < 0.0
+        cavitated = equations.dry | (t.P - t.r / np.diagonal(J)[:-1] < 0.0)
         delta = _newton(J, t, cavitated)
         if delta is None:
             status = DIVERGED

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 
 from ..errors import InputError
 from ..models import AUTO, candidates
+from ..models.load_sharing import why_moment_unknown
 from ..models.shared import Prepared
 from ..samples import Sample
-from ..scene import Scene, why_gap_not_resolved
+from ..scene import Scene
 from ..surface import Surface
 from .estimated import RunEstimate, estimated_deterministic, estimated_load_sharing
 from .model import Start
@@ -36,9 +37,9 @@ class RunModel:
 
 
 def _load_sharing_in_words(scene: Scene) -> str:
-    unknown = "its model-form error is not known and not in the interval"
-    known = "the interval has the model-form error of steady motion"
-    return f"load-sharing model at all times; {unknown if why_gap_not_resolved(scene) else known}"
+    if why := why_moment_unknown(scene):
+        return f"load-sharing model at all times; its model-form error is not known and not in the interval: {why}"
+    return "load-sharing model at all times; the interval has the model-form error of steady motion"
 
 
 LOAD_SHARING = RunModel(

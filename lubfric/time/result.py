@@ -299,7 +299,7 @@ def _with_intervals(columns: dict[str, np.ndarray], inputs: np.ndarray) -> dict[
     """Return ``columns`` with the intervals of f and of the power loss [W].
 
     The sliding part of the power has the interval of f, the rolling part the relative width of that interval, at most
-    100 %.
+    100 %. Friction takes power and gives none, so the interval of the power ends at 0.
     """
     interval = interval_in_time(columns, *inputs)
     f = columns["coefficient"]
@@ -313,7 +313,7 @@ def _with_intervals(columns: dict[str, np.ndarray], inputs: np.ndarray) -> dict[
     return columns | {
         "interval_low": interval[:, 0],
         "interval_high": interval[:, 1],
-        "power_loss_low": columns["power_loss"] - ends[0],
+        "power_loss_low": np.maximum(columns["power_loss"] - ends[0], np.minimum(columns["power_loss"], 0.0)),
         "power_loss_high": columns["power_loss"] + ends[1],
     }
 

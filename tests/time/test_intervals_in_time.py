@@ -43,6 +43,15 @@ def test_the_mean_is_the_integral_over_the_cycle_and_its_interval_that_of_the_en
     assert held.cite().splitlines()[0] == lubfric.friction(STRIPS).cite().splitlines()[0]
 
 
+def test_friction_gives_no_power():
+    """Rolling, sliding and asperity contacts nearly cancel in f, whose interval is wide: that of the power ends at 0."""
+    sliding = Harmonic(amplitude=0.2, frequency=500.0, phase=3.3)
+    scene = paper_scene(numerics={"sampling": "patch"}, motion={"entrainment_speed": 0.1})
+    run = lubfric.transient(scene.with_(transient=Transient(5e-4, outputs=4, sliding=sliding)))
+    assert np.all(run.power_loss > 0) and np.all(run.uncertainty.interval[:, 0] < 0)
+    assert np.all(run.power_loss_low >= 0) and np.any(run.power_loss_low == 0)
+
+
 def test_no_time_of_a_run_has_an_interval_beyond_the_limits_of_the_shear_stress():
     """Asperities carry nearly all: f is f_b, and its interval ends at f_b, or at the upper end of its range."""
     slow = STRIPS.with_(

@@ -5,7 +5,7 @@ import pytest
 
 import lubfric
 from lubfric import InputError
-from lubfric.scene import Table
+from lubfric.scene import Harmonic, Table
 from lubfric.time import solve_transient_ehl
 
 LINE = {
@@ -32,7 +32,7 @@ def test_at_constant_speed_it_is_the_steady_starved_film():
     np.testing.assert_allclose(found.min_film, expected.min_film, rtol=0.01)
     np.testing.assert_allclose(found.central_film, expected.central_film, rtol=0.01)
     upstream = found.x <= -STARVED * (1 - 1e-6)
-    assert np.abs(found.pressure[-1][upstream]).max() <= 1e-12 * found.pressure.max()
+    assert upstream.sum() > 20 and not found.pressure[:, upstream].any()
     assert found.load[-1] == pytest.approx(1e5, rel=1e-6)
 
 
@@ -71,9 +71,71 @@ def test_a_run_of_a_starved_scene_has_its_steady_friction():
     np.testing.assert_allclose(run.coefficient, steady_f, rtol=0.03)
 
 
+FULL_FILM = SCENE.with_(
+    motion={"entrainment_speed": 1.0, "slide_roll_ratio": 2.0},
+    transient=lubfric.Transient(
+        2e-3,
+        outputs=40,
+        speed=Harmonic(mean=1.0, amplitude=0.5, frequency=400.0, phase=-np.pi / 2),
+        sliding=Harmonic(mean=2.0),
+    ),
+)
+
+
+@pytest.mark.parametrize("inlet", [1e-5, None])
+def test_friction_of_a_smooth_course_is_smooth(inlet):
+    """Speed, load and film follow a sine. So does f, wherever the film ruptures on the grid: its third differences, four
+    times the size of what zigzags from output to output, stay within the stated error of the sum of the shear."""
+    run = lubfric.transient(FULL_FILM.with_(lubricant={"inlet_length": inlet}))
+    assert not run.contact_load.any()
+    f = run.coefficient
+    assert np.ptp(f) > 0.1 * f.mean()
+    zigzag = np.abs(f[:-3] - 3 * f[1:-2] + 3 * f[2:-1] - f[3:]) / 4
+    assert np.all(zigzag <= run.shear_error[1:-2] * f[1:-2])
+    assert run.shear_error.max() < 0.01
+
+
+def test_a_starved_run_has_the_model_form_error_of_its_steady_answer():
+    """Thick films have the 3.2/Λ² of their shear, thin ones the exchange of film and asperities."""
+    for speed in (0.005, 3.0):
+        scene = SCENE.with_(motion={"entrainment_speed": speed})
+        run = lubfric.transient(scene.with_(transient=lubfric.Transient(1e-4)))
+        answer = lubfric.friction(scene)
+        assert answer.uncertainty.model > 0.001
+        np.testing.assert_allclose(run.uncertainty.model_sides[-1], answer.uncertainty.model_sides, rtol=0.1)
+
+
+def test_without_contact_the_full_load_film_is_the_solved_film():
+    run = lubfric.transient(FULL_FILM)
+    np.testing.assert_array_equal(run.full_load_film, run.central_film)
+    mixed = lubfric.transient(
+        SCENE.with_(motion={"entrainment_speed": 0.005}, transient=lubfric.Transient(1e-4)),
+    )
+    assert mixed.contact_load[-1] > 0 and mixed.full_load_film[-1] <= mixed.central_film[-1]
+    np.testing.assert_allclose(mixed.lambda_ratio, mixed.full_load_film / 2e-8, rtol=0.05)
+
+
 def test_what_a_run_does_not_take():
     with pytest.raises(InputError, match="inlet_film"):
         SCENE.with_(lubricant={"inlet_length": None, "inlet_film": 1e-7}, transient=lubfric.Transient(1e-4))
     in_time = SCENE.with_(transient=lubfric.Transient(1e-4), numerics={"model": "deterministic"})
     with pytest.raises(InputError, match="inlet_length"):
         lubfric.transient(in_time)
+
+
+@pytest.mark.parametrize("speed", [1.4, 4.2])
+def test_the_deterministic_answer_of_a_starved_ring_lies_in_the_interval(speed):
+    """Thick films (lambda ratios 5 and 10 of the solved film), which the deterministic model solves on the roughness."""
+    ring = lubfric.load_scene("paper").with_(
+        bodies={"radius": 0.05, "width": 0.25, "load": 94.0},
+        lubricant={"viscosity": 0.0075, "inlet_length": 7.5e-4, "eyring_stress": 5e6},
+        motion={"entrainment_speed": speed, "slide_roll_ratio": 2.0, "speeds": ()},
+        surface={"sq": 4e-7, "correlation_length": 2e-5, "acf": "gaussian"},
+        contact={"shape": (128, 128), "spacing": 5e-6},
+        numerics={"heat": "off", "accept": True},
+    )
+    run = lubfric.transient(ring.with_(transient=lubfric.Transient(1e-4, outputs=1)))
+    solved = lubfric.friction(ring.with_(numerics={"model": "deterministic"}))
+    low, high = run.uncertainty.interval[-1]
+    assert low < solved.uncertainty.interval[1] and solved.uncertainty.interval[0] < high
+    assert (high - low) / run.coefficient[-1] < 0.3

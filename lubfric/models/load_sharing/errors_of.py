@@ -1,7 +1,7 @@
 """From the error of a gap to the errors of f and of all reported quantities."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ...quantities import depending_on
 from ...scene import Scene, budget, has_moving_roughness, why_gap_not_resolved
@@ -268,14 +268,20 @@ def moment_model_error(
     """Return the relative model-form error of f at a moment of a run in time, at 95 %, below and above f.
 
     It is that of steady motion with the same film, asperity load ratio ``share``, and parts of f. NaN where it is not
-    known.
+    known (`why_moment_unknown`).
     """
-    if why_gap_not_resolved(scene):
+    if why_moment_unknown(scene):
         return UNKNOWN
     moving = rolling if has_moving_roughness(scene) else 0.0
     down, up = load_sharing_error(film_to_roughness_ratio, share, boundary, shear, moving)
     least = least_error(film_to_roughness_ratio) if 0 < share < 1 and math.isfinite(film_to_roughness_ratio) else 0.0
     return min(max(down, least), 1.0), max(up, least)
+
+
+def why_moment_unknown(scene: Scene) -> str:
+    """Return why the model-form error of f in a run in time of ``scene`` is not known; "" if it is. The error is that of
+    steady motion, so only what the deterministic model does not take in steady motion counts."""
+    return why_gap_not_resolved(replace(scene, transient=None))
 
 
 def _area_needed(balanced: BalancedSample, scene: Scene) -> float:
