@@ -1,6 +1,7 @@
 """`fit`: bounded least squares of a scene to a measured curve, and how well the data determine its parameters."""
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -12,8 +13,8 @@ from .._base.processes import checked_executor
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report, returned
 from ..quantities import counted, worded_value
 from ..scene import Scene
-from .explain import WITHIN, in_words
-from .fit_checks import residual_tests
+from .explain import WITHIN_WORDS, in_words
+from .fit_checks import residual_tests, root_mean_square
 from .fit_curves import FitCurves, coarse_measured, coarse_scene, fit_tolerance
 from .fit_input import SLIDE_ROLL_RATIO_COLUMN, Measured, parameters_of, values_at
 from .fit_result import FitResult
@@ -68,7 +69,7 @@ def fit(
     searches the complete bounds with the load-sharing model, loose tolerances and at most 8 of the points
     (`lubfric.studies.fit_search`): from the start and from the points of a Sobol sequence. From the lowest minimum, a
     trust region within the bounds (`scipy.optimize.least_squares`, "trf") continues with all points and the scene's
-    own model; from the next ones too, while the fit does not describe the data. Derivatives are differences over 4 %
+    own model; from the next ones too that larger residuals part from it, while the fit does not describe the data. Derivatives are differences over 4 %
     of the bounds, which stay above the tolerance on f. The search stops when a step moves the parameters by <= 0.2 %
     of their bounds, or changes the sum by <= 1e-4 of it.
 
@@ -89,7 +90,7 @@ def fit(
     on_progress : called as on_progress(done, total, left, misfit, values) after each curve: ``done`` of about
         ``total`` curves, about ``left`` seconds left on one core, the least root mean square misfit so far of the
         scene's own model (relative, or in deviations if these are given; NaN during the search, whose model and points
-        are others), and the nearest ``values`` {"section.key": value} so far
+        are others), and the best ``values`` {"section.key": value} so far
 
     Returns a `FitResult`.
 
@@ -104,13 +105,16 @@ def fit(
     starts = _checked_starts(starts, len(bounds))
     with opened(store) as kept:
         coarse, fine = _curves(scene, measured, bounds, checked_executor(executor), kept.root)
+        progress = None
         if on_progress:
             progress = _Progress(coarse, fine, begin, starts, on_progress)
-            coarse.on_curve = lambda: progress.report(coarse)
-            fine.on_curve = lambda: progress.report(fine)
+            coarse.on_curve = partial(progress.report, coarse)
+            fine.on_curve = partial(progress.report, fine)
         minima = search_minima(coarse, begin, starts)
         results: list[FitResult] = []
-        for minimum in minima[:MOST_FITTED_MINIMA]:
+        for minimum in (minima[0], *(each for each in minima[1:] if each.is_separate))[:MOST_FITTED_MINIMA]:
+            if progress is not None:
+                progress.begin()
             results.append(_fitted(fine, minimum.unit, starts=starts, minima=minima))
             if results[-1].describes_data and results[-1].report.converged:
                 break
@@ -144,17 +148,17 @@ def explain_fit(scene: Scene, measured: Measured, parameters: Mapping[str, Any],
         apart = f"their coefficients are {100 * measured.hysteresis:.2g} % apart (rms)"
         lines.append(f"  {counted(len(measured.branches), 'ramps')} of rising and falling {measured.over}: {apart}")
     for key, ends in bounds.items():
-        logarithmic = ", searched in its logarithm" if ends.scale == "log" else ""
+        logarithmic = ", searched on a logarithmic scale" if ends.scale == "log" else ""
         lines.append(f"  {key}: {worded_value(key, ends.low)} to {worded_value(key, ends.high)}{logarithmic}")
     if measured.over == SLIDE_ROLL_RATIO_COLUMN:
-        held = "include" if measured.rolling else "do not include"
-        lines.append(f"  the coefficients {held} rolling friction, which averaging over both signs of slip takes out")
+        held = "contain" if measured.rolling else "do not contain"
+        lines.append(f"  the measured coefficients {held} rolling friction (a mean over both signs of slip has none)")
     coarse, fine = _curves(scene, measured, bounds)
     searched, fitted, seconds = _estimated(coarse, fine, _start(scene, bounds, {}), starts)
     lines.append(f"  search: about {counted(searched, 'curves')} of {counted(coarse.measured.x.size, 'points')} ")
     lines[-1] += "by the load-sharing model, over the complete bounds" if starts else "by the load-sharing model"
     lines.append(f"  fit: about {counted(fitted, 'curves')} of {counted(measured.x.size, 'points')}")
-    return "\n".join([*lines, f"  time: about {in_words(seconds)} on one core (within a factor of about {WITHIN:g})"])
+    return "\n".join([*lines, f"  time: about {in_words(seconds)} on one core ({WITHIN_WORDS})"])
 
 
 def estimated_fit(
@@ -238,14 +242,19 @@ class _Progress:
     def __init__(
         self, coarse: FitCurves, fine: FitCurves, begin: np.ndarray, starts: int, on_progress: Callable[..., Any]
     ):
-        parameters = begin.size
-        self.curves = {
-            id(coarse): (coarse, estimated_curves(parameters, starts) if starts else 0, _usual_seconds(coarse, begin)),
-            id(fine): (fine, 2 * parameters + USUAL_CURVES, _usual_seconds(fine, begin)),
+        self.expected_of_fit = 2 * begin.size + USUAL_CURVES
+        self.expected = {
+            id(coarse): estimated_curves(begin.size, starts) if starts else 0,
+            id(fine): self.expected_of_fit,
         }
+        self.curves = {id(kind): (kind, _usual_seconds(kind, begin)) for kind in (coarse, fine)}
         self.fine = fine
         self.on_progress = on_progress
         self.least: dict[int, tuple[float, np.ndarray]] = {}
+
+    def begin(self) -> None:
+        """Report that the fit begins, from one more minimum: it takes as many curves as the first was expected to."""
+        self.expected[id(self.fine)] = self.fine.count + self.expected_of_fit
 
     def report(self, curves: FitCurves) -> None:
         """Report the last of ``curves``."""
@@ -253,18 +262,19 @@ class _Progress:
         misfit = curves.misfit(unit)
         if misfit < self.least.get(id(curves), (np.inf, unit))[0]:
             self.least[id(curves)] = (misfit, unit)
-        done = sum(kind.count for kind, _, _ in self.curves.values())
+        done = sum(kind.count for kind, _ in self.curves.values())
         total = done
         left = 0.0
-        for kind, expected, estimated in self.curves.values():
+        for kind, estimated in self.curves.values():
+            expected = self.expected[id(kind)]
             ended = kind is not self.fine and self.fine.count > 0
             remaining = 0 if ended else max(expected - kind.count, 1 if kind is self.fine else 0)
             each = kind.spent / kind.count if kind.count else estimated
             total += remaining
             left += remaining * each
-        least, nearest = self.least[id(self.fine if self.fine.count else curves)]
+        least, position = self.least[id(self.fine if self.fine.count else curves)]
         misfit = least if self.fine.count else np.nan
-        self.on_progress(done, total, left, misfit, values_at(curves.parameters, nearest))
+        self.on_progress(done, total, left, misfit, values_at(curves.parameters, position))
 
 
 def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[Candidate]) -> FitResult:
@@ -285,6 +295,7 @@ def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[C
     n, p = end.jac.shape
     squares = float(end.fun @ end.fun)
     stated = measured.deviation is not None
+    model_error = np.array([point.uncertainty.model for point in points])
     coefficient = np.array([point.coefficient for point in points])
     errors = np.array([point.uncertainty.numerical for point in points])
     relative = np.maximum(np.where(np.isfinite(errors), errors, curves.tolerance), LEAST_ERROR)
@@ -316,7 +327,16 @@ def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[C
         report=report,
         violations=tuple(point.validity for point in points),
         sampling=np.array([point.uncertainty.sampling for point in points]),
-        tests=residual_tests(measured.x, end.fun, p, numerical, stated=stated),
+        tests=residual_tests(
+            measured.x,
+            end.fun,
+            p,
+            numerical,
+            stated=stated,
+            relative=root_mean_square(predicted / measured.coefficient - 1.0),
+            expected=root_mean_square(np.nan_to_num(model_error)),
+        ),
+        model_error=model_error,
         starts=starts,
         minima=tuple(minima),
     )

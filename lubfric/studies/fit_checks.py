@@ -13,6 +13,10 @@ SIGNIFICANCE = 0.01
 # Random orders of the residuals, where these are too many for all orders; fixed, so that a fit is repeatable.
 RANDOM_ORDERS = 9999
 
+# Root mean square residual relative to f that the scatter of a measurement explains, where its deviations are not stated.
+# A convention: friction on rigs repeats within some 5 to 10 %.
+LARGEST_UNSTATED = 0.1
+
 # Residuals below this multiple of the numerical error of f are no sign of anything.
 ABOVE_NUMERICAL = 2.0
 
@@ -30,6 +34,8 @@ class ResidualTests:
     order : probability that neighbouring residuals are so alike, among all orders of the residuals (von Neumann's
         ratio, by permutations)
     small : whether the residuals are within the numerical error of f, so that their signs mean nothing
+    relative : root mean square residual relative to the measured f
+    expected : root mean square model-form error of f at 95 %, relative; 0 where it is not known
     """
 
     size: float
@@ -37,6 +43,8 @@ class ResidualTests:
     runs: float
     order: float
     small: bool
+    relative: float = math.nan
+    expected: float = 0.0
 
     @property
     def systematic(self) -> bool:
@@ -49,6 +57,12 @@ class ResidualTests:
         return _known(self.size) < SIGNIFICANCE
 
     @property
+    def too_far(self) -> bool:
+        """Whether the residuals, of data without stated deviations, are more than the usual scatter of a measurement and
+        more than the model-form error of f."""
+        return math.isnan(self.size) and _known_error(self.relative) > max(LARGEST_UNSTATED, self.expected)
+
+    @property
     def text(self) -> str:
         """What the tests found, in a sentence; "" if the fit describes the data as far as they show."""
         how = []
@@ -57,22 +71,36 @@ class ResidualTests:
             how.append(f"the residuals are systematic (their {which} has a probability of {least:.1g} by chance)")
         if self.too_large:
             how.append(f"they are {self.times_stated:.2g} times as large as the stated deviations")
+        if self.too_far:
+            expected = f" and above the model-form error of f, {100 * self.expected:.2g} %" if self.expected else ""
+            how.append(
+                f"they are {100 * self.relative:.2g} % of f (root mean square), above the {100 * LARGEST_UNSTATED:g} % that "
+                f"the scatter of a measurement explains{expected}"
+            )
         if not how:
             return ""
         said = " and ".join(how) if self.systematic else how[0].replace("they are", "the residuals are")
         return (
             f"the fit does not describe the data: {said}. The intervals do not hold. Choose other parameters, wider "
             "bounds or another model, or check the data"
+            + ("; state their deviations if they are known" if self.too_far else "")
         )
 
 
 def residual_tests(
-    x: np.ndarray, residuals: np.ndarray, parameters: int, numerical: np.ndarray, *, stated: bool
+    x: np.ndarray,
+    residuals: np.ndarray,
+    parameters: int,
+    numerical: np.ndarray,
+    *,
+    stated: bool,
+    relative: float = math.nan,
+    expected: float = 0.0,
 ) -> ResidualTests:
     """Return the tests of ``residuals`` (n,) over ``x`` (n,), left by a fit of so many ``parameters``.
 
     ``numerical`` (n,): numerical error of f in the unit of the residuals; ``stated``: whether the residuals are in
-    stated deviations.
+    stated deviations; ``relative`` and ``expected``: as in `ResidualTests`.
     """
     from scipy.stats import chi2
 
@@ -86,6 +114,8 @@ def residual_tests(
         times_stated=math.sqrt(squares / freedom) if stated else math.nan,
         runs=probability_of_runs(signs),
         order=probability_of_order(residuals[order]),
+        relative=relative,
+        expected=expected,
         small=bool(np.sqrt(np.mean(residuals**2)) <= ABOVE_NUMERICAL * np.sqrt(np.mean(numerical**2))),
     )
 
@@ -139,3 +169,13 @@ def probability_of_order(residuals: np.ndarray) -> float:
 def _known(probability: float) -> float:
     """Return ``probability``, or 1 where it is not known."""
     return 1.0 if math.isnan(probability) else probability
+
+
+def _known_error(error: float) -> float:
+    """Return ``error``, or 0 where it is not known."""
+    return 0.0 if math.isnan(error) else error
+
+
+def root_mean_square(values: FloatArray) -> float:
+    """Return the root mean square of ``values`` (n,)."""
+    return float(np.sqrt(np.mean(np.square(values))))

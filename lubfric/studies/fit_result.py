@@ -29,8 +29,9 @@ LEVEL = 0.95
 # Distance from a bound, as a share of the bounds, below which a parameter is said to lie on it.
 AT_BOUND = 5e-3
 
-# Standard error of f by another sample of the surface up to which it is not reported. Not measured: a convention.
-UNREPORTED_ERROR = 1e-5
+# Move of the parameters by another sample of the surface, over half of their interval, up to which it is not reported. A
+# convention.
+UNREPORTED_MOVE = 0.01
 
 # Correlation of two parameters, without sign, above which it is reported.
 CORRELATED = 0.9
@@ -64,6 +65,8 @@ class FitResult(Renamed, Shown):
         it (`lubfric.studies.fit_search.Candidate`)
     sampling : relative standard error of f at the points because a finite surface represents all of it, (n,); NaN
         where it is not known. It is not in the covariance; ``moved_by_surface`` is its effect
+    model_error : relative model-form error of f at the points at 95 %, (n,); NaN where it is not known. It is not in the
+        covariance
     """
 
     base: Scene
@@ -77,6 +80,7 @@ class FitResult(Renamed, Shown):
     violations: tuple[tuple[Violation, ...], ...] = ()
     _RENAMED = {"entries": "violations"}
     sampling: np.ndarray = field(default_factory=lambda: np.empty(0))
+    model_error: np.ndarray = field(default_factory=lambda: np.empty(0))
     tests: ResidualTests | None = None
     starts: int = 0
     minima: tuple[Candidate, ...] = ()
@@ -150,15 +154,21 @@ class FitResult(Renamed, Shown):
 
     @property
     def describes_data(self) -> bool:
-        """False where the residuals are systematic, or larger than the stated deviations allow. Such a fit has no
-        meaningful intervals."""
+        """False where the residuals are systematic, or larger than the stated deviations, or else the usual scatter and the
+        model-form error, allow. Such a fit has no meaningful intervals."""
         return self.tests is None or not self.tests.text
 
     @property
     def other_minima(self) -> tuple[dict[str, float], ...]:
-        """Values of the parameters at other minima of the search, whose residuals are at most 1.5 times as large."""
-        apart = (one for one in self.minima if np.abs(one.unit - self.unit).max() >= SAME_MINIMUM)
-        return tuple(values_at(self.parameters, one.unit) for one in apart)
+        """Values of the parameters at other minima of the search, which larger residuals part from the lowest one, and
+        whose residuals are at most 1.5 times as large as there."""
+        return tuple(values_at(self.parameters, each.unit) for each in self._other_candidates)
+
+    @property
+    def _other_candidates(self) -> list[Candidate]:
+        return [
+            each for each in self.minima if each.is_separate and np.abs(each.unit - self.unit).max() >= SAME_MINIMUM
+        ]
 
     @property
     def effects(self) -> dict[str, float]:
@@ -179,27 +189,42 @@ class FitResult(Renamed, Shown):
                 if abs(correlation[i, j]) > CORRELATED:
                     pair = f"{keys[j]} and {keys[i]}"
                     lines.append(f"the data do not separate {pair} well: correlation {correlation[i, j]:.3f}")
-        minima = self.other_minima
-        for values in minima[:MOST_NAMED_MINIMA]:
+        minima = self._other_candidates
+        for candidate in minima[:MOST_NAMED_MINIMA]:
+            values = values_at(self.parameters, candidate.unit)
             at = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
-            lines.append(f"by the load-sharing model, {at} describe the data about as well")
-        if len(minima) > MOST_NAMED_MINIMA:
+            times = candidate.misfit / self.minima[0].misfit
             lines.append(
-                f"so do {len(minima) - MOST_NAMED_MINIMA} other sets of values (fit.json and .other_minima have them)"
+                f"the search, by the load-sharing model, has another minimum at {at}, with residuals {times:.2g} times as "
+                "large as at the lowest; the interval does not include it"
             )
+        if len(minima) > MOST_NAMED_MINIMA:
+            more = counted(len(minima) - MOST_NAMED_MINIMA, "more minima")
+            lines.append(f"fit.json and .other_minima have {more}")
         return lines
 
+    def _model_note(self) -> str:
+        """Return that the intervals do not include the model-form error of f, as text; "" where it has none."""
+        known = self.model_error[np.isfinite(self.model_error)]
+        if not self.model_error.size or not np.any(self.model_error != 0):
+            return ""
+        if not known.size:
+            return "not in the intervals: the model-form error of f, which is not known"
+        ends = dict.fromkeys(percent(float(end)) for end in (known.min(), known.max()))
+        some = "" if known.size == self.model_error.size else " where it is known"
+        return f"not in the intervals: the model-form error of f{some}, {' to '.join(ends)}"
+
     def _surface_note(self) -> str:
-        """What the intervals do not include, as text; "" where they include all."""
+        """What the intervals do not include of another sample of the surface, as text; "" where that is next to nothing."""
         if not np.isfinite(self.sampling).any():
             if self.base.surface.sq == 0 or not self.sampling.size:
                 return ""
             return "not in the intervals: what another sample of the surface would give, which is not known"
-        if np.nanmax(self.sampling) < UNREPORTED_ERROR:
+        moves = self.moved_by_surface
+        reaches = dict(zip(self.parameters, self._reach * np.abs(self._slopes)))
+        if all(move <= UNREPORTED_MOVE * reaches[key] for key, move in moves.items()):
             return ""
-        moved = ", ".join(
-            f"{key} by {worded_value(key, float(f'{move:.2g}'))}" for key, move in self.moved_by_surface.items()
-        )
+        moved = ", ".join(f"{key} by {worded_value(key, float(f'{move:.2g}'))}" for key, move in moves.items())
         return (
             f"not in the intervals: another sample of the surface (standard error of f up to "
             f"{percent(float(np.nanmax(self.sampling)))}), which moves {moved}"
@@ -217,8 +242,10 @@ class FitResult(Renamed, Shown):
             value, *ends = (worded_value(key, v) for v in (self.values[key], low, high))
             lines.append(f"  {key} = {value}, 95 % interval {' to '.join(ends)}{note}")
         scatter = float(np.sqrt(np.mean((self.predicted / self.measured.coefficient - 1) ** 2)))
-        lines.append(f"  root mean square deviation of the points from the fit: {100 * scatter:.2g} % of f")
-        warnings = (*self._identifiability(), self._surface_note(), *self.validity)
+        lines.append(
+            f"  root mean square deviation of the points from the fit: {100 * scatter:.2g} % of the measured f"
+        )
+        warnings = (*self._identifiability(), self._model_note(), self._surface_note(), *self.validity)
         return "\n".join([*lines, *(f"  {text}" for text in warnings if text)])
 
     def _facts(self) -> dict[str, str]:
@@ -244,12 +271,12 @@ class FitResult(Renamed, Shown):
     def plot_residuals(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the deviation of the points from the fitted curve, relative; returns the axes."""
         axes = figures.axes_or_new(ax)
-        miss = 100 * (self.measured.coefficient / self.predicted - 1)
+        miss = 100 * (1 - self.predicted / self.measured.coefficient)
         axes.axhline(0, color=figures.GREY, lw=0.8)
         axes.plot(np.abs(self.measured.x), miss, "o", ms=4, color=figures.RED)
         self.measured.label(axes)
         reach = 1.15 * max(np.abs(miss).max(), 1e-3)
-        axes.set(ylim=(-reach, reach), ylabel="measured - fit (%)")
+        axes.set(ylim=(-reach, reach), ylabel="(measured - fit)/measured (%)")
         return axes
 
     @property

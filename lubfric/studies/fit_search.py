@@ -8,7 +8,7 @@ interpolated instead of their sum of squares, which keeps the Gauss-Newton struc
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -34,6 +34,11 @@ SAME_MINIMUM = 0.1
 # The same below which a curve adds nothing to the interpolation.
 KNOWN_DISTANCE = 0.01
 
+# Positions between two curves at which the interpolation is compared with them; and how much larger than at the higher
+# curve the residuals have to be there to part two minima. Conventions.
+BETWEEN = np.linspace(0.05, 0.95, 19)
+LEAST_BARRIER = 1.02
+
 # A start at a bound is moved inside by this share of the bounds, for the differences.
 INSIDE = 0.02
 
@@ -43,10 +48,12 @@ COMPARABLE = 1.5
 
 @dataclass(frozen=True)
 class Candidate:
-    """A position between the bounds, (p,), and the root mean square residual of the coarse curve there."""
+    """A position between the bounds, (p,), and the root mean square residual of the coarse curve there; whether larger
+    residuals part it from the lowest one."""
 
     unit: np.ndarray
     misfit: float
+    is_separate: bool = False
 
 
 def sobol_count(parameters: int) -> int:
@@ -97,7 +104,22 @@ def search_minima(curves: FitCurves, start: np.ndarray, starts: int) -> list[Can
         tried.append(new)
         add(new)
     misfits = [float(np.sqrt(np.mean(row**2))) for row in residuals]
-    return distinct([Candidate(unit, misfit) for unit, misfit in zip(units, misfits)])
+    lowest, *others = distinct([Candidate(unit, misfit) for unit, misfit in zip(units, misfits)])
+    parted = [replace(each, is_separate=_are_parted(units, residuals, lowest, each)) for each in others]
+    return [lowest, *parted]
+
+
+def _are_parted(units: list[np.ndarray], residuals: list[np.ndarray], lowest: Candidate, other: Candidate) -> bool:
+    """Return whether the interpolated residuals are larger somewhere on the line between two candidates than at the
+    higher one: else both lie in one valley."""
+    from scipy.interpolate import RBFInterpolator
+
+    if len(units) <= lowest.unit.size + 1:
+        return True  # too few curves to interpolate
+    surrogate = RBFInterpolator(np.array(units), np.array(residuals), kernel="cubic", degree=1)
+    line = lowest.unit + BETWEEN[:, None] * (other.unit - lowest.unit)
+    between = np.sqrt(np.mean(surrogate(line) ** 2, axis=1))
+    return bool(between.max() > LEAST_BARRIER * other.misfit)
 
 
 def distinct(candidates: list[Candidate]) -> list[Candidate]:

@@ -176,7 +176,9 @@ class Interpolant:
         low, high, at = (u**LOAD_RATIO_POWER for u in (s.speed[right - 1], s.speed[right], speed))
         between = 4.0 * (at - low) * (high - at) / (high - low) ** 2  # an error that is none at the points
         beside = BETWEEN_POINTS_RATIO * between * np.maximum(change_without[right - 1], change_without[right])
-        return np.maximum(spread / np.maximum(np.abs(value), SMALLEST), beside)
+        is_known = np.isfinite(value)
+        size = np.where(is_known, np.maximum(np.abs(value), SMALLEST), 1.0)
+        return np.where(is_known, np.maximum(spread / size, beside), np.inf)
 
     def boundary(self, speed: np.ndarray, *, smooth: bool = True) -> np.ndarray:
         """Return the part of f from the asperity contacts."""

@@ -55,7 +55,7 @@ def test_the_time_of_a_fit_is_estimated_within_a_factor_of_three(timed):
     words = lubfric.explain_fit(SCENE, timed[0].measured, BOUNDS)
     number, unit = words.split("time: about ")[1].split()[:2]
     assert unit == "s" and 1 / 3 < float(number) / timed[1] < 3, (number, timed[1])
-    assert "bodies.boundary_friction_coefficient: 0.05 to 0.2" in words and "searched in its logarithm" in words
+    assert "bodies.boundary_friction_coefficient: 0.05 to 0.2" in words and "searched on a logarithmic scale" in words
     with pytest.raises(lubfric.InputError, match="unknown key 'numerics' in parameters"):
         lubfric.explain_fit(SCENE, timed[0].measured, {"numerics.tolerance": (0.01, 0.1)})
 
@@ -99,7 +99,7 @@ def test_independent_data_of_eyring_are_found_within_their_intervals():
     curve = lubfric.traction(found.scene, slips[::5])
     np.testing.assert_allclose(found.predicted[::5], curve.without_rolling, rtol=2e-3)
     assert np.all(found.predicted[::5] < curve.coefficient)
-    assert "do not include rolling friction" in lubfric.explain_fit(scene, measured, {alpha: (1.2e-8, 2.8e-8)})
+    assert "do not contain rolling friction" in lubfric.explain_fit(scene, measured, {alpha: (1.2e-8, 2.8e-8)})
 
 
 def test_the_true_values_are_in_the_region(fitted):
@@ -121,7 +121,7 @@ def test_a_fit_prints_as_one_line_and_draws_its_residuals(fitted):
     value = fitted.values["lubricant.viscosity"]
     (_, drawn) = fitted.plot_residuals(Figure().add_subplot()).lines
     order = np.argsort(drawn.get_xdata())
-    miss = 100 * (fitted.measured.coefficient / fitted.predicted - 1)
+    miss = 100 * (fitted.measured.coefficient - fitted.predicted) / fitted.measured.coefficient
     np.testing.assert_allclose(drawn.get_ydata()[order], miss[np.argsort(fitted.measured.x)])
     assert "\n" not in repr(fitted) and f"lubricant.viscosity {value:.4g}" in repr(fitted)
     assert f"{value:.4g}, 95 % interval {low:.4g} to {high:.4g}" in repr(fitted)

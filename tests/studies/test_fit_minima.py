@@ -122,3 +122,41 @@ def test_noise_is_seldom_taken_for_a_system_and_a_wave_is():
     assert large.too_large and large.times_stated == pytest.approx(3.0, rel=0.5)
     within = residual_tests(x, wave, 2, np.full(12, 1.0), stated=False)
     assert within.small and not within.text
+
+
+def test_far_residuals_of_data_without_deviations_are_said_to_be():
+    """Eleven points of a wave: too few for the tests of signs and order, and some of them off by half of f."""
+    slips = np.array([0.005, 0.01, 0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.3, 0.4, 0.5])
+    measured = lubfric.Measured(slips, 0.02 + 0.03 * np.sin(12 * slips) + 0.08 * slips, over="slide_roll_ratio")
+    result = lubfric.fit(traction_scene(5e6, 0.5), measured, {STRESS: (1e6, 2e7)})
+    relative = np.sqrt(np.mean((result.predicted / measured.coefficient - 1) ** 2))
+    assert result.tests.relative == pytest.approx(relative) and relative > 0.15
+    assert not result.describes_data and f"{100 * relative:.2g} % of f" in result.tests.text
+
+
+@pytest.mark.parametrize("relative, expected, far", [(0.08, 0.0, False), (0.2, 0.0, True), (0.2, 0.25, False)])
+def test_the_model_form_error_excuses_residuals_as_large(relative, expected, far):
+    x = np.linspace(0, 1, 8)
+    residuals = relative * np.array([1, -1, 1, 1, -1, -1, 1, -1])
+    known = {"relative": relative, "expected": expected}
+    assert residual_tests(x, residuals, 1, np.zeros(8), stated=False, **known).too_far is far
+    assert not residual_tests(x, residuals, 1, np.zeros(8), stated=True, **known).too_far
+
+
+class Valleys:
+    """Residuals of one parameter, least at 0.2; ``second``: a second minimum at 0.8, else a flat valley."""
+
+    def __init__(self, second):
+        self.second = second
+
+    def residuals(self, unit):
+        x = unit[0]
+        return np.array([1.0, 0.4 * np.abs(np.sin((x - 0.2) * np.pi / 0.6)) if self.second else 0.3 * (x - 0.2)])
+
+
+@pytest.mark.parametrize("second", [True, False])
+def test_minima_are_apart_where_larger_residuals_part_them(second):
+    lowest, *others = search_minima(Valleys(second), np.array([0.5]), 8)
+    assert lowest.unit[0] == pytest.approx(0.2, abs=0.06) or second
+    assert any(abs(other.unit[0] - lowest.unit[0]) > 0.5 and other.is_separate for other in others) == second
+    assert others and (second or not any(other.is_separate for other in others))
