@@ -53,7 +53,7 @@ def choose(prepared: Prepared, speed: float, requested: str | Model, *, for_fiel
     why = ""
     if model is not candidates[-1]:
         why = f"the {model.name} model in place of the {requested} model: {candidates[-1].why_unable(prepared, speed)}"
-    if not cheaper or not model.takes_control(prepared):
+    if not cheaper or not model.takes_control(prepared.scene, prepared.sample):
         return Choice(model=model, solution=solve_to_tolerance(prepared, speed, model, for_fields=for_fields), why=why)
     compared = (cheaper[0], solve_to_tolerance(prepared, speed, cheaper[0], for_fields=for_fields))
     control = compared[1].control()

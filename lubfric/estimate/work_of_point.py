@@ -2,7 +2,7 @@
 solved."""
 
 import math
-from collections.abc import Container, Sequence
+from collections.abc import Collection, Container, Sequence
 from dataclasses import dataclass
 
 from ..models import AUTO, SharedWork, WorkEstimate, models_up_to
@@ -52,10 +52,13 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
         estimates.append(model.estimate_work(scene, sample, surface, speed, estimates[-1] if estimates else None))
     cheapest = estimates[0]
     last = len(models_up_to(scene.numerics.model)) - 1
-    # a model named in the scene has the cheapest one beside it as its control; AUTO tries one after the other until one
-    # is good enough
+    # AUTO tries one after the other until one is good enough
     enough = [k for k in range(last) if estimates[k].model_error <= scene.numerics.model_tolerance]
-    solved = range(min(enough, default=last) + 1) if scene.numerics.model == AUTO else {0, last}
+    # a model that has no answer here leaves its place to the cheapest
+    is_alone = estimates[last].seconds > 0 and not models[last].takes_control(scene, sample)
+    solved: Collection[int] = {last} if is_alone else {0, last}
+    if scene.numerics.model == AUTO:
+        solved = range(min(enough, default=last) + 1)
     with_line = [k for k in solved if estimates[k].strips and math.isfinite(estimates[k].length)]
     line = estimates[max(with_line, default=0)]
     with_long_points = [k for k, model in enumerate(models) if model.has_long_points]

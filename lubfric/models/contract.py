@@ -341,8 +341,8 @@ class Model(ABC):
         """Return the relative model-form error of the rolling resistance, at 95 %; NaN: not known."""
         return math.nan
 
-    def takes_control(self, prepared: Prepared) -> bool:
-        """Return whether a `ControlVariate` of a cheaper model spares strips of ``prepared``."""
+    def takes_control(self, scene: Scene, sample: Sample) -> bool:
+        """Return whether a `ControlVariate` of a cheaper model spares strips of the ``sample`` of ``scene``."""
         return False
 
     def adopt(self, cheaper: SampleSolution) -> SampleSolution | None:

@@ -204,7 +204,7 @@ def _model(
         rows = [model_named(name).described(scene)]
     elif why:
         rows = [f"load-sharing model alone: {why}; its model-form error is not known and not in the interval"]
-    elif not resolved and strip > MOST_WORK_IN_AUTO:
+    elif not resolved and strip:
         rows = [
             "quick answer (deterministic model on long cells, calibrated): on its usual cells it would take too long"
         ]
@@ -222,7 +222,7 @@ def _model(
         if not any(model.includes_motion for model in candidates(name)):
             takes = f"moving roughness is treated as stationary; {takes}"
         if name == AUTO:
-            takes += f"; where it takes more than {MOST_WORK_IN_AUTO:g} s, the quick answer replaces it"
+            takes += f"; above {MOST_WORK_IN_AUTO:g} s of counted work, the quick answer replaces it"
         rows.append(takes)
     many = len(ratios) or len(moving)
     return rows, seconds_of_points(forecasts, many)

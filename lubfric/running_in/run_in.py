@@ -386,5 +386,6 @@ def estimated_run_in(scene: Scene, *, distance: float = 0.0, wear_coefficient: f
     solve = SOLVE_SECONDS + PASS_CELL_SECONDS * math.prod(operator.shape)
     seconds = USUAL_PASSES * len(_way(scene, before, None)) * solve
     if wear_of["distance"] > 0 and wear_of["coefficient"] > 0:
-        seconds += estimated_wear(scene, before)
+        hardness = wear_of["hardness"][0]
+        seconds += estimated_wear(scene, before, wear_of["distance"], wear_of["coefficient"], hardness)
     return ends * seconds

@@ -30,7 +30,7 @@ from ..contact import (
     solve_contact,
 )
 from ..errors import ConvergenceError, InputError, WorkLimitError
-from ..estimate import friction
+from ..estimate import estimated_work_of_point, friction
 from ..models import prepare
 from ..models.load_sharing import Balance, solve_balance
 from ..samples import cylinder_of, flat_contact_of, half_space_contact_of
@@ -49,6 +49,7 @@ FIRST_WEAR_DEPTH = 0.01  # mean depth of the first step over the Sq of the map, 
 WEAR_STEP_GROWTH = 2.0  # of the length of a step from one to the next, at most
 SHRINKAGE = 0.2  # of it, at least
 MOST_STEPS = 1000  # of one run: some 70 take the asperity load from the whole load to VANISHED
+STEPS_TO_VANISHED = 70.0  # about, that take the asperity load from the whole load to VANISHED
 RECORDS = 9  # distances at which friction and lift-off speed are found: 0, and eight that double
 MOST_WINDOW_CELLS = 4_000_000  # of all windows together: memory
 SPEED_TOLERANCE = 5e-3  # of ln U, in the search of the lift-off speed
@@ -56,9 +57,12 @@ LIFT_OFF_SEARCH = 12.0  # of ln U, each way from the scene's speed, in which the
 NORMAL_95 = 1.96  # half of the 95 % interval of a normal distribution over its standard deviation
 FEWEST_WEAR_WINDOWS = 4  # from which their scatter gives an interval
 NM = 1e9  # nanometres in a metre
-# Balances of a run: some ten for the lift-off speed at each record, and two at each step. With twice as many, two random runs
-# took .34 and .64 times as long as estimated.
-USUAL_BALANCES = 75
+# Balances of a record: that of its own speed, and some ten of its lift-off speed (98 of nine records of a random run).
+BALANCES_OF_RECORD = 11
+
+# Records of a run whose asperities carry nothing, after which wear ends.
+RECORDS_WITHOUT_LOAD = 2
+
 # Processor seconds of a balance, whatever its cells; and over its cells.
 BALANCE_SECONDS = 0.02
 BALANCE_CELL_SECONDS = 6e-7
@@ -230,10 +234,30 @@ class _WearProgress:
         return max(self.ratios) < VANISHED
 
 
-def estimated_wear(scene: Scene, surface: Surface) -> float:
-    """Return the estimated processor seconds of `worn_in` on a map like ``surface``: balances of all its windows."""
+def estimated_wear(scene: Scene, surface: Surface, distance: float, coefficient: float, hardness: float) -> float:
+    """Return the estimated processor seconds of `worn_in` on a map like ``surface`` over a ``distance`` [m]: the balances of
+    all its windows, and f of each record by the scene's model. ``coefficient``, ``hardness`` [Pa]: as there.
+
+    A step changes the asperity load by `CHANGE`, for which it wears about as large a part of Sq, and there is one to each
+    record at least.
+    """
     rig = _rig(scene, surface)
-    return USUAL_BALANCES * (BALANCE_SECONDS + BALANCE_CELL_SECONDS * math.prod(rig.stack.shape))
+    one = BALANCE_SECONDS + BALANCE_CELL_SECONDS * math.prod(rig.stack.shape)
+    prepared = prepare(scene, _sample_of(rig, surface))
+    point = estimated_work_of_point(scene, prepared.sample, prepared.surface, rig.speed)
+    records = RECORDS if point.touching == "touching" else RECORDS_WITHOUT_LOAD
+    pressure = scene.bodies.load / cylinder_of(scene).hertz_area
+    depth = coefficient * pressure * distance / hardness / max(surface.sq, 1e-12)
+    steps = records - 1 + min(depth / CHANGE, STEPS_TO_VANISHED)
+    return records * (point.seconds + BALANCES_OF_RECORD * one) + 2 * steps * one
+
+
+def _sample_of(rig: _WearRig, surface: Surface) -> Surface:
+    """Return the map on which f of ``surface`` is found: under a cylinder its windows, side by side."""
+    if rig.flat:
+        return surface
+    stacked = _passage(rig, 0).stacked(surface.heights)
+    return replace(surface, heights=stacked, mask=None, periodic_axes=(False, True))
 
 
 def _first_length(rig: _WearRig, row: dict[str, Any], coefficient: float, hardness: float) -> float:
@@ -353,12 +377,7 @@ def _record(rig: _WearRig, heights: np.ndarray, distance: float) -> dict[str, An
     """Return the numbers of one recorded distance [m], of the map with these ``heights`` [m]."""
     surface = replace(rig.surface, heights=heights)
     state = _step(rig, heights, 0.0, 0, None)
-    if rig.flat:
-        sample = surface
-    else:
-        stacked = _passage(rig, 0).stacked(heights)
-        sample = replace(surface, heights=stacked, mask=None, periodic_axes=(False, True))
-    result = friction(prepare(rig.scene, sample), rig.speed)
+    result = friction(prepare(rig.scene, _sample_of(rig, surface)), rig.speed)
     curve = surface.bearing()
     speed, ends, note = _lift_off(rig, state)
     return {

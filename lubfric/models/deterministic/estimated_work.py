@@ -105,7 +105,8 @@ def estimated_work(
     both = factors_of(scene, sample)
     one_strip = moving_point_work(scene, sample, sq, speed, both) if has_moving_roughness(scene) else 0.0
     if scene.transient is not None or why_gap_not_resolved(scene):
-        return WorkEstimate(strips=0, seconds=0.0, strip_seconds=one_strip)
+        strip_seconds = _seconds_in_motion(scene, sample, sq, speed, one_strip) if one_strip else 0.0
+        return WorkEstimate(strips=0, seconds=0.0, strip_seconds=strip_seconds)
     scatter = 0.0
     if numerics.model == "auto" and cheaper is not None and cheaper.model_error <= numerics.model_tolerance:
         return NO_WORK
@@ -117,13 +118,14 @@ def estimated_work(
     unlike = UNLIKE_IN_MOTION if has_moving_roughness(scene) else UNLIKE
     count = min(max(1, math.ceil(STRIPS_SAFETY * (unlike * scatter / allowed) ** 2)), sample.available_strips)
     if has_moving_roughness(scene):
+        strip_seconds = _seconds_in_motion(scene, sample, sq, speed, one_strip)
         if one_strip > MOST_WORK_IN_AUTO and numerics.model == "auto":
-            return WorkEstimate(strips=0, seconds=0.0, strip_seconds=one_strip)
+            return WorkEstimate(strips=0, seconds=0.0, strip_seconds=strip_seconds)
         count = min(count, max(1, int(MOST_WORK_IN_AUTO / one_strip)))  # no more are solved
         return WorkEstimate(
             strips=count,
-            seconds=count * _seconds_in_motion(scene, sample, sq, speed, one_strip),
-            strip_seconds=one_strip,
+            seconds=count * strip_seconds,
+            strip_seconds=strip_seconds,
             length=sample.line_length(count),
         )
     ends = 2 * sum(name != BOUNDARY_FRICTION_KEY for name, *_ in scene.ranges)
@@ -183,7 +185,7 @@ def _seconds_in_motion(scene: Scene, sample: Sample, sq: float, speed: float, wo
     steps = min(least + slope * sample.correlation_lengths[0] / scene.bodies.half_width, most)
     thickened = scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene)
     heavy_and_thin = thickened * sq / scene.line_contact(abs(speed)).moes_film / HEAVY_AND_THIN
-    return IN_MOTION * work * steps / STEPS_COUNTED * min(max(heavy_and_thin, 1.0), MOST_FOR_THAT)
+    return float(IN_MOTION * work * steps / STEPS_COUNTED * min(max(heavy_and_thin, 1.0), MOST_FOR_THAT))
 
 
 def work_of_fine_fields(scene: Scene, sample: Sample, sq: float, speed: float) -> float:

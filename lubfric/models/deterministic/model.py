@@ -98,9 +98,9 @@ class DeterministicModel(Model):
     def rolling_error(self, lambda_ratio: float) -> float:
         return rolling_model_error(lambda_ratio)
 
-    def takes_control(self, prepared: Prepared) -> bool:
-        is_moving = has_moving_roughness(prepared.scene)  # the summits are the control of what moves
-        return prepared.sample.represents_more and not is_moving
+    def takes_control(self, scene: Scene, sample: Sample) -> bool:
+        is_moving = has_moving_roughness(scene)  # the summits are the control of what moves
+        return sample.represents_more and not is_moving
 
     def solve(
         self,

@@ -410,9 +410,10 @@ class QuickModel(Model):
         self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
     ) -> WorkEstimate:
         alone = PaperModel().estimate_work(scene, sample, surface, speed, None)
+        is_named = scene.numerics.model == self.name
         if alone.touching == "none" and alone.model_error <= _error_of_thick_films(scene, surface.sq, speed):
-            return replace(alone, seconds=alone.seconds if cheaper is None else 0.0)
-        has_line = cheaper is None and _may_answer_by_equation(scene, surface.sq, speed)
+            return replace(alone, seconds=alone.seconds if is_named else 0.0)
+        has_line = is_named and _may_answer_by_equation(scene, surface.sq, speed)
         seconds = alone.seconds if has_line else 0.0
         if speed and surface.sq and sample.is_resolved and scene.transient is None:
             count = 1 if has_moving_roughness(scene) else EXPECTED_STRIPS
