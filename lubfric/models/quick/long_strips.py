@@ -42,6 +42,10 @@ CELLS_OF_THIN_FILM = 3.0
 # Change of f at rest, from half to twice the boundary film, over its sliding part, from which on it does.
 THIN_BY_FILM = 0.2
 
+# Cells in a correlation length along x and along y, and along x in the half-width, of the solved cases that move
+# (verification/campaigns/calibration/case.py).
+CELLS_OF_REFERENCES = (4.0, 2.5)
+
 # Effort in the place of `TIGHT`: steps end at 5 times its residual, which goes into the next step. f of four rollers moves by
 # up to .06 %, their counted work falls by 15 to 25 %. A continuation discards as much as an economical one: then the ends of a
 # range of the stress of an oil change f of two gear flanks by 20 to 43 % instead of 15 to 44 %.

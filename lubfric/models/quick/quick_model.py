@@ -9,6 +9,7 @@ took 70 % of the time, and the interval with it was as wide as that of the strip
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -22,6 +23,7 @@ from ...surface import Surface
 from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
 from ..deterministic import (
     FROM_PARTS,
+    CellsInMotion,
     Levels,
     StripOnTwoGrids,
     bodies_of,
@@ -45,11 +47,13 @@ from ..shared import (
     expected_on_hertz,
     percent_beside,
     rolling_model_error,
+    smooth_over_cells,
     warn_model_error,
     why_no_rough_film,
 )
 from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, reported, widening
 from .long_strips import (
+    CELLS_OF_REFERENCES,
     CELLS_OF_THIN_FILM,
     factors_in_motion,
     factors_of_long_cells,
@@ -291,7 +295,7 @@ def solve_long_strips(prepared: Prepared, speed: float) -> LongStrips:
         levels=levels_of(prepared, speed, pairs, estimate, with_shorter_cells=False),
         model=model,
         bias=model.bias_at(x),
-        log_half_width=factor * model.log_half_width(x),
+        log_half_width=math.hypot(factor * model.log_half_width(x), _error_of_references(prepared, pairs)),
         widening=factor,
         outside=outside,
     )
@@ -305,6 +309,28 @@ def long_factors_of(scene: Scene, sample: Sample) -> tuple[float, float]:
         return factors_in_motion(scene, (dx, dy), sample.rows, sample.correlation_lengths, CELLS_OF_THIN_FILM)
     (fx, fy) = sample.refinement
     return factors_of_long_cells(scene, (dx / fx, dy / fy), sample.rows * fy, sample.correlation_lengths)
+
+
+def _error_of_references(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -> float:
+    """Return the relative error, at 95 %, that the cells of the solved cases behind the calibration have in a contact like
+    this, by what the deterministic model expects (`CellsInMotion`); 0 where roughness rests, as the cases tell it there."""
+    scene = prepared.scene
+    if not has_moving_roughness(scene):
+        return 0.0
+    results = [pair.resolved.result for pair in pairs]
+    half_width = scene.bodies.half_width
+    length = prepared.sample.correlation_lengths[0]
+    (along, across) = CELLS_OF_REFERENCES
+    cell = min(length, half_width) / along
+    return CellsInMotion(
+        film_ratio=sum(r.at_twice_film for r in results) / sum(r.at_half_film for r in results),
+        coarse_x=cell / length,
+        coarse_y=1.0 / across,
+        coarse_b=cell / half_width,
+        by_longer=0.0,
+        follows_lubricant=all(pair.resolved.follows_lubricant for pair in pairs),
+        is_smooth=smooth_over_cells(prepared.surface.heights),
+    ).error
 
 
 def _sampling_error(scene: Scene, pair: StripOnTwoGrids) -> float:

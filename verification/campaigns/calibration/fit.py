@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
+from lubfric.models.deterministic import CellsInMotion
 from lubfric.models.quick import THIN_BY_FILM, features
 
 from ...types import PlainRow
@@ -33,15 +34,11 @@ BIAS = {"rest": ("one", "cells"), "rolling": ("one",)}
 # Features of ln of its standard deviation.
 SPREAD = {"rest": ("one", "ln cells", "ln film", "ln below"), "rolling": ("one", "ln film", "rolling", "ln near")}
 
-# What cells shorter than those of the reference would still change of ln f, over what these have changed from the long
-# ones. At rest ln f moves by .17 of its change before when the cells are halved (276 cases on three lengths), .2 in all; a
-# needle roller in rolling by as much.
+# What cells shorter than those of a reference at rest would still change of ln f, over what these have changed from the long
+# ones: ln f moves by .17 of its change before when the cells are halved (276 cases on three lengths), .2 in all.
 REMAINING = 0.2
 
-# The same where roughness moves faster than the lubricant, with which the mass along x is of second order.
-REMAINING_FAST = 1 / 3
-
-# Slide-roll ratio from which on it does.
+# Slide-roll ratio up to which the mass along x is followed along the lubricant, by third order.
 FAST = 1.0
 FREEDOM = 6.0  # of Student's t in the likelihood, so that single cases far off count little
 PRIOR = 2.0  # inverse variance of the normal prior of the coefficients of the bias, about 0
@@ -63,11 +60,18 @@ LONGEST_CASE = 60.0  # s: processor time of a case on long cells, at most
 
 @dataclass(frozen=True)
 class Solved:
-    """One case: its row as text, the numbers of `quick`, and ln of the sliding part of f over that on long cells."""
+    """One case: its row as text, the numbers of `quick`, and ln of the sliding part of f over that on long cells; ``left``:
+    the part of it that the cells of the reference leave."""
 
     row: dict[str, str]
     numbers: dict[str, float]
     error: float
+    left: float
+
+    @property
+    def reference_error(self) -> float:
+        """The error of ln f of the reference by its cells, at 95 %; 0 where roughness rests, where ``left`` tells it."""
+        return cells_of_reference(self.row).error if self.row["motion"] == "rolling" else 0.0
 
     @property
     def features(self) -> dict[str, float]:
@@ -104,7 +108,8 @@ def solved_case(row: dict[str, str], known: Sequence[dict[str, float]]) -> Solve
     """Return the case of a ``row`` with the numbers of `quick` on the cells that the model takes, of those that are
     ``known``; None where it is not among them, or a sliding part of f is not positive.
 
-    What the cells of the reference would still change is taken of its change from the longest cells.
+    What the cells of the reference would still change is taken of its change from the longest cells, where the roughness
+    rests, and where it moves that which the deterministic model expects (`CellsInMotion`).
     """
     by_cells = {numbers["per_length"]: numbers for numbers in known}
     lengths = PER_LENGTH[row["motion"]]
@@ -118,14 +123,27 @@ def solved_case(row: dict[str, str], known: Sequence[dict[str, float]]) -> Solve
     before, sliding = (each["coefficient"] - each["rolling"] for each in (longest, numbers))
     if not min(reference, before, sliding) > 0:
         return None
-    left = remaining(row) * math.log(reference / before)
-    return Solved(row, numbers, math.log(reference / sliding) + left)
+    if row["motion"] == "rolling":
+        left = math.log1p(cells_of_reference(row).change)
+    else:
+        left = REMAINING * math.log(reference / before)
+    return Solved(row, numbers, math.log(reference / sliding) + left, left)
 
 
-def remaining(row: dict[str, str]) -> float:
-    """Return what shorter cells would still change of ln f of the reference in a ``row``, over what its own have
-    changed."""
-    return REMAINING_FAST if row["motion"] == "rolling" and abs(float(row["slip"])) > FAST else REMAINING
+def cells_of_reference(row: dict[str, str]) -> CellsInMotion:
+    """Return what is known of the cells of the reference of a ``row`` whose roughness moves."""
+    (half, twice) = (float(row[f"det_{name}_film"]) for name in ("half", "twice"))
+    (dx, dy) = (float(row[name]) for name in ("dx", "dy"))
+    half_width = 4 * float(row["radius"]) * float(row["pressure"]) / float(row["e_prime"])
+    return CellsInMotion(
+        film_ratio=twice / half,
+        coarse_x=dx / float(row["length_x"]),
+        coarse_y=dy / float(row["length_y"]),
+        coarse_b=dx / half_width,
+        by_longer=0.0,
+        follows_lubricant=abs(float(row["slip"])) <= FAST,
+        is_smooth=row["acf"] == "gaussian",
+    )
 
 
 def solve_numbers(file: Path, motion: str, *, workers: int = 1, seconds: float = math.inf) -> None:
@@ -253,20 +271,27 @@ def design(solved: Sequence[Solved]) -> Design:
 
 @dataclass(frozen=True)
 class HeldOut:
-    """A kind of case that was left out of the fit: its errors over σ, and σ."""
+    """A kind of case that was left out of the fit: its errors over σ, σ, and the errors of their references by cells."""
 
     kind: str
     standard: np.ndarray
     sigma: np.ndarray
+    references: np.ndarray
+
+    def half_widths(self, quantile: float) -> np.ndarray:
+        """Return the half-widths of the bounds of f, relative, with this ``quantile`` of the errors over σ."""
+        return np.sinh(np.hypot(quantile * self.sigma, self.references))
 
 
 def held_out(solved: Sequence[Solved], known: Design) -> list[HeldOut]:
     """Return every kind of ``solved``, each by the fit to all others."""
     results = []
+    references = np.array([case.reference_error for case in solved])
     for kind, chosen in kinds(solved):
         fit = known.fit(~chosen)
         sigma = fit.sigma(known.of_bias[chosen], known.of_spread[chosen])
-        results.append(HeldOut(kind, (known.errors[chosen] - known.of_bias[chosen] @ fit.bias) / sigma, sigma))
+        standard = (known.errors[chosen] - known.of_bias[chosen] @ fit.bias) / sigma
+        results.append(HeldOut(kind, standard, sigma, references[chosen]))
     return results
 
 

@@ -99,7 +99,7 @@ def _inside(parts: list[HeldOut], quantile: float) -> list[np.ndarray]:
 
 
 def _width(parts: list[HeldOut], quantile: float) -> float:
-    return float(np.median(np.concatenate([np.sinh(quantile * part.sigma) for part in parts])))
+    return float(np.median(np.concatenate([part.half_widths(quantile) for part in parts])))
 
 
 def _without_bias(known: Design) -> np.ndarray:

@@ -45,7 +45,6 @@ def measured(chosen: tuple[str, str]) -> list[PlainRow]:
     of_kind_alone = [case for case, chosen in zip(solved, is_of_kind) if chosen]
     errors = known.errors[is_of_kind]
     bias = known.of_bias[is_of_kind] @ known.fit(~is_of_kind).bias
-    remaining = np.array([fit.remaining(case.row) for case in of_kind_alone])
     by_equation = np.array([float(case.row["det_f"]) / float(case.row["ls_f"]) for case in of_kind_alone])
     known_logarithm = by_equation > 0
     seconds = {
@@ -58,7 +57,7 @@ def measured(chosen: tuple[str, str]) -> list[PlainRow]:
         BY_EQUATION: np.abs(np.log(by_equation[known_logarithm])),
         QUICK: np.abs(errors - bias),
         LONG: np.abs(errors),
-        SHORT: remaining / (1 + remaining) * np.abs(errors),
+        SHORT: np.abs([case.left for case in of_kind_alone]),
     }
     panel = f"{kind}, {MOTIONS[motion]}"
     return [_point(panel, method, sizes[method], seconds[method]) for method in METHODS]
