@@ -111,5 +111,5 @@ def open_topography(path):
         raw = file.read()
     heights, sizes, unit = (_read_sur if raw.startswith(b"DIGITAL SURF") else _read_sdf)(raw)
     channels = [SimpleNamespace(name="Default")]
-    found = SimpleNamespace(heights=lambda: heights, physical_sizes=sizes, unit=unit)
-    return SimpleNamespace(channels=channels, topography=lambda channel_index: [found][channel_index])
+    result = SimpleNamespace(heights=lambda: heights, physical_sizes=sizes, unit=unit)
+    return SimpleNamespace(channels=channels, topography=lambda channel_index: [result][channel_index])

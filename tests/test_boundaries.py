@@ -18,22 +18,22 @@ HEAVY = ("skfem", "pyamg", "meshio", "verification")
 def imported(path: Path) -> set[str]:
     """Names of all a file imports, at any depth, also by importlib.import_module("...")."""
     package = path.relative_to(ROOT).parts[:-1]
-    found = set()
+    result = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
+            result |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.level == 0:
-            found.add(node.module)
+            result.add(node.module)
         elif isinstance(node, ast.ImportFrom):
             base = package[: len(package) - node.level + 1]
-            found.add(".".join((*base, node.module or "")).rstrip("."))
-            found |= {".".join((*base, *filter(None, [node.module]), a.name)) for a in node.names}
+            result.add(".".join((*base, node.module or "")).rstrip("."))
+            result |= {".".join((*base, *filter(None, [node.module]), a.name)) for a in node.names}
         elif isinstance(node, ast.Call) and getattr(node.func, "attr", getattr(node.func, "id", "")) in (
             "import_module",
             "__import__",
         ):
-            found |= {a.value for a in node.args if isinstance(a, ast.Constant) and isinstance(a.value, str)}
-    return found
+            result |= {a.value for a in node.args if isinstance(a, ast.Constant) and isinstance(a.value, str)}
+    return result
 
 
 def offenders(folder: str, forbidden) -> list[str]:
@@ -138,13 +138,13 @@ def test_no_solver_asks_a_contact_of_what_kind_it_is():
         for node in ast.walk(ast.parse(f.read_text()))
         if isinstance(node, ast.ClassDef) and any(getattr(base, "id", "") == "RoughContact" for base in node.bases)
     }
-    asked = []
+    requested = []
     for file in sorted((ROOT / "lubfric").rglob("*.py")):
         for node in ast.walk(ast.parse(file.read_text())):
             if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("isinstance", "issubclass", "type"):
                 named = {getattr(part, "id", getattr(part, "attr", "")) for part in ast.walk(node)}
-                asked += [file.name] if named & (kinds | {"OWN_CONTACTS"}) else []
-    assert len(kinds) >= 3 and asked == ["prepared.py"]
+                requested += [file.name] if named & (kinds | {"OWN_CONTACTS"}) else []
+    assert len(kinds) >= 3 and requested == ["prepared.py"]
 
 
 def python(code: str) -> str:

@@ -76,17 +76,17 @@ class TestSample:
     def test_it_makes_the_contact_that_is_solved_first(self, prepared):
         """On its cells, about their mean; the operator comes from whoever remembers it."""
         sample = prepared.sample
-        asked = []
+        requested = []
 
         def operator(shape, spacing):
-            asked.append((shape, spacing))
+            requested.append((shape, spacing))
             return prepared.rough_contact.operator
 
         contact = sample.contact(prepared.scene, sample.first_strips, operator)
         assert type(contact) is type(prepared.rough_contact) and np.array_equal(contact.x, prepared.rough_contact.x)
-        if asked:
+        if requested:
             first = sample.stack(sample.first_strips)
-            assert asked == [(first.shape, first.spacing)]
+            assert requested == [(first.shape, first.spacing)]
             assert np.array_equal(contact.heights, first.heights - first.heights.mean())
 
     def test_only_a_map_that_is_all_there_is_has_images_and_no_renewal(self, prepared):
@@ -106,7 +106,7 @@ class TestSample:
 
 class TestModel:
     @pytest.mark.parametrize("model", [PaperModel(), QuickModel(), DeterministicModel()], ids=lambda model: model.name)
-    def test_a_solution_says_all_that_the_estimate_asks(self, model):
+    def test_a_solution_says_all_that_the_estimate_needs(self, model):
         prepared = lubfric.prepare(PAPER)
         count = model.first_strips(prepared.sample)
         solution = model.solve(prepared, prepared.sample, count, 0.03)
@@ -345,7 +345,7 @@ def test_fine_fields_are_those_of_one_solve(model):
     assert load == pytest.approx(expected, rel=0.1)  # upstream of the cells the film carries a few per cent
 
 
-def test_fields_are_solved_again_or_not_by_what_is_asked():
+def test_fields_are_solved_again_or_not_as_requested():
     plain = lubfric.friction(PAPER, 0.01, model="paper")
     fine = lubfric.friction(PAPER, 0.01, model="paper", fields="fine")
     assert fine.coefficient == plain.coefficient and fine.fields.spacing[0] < plain.fields.spacing[0]

@@ -242,12 +242,12 @@ def test_optimised_python_computes_the_same(tmp_path):
         "speed = {kind = 'ramp', start = 0.01, end = 0.02, until = 0.1}\n"
     )
     for scene in ("paper", str(tmp_path / "in_time.toml")):
-        told = [
+        stated = [
             subprocess.run([sys.executable, *flags, "-m", "lubfric", "info", scene], capture_output=True, text=True)
             for flags in ([], ["-O"])
         ]
-        assert [run.returncode for run in told] == [0, 0], told[1].stderr
-        assert len(told[0].stdout.splitlines()) == len(told[1].stdout.splitlines())
+        assert [run.returncode for run in stated] == [0, 0], stated[1].stderr
+        assert len(stated[0].stdout.splitlines()) == len(stated[1].stdout.splitlines())
 
 
 def test_a_number_with_a_unit_of_any_length_is_read_in_no_time():

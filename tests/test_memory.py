@@ -27,7 +27,7 @@ before = resident_memory()
 last = (releasing_memory(work) if {release} else work)()
 print(resident_memory() - before)
 """
-    grown = [
+    enlarged = [
         int(
             subprocess.run(
                 [sys.executable, "-c", script.replace("{release}", str(way))], capture_output=True, check=True
@@ -35,7 +35,7 @@ print(resident_memory() - before)
         )
         for way in (True, False)
     ]
-    assert grown[0] < 50e6 < 200e6 < grown[1]
+    assert enlarged[0] < 50e6 < 200e6 < enlarged[1]
 
 
 @linux
@@ -83,5 +83,5 @@ for i in range(2000):
         before = resident_memory()
 print(resident_memory() - before)
 """
-    grown = float(subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout)
-    assert grown < 200e6
+    enlarged = float(subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout)
+    assert enlarged < 200e6

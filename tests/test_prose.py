@@ -33,9 +33,9 @@ def readings(tree: ast.AST) -> Iterator[int]:
         if isinstance(node, ast.Compare):
             sides = [node.left, *node.comparators]
             into = {isinstance(op, (ast.In, ast.NotIn)) for op in node.ops}
-            told = [s for s in (sides[1:] if True in into else sides) if is_prose(s)]
+            stated = [s for s in (sides[1:] if True in into else sides) if is_prose(s)]
             text = [s for s in sides if isinstance(s, (ast.Constant, ast.JoinedStr)) and getattr(s, "value", "") != ""]
-            if text and told:
+            if text and stated:
                 yield node.lineno
         elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in READ:
             if is_prose(node.func.value):

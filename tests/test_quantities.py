@@ -48,5 +48,5 @@ def test_words_for_columns_axes_tables_and_lines():
     + [(float("nan"), "m", "nan m"), (3.6e6, "J/(m3 K)", "3.6 MJ/(m³ K)"), (0.05, "-", "0.05")]
     + [([1e-3, 2e-3, 3e-3, 4e-3], "m", "4 values, 1 to 4 mm"), ("roelands", "-", "roelands"), (True, "-", "True")],
 )
-def test_numbers_are_told_in_units_of_people(value, unit, text):
+def test_numbers_are_reported_in_units_of_people(value, unit, text):
     assert worded(value, unit) == text

@@ -35,7 +35,7 @@ def test_both_balances_recomputed_from_the_asperities(model, reading):
     film = point.balance.film.film_at(prepared.rough_contact.x)
 
     def carried(offset):
-        found = asperity_contact(
+        result = asperity_contact(
             contact.heights,
             contact.spacing,
             E,
@@ -44,7 +44,7 @@ def test_both_balances_recomputed_from_the_asperities(model, reading):
             periodic=(False, True),
             hardness=scene.bodies.hardness,
         )
-        return found.mean_pressure * contact.x.size * contact.spacing[0] * scene.bodies.width
+        return result.mean_pressure * contact.x.size * contact.spacing[0] * scene.bodies.width
 
     offset = brentq(lambda o: carried(o) - point.contact_load, 0 if reading == "volume" else -1e-6, 5e-7, xtol=1e-13)
     gap = film[:, None] - offset - contact.heights
@@ -59,13 +59,13 @@ def test_a_film_carries_what_patches_cannot():
     and two of them end to end; the contact's load by the asperities at the gap found."""
     scene = FLAT.with_(bodies={"load": 8.0}, contact={"shape": (64, 64), "model": "patches"})
     rough = lubfric.generate_surface((64, 64), 8e-6, sq=1e-7, correlation_length=24e-6, seed=3)
-    found = []
+    result = []
     for repeats in (1, 2):
         surface = lubfric.Surface(np.tile(rough.heights, (1, repeats)), rough.spacing, periodic_axes=(True, True))
         model = prepare(scene.with_(contact={"shape": surface.shape}), surface)
         assert model.rough_contact.capacity < 0.8 * scene.bodies.load
-        found.append(lubfric.friction(model, 0.01))
-    once, twice = found
+        result.append(lubfric.friction(model, 0.01))
+    once, twice = result
     assert twice.coefficient == pytest.approx(once.coefficient, rel=2e-3)
     assert once.contact_load < 0.9 * model.rough_contact.capacity and abs(once.volume_residual) < 1e-3
     at_that_gap = asperity_contact(
@@ -116,7 +116,7 @@ def test_between_its_nodes_a_curve_is_as_sure_as_it_tells(model):
     curve = asperity_curve(heights, (8e-6, 8e-6), E, heaviest=3e8, definition=model, reading="volume")
     asperities = find_asperities(heights, (8e-6, 8e-6), E, definition=model)
     within = []
-    told = []
+    stated = []
     for approach in np.ptp(heights) * np.linspace(0.03, 0.3, 40):
         flat = heights.max() - approach
         pressed = asperities(flat)
@@ -126,6 +126,6 @@ def test_between_its_nodes_a_curve_is_as_sure_as_it_tells(model):
         read = curve.at(pressed.mean_pressure)
         errors = curve.errors_at(pressed.mean_pressure)
         within.append((abs(read[0] - gap) <= errors[0], abs(read[1] - pressed.contact_area_fraction) <= errors[1]))
-        told.append((errors[0] / heights.std(), errors[1] / read[1]))
+        stated.append((errors[0] / heights.std(), errors[1] / read[1]))
     assert len(within) > 20 and np.mean(within, axis=0).min() >= 0.8
-    assert np.median(told, axis=0).max() < 0.05
+    assert np.median(stated, axis=0).max() < 0.05

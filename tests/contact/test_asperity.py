@@ -110,11 +110,11 @@ def _patch_count(heights, periodic):
 
 @pytest.mark.parametrize("definition, pressure", [*zip(["summits"] * 2 + ["patches"] * 2, [1e6, 2e8, 1e6, 2e7])])
 def test_separation_for_load_is_the_inverse(definition, pressure):
-    found = separation_for_load(
+    result = separation_for_load(
         ROUGH.heights, ROUGH.spacing, E_PRIME, mean_pressure=pressure, definition=definition, tolerance=0.02
     )
-    assert found.report.converged and found.mean_pressure == pytest.approx(pressure, rel=0.02)
-    assert rough_contact(definition, found.separation).load == found.load
+    assert result.report.converged and result.mean_pressure == pytest.approx(pressure, rel=0.02)
+    assert rough_contact(definition, result.separation).load == result.load
     if definition == "summits":
         exact = separation_for_load(ROUGH.heights, ROUGH.spacing, E_PRIME, mean_pressure=pressure, tolerance=1e-10)
         assert exact.mean_pressure == pytest.approx(pressure, rel=1e-10)

@@ -97,9 +97,9 @@ def test_gap_control_returns_the_load(boundary, hardness, pressure):
 def test_a_tiny_gap_of_a_contact_that_yields_is_found_and_given_back_by_its_load():
     gap0 = rough((32, 32), seed=4)
     wanted = 1e-3 * float(gap0.mean() - gap0.min())
-    found = solve_contact(gap0, DX, E_PRIME, mean_gap=wanted, hardness=0.02 * E_PRIME)
-    assert found.mean_gap == pytest.approx(wanted, rel=1e-5)
-    loaded = solve_contact(gap0, DX, E_PRIME, mean_pressure=found.mean_pressure, hardness=0.02 * E_PRIME)
+    result = solve_contact(gap0, DX, E_PRIME, mean_gap=wanted, hardness=0.02 * E_PRIME)
+    assert result.mean_gap == pytest.approx(wanted, rel=1e-5)
+    loaded = solve_contact(gap0, DX, E_PRIME, mean_pressure=result.mean_pressure, hardness=0.02 * E_PRIME)
     assert loaded.mean_gap == pytest.approx(wanted, rel=1e-2)
 
 

@@ -16,17 +16,17 @@ def surface():
     return lubfric.generate_surface((36, 36), 1e-6, sq=1e-7, correlation_length=3e-6, seed=8)
 
 
-def test_the_error_told_holds_where_the_contact_is_solved(surface):
+def test_the_stated_error_holds_where_the_contact_is_solved(surface):
     curve = contact_curve(surface.heights, surface.spacing, E_PRIME, heaviest=HEAVIEST, accuracy=3e-3)
     gap0 = surface.heights.max() - surface.heights
     pressures = HEAVIEST * np.exp(-np.linspace(0.3, 8.0, 12))
     off = []
-    told = []
+    stated = []
     for pressure in pressures:
         solved = lubfric.solve_contact(gap0, surface.spacing, E_PRIME, mean_pressure=pressure, tolerance=1e-7)
         off.append(abs(curve.at(pressure)[0] - solved.mean_gap))
-        told.append(curve.errors_at(pressure)[0])
-    assert np.mean(np.array(off) <= told) >= 0.75 and np.all(np.array(off) <= 4 * np.array(told))
+        stated.append(curve.errors_at(pressure)[0])
+    assert np.mean(np.array(off) <= stated) >= 0.75 and np.all(np.array(off) <= 4 * np.array(stated))
     lightest = curve.mean_pressure[-1]
     below = curve.mean_pressure[-1] / 2
     solved = lubfric.solve_contact(gap0, surface.spacing, E_PRIME, mean_pressure=below, tolerance=1e-7)
@@ -44,24 +44,24 @@ def test_it_is_part_of_the_numerical_error_of_f():
         contact={"shape": (36, 36), "spacing": 2e-4 / 36},
         numerics={"tolerance": 0.01},
     )
-    found = lubfric.friction(scene)
+    result = lubfric.friction(scene)
     right = lubfric.friction(scene.with_(numerics={"tolerance": 1e-4}))
-    assert 0 < found.contact_load < 0.1 * 16.7
-    assert abs(found.coefficient - right.coefficient) < found.uncertainty.numerical * abs(right.coefficient)
-    without = found.errors.contact_load
+    assert 0 < result.contact_load < 0.1 * 16.7
+    assert abs(result.coefficient - right.coefficient) < result.uncertainty.numerical * abs(right.coefficient)
+    without = result.errors.contact_load
     assert without > right.errors.contact_load
 
 
-def test_the_area_between_nodes_is_within_what_is_told_and_what_the_film_feels():
+def test_the_area_between_nodes_is_within_what_is_stated_and_what_the_film_feels():
     """A small map, whose summits touch a few at a time: the area read against that of the contact solved there."""
     surface = lubfric.generate_surface((28, 28), 7.14e-6, sq=23e-9, correlation_length=16e-6, acf="gaussian", seed=1)
     curve = contact_curve(surface.heights, 7.14e-6, 231e9, heaviest=2e8, hardness=8e9)
-    told = []
-    found = []
+    stated = []
+    result = []
     for pressure in np.geomspace(2e6, 1.2e8, 24):
         solved = lubfric.solve_contact(-surface.heights, 7.14e-6, 231e9, mean_pressure=pressure, hardness=8e9)
-        found.append(abs(curve.at(pressure)[1] - solved.contact_area_fraction) / (1 - solved.contact_area_fraction))
-        told.append(curve.errors_at(pressure)[1] / (1 - solved.contact_area_fraction))
-    assert np.all(np.array(found) <= 1.3 * np.array(told))
-    assert max(found) < 3 * 3e-3
+        result.append(abs(curve.at(pressure)[1] - solved.contact_area_fraction) / (1 - solved.contact_area_fraction))
+        stated.append(curve.errors_at(pressure)[1] / (1 - solved.contact_area_fraction))
+    assert np.all(np.array(result) <= 1.3 * np.array(stated))
+    assert max(result) < 3 * 3e-3
     assert curve.errors_at(curve.mean_pressure[-1] / 2)[1] == curve.contact_area_fraction[-1]

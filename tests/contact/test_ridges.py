@@ -27,7 +27,7 @@ def ridge(slope=0, axis=1):
 def test_a_patch_without_ends_holds_the_same_cell_of_two_periods(periodic):
     """Random small maps, laid side by side nine times along every periodic axis, and filled from cell to cell."""
     rng = np.random.default_rng(8)
-    found = []
+    result = []
     copies = [9 if axis else 1 for axis in periodic]
     for _ in range(60):
         heights = rng.random(rng.integers(2, 8, 2))
@@ -39,9 +39,9 @@ def test_a_patch_without_ends_holds_the_same_cell_of_two_periods(periodic):
         by_period = label.reshape(a, nx, b, ny).swapaxes(1, 2).reshape(a * b, nx * ny)
         middle = by_period[a // 2 * b + b // 2]
         again = np.count_nonzero((by_period == middle) & (middle > 0), axis=0) > 1
-        found.append((ridges(heights, bearing, periodic) > 0, bool(again.any())))
-    assert all(one == other for one, other in found)
-    assert not any(periodic) or 4 < sum(one for one, _ in found) < 56
+        result.append((ridges(heights, bearing, periodic) > 0, bool(again.any())))
+    assert all(one == other for one, other in result)
+    assert not any(periodic) or 4 < sum(one for one, _ in result) < 56
 
 
 @pytest.mark.parametrize(
@@ -66,12 +66,12 @@ WAVY = 1.5e-7 * np.cos(2 * np.pi * np.indices((64, 64))[0] / 32)
 
 def of(heights, speed, model="patches"):
     """Friction of the flat scene on ``heights`` [m], and on two of them, end to end."""
-    found = []
+    result = []
     for repeats in (1, 2):
         surface = lubfric.Surface(np.tile(heights, (1, repeats)), (8e-6, 8e-6), periodic_axes=(True, True))
         scene = FLAT.with_(contact={"shape": surface.shape, "model": model})
-        found.append(lubfric.friction(lubfric.prepare(scene, surface), speed))
-    return found
+        result.append(lubfric.friction(lubfric.prepare(scene, surface), speed))
+    return result
 
 
 @pytest.mark.parametrize("heights, speed", [(ROUND, 0.03), (WAVY + 0.1 * ROUND, 0.03)])
@@ -88,7 +88,7 @@ def test_a_warning_where_f_depends_on_how_long_the_map_is(noise, speed):
     assert twice.contact_load < 0.8 * once.contact_load
 
 
-def test_a_half_space_is_not_told_and_may_be_repeated():
+def test_a_half_space_is_not_reported_and_may_be_repeated():
     once, twice = of(WAVY + 0.1 * ROUND, 0.02, "half-space")
     assert not told(once) and once.contact_load > 0
     assert twice.coefficient == pytest.approx(once.coefficient, rel=3e-3)

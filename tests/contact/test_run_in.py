@@ -62,8 +62,8 @@ def reloaded(scene, surface) -> tuple[lubfric.ContactResult, float]:
     mean = bodies.load / (bodies.width * nx * dx)
     options = {"hardness": bodies.hardness, "boundary": ("free", "periodic"), "mean_pressure": mean}
     gap = x[:, None] ** 2 / (2 * bodies.radius) - surface.heights
-    found = solve_contact(gap, (dx, dy), bodies.e_prime, **options)
-    return found, found.contact_area_fraction * nx * ny * dx * dy
+    result = solve_contact(gap, (dx, dy), bodies.e_prime, **options)
+    return result, result.contact_area_fraction * nx * ny * dx * dy
 
 
 @pytest.fixture(scope="module")
@@ -115,11 +115,11 @@ def test_summits_become_plateaus(rough):
 
 def test_the_range_of_a_hardness_gives_both_surfaces(rough):
     """Each as if that hardness were given; and none where it is a number."""
-    found = run_in(ROUGH.with_(bodies={"hardness": [2e9, 1.5e9, 3e9]}), passes=1)
-    for hardness, end in zip((1.5e9, 3e9), found.ends, strict=True):
+    result = run_in(ROUGH.with_(bodies={"hardness": [2e9, 1.5e9, 3e9]}), passes=1)
+    for hardness, end in zip((1.5e9, 3e9), result.ends, strict=True):
         alone = run_in(ROUGH.with_(bodies={"hardness": hardness}), passes=1)
         assert np.array_equal(alone.surface.heights, end.heights) and alone.ends == ()
-    assert found.ends[0].sq < found.surface.sq < found.ends[1].sq and "range" in repr(found)
+    assert result.ends[0].sq < result.surface.sq < result.ends[1].sq and "range" in repr(result)
 
 
 def test_above_the_hardness_the_strip_itself_keeps_yielding():

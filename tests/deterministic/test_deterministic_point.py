@@ -49,7 +49,7 @@ def test_smooth_limit_is_the_film_of_solve_ehl(load, radius, speed, oil):
     line = contact(load, speed, oil, radius)
     step = sum(reach(line, 0.0)) / 512
     smooth = Surface(np.zeros((64, 1)), (step, step), periodic_axes=(True, True))
-    found = solve_point(lay_out(smooth, line, sliding=2 * speed, boundary_friction=0.09))
+    result = solve_point(lay_out(smooth, line, sliding=2 * speed, boundary_friction=0.09))
     film = lubfric.solve_ehl(
         load_per_width=load,
         radius=radius,
@@ -60,33 +60,33 @@ def test_smooth_limit_is_the_film_of_solve_ehl(load, radius, speed, oil):
         density_law=oil.density_law,
         tolerance=1e-4,
     )
-    assert found.min_gap == pytest.approx(film.min_film, rel=1e-3)
-    assert found.flow_film == pytest.approx(film.flow_film, rel=1e-3)
-    assert np.interp(0.0, found.x, found.gap[:, 0]) == pytest.approx(film.central_film, rel=1e-3)
+    assert result.min_gap == pytest.approx(film.min_film, rel=1e-3)
+    assert result.flow_film == pytest.approx(film.flow_film, rel=1e-3)
+    assert np.interp(0.0, result.x, result.gap[:, 0]) == pytest.approx(film.central_film, rel=1e-3)
 
 
 def test_dry_limit_is_the_rough_contact():
     problem = rough(64, 917.0, 2e-6, hardness=6e9)
-    found = solve_point(problem)
+    result = solve_point(problem)
     dry = dry_contact(problem, tolerance=1e-8)
-    difference = np.sqrt(np.mean((found.pressure - dry.pressure) ** 2) / np.mean(dry.pressure**2))
+    difference = np.sqrt(np.mean((result.pressure - dry.pressure) ** 2) / np.mean(dry.pressure**2))
     assert difference < 0.01
-    assert (found.split.touching, found.coefficient) == pytest.approx((917.0, 0.09), rel=1e-2)
+    assert (result.split.touching, result.coefficient) == pytest.approx((917.0, 0.09), rel=1e-2)
 
 
 def test_a_solution_keeps_every_balance_by_sums_of_its_fields():
-    found = FOUND
+    result = FOUND
     dx = LIGHT.spacing[0]
-    assert found.pressure.sum() * dx / found.pressure.shape[1] + found.inlet_load == pytest.approx(917.0, rel=1e-5)
-    elastic = LIGHT.operator.apply(found.pressure) + LIGHT.rigid_gap + found.approach
-    assert np.abs(np.maximum(elastic, LIGHT.floor) - found.gap).max() < 1e-13
-    assert found.pressure.min() >= 0
-    tau = found.shear * found.wet
-    assert (tau.sum() + 0.09 * found.pressure[found.rubbing].sum()) * dx / found.pressure.shape[1] == pytest.approx(
-        found.boundary + found.couette, rel=2e-2
+    assert result.pressure.sum() * dx / result.pressure.shape[1] + result.inlet_load == pytest.approx(917.0, rel=1e-5)
+    elastic = LIGHT.operator.apply(result.pressure) + LIGHT.rigid_gap + result.approach
+    assert np.abs(np.maximum(elastic, LIGHT.floor) - result.gap).max() < 1e-13
+    assert result.pressure.min() >= 0
+    tau = result.shear * result.wet
+    assert (tau.sum() + 0.09 * result.pressure[result.rubbing].sum()) * dx / result.pressure.shape[1] == pytest.approx(
+        result.boundary + result.couette, rel=2e-2
     )  # the film far upstream is not in the fields
-    assert found.report.residual <= 1e-5 and max(found.report.residuals.values()) == found.report.residual
-    assert residuals(evaluated(LIGHT, found.state)) == found.report.residuals
+    assert result.report.residual <= 1e-5 and max(result.report.residuals.values()) == result.report.residual
+    assert residuals(evaluated(LIGHT, result.state)) == result.report.residuals
 
 
 def test_what_must_not_change_the_coefficient():
@@ -115,10 +115,10 @@ def test_neither_start_nor_floor_changes_the_answer():
 
 @pytest.mark.parametrize("speed", [0.1, 0.001])
 def test_a_heavy_load_is_solved_from_a_cold_start(speed):
-    found = solve_point(rough(32, 18333.0, speed, LIMITED, hardness=4e9))
-    assert found.report.converged and found.pressure.max() <= 4e9 * (1 + 1e-12)
-    assert 0.06 < found.coefficient < 0.1
-    assert (found.dent > 0).any() == (speed < 0.01) or found.pressure.max() < 4e9
+    result = solve_point(rough(32, 18333.0, speed, LIMITED, hardness=4e9))
+    assert result.report.converged and result.pressure.max() <= 4e9 * (1 + 1e-12)
+    assert 0.06 < result.coefficient < 0.1
+    assert (result.dent > 0).any() == (speed < 0.01) or result.pressure.max() < 4e9
 
 
 def test_a_nearly_smooth_film_at_one_gigapascal_opens_touching_cells_together():
@@ -127,9 +127,9 @@ def test_a_nearly_smooth_film_at_one_gigapascal_opens_touching_cells_together():
     oil = replace(LIMITED, viscosity=0.04, pressure_viscosity_coefficient=22e-9)
     surface = lubfric.generate_surface((42, 16), 60e-6 / 16, sq=25e-9, correlation_length=10e-6, acf="gaussian", seed=1)
     line = contact(3e5, 1e-3, oil, 1e-2)
-    found = solve_point(lay_out(surface, line, sliding=2e-3, boundary_friction=0.1, hardness=6e9))
-    assert "from the dry contact" in found.report.notes[0] and found.report.iterations <= 18
-    assert found.touching.any() and found.share_given_off < 0.1
+    result = solve_point(lay_out(surface, line, sliding=2e-3, boundary_friction=0.1, hardness=6e9))
+    assert "from the dry contact" in result.report.notes[0] and result.report.iterations <= 18
+    assert result.touching.any() and result.share_given_off < 0.1
 
 
 def test_the_gap_of_touching_bodies_matters_where_they_give_off_the_lubricant():
@@ -138,9 +138,9 @@ def test_the_gap_of_touching_bodies_matters_where_they_give_off_the_lubricant():
         (bearing(1e-7, 3e5, 1e-3, across=16), True, 2e-3, 0.03),
         (rough(32, 18333.0, 0.01, LIMITED), False, 0.0, 1e-3),
     ):
-        found = solve_point(problem)
-        moved = abs(solve_point(replace(problem, floor=0.5e-9)).coefficient / found.coefficient - 1)
-        assert (found.share_given_off > 0.1) == drawn and least <= moved < most
+        result = solve_point(problem)
+        moved = abs(solve_point(replace(problem, floor=0.5e-9)).coefficient / result.coefficient - 1)
+        assert (result.share_given_off > 0.1) == drawn and least <= moved < most
 
 
 @pytest.mark.parametrize(
@@ -153,11 +153,11 @@ def test_a_bearing_at_a_gigapascal_is_solved_from_a_cold_start(sq, load, speed, 
     sink below the floor, close those that had to stay open, and so on for ever (114 factorisations in the last case).
     Load, gap and signs are those of the map's own judge."""
     problem = bearing(sq, load, speed, across=across)
-    found = solve_point(problem)
-    assert f"from {way}; " in found.report.notes[0] and found.report.iterations <= most
-    wrong = check(problem, found)
+    result = solve_point(problem)
+    assert f"from {way}; " in result.report.notes[0] and result.report.iterations <= most
+    wrong = check(problem, result)
     assert max(wrong["load"], wrong["gap"], wrong["signs"]) <= 1
-    assert 0 <= found.fill.min() and found.fill.max() <= 1 and found.touching.any() == (speed < 0.1)
+    assert 0 <= result.fill.min() and result.fill.max() <= 1 and result.touching.any() == (speed < 0.1)
 
 
 def test_the_film_of_longer_cells_leads_to_shorter_ones_in_a_few_whole_steps():
@@ -199,9 +199,9 @@ def test_steps_in_time_lead_from_a_neighbouring_speed_to_the_steady_film():
 
 def test_plastic_cells_carry_the_limit_and_are_dented():
     problem = rough(48, 917.0, 0.001, hardness=1.5e9)
-    found = solve_point(problem)
-    dented = found.dent > 0
-    assert dented.sum() > 5 and np.all(found.pressure[dented] == 1.5e9)
+    result = solve_point(problem)
+    dented = result.dent > 0
+    assert dented.sum() > 5 and np.all(result.pressure[dented] == 1.5e9)
     dry = lubfric.solve_contact(
         problem.rigid_gap, problem.spacing, E_PRIME, mean_pressure=917.0 / (problem.x.size * problem.spacing[0]),
         hardness=1.5e9, boundary=("free", "periodic"),
@@ -213,9 +213,9 @@ def test_plastic_cells_carry_the_limit_and_are_dented():
 def test_thinner_gaps_than_the_boundary_film_rub_with_f_b_and_the_rest_by_the_oil(oil):
     """Against sums over the fields; half and twice the length are what a solve with it gives."""
     problem = rough(48, 917.0, 0.01, oil, boundary_film=16e-9)
-    found = solve_point(problem)
-    p = found.pressure
-    h = found.gap
+    result = solve_point(problem)
+    p = result.pressure
+    h = result.gap
     dx = problem.spacing[0]
     law = shear_stress(oil, p, 0.02 / h)
     thin = h < 16e-9
@@ -223,12 +223,12 @@ def test_thinner_gaps_than_the_boundary_film_rub_with_f_b_and_the_rest_by_the_oi
     capped = film & (p > 50e6) & (law > 0.09 * p) if oil is NEWTONIAN else np.zeros_like(film)
     rows = p.shape[1]
     for name, where in (("thin", thin), ("capped", capped)):
-        assert getattr(found.split, name) == pytest.approx(p[where].sum() * dx / rows, rel=1e-12)
-    assert found.boundary == pytest.approx(0.09 * (found.split.thin + found.split.capped), rel=1e-12)
-    assert found.shear[film & ~capped] == pytest.approx(law[film & ~capped], rel=1e-12)
-    for film, told in ((8e-9, found.at_half_film), (32e-9, found.at_twice_film)):
-        assert solve_point(replace(problem, boundary_film=film)).coefficient == pytest.approx(told, rel=1e-12)
-    spread = abs(found.at_twice_film - found.at_half_film) / found.coefficient
+        assert getattr(result.split, name) == pytest.approx(p[where].sum() * dx / rows, rel=1e-12)
+    assert result.boundary == pytest.approx(0.09 * (result.split.thin + result.split.capped), rel=1e-12)
+    assert result.shear[film & ~capped] == pytest.approx(law[film & ~capped], rel=1e-12)
+    for film, stated in ((8e-9, result.at_half_film), (32e-9, result.at_twice_film)):
+        assert solve_point(replace(problem, boundary_film=film)).coefficient == pytest.approx(stated, rel=1e-12)
+    spread = abs(result.at_twice_film - result.at_half_film) / result.coefficient
     assert spread < 0.02 if oil is NEWTONIAN else spread > 0.1
 
 
@@ -264,12 +264,12 @@ def test_a_film_between_soft_rollers_is_solved_from_a_cold_start():
         )
         return lay_out(surface, line, sliding=2 * speed, boundary_friction=0.1, hardness=1.8e8, factors=(2, 2))
 
-    found = solve_point(at(2.6e-3))
-    assert "in time from the dry contact" in found.report.notes[0] and found.report.iterations <= 150
+    result = solve_point(at(2.6e-3))
+    assert "in time from the dry contact" in result.report.notes[0] and result.report.iterations <= 150
     slower = solve_point(at(2.0e-3), tolerance=1e-4)
     again = solve_point(at(2.6e-3), start=slower.state, tolerance=1e-4)
     assert "from a neighbouring state" in again.report.notes[0]
-    assert again.coefficient == pytest.approx(found.coefficient, rel=3e-3)
+    assert again.coefficient == pytest.approx(result.coefficient, rel=3e-3)
 
 
 def test_a_starved_film_is_solved_from_a_cold_start():

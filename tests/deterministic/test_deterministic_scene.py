@@ -23,16 +23,16 @@ def point():
 
 
 def test_the_words_of_a_result_keep_their_meaning(point):
-    found = point.deterministic
+    result = point.deterministic
     b = SCENE.bodies
     assert point.contact_load + point.film_load == pytest.approx(b.load)
     assert point.coefficient * b.load == pytest.approx(point.boundary_force + point.shear_force)
     assert point.boundary_force == pytest.approx(0.09 * point.contact_load)
-    (dx, dy) = found.spacing
-    ny = found.pressure.shape[1]
-    rubbing = found.pressure[found.rubbing].sum() * dx * dy * b.width / (ny * dy)
+    (dx, dy) = result.spacing
+    ny = result.pressure.shape[1]
+    rubbing = result.pressure[result.rubbing].sum() * dx * dy * b.width / (ny * dy)
     assert rubbing == pytest.approx(point.contact_load)
-    assert point.real_contact_area == pytest.approx(found.rubbing.sum() * dx * dy * b.width / (ny * dy))
+    assert point.real_contact_area == pytest.approx(result.rubbing.sum() * dx * dy * b.width / (ny * dy))
     assert point.balance is None and np.isnan(point.volume_residual) and point.report.converged
     assert point.decision.model == "deterministic" and "solved together with the contact" in point.report.notes[0]
 
@@ -45,7 +45,7 @@ def test_no_entrainment_and_the_other_way_round(point):
     assert lubfric.friction(turned, -0.01).coefficient == pytest.approx(point.coefficient, rel=1e-6)
 
 
-def test_a_sweep_keeps_fields_only_where_asked(point):
+def test_a_sweep_keeps_fields_only_where_requested(point):
     curve = lubfric.stribeck(MODEL, [0.03, 0.01], fields=[0.01])
     assert np.all(np.diff(curve.contact_load) > 0) and np.all(np.isfinite(curve.mean_gap))
     assert curve.coefficient[1] == point.coefficient
@@ -76,10 +76,10 @@ def test_what_it_does_not_take_is_refused_before_any_work(change):
         lubfric.stribeck(SCENE.with_(**change), [0.01])
 
 
-def test_a_newtonian_film_beyond_its_range_is_told():
+def test_a_newtonian_film_beyond_its_range_is_reported():
     heavy = SCENE.with_(bodies={"load": 60.0}, contact={"shape": (32, 32), "spacing": 90e-6 / 32})
-    told = {entry.what for entry in lubfric.friction(heavy, 0.1).validity}
-    assert "share of the load on a saturated film" in told and any("pressure" in what for what in told)
+    stated = {entry.what for entry in lubfric.friction(heavy, 0.1).validity}
+    assert "share of the load on a saturated film" in stated and any("pressure" in what for what in stated)
 
 
 def test_the_command_writes_its_fields(tmp_path):

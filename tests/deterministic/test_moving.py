@@ -139,9 +139,9 @@ def test_where_summits_close_cells_hardly_any_lubricant_is_given_off():
     line = replace(LINE, entrainment_speed=0.05)
     problem = lay_out(surface, line, sliding=0.025, boundary_friction=0.1)
     passing = moments(travelling(problem, [RoughBody(surface, 0.0625)]), CELL / 0.05)
-    found = [moment.result for moment in islice(passing, 1, 13)]
-    given, enters = (sum(getattr(one, name) for one in found) for name in ("given_off", "flow_film"))
-    assert found[-1].split.rubbing > 0.9 * found[-1].load and given < 3e-3 * enters
+    result = [moment.result for moment in islice(passing, 1, 13)]
+    given, enters = (sum(getattr(one, name) for one in result) for name in ("given_off", "flow_film"))
+    assert result[-1].split.rubbing > 0.9 * result[-1].load and given < 3e-3 * enters
 
 
 @pytest.mark.parametrize("others", [(), (RoughBody(rough(4, sq=0.03e-6), 0.45, upper=True),)])
@@ -179,8 +179,8 @@ def test_of_a_map_that_was_given_nobody_knows_which_of_two_bodies_moves_it():
     scene = scene_of(slide_roll_ratio=2.0).with_(surface=rough_too, counterface=rough_too)
     with pytest.raises(lubfric.InputError, match="counterface.*second rough body"):
         lubfric.prepare(scene.with_(numerics={"model": "deterministic"}), map_)
-    found = lubfric.friction(lubfric.prepare(scene, map_), 0.1)
-    assert found.deterministic is None and "second rough body" in found.decision.text
+    result = lubfric.friction(lubfric.prepare(scene, map_), 0.1)
+    assert result.deterministic is None and "second rough body" in result.decision.text
     with pytest.raises(lubfric.InputError, match="both bodies"):
         lubfric.prepare(scene, counterface=map_)
     with pytest.raises(lubfric.InputError, match="counterface"):
@@ -206,15 +206,15 @@ def test_two_measured_maps_are_together_what_the_contact_sees(two_files, samplin
     """In strips and in a patch; those given are those of the files. The counterface lies turned over about x."""
     scene, maps = two_files
     prepared = lubfric.prepare(scene.with_(numerics={"model": "deterministic", "sampling": sampling}))
-    found = maps_of(prepared, 0)
+    result = maps_of(prepared, 0)
     whole = prepared.sample.strip(0)
-    heights = sum(one.heights - one.heights.mean() for one in found.values())
+    heights = sum(one.heights - one.heights.mean() for one in result.values())
     np.testing.assert_allclose(heights, whole.heights - whole.heights.mean(), atol=1e-14)
-    assert min(one.sq for one in found.values()) > 0.3 * whole.sq
+    assert min(one.sq for one in result.values()) > 0.3 * whole.sq
     given = maps_of(lubfric.prepare(scene, maps[0], counterface=maps[1]), 0)
     assert given["counterface"].sq == pytest.approx(maps[1].sq, rel=0.1)
     if sampling == "patch":
-        for name, one in found.items():
+        for name, one in result.items():
             np.testing.assert_array_equal(given[name].heights, one.heights)
 
 
@@ -223,9 +223,9 @@ def test_two_measured_maps_move_each_at_its_own_speed(two_files):
     patch = {"model": "deterministic", "sampling": "patch", "grid": "given", "accept": True}
     scene = scene.with_(numerics=patch, contact={"spacing": 2 * CELL})
     maps = maps_of(lubfric.prepare(scene), 0)
-    found = lubfric.friction(scene, 0.3)
+    result = lubfric.friction(scene, 0.3)
     bodies = [RoughBody(maps["surface"], 0.15), RoughBody(maps["counterface"], 0.45, upper=True)]
-    assert found.coefficient == pytest.approx(solve_moving_strip(scene, bodies, 0.3).result.coefficient, rel=1e-3)
+    assert result.coefficient == pytest.approx(solve_moving_strip(scene, bodies, 0.3).result.coefficient, rel=1e-3)
 
 
 def test_motion_backwards_is_the_mirror_image():
@@ -255,9 +255,9 @@ def test_a_step_that_newtons_method_does_not_solve_is_taken_in_parts(monkeypatch
     real = moving.newton
 
     def only_after_parts(at, *given, history, **how):
-        found = real(at, *given, history=history, **how)
+        result = real(at, *given, history=history, **how)
         tried.append((history.step < 0.5 * CELL / 0.15, at.heights))
-        return found if any(part for part, _ in tried[-2:]) else replace(found, residuals={"mass": 1.0})
+        return result if any(part for part, _ in tried[-2:]) else replace(result, residuals={"mass": 1.0})
 
     monkeypatch.setattr(moving, "newton", only_after_parts)
     parts = after(problem, bodies, 6, CELL / 0.15)

@@ -56,9 +56,9 @@ def small(lubricant, shape=(12, 6), step=5e-6, e_prime=231e9, load=900.0):
 
 @pytest.mark.parametrize("left, right", [(0.0, 0.0), (1.0, 1.0004), (3.0, 40.0), (40.0, 3.0), (2.0, 1.0)])
 def test_mean_fluidity_is_the_mean_of_the_exponential_and_its_derivatives(left, right):
-    found, by_left, by_right = mean_fluidity(np.array([left]), np.array([right]))
+    result, by_left, by_right = mean_fluidity(np.array([left]), np.array([right]))
     exact = quad(lambda t: np.exp(-(left + t * (right - left))), 0, 1, epsabs=0, epsrel=1e-11, points=[0.02, 0.98])[0]
-    assert found[0] == pytest.approx(np.log(exact), abs=1e-7)
+    assert result[0] == pytest.approx(np.log(exact), abs=1e-7)
     step = 1e-6
     for by, dl, dr in ((by_left, step, 0.0), (by_right, 0.0, step)):
         up = mean_fluidity(np.array([left + dl]), np.array([right + dr]))[0]
@@ -99,15 +99,15 @@ def test_inlet_against_martins_closed_form():
     edge = problem.x[0] - 2.5e-6
     pressure = lambda x: rigid.pressure(x, h0, radius=RADIUS, entrainment_speed=SPEED, viscosity=eta)  # noqa: E731
     film = h0 + problem.x[0] ** 2 / (2 * RADIUS)
-    found = inlet(problem, pressure(np.full(6, problem.x[0])), np.full(6, film))
+    result = inlet(problem, pressure(np.full(6, problem.x[0])), np.full(6, film))
     q = SPEED * h0 * rigid.rigid_constants().flow_film_ratio
-    assert found.flow == pytest.approx(q, rel=2e-3)  # half a cell of 5 µm is differenced
+    assert result.flow == pytest.approx(q, rel=2e-3)  # half a cell of 5 µm is differenced
     load = quad(lambda x: float(pressure(x)), -np.inf, edge, epsrel=1e-10, epsabs=0)[0]
-    assert found.load == pytest.approx(load, rel=2e-3)
+    assert result.load == pytest.approx(load, rel=2e-3)
     gap = lambda x: h0 + x**2 / (2 * RADIUS)  # noqa: E731
     slope = lambda x: 12 * eta * (SPEED * gap(x) - q) / gap(x) ** 3  # noqa: E731
-    assert found.rolling == pytest.approx(quad(lambda x: 0.5 * gap(x) * slope(x), -np.inf, edge)[0], rel=2e-3)
-    assert found.shearing == pytest.approx(quad(lambda x: 1 / gap(x), -np.inf, edge)[0], rel=1e-4)
+    assert result.rolling == pytest.approx(quad(lambda x: 0.5 * gap(x) * slope(x), -np.inf, edge)[0], rel=2e-3)
+    assert result.shearing == pytest.approx(quad(lambda x: 1 / gap(x), -np.inf, edge)[0], rel=1e-4)
 
 
 def rigid_load(q_of, film_at, eta, x):
@@ -164,9 +164,9 @@ def test_rigid_waviness_against_christensens_averages(along):
     load, q = rigid_load(factors, lambda s: h0 + s**2 / (2 * RADIUS), eta, x)
     contact = LineContact(load_per_width=load, radius=RADIUS, e_prime=1e13, entrainment_speed=SPEED, lubricant=oil)
     problem = lay_out(surface, contact, sliding=2 * SPEED, boundary_friction=0.09, ends=ends)
-    found = solve_point(problem)
-    lift = found.gap + problem.heights - (problem.x**2 / (2 * RADIUS))[:, None]
-    assert found.flow_film == pytest.approx(q / SPEED, rel=0.02)
+    result = solve_point(problem)
+    lift = result.gap + problem.heights - (problem.x**2 / (2 * RADIUS))[:, None]
+    assert result.flow_film == pytest.approx(q / SPEED, rel=0.02)
     assert np.median(lift) == pytest.approx(h0, rel=0.02)
 
 
@@ -183,11 +183,11 @@ def test_a_film_ruptures_and_refills_where_its_flow_says():
     heights = 2.4e-6 * np.exp(-(((x - 100e-6) / 25e-6) ** 2))[:, None]
     operator = half_space((n, 1), step, 1e13, ("free", "periodic"))
     problem = Problem(line=contact, sliding=2 * SPEED, x=x, heights=heights, operator=operator, boundary_friction=0.09)
-    found = solve_point(problem)
-    h = found.gap[:, 0]
-    p = found.pressure[:, 0]
-    fill = found.fill[:, 0]
-    q = found.flow_film
+    result = solve_point(problem)
+    h = result.gap[:, 0]
+    p = result.pressure[:, 0]
+    fill = result.fill[:, 0]
+    q = result.flow_film
     carried = np.where(fill < 1, fill * (h + np.diff(h, prepend=h[0]) / 2), q)
     assert np.count_nonzero(np.abs(carried / q - 1) > 1e-6) <= 1  # but where the second film pushes back into a cell
     second = np.flatnonzero((p > 0) & (x > x[np.argmax(fill < 1)]))
@@ -235,12 +235,12 @@ def test_a_wave_of_pressure_drives_its_flow_along_its_own_axis(axis, waves):
     places = np.arange(SHAPE[axis])
     line = 1e7 * (2 + np.sin(2 * np.pi * waves * places / SHAPE[axis]))
     p = np.broadcast_to(line[:, None] if axis == 0 else line[None, :], SHAPE)
-    found = mass_balance(even(), p, np.full(SHAPE, h)).residual[2:-1]
+    result = mass_balance(even(), p, np.full(SHAPE, h)).residual[2:-1]
     second = (np.roll(line, -1) - 2 * line + np.roll(line, 1)) / step**2
     expected = -(h**3) / (12 * ETA) * (second[2:-1, None] if axis == 0 else second[None, :])
-    everywhere = np.broadcast_to(expected, found.shape)
+    everywhere = np.broadcast_to(expected, result.shape)
     most = abs(expected).max()
-    np.testing.assert_allclose(found, everywhere, rtol=1e-8, atol=1e-8 * most)
+    np.testing.assert_allclose(result, everywhere, rtol=1e-8, atol=1e-8 * most)
 
 
 def test_a_wedge_takes_in_what_it_is_dragged():

@@ -21,7 +21,7 @@ def solved(speed=0.01, factors=(2, 2), scene=SCENE, surface=MAP, **more):
 FOUND = solved(slope=True)
 
 
-def test_longer_cells_take_heights_where_they_stand():
+def test_longer_cells_take_heights_where_they_are():
     thinned = MAP.heights[1::2, 1::2]
     x = (np.arange(96) - 47.5) * 0.9e-6
     on_map = np.isin(np.round(FOUND.problem.x * 1e9), np.round(x[1::2] * 1e9))
@@ -89,9 +89,9 @@ def test_the_estimate_tells_what_half_of_the_cells_change():
         kind = {"sq": 1e-7, "correlation_length": 8e-6, "acf": "gaussian"}
         fine = lubfric.generate_surface((192, 256), 0.45e-6, **kind, seed=seed)
         strips = [solved(0.02, (n, n), surface=fine) for n in (8, 4, 2)]
-        told = error_by_cells(changes_of(strips[:2]))
-        ratios.append(abs(strips[2].result.coefficient / strips[1].result.coefficient - 1) / told)
+        stated = error_by_cells(changes_of(strips[:2]))
+        ratios.append(abs(strips[2].result.coefficient / strips[1].result.coefficient - 1) / stated)
     assert max(ratios) < 2 and sum(ratio < 1 for ratio in ratios) >= 2
     cases = (0.5, 3, 0.015), (0.3, 2, 0.003 * 0.96), (0.7, 1, 0.0098), (1.5, 1, 0.03)
-    for ratio, left, told in cases:  # a series that ends
-        assert error_by_cells((0.01, 0.01 * ratio), left) == pytest.approx(told)
+    for ratio, left, stated in cases:  # a series that ends
+        assert error_by_cells((0.01, 0.01 * ratio), left) == pytest.approx(stated)

@@ -42,9 +42,9 @@ def test_long_waves_are_pressed_flat_and_short_ones_stay(oil):
     for length, within in ((b / 2, 0.04), (b / 4, 0.01), (b / 8, 0.01)):
         k = 2 * np.pi / length
         wavy = replace(smooth, heights=0.01 * film * np.cos(k * x)[:, None])
-        found = solve_point(wavy, start=base.state, tolerance=1e-8)
+        result = solve_point(wavy, start=base.state, tolerance=1e-8)
         waves = np.stack([np.cos(k * x), np.sin(k * x), np.ones_like(x), x], axis=1)[near] * weight[:, None]
-        part = np.linalg.lstsq(waves, (found.gap - base.gap)[near, 0] * weight, rcond=None)[0]
+        part = np.linalg.lstsq(waves, (result.gap - base.gap)[near, 0] * weight, rcond=None)[0]
         kept.append(np.hypot(part[0], part[1]) / (0.01 * film))
         q = 48 * float(viscosity(oil, pressure)) * SPEED / (E_PRIME * k**2 * film**3)
         assert kept[-1] == pytest.approx(1 / np.hypot(1, q), rel=within)

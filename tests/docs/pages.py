@@ -24,8 +24,8 @@ class Block:
 def blocks(page: Path) -> list[Block]:
     """All fenced blocks of a page, in order."""
     text = page.read_text(encoding="utf-8")
-    found = FENCE.finditer(text)
-    return [Block(page, m["language"].strip(), m["body"], text[: m.start()].count("\n") + 1) for m in found]
+    result = FENCE.finditer(text)
+    return [Block(page, m["language"].strip(), m["body"], text[: m.start()].count("\n") + 1) for m in result]
 
 
 def files(page: Path) -> dict[str, str]:

@@ -21,9 +21,9 @@ def test_links_within_the_project_lead_somewhere(page):
         path, _, anchor = target.partition("#")
         if path.startswith(MADE):
             continue
-        found = page.parent / path if path else page
-        assert found.exists(), f"{page.name}: {target} does not exist"
-        assert not anchor or anchor in anchors(found), f"{page.name}: {target}: no such heading"
+        result = page.parent / path if path else page
+        assert result.exists(), f"{page.name}: {target} does not exist"
+        assert not anchor or anchor in anchors(result), f"{page.name}: {target}: no such heading"
 
 
 def test_links_to_the_outside_are_listed():

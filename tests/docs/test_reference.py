@@ -30,10 +30,10 @@ def test_every_name_of_the_reference_exists():
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_every_parameter_is_told(name):
+def test_every_parameter_is_reported(name):
     function = getattr(lubfric, name)
     lines = numpydoc(inspect.getdoc(function).splitlines())
     begin = lines.index("Parameters")
-    told = [line for line in lines[begin:] if line and not line.startswith((" ", "-"))]
-    assert set(inspect.signature(function).parameters) - GONE <= set(told)
+    stated = [line for line in lines[begin:] if line and not line.startswith((" ", "-"))]
+    assert set(inspect.signature(function).parameters) - GONE <= set(stated)
     assert "Returns" in "".join(lines) and "Raises" in "".join(lines)

@@ -39,10 +39,10 @@ def test_another_algorithm_finds_the_same_pressure(seed, load):
     layer = make_layer(MeshTri.init_tensor(np.linspace(-0.5, 0.5, 13), np.linspace(-0.5, 0, 7)), BODY)
     compliance = layer.compliance
     gap0 = 0.3 * np.random.default_rng(seed).standard_normal(layer.x.size)
-    found = solve_contact(lambda f: compliance @ f, layer.weights, gap0, load, tolerance=1e-10)
+    result = solve_contact(lambda f: compliance @ f, layer.weights, gap0, load, tolerance=1e-10)
     factor = np.linalg.cholesky(compliance)
-    force, _ = nnls(factor.T, -np.linalg.solve(factor, gap0 - found.approach))
-    assert found.pressure * layer.weights == pytest.approx(force, abs=1e-7 * load)
+    force, _ = nnls(factor.T, -np.linalg.solve(factor, gap0 - result.approach))
+    assert result.pressure * layer.weights == pytest.approx(force, abs=1e-7 * load)
 
 
 @settings(max_examples=25)
@@ -53,23 +53,23 @@ def test_capped_contact_of_random_heights_meets_every_condition(bricks, seed, pr
     weights = grid.weights.ravel()
     limit = over * pressure
     gap0 = np.random.default_rng(seed).standard_normal(weights.size)
-    found = solve_contact(compliance.displacement, weights, gap0, pressure, limit=limit)
-    gap = gap0 - found.approach + compliance.displacement(found.pressure * weights)
-    small = 1e-7 * np.ptp(found.displacement)
-    between = found.touching & ~found.saturated
-    assert np.all((found.pressure >= 0) & (found.pressure <= limit * (1 + 1e-12)))
+    result = solve_contact(compliance.displacement, weights, gap0, pressure, limit=limit)
+    gap = gap0 - result.approach + compliance.displacement(result.pressure * weights)
+    small = 1e-7 * np.ptp(result.displacement)
+    between = result.touching & ~result.saturated
+    assert np.all((result.pressure >= 0) & (result.pressure <= limit * (1 + 1e-12)))
     assert np.abs(gap[between]).max(initial=0) <= small
-    assert gap[found.pressure == 0].min(initial=0) >= -small
-    assert gap[found.saturated].max(initial=0) <= small
-    assert weights @ found.pressure == pytest.approx(pressure, rel=1e-7)
+    assert gap[result.pressure == 0].min(initial=0) >= -small
+    assert gap[result.saturated].max(initial=0) <= small
+    assert weights @ result.pressure == pytest.approx(pressure, rel=1e-7)
 
 
 def test_load_that_saturated_nodes_carry_exactly():
     """One node at its cap carries all: a tie, with the approach free between two values."""
-    found = solve_contact(lambda f: f, np.ones(3), np.array([0.0, 5.0, 9.0]), 2.0, limit=2.0 * (1 + 1e-15))
-    assert found.pressure == pytest.approx([2, 0, 0]) and found.report.converged
-    found = solve_contact(lambda f: f, np.ones(3), np.array([0.0, 0.1, 9.0]), 2.0, limit=1.0)
-    assert found.pressure == pytest.approx([1, 1, 0]) and found.report.converged
+    result = solve_contact(lambda f: f, np.ones(3), np.array([0.0, 5.0, 9.0]), 2.0, limit=2.0 * (1 + 1e-15))
+    assert result.pressure == pytest.approx([2, 0, 0]) and result.report.converged
+    result = solve_contact(lambda f: f, np.ones(3), np.array([0.0, 0.1, 9.0]), 2.0, limit=1.0)
+    assert result.pressure == pytest.approx([1, 1, 0]) and result.report.converged
 
 
 @pytest.fixture(scope="module")

@@ -57,8 +57,8 @@ def test_tangent_is_the_derivative(seed, upwind, density):
 
 def test_rigid_isoviscous_limit():
     """Martin (1916) with Reynolds' outlet: h_min M = 2.447484, flow film M = 3, approached at the element's rate."""
-    found = np.array([films(s) for s in solve_ehl(contact(1e-3, 0))]) * 1e-3
-    errors = np.abs(found / [2.447484, 3.0] - 1)
+    result = np.array([films(s) for s in solve_ehl(contact(1e-3, 0))]) * 1e-3
+    errors = np.abs(result / [2.447484, 3.0] - 1)
     assert np.all(errors[-1] < 1e-3)
     assert np.all(errors[-1] < errors[0] / 4)
 

@@ -27,20 +27,20 @@ def given(contact=lambda x: np.zeros(x.shape, bool)):
 @pytest.mark.parametrize("contact", [lambda x: x > 1, lambda x: np.abs(x + 2e-5) < 1e-5], ids=["film", "film and spot"])
 def test_it_is_the_rigid_cylinder(contact):
     gap = given(contact)
-    found = rough_film(gap, Fluid(0.01), 0.1, cells=8)
-    carried = found.pressure.sum(axis=0).mean() * (gap.x[1] - gap.x[0]) + found.upstream
+    result = rough_film(gap, Fluid(0.01), 0.1, cells=8)
+    carried = result.pressure.sum(axis=0).mean() * (gap.x[1] - gap.x[0]) + result.upstream
     assert carried == pytest.approx(EXACT.load, rel=3e-3)
-    assert found.flow == pytest.approx(EXACT.flow, rel=3e-3)
-    assert np.abs(found.pressure - EXACT.pressure([gap.x])[:, None]).max() < 4e-3 * found.pressure.max()
+    assert result.flow == pytest.approx(EXACT.flow, rel=3e-3)
+    assert np.abs(result.pressure - EXACT.pressure([gap.x])[:, None]).max() < 4e-3 * result.pressure.max()
 
 
 def test_a_prescribed_pressure_is_kept_and_pushes_the_film_beside_it():
     gap = given(lambda x: np.abs(x + 2e-5) < 1e-5)
     doubled = replace(gap, pressure=2 * gap.pressure)
-    found = rough_film(doubled, Fluid(0.01), 0.1, cells=8)
+    result = rough_film(doubled, Fluid(0.01), 0.1, cells=8)
     inside = np.abs(gap.x + 2e-5) < 0.8e-5
-    assert found.pressure[inside] == pytest.approx(doubled.pressure[inside, :4], rel=1e-6)
-    assert found.flow < 0.9 * EXACT.flow
+    assert result.pressure[inside] == pytest.approx(doubled.pressure[inside, :4], rel=1e-6)
+    assert result.flow < 0.9 * EXACT.flow
 
 
 def test_a_gap_that_is_not_its_mirror_image_is_refused():

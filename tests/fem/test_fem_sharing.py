@@ -41,11 +41,11 @@ def test_wave_along_the_line_under_a_wide_band_is_that_of_the_half_space():
 def test_hertz_line(strip):
     x = (np.arange(24) - 11.5) * CELL
     exact = Line(E_PRIME, 2e-3, 7.3e-6)
-    found = press(strip, np.tile(x[:, None] ** 2 / 4e-3, (1, 12)), exact.load)
-    assert found.pressure.max() == pytest.approx(exact.peak, rel=5e-3)
-    assert np.ptp(found.pressure, axis=1).max() <= 1e-6 * exact.peak
-    assert found.gap[0, 0] == pytest.approx(exact.gap(x[0]), rel=1e-2)
-    assert found.pressure.sum() * CELL / 12 == pytest.approx(exact.load, rel=1e-12)
+    result = press(strip, np.tile(x[:, None] ** 2 / 4e-3, (1, 12)), exact.load)
+    assert result.pressure.max() == pytest.approx(exact.peak, rel=5e-3)
+    assert np.ptp(result.pressure, axis=1).max() <= 1e-6 * exact.peak
+    assert result.gap[0, 0] == pytest.approx(exact.gap(x[0]), rel=1e-2)
+    assert result.pressure.sum() * CELL / 12 == pytest.approx(exact.load, rel=1e-12)
 
 
 def test_shear_of_a_rigid_film():
@@ -123,7 +123,7 @@ def test_flat_balance_of_the_finite_elements():
         entrainment_speed=0.02,
         fluid=Fluid(0.36, viscosity_law="roelands", pressure_viscosity_coefficient=25e-9),
     )
-    found = [
+    result = [
         share_load(
             FlatBodies(
                 contact=line,
@@ -136,10 +136,10 @@ def test_flat_balance_of_the_finite_elements():
         )
         for sliding in (0.04, -0.04)
     ]
-    for shared in found:
+    for shared in result:
         assert abs(shared.residual) <= 1e-5 and shared.film_load + shared.contact_load == pytest.approx(5.5)
         pressure = shared.contact_load / (2 * line.half_width * 6e-3)
         assert shared.mean_gap == pytest.approx(3e-7 * math.exp(-pressure / 5e7), rel=1e-9)
-    fore, back = found
+    fore, back = result
     assert fore.couette == pytest.approx(-back.couette) and fore.rolling == pytest.approx(back.rolling)
     assert (fore.coefficient - back.coefficient) * 5.5 == pytest.approx(2 * fore.rolling, rel=1e-6)

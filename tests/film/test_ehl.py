@@ -102,7 +102,7 @@ def grubin(M, L):
 
 def test_grubin_inlet_is_approached_at_high_load():
     films = {M: moes_film(M, 15.0, viscosity_law="barus", tolerance=1e-3)[2] for M in (20, 80, 320)}
-    departures = np.abs(np.array([found / grubin(M, 15.0) for M, found in films.items()]) - 1)
+    departures = np.abs(np.array([result / grubin(M, 15.0) for M, result in films.items()]) - 1)
     assert np.all(np.diff(departures) < 0) and departures[-1] < 0.045
 
 
@@ -284,8 +284,8 @@ def test_a_starved_rigid_film_is_the_one_integrated_directly():
             return of(e)[1], gap + e * e / (2 * radius)
 
         gap = brentq(lambda h: math.log(load_of(h)[0] / load), 1e-5 * length**2 / radius, length**2 / radius)
-        found = solve_ehl(**arguments, inlet_length=k * length)
-        assert found.flow_film == pytest.approx(load_of(gap)[1], rel=3e-4)
+        result = solve_ehl(**arguments, inlet_length=k * length)
+        assert result.flow_film == pytest.approx(load_of(gap)[1], rel=3e-4)
 
 
 @pytest.mark.parametrize("M, L", [(0.05, 1), (5, 5), (100, 10)])
@@ -324,7 +324,7 @@ def test_warm_start_finds_the_same_film_in_fewer_steps():
         assert warm.report.iterations < cold.report.iterations and warm.report.converged
 
 
-def test_a_spoiled_start_is_dropped_and_told():
+def test_a_spoiled_start_is_dropped_and_reported():
     arguments, _ = contact(10, 8)
     good = solve_ehl(**arguments)
     for spoiled in (

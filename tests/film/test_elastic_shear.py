@@ -88,8 +88,8 @@ def test_more_substeps_move_the_force_little(monkeypatch):
     forces = {}
     for count in (4, 8):
         monkeypatch.setattr(module, "SUBSTEPS", count)
-        found = stresses(lubricant, contact, 2e-3, film, wet=0.8)
-        forces[count] = np.trapezoid(found.film_share, X), found.asperity_share
+        result = stresses(lubricant, contact, 2e-3, film, wet=0.8)
+        forces[count] = np.trapezoid(result.film_share, X), result.asperity_share
     np.testing.assert_allclose(forces[4], forces[8], rtol=5e-3)
 
 

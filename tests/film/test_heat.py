@@ -86,14 +86,14 @@ def test_eyring_film_against_a_boundary_value_solver(sliding):
 @pytest.mark.parametrize("ratio", [0.02, 0.3, 2.0])
 def test_stress_and_temperature_satisfy_both_equations(ratio):
     x, p, h, _ = contact(1e9)
-    found = heated_film(OIL, x, p, h, around(x, 2.0, ratio, contact_heat=2e7))
-    heat = found.stress * ratio * 2.0 + 2e7
+    result = heated_film(OIL, x, p, h, around(x, 2.0, ratio, contact_heat=2e7))
+    heat = result.stress * ratio * 2.0 + 2e7
     carried = STEEL * (math.sqrt(2 * abs(1 - ratio / 2)) + math.sqrt(2 * (1 + ratio / 2)))
     for i in (60, 96, 150):
         rise = swept(lambda at: np.interp(at, x, heat), x[i], x[i] - x[0])
-        assert found.wall[i] - T0 == pytest.approx(rise / math.sqrt(math.pi) / carried, rel=2e-5)
-    assert found.stress == pytest.approx(heated_stress(OIL, p, h, ratio * 2.0, found.wall)[0], rel=1e-12)
-    assert np.all(found.stress <= OIL.limit.critical_at(p, found.wall + found.film_rise) * (1 + 1e-9))
+        assert result.wall[i] - T0 == pytest.approx(rise / math.sqrt(math.pi) / carried, rel=2e-5)
+    assert result.stress == pytest.approx(heated_stress(OIL, p, h, ratio * 2.0, result.wall)[0], rel=1e-12)
+    assert np.all(result.stress <= OIL.limit.critical_at(p, result.wall + result.film_rise) * (1 + 1e-9))
 
 
 @settings(max_examples=12)
@@ -112,8 +112,8 @@ def test_heated_force_lies_between_one_pass_and_isothermal(peak, ratio, log_spee
 def test_a_limit_far_below_the_newtonian_stress_is_found():
     """At 6.9 GPa Roelands' viscosity asks for 1e20 times what the film bears; the limit is what it bears."""
     oil = Lubricant(0.033, 2.19e-8, limiting_stress_coefficient=0.06, temperature=365.0, temperature_coefficient=0.034)
-    found, _ = heated_stress(oil, np.array([6.9e9]), np.array([1e-6]), 3.5, np.array([365.0]))
-    assert 0 < found[0] <= 1e6 + 0.06 * 6.9e9
+    result, _ = heated_stress(oil, np.array([6.9e9]), np.array([1e-6]), 3.5, np.array([365.0]))
+    assert 0 < result[0] <= 1e6 + 0.06 * 6.9e9
 
 
 def test_heat_of_the_inlet_is_modelled_where_parts_of_f_cancel():
@@ -127,7 +127,7 @@ def test_heat_of_the_inlet_is_modelled_where_parts_of_f_cancel():
         contact={"shape": (48, 48), "spacing": 6.25e-6},
         numerics={"sampling": "patch", "grid": "given", "film_deflection": "hydrodynamic"},
     )
-    found, right = (lubfric.friction(scene.with_(numerics={"tolerance": t})) for t in (1e-2, 1e-4))
-    parts = abs(found.couette_force) + abs(found.rolling_force) + found.boundary_force
-    assert found.coefficient * 96.15 < 0.2 * parts and 1 - found.inlet_film_factor > 1e-3
-    assert found.coefficient == pytest.approx(right.coefficient, rel=1e-2)
+    result, right = (lubfric.friction(scene.with_(numerics={"tolerance": t})) for t in (1e-2, 1e-4))
+    parts = abs(result.couette_force) + abs(result.rolling_force) + result.boundary_force
+    assert result.coefficient * 96.15 < 0.2 * parts and 1 - result.inlet_film_factor > 1e-3
+    assert result.coefficient == pytest.approx(right.coefficient, rel=1e-2)

@@ -47,22 +47,22 @@ def test_switched_off_it_is_the_point_of_the_plain_numbers(model):
 
 @pytest.mark.parametrize("speed, ratio", [(1.0, 0.3), (0.05, 2.0)])
 def test_friction_is_that_of_the_standalone_solve(model, speed, ratio):
-    found = at(model, speed, ratio, numerics={"heat": "on"})
-    film = found.balance.film
-    contact = found.balance.contact_state
+    result = at(model, speed, ratio, numerics={"heat": "on"})
+    film = result.balance.film
+    contact = result.balance.contact_state
     bodies = BASE.bodies
     share = 1 - contact.touching(film.x)
     share = np.where(film.x[:-1] < film.rupture, share, 0)
     wet = 0.5 * (np.append(share[:1], share) + np.append(share, share[-1:]))
     b = bodies.half_width
-    spots = 2 * found.contact_load / (np.pi * b * bodies.width) * np.sqrt(np.maximum(1 - (film.x / b) ** 2, 0))
+    contacts = 2 * result.contact_load / (np.pi * b * bodies.width) * np.sqrt(np.maximum(1 - (film.x / b) ** 2, 0))
     carried = sum(e * np.sqrt(speed * abs(1 + s * ratio / 2)) for e, s in zip(bodies.effusivity, (-1, 1)))
-    around = Surroundings(carried, ratio * speed, wet, 0.09 * spots * ratio * speed)
+    around = Surroundings(carried, ratio * speed, wet, 0.09 * contacts * ratio * speed)
     heated = heated_film(BASE.lubricant, film.x, film.pressure, film.film_thickness, around)
     couette = bodies.width * np.trapezoid(wet * heated.stress, film.x)
-    assert found.couette_force == pytest.approx(couette, rel=3e-3)
-    assert found.flash_temperature_rise == pytest.approx(heated.flash, rel=1e-6)
-    assert found.coefficient < at(model, speed, ratio, numerics={"heat": "off"}).coefficient
+    assert result.couette_force == pytest.approx(couette, rel=3e-3)
+    assert result.flash_temperature_rise == pytest.approx(heated.flash, rel=1e-6)
+    assert result.coefficient < at(model, speed, ratio, numerics={"heat": "off"}).coefficient
 
 
 def test_the_film_is_thinner_by_the_inlet_factor(model):
@@ -74,7 +74,7 @@ def test_the_film_is_thinner_by_the_inlet_factor(model):
     assert on.central_film / off.central_film == pytest.approx(on.inlet_film_factor, rel=0.01)
 
 
-def test_what_is_left_out_is_part_of_the_numerical_error(model):
+def test_what_is_omitted_is_part_of_the_numerical_error(model):
     auto = at(model, 0.3, 0.01)
     on = at(model, 0.3, 0.01, numerics={"heat": "on"})
     assert "flash not included" in auto.decision.heat_in_words and "flash not included" not in on.decision.heat_in_words

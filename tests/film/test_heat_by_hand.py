@@ -90,8 +90,10 @@ def test_a_film_at_its_limit_bears_what_its_mean_temperature_allows():
 
     expected = brentq(left, 1e6, 1e9)
     limited = Lubricant(ETA, ALPHA, limiting_stress_coefficient=0.06, limiting_stress_offset=2e6, **LAWS)
-    found, rise = heated_stress(limited, np.array([p]), np.array([h]), sliding, np.array([wall]))
-    assert found[0] == pytest.approx(expected, rel=1e-9) and rise[0] == pytest.approx(expected * sliding * h / (12 * K))
+    result, rise = heated_stress(limited, np.array([p]), np.array([h]), sliding, np.array([wall]))
+    assert result[0] == pytest.approx(expected, rel=1e-9) and rise[0] == pytest.approx(
+        expected * sliding * h / (12 * K)
+    )
 
 
 @pytest.mark.parametrize("ratio", [0.0, 0.1, -0.7, 2.0])
@@ -100,7 +102,7 @@ def test_a_film_at_its_limit_bears_what_its_mean_temperature_allows():
 def test_inlet_factors_over_the_thermal_number_and_the_sliding(number, ratio, pressure_ratio):
     """Gupta et al. (1992); and Wilson and Sheu (1983) as Olver and Spikes use it."""
     speed = math.sqrt(number * 0.15 / (0.05 * 0.035))
-    found = inlet_heat(
+    result = inlet_heat(
         viscosity=0.05,
         temperature_coefficient=0.035,
         conductivity=0.15,
@@ -110,8 +112,8 @@ def test_inlet_factors_over_the_thermal_number_and_the_sliding(number, ratio, pr
     )
     s = abs(ratio) ** 0.83
     gupta = (1 - 13.2 * pressure_ratio * number**0.42) / (1 + 0.213 * (1 + 2.23 * s) * number**0.64)
-    assert found.thermal_number == pytest.approx(number) and found.factor == pytest.approx(gupta, rel=1e-12)
-    assert found.other == pytest.approx(1 / (1 + 0.1 * (1 + 14.8 * s) * number**0.64), rel=1e-12)
+    assert result.thermal_number == pytest.approx(number) and result.factor == pytest.approx(gupta, rel=1e-12)
+    assert result.other == pytest.approx(1 / (1 + 0.1 * (1 + 14.8 * s) * number**0.64), rel=1e-12)
 
 
 def at(speed, ratio, **bodies):
@@ -119,13 +121,13 @@ def at(speed, ratio, **bodies):
 
 
 def test_the_inlet_of_a_scene_has_its_own_numbers():
-    found = at(2.0, 0.5)
+    result = at(2.0, 0.5)
     bodies = SCENE.bodies
     peak = math.sqrt(bodies.load / bodies.width * bodies.e_prime / (2 * math.pi * bodies.radius))
     number = 0.03 * BETA * 2.0**2 / K
     gupta = (1 - 13.2 * peak / bodies.e_prime * number**0.42) / (1 + 0.213 * (1 + 2.23 * 0.5**0.83) * number**0.64)
     assert peak == pytest.approx(0.9e9, rel=1e-6)
-    assert found.inlet_film_factor == pytest.approx(gupta, rel=1e-9)
+    assert result.inlet_film_factor == pytest.approx(gupta, rel=1e-9)
 
 
 @pytest.mark.parametrize("key, other", [("conductivity", 1.1), ("volumetric_heat", 2e5)])

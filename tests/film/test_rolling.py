@@ -63,13 +63,13 @@ def force(found, share=0.0):
     return shear_force(found, oil, **how, contact_fraction=lambda x: np.full(x.size - 1, share))
 
 
-def test_spots_take_their_share_of_it():
+def test_asperity_contacts_take_their_share_of_it():
     """Spots everywhere alike leave the rest of the force; all of it where they are all there is but the far inlet."""
-    found = film(50, 5)
-    free, half, full = (force(found, share) for share in (0.0, 0.5, 1.0))
+    result = film(50, 5)
+    free, half, full = (force(result, share) for share in (0.0, 0.5, 1.0))
     assert half.rolling == pytest.approx(0.5 * (free.rolling + full.rolling))
-    assert free.rolling == pytest.approx(found.rolling[0], rel=0.05)  # and the inlet before the first node
-    assert full.rolling - free.rolling == pytest.approx(-summed(found)[0])
+    assert free.rolling == pytest.approx(result.rolling[0], rel=0.05)  # and the inlet before the first node
+    assert full.rolling - free.rolling == pytest.approx(-summed(result)[0])
     assert free.rolling_parts < half.rolling_parts < full.rolling_parts
 
 
@@ -91,7 +91,7 @@ def test_pure_rolling_keeps_its_tolerance(case):
     step = 6 * scene.bodies.half_width / shape[0]
     scene = scene.with_(surface={"sq": 5e-8, "correlation_length": 4 * step}, contact={"shape": shape, "spacing": step})
     model = lubfric.prepare(scene)
-    found = lubfric.friction(model)
+    result = lubfric.friction(model)
     fine = lubfric.friction(model, tolerance=2e-3)
-    assert found.coefficient == pytest.approx(fine.coefficient, rel=within)
-    assert found.balance.film.cells <= 384 and (found.contact_load == 0) == (case is HEAVY)
+    assert result.coefficient == pytest.approx(fine.coefficient, rel=within)
+    assert result.balance.film.cells <= 384 and (result.contact_load == 0) == (case is HEAVY)

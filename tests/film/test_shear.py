@@ -61,7 +61,7 @@ def test_reversed_motion_gives_the_same_force():
     assert b.couette == pytest.approx(a.couette) and b.rolling == pytest.approx(a.rolling)
 
 
-def test_contact_spots_carry_no_shear():
+def test_asperity_contacts_carry_no_shear():
     result = film()
     full = force(result)
     half = force(result, contact_fraction=evenly(0.5))
@@ -106,7 +106,7 @@ def test_couette_of_a_heated_film_does_not_depend_on_where_its_nodes_begin():
 
     radius = 0.03
     sliding = 2.0
-    found = []
+    result = []
     oil = Lubricant(0.1, 1e-8)
     how = {"slide_roll_ratio": 0.5, "width": 0.01, "contact_fraction": lambda at: np.zeros(at.size - 1)}
     how["heated"] = lambda x, p, h: 0.8 * 0.1 * sliding / h
@@ -114,9 +114,9 @@ def test_couette_of_a_heated_film_does_not_depend_on_where_its_nodes_begin():
         x = np.linspace(first, 0.0, 4001)
         film = {"x": x, "pressure": np.zeros(x.size), "film_thickness": 2e-6 + x**2 / (2 * radius), "rolling": None}
         film |= {"entrainment_speed": 4.0, "radius": radius, "rupture": 0.0, "flow_film": 2e-6, "inlet": None}
-        found.append(shear_force(SimpleNamespace(**film), oil, **how).couette)
+        result.append(shear_force(SimpleNamespace(**film), oil, **how).couette)
     exact = 0.01 * 0.8 * 0.1 * sliding * np.sqrt(2 * radius / 2e-6) * np.pi / 2  # B eta U ∫ dx/h from -∞ to 0
-    np.testing.assert_allclose(found, exact, rtol=1e-4)
+    np.testing.assert_allclose(result, exact, rtol=1e-4)
 
 
 # the errors that the sums tell: as large as the sums are off, by closed forms
@@ -134,16 +134,16 @@ def test_a_sum_of_rolling_tells_how_far_it_is_off(steps):
 
 
 @pytest.mark.parametrize("width", [0.9, 1.1])
-def test_a_spike_between_the_nodes_is_seldom_worse_than_told(width):
+def test_a_spike_between_the_nodes_is_seldom_worse_than_stated(width):
     """Spikes anywhere between nodes one apart: nine of ten sums are off by no more than is told, which is no less than
     half a per cent of a narrow spike where the nodes see it worst."""
     x = np.arange(41.0)
     area = width * np.sqrt(np.pi)
     spikes = [np.exp(-(((x - at) / width) ** 2)) for at in np.linspace(20.0, 22.0, 41)]
     off = np.array([abs(np.sum(0.5 * (tau[1:] + tau[:-1])) - area) for tau in spikes])
-    told = np.array([spike_error(x, tau) for tau in spikes])
-    assert np.mean(off <= told) > 0.9
-    assert told.max() > 0.08 * np.exp(-(np.pi**2) * width**2 / 4) * area
+    stated = np.array([spike_error(x, tau) for tau in spikes])
+    assert np.mean(off <= stated) > 0.9
+    assert stated.max() > 0.08 * np.exp(-(np.pi**2) * width**2 / 4) * area
 
 
 def test_the_sum_of_the_sliding_shear_is_as_sure_as_it_tells():
@@ -153,21 +153,21 @@ def test_the_sum_of_the_sliding_shear_is_as_sure_as_it_tells():
     keep = np.unique(np.append(np.flatnonzero(result.x >= result.rupture)[0], np.arange(0, result.x.size, 4)))
     fields = {name: getattr(result, name)[keep] for name in ("x", "pressure", "film_thickness")}
     coarse = replace(result, **fields)
-    found = force(coarse)
-    off = abs(found.couette - exact)
-    assert off > 1e-4 * exact and off < found.quadrature < 20 * off
+    solution = force(coarse)
+    off = abs(solution.couette - exact)
+    assert off > 1e-4 * exact and off < solution.quadrature < 20 * off
 
 
-def test_stress_above_what_oils_carry_is_told_with_its_force():
+def test_stress_above_what_oils_carry_is_reported_with_its_force():
     """5 MPa + 0.12 p, typed; the film is so thick that it takes a thousandfold sliding."""
     result = film()
-    found = force(result, slide_roll_ratio=1e3)
+    solution = force(result, slide_roll_ratio=1e3)
     x = result.x
     p = result.pressure
     tau = ETA * 1e3 * U / result.film_thickness
     above = np.maximum(tau - 5e6 - 0.12 * p, 0.0)
     full = x[:-1] < result.rupture
     expected = B * np.sum((0.5 * (above[1:] + above[:-1]) * np.diff(x))[full])
-    assert found.excess == pytest.approx(expected, rel=1e-3) and expected > 0
-    assert found.stress_ratio == pytest.approx(np.max(tau / (5e6 + 0.12 * p)), rel=1e-3)
+    assert solution.excess == pytest.approx(expected, rel=1e-3) and expected > 0
+    assert solution.stress_ratio == pytest.approx(np.max(tau / (5e6 + 0.12 * p)), rel=1e-3)
     assert force(result, slide_roll_ratio=1e-3).excess == 0

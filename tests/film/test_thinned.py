@@ -38,11 +38,11 @@ def test_the_flow_is_that_of_the_profile_across_the_film(law, s, b):
 
     a = brentq(lambda a: of(a, 0) - s, -1e-12, s + 1, xtol=1e-13)
     own = Lubricant(0.1, 2e-8, **law).flow_law
-    found = thinned(own, np.array([s]), np.array([b]))
-    assert found[0][0] == pytest.approx(3 * of(a, 1) / b, rel=2e-4)
-    for part, ds, db in ((found[1], 1e-4, 0.0), (found[2], 0.0, 1e-4)):
+    result = thinned(own, np.array([s]), np.array([b]))
+    assert result[0][0] == pytest.approx(3 * of(a, 1) / b, rel=2e-4)
+    for part, ds, db in ((result[1], 1e-4, 0.0), (result[2], 0.0, 1e-4)):
         ends = [thinned(own, np.array([s * (1 + k * ds)]), np.array([b * (1 + k * db)]))[0] for k in (-1, 1)]
-        assert part[0] == pytest.approx((ends[1] - ends[0])[0] / 2e-4, abs=2e-4 * found[0][0])
+        assert part[0] == pytest.approx((ends[1] - ends[0])[0] / 2e-4, abs=2e-4 * result[0][0])
 
 
 def bair(number, n, ratio):

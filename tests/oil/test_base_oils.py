@@ -28,9 +28,9 @@ def test_what_is_typical_of_a_base_oil(base):
     assert made.density_at(288.15) == density
     assert made.density_at(388.15) == pytest.approx(density - 100 * slope, rel=1e-12)
     assert made.thermal_conductivity == conductivity
-    found = made.pressure_viscosity_coefficient(343.15)
-    assert found.value * 1e9 == pytest.approx(alpha, rel=1e-4)
-    assert (found.low / found.value, found.high / found.value) == pytest.approx((0.85, most))
+    result = made.pressure_viscosity_coefficient(343.15)
+    assert result.value * 1e9 == pytest.approx(alpha, rel=1e-4)
+    assert (result.low / result.value, result.high / result.value) == pytest.approx((0.85, most))
     keys = {"nu40": 4e-4, "nu100": 3e-5, "temperature_celsius": 70, "base": base}
     scene = paper_scene(lubricant=keys)
     assert scene.lubricant.conductivity == conductivity

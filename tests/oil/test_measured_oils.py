@@ -24,9 +24,9 @@ def test_an_oil_has_its_printed_data(name):
     assert made.kinematic_viscosity(373.15) == pytest.approx(at_100 * 1e-6, rel=1e-6)
     assert made.density_at(288.75) == pytest.approx(density, rel=1e-4)
     for celsius, value in zip((40, 60, 80, 100), alpha):
-        found = made.pressure_viscosity_coefficient(celsius + 273.15)
-        assert found.value == pytest.approx(value * 1e-9, rel=1e-9)
-        assert found.high / found.low == pytest.approx(1.04 / 0.96) and "Arana" in found.text
+        result = made.pressure_viscosity_coefficient(celsius + 273.15)
+        assert result.value == pytest.approx(value * 1e-9, rel=1e-9)
+        assert result.high / result.low == pytest.approx(1.04 / 0.96) and "Arana" in result.text
     between = made.pressure_viscosity_coefficient(323.15).value
     assert between == pytest.approx(1e-9 * math.sqrt(alpha[0] * alpha[1]), rel=1e-9)
     gold = oil.gold(at_40 * 1e-6, made.base).value  # printed oils lie 1.1 to 1.45 times above it
@@ -62,7 +62,7 @@ def test_steels_by_name():
 
 
 @pytest.mark.parametrize("value", ["68 cSt", "68 mm²/s", "6.8e-5 m²/s"])
-def test_a_kinematic_viscosity_is_told_where_it_belongs(value):
+def test_a_kinematic_viscosity_is_reported_where_it_belongs(value):
     with pytest.raises(InputError, match="nu40"):
         PAPER.with_(lubricant={"viscosity": value})
 

@@ -39,8 +39,8 @@ def test_viscosity_index_above_the_table():
 
 
 def test_d341_has_the_constant_0_7():
-    found = oil.from_viscosities(68 * MM2, 8.6 * MM2)
-    assert found.kinematic_viscosity(333.15) == pytest.approx(28.49e-6, abs=0.005e-6)
+    result = oil.from_viscosities(68 * MM2, 8.6 * MM2)
+    assert result.kinematic_viscosity(333.15) == pytest.approx(28.49e-6, abs=0.005e-6)
 
 
 @given(st.floats(0.3, 50), st.floats(1.05, 8), st.floats(320, 400))
@@ -63,8 +63,8 @@ def test_table_is_d341_between_its_points_and_ends_there():
 
 def test_given_coefficient_is_used_and_has_no_estimate():
     made = oil.from_grade("VG 100", 95, alpha=2.2e-8)
-    found = made.pressure_viscosity_coefficient(340.0)
-    assert found.value == found.low == found.high == 2.2e-8
+    result = made.pressure_viscosity_coefficient(340.0)
+    assert result.value == result.low == result.high == 2.2e-8
     assert made.other_estimate(340.0) is None
     both = oil.from_grade("VG 100", 95)
     assert both.other_estimate(313.15).value / both.pressure_viscosity_coefficient(313.15).value == pytest.approx(

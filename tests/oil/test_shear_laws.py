@@ -64,9 +64,9 @@ def everywhere(scene):
 @pytest.mark.parametrize("key", LAWS)
 def test_the_key_of_a_law_reaches_the_number_everywhere(key):
     plain = SCENE.with_(lubricant={"eyring_stress": None})
-    found = everywhere(plain.with_(lubricant={key: LAWS[key]}))
+    result = everywhere(plain.with_(lubricant={key: LAWS[key]}))
     newtonian = everywhere(plain)
-    assert found == pytest.approx(found[0], rel=0.06) and np.all(np.abs(found / newtonian - 1) > 0.08)
+    assert result == pytest.approx(result[0], rel=0.06) and np.all(np.abs(result / newtonian - 1) > 0.08)
 
 
 class Bare(ShearLaw):
@@ -95,18 +95,18 @@ def test_friction_in_every_model_and_in_time_follows_a_law_of_ones_own(monkeypat
     """By quadrature over the film; a smooth strip and a run in time have its friction. Eyring's is another."""
     eyring = lubfric.friction(SCENE)
     monkeypatch.setattr(lubricant, "FLOW_LAWS", (Cubic,))
-    found = lubfric.friction(SCENE)
+    result = lubfric.friction(SCENE)
     oil = SCENE.lubricant
     sliding = 0.3
-    film = found.balance.film
+    film = result.balance.film
     newtonian = lubricant.viscosity(oil, film.pressure) * sliding / film.film_thickness
     tau = np.array([np.roots([1e-12, 0, 1, -n])[-1].real for n in newtonian])
     assert np.allclose(tau + 1e-12 * tau**3, newtonian)
     inlet = oil.viscosity * sliding * 2 * SCENE.bodies.radius / abs(film.x[0])
     force = SCENE.bodies.width * (np.trapezoid(tau * (film.x <= film.rupture), film.x) + inlet)
-    assert found.couette_force == pytest.approx(force, rel=0.01)
-    assert found.coefficient < 0.95 * eyring.coefficient and film.flow_film < 0.95 * eyring.balance.film.flow_film
-    assert everywhere(SCENE) == pytest.approx(found.coefficient, rel=0.02)
+    assert result.couette_force == pytest.approx(force, rel=0.01)
+    assert result.coefficient < 0.95 * eyring.coefficient and film.flow_film < 0.95 * eyring.balance.film.flow_film
+    assert everywhere(SCENE) == pytest.approx(result.coefficient, rel=0.02)
 
 
 def test_heat_and_the_deterministic_flow_follow_a_law_of_ones_own(monkeypatch):
@@ -126,7 +126,7 @@ def test_heat_and_the_deterministic_flow_follow_a_law_of_ones_own(monkeypatch):
 
 
 @pytest.mark.parametrize("numerics, part", [({"heat": "on"}, "warmth"), ({"model": "deterministic"}, "tangent")])
-def test_what_a_law_leaves_out_is_refused_by_its_name(monkeypatch, numerics, part):
+def test_what_a_law_omits_is_refused_by_its_name(monkeypatch, numerics, part):
     monkeypatch.setattr(lubricant, "FLOW_LAWS", (Bare,))
     scene = SCENE.with_(numerics={"heat": "off"}, lubricant=WARM)
     assert lubfric.friction(scene).coefficient > 0

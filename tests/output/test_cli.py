@@ -56,7 +56,7 @@ def test_csv_equals_json_and_the_library(run):
         assert np.array_equal(own[name], command[name], equal_nan=own[name].dtype.kind == "f"), name
 
 
-def test_a_map_where_a_gap_is_expected_is_told_apart():
+def test_a_map_where_a_gap_is_expected_is_distinguished():
     surface = lubfric.generate_surface((32, 32), 1e-6, sq=1e-7, correlation_length=3e-6, seed=1)
     with pytest.raises(lubfric.InputError, match=r"gap0 .*gap0 = -surface.heights in m"):
         lubfric.solve_contact(surface, surface.spacing, 2.3e11, mean_pressure=1e7)
@@ -145,7 +145,7 @@ def test_the_error_of_the_model_is_a_column_inside_the_interval(tmp_path, capsys
     assert f"estimate: {cost.partition('; ')[0]}\n" in said
 
 
-def test_how_far_a_long_point_is_is_told_with_the_time_left(capsys, monkeypatch):
+def test_how_far_a_long_point_is_is_reported_with_the_time_left(capsys, monkeypatch):
     from lubfric.output import run_curve
 
     clock = iter((0.0, 0.0, 1.0, 6.0, 7.0, 12.0))

@@ -129,16 +129,16 @@ def test_the_band_between_the_points_has_no_bulges():
         assert (relative >= ends[0] - 1e-12).all() and (relative <= ends[1] + 1e-12).all()
 
 
-def test_a_picture_is_drawn_as_the_command_asks(figures, tmp_path, monkeypatch):
+def test_a_picture_is_drawn_as_the_command_says(figures, tmp_path, monkeypatch):
     """Panels, scales of the axes, and a width for the column of a journal."""
-    asked = []
-    monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", lambda *_, **__: asked.append(_[-1]))
+    requested = []
+    monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", lambda *_, **__: requested.append(_[-1]))
     scene = tmp_path / "s.toml"
     scene.write_text(SCENE.with_(motion={"entrainment_speed": 0.1}).to_toml())
     out = str(tmp_path / "out")
     main(["run", str(scene), "--speeds", "0.1,1", "--out", out])
     main(["plot", out, "--panels", "friction, film", "--x-scale", "linear", "--y-scale", "log", "--width", "85 mm"])
-    plot_stribeck("x.png", COLUMNS, "title", [()] * 4, options=asked[-1])
+    plot_stribeck("x.png", COLUMNS, "title", [()] * 4, options=requested[-1])
     top, bottom = figures[-1].axes
     assert figures[-1].get_figwidth() == pytest.approx(85 / 25.4)
     assert top.get_yscale() == "log" and bottom.get_xscale() == "linear" and "film" in bottom.get_ylabel()
@@ -333,7 +333,7 @@ def test_no_point_is_ringed_where_all_would_be(figures):
     assert len(figures[1].axes) == 1  # no panel of temperatures where none rises
 
 
-def test_a_spike_does_not_take_the_colours_of_a_map_and_is_told():
+def test_a_spike_does_not_take_the_colours_of_a_map_and_is_reported():
     surface = lubfric.generate_surface((60, 60), 1e-6, sq=1e-7, correlation_length=4e-6, seed=1)
     heights = surface.heights.copy()
     heights[5, 7] = 5e-6

@@ -70,7 +70,7 @@ def test_the_report_stands_alone_and_holds_the_numbers(run):
     assert "at 95 %" in text and "Uncertainty budget" in text
 
 
-def test_the_page_tells_lift_off_the_formula_and_what_is_left_out(tmp_path, undrawn):
+def test_the_page_states_lift_off_the_formula_and_what_is_omitted(tmp_path, undrawn):
     (tmp_path / "s.toml").write_text(SCENE.replace("'quick'", "'paper'"))
     out = tmp_path / "o"
     scene = lubfric.load_scene(tmp_path / "s.toml")

@@ -28,20 +28,20 @@ def test_every_input_stands_with_its_unit():
         bodies={"hardness_hv": 700},
     )
     text = describe_scene(scene)
-    told = "reduced radius: 10 mm  (bodies.radius)|length of the line contact: 10 mm|N/mm|peak 900 MPa|°C|mPa s|Gold"
-    told += "|plastic limit of the contact pressure: 7.404 GPa|boundary friction coefficient: 0.09|46 and 46 W/(m K)"
-    told += "|1/K|Sq|/GPa by So and Klaus|Eyring stress: 5 MPa|limiting shear stress per pressure: 0.07"
-    told += "|slide-roll ratio: 0.05|limiting shear stress at ambient pressure: 2 MPa"
-    told += "|surface speeds 0.975 and 1.025 m/s"
-    for words in told.split("|"):
+    stated = "reduced radius: 10 mm  (bodies.radius)|length of the line contact: 10 mm|N/mm|peak 900 MPa|°C|mPa s|Gold"
+    stated += "|plastic limit of the contact pressure: 7.404 GPa|boundary friction coefficient: 0.09|46 and 46 W/(m K)"
+    stated += "|1/K|Sq|/GPa by So and Klaus|Eyring stress: 5 MPa|limiting shear stress per pressure: 0.07"
+    stated += "|slide-roll ratio: 0.05|limiting shear stress at ambient pressure: 2 MPa"
+    stated += "|surface speeds 0.975 and 1.025 m/s"
+    for words in stated.split("|"):
         assert words in text, words
 
 
-def test_info_foretells_what_friction_refuses():
+def test_info_reports_beforehand_what_friction_refuses():
     with pytest.raises(lubfric.ValidityError, match="Newtonian"):
         lubfric.friction(HEAVY)
-    told = describe_scene(HEAVY)
-    assert "not valid" in told and "Newtonian" in told.partition("validity")[2]
+    stated = describe_scene(HEAVY)
+    assert "not valid" in stated and "Newtonian" in stated.partition("validity")[2]
     mended = HEAVY.with_(lubricant={"eyring_stress": 5e6, "limiting_stress_coefficient": 0.07})
     assert "not valid" not in describe_scene(mended)
     assert "no assumption of the model fails" in describe_scene(lubfric.load_scene("paper"))
@@ -51,10 +51,12 @@ def test_info_foretells_what_friction_refuses():
 def test_info_looks_at_what_is_solved():
     """A patch of few asperities is no doubt about a scene that is solved on a long line of its roughness."""
     small = lubfric.load_scene("paper").with_(contact={"shape": (100, 100)})
-    for sampling, told in (("strips", False), ("patch", True)):
+    for sampling, stated in (("strips", False), ("patch", True)):
         scene = small.with_(numerics={"sampling": sampling})
         known = [entry.what for entry in lubfric.prepare(scene).violations]
-        assert ("Few asperities" in describe_scene(scene)) == told == any("width of the map" in what for what in known)
+        assert (
+            ("Few asperities" in describe_scene(scene)) == stated == any("width of the map" in what for what in known)
+        )
     patch = small.with_(numerics={"sampling": "patch", "model": "auto"})
     assert lubfric.friction(patch).decision.model == "deterministic" and "deterministic model" in describe_scene(patch)
     smaller = small.with_(contact={"shape": (64, 64)})  # too small to be generated, which it need not be
@@ -68,8 +70,8 @@ def test_init_writes_a_scene_that_runs_and_overwrites_nothing(tmp_path, capsys):
     assert scene.lubricant.oil.index == pytest.approx(95, abs=1e-6)
     assert describe_scene(scene).count("warning") == 0
     small = scene.with_(contact={"shape": (128, 64), "spacing": 3.2e-6}, numerics={"model": "paper"})
-    found = lubfric.friction(small, 0.01)
-    assert 0.05 < found.coefficient <= 0.12
+    result = lubfric.friction(small, 0.01)
+    assert 0.05 < result.coefficient <= 0.12
     assert main(["init", str(path)]) == 2
     assert "exists" in capsys.readouterr().err
     assert main(["init", str(tmp_path / "nowhere" / "x.toml")]) == 2
@@ -89,7 +91,7 @@ def test_the_roller_of_the_examples_is_an_answer(root, tmp_path):
     assert curve.coefficient[0] < curve.coefficient[1] < curve.coefficient[2]
 
 
-def test_info_tells_of_rest_of_one_gap_and_of_one_patch():
+def test_info_states_rest_of_the_deterministic_model_and_of_one_patch():
     still = describe_scene(HEAVY.with_(motion={"entrainment_speed": 0.0, "speeds": [0.0, 1.0]}))
     assert "no entrainment: all load" in still
     assert "periodic along the line on 128 x 64 cells" in describe_scene(HEAVY.with_(numerics={"sampling": "patch"}))
@@ -139,22 +141,22 @@ SWINGING = lubfric.load_scene("paper").with_(
 def test_info_tells_the_history_of_a_run_and_what_it_costs(plan, words):
     """Also of one that begins at rest, as a reciprocating scene does. Steps within a factor of 2.5 of those taken."""
     scene = SWINGING.with_(transient=lubfric.Transient(outputs=10, **plan))
-    told = describe_scene(scene)
+    stated = describe_scene(scene)
     for each in (*words, f"{plan['duration']:g} s in about", "10 outputs", "within a factor of", "a run in time"):
-        assert each in told, (each, told)
-    assert "no entrainment" not in told and "surface speeds" not in told
-    steps = float(told.partition(" in about ")[2].partition(" steps")[0])
+        assert each in stated, (each, stated)
+    assert "no entrainment" not in stated and "surface speeds" not in stated
+    steps = float(stated.partition(" in about ")[2].partition(" steps")[0])
     assert 1 / 2.5 < steps / lubfric.transient(scene).report.iterations < 2.5
 
 
 def test_info_of_a_run_in_time_is_one_story():
     """One sample for all times, no table of what single speeds would take, and what changes is told as changing."""
     plan = lubfric.Transient(0.02, outputs=10, speed=Harmonic(amplitude=0.05, frequency=100.0))
-    told = describe_scene(lubfric.load_scene("paper").with_(transient=plan, motion={"slide_roll_ratio": 0.1}))
-    head = told.partition("U [m/s]")[2].partition("\n")[0]
-    assert "strips" not in head and "time (s)" not in head and "(below)" not in told and "alone" not in told
-    assert "which changes in time: transient.speed" in told and told.count("of the roughness, ") == 1
-    assert "moving roughness is treated as stationary" in told
+    stated = describe_scene(lubfric.load_scene("paper").with_(transient=plan, motion={"slide_roll_ratio": 0.1}))
+    head = stated.partition("U [m/s]")[2].partition("\n")[0]
+    assert "strips" not in head and "time (s)" not in head and "(below)" not in stated and "alone" not in stated
+    assert "which changes in time: transient.speed" in stated and stated.count("of the roughness, ") == 1
+    assert "moving roughness is treated as stationary" in stated
     squeeze = describe_scene(SWINGING.with_(transient=lubfric.Transient(1e-3, speed=0.0, initial_film=2e-6)))
     assert "no entrainment" in squeeze and "all load" not in squeeze and "film of 2 µm" in squeeze
 
@@ -162,11 +164,13 @@ def test_info_of_a_run_in_time_is_one_story():
 def test_info_takes_the_speeds_of_a_run(capsys, tmp_path):
     for speeds, rows in (("1 mm/s:1 m/s:4", 4), ("auto", 6)):
         assert main(["info", "paper", "--speeds", speeds]) == 0
-        told = capsys.readouterr().out
+        stated = capsys.readouterr().out
         assert all(
-            word in told for word in ("half-width 4.496 µm", "102 MPa", "lambda ratio", "on strips of the roughness")
+            word in stated for word in ("half-width 4.496 µm", "102 MPa", "lambda ratio", "on strips of the roughness")
         )
-        assert f"; {4 if rows == 4 else 12} speeds" in told and len(told.partition("U [m/s]")[2].splitlines()) > rows
+        assert (
+            f"; {4 if rows == 4 else 12} speeds" in stated and len(stated.partition("U [m/s]")[2].splitlines()) > rows
+        )
     (tmp_path / "scene.toml").write_text(TRANSIENT.to_toml())
     assert main(["info", str(tmp_path / "scene.toml"), "--speeds", "1"]) == 2
     assert "--speeds is for a curve" in capsys.readouterr().err
@@ -176,8 +180,8 @@ def test_the_map_that_was_given_comes_before_its_strips(tmp_path):
     heights = 1e-7 * np.random.default_rng(1).normal(size=(60, 40)).cumsum(axis=0)
     path = write_x3p(tmp_path / "mine.x3p", heights, steps=(2e-6, 2e-6))
     rough = {"file": path, "sq": None, "correlation_length": None}
-    told = describe_scene(lubfric.load_scene("paper").with_(surface=rough, contact={"shape": None, "spacing": None}))
-    assert "mine.x3p: 60 x 40 points, 120 x 80 µm" in told and "solved first: " in told
+    stated = describe_scene(lubfric.load_scene("paper").with_(surface=rough, contact={"shape": None, "spacing": None}))
+    assert "mine.x3p: 60 x 40 points, 120 x 80 µm" in stated and "solved first: " in stated
 
 
 @pytest.mark.slow
@@ -191,8 +195,8 @@ def test_info_of_a_model_that_takes_too_long_says_what_answers():
     )
     text = describe_scene(moving)
     assert "on its usual cells it would take too long" in text
-    found = lubfric.friction(moving.with_(numerics={"sampling_tolerance": 0.2})).uncertainty
-    assert found.model > 0.05 and np.isfinite(found.interval).all()
+    result = lubfric.friction(moving.with_(numerics={"sampling_tolerance": 0.2})).uncertainty
+    assert result.model > 0.05 and np.isfinite(result.interval).all()
 
 
 def test_the_peak_pressure_of_a_run_in_time_is_that_of_its_cycle():
@@ -204,8 +208,8 @@ def test_the_peak_pressure_of_a_run_in_time_is_that_of_its_cycle():
     bodies = scene.bodies
     force, curve = (np.array([history.at(t) for t in time]) for history in (load, radius))
     peak = np.sqrt(force * bodies.e_prime / (2 * np.pi * curve * bodies.width)) / 1e6
-    told = describe_scene(scene)
-    low, high = told.partition("peak pressure ")[2].partition(" MPa over the run")[0].split(" to ")
+    stated = describe_scene(scene)
+    low, high = stated.partition("peak pressure ")[2].partition(" MPa over the run")[0].split(" to ")
     assert float(low) == pytest.approx(peak.min(), rel=2e-3) and float(high) == pytest.approx(peak.max(), rel=2e-3)
 
 

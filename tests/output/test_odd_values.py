@@ -93,7 +93,7 @@ def test_an_odd_path_is_refused_in_words(path):
             use()
 
 
-def test_a_key_of_nothing_is_a_key_left_out():
+def test_a_key_of_nothing_is_a_key_omitted():
     table = {
         "bodies": {"radius": 2e-3, "width": 6e-3, "load": 5.5, "e_prime": 231e9, "boundary_friction_coefficient": 0.1},
         "lubricant": {"viscosity": 0.36, "viscosity_law": "constant"},
@@ -106,14 +106,14 @@ def test_a_key_of_nothing_is_a_key_left_out():
 
 
 @pytest.mark.parametrize("speed, ratio", [(1e-12, 2.0), (0.05, 0.0), (0.05, -4.0), (0.05, 1e4), (0.0, 1.0)])
-def test_heat_at_the_ends_of_motion_is_finite_or_told(speed, ratio):
+def test_heat_at_the_ends_of_motion_is_finite_or_reported(speed, ratio):
     try:
-        found = lubfric.friction(HOT.with_(motion={"slide_roll_ratio": ratio}), speed)
+        result = lubfric.friction(HOT.with_(motion={"slide_roll_ratio": ratio}), speed)
     except lubfric.ConvergenceError as error:
         assert f"slide_roll_ratio = {ratio:.3g}" in str(error) and ratio > 1e3
         return
-    assert np.isfinite(found.coefficient)
-    assert (abs(ratio) <= 2) == (not any("slide-roll ratio" in entry.what for entry in found.validity))
+    assert np.isfinite(result.coefficient)
+    assert (abs(ratio) <= 2) == (not any("slide-roll ratio" in entry.what for entry in result.validity))
 
 
 @pytest.mark.parametrize("value", [1.0, "f", [], {}])
@@ -137,6 +137,6 @@ def test_a_film_below_the_last_digit_of_the_load_carries_nothing():
     scene = SCENE.with_(numerics={"model": "paper"})
     rest = lubfric.friction(scene, 0.0)
     for speed in (1e-12, 1e-17, 1e-30, 1e-90):
-        found = lubfric.friction(scene, speed)
-        assert found.coefficient == pytest.approx(rest.coefficient, rel=1e-9)
-        assert found.contact_load == pytest.approx(rest.contact_load, rel=1e-9)
+        result = lubfric.friction(scene, speed)
+        assert result.coefficient == pytest.approx(rest.coefficient, rel=1e-9)
+        assert result.contact_load == pytest.approx(rest.contact_load, rel=1e-9)

@@ -88,10 +88,10 @@ def test_maps_of_both_bodies(work, command):
 
 
 def test_workers_of_a_curve_and_of_a_study(work, monkeypatch):
-    asked = []
+    requested = []
 
     def pool(count):
-        asked.append(count)
+        requested.append(count)
         raise Reached
 
     monkeypatch.setattr(studies, "pool", pool)
@@ -99,7 +99,7 @@ def test_workers_of_a_curve_and_of_a_study(work, monkeypatch):
     for command in (["run", "s.toml", "--workers", "3"], ["study", "study.toml", "--workers", "2"]):
         with pytest.raises(Reached):
             main(command)
-    assert asked == [3, 2]
+    assert requested == [3, 2]
 
 
 def test_a_fit_gets_columns_bounds_and_axis(work):
@@ -155,8 +155,8 @@ def test_help_shows_what_there_is(capsys):
     """An option that does nothing is not shown, nor is the word with which argparse hides it."""
     with pytest.raises(SystemExit):
         main(["run", "-h"])
-    told = capsys.readouterr().out
-    assert "--sampling-tolerance" in told and "--report" not in told and "SUPPRESS" not in told
+    stated = capsys.readouterr().out
+    assert "--sampling-tolerance" in stated and "--report" not in stated and "SUPPRESS" not in stated
 
 
 @pytest.mark.parametrize(

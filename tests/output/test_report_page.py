@@ -125,7 +125,7 @@ def test_the_page_of_a_study_fits_a_phone(tmp_path):
     assert seen["status"] == "Converged: all 3 points are solved." and 'data-label="total load [N]"' in page
 
 
-def test_the_method_is_what_was_solved_and_the_seeds_are_told_apart(run):
+def test_the_method_is_what_was_solved_and_the_seeds_are_distinguished(run):
     page = (run / "out" / "report.html").read_text(encoding="utf-8")
     method = page.partition("<h2>Method and sources</h2>")[2]
     solved, _, estimate = method.partition("Estimate before the solve")

@@ -75,9 +75,9 @@ def test_fields_are_where_a_user_looks_for_them(point):
 def test_a_curve_is_drawn_on_given_axes(curve):
     ax = axes()
     assert curve.plot(ax, label="mine", color="k") is ax
-    found = lines(ax)
-    np.testing.assert_array_equal(found["mine"], np.stack([curve.speed, curve.coefficient], axis=1))
-    parts = found["asperity friction"][:, 1] + found["fluid friction"][:, 1]
+    result = lines(ax)
+    np.testing.assert_array_equal(result["mine"], np.stack([curve.speed, curve.coefficient], axis=1))
+    parts = result["asperity friction"][:, 1] + result["fluid friction"][:, 1]
     np.testing.assert_allclose(parts, curve.coefficient, rtol=1e-12)
     assert ax.get_xscale() == "log" and "m/s" in ax.get_xlabel()
 
@@ -91,15 +91,15 @@ def test_a_lone_point_shows_the_shares_of_its_load():
 
 
 def test_a_history_and_its_loop_are_drawn(history):
-    found = lines(history.plot(axes()))
-    np.testing.assert_allclose(found["friction coefficient"][:, 0], history.time * 1e3)
-    parts = found["asperity friction"][:, 1] + found["fluid friction"][:, 1]
-    np.testing.assert_allclose(parts, found["friction coefficient"][:, 1], rtol=1e-9)
+    result = lines(history.plot(axes()))
+    np.testing.assert_allclose(result["friction coefficient"][:, 0], history.time * 1e3)
+    parts = result["asperity friction"][:, 1] + result["fluid friction"][:, 1]
+    np.testing.assert_allclose(parts, result["friction coefficient"][:, 1], rtol=1e-9)
     loop = history.plot_loop(axes()).lines[0].get_xydata()
     np.testing.assert_array_equal(loop, np.stack([history.entrainment_speed, history.coefficient], axis=1))
 
 
-def test_a_loop_leaves_out_a_standstill_and_a_history_names_no_band_it_has_not(history):
+def test_a_loop_omits_a_standstill_and_a_history_names_no_band_it_has_not(history):
     """At rest f is 0 by convention; on one patch the error of the surface is not known."""
     names = {"entrainment_speed": 0.0, "sliding_speed": 0.0, "coefficient": 0.0}
     columns = {name: np.concatenate([[at_rest], history.columns[name][1:]]) for name, at_rest in names.items()}

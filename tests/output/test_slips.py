@@ -111,7 +111,7 @@ def test_without_a_slip_there_is_an_answer_and_no_word_about_a_value(tmp_path):
 
 
 @pytest.mark.parametrize("slip", SLIPS)
-def test_a_slip_is_answered_with_the_way_out(slip, tmp_path):
+def test_a_slip_is_answered_with_the_recommendation(slip, tmp_path):
     changes, words = SLIPS[slip]
-    told = answer(written(tmp_path, changes))
-    assert re.search(words, told), told or "a number without a word"
+    stated = answer(written(tmp_path, changes))
+    assert re.search(words, stated), stated or "a number without a word"

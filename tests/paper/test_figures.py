@@ -36,8 +36,8 @@ def test_one_period_of_the_array_stands_for_many():
 
 def test_both_gauges_of_the_sphere_array():
     loads = [2e-3]
-    found = [spheres.approaches(d, loads, 2 * spheres.CELL) for d in spheres.SPACINGS]
-    left_out, kept = np.array(found)[:, :, 0].T
+    result = [spheres.approaches(d, loads, 2 * spheres.CELL) for d in spheres.SPACINGS]
+    left_out, kept = np.array(result)[:, :, 0].T
     alone = (loads[0] / (2 / 3 * spheres.E_PRIME * math.sqrt(spheres.RADIUS))) ** (2 / 3)
     assert np.all(np.diff(left_out) > 0) and np.all(np.diff(kept) < 0)
     assert abs(left_out[-1] / alone - 1) < 0.06

@@ -51,12 +51,12 @@ def difference(a, b):
 @pytest.mark.parametrize("method", [single_loop, alternating])
 def test_agrees_with_the_load_controlled_contact(method, shape, hardness):
     z, film, options, direct = case(shape, hardness)
-    found = method(z, film, D, E, **options)
-    assert found.report.converged and difference(found, direct) < 1e-4
-    assert found.mean_pressure == pytest.approx(direct.mean_pressure, rel=1e-5)
-    assert found.plastic_area_fraction == pytest.approx(direct.plastic_area_fraction, abs=3 / N**2)
-    gap = film - z - found.approach + options["operator"].apply(found.pressure)
-    assert np.allclose(gap, found.gap, atol=1e-14)
+    result = method(z, film, D, E, **options)
+    assert result.report.converged and difference(result, direct) < 1e-4
+    assert result.mean_pressure == pytest.approx(direct.mean_pressure, rel=1e-5)
+    assert result.plastic_area_fraction == pytest.approx(direct.plastic_area_fraction, abs=3 / N**2)
+    gap = film - z - result.approach + options["operator"].apply(result.pressure)
+    assert np.allclose(gap, result.gap, atol=1e-14)
     area = options["weight"]
     assert np.sum(area * np.maximum(gap, 0)) / area.sum() == pytest.approx(np.sum(area * film) / area.sum(), rel=1e-5)
 
@@ -65,10 +65,10 @@ def test_agrees_with_the_load_controlled_contact(method, shape, hardness):
     "shape,size",
     [("flat", 1e6), ("flat", 1.5e9), ("cylinder", 2e-6), ("cylinder", 25e-6), ("ball", 3e-6), ("ball", 25e-6)],
 )
-def test_from_one_spot_to_most_of_the_area(shape, size):
+def test_from_one_contact_to_most_of_the_area(shape, size):
     z, film, options, direct = case(shape, None, size)
-    found = single_loop(z, film, D, E, **options)
-    assert difference(found, direct) < 1e-4 and found.report.iterations < 100
+    result = single_loop(z, film, D, E, **options)
+    assert difference(result, direct) < 1e-4 and result.report.iterations < 100
 
 
 def test_the_printed_loop_converges_where_it_can():

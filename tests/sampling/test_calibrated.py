@@ -339,7 +339,7 @@ def test_numbers_of_the_cases_are_those_of_todays_model(motion, seed):
         assert solved[name] == pytest.approx(known[name], rel=2e-3, abs=least, nan_ok=True)
 
 
-def test_bounds_of_kinds_that_were_left_out_hold_nine_cases_in_ten():
+def test_bounds_of_kinds_that_were_omitted_hold_nine_cases_in_ten():
     for motion in fit.MOTIONS:
         solved = fit.cases(motion)
         parts = fit.held_out(solved, fit.design(solved))

@@ -25,8 +25,8 @@ def test_a_patch_on_coarse_cells_has_the_friction_of_its_own(bodies, acf):
     scene = PATCH.with_(bodies=bodies, surface={"acf": acf}, lubricant=law)
     coarse, own = both(scene, 0.01)
     assert min(coarse.decision.coarsening) >= 2 and own.decision.coarsening == (1, 1)
-    told = coarse.uncertainty.numerical + own.uncertainty.numerical
-    assert abs(coarse.coefficient / own.coefficient - 1) <= told < 0.01
+    stated = coarse.uncertainty.numerical + own.uncertainty.numerical
+    assert abs(coarse.coefficient / own.coefficient - 1) <= stated < 0.01
     assert coarse.contact_load == pytest.approx(own.contact_load, rel=5e-3)
     assert coarse.contact_load + coarse.film_load == pytest.approx(scene.bodies.load, rel=1e-12)
     assert coarse.real_contact_area_fraction == pytest.approx(own.real_contact_area_fraction, rel=0.03)
@@ -59,8 +59,8 @@ def test_windows_on_coarse_cells_have_the_friction_of_their_own(windows, speed):
     coarse, own = both(windows, speed)
     assert coarse.decision.coarsening == (4, 4) and coarse.decision.strips == own.decision.strips > 1
     by_pieces = math.sqrt(coarse.uncertainty.sampling**2 - own.uncertainty.sampling**2)
-    told = math.hypot(2.5 * by_pieces, coarse.uncertainty.numerical + own.uncertainty.numerical)
-    assert abs(coarse.coefficient / own.coefficient - 1) <= told
+    stated = math.hypot(2.5 * by_pieces, coarse.uncertainty.numerical + own.uncertainty.numerical)
+    assert abs(coarse.coefficient / own.coefficient - 1) <= stated
 
 
 @pytest.fixture
@@ -83,10 +83,10 @@ def sharp(tmp_path):
 
 def test_summits_that_long_cells_hide_are_found_on_shorter_ones(sharp):
     """On the cells chosen first, 8 x 2 of the map's, few cells touch, under pressures that no steel bears."""
-    found, own = both(sharp)
-    assert lubfric.prepare(sharp).sample.cells.coarsening == (8, 2) and found.decision.coarsening == (4, 1)
-    assert found.coefficient == pytest.approx(own.coefficient, rel=1e-3)
-    assert 0 < found.contact_load == pytest.approx(own.contact_load, rel=0.05)
+    result, own = both(sharp)
+    assert lubfric.prepare(sharp).sample.cells.coarsening == (8, 2) and result.decision.coarsening == (4, 1)
+    assert result.coefficient == pytest.approx(own.coefficient, rel=1e-3)
+    assert 0 < result.contact_load == pytest.approx(own.contact_load, rel=0.05)
 
 
 def test_the_fields_of_a_speed_are_those_of_its_own_cells(sharp, tmp_path):
@@ -137,9 +137,9 @@ def test_where_cells_change_more_than_to_first_order_shorter_ones_are_solved(sce
 @pytest.mark.parametrize("speed", [0.08796, 0.08859])
 def test_where_summits_graze_shorter_cells_are_not_sought(speed):
     """Their spots make less than a tenth of the tolerance of f, whatever the cells do to them: 19 s became 0.5."""
-    found = lubfric.friction(PAPER, speed)
-    assert found.decision.coarsening == (4, 4) and found.decision.strips < 120
-    assert 0 < found.boundary_force < 1e-3 * found.coefficient * PAPER.bodies.load
+    result = lubfric.friction(PAPER, speed)
+    assert result.decision.coarsening == (4, 4) and result.decision.strips < 120
+    assert 0 < result.boundary_force < 1e-3 * result.coefficient * PAPER.bodies.load
 
 
 def test_no_piece_of_a_map_is_compared_twice(tmp_path):

@@ -31,8 +31,8 @@ def test_heat_does_to_smooth_surfaces_what_it_does_to_the_smooth_film():
     )
     assert film.coefficient < 0.5 * cold_film.coefficient and film.central_film < 0.9 * cold_film.central_film
     for name, near in (("coefficient", 0.01), ("central_film", 5e-3)):
-        found, known = (getattr(a, name) / getattr(b, name) for a, b in ((hot, cold), (film, cold_film)))
-        assert found == pytest.approx(known, rel=near), name
+        result, known = (getattr(a, name) / getattr(b, name) for a, b in ((hot, cold), (film, cold_film)))
+        assert result == pytest.approx(known, rel=near), name
     assert hot.coefficient == pytest.approx(film.coefficient, rel=0.01)
     assert hot.inlet_film_factor == film.inlet_film_factor
     assert hot.flash_temperature_rise == pytest.approx(film.flash_temperature_rise, rel=0.02)
@@ -42,10 +42,10 @@ def test_without_heat_it_is_the_isothermal_answer():
     """Where bodies carry all heat away, and the viscosity does not fall."""
     kept: dict = {"heat": "on", "bodies": {"conductivity": (1e12, 1e12)}}
     kept |= {"oil": {"temperature_coefficient": 1e-7, "conductivity": 2.0}}
-    found, cold = (solved(0.3, model="deterministic", **how) for how in (kept, {"heat": "off"}))
-    assert found.coefficient != cold.coefficient
-    assert found.coefficient == pytest.approx(cold.coefficient, rel=3e-4)
-    assert found.uncertainty.model == pytest.approx(cold.uncertainty.model, abs=3e-4)
+    result, cold = (solved(0.3, model="deterministic", **how) for how in (kept, {"heat": "off"}))
+    assert result.coefficient != cold.coefficient
+    assert result.coefficient == pytest.approx(cold.coefficient, rel=3e-4)
+    assert result.uncertainty.model == pytest.approx(cold.uncertainty.model, abs=3e-4)
 
 
 def test_what_heat_does_to_f_is_partly_in_the_interval():
@@ -63,27 +63,27 @@ def test_the_interval_of_eq_8_has_the_doubt_about_heat_too():
     assert 0.5 * (1 - hot.coefficient / cold.coefficient) < hot.uncertainty.model < 0.6
 
 
-def test_much_heat_is_left_to_the_quick_answer_or_told():
+def test_much_heat_is_left_to_the_quick_answer_or_reported():
     """Half of what heat does counts as error, so that shorter cells would be of no use. Cells apart, both are one model."""
-    auto, asked = (solved(3.0, model=model) for model in ("auto", "deterministic"))
+    auto, requested = (solved(3.0, model=model) for model in ("auto", "deterministic"))
     assert auto.decision.model == "quick" and "of the film and takes" in auto.decision.text
-    assert auto.coefficient == pytest.approx(asked.coefficient, rel=0.1)
+    assert auto.coefficient == pytest.approx(requested.coefficient, rel=0.1)
     assert max(auto.uncertainty.model_sides) > 0.1
-    assert asked.deterministic is not None and any("largest that was checked" in e.what for e in asked.validity)
+    assert requested.deterministic is not None and any("largest that was checked" in e.what for e in requested.validity)
     assert solved(0.02, model="auto").deterministic is not None
 
 
-def test_the_way_out_of_an_error_by_the_cells_is_one_that_the_map_has():
+def test_the_recommendation_of_an_error_by_the_cells_is_one_that_the_map_has():
     scene = ROLLER.with_(numerics={"tolerance": 1e-4, "heat": "off", "model": "deterministic"})
     surface = lubfric.prepare(scene).surface
     made, given = (lubfric.friction(lubfric.prepare(scene, one), 0.3).validity for one in (None, surface))
-    made, given = (next(e.remedy for e in told if "numerical error" in e.what) for told in (made, given))
+    made, given = (next(e.remedy for e in stated if "numerical error" in e.what) for stated in (made, given))
     assert "contact.spacing" in made and "contact.spacing" not in given
 
 
 def test_the_range_of_a_conductivity_is_worth_what_it_is_to_the_other_model():
     scene = replace(ROLLER, ranges=(("lubricant.conductivity", 0.08, 0.25),))
-    found, film = (
+    result, film = (
         lubfric.friction(scene.with_(numerics={"model": model}), 0.6) for model in ("deterministic", "paper")
     )
-    assert found.uncertainty.inputs == pytest.approx(film.uncertainty.inputs, rel=0.15)
+    assert result.uncertainty.inputs == pytest.approx(film.uncertainty.inputs, rel=0.15)

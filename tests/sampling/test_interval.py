@@ -42,12 +42,12 @@ def test_a_place_moves_f_by_its_gap_and_by_where_it_touches():
     scene = PAPER.with_(bodies={"load": 110.0}, lubricant=law, numerics={"film_deflection": "scaled"})
     points, f, sampling = seeds(scene, 0.03, range(1, 9))
     scatter = f.std(ddof=1) / f.mean()
-    told = math.sqrt(np.mean(sampling**2))
-    assert 0.002 < told < 0.012 and 0.5 < told / scatter < 2
-    assert points[0].errors.contact_load > 2 * told
+    stated = math.sqrt(np.mean(sampling**2))
+    assert 0.002 < stated < 0.012 and 0.5 < stated / scatter < 2
+    assert points[0].errors.contact_load > 2 * stated
 
 
-def test_the_error_asked_is_reached_and_more_strips_are_used():
+def test_the_requested_error_is_reached_and_more_strips_are_used():
     loose, tight = (lubfric.friction(PAPER.with_(numerics={"sampling_tolerance": s}), 0.02) for s in (0.1, 0.02))
     assert tight.uncertainty.sampling <= 0.02 < loose.uncertainty.sampling <= 0.1
     assert tight.decision.strips > loose.decision.strips == 2
@@ -89,11 +89,11 @@ def test_contact_may_be_missed_where_the_film_just_clears_the_summits():
 def test_the_film_rubs_beside_the_contacts_of_all_strips():
     """Its force summed anew, by code of its own, with the share in contact at each x."""
     scene = PAPER.with_(motion={"slide_roll_ratio": 0.0}, numerics={"sampling_tolerance": 0.04})
-    found = lubfric.friction(scene, 0.03)
-    contact = found.balance.contact_state
-    sides = SimpleNamespace(film=found.balance.film, x=contact.x, touching=contact.contact_fraction)
-    force = friction_force(scene, sides, found.contact_load, 0.03)[0]
-    assert found.decision.strips >= 2 and found.shear_force == pytest.approx(force, rel=1e-3)
+    result = lubfric.friction(scene, 0.03)
+    contact = result.balance.contact_state
+    sides = SimpleNamespace(film=result.balance.film, x=contact.x, touching=contact.contact_fraction)
+    force = friction_force(scene, sides, result.contact_load, 0.03)[0]
+    assert result.decision.strips >= 2 and result.shear_force == pytest.approx(force, rel=1e-3)
 
 
 # measured and given maps
@@ -162,14 +162,14 @@ def test_contacts_without_places_along_y_say_so(scene):
 # what is told of it
 
 
-def test_a_forecast_is_right_to_a_factor_of_four():
+def test_an_estimate_is_right_to_a_factor_of_four():
     """And it knows from where on the film is so thick that load sharing is enough, near pure rolling later."""
     prepared = lubfric.prepare(PAPER)
     for speed in (0.003, 0.01, 0.03):
-        told = estimated_work_of_point(PAPER, prepared.sample, prepared.surface, speed)
-        found = lubfric.friction(prepared, speed).uncertainty
-        assert 0.25 < told.length / found.length < 4
-        assert speed > 0.02 or 0.25 < told.error / found.sampling < 4
+        stated = estimated_work_of_point(PAPER, prepared.sample, prepared.surface, speed)
+        result = lubfric.friction(prepared, speed).uncertainty
+        assert 0.25 < stated.length / result.length < 4
+        assert speed > 0.02 or 0.25 < stated.error / result.sampling < 4
     assert " 1.4 " in describe_scene(PAPER)  # mm
     for ratio, speed in ((0.02, 0.3), (0.02, 0.7), (1.0, 0.3), (1.0, 0.5), (2.0, 0.15), (2.0, 0.2)):
         scene = PAPER.with_(motion={"slide_roll_ratio": ratio}, numerics={"model": "auto"})
@@ -180,24 +180,24 @@ def test_a_forecast_is_right_to_a_factor_of_four():
 
 
 @pytest.mark.parametrize("sampling, speeds", [("strips", [0.003, 0.03]), ("patch", [0.01, 0.03])])
-def test_the_work_of_the_deterministic_model_is_forecast_to_a_factor_of_two(sampling, speeds):
+def test_the_work_of_the_deterministic_model_is_estimated_to_a_factor_of_two(sampling, speeds):
     """Of all points together, counted by the cells and steps of what they solve."""
     prepared = lubfric.prepare(PAPER.with_(numerics={"sampling": sampling, "model": "auto"}))
     cheaper = prepared.scene.with_(numerics={"model": "quick"})
-    told = counted = 0.0
+    stated = counted = 0.0
     for speed in speeds:
         one = estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed)
-        told -= estimated_work_of_point(cheaper, prepared.sample, prepared.surface, speed).seconds
+        stated -= estimated_work_of_point(cheaper, prepared.sample, prepared.surface, speed).seconds
         control = solve_to_tolerance(prepared, speed, PaperModel()).control()
         levels = solve_to_tolerance(prepared, speed, DeterministicModel(), control=control).levels
         solved = [*(pair.resolved for pair in levels.pairs), *levels.shortest]
         counted += sum(strip.work for strip in [*solved, *(strip for piece in levels.pieces for strip in piece)])
-        told += one.seconds
+        stated += one.seconds
         assert one.long_point_strips
-    assert 0.5 < told / counted < 2
+    assert 0.5 < stated / counted < 2
 
 
-def test_ridges_that_yield_are_solved_though_no_spots_can_be_counted(tmp_path):
+def test_ridges_that_yield_are_solved_though_no_contacts_can_be_counted(tmp_path):
     """A map that is constant along y is shorter than its correlation length: no block holds one spot."""
     x = (np.arange(200) - 100) * 0.45e-6
     np.save(tmp_path / "ridges.npy", np.repeat(1e-7 * np.cos(2 * np.pi * x / 6e-6)[:, None], 200, 1))

@@ -51,7 +51,7 @@ def half(result):
     return max(abs(end / result.coefficient - 1) for end in result.uncertainty.interval)
 
 
-def test_parts_add_up_and_the_model_is_told(found):
+def test_parts_add_up_and_the_model_is_reported(found):
     load = SCENE.bodies.load
     assert found.decision.model == "deterministic" and "solved together with the contact" in found.decision.text
     assert found.boundary_force + found.shear_force == pytest.approx(found.coefficient * load, rel=1e-9)
@@ -72,17 +72,17 @@ def test_f_is_that_of_other_strips_one_by_one(prepared, found):
 
 def test_the_effect_of_shorter_cells_is_that_on_other_strips():
     """Three strips of other seeds on cells of 3.6 and 1.8 µm at .1 m/s, beside what pieces of the scene add."""
-    found = solve_to_tolerance(prepared := lubfric.prepare(FINE), 0.1, DeterministicModel()).levels
-    alone = np.mean([pair.resolved.result.coefficient for pair in found.pairs])
+    result = solve_to_tolerance(prepared := lubfric.prepare(FINE), 0.1, DeterministicModel()).levels
+    alone = np.mean([pair.resolved.result.coefficient for pair in result.pairs])
     changes = []
     for k in range(3):
         surface = lubfric.prepare(FINE.with_(surface={"seed": 90 + k})).sample.strip(0)
         coarse, own = (solve_strip(FINE, surface, 0.1, factors=n).result.coefficient for n in ((2, 2), (1, 1)))
         changes.append(own / coarse - 1)
-    shift = found.numbers["coefficient"] / alone - 1
-    assert len(found.pieces) >= 1 and prepared.sample.cells.coarsening == (4, 4)
-    assert shift == pytest.approx(np.mean(changes), abs=2 * np.std(changes, ddof=1) + 2 * found.sampling.error)
-    assert found.numerical < FINE.numerics.tolerance
+    shift = result.numbers["coefficient"] / alone - 1
+    assert len(result.pieces) >= 1 and prepared.sample.cells.coarsening == (4, 4)
+    assert shift == pytest.approx(np.mean(changes), abs=2 * np.std(changes, ddof=1) + 2 * result.sampling.error)
+    assert result.numerical < FINE.numerics.tolerance
 
 
 def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
@@ -102,11 +102,11 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
 
         monkeypatch.setattr(levels, "solve_pair", lambda *_: replace(pair, resolved=on(3.6), longer=on(7.2)))
         monkeypatch.setattr(shorter, "_refined", ladder)
-        found = solve_to_tolerance(lubfric.prepare(FINE, like=prepared), 0.1, DeterministicModel()).levels
+        result = solve_to_tolerance(lubfric.prepare(FINE, like=prepared), 0.1, DeterministicModel()).levels
         truth = on(0.45).result.coefficient
-        assert bool(found.shortest) == (order < 2)
-        assert abs(found.numbers["coefficient"] / truth - 1) <= 1.1 * found.numerical <= 1.1 * most
-    spent = sum(strip.work for piece in found.pieces for strip in piece) + sum(p.resolved.work for p in found.pairs)
+        assert bool(result.shortest) == (order < 2)
+        assert abs(result.numbers["coefficient"] / truth - 1) <= 1.1 * result.numerical <= 1.1 * most
+    spent = sum(strip.work for piece in result.pieces for strip in piece) + sum(p.resolved.work for p in result.pairs)
     monkeypatch.setattr(shorter, "MOST_WORK_IN_AUTO", spent + 3 * solved.work)
     for rows in (100, 25):  # a piece of 22 correlation lengths; of 6, which is no longer than the last one
         solved = replace(
@@ -117,13 +117,13 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
                 friction_at=pair.resolved.result.friction_at[:rows],
             ),
         )
-        found = solve_to_tolerance(lubfric.prepare(FINE, like=prepared), 0.1, DeterministicModel()).levels
-        assert bool(found.shortest) == (rows == 100)
+        result = solve_to_tolerance(lubfric.prepare(FINE, like=prepared), 0.1, DeterministicModel()).levels
+        assert bool(result.shortest) == (rows == 100)
     solved = pair.resolved
     monkeypatch.setattr(levels, "solve_pair", lambda *_: replace(pair, resolved=on(3.6), longer=on(3.6)))
     for acf in ("gaussian", "exponential"):  # no change between cells is believed only where heights are smooth
-        found = solve_to_tolerance(lubfric.prepare(FINE.with_(surface={"acf": acf})), 0.1, DeterministicModel()).levels
-        assert bool(found.pieces) == (acf == "exponential")
+        result = solve_to_tolerance(lubfric.prepare(FINE.with_(surface={"acf": acf})), 0.1, DeterministicModel()).levels
+        assert bool(result.pieces) == (acf == "exponential")
 
 
 def test_processes_change_no_bit(prepared, found):
@@ -269,22 +269,22 @@ def test_a_patch_has_one_answer_by_whatever_name_and_goes_to_its_own_cells():
 
 def test_a_limit_of_zero_at_ambient_pressure_is_left_to_eq_8():
     oil = {"limiting_stress_coefficient": 0.045, "limiting_stress_offset": 0.0}
-    found = lubfric.friction(SCENE.with_(lubricant=oil), 0.01)
-    assert found.decision.model == "paper" and "limiting_stress_offset" in found.decision.text
+    result = lubfric.friction(SCENE.with_(lubricant=oil), 0.01)
+    assert result.decision.model == "paper" and "limiting_stress_offset" in result.decision.text
     with pytest.raises(lubfric.InputError, match="limiting_stress_offset"):
         lubfric.friction(SCENE.with_(lubricant=oil), 0.01, model="deterministic")
 
 
-def test_strips_that_fail_are_told(prepared, monkeypatch):
+def test_strips_that_fail_are_reported(prepared, monkeypatch):
     def fails(*_):
         raise lubfric.ConvergenceError(
             "no film", lubfric.errors.Report("a strip", "diverged", iterations=3, residual=1.0, tolerance=1e-3)
         )
 
     monkeypatch.setattr(levels, "solve_pair", fails)
-    found = lubfric.friction(prepared, 0.01)
-    assert found.decision.model == "quick" and "not solved" in found.decision.text
-    assert found.uncertainty.model > 0.05
+    result = lubfric.friction(prepared, 0.01)
+    assert result.decision.model == "quick" and "not solved" in result.decision.text
+    assert result.uncertainty.model > 0.05
     with pytest.raises(lubfric.ConvergenceError):
         lubfric.friction(prepared, 0.01, model="deterministic")
 
@@ -336,8 +336,8 @@ def test_a_line_knows_how_its_strips_differ_when_each_is_balanced_alone(prepared
     """Every strip of the line, solved by Eq. (8) as a line of its own: to first order f, the loads, the forces and the
     gap differ from those of the line as `control_variate_of` says, and over the line the differences are zero in the mean."""
     prepared = lubfric.prepare(SCENE.with_(numerics={"model": "paper", "sampling_tolerance": 0.004}))
-    found = solve_to_tolerance(prepared, 0.005, PaperModel()).balanced
-    line = control_variate_of(prepared, found)
+    result = solve_to_tolerance(prepared, 0.005, PaperModel()).balanced
+    line = control_variate_of(prepared, result)
     rows = []
     scene = prepared.scene
     assert line.count > 6 and line.deviations(1, 24).mean() == pytest.approx(0.0, abs=1e-12)
@@ -348,9 +348,9 @@ def test_a_line_knows_how_its_strips_differ_when_each_is_balanced_alone(prepared
         rows.append((one.forces.coefficient, *loads, one.contact_state.mean_gap, one.forces.boundary))
     names = "coefficient", "contact_load", "film_load", "mean_gap", "boundary_force"
     for name, alone in zip(names, np.transpose(rows)):
-        told = line.numbers[name]
-        assert abs(told.mean()) < 0.02 * np.std(told)
-        assert np.std(alone - told) < 0.4 * np.std(alone)
+        stated = line.numbers[name]
+        assert abs(stated.mean()) < 0.02 * np.std(stated)
+        assert np.std(alone - stated) < 0.4 * np.std(alone)
     total = line.numbers["boundary_force"] + line.numbers["couette_force"] + line.numbers["rolling_force"]
     assert total == pytest.approx(scene.bodies.load * line.numbers["coefficient"], rel=1e-9)
 

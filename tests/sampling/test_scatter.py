@@ -25,9 +25,9 @@ def test_neighbouring_blocks_are_alike_near_their_common_end():
     kernel = np.exp(-2 * (np.arange(-40, 41) / length) ** 2)
     kernel /= np.linalg.norm(kernel)
     noise = rng.standard_normal((2000, count + 80))
-    found = [block_error(np.convolve(row, kernel, "valid"), 1.0, length).error ** 2 for row in noise]
+    result = [block_error(np.convolve(row, kernel, "valid"), 1.0, length).error ** 2 for row in noise]
     exact = math.sqrt(math.pi) * length / count * (1 - 1 / (math.sqrt(math.pi) * 180))
-    assert np.mean(found) == pytest.approx(exact, rel=0.02)  # 6 % less without
+    assert np.mean(result) == pytest.approx(exact, rel=0.02)  # 6 % less without
 
 
 def test_what_blocks_scatter_by_with_a_quantity_known_exactly_is_no_error():
@@ -36,17 +36,17 @@ def test_what_blocks_scatter_by_with_a_quantity_known_exactly_is_no_error():
     count = 3200
     length = 10
     means = []
-    found = []
+    result = []
     blind = []
     for _ in range(300):
         other = correlated(rng, count, length)
         other -= other.mean()
         values = 0.8 * other + 0.6 * correlated(rng, count, length)
         means.append(values.mean())
-        found.append(block_error(values, 1.0, length / math.sqrt(math.pi), other))
+        result.append(block_error(values, 1.0, length / math.sqrt(math.pi), other))
         blind.append(block_error(values, 1.0, length / math.sqrt(math.pi)))
-    reported, unaware = (np.sqrt(np.mean([f.error**2 for f in each])) for each in (found, blind))
-    assert found[0].freedom == blind[0].freedom - 1
+    reported, unaware = (np.sqrt(np.mean([f.error**2 for f in each])) for each in (result, blind))
+    assert result[0].freedom == blind[0].freedom - 1
     assert reported == pytest.approx(np.std(means), rel=0.1)
     assert unaware == pytest.approx(np.std(means) / 0.6, rel=0.1)
 
@@ -58,7 +58,7 @@ def test_a_line_too_short_for_five_blocks_tells_nothing():
 
 
 @pytest.mark.parametrize("count", [1, 7, 50])
-def test_effective_spots_count_equal_loads(count):
+def test_effective_contacts_count_equal_loads(count):
     """Loads 4 cells apart, each of a spot: 1.75 correlation lengths."""
     loads = np.zeros(400)
     loads[: 4 * count : 4] = 3.0
@@ -70,6 +70,6 @@ def test_there_are_no_more_blocks_than_places():
     """White noise on a few wide cells, each many correlation lengths long: the standard error of a plain mean."""
     for count in (5, 6, 7):
         values = np.random.default_rng(count).standard_normal(count)
-        found = block_error(values, 1.0, 1e-3)
-        assert found.error == pytest.approx(stats.sem(values), rel=1e-3) and found.freedom == count - 1
+        result = block_error(values, 1.0, 1e-3)
+        assert result.error == pytest.approx(stats.sem(values), rel=1e-3) and result.freedom == count - 1
     assert math.isinf(block_error(np.arange(4.0), 1.0, 1e-3).error)

@@ -93,7 +93,7 @@ def test_a_patch_from_a_file_answers_as_the_same_map_from_memory(tmp_path):
 
 
 @pytest.mark.parametrize("lengths", [3e-6, (8e-6, 40e-6)])
-def test_a_scene_without_cells_is_told_cells_that_work(lengths):
+def test_a_scene_without_cells_is_answered_with_cells_that_work(lengths):
     """As many as contain the contact and all of the surface's longest wavelengths, each a tenth of the shortest."""
     scene = lubfric.load_scene("paper").with_(
         contact={"shape": None, "spacing": None}, surface={"correlation_length": lengths}

@@ -22,7 +22,7 @@ def held():
     return lubfric.transient(HELD)
 
 
-def test_the_line_is_as_long_as_the_tolerance_asks(held):
+def test_the_line_is_as_long_as_the_tolerance_needs(held):
     steady = lubfric.friction(HELD)
     assert steady.uncertainty.sampling <= 0.035 and held.line_length > 2 * 180 * 8e-6
     assert held.line_length == pytest.approx(steady.uncertainty.length, rel=0.05)
@@ -90,8 +90,8 @@ def test_contact_areas_of_a_run_are_those_on_the_cells_of_the_scene(held):
     scene = HELD.with_(surface={"acf": "exponential"}, motion={"entrainment_speed": 1e-3}, numerics={"tolerance": 0.05})
     rough = lubfric.transient(scene)
     for run, steady in ((held, lubfric.friction(HELD)), (rough, lubfric.friction(scene))):
-        found = run.real_contact_area_fraction[-1]
-        assert found == pytest.approx(steady.real_contact_area_fraction, rel=0.12)
+        result = run.real_contact_area_fraction[-1]
+        assert result == pytest.approx(steady.real_contact_area_fraction, rel=0.12)
 
 
 def test_a_film_that_bends_its_bodies_divides_the_load_as_softly_as_in_a_steady_contact():
@@ -99,8 +99,8 @@ def test_a_film_that_bends_its_bodies_divides_the_load_as_softly_as_in_a_steady_
     `lubfric.friction`, whose response is solved for."""
     short = Transient(1e-5, outputs=2)
     scene = HELD.with_(bodies={"load": 27.5}, transient=short, numerics={"sampling_tolerance": 0.05})
-    told = lubfric.transient(scene).sampling_error[0]
-    assert 0.75 < told / lubfric.friction(scene).uncertainty.sampling < 1.35
+    stated = lubfric.transient(scene).sampling_error[0]
+    assert 0.75 < stated / lubfric.friction(scene).uncertainty.sampling < 1.35
 
 
 @pytest.mark.parametrize(("load", "speed", "low", "high"), [(1e-3, 1.0, 0.97, 1.01), (1e3, 0.1, 0.02, 0.2)])

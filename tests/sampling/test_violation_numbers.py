@@ -23,7 +23,7 @@ def test_value_has_three_digits_and_no_power_of_ten_up_to_a_million(value, shown
 
 
 @given(st.floats(1e-4, 10.0), st.floats(1e-4, 1e-2))
-def test_a_value_and_its_target_are_told_apart(target, beyond):
+def test_a_value_and_its_target_are_distinguished(target, beyond):
     """A number that is above its target does not print as it."""
     value = target * (1 + beyond)
     (stated, allowed) = percent_beside(value, target)

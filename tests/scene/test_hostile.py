@@ -15,15 +15,15 @@ from verification.campaigns.hostile.soak_scenes import random_scene
 
 def test_the_scene_that_is_damaged_is_a_good_one(tmp_path):
     """Else every damage would be refused for the wrong reason."""
-    found = scenes.case("good", scenes.text_of(scenes.GOOD)).run(tmp_path)
-    assert 0 < found.coefficient < 0.1 and found.report.converged
+    result = scenes.case("good", scenes.text_of(scenes.GOOD)).run(tmp_path)
+    assert 0 < result.coefficient < 0.1 and result.report.converged
 
 
 @pytest.mark.parametrize("group", hostile.COUNTS)
 def test_a_sample_of_bad_inputs_is_refused(group):
-    found = hostile.outcomes((group, 0.12))
-    assert len(found) > 20
-    assert [words for ended, words in found if ended not in GOOD] == []
+    result = hostile.outcomes((group, 0.12))
+    assert len(result) > 20
+    assert [words for ended, words in result if ended not in GOOD] == []
 
 
 @pytest.mark.parametrize(

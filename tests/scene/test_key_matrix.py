@@ -197,8 +197,8 @@ def test_a_starved_inlet_reaches_the_number(model, inlet):
     )
     starved = flooded.with_(lubricant=inlet)
     assert moved(starved, lambda: flooded) > MOVES
-    told = [[e.what for e in lubfric.friction(s).validity if "flooded inlet" in e.what] for s in (starved, flooded)]
-    assert told[0] and not told[1]
+    stated = [[e.what for e in lubfric.friction(s).validity if "flooded inlet" in e.what] for s in (starved, flooded)]
+    assert stated[0] and not stated[1]
     assert answer(starved, "sweep") == pytest.approx(answer(starved), rel=0.6 * MOVES)
     enough = flooded.with_(lubricant={key: 3e3 * value for key, value in inlet.items()})
     assert answer(enough) == pytest.approx(answer(flooded), rel=2e-3)
@@ -343,7 +343,7 @@ NEWTONIAN = FILM.with_(
         {"density_law": "dowson-higginson", "viscosity_law": "roelands"},
     ],
 )
-def test_shear_and_flow_of_a_film_obey_the_laws_asked_for(law):
+def test_shear_and_flow_of_a_film_obey_the_laws_requested(law):
     """Couette force by quadrature of the law; and the mass flow rho (U h - h³ p'/12 eta) the same everywhere."""
     scene = FILM.with_(lubricant=law)
     result = lubfric.friction(scene)
@@ -413,10 +413,10 @@ def test_a_measured_map_is_prepared_as_its_keys_say(measured):
     fit = np.linalg.lstsq(terms[~hole], z[~hole], rcond=None)[0]
     rest = z - terms @ fit
     rest[hole] = np.nan
-    found = contact_maps(scene)[0].heights[: z.shape[1], : z.shape[0]].T
+    result = contact_maps(scene)[0].heights[: z.shape[1], : z.shape[0]].T
     known = ~hole
-    factor = np.polyfit(rest[known], found[known], 1)
-    assert np.corrcoef(rest[known], found[known])[0, 1] > 1 - 1e-9
+    factor = np.polyfit(rest[known], result[known], 1)
+    assert np.corrcoef(rest[known], result[known])[0, 1] > 1 - 1e-9
     assert factor[0] == pytest.approx(3e-7 / rest[known].std(), rel=1e-6)
 
 
@@ -452,8 +452,8 @@ def test_how_it_is_solved_does_not_change_the_answer(numerics, mode):
         return
     assert answer(scene, mode) == pytest.approx(answer(BASE), rel=0.01)
     if mode == "steady":
-        found = lubfric.friction(scene)
-        assert abs(found.volume_residual) <= 1.5 * numerics.get("balance_tolerance", 1e-3)
+        result = lubfric.friction(scene)
+        assert abs(result.volume_residual) <= 1.5 * numerics.get("balance_tolerance", 1e-3)
 
 
 @pytest.mark.parametrize("mode", ["steady", "sweep", "transient"])
@@ -480,8 +480,8 @@ def _cells(scene, mode):
 
 def _volume(scene, mode):
     if mode == "transient":
-        found = lubfric.transient(scene.with_(transient=lubfric.Transient(1e-5, outputs=1)))
-        return float(found.volume_residual[-1])
+        result = lubfric.transient(scene.with_(transient=lubfric.Transient(1e-5, outputs=1)))
+        return float(result.volume_residual[-1])
     return _point(scene, mode).volume_residual
 
 
@@ -527,13 +527,13 @@ def test_a_line_and_its_tolerance_reach_the_sweep_and_the_run_in_time():
 def test_histories_of_a_transient_are_the_values_of_a_steady_scene(name, section, value):
     """A history that is constant answers as the steady scene of that value (the area A is that of bodies.load)."""
     plan = lubfric.Transient(1e-4, outputs=1, **{name: value})
-    found = float(lubfric.transient(BASE.with_(transient=plan)).coefficient[-1])
+    result = float(lubfric.transient(BASE.with_(transient=plan)).coefficient[-1])
     key = "entrainment_speed" if name == "speed" else name
     steady = answer(BASE.with_(**{section: {key: value}}))
     if name in ("load", "radius"):  # another Hertz strip: the number moves the right way and by about as much
-        assert (found - answer(BASE)) / (steady - answer(BASE)) == pytest.approx(1.0, abs=0.8)
+        assert (result - answer(BASE)) / (steady - answer(BASE)) == pytest.approx(1.0, abs=0.8)
     else:
-        assert found == pytest.approx(steady, rel=0.01)
+        assert result == pytest.approx(steady, rel=0.01)
 
 
 def test_the_boundary_film_is_the_gap_below_which_the_bodies_rub():
@@ -545,12 +545,12 @@ def test_the_boundary_film_is_the_gap_below_which_the_bodies_rub():
         numerics={"model": "deterministic", "grid": "given", "accept": True, "sampling": "patch"},
         lubricant={"limiting_stress_coefficient": 0.03},
     )
-    found = lubfric.friction(scene)
-    fields = found.deterministic
+    result = lubfric.friction(scene)
+    fields = result.deterministic
     share = fields.pressure[fields.gap < 3e-8].sum() / fields.pressure.sum()
     carried = 1 - fields.inlet_load / fields.load
-    assert found.contact_load == pytest.approx(scene.bodies.load * share * carried, rel=1e-4)
-    assert answer(scene, "sweep") == found.coefficient
+    assert result.contact_load == pytest.approx(scene.bodies.load * share * carried, rel=1e-4)
+    assert answer(scene, "sweep") == result.coefficient
     other = scene.with_(bodies={"boundary_film": 6e-8})
     assert lubfric.friction(other).coefficient == pytest.approx(fields.at_twice_film, rel=1e-6)
     with pytest.raises(lubfric.InputError, match="bodies.boundary_film.*30 nm"):

@@ -44,11 +44,11 @@ def maps(tmp_path):
 def test_two_generated_bodies_are_independent_also_with_one_seed(tmp_path):
     both = GENERATED + "[counterface]\nsq = 1e-7\ncorrelation_length = 4e-6\nacf = 'gaussian'\n"
     two, one = (loaded(tmp_path, text) for text in (both, GENERATED))
-    found = contact_maps(two)[0]
+    result = contact_maps(two)[0]
     alone = contact_maps(one)[0]
-    other = found.heights - (alone.heights - alone.heights.mean())
+    other = result.heights - (alone.heights - alone.heights.mean())
     assert abs(np.corrcoef(other.ravel(), alone.heights.ravel())[0, 1]) < 0.3
-    assert other.std() == pytest.approx(1e-7, rel=1e-6) and found.periodic_axes == (True, True)
+    assert other.std() == pytest.approx(1e-7, rel=1e-6) and result.periodic_axes == (True, True)
     assert lubfric.friction(two).film_load < 0.8 * lubfric.friction(one).film_load
 
 
@@ -56,8 +56,8 @@ def test_the_order_of_two_measured_bodies_does_not_matter(maps):
     """The pair turned over is the pair mirrored in y."""
     one = f"file = 'long.npy'\nspacing = {GRID}\n"
     texts = [f"[surface]\n{a}[counterface]\n{b}" for a, b in ((one, one + "sq = 3e-8\n"), (one + "sq = 3e-8\n", one))]
-    found = [lubfric.friction(loaded(maps, text)).coefficient for text in texts]
-    assert found[0] == pytest.approx(found[1], rel=5e-3)
+    result = [lubfric.friction(loaded(maps, text)).coefficient for text in texts]
+    assert result[0] == pytest.approx(result[1], rel=5e-3)
 
 
 def oblique(seed, degrees, count=128, step=1e-6):
@@ -220,7 +220,7 @@ def test_scenes_and_results_keep_no_hold_of_the_callers_lists():
     speeds[0] = 9.0
     assert scene.contact.shape == (64, 64) and scene.contact.spacing == (2e-6, 2e-6)
     assert scene.motion.speeds == (0.01, 0.02) and hash(scene) == hash(scene.with_(name=scene.name))
-    asked = np.array([0.05, 0.1])
-    curve = lubfric.stribeck(scene.with_(numerics={"accept": True}), asked)
-    asked[0] = 7.0
+    requested = np.array([0.05, 0.1])
+    curve = lubfric.stribeck(scene.with_(numerics={"accept": True}), requested)
+    requested[0] = 7.0
     assert curve.speed.tolist() == [0.05, 0.1]

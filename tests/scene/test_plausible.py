@@ -34,10 +34,10 @@ def test_a_usual_value_in_each_mistaken_unit_is_found_out(name):
     assert slip(name, [middle, middle]) is None
 
 
-def test_a_value_that_no_unit_explains_is_still_told():
-    (found,) = unusual_values(lubfric.load_scene("paper").with_(bodies={"radius": 900.0}))
-    assert (found.key, found.value, found.limit, found.unit) == ("bodies.radius", 900.0, 1.0, "m")
-    assert "900 mm (0.9 m)" in found.question
+def test_a_value_that_no_unit_explains_is_still_reported():
+    (result,) = unusual_values(lubfric.load_scene("paper").with_(bodies={"radius": 900.0}))
+    assert (result.key, result.value, result.limit, result.unit) == ("bodies.radius", 900.0, 1.0, "m")
+    assert "900 mm (0.9 m)" in result.question
 
 
 def test_an_error_carries_what_it_says():
@@ -111,7 +111,7 @@ def test_a_height_in_another_unit_is_questioned_by_the_key_that_was_written():
         ("lubricant", {"eyring_stress": 5}, "lubricant.eyring_stress", "did you mean 5 MPa (5e+06 Pa)?"),
     ],
 )
-def test_a_slip_is_told_by_the_key_and_the_number_that_were_written(section, given, key, question):
+def test_a_slip_is_reported_by_the_key_and_the_number_that_were_written(section, given, key, question):
     """In the number as it was written, 10 of "10 mm", not in that of the unit of the key; and no more once mended."""
     paper = lubfric.load_scene("paper")
     scene = paper.with_(**{section: given})

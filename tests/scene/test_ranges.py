@@ -194,9 +194,9 @@ def test_a_table_over_the_sliding_speed_is_read_at_every_speed(tmp_path):
     (tmp_path / "scene.toml").write_text(scene.to_toml())
     assert lubfric.load_scene(tmp_path / "scene.toml") == scene
     curve = lubfric.stribeck(scene, [0.001, 0.003])
-    for speed, found in zip((0.001, 0.003), curve.coefficient, strict=True):
+    for speed, result in zip((0.001, 0.003), curve.coefficient, strict=True):
         value = np.interp(2 * speed, table["sliding_speed"], table["values"])
-        assert found == f(SMALL.with_(bodies={FRICTION: value}), speed).coefficient
+        assert result == f(SMALL.with_(bodies={FRICTION: value}), speed).coefficient
     with pytest.raises(lubfric.InputError, match="no value at 20 m/s"):
         f(scene, 10.0)
     assert scene.with_(bodies={FRICTION: 0.1}).bodies.boundary_friction_table is None
@@ -216,16 +216,16 @@ def test_a_table_over_the_temperature_is_read_at_that_of_the_oil():
 
 def test_info_and_report_tell_ranges_and_tables():
     """The range that was given, not the usual one of a typical value that has the same middle."""
-    told = {}
+    stated = {}
     for given in (
         {FRICTION: [0.1, 0.14], HARDNESS: [5e9, 7e9]},
         {FRICTION: {"sliding_speed": [0, 2], "values": [0.15, 0.1]}},
     ):
         rows = inputs(SMALL.with_(bodies=given), "bodies")
-        told |= {key.partition(".")[2] + str(len(given)): note for _, _, key, note in rows}
-    assert told[FRICTION + "2"] == ", known to lie in 0.1 to 0.14" and told[HARDNESS + "1"] == ""
-    assert told[HARDNESS + "2"] == ", known to lie in 5 GPa to 7 GPa"
-    assert told[FRICTION + "1"] == ", by a table over sliding_speed: 0.15 at 0 m/s, 0.1 at 2 m/s"
+        stated |= {key.partition(".")[2] + str(len(given)): note for _, _, key, note in rows}
+    assert stated[FRICTION + "2"] == ", known to lie in 0.1 to 0.14" and stated[HARDNESS + "1"] == ""
+    assert stated[HARDNESS + "2"] == ", known to lie in 5 GPa to 7 GPa"
+    assert stated[FRICTION + "1"] == ", by a table over sliding_speed: 0.15 at 0 m/s, 0.1 at 2 m/s"
 
 
 def test_a_run_in_time_takes_f_b_at_its_own_sliding_speed():

@@ -78,7 +78,7 @@ def test_bad_input_is_a_clear_error(tmp_path, changes, words):
         assert word in str(caught.value)
 
 
-def test_all_that_is_missing_is_told_at_once(tmp_path):
+def test_all_that_is_missing_is_reported_at_once(tmp_path):
     """In one message: every section, every key, and for each what else would do."""
     keys = ("width", "load", "e_prime")
     changes = {f"bodies__{key}": None for key in keys} | {"surface__sq": None, "motion__entrainment_speed": None}
@@ -101,7 +101,7 @@ def test_all_that_is_missing_is_told_at_once(tmp_path):
         lubfric.load_scene(write(tmp_path, toml(bodies__load=None, bodies__laod="5.5")))
 
 
-def test_a_key_with_its_section_is_told_how_to_be_changed():
+def test_a_key_with_its_section_is_answered_with_how_to_be_changed():
     scene = lubfric.load_scene("paper")
     with pytest.raises(lubfric.InputError, match=r"with_\(numerics=\{'tolerance': 0.1\}\)"):
         scene.with_(**{"numerics.tolerance": 0.1})

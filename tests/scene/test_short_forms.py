@@ -28,11 +28,11 @@ def scene(tmp_path, lubricant="viscosity = 0.02\npressure_viscosity_coefficient 
 def test_oil_in_a_file_and_in_with(tmp_path):
     made = oil.from_grade("ISO VG 68", 95, density=870)
     text = "\n".join(f"{k} = {v!r}" for k, v in OIL_KEYS.items()).replace("'", '"')
-    for found in (scene(tmp_path, text).lubricant, PAPER.with_(lubricant=OIL_KEYS).lubricant):
-        assert found.viscosity == pytest.approx(made.viscosity(343.15))
-        assert found.pressure_viscosity_coefficient == pytest.approx(made.pressure_viscosity_coefficient(343.15).value)
-        assert found.temperature_coefficient == pytest.approx(made.temperature_coefficient(343.15))
-        assert found.temperature == 343.15 and found.oil == made and found.heats
+    for result in (scene(tmp_path, text).lubricant, PAPER.with_(lubricant=OIL_KEYS).lubricant):
+        assert result.viscosity == pytest.approx(made.viscosity(343.15))
+        assert result.pressure_viscosity_coefficient == pytest.approx(made.pressure_viscosity_coefficient(343.15).value)
+        assert result.temperature_coefficient == pytest.approx(made.temperature_coefficient(343.15))
+        assert result.temperature == 343.15 and result.oil == made and result.heats
     assert scene(tmp_path, text).motion.slide_roll_ratio == 0.05
 
 
@@ -101,8 +101,8 @@ def test_hertz_pressure_gives_the_load(tmp_path):
 
 def test_vickers_hardness_is_load_over_projected_area():
     """A pyramid of 136 degrees between faces: HV = F/facets, hardness = F/projection = F/(facets sin 68 degrees)."""
-    found = PAPER.with_(bodies={"hardness_hv": 700}).bodies.hardness
-    assert found == pytest.approx(700 * 9.80665e6 / math.sin(math.radians(68)), rel=1e-4)
+    result = PAPER.with_(bodies={"hardness_hv": 700}).bodies.hardness
+    assert result == pytest.approx(700 * 9.80665e6 / math.sin(math.radians(68)), rel=1e-4)
 
 
 @pytest.mark.parametrize(
@@ -118,7 +118,7 @@ def test_vickers_hardness_is_load_over_projected_area():
         ("motion", {"slip_percent": 5, "slide_roll_ratio": 0.05}, "slip_percent"),
     ],
 )
-def test_contradictions_are_told(section, keys, words):
+def test_contradictions_are_reported(section, keys, words):
     with pytest.raises(lubfric.InputError, match=words):
         PAPER.with_(**{section: keys})
 

@@ -41,8 +41,8 @@ def test_each_has_its_range_and_its_source(name, word):
 
 
 def test_the_page_names_no_other():
-    told = {word for name in NAMED for row in rows_of(name.split(".")[1]) for word in re.findall('"([^"]+)"', row[0])}
-    assert told == {word for known in NAMED.values() for word in known}
+    stated = {word for name in NAMED for row in rows_of(name.split(".")[1]) for word in re.findall('"([^"]+)"', row[0])}
+    assert stated == {word for known in NAMED.values() for word in known}
     assert {"100Cr6", "16MnCr5", "42CrMo4"} <= set(NAMED["bodies.hardness"])
 
 

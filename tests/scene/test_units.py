@@ -60,9 +60,9 @@ def test_all_sections_with_units_are_those_with_plain_numbers(tmp_path):
     tables = written | {"transient": plan | {"load": ramp}}
     tables["motion"] = tables["motion"] | {"sliding_speed": "100 mm/s"}
     scene = lubfric.load_scene(tables | {"contact": {"shape": [64, 64], "spacing": "800 nm"}})
-    found = scene.transient
-    assert (found.duration, found.initial_film, found.tolerance) == (0.02, 2e-7, 1e-4)
-    assert (found.load.start, found.load.end, found.load.until, found.sliding.value) == (1000.0, 2000.0, 0.01, 0.1)
+    result = scene.transient
+    assert (result.duration, result.initial_film, result.tolerance) == (0.02, 2e-7, 1e-4)
+    assert (result.load.start, result.load.end, result.load.until, result.sliding.value) == (1000.0, 2000.0, 0.01, 0.1)
     (tmp_path / "scene.toml").write_text(scene.to_toml())
     assert lubfric.load_scene(tmp_path / "scene.toml") == scene
     assert "mm" not in scene.to_toml() and "load = 2000.0" in scene.to_toml()
@@ -129,7 +129,7 @@ def test_a_table_of_viscosities_takes_the_units_of_its_columns():
         ("numerics.tolerance", "1 K", "numerics.tolerance"),
     ],
 )
-def test_what_is_no_such_number_is_told_with_what_is(key, given, words):
+def test_what_is_no_such_number_is_reported_with_what_is(key, given, words):
     section, _, name = key.partition(".")
     table = {"correlation_length": 1e-5} if section == "counterface" else {}
     with pytest.raises(lubfric.InputError, match=words):
@@ -160,7 +160,7 @@ def test_every_unit_of_the_table_of_quantities_is_known():
     assert all(UNITS[kind_of(unit)] for unit in units)
 
 
-def test_a_result_in_the_unit_asked_for():
+def test_a_result_in_the_unit_requested():
     fields = dict.fromkeys(NUMBERS, 0.25) | {"min_film": np.array([1e-7, 2e-6])}
     result = lubfric.quantities.PointQuantities(**fields)
     assert result.in_unit("min_film", "nm") == pytest.approx([100.0, 2000.0])
@@ -188,7 +188,7 @@ def test_a_map_made_for_an_ra_has_it_and_one_for_an_rz_about():
     assert np.mean(profiles.max(1) - profiles.min(1)) == pytest.approx(1e-6, rel=0.1)
 
 
-def test_ra_and_rz_of_every_map_are_told():
+def test_ra_and_rz_of_every_map_are_reported():
     """Rz is that along x, over sampling lengths of 0.8 mm, and of the measured points only."""
     made = heights_of(ra="0.2 um")
     z = made.heights
@@ -196,9 +196,9 @@ def test_ra_and_rz_of_every_map_are_told():
     for heights, mask in ((z, None), (np.where(seen, z, np.nan), seen)):
         lines = heights.reshape(5, 800, 400)
         rz = np.mean(np.nanmax(lines, 1) - np.nanmin(lines, 1))
-        told = f"Ra {1e9 * np.nanmean(abs(heights - np.nanmean(heights))):.4g} nm, Rz {1e9 * rz:.4g} nm over 0.8 mm"
+        stated = f"Ra {1e9 * np.nanmean(abs(heights - np.nanmean(heights))):.4g} nm, Rz {1e9 * rz:.4g} nm over 0.8 mm"
         surface = lubfric.Surface(heights, 1e-6, mask=mask)
-        assert told in repr(surface) and told in surface.describe()
+        assert stated in repr(surface) and stated in surface.describe()
 
 
 @pytest.mark.parametrize("section", ["surface", "counterface"])

@@ -95,9 +95,9 @@ CALLS = {  # name: (call of one value, that value in words, plain, words of anot
 @pytest.mark.parametrize("name", CALLS)
 def test_a_call_takes_words_where_a_scene_does(name):
     call, words, plain, other = CALLS[name]
-    found = call(words)
+    result = call(words)
     known = call(plain)
-    assert np.array_equal(found, known) if not isinstance(known, (str, lubfric.Lubricant)) else found == known
+    assert np.array_equal(result, known) if not isinstance(known, (str, lubfric.Lubricant)) else result == known
     with pytest.raises(lubfric.InputError, match="another kind|unknown unit"):
         call(other)
 

@@ -48,8 +48,8 @@ def test_what_is_no_array_of_numbers_is_refused(value):
 
 def test_arrays_of_numbers_of_every_kind_pass():
     for value in ([1, 2], (1.0, 2.0), range(1, 3), np.float32([1, 2]), np.ma.array([1, 2]), np.array([1, 2], object)):
-        found = validate.array("lengths", value, "m", ndim=1)
-        assert found.dtype == float and found.tolist() == [1.0, 2.0] and type(found) is np.ndarray
+        result = validate.array("lengths", value, "m", ndim=1)
+        assert result.dtype == float and result.tolist() == [1.0, 2.0] and type(result) is np.ndarray
 
 
 @pytest.mark.parametrize("value", [[], np.zeros(3), True, None, 3, "x" * 10**6, {}])

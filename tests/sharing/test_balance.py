@@ -47,11 +47,11 @@ def on(prepared, heights):
 def test_closes_both_balances_for_any_speed_and_contact(log_speed, stiffness):
     """The film of the load found, solved alone, is as thick as the contact's gap in closed form."""
     contact = replace(SPRING, stiffness=stiffness)
-    found = lubfric.friction(lubfric.prepare(PATCH, contact=contact), 10**log_speed)
-    assert found.report.converged and found.report.evaluations <= 45
-    assert found.contact_load + found.film_load == pytest.approx(B.load, rel=1e-12)
+    result = lubfric.friction(lubfric.prepare(PATCH, contact=contact), 10**log_speed)
+    assert result.report.converged and result.report.evaluations <= 45
+    assert result.contact_load + result.film_load == pytest.approx(B.load, rel=1e-12)
     film = lubfric.solve_ehl(
-        load_per_width=found.film_load / B.width,
+        load_per_width=result.film_load / B.width,
         radius=B.radius,
         e_prime=B.e_prime,
         entrainment_speed=10**log_speed,
@@ -60,16 +60,16 @@ def test_closes_both_balances_for_any_speed_and_contact(log_speed, stiffness):
         tolerance=1e-3,
     )
     mean = film.film_at(contact.x).mean()
-    if found.contact_load > 0:
-        gap = contact.gap(found.contact_load)
-        allowed = 0.5 * found.decision.film_tolerance + abs(found.volume_residual) + 1e-3
+    if result.contact_load > 0:
+        gap = contact.gap(result.contact_load)
+        allowed = 0.5 * result.decision.film_tolerance + abs(result.volume_residual) + 1e-3
         assert (gap - mean) / (gap + mean) == pytest.approx(0, abs=allowed) and allowed < 0.03
-        assert found.mean_gap == pytest.approx(gap, rel=1e-9)
+        assert result.mean_gap == pytest.approx(gap, rel=1e-9)
     else:
         assert mean > contact.touching
-    boundary = B.boundary_friction_coefficient * found.contact_load
-    assert found.boundary_force == pytest.approx(boundary) and found.real_contact_area == 0
-    assert found.coefficient == pytest.approx((boundary + found.shear_force) / B.load, rel=1e-12)
+    boundary = B.boundary_friction_coefficient * result.contact_load
+    assert result.boundary_force == pytest.approx(boundary) and result.real_contact_area == 0
+    assert result.coefficient == pytest.approx((boundary + result.shear_force) / B.load, rel=1e-12)
 
 
 def test_an_unclosable_balance_is_reported(spring):
@@ -96,9 +96,9 @@ def test_a_film_of_the_whole_load_that_fails_does_not_hide_the_balance(spring, m
 
     expected = lubfric.friction(spring, speed)
     monkeypatch.setattr(Point, "film", failing)
-    found = lubfric.friction(spring, speed)
-    assert 0 < expected.contact_load and found.film_load == pytest.approx(expected.film_load, rel=5e-3)
-    assert any("too heavy" in note for note in found.decision.notes)
+    result = lubfric.friction(spring, speed)
+    assert 0 < expected.contact_load and result.film_load == pytest.approx(expected.film_load, rel=5e-3)
+    assert any("too heavy" in note for note in result.decision.notes)
 
 
 @pytest.mark.parametrize("scene", [PATCH, SCALED], ids=["hydrodynamic", "scaled"])

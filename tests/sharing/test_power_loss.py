@@ -101,8 +101,8 @@ def test_curves_studies_and_tables_have_it(tmp_path):
     study = lubfric.study(ROUGH, {"bodies.boundary_friction_coefficient": [0.05, 0.1]}, [0.01])
     scene = ROUGH.with_(bodies={"boundary_friction_coefficient": 0.05})
     point = lubfric.friction(scene, 0.01)
-    found = [study[name][0, 0] for name in ("power_loss", "power_loss_low", "power_loss_high")]
-    np.testing.assert_array_equal(found, [point.power_loss, *point.power_loss_interval])
+    result = [study[name][0, 0] for name in ("power_loss", "power_loss_low", "power_loss_high")]
+    np.testing.assert_array_equal(result, [point.power_loss, *point.power_loss_interval])
     study.to_csv(tmp_path / "study.csv")
     heading = (tmp_path / "study.csv").read_text().splitlines()[0]
     assert "power_loss [W]" in heading and "power_loss_high [W]" in heading

@@ -55,8 +55,8 @@ def bits(outcome):
     """Every number of a point, its interval and errors, to the last bit; of a failure, its words."""
     if isinstance(outcome, Exception):
         return str(outcome)
-    found = {f.name: getattr(outcome, f.name) for f in fields(outcome)}
-    numbers = {name: value.hex() for name, value in found.items() if isinstance(value, float) and name != "seconds"}
+    result = {f.name: getattr(outcome, f.name) for f in fields(outcome)}
+    numbers = {name: value.hex() for name, value in result.items() if isinstance(value, float) and name != "seconds"}
     assert len(numbers) > 18
     return numbers, repr(outcome.uncertainty), repr(outcome.errors), outcome.decision.text, outcome.validity
 
@@ -87,7 +87,7 @@ def alone(name, scene, speeds=SPEEDS):
 def assert_pure(name, scene):
     """One after the other in one memory, forwards and backwards; in a sweep; by a copy that went by wire."""
     expected = alone(name, scene)
-    assert sum(not isinstance(found, str) for found in expected.values()) >= 3
+    assert sum(not isinstance(result, str) for result in expected.values()) >= 3
     prepared = lubfric.prepare(scene)
     assert {u: at(prepared, u) for u in SPEEDS} == expected
     assert at(prepared, SPEEDS[0]) == expected[SPEEDS[0]]

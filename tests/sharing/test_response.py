@@ -21,31 +21,31 @@ def test_it_is_what_a_rougher_surface_does(load, speed, near):
     given shape of the film; under 110 N the film changes its shape with its load."""
     scene = SCENE.with_(bodies={"load": load}, lubricant={"limiting_stress_coefficient": 0.05})
     model = lubfric.prepare(scene)
-    found = lubfric.friction(model, speed).balance
+    result = lubfric.friction(model, speed).balance
     rougher = replace(model.rough_contact, heights=1.01 * model.rough_contact.heights)
-    thickness = found.film.film_at(model.rough_contact.x)
-    gap = [each.close(thickness, found.contact_load).mean_gap for each in (model.rough_contact, rougher)]
-    again = solve_balance(scene, speed, rougher, model.surface.sq, found)
-    moved = again.log_load_ratio - found.log_load_ratio
-    response = found.response
+    thickness = result.film.film_at(model.rough_contact.x)
+    gap = [each.close(thickness, result.contact_load).mean_gap for each in (model.rough_contact, rougher)]
+    again = solve_balance(scene, speed, rougher, model.surface.sq, result)
+    moved = again.log_load_ratio - result.log_load_ratio
+    response = result.response
     assert response.log_load_ratio_per_gap * (gap[1] - gap[0]) == pytest.approx(moved, rel=near)
-    change = again.forces.coefficient / found.forces.coefficient - 1
+    change = again.forces.coefficient / result.forces.coefficient - 1
     if load < 10:  # under more load f also feels where a rougher surface touches
         assert response.rates["coefficient"] * moved == pytest.approx(change, rel=near)
-    assert response.rates["contact_load"] == pytest.approx(-found.film_load / load, rel=1e-2)
-    film = again.film.central_film / found.film.central_film - 1
+    assert response.rates["contact_load"] == pytest.approx(-result.film_load / load, rel=1e-2)
+    film = again.film.central_film / result.film.central_film - 1
     assert response.rates["central_film"] * moved == pytest.approx(film, rel=near)
 
 
 def test_slopes_of_a_contact_are_those_of_two_loads():
     model = lubfric.prepare(SCENE)
-    found = lubfric.friction(model, 0.01).balance
-    film = found.film.film_at(model.rough_contact.x)
+    result = lubfric.friction(model, 0.01).balance
+    film = result.film.film_at(model.rough_contact.x)
     width = SCENE.bodies.width
-    loads = found.contact_load * np.array([0.99, 1.01])
+    loads = result.contact_load * np.array([0.99, 1.01])
     light, heavy = (model.rough_contact.close(film, load) for load in loads)
     per_load = width / (loads[1] - loads[0])
-    slopes = found.response.slopes
+    slopes = result.response.slopes
     assert slopes.gap == pytest.approx((heavy.mean_gap - light.mean_gap) * per_load, rel=0.05)
     touched = heavy.real_contact_area_fraction - light.real_contact_area_fraction
     assert slopes.area == pytest.approx(touched * per_load, rel=0.2)

@@ -30,7 +30,7 @@ ROLLER = lubfric.load_scene(
 SQ = ROLLER.surface.sq
 
 
-def test_a_large_change_is_told_without_powers_of_ten():
+def test_a_large_change_is_reported_without_powers_of_ten():
     words = [effect_in_words(("starved", change, "oil")) for change in (1.4, -0.126, 0.013, math.nan)]
     assert words == [f"starved: f {w}; oil" for w in ("+140 %", "-13 %", "+1.3 %", "not estimated")]
 
@@ -42,8 +42,8 @@ def told(lacks, word):
 
 @pytest.mark.parametrize("speed", [0.3, 1.0])
 def test_the_likely_size_is_that_of_the_scene_that_has_it_to_a_factor_of_three(speed):
-    found = lubfric.friction(ROLLER, speed)
-    film = {"inlet_film": 0.7 * found.balance.film.flow_film}
+    result = lubfric.friction(ROLLER, speed)
+    film = {"inlet_film": 0.7 * result.balance.film.flow_film}
     warm = {
         "oil": None,
         "viscosity": ROLLER.lubricant.viscosity * math.exp(-10 * ROLLER.lubricant.temperature_coefficient),
@@ -54,17 +54,17 @@ def test_the_likely_size_is_that_of_the_scene_that_has_it_to_a_factor_of_three(s
         ("running-in", ROLLER.with_(surface={"sq": 0.6 * SQ})),
         ("f_b", ROLLER.with_(bodies={"boundary_friction_coefficient": 0.75 * 0.12})),
     ):
-        change = lubfric.friction(there, speed).coefficient / found.coefficient - 1
-        for guess in (told(found.unmodelled_effects, word), told(unmodelled_effects(ROLLER, SQ, speed), word)):
+        change = lubfric.friction(there, speed).coefficient / result.coefficient - 1
+        for guess in (told(result.unmodelled_effects, word), told(unmodelled_effects(ROLLER, SQ, speed), word)):
             assert 1 / 3 < guess / change < 3, (word, guess, change)
-    assert told(found.unmodelled_effects, "f_b") == pytest.approx(
-        -0.25 * found.boundary_force / 2000.0 / found.coefficient
+    assert told(result.unmodelled_effects, "f_b") == pytest.approx(
+        -0.25 * result.boundary_force / 2000.0 / result.coefficient
     )
-    sizes = [abs(change) for _, change, _ in found.unmodelled_effects if not math.isnan(change)]
-    assert sizes == sorted(sizes, reverse=True) and math.isnan(told(found.unmodelled_effects, "motion"))
+    sizes = [abs(change) for _, change, _ in result.unmodelled_effects if not math.isnan(change)]
+    assert sizes == sorted(sizes, reverse=True) and math.isnan(told(result.unmodelled_effects, "motion"))
 
 
-def test_what_is_given_and_what_is_below_the_tolerance_is_not_told():
+def test_what_is_given_and_what_is_below_the_tolerance_is_not_reported():
     given = ROLLER.with_(lubricant={"inlet_length": 1.0}, bodies={"boundary_friction_coefficient": [0.1, 0.12]})
     words = " ".join(what for what, *_ in unmodelled_effects(given, SQ, 1.0))
     assert "starved" not in words and "f_b" not in words and "running-in" in words
@@ -96,26 +96,26 @@ def test_no_report_contradicts_info(model, speed):
         assert math.isnan(change) or low - 0.02 <= change <= high + 0.02, what
 
 
-def test_a_soft_body_is_told_how_thick_its_cover_has_to_be():
+def test_a_soft_body_is_answered_with_how_thick_its_cover_has_to_be():
     soft = ROLLER.with_(bodies={"e_prime": 2e7, "load": 100.0})
     (cover,) = [what for what, *_ in unmodelled_effects(soft, SQ, 1.0) if "cover" in what]
     assert f"{5e3 * soft.bodies.half_width:.2g} mm" in cover
 
 
-def test_a_starved_inlet_is_told_where_the_spots_carry_most():
+def test_a_starved_inlet_is_reported_where_the_asperities_carry_most():
     """The film carries little there, and is thicker than that of the whole load would be."""
     small = {"shape": (96, 48), "spacing": 1.1e-6}
     scene = paper_scene(contact=small, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"})
     point = lubfric.friction(scene.with_(lubricant={"inlet_length": 60e-6}), 0.03)
-    (told,) = (entry for entry in point.validity if "flooded inlet" in entry.what)
-    assert point.contact_load > point.film_load and told.value < 0.8
+    (stated,) = (entry for entry in point.validity if "flooded inlet" in entry.what)
+    assert point.contact_load > point.film_load and stated.value < 0.8
 
 
 @pytest.mark.parametrize("length", [1e-3, 3e-3, 0.1])
-def test_rolling_friction_that_a_given_inlet_leaves_out_is_told(length):
+def test_rolling_friction_that_a_given_inlet_omits_is_reported(length):
     """Of a film that hardly gets thinner; by f with a full inlet."""
     scene = paper_scene()
     full, given = (lubfric.friction(scene.with_(lubricant={"inlet_length": x}), 1.0) for x in (None, length))
-    told = [entry.value for entry in given.validity if "beyond inlet_length" in entry.what]
+    stated = [entry.value for entry in given.validity if "beyond inlet_length" in entry.what]
     lost = 100 * (full.rolling_force - given.rolling_force) / (given.coefficient * scene.bodies.load)
-    assert told == ([pytest.approx(lost, rel=0.25)] if lost > 1 else []) and bool(told) == (length < 0.1)
+    assert stated == ([pytest.approx(lost, rel=0.25)] if lost > 1 else []) and bool(stated) == (length < 0.1)

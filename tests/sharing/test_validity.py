@@ -44,7 +44,7 @@ def test_the_paper_scene_needs_none():
         ("steel yields", warn_bodies(PAPER.with_(bodies={"hardness": None, "hertz_pressure": 6e9}).bodies)),
     ],
 )
-def test_each_limit_is_told(words, entries):
+def test_each_limit_is_reported(words, entries):
     (entry,) = [entry for entry in entries if words in entry.text]
     assert entry.value != entry.limit and entry.remedy
     assert entry.text.startswith("warning: ") and not entry.severe
@@ -112,8 +112,8 @@ def test_the_ordinary_bearing_without_a_shear_law_is_refused():
 
 
 def test_a_shear_law_makes_it_an_answer():
-    found = lubfric.friction(heavy(eyring_stress=5e6, limiting_stress_coefficient=0.08), 1.0)
-    assert found.coefficient < 0.2 and not any(entry.severe for entry in found.validity)
+    result = lubfric.friction(heavy(eyring_stress=5e6, limiting_stress_coefficient=0.08), 1.0)
+    assert result.coefficient < 0.2 and not any(entry.severe for entry in result.validity)
 
 
 def test_a_sweep_marks_the_point_and_keeps_the_rest():
@@ -157,18 +157,18 @@ def test_an_error_above_the_tolerance_is_a_warning(numerics):
     another."""
     scene = PAPER.with_(contact={"shape": (48, 48), "spacing": 1.8e-6})
     points = [lubfric.friction(scene.with_(numerics=numerics | {"tolerance": t}), 0.03) for t in (1e-4, 0.2)]
-    told = [[entry for entry in p.validity if "estimated numerical error of f" in entry.what] for p in points]
-    assert 1e-4 < points[0].uncertainty.numerical < 0.2 and told[1] == []
-    assert told[0][0].value == pytest.approx(100 * points[0].uncertainty.numerical) and told[0][0].limit == 0.01
-    assert told[0][0].text in points[0].report.notes
+    stated = [[entry for entry in p.validity if "estimated numerical error of f" in entry.what] for p in points]
+    assert 1e-4 < points[0].uncertainty.numerical < 0.2 and stated[1] == []
+    assert stated[0][0].value == pytest.approx(100 * points[0].uncertainty.numerical) and stated[0][0].limit == 0.01
+    assert stated[0][0].text in points[0].report.notes
 
 
 def test_cells_too_long_for_the_roughness_are_a_warning():
     """An exponential ACF has detail at every scale: cells half as long would go on changing f."""
     rough = PAPER.with_(surface={"acf": "exponential"}, numerics={"sampling": "strips", "sampling_tolerance": 0.2})
-    found = [lubfric.friction(rough.with_(numerics={"tolerance": t}), 0.03) for t in (0.01, 0.05)]
-    told = [[e.value for e in p.validity if "cells half as long" in e.what] for p in found]
-    assert len(told[0]) == 1 and 1 < told[0][0] < 5 and told[1] == []
+    result = [lubfric.friction(rough.with_(numerics={"tolerance": t}), 0.03) for t in (0.01, 0.05)]
+    stated = [[e.value for e in p.validity if "cells half as long" in e.what] for p in result]
+    assert len(stated[0]) == 1 and 1 < stated[0][0] < 5 and stated[1] == []
 
 
 def entry(value, what="slip", *, severe=False):
@@ -201,7 +201,7 @@ def test_warnings_of_a_table_name_their_points(places, words):
     assert text.startswith(f"{words}, above 5 %. It slides.")
 
 
-def test_a_local_film_peak_is_told_from_the_hertz_pressure():
+def test_a_local_film_peak_is_distinguished_from_the_hertz_pressure():
     heavy = PAPER.with_(bodies={"hertz_pressure": 1.2e9, "hardness": None})
     (at_hertz,) = warn_pressure(heavy, 1.2e9)
     (local,) = warn_pressure(heavy, 3e9)

@@ -72,12 +72,12 @@ def test_a_known_curve_is_found_within_the_tolerance_from_few_points(lift_off, e
             break
         assert 1e-4 < speed < 1.0 and min(abs(np.log(speed / np.array(speeds)))) > 0.01
         speeds.append(speed)
-    found = curve.through(np.array(speeds))
+    result = curve.through(np.array(speeds))
     at = np.geomspace(1e-4, 1.0, 2000)
     true = sum(curve.at(at))
-    assert np.abs(found.at(at) / true - 1).max() <= tolerance
-    assert found.lift_off == pytest.approx(lift_off, rel=0.01) and error <= tolerance
-    assert found.lift_off_range[0] <= lift_off <= found.lift_off_range[1]
+    assert np.abs(result.at(at) / true - 1).max() <= tolerance
+    assert result.lift_off == pytest.approx(lift_off, rel=0.01) and error <= tolerance
+    assert result.lift_off_range[0] <= lift_off <= result.lift_off_range[1]
     assert len(speeds) <= (14 if tolerance == 0.01 else 11)
 
 
@@ -88,12 +88,12 @@ def test_lift_off_is_stated_where_the_solved_speeds_around_it_are_near(ratio, se
     curve = Made(0.05, 0.8)
     low = 0.05 / ratio**0.7
     samples = curve.samples(np.array([1e-3, 3e-3, low, ratio * low, 3.0]))
-    found = Interpolant(samples, knee_of(samples), sense=sense)
+    result = Interpolant(samples, knee_of(samples), sense=sense)
     if ratio > 2:
-        assert np.isnan(found.lifted) and found.lift_off_range == pytest.approx((low, ratio * low))
+        assert np.isnan(result.lifted) and result.lift_off_range == pytest.approx((low, ratio * low))
     else:
-        assert found.lifted == pytest.approx(sense * 0.05, rel=0.05)
-        assert low < found.lift_off_range[0] <= 0.05 <= found.lift_off_range[1] < ratio * low
+        assert result.lifted == pytest.approx(sense * 0.05, rel=0.05)
+        assert low < result.lift_off_range[0] <= 0.05 <= result.lift_off_range[1] < ratio * low
 
 
 def test_f_between_points_that_a_spline_overshoots_is_not_known():
@@ -107,10 +107,10 @@ def test_f_between_points_that_a_spline_overshoots_is_not_known():
         clearance=np.full(4, np.nan),
         steepness=np.full(4, np.nan),
     )
-    found = Interpolant(samples, None)
+    result = Interpolant(samples, None)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        error = found.error(np.geomspace(1e-3, 1e3, 50))
+        error = result.error(np.geomspace(1e-3, 1e3, 50))
     assert np.isinf(error).any() and not np.isnan(error).any()
 
 
@@ -120,10 +120,10 @@ def test_curves_without_a_knee(lift_off):
     speeds = list(FIRST)
     while (speed := next_speed(curve.through(np.array(speeds)), 0.01)[0]) is not None:
         speeds.append(speed)
-    found = curve.through(np.array(speeds))
+    result = curve.through(np.array(speeds))
     at = np.geomspace(1e-4, 1.0, 500)
-    assert found.lift_off is None and len(speeds) <= 10
-    np.testing.assert_allclose(found.at(at), sum(curve.at(at)), rtol=0.01)
+    assert result.lift_off is None and len(speeds) <= 10
+    np.testing.assert_allclose(result.at(at), sum(curve.at(at)), rtol=0.01)
 
 
 @pytest.mark.parametrize("beyond", [0.99, 1.0, 1.001, 1.1])
@@ -135,11 +135,11 @@ def test_contact_at_speeds_beyond_the_knee_that_the_clearance_tells(beyond):
     touching = speeds <= 0.05 * beyond
     share = np.where(touching, np.maximum(samples.share, 1e-5), 0.0)
     samples = replace(samples, share=share, boundary=0.1 * share)
-    found = Interpolant(samples, knee_of(samples))
+    result = Interpolant(samples, knee_of(samples))
     at = np.geomspace(1e-4, 1.0, 2000)
-    assert 0.05 * beyond < found.lift_off < 0.06
-    np.testing.assert_allclose(found.at(at), sum(curve.at(at)), rtol=0.1)
-    assert np.isfinite(found.error(at)).all()
+    assert 0.05 * beyond < result.lift_off < 0.06
+    np.testing.assert_allclose(result.at(at), sum(curve.at(at)), rtol=0.1)
+    assert np.isfinite(result.error(at)).all()
 
 
 @pytest.fixture(scope="module")

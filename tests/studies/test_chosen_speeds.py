@@ -69,10 +69,10 @@ def test_the_same_bits_on_a_pool_and_after_a_cut(study, tmp_path, monkeypatch, c
 
 
 def test_a_curve_that_cannot_be_begun_is_one_row(tmp_path):
-    found = lubfric.study(SCENE, {"contact.spacing": [1e-4]}, "auto", store=tmp_path)
-    assert found.failed == 1 and found.missing == 0 and "InputError: correlation_length" in found.status[0, 0]
-    same(lubfric.open_study(tmp_path), found)
-    assert np.isnan(found.lift_off).all() and np.isnan(found.at(0.1)).all()
+    result = lubfric.study(SCENE, {"contact.spacing": [1e-4]}, "auto", store=tmp_path)
+    assert result.failed == 1 and result.missing == 0 and "InputError: correlation_length" in result.status[0, 0]
+    same(lubfric.open_study(tmp_path), result)
+    assert np.isnan(result.lift_off).all() and np.isnan(result.at(0.1)).all()
 
 
 def test_tables_leave_out_what_was_not_needed(study, tmp_path):

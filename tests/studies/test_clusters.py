@@ -42,9 +42,9 @@ class Cluster:
     """A scheduler and two workers, processes of their own, on ports of this machine."""
 
     def __init__(self, folder):
-        with socket.socket() as found:
-            found.bind(("127.0.0.1", 0))
-            self.port = found.getsockname()[1]
+        with socket.socket() as result:
+            result.bind(("127.0.0.1", 0))
+            self.port = result.getsockname()[1]
         self.address = f"tcp://127.0.0.1:{self.port}"
         self.folder = folder
         self.scheduler = self.new_scheduler()

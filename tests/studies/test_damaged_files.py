@@ -154,9 +154,9 @@ def looked_at(found, folder):
 
 
 @pytest.mark.slow
-def test_damaged_studies_are_told_of_and_stop_nothing(stores, tmp_path, imports):
+def test_damaged_studies_are_reported_and_stop_nothing(stores, tmp_path, imports):
     rng = np.random.default_rng(7)
-    told = {"error": 0, "warning": 0, "none": 0}
+    stated = {"error": 0, "warning": 0, "none": 0}
     looked_at(stores[0][1], tmp_path)
     imports.clear()
     for trial in range(700):
@@ -167,20 +167,20 @@ def test_damaged_studies_are_told_of_and_stop_nothing(stores, tmp_path, imports)
         with damaged(files[rng.integers(len(files))], rng), warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             try:
-                found = lubfric.open_study(folder)
+                result = lubfric.open_study(folder)
                 if trial % 10 < 3:
-                    looked_at(found, tmp_path)
+                    looked_at(result, tmp_path)
             except lubfric.InputError as error:
                 assert trial % 4 == 0 and "\n" not in str(error) and str(folder) in str(error)
-                told["error"] += 1
+                stated["error"] += 1
                 continue
-        told["warning" if caught else "none"] += 1
-        if trial % 4 and not found.chosen:
-            kept = found.status == sound.status
+        stated["warning" if caught else "none"] += 1
+        if trial % 4 and not result.chosen:
+            kept = result.status == sound.status
             assert np.count_nonzero(~kept) <= 1
-            same = found["coefficient"][kept] == sound["coefficient"][kept]
+            same = result["coefficient"][kept] == sound["coefficient"][kept]
             assert np.count_nonzero(~same & np.isfinite(sound["coefficient"][kept])) <= 1
-    assert imports == [] and told["error"] > 60 and told["warning"] > 350, told
+    assert imports == [] and stated["error"] > 60 and stated["warning"] > 350, stated
 
 
 def test_damaged_results_are_one_clear_error(tmp_path, imports, capsys, undrawn):

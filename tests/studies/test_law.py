@@ -43,7 +43,7 @@ def by_hand(n, U, eta, p):
     return U / V * (n["b"] * share + (1 - share) * film[0] * film[1] / sum(film))
 
 
-def test_it_is_as_close_to_the_points_as_it_says(study, law):
+def test_it_is_as_close_to_the_points_as_it_states(study, law):
     f = study["coefficient"]
     speeds = study.coords["speed"][1]
     off = []
@@ -72,16 +72,16 @@ def test_it_is_odd_and_smooth_through_rest(law):
 
 
 def test_text_json_and_formula_say_the_same(law):
-    n = (told := json.loads(law.json))["numbers"]
-    assert told["units"] == {"U": "m/s", "T": "K", "p": "Pa"} and told["largest"] == law.largest
-    assert told["ranges"]["temperature"] == WARM
+    n = (stated := json.loads(law.json))["numbers"]
+    assert stated["units"] == {"U": "m/s", "T": "K", "p": "Pa"} and stated["largest"] == law.largest
+    assert stated["ranges"]["temperature"] == WARM
     for U, T, p in ((0.03, 335.0, 9e7), (-0.5, 350.0, 1.2e8)):
         nu = 10**10 ** (n["A"] - n["B"] * math.log10(T))
         assert law(U, T, p) == pytest.approx(by_hand(n, U, 1e-3 * (nu - 0.7), p), rel=1e-9)
     assert f"{100 * law.largest:.2g} % at most" in law.text and "333.15 to 353.15 K" in law.text
 
 
-def test_outside_it_refuses_or_extrapolates_where_asked(law):
+def test_outside_it_refuses_or_extrapolates_where_requested(law):
     for given in ((4.0,), (0.1, 300.0), (0.1, 343.0, 1e9)):
         with pytest.raises(lubfric.InputError, match="allowed: .* to .*; .*extrapolate=True"):
             law(*given)
@@ -98,8 +98,8 @@ def test_the_c_function_is_the_same_to_the_last_digits(law, tmp_path):
     friction.argtypes = [ctypes.c_double] * 3 + [ctypes.POINTER(ctypes.c_int)]
     outside = ctypes.c_int(-1)
     for at in ((0.0, 343.0, 1e8, 0), (0.03, 335.0, 1e8, 0), (-2.0, 350.0, 1e8, 0), (9.0, 300.0, 1e9, 7)):
-        found = friction(*at[:3], ctypes.byref(outside))
-        assert found == pytest.approx(law(*at[:3], extrapolate=True), rel=1e-12) and outside.value == at[3]
+        result = friction(*at[:3], ctypes.byref(outside))
+        assert result == pytest.approx(law(*at[:3], extrapolate=True), rel=1e-12) and outside.value == at[3]
     assert math.isfinite(friction(0.1, 343.0, 1e8, None))
 
 
@@ -122,7 +122,7 @@ def test_of_smooth_bodies_in_a_fluid_too_thin_for_the_law_of_its_viscosity():
         law_of(scene, both, curve.coefficient, *curve.uncertainty.interval.T, curve.uncertainty.model)
 
 
-def test_slower_than_its_points_it_has_no_more_friction_than_the_contact_spots():
+def test_slower_than_its_points_it_has_no_more_friction_than_the_asperity_contacts():
     """From twelve speeds at which the film carries most, down to rest: the bodies alone would give f_b. It falls there
     as slowly as the curve that was solved at those speeds."""
     scene = SCENE.with_(bodies={"boundary_friction_coefficient": 0.12})

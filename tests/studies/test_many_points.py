@@ -33,10 +33,10 @@ def test_a_point_of_a_large_study_costs_little_time_and_memory(monkeypatch, tmp_
     plan = lubfric.plan_study(SCENE, {"bodies.load": loads}, [0.01, 0.02, 0.04, 0.08])
     before = resident()
     result = lubfric.study(plan, store=tmp_path)
-    grown = resident() - before
+    enlarged = resident() - before
     assert result["coefficient"].size == COUNT and (result["coefficient"] == canned.coefficient).all()
     assert (time.process_time() - begun) / COUNT < MOST_SECONDS
-    assert grown / COUNT < MOST_BYTES
+    assert enlarged / COUNT < MOST_BYTES
     monkeypatch.setattr(points, "outcome_of", None)  # all of them are kept
     begun = time.process_time()
     assert (lubfric.study(plan, store=tmp_path)["power_loss"] == canned.power_loss).all()

@@ -165,8 +165,8 @@ def test_the_command_takes_a_scene_with_a_table_and_writes_a_report(tmp_path, ca
     assert main(["study", str(tmp_path / "scene.toml"), "--points", str(tmp_path / "gear.csv"), "--out", str(out)]) == 0
     with open(out / "study.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    found = [float(row["power_loss [W]"]) for row in rows]
-    np.testing.assert_allclose(found, [p.power_loss for p in points], rtol=1e-9)
+    result = [float(row["power_loss [W]"]) for row in rows]
+    np.testing.assert_allclose(result, [p.power_loss for p in points], rtol=1e-9)
     np.testing.assert_allclose([float(row["position [m]"]) for row in rows], [-1e-3, 0, 1e-3], atol=1e-12)
     said = capsys.readouterr().err
     mean = sum(p.power_loss * row[-1] for p, row in zip(points, ROWS)) / 4

@@ -183,8 +183,8 @@ def test_an_interrupt_is_one_line_that_says_what_is_kept(tmp_path, whole, monkey
 def test_a_killed_worker_loses_nothing(tmp_path, whole):
     out = tmp_path / "out"
     process = start(written(tmp_path), out, "worker", code=SHARED)
-    told = process.communicate(timeout=600)
-    assert process.returncode == 0, told
+    stated = process.communicate(timeout=600)
+    assert process.returncode == 0, stated
     complete(out)
     same(out, whole)
 

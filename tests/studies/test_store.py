@@ -113,8 +113,8 @@ def test_several_writers_and_a_kill(tmp_path):
     for process in ending:
         process.communicate()
     for name, count in (("a", 40), ("b", 40), ("c", last + 1)):  # all that was said to be kept is
-        found = Store(tmp_path).known([f"{name}{i}" for i in range(count)])
-        assert found == {f"{name}{i}": (i, 0.1 * i) for i in range(count)}
+        result = Store(tmp_path).known([f"{name}{i}" for i in range(count)])
+        assert result == {f"{name}{i}": (i, 0.1 * i) for i in range(count)}
     assert Store(tmp_path).get(f"c{last + 2}") is None
 
 

@@ -78,18 +78,18 @@ def test_warnings_and_accepted_points_are_marked(tmp_path):
     """A turbulent film: refused, or accepted and marked, in every table."""
     thin = SCENE.with_(surface={"sq": 0.0}, lubricant={"viscosity": 0.005})
     vary = {"numerics.accept": [False, True], "motion.slide_roll_ratio": [1.0, 2.0]}
-    found = lubfric.study(thin, vary, [1.0, 1000.0], store=tmp_path)
+    result = lubfric.study(thin, vary, [1.0, 1000.0], store=tmp_path)
     point = lubfric.friction(thin.with_(numerics={"accept": True}), 1000.0)
     assert any(entry.severe for entry in point.validity)
-    assert found.status[0, 1, 1].startswith("ValidityError") and found.status[1, 1, 1] == "converged"
-    assert found.validity[1, 1, 1] == " | ".join(entry.text for entry in point.validity)
-    assert "not valid" in found.validity[1, 1, 1] and found.validity[1, 0, 0] == ""
-    assert found.with_warnings == np.count_nonzero(found.validity != "") and "with warnings" in repr(found)
-    same(lubfric.open_study(tmp_path), found)
-    assert (lubfric.open_study(tmp_path).validity == found.validity).all()
-    found.to_csv(tmp_path / "t.csv")
+    assert result.status[0, 1, 1].startswith("ValidityError") and result.status[1, 1, 1] == "converged"
+    assert result.validity[1, 1, 1] == " | ".join(entry.text for entry in point.validity)
+    assert "not valid" in result.validity[1, 1, 1] and result.validity[1, 0, 0] == ""
+    assert result.with_warnings == np.count_nonzero(result.validity != "") and "with warnings" in repr(result)
+    same(lubfric.open_study(tmp_path), result)
+    assert (lubfric.open_study(tmp_path).validity == result.validity).all()
+    result.to_csv(tmp_path / "t.csv")
     rows = list(csv.DictReader((tmp_path / "t.csv").read_text().splitlines()))
-    assert [row["validity"] for row in rows] == found.validity.ravel().tolist()
+    assert [row["validity"] for row in rows] == result.validity.ravel().tolist()
     assert {name for name in rows[0] if "[" not in name} == {"numerics.accept", "status", "validity"}
     assert {"uncertainty_length [m]", "uncertainty_numerical [-]", "speed [m/s]"} <= set(rows[0])
 
@@ -192,34 +192,34 @@ def test_a_piece_that_is_handed_out_again_solves_nothing_again(tmp_path, monkeyp
     solved = []
     monkeypatch.setattr(points, "friction", lambda *args, **kw: solved.append(args) or FRICTION(*args, **kw))
     with Twice(1) as executor:
-        found = lubfric.study(SCENE, {}, SPEEDS, executor=executor, store=tmp_path)
-    assert found.missing == found.failed == 0 and len(solved) == len(records(tmp_path)) == found.status.size
+        result = lubfric.study(SCENE, {}, SPEEDS, executor=executor, store=tmp_path)
+    assert result.missing == result.failed == 0 and len(solved) == len(records(tmp_path)) == result.status.size
 
 
 # failures
 
 
 def test_a_scene_that_cannot_be_made_ready_is_a_row_too():
-    found = lubfric.study(SCENE, {"contact.spacing": [1.1e-6, 1e-4]}, SPEEDS)
-    assert (found.status[0] == "converged").all() and "InputError: correlation_length" in found.status[1, 0]
+    result = lubfric.study(SCENE, {"contact.spacing": [1.1e-6, 1e-4]}, SPEEDS)
+    assert (result.status[0] == "converged").all() and "InputError: correlation_length" in result.status[1, 0]
 
 
 def test_an_interrupt_keeps_what_is_done_and_progress_counts_it(tmp_path):
-    told = []
+    stated = []
 
     def on_progress(done, total):
-        told.append((done, total))
-        if len(told) == 5:
+        stated.append((done, total))
+        if len(stated) == 5:
             os.kill(os.getpid(), signal.SIGINT)
 
     vary = {"lubricant.viscosity": [0.2, 0.3]}
     with pytest.raises(KeyboardInterrupt):
         lubfric.study(SCENE, vary, SPEEDS, store=tmp_path, on_progress=on_progress)
-    found = lubfric.open_study(tmp_path)
-    assert (found.status[0] == "converged").all() and found.missing == 2
+    result = lubfric.open_study(tmp_path)
+    assert (result.status[0] == "converged").all() and result.missing == 2
     with ThreadPoolExecutor(2) as executor:
         lubfric.study(SCENE, vary, SPEEDS, store=tmp_path, executor=executor, on_progress=on_progress)
-    assert told == [(done, 6) for done in (0, 1, 2, 3, 4, 4, 5, 6)]
+    assert stated == [(done, 6) for done in (0, 1, 2, 3, 4, 4, 5, 6)]
 
 
 def test_an_interrupt_waits_until_all_processes_have_begun(monkeypatch):
@@ -324,7 +324,7 @@ def test_the_time_is_estimated_within_a_factor_of_three(scene, speeds):
 
 
 @pytest.mark.parametrize("speeds", [(0.003, 0.03, 0.3, 1.0), "auto"])
-def test_explain_leaves_out_what_the_store_holds(tmp_path, speeds):
+def test_explain_omits_what_the_store_holds(tmp_path, speeds):
     both = lubfric.plan_study(SCENE, {"lubricant.viscosity": [0.1, 0.3]}, speeds)
     lubfric.study(SCENE, {"lubricant.viscosity": [0.1]}, speeds, store=tmp_path)
     count, what = (1, "curves") if isinstance(speeds, str) else (len(speeds), "points")

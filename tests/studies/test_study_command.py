@@ -97,8 +97,8 @@ def test_an_interrupt_is_one_line_and_the_command_goes_on(tmp_path, sent, code):
     said = process.communicate()[1].splitlines()
     assert process.returncode == code and "are kept in" in said[-1] and "goes on from there" in said[-1], said
     assert not any("Traceback" in line for line in said)
-    found = lubfric.open_study(out)
-    assert 0 < found.missing < found.status.size
+    result = lubfric.open_study(out)
+    assert 0 < result.missing < result.status.size
 
 
 @pytest.mark.parametrize("arguments", [["--workers", "0"], ["--workers", str(2**70)], ["--out", "/dev/null/x"]])
@@ -107,7 +107,7 @@ def test_bad_options_are_one_line(tmp_path, capsys, arguments):
     assert capsys.readouterr().err.splitlines()[-1].startswith("lubfric: ")
 
 
-def test_a_table_that_cannot_be_written_is_told_before_any_point(tmp_path, monkeypatch, capsys):
+def test_a_table_that_cannot_be_written_is_reported_before_any_point(tmp_path, monkeypatch, capsys):
     from lubfric import studies
 
     monkeypatch.setitem(sys.modules, "xarray", None)

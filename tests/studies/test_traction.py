@@ -38,7 +38,7 @@ def test_traction_rises_peaks_and_falls_with_heat_and_rises_without(model):
     assert np.all(np.diff(cold) > 0) and cold[-1] > 1.5 * f[-1]
 
 
-def test_points_are_those_of_friction_in_the_order_asked_for(model):
+def test_points_are_those_of_friction_in_the_order_requested(model):
     ratios = [0.5, 0.0, -0.5, 2.0]
     curve = lubfric.traction(model, ratios, speed=0.5)
     assert curve.speed == 0.5 and list(curve.ratio) == ratios
@@ -144,10 +144,10 @@ def test_a_map_is_the_same_in_whatever_order_its_values_stand(tmp_path):
 
 @pytest.mark.parametrize("option, unit", [("--ratios", ""), ("--speeds", "m/s")])
 @pytest.mark.parametrize("text", ["0.5:0.1:3", "1e9", "words"])
-def test_what_a_list_of_a_command_is_allowed_to_be_is_told_in_its_own_unit(tmp_path, capsys, option, unit, text):
+def test_what_a_list_of_a_command_is_allowed_to_be_is_reported_in_its_own_unit(tmp_path, capsys, option, unit, text):
     assert main(["run", "paper", option, text, "--out", str(tmp_path)]) == 2
-    told = capsys.readouterr().err
-    assert unit in told and option in told and ("m/s" in told) == (unit == "m/s")
+    stated = capsys.readouterr().err
+    assert unit in stated and option in stated and ("m/s" in stated) == (unit == "m/s")
 
 
 def test_a_key_with_long_words_stays_in_its_picture():

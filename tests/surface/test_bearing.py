@@ -72,16 +72,16 @@ def plateaus(seed=3) -> Surface:
     "surface", [plateaus(), generate_surface((200, 160), 1e-6, sq=1e-7, correlation_length=5e-6, seed=1)]
 )
 def test_a_second_computation_by_histogram(surface):
-    found = surface.sk, surface.spk, surface.svk
-    np.testing.assert_allclose(found, by_histogram(surface.heights.ravel()), rtol=0.02)
+    result = surface.sk, surface.spk, surface.svk
+    np.testing.assert_allclose(result, by_histogram(surface.heights.ravel()), rtol=0.02)
 
 
 def test_another_package():
     surfalize = pytest.importorskip("surfalize")
     surface = plateaus(7)
     other = surfalize.Surface(surface.heights * 1e6, 1.0, 1.0)
-    found = [value * 1e6 for value in (surface.sk, surface.spk, surface.svk)]
-    np.testing.assert_allclose(found, [other.Sk(), other.Spk(), other.Svk()], rtol=0.03)
+    result = [value * 1e6 for value in (surface.sk, surface.spk, surface.svk)]
+    np.testing.assert_allclose(result, [other.Sk(), other.Spk(), other.Svk()], rtol=0.03)
 
 
 def test_turned_over_peaks_become_dales_and_lengths_scale():

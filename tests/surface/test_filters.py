@@ -34,9 +34,9 @@ def test_a_constant_passes_whatever_is_missing(index, holes, seed):
     rng = np.random.default_rng(seed)
     mask = rng.random((50, 40)) >= holes
     heights = np.where(mask, 3e-6, np.nan)
-    found = Surface(heights, 1e-6, mask=mask).filtered(s=index)
-    np.testing.assert_allclose(found.heights[mask], 3e-6, rtol=1e-12)
-    assert found.missing_fraction == pytest.approx(1 - mask.mean())
+    result = Surface(heights, 1e-6, mask=mask).filtered(s=index)
+    np.testing.assert_allclose(result.heights[mask], 3e-6, rtol=1e-12)
+    assert result.missing_fraction == pytest.approx(1 - mask.mean())
 
 
 def test_unmeasured_points_have_no_say():
@@ -44,17 +44,17 @@ def test_unmeasured_points_have_no_say():
     mask = np.ones(surface.shape, bool)
     mask[40:44, 50:53] = False
     junk = [np.where(mask, surface.heights, value) for value in (np.nan, 1.0)]
-    found = [Surface(z, 1e-6, mask=mask).filtered(s=10e-6, l=60e-6).heights[mask] for z in junk]
-    np.testing.assert_array_equal(found[0], found[1])
+    result = [Surface(z, 1e-6, mask=mask).filtered(s=10e-6, l=60e-6).heights[mask] for z in junk]
+    np.testing.assert_array_equal(result[0], result[1])
 
 
 def test_band_between_both_indices_is_left():
     shape = (240, 240)
     z = wave(2, shape) + wave(6, shape) + wave(40, shape)
-    found = Surface(z, 1e-6, periodic_axes=(True, True)).filtered(s=12e-6, l=60e-6)
-    shares = [transmitted(wave(p, shape), found.heights) for p in (2, 6, 40)]
+    result = Surface(z, 1e-6, periodic_axes=(True, True)).filtered(s=12e-6, l=60e-6)
+    shares = [transmitted(wave(p, shape), result.heights) for p in (2, 6, 40)]
     assert shares[0] < 0.2 and shares[1] > 0.65 and shares[2] < 0.1
-    assert sum("filter" in note for note in found.notes) == 2
+    assert sum("filter" in note for note in result.notes) == 2
 
 
 @pytest.mark.parametrize(

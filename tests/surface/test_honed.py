@@ -18,7 +18,7 @@ def honed(targets=TARGETS[0], seed=1, shape=(256, 256), **more):
 
 
 @pytest.mark.parametrize("targets", TARGETS)
-def test_it_has_the_parameters_asked_for(targets):
+def test_it_has_the_parameters_requested(targets):
     for seed in (1, 2):
         surface = honed(targets, seed)
         np.testing.assert_allclose((surface.sk, surface.spk, surface.svk), targets, rtol=3e-3)

@@ -27,9 +27,9 @@ def test_the_gap_of_two_facing_waves():
     k = 2 * np.pi / 20e-6
     cosine = np.cos(k * (x + y)) * 1e-7
     sine = np.sin(k * (x + y)) * 1e-7
-    found = Surface(cosine, 1e-6).combined(Surface(sine, 1e-6)).heights
+    result = Surface(cosine, 1e-6).combined(Surface(sine, 1e-6)).heights
     expected = np.cos(k * (x + y)) * 1e-7 + np.sin(k * (x - y)) * 1e-7
-    np.testing.assert_allclose(found - found.mean(), expected - expected.mean(), atol=1e-20)
+    np.testing.assert_allclose(result - result.mean(), expected - expected.mean(), atol=1e-20)
 
 
 def test_maps_of_other_spacing_and_length_meet_on_the_finer_one_and_the_shorter_length():
@@ -66,10 +66,10 @@ def test_spikes_are_found_and_filled_and_resolved_features_stay():
     assert resolved.without_outliers().mask is None
     heights[20, 30] += 2e-6
     heights[70:72, 80:82] -= 2e-6
-    found = Surface(heights, 1e-6).without_outliers()
-    assert sorted(map(tuple, np.argwhere(~found.mask))) == [(20, 30), (70, 80), (70, 81), (71, 80), (71, 81)]
-    assert np.isnan(found.heights[20, 30]) and "5 outliers" in found.notes[-1]
-    assert np.abs(found.fill().heights[20, 30] - clean.heights[20, 30]) < 2e-7
+    result = Surface(heights, 1e-6).without_outliers()
+    assert sorted(map(tuple, np.argwhere(~result.mask))) == [(20, 30), (70, 80), (70, 81), (71, 80), (71, 81)]
+    assert np.isnan(result.heights[20, 30]) and "5 outliers" in result.notes[-1]
+    assert np.abs(result.fill().heights[20, 30] - clean.heights[20, 30]) < 2e-7
 
 
 def test_one_spike_on_a_flat_map_is_an_outlier():

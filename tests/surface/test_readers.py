@@ -474,8 +474,8 @@ def test_every_format_of_the_optional_package_is_known():
     pytest.importorskip("SurfaceTopography", reason="optional package for instrument formats")
     from SurfaceTopography.IO import readers
 
-    found = {f".{word}" for reader in readers for word in reader.file_extensions() or ()}
-    assert found <= set(INSTRUMENTS) | set(SUFFIXES)
+    result = {f".{word}" for reader in readers for word in reader.file_extensions() or ()}
+    assert result <= set(INSTRUMENTS) | set(SUFFIXES)
 
 
 @pytest.mark.parametrize("name", ["map.sur", "map.al3d", "map.opd", "map.dat", "map.zip", "map.mnt", "map.xlsx"])

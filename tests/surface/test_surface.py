@@ -41,7 +41,7 @@ FORMS = {"exponential": lambda r: np.exp(-r), "gaussian": lambda r: np.exp(-(r**
 
 
 @pytest.mark.parametrize("acf", FORMS)
-def test_ensemble_autocorrelation_is_the_one_asked_for(acf):
+def test_ensemble_autocorrelation_is_the_one_requested(acf):
     """The mean over 40 seeds against the zero-mean ACF; the standard error is near 0.01."""
     scale = 12e-6
     n = 256
@@ -204,7 +204,7 @@ def test_resampling_by_spacing_cuts_the_rest_and_knows_what_stays_periodic():
             waves().resampled(**bad)
 
 
-def test_patch_gives_the_grid_asked_for():
+def test_patch_gives_the_grid_requested():
     tiled = waves().patch((128, 96))
     assert tiled.periodic_axes == (True, True) and np.array_equal(tiled.heights[:64, :48], waves().heights)
     assert waves().patch((100, 48)).periodic_axes == (False, True)

@@ -69,20 +69,20 @@ def test_slopes_and_lengths_belong_to_their_axis():
     assert rms_slope(surface)[:2] == pytest.approx(expected, rel=1e-9)
     for axis in (0, 1):
         alone = Surface(wave(axis, 3)[0], (DX, DY), periodic_axes=CLOSED)
-        lags, found = autocorrelation(alone, axis)
-        np.testing.assert_allclose(found, np.cos(2 * np.pi * 3 * lags / (SHAPE[axis] * steps[axis])), atol=1e-9)
+        lags, result = autocorrelation(alone, axis)
+        np.testing.assert_allclose(result, np.cos(2 * np.pi * 3 * lags / (SHAPE[axis] * steps[axis])), atol=1e-9)
 
 
 @pytest.mark.parametrize("axis", [0, 1])
-def test_a_generated_map_is_as_correlated_along_each_axis_as_asked(axis):
+def test_a_generated_map_is_as_correlated_along_each_axis_as_requested(axis):
     lengths = (8e-6, 20e-6) if axis else (20e-6, 12e-6)
     shape = (512, 256)
     made = [
         generate_surface(shape, (DX, DY), sq=1e-7, correlation_length=lengths, acf="gaussian", seed=s) for s in (1, 2)
     ]
     for along in (0, 1):
-        found = np.mean([correlation_length(one, along) for one in made])
-        assert found == pytest.approx(lengths[along], rel=0.12)
+        result = np.mean([correlation_length(one, along) for one in made])
+        assert result == pytest.approx(lengths[along], rel=0.12)
 
 
 def test_other_cells_keep_the_wave_where_it_is():
@@ -93,8 +93,8 @@ def test_other_cells_keep_the_wave_where_it_is():
             places = (np.arange(new.shape[axis]) + 0.5) * new.spacing[axis]
             line = 1e-7 * np.cos(2 * np.pi * places / length)
             line = line * (1 if closed else np.sinc(new.spacing[axis] / length) / np.sinc((DX, DY)[axis] / length))
-            found = new.heights.mean(axis=1 - axis)
-            np.testing.assert_allclose(found[2:-2], line[2:-2], atol=5e-5 * 1e-7)
+            result = new.heights.mean(axis=1 - axis)
+            np.testing.assert_allclose(result[2:-2], line[2:-2], atol=5e-5 * 1e-7)
 
 
 def rough(closed=(False, False)):

@@ -45,8 +45,8 @@ def test_an_empty_cell_is_unmeasured(tmp_path, text, found):
 def test_steps_in_headings_are_read(tmp_path, heading):
     (tmp_path / "a.csv").write_text(heading + "\n1;2;3\n4;5;7\n", encoding="utf-8")
     surface = read_surface(tmp_path / "a.csv", unit="nm", **RAW)
-    told = *surface.spacing, surface.heights[1, 2]
-    assert told == pytest.approx((1.5e-6, 1.5e-6, 7e-9), rel=1e-6)
+    stated = *surface.spacing, surface.heights[1, 2]
+    assert stated == pytest.approx((1.5e-6, 1.5e-6, 7e-9), rel=1e-6)
     assert surface.notes[0].startswith("line 1") and heading.split("\n")[0] in surface.notes[0]
     with pytest.raises(InputError, match="spacing = 1e-06, 1e-06 m is given, and file a.csv states 1.5e-06"):
         read_surface(tmp_path / "a.csv", unit="nm", spacing=1e-6)

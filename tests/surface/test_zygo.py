@@ -77,7 +77,7 @@ def test_phases_are_read_with_the_wave_of_the_header(resolution, intensity, heig
     assert np.allclose(surface.heights, heights, atol=0.5 * WAVE / 4096, equal_nan=True)
 
 
-def test_what_a_file_does_not_state_is_asked_for(heights, tmp_path):
+def test_what_a_file_does_not_state_is_requested(heights, tmp_path):
     lines = points(heights)
     with pytest.raises(lubfric.InputError, match="does not state the unit of its heights.*give unit"):
         read(tmp_path, "a.xyz", lines)

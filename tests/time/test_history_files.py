@@ -30,9 +30,9 @@ def write(folder, content, code="utf-8"):
     ],
 )
 def test_every_way_to_write_the_same_table(tmp_path, text, code):
-    found = read_history(write(tmp_path, text, code), "speed", unit="m/s")
-    np.testing.assert_allclose(found.times, EXPECTED.times, rtol=1e-15)
-    np.testing.assert_allclose(found.values, EXPECTED.values, rtol=1e-15)
+    result = read_history(write(tmp_path, text, code), "speed", unit="m/s")
+    np.testing.assert_allclose(result.times, EXPECTED.times, rtol=1e-15)
+    np.testing.assert_allclose(result.values, EXPECTED.values, rtol=1e-15)
 
 
 @pytest.mark.parametrize(

@@ -97,7 +97,7 @@ def test_the_budget_of_the_mean_is_the_mean_of_the_ends_where_one_part_is_all(he
     assert mean.budget["sampling"] == (0.0, 0.0)
 
 
-def test_a_reversal_is_told_without_the_advice_on_percent():
+def test_a_reversal_is_reported_without_the_advice_on_percent():
     plan = Transient(0.02, outputs=20, speed=Harmonic(amplitude=0.05, frequency=50.0, phase=1.5), sliding=0.05)
     scene = paper_scene(numerics={"sampling": "patch"}).with_(transient=plan)
     text = " ".join(lubfric.transient(scene).validity)

@@ -41,12 +41,12 @@ def test_decay_is_followed_to_every_output():
     times = np.array([0.0, 0.5, 2.0, 3.0])
     tolerance = 1e-5
     plan = plan_of(times, (CONSTANT,), 1e-3, tolerance)
-    found = outputs(Relaxation(CONSTANT), plan, begun())
-    assert [now.time for now in found] == times[1:].tolist()
-    for now in found:  # each step adds at most the tolerance
+    result = outputs(Relaxation(CONSTANT), plan, begun())
+    assert [now.time for now in result] == times[1:].tolist()
+    for now in result:  # each step adds at most the tolerance
         exact = np.array([1.0, 2.0]) * np.exp(-now.time)
         np.testing.assert_allclose(now.solution.film, exact, rtol=now.steps * tolerance)
-    assert 0 < found[-1].worst <= 1
+    assert 0 < result[-1].worst <= 1
 
 
 def test_error_falls_with_the_tolerance():

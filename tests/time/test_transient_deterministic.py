@@ -33,10 +33,10 @@ def test_at_constant_speed_it_is_the_steady_answer_of_moving_roughness():
     motion = {"slide_roll_ratio": 1.5}
     surface = lubfric.prepare(SCENE).surface
     steady = solve_moving_strip(SCENE.with_(motion=motion), [RoughBody(surface, 0.3 * 0.25)], 0.3)
-    found = run(Transient(1.0, tolerance=0.1), steady.times[steady.discarded - 1 :], motion=motion)
-    assert found.report.converged and found.mass_residual.max() <= 1e-3
-    f = found.coefficient[1:]
-    gap = found.mean_gap[1:]
+    result = run(Transient(1.0, tolerance=0.1), steady.times[steady.discarded - 1 :], motion=motion)
+    assert result.report.converged and result.mass_residual.max() <= 1e-3
+    f = result.coefficient[1:]
+    gap = result.mean_gap[1:]
     assert f.mean() == pytest.approx(steady.result.coefficient, rel=5e-3)
     np.testing.assert_allclose(gap, steady.series["mean_gap"][steady.discarded :], rtol=0.02)
 
@@ -49,10 +49,10 @@ def test_smooth_bodies_have_the_smooth_film_of_a_run(plan):
     """By another program: complementarity on a graded grid."""
     smooth = {"sq": 0.0}
     fine = {"shape": (64, 32), "spacing": 1.5e-6}
-    found = run(plan, np.linspace(0, 4e-4, 9), surface=smooth, contact=fine)
-    film = run(plan, found.time, surface=smooth, numerics={"model": "paper"})
-    np.testing.assert_allclose(found.central_film[1:], film.central_film[1:], rtol=0.015)
-    np.testing.assert_allclose(found.coefficient[1:], film.coefficient[1:], rtol=0.02, atol=2e-4)
+    result = run(plan, np.linspace(0, 4e-4, 9), surface=smooth, contact=fine)
+    film = run(plan, result.time, surface=smooth, numerics={"model": "paper"})
+    np.testing.assert_allclose(result.central_film[1:], film.central_film[1:], rtol=0.015)
+    np.testing.assert_allclose(result.coefficient[1:], film.coefficient[1:], rtol=0.02, atol=2e-4)
     assert np.ptp(film.central_film) > 0.05 * film.central_film.mean()
 
 
@@ -65,16 +65,16 @@ def test_of_either_sense_of_sliding_the_film_rolls_the_same_way():
     assert there.rolling_force.min() > 0
 
 
-def test_heat_that_it_leaves_out_is_told_with_its_size():
+def test_heat_that_it_omits_is_reported_with_its_size():
     """That of the steady answer, which has it."""
     oil = {"temperature_celsius": 70, "temperature_coefficient": 0.04, "viscosity": 0.2}
     scene = {"surface": {"sq": 0.0}, "lubricant": oil, "motion": {"slide_roll_ratio": 1.0, "entrainment_speed": 2.0}}
     hot, cold = (
         run(Transient(1e-6, outputs=1), **scene, numerics={"accept": True, "heat": heat}) for heat in ("auto", "off")
     )
-    told = [e.value for entries in hot.violations for e in entries if e.what == "loss of film or f by heat"]
+    stated = [e.value for entries in hot.violations for e in entries if e.what == "loss of film or f by heat"]
     steady = lubfric.friction(SCENE.with_(**scene, numerics={"heat": "on", "model": "paper"}))
-    assert told == pytest.approx(2 * [1 - steady.inlet_film_factor], rel=1e-9) and told[0] > 0.2
+    assert stated == pytest.approx(2 * [1 - steady.inlet_film_factor], rel=1e-9) and stated[0] > 0.2
     assert not any("by heat" in text for text in cold.validity)
     with pytest.raises(lubfric.InputError, match="numerics.heat = 'on'"):
         run(Transient(1e-6), **scene, numerics={"heat": "on"})
@@ -82,12 +82,12 @@ def test_heat_that_it_leaves_out_is_told_with_its_size():
 
 def test_it_stops_squeezes_and_starts_again():
     speed = Table(times=(0.0, 1e-4, 1.5e-4, 6e-4, 7e-4, 1e-3), values=(0.3, 0.3, 0.0, 0.0, 0.3, 0.3))
-    found = run(Transient(1e-3, speed=speed), [0.0, 1e-4, 1.5e-4, 6e-4, 1e-3], surface={"sq": 1.2e-7})
-    assert found.report.converged
-    assert found.contact_load[3] > 2 * found.contact_load[2]
-    assert found.central_film[3] < 0.9 * found.central_film[2]
-    assert found.entrainment_speed[3] == 0 and abs(found.coefficient[3]) < 1e-3
-    assert found.contact_load[-1] < 0.3 * found.contact_load[3]
+    result = run(Transient(1e-3, speed=speed), [0.0, 1e-4, 1.5e-4, 6e-4, 1e-3], surface={"sq": 1.2e-7})
+    assert result.report.converged
+    assert result.contact_load[3] > 2 * result.contact_load[2]
+    assert result.central_film[3] < 0.9 * result.central_film[2]
+    assert result.entrainment_speed[3] == 0 and abs(result.coefficient[3]) < 1e-3
+    assert result.contact_load[-1] < 0.3 * result.contact_load[3]
 
 
 def test_motion_backwards_is_the_mirror_image():

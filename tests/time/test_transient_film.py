@@ -41,11 +41,11 @@ def test_every_check_of_the_study_passes(part):
 @pytest.mark.parametrize("M, L", [(0.01, 1.0), (20, 5), (200, 10)])
 def test_a_steady_film_stays(M, L):
     keywords, problem, unit = moes(M, L)
-    found = solve_transient_ehl(**keywords, times=unit * np.array([0, 1.0, 10.0]))
-    np.testing.assert_allclose(found.film_thickness, np.tile(found.film_thickness[0], (3, 1)), rtol=1e-6)
+    result = solve_transient_ehl(**keywords, times=unit * np.array([0, 1.0, 10.0]))
+    np.testing.assert_allclose(result.film_thickness, np.tile(result.film_thickness[0], (3, 1)), rtol=1e-6)
     steady = solve_ehl(**keywords, tolerance=1e-3)
-    assert found.min_film[0] == pytest.approx(steady.min_film, rel=3e-3)
-    assert found.central_film[0] == pytest.approx(steady.central_film, rel=3e-3)
+    assert result.min_film[0] == pytest.approx(steady.min_film, rel=3e-3)
+    assert result.central_film[0] == pytest.approx(steady.central_film, rel=3e-3)
 
 
 def test_direction_and_units_do_not_matter():
@@ -74,19 +74,19 @@ def test_direction_and_units_do_not_matter():
 def test_jumps_end_in_the_steady_state(name, factor):
     keywords, _, unit = moes(0.3 if factor == 10.0 else 3.0, 5)
     history = {name: jump(keywords[name], factor, at=unit)}
-    found = solve_transient_ehl(**keywords | history, times=unit * np.array([0.5, 1, 100]), **LOOSE)
+    result = solve_transient_ehl(**keywords | history, times=unit * np.array([0.5, 1, 100]), **LOOSE)
     ends = keywords, keywords | {name: factor * keywords[name]}
     before, after = (solve_ehl(**end, tolerance=1e-3).min_film for end in ends)
-    assert found.report.converged and found.pressure.min() >= 0
-    assert found.min_film[1:] == pytest.approx([before, after], rel=5e-3)
+    assert result.report.converged and result.pressure.min() >= 0
+    assert result.min_film[1:] == pytest.approx([before, after], rel=5e-3)
 
 
 def test_a_radius_that_grows_ends_in_the_steady_state():
     keywords, _, unit = moes(3, 5)
     growing = {"radius": Ramp(start=0.01, end=0.02, begin=0.0, until=10 * unit)}
-    found = solve_transient_ehl(**keywords | growing, times=unit * np.array([1, 60]), **LOOSE)
+    result = solve_transient_ehl(**keywords | growing, times=unit * np.array([1, 60]), **LOOSE)
     steady = solve_ehl(**keywords | {"radius": 0.02}, tolerance=1e-3)
-    assert found.min_film[-1] == pytest.approx(steady.min_film, rel=5e-3)
+    assert result.min_film[-1] == pytest.approx(steady.min_film, rel=5e-3)
 
 
 def test_reversal_passes_with_the_film_trapped_by_squeeze():
@@ -95,13 +95,13 @@ def test_reversal_passes_with_the_film_trapped_by_squeeze():
     period = 12 * unit
     keywords["entrainment_speed"] = Harmonic(amplitude=speed, frequency=1 / period, phase=math.pi / 2)
     times = period * np.linspace(0, 1.5, 61)
-    found = solve_transient_ehl(**keywords, times=times, **LOOSE)
-    assert found.pressure.min() >= 0 and found.min_film.min() > 0.2 * found.min_film[0]
-    np.testing.assert_allclose(found.load, problem.line.load_per_width, rtol=1e-6)
-    half = found.min_film[20:40]
-    whole = found.min_film[40:60]
+    result = solve_transient_ehl(**keywords, times=times, **LOOSE)
+    assert result.pressure.min() >= 0 and result.min_film.min() > 0.2 * result.min_film[0]
+    np.testing.assert_allclose(result.load, problem.line.load_per_width, rtol=1e-6)
+    half = result.min_film[20:40]
+    whole = result.min_film[40:60]
     np.testing.assert_allclose(whole, half, rtol=0.04)  # each half cycle mirrors the one before
-    wet = found.pressure > 0
+    wet = result.pressure > 0
     assert not wet[0, -1] and not wet[20, 0]  # at full speed the outlet has ruptured, on either side in turn
     assert wet[10].all()  # at U = 0 squeeze drives lubricant out on both sides
 

@@ -29,13 +29,13 @@ def run(plan, times=None, model=MODEL, **options):
 
 
 def test_a_steady_scene_stays_at_the_steady_answer():
-    found = lubfric.transient(MODEL, [0.0, 1e-3, 0.1])
+    result = lubfric.transient(MODEL, [0.0, 1e-3, 0.1])
     steady = lubfric.friction(MODEL)
-    np.testing.assert_allclose(found.coefficient, steady.coefficient, rtol=2e-3)
-    np.testing.assert_allclose(found.contact_load, steady.contact_load, rtol=3e-3)
-    assert found.couette_force[0] == pytest.approx(steady.couette_force, rel=5e-3)
-    assert found.rolling_force[0] == pytest.approx(steady.rolling_force, rel=5e-3)
-    assert found.coefficient[-1] == pytest.approx(found.coefficient[0], rel=3e-4)
+    np.testing.assert_allclose(result.coefficient, steady.coefficient, rtol=2e-3)
+    np.testing.assert_allclose(result.contact_load, steady.contact_load, rtol=3e-3)
+    assert result.couette_force[0] == pytest.approx(steady.couette_force, rel=5e-3)
+    assert result.rolling_force[0] == pytest.approx(steady.rolling_force, rel=5e-3)
+    assert result.coefficient[-1] == pytest.approx(result.coefficient[0], rel=3e-4)
 
 
 def test_pure_rolling_backwards_has_the_resistance_of_rolling_forwards():
@@ -44,54 +44,54 @@ def test_pure_rolling_backwards_has_the_resistance_of_rolling_forwards():
     rolling = SCENE.with_(motion={"slide_roll_ratio": 0.0, "entrainment_speed": -0.02})
     heights = prepare(rolling).surface
     mirrored = prepare(rolling, replace(heights, heights=heights.heights[::-1]))
-    found = run(Transient(0.1), [0.0, 0.1], mirrored)
+    result = run(Transient(0.1), [0.0, 0.1], mirrored)
     forwards = lubfric.friction(rolling.with_(motion={"entrainment_speed": 0.02}))
-    np.testing.assert_allclose(found.coefficient, lubfric.friction(mirrored).coefficient, rtol=5e-3)
-    np.testing.assert_allclose(found.coefficient, forwards.coefficient, rtol=5e-3)
-    assert "treated as stationary" in found.report.notes[-1]
+    np.testing.assert_allclose(result.coefficient, lubfric.friction(mirrored).coefficient, rtol=5e-3)
+    np.testing.assert_allclose(result.coefficient, forwards.coefficient, rtol=5e-3)
+    assert "treated as stationary" in result.report.notes[-1]
     assert "treated as stationary" not in " ".join(run(Transient(0.1), [0.0, 0.1]).report.notes)
 
 
 def test_a_slow_ramp_follows_the_stribeck_curve():
     speed = Ramp(start=0.02, end=0.1, until=2.0)
-    found = run(Transient(2.0, speed=speed), np.linspace(0, 2, 6))
-    curve = lubfric.stribeck(MODEL, [speed.at(t) for t in found.time])
-    np.testing.assert_allclose(found.coefficient, curve.coefficient, rtol=0.01)
-    np.testing.assert_allclose(found.contact_load, curve.contact_load, atol=0.01 * SCENE.bodies.load)
-    assert found.contact_load[0] > 1 and found.contact_load[-1] == 0  # through the lift-off
+    result = run(Transient(2.0, speed=speed), np.linspace(0, 2, 6))
+    curve = lubfric.stribeck(MODEL, [speed.at(t) for t in result.time])
+    np.testing.assert_allclose(result.coefficient, curve.coefficient, rtol=0.01)
+    np.testing.assert_allclose(result.contact_load, curve.contact_load, atol=0.01 * SCENE.bodies.load)
+    assert result.contact_load[0] > 1 and result.contact_load[-1] == 0  # through the lift-off
 
 
 def test_balances_hold_at_every_output():
     speed = Harmonic(amplitude=0.05, frequency=50.0, phase=1.0)
     load = Harmonic(mean=4.0, amplitude=1.0, frequency=30.0)
-    found = run(Transient(0.02, speed=speed, load=load, tolerance=1e-3), np.linspace(0, 0.02, 21))
-    total = found.contact_load + found.film_load
-    np.testing.assert_allclose(total, found.load, rtol=1e-6)
-    touching = found.contact_load > 0
-    np.testing.assert_allclose(found.mean_gap[touching], found.mean_film[touching], rtol=3e-4)
-    nodal = np.trapezoid(found.pressure, found.x, axis=1) * SCENE.bodies.width
-    np.testing.assert_allclose(nodal, found.film_load, rtol=3e-3)  # without the tails
-    assert np.all(found.mass_residual < 1e-3)
-    parts = found.boundary_force + found.couette_force + found.rolling_force
-    np.testing.assert_allclose(parts, found.friction_force, rtol=1e-12)
-    boundary = 0.09 * found.contact_load * np.sign(found.sliding_speed)
-    np.testing.assert_allclose(found.boundary_force, boundary, rtol=1e-12)
-    np.testing.assert_allclose(found.coefficient, np.abs(found.friction_force) / found.load, rtol=1e-12)
+    result = run(Transient(0.02, speed=speed, load=load, tolerance=1e-3), np.linspace(0, 0.02, 21))
+    total = result.contact_load + result.film_load
+    np.testing.assert_allclose(total, result.load, rtol=1e-6)
+    touching = result.contact_load > 0
+    np.testing.assert_allclose(result.mean_gap[touching], result.mean_film[touching], rtol=3e-4)
+    nodal = np.trapezoid(result.pressure, result.x, axis=1) * SCENE.bodies.width
+    np.testing.assert_allclose(nodal, result.film_load, rtol=3e-3)  # without the tails
+    assert np.all(result.mass_residual < 1e-3)
+    parts = result.boundary_force + result.couette_force + result.rolling_force
+    np.testing.assert_allclose(parts, result.friction_force, rtol=1e-12)
+    boundary = 0.09 * result.contact_load * np.sign(result.sliding_speed)
+    np.testing.assert_allclose(result.boundary_force, boundary, rtol=1e-12)
+    np.testing.assert_allclose(result.coefficient, np.abs(result.friction_force) / result.load, rtol=1e-12)
 
 
 def test_a_reciprocating_contact_becomes_periodic_and_mirrors_itself():
     wave = Harmonic(amplitude=0.05, frequency=100.0, phase=np.pi / 2)
-    found = run(Transient(0.025, speed=wave, tolerance=1e-3), np.arange(51) * 5e-4)
-    f = found.coefficient
+    result = run(Transient(0.025, speed=wave, tolerance=1e-3), np.arange(51) * 5e-4)
+    f = result.coefficient
     np.testing.assert_allclose(f[30:51], f[10:31], rtol=2e-3)  # one period later
     np.testing.assert_allclose(f[20:41], f[10:31], rtol=5e-3)  # run backwards (the map itself is not symmetric)
     assert f.max() > 1.5 * f.min()
     for side in (
-        found.model_error_low,
-        found.model_error_high,
+        result.model_error_low,
+        result.model_error_high,
     ):  # f resists the sliding both ways, and so do its errors
         np.testing.assert_allclose(side[20:41], side[10:31], rtol=2e-2)
-    low, high = found.uncertainty.interval.T
+    low, high = result.uncertainty.interval.T
     np.testing.assert_allclose(((f - low) / (high - f))[20:41], ((f - low) / (high - f))[10:31], rtol=2e-2)
 
 
@@ -99,9 +99,9 @@ def loop_gap(period):
     """Friction on the way down minus on the way up, at half the largest speed."""
     wave = Harmonic(mean=0.05, amplitude=0.045, frequency=1 / period, phase=np.pi / 2)
     times = np.array([1.25, 1.75]) * period
-    found = run(Transient(1.75 * period, speed=wave, tolerance=1e-3), times)
-    assert found.entrainment_speed == pytest.approx([0.05, 0.05])
-    return found.coefficient[0] - found.coefficient[1]
+    result = run(Transient(1.75 * period, speed=wave, tolerance=1e-3), times)
+    assert result.entrainment_speed == pytest.approx([0.05, 0.05])
+    return result.coefficient[0] - result.coefficient[1]
 
 
 def test_the_friction_loop_has_its_hysteresis():
@@ -112,11 +112,11 @@ def test_the_friction_loop_has_its_hysteresis():
 
 
 def test_from_rest():
-    found = run(Transient(4e-3, speed=Ramp(start=0.0, end=0.1, until=2e-3)), [0.0, 1e-4, 1e-3, 4e-3])
-    assert found.contact_load[0] == pytest.approx(5.5) and found.film_load[0] == 0
-    assert found.coefficient[1] == pytest.approx(0.09, rel=0.05)
-    assert np.all(np.diff(found.contact_load) < 0)
-    assert found.central_film[-1] == pytest.approx(lubfric.friction(MODEL, 0.1).central_film, rel=0.01)
+    result = run(Transient(4e-3, speed=Ramp(start=0.0, end=0.1, until=2e-3)), [0.0, 1e-4, 1e-3, 4e-3])
+    assert result.contact_load[0] == pytest.approx(5.5) and result.film_load[0] == 0
+    assert result.coefficient[1] == pytest.approx(0.09, rel=0.05)
+    assert np.all(np.diff(result.contact_load) < 0)
+    assert result.central_film[-1] == pytest.approx(lubfric.friction(MODEL, 0.1).central_film, rel=0.01)
 
 
 def test_jumps_of_load_and_speed():
@@ -125,34 +125,34 @@ def test_jumps_of_load_and_speed():
         speed=Table(times=(0, 5e-3, 5e-3, 0.02), values=(0.01, 0.01, 0.1, 0.1)),
         load=Table(times=(0, 0.01, 0.01, 0.02), values=(5.5, 5.5, 0.55, 0.55)),
     )
-    found = run(plan, [0.0, 5e-3, 0.01, 0.02])
+    result = run(plan, [0.0, 5e-3, 0.01, 0.02])
     light = replace(MODEL, scene=MODEL.scene.with_(bodies={"load": 0.55}))
     ends = [lubfric.friction(*end) for end in ((MODEL, 0.01), (MODEL, 0.1), (light, 0.1))]
     for index, steady in zip((1, 2, 3), ends):
-        assert found.central_film[index] == pytest.approx(steady.central_film, rel=0.01)
-        assert found.coefficient[index] == pytest.approx(steady.coefficient, rel=0.02)
+        assert result.central_film[index] == pytest.approx(steady.central_film, rel=0.01)
+        assert result.coefficient[index] == pytest.approx(steady.coefficient, rel=0.02)
 
 
 def test_the_flat_contact_runs_in_time():
     flat = prepare(lubfric.load_scene("flat").with_(contact={"shape": (64, 64), "spacing": 8e-6}))
     wave = Harmonic(mean=0.1, amplitude=0.05, frequency=20.0)
-    found = run(Transient(0.05, speed=wave, tolerance=1e-3), np.linspace(0, 0.05, 11), flat)
-    assert found.report.converged and 0 < found.contact_load.min() and np.ptp(found.coefficient) > 1e-3
+    result = run(Transient(0.05, speed=wave, tolerance=1e-3), np.linspace(0, 0.05, 11), flat)
+    assert result.report.converged and 0 < result.contact_load.min() and np.ptp(result.coefficient) > 1e-3
 
 
 def test_failed_steps_are_reported_with_the_rows_so_far(monkeypatch):
     real = TransientLoadSharing.solve
 
     def failing(sharing, at, *rest):
-        found = real(sharing, at, *rest)
-        return replace(found, status="diverged") if at > 1.5e-3 else found
+        result = real(sharing, at, *rest)
+        return replace(result, status="diverged") if at > 1.5e-3 else result
 
     monkeypatch.setattr(TransientLoadSharing, "solve", failing)
     with pytest.raises(lubfric.ConvergenceError) as caught:
         lubfric.transient(MODEL, [0.0, 1e-3, 2e-3])
-    found = caught.value.result
-    assert found.time.tolist() == [0.0, 1e-3] and "stopped at t = " in str(caught.value)
-    assert found.status.startswith("Not converged: stopped at t = 1.") and "2 of 3 outputs" in found.status
+    result = caught.value.result
+    assert result.time.tolist() == [0.0, 1e-3] and "stopped at t = " in str(caught.value)
+    assert result.status.startswith("Not converged: stopped at t = 1.") and "2 of 3 outputs" in result.status
     assert lubfric.transient(MODEL, [0.0, 1e-3]).status.startswith("Converged: all 2 outputs to t = 1 ms are solved")
 
 
@@ -163,12 +163,12 @@ def test_a_balance_that_is_lost_after_a_reversal_is_named_with_its_output(monkey
     monkeypatch.setattr("lubfric.time.result.MASS", 1e-15)
     with pytest.raises(lubfric.ConvergenceError) as caught:
         run(swing, times)
-    found = caught.value.result
-    index = int(found.mass_residual.argmax())
-    words = f"the balance of the lubricant is {found.mass_residual[index] / 1e-15:.0f} times its tolerance at output"
+    result = caught.value.result
+    index = int(result.mass_residual.argmax())
+    words = f"the balance of the lubricant is {result.mass_residual[index] / 1e-15:.0f} times its tolerance at output"
     assert words in str(caught.value) and f"output {index + 1}, t = {1e3 * times[index]:.4g} ms" in str(caught.value)
     assert ("after the motion has reversed" in str(caught.value)) == (index > 2)
-    assert "all 9 outputs are solved, but" in found.status and "max_iterations" not in str(caught.value)
+    assert "all 9 outputs are solved, but" in result.status and "max_iterations" not in str(caught.value)
 
 
 @pytest.mark.parametrize(
@@ -228,7 +228,7 @@ def test_a_checkpoint_of_another_map_or_scene_is_left_alone(tmp_path):
     assert stopped(MODEL, tmp_path)[0] > first[0]
 
 
-def test_a_damaged_checkpoint_is_told_of_and_the_run_begins_again(tmp_path):
+def test_a_damaged_checkpoint_is_reported_and_the_run_begins_again(tmp_path):
     first = stopped(MODEL, tmp_path, after=12)
     for path in sorted((tmp_path / "points").iterdir()):
         whole = path.read_bytes()
@@ -248,8 +248,10 @@ def test_the_command_writes_history_figure_and_animation(tmp_path, capsys, monke
     scene.write_text(text)
     assert main(["run", str(scene), "--out", str(tmp_path / "out"), "--animation"]) == 0
     names = {p.name for p in (tmp_path / "out").iterdir()}
-    told = ".lubfric history.csv history.png fields.npz surface.png report.html resolved.toml result.json animation.gif"
-    assert names == {*told.split()}
+    stated = (
+        ".lubfric history.csv history.png fields.npz surface.png report.html resolved.toml result.json animation.gif"
+    )
+    assert names == {*stated.split()}
     rows = (tmp_path / "out" / "history.csv").read_text().splitlines()
     assert len(rows) == 8 and rows[0].startswith("time [s],entrainment_speed [m/s]")
     assert "t = 0.02 of 0.02 s" in capsys.readouterr().err
@@ -274,6 +276,6 @@ def test_three_hundred_steps_of_the_paper_scene_take_less_than_thirty_seconds():
     scene = paper_scene(numerics={"sampling": "patch"})
     before = slowness()
     begun = time.process_time()
-    found = lubfric.transient(scene.with_(transient=Transient(0.1, outputs=300, speed=wave)))
+    result = lubfric.transient(scene.with_(transient=Transient(0.1, outputs=300, speed=wave)))
     took = time.process_time() - begun
-    assert found.report.iterations >= 300 and took / (0.5 * (before + slowness())) < 30
+    assert result.report.iterations >= 300 and took / (0.5 * (before + slowness())) < 30

@@ -59,8 +59,8 @@ def test_a_campaign_judges_what_lies_in_the_folder_and_puts_its_table(tmp_path):
     (tmp_path / "images").mkdir()
     for name in ("coverage", "sampling-coverage"):
         (tmp_path / "images" / f"{name}.png").write_bytes(b"old")
-    asked = ["--quick", "--only", "coverage", "--seed", "7", "--out", str(tmp_path), "--docs", str(tmp_path)]
-    assert main(["sampling", *asked]) == 0
+    requested = ["--quick", "--only", "coverage", "--seed", "7", "--out", str(tmp_path), "--docs", str(tmp_path)]
+    assert main(["sampling", *requested]) == 0
     text = page.read_text()
     assert text.count("| 16 |") == 4 and "sampling --quick --only coverage --docs docs`" in text
     pictures = {file.name: file.read_bytes() for file in (tmp_path / "images").iterdir()}
@@ -85,17 +85,17 @@ def verdicts(**options):
 
 
 def test_an_honest_interval_passes():
-    found = verdicts()
-    assert all(c.passed and c.decisive for c in found.values())
-    assert found["coverage"].measured == pytest.approx(0.95, abs=0.03)
-    assert found["reported over scatter"].measured == pytest.approx(1.0, abs=0.1)
+    result = verdicts()
+    assert all(c.passed and c.decisive for c in result.values())
+    assert result["coverage"].measured == pytest.approx(0.95, abs=0.03)
+    assert result["reported over scatter"].measured == pytest.approx(1.0, abs=0.1)
 
 
-def test_the_interval_of_a_trial_leaves_out_the_error_of_the_model_alone():
-    found = coverage.trial((coverage.SPEEDS[1], 5))
-    half = (found["high"] - found["low"]) / (2 * found["f"])
-    sampling = found["sampling"]
-    assert 1.96 * sampling < half < 2.3 * sampling and found["high"] - found["f"] == pytest.approx(half * found["f"])
+def test_the_interval_of_a_trial_omits_the_error_of_the_model_alone():
+    result = coverage.trial((coverage.SPEEDS[1], 5))
+    half = (result["high"] - result["low"]) / (2 * result["f"])
+    sampling = result["sampling"]
+    assert 1.96 * sampling < half < 2.3 * sampling and result["high"] - result["f"] == pytest.approx(half * result["f"])
 
 
 @pytest.mark.parametrize(
@@ -111,8 +111,8 @@ def test_an_interval_too_short_too_long_or_off_fails(options, failing):
 
 
 def test_a_map_that_says_that_it_is_too_small_does_not_fail_by_its_coverage():
-    found = verdicts(stated=0.01, few=True)
-    assert not found["coverage"].passed and not found["coverage"].failed
+    result = verdicts(stated=0.01, few=True)
+    assert not result["coverage"].passed and not result["coverage"].failed
 
 
 @pytest.mark.parametrize(("off", "covered"), [(0.02, True), (0.2, False)])
@@ -137,11 +137,11 @@ def test_a_drawn_map_has_the_skewness_of_its_kind(kind):
 
 def test_methods_agree_and_errors_fall_with_the_tolerance():
     rows = contact.panel("test", "exponential", 64, 200e6, "periodic", (1e-3, 1e-6), 1)
-    found = [Check.from_dict(values) for values in rows]
-    ours = [p.measured for p in found if p.at["method"] == "lubfric"]
+    result = [Check.from_dict(values) for values in rows]
+    ours = [p.measured for p in result if p.at["method"] == "lubfric"]
     assert ours[1] < 1e-5 < 1e-2 and ours[1] < ours[0] < 0.1
-    tight = {p.at["method"]: p.measured for p in found if p.at["setting"] == "tolerance 1e-06"}
+    tight = {p.at["method"]: p.measured for p in result if p.at["setting"] == "tolerance 1e-06"}
     assert set(tight) >= {"lubfric", "plain Polonsky-Keer", "paper, single loop", "paper, alternating"}
     assert max(tight.values()) < 1e-3
-    assert [p.at["setting"] for p in found if p.at["default"]] == ["tolerance 1e-06"]
+    assert [p.at["setting"] for p in result if p.at["default"]] == ["tolerance 1e-06"]
     assert np.array_equal(contact.heights(128, "gaussian")[::2, ::2], contact.heights(64, "gaussian"))

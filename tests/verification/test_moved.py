@@ -33,9 +33,9 @@ def test_a_steady_film_balances_and_a_spoiled_one_does_not():
 
 
 def test_a_pass_keeps_its_mass():
-    found = passed(SCENE, [RoughBody(MAP, 0.225)], 0.3)
-    assert all(value <= ALLOWED[name] for name, value in found["off"].items())
-    assert found["steps"] > 24 and found["f"] != found["rest"]["f"] and len(found["shares"]) == 5
+    result = passed(SCENE, [RoughBody(MAP, 0.225)], 0.3)
+    assert all(value <= ALLOWED[name] for name, value in result["off"].items())
+    assert result["steps"] > 24 and result["f"] != result["rest"]["f"] and len(result["shares"]) == 5
 
 
 def test_a_random_point_is_the_same_every_time():

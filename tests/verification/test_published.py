@@ -15,7 +15,7 @@ from verification.fem.published.cavitation import Pad
 from verification.run import quiet, run_one
 
 
-def test_both_errors_are_summed_by_squares_and_the_deviation_is_told_in_them():
+def test_both_errors_are_summed_by_squares_and_the_deviation_is_reported_in_them():
     one = beside("f", 1.10, 1.00, (0.06, 0.08), "somebody")
     assert one.grade == "A" and one.units == pytest.approx(1.0) and one.tolerance == pytest.approx(0.1)
     assert not beside("f", 1.11, 1.00, (0.06, 0.08), "somebody").passed

@@ -80,8 +80,8 @@ def test_a_table_that_fails_costs_no_other_and_leaves_its_page_as_it_was(tmp_pat
     monkeypatch.setitem(TABLES, "roughness", lambda: (["speed"], []))
     monkeypatch.setitem(TABLES, "stribeck", lambda: CELLS)
     page = marked(tmp_path, "times", "stribeck")
-    asked = ["tables", "--only", "times", "roughness", "stribeck", "--docs", str(tmp_path), "--out", str(tmp_path)]
-    assert main(asked) == 1
+    requested = ["tables", "--only", "times", "roughness", "stribeck", "--docs", str(tmp_path), "--out", str(tmp_path)]
+    assert main(requested) == 1
     assert page.read_text().startswith("<!-- table: times -->\n<!-- end of table -->\n")
     assert "| 0.1 | 0.05 |" in page.read_text()
     studies = json.loads((tmp_path / "report.json").read_text())["studies"]

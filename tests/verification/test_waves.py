@@ -52,10 +52,10 @@ def test_a_low_wave_in_time_is_the_linear_response(smooth):
             march(smooth, lambda x, t: height * min(t, 1.0) * np.cos(2 * np.pi * (x - t)), 1 / count), 4 * count
         )
     ][-count:]
-    found = sum(2 / count * h * np.exp(2j * np.pi * t) for t, h in films) / height
+    result = sum(2 / count * h * np.exp(2j * np.pi * t) for t, h in films) / height
     expected = (middle @ ripple(smooth, smooth.contact.half_width, 1.0))[0]
-    assert abs(found) == pytest.approx(abs(expected), rel=0.03)
-    assert abs(np.angle(found / expected)) < 2 * np.pi * (2 * np.pi / count) ** 2 / 3 * 1.5
+    assert abs(result) == pytest.approx(abs(expected), rel=0.03)
+    assert abs(np.angle(result / expected)) < 2 * np.pi * (2 * np.pi / count) ** 2 / 3 * 1.5
     with pytest.raises(InputError, match="step = 0"):
         next(march(smooth, lambda x, t: 0 * x, 0))
 

@@ -85,8 +85,8 @@ def heated_stress(
     carried = sum(e * math.sqrt(u) for e, u in zip(effusivity, walls))
     behind = np.sqrt(np.maximum(x[:, None] - x[None, :], 0.0))
     memory = 2 * (behind[:, :-1] - behind[:, 1:]) / (math.sqrt(math.pi) * carried)
-    spots = np.sqrt(np.maximum(1 - (x / bodies.half_width) ** 2, 0.0)) * 2 * contact_load
-    spots *= bodies.boundary_friction_coefficient * slide / (math.pi * bodies.half_width * bodies.width)
+    contacts = np.sqrt(np.maximum(1 - (x / bodies.half_width) ** 2, 0.0)) * 2 * contact_load
+    contacts *= bodies.boundary_friction_coefficient * slide / (math.pi * bodies.half_width * bodies.width)
     z = np.linspace(0, 0.5, ACROSS)
     wall = np.full(x.size, ambient)
     rise = np.zeros((x.size, ACROSS))
@@ -108,7 +108,7 @@ def heated_stress(
         moved, tau = float(np.max(np.abs(new - tau))), KEPT * tau + (1 - KEPT) * new
         source = (tau * slide * h / k)[:, None] * thin / total[:, None]
         rise = KEPT * rise + (1 - KEPT) * _twice_integrated(source, z)
-        heat = free * tau * slide + spots
+        heat = free * tau * slide + contacts
         hotter = ambient + memory @ (0.5 * (heat[1:] + heat[:-1]))
         wall = KEPT * wall + (1 - KEPT) * hotter
         if moved < SETTLED * float(np.max(tau)):

@@ -119,15 +119,15 @@ def same_gap(cells: int, speed: float) -> Iterator[Item]:
     solution = solve_point(case)
     pressure = 0.5 * (solution.pressure + solution.pressure[:, ::-1])
     gap = 0.5 * (solution.gap + solution.gap[:, ::-1])
-    spots = pressure > SPOT
+    contacts = pressure > SPOT
     given = GivenGap(
-        x=solution.x, dy=case.spacing[1], gap=gap, pressure=pressure, contact=spots, radius=RADIUS, log=case.edge_log
+        x=solution.x, dy=case.spacing[1], gap=gap, pressure=pressure, contact=contacts, radius=RADIUS, log=case.edge_log
     )
     judge = rough_film(
         given, Fluid(VISCOSITY, viscosity_law="roelands", pressure_viscosity_coefficient=ALPHA), speed, cells=cells
     )
     half = pressure.shape[1] // 2
-    free = ~spots[:, :half]
+    free = ~contacts[:, :half]
     cell = case.spacing[0] / half
     load = pressure[:, :half][free].sum() * cell + solution.inlet_load
     by_elements = judge.pressure[free].sum() * cell + judge.upstream

@@ -36,12 +36,12 @@ def result(freedom, spread=0.01):
 
 @pytest.mark.parametrize("freedom", T_975)
 def test_intervals_are_those_of_the_tables(freedom):
-    found = result(freedom)
-    low, high = found.intervals[KEY]
+    solution = result(freedom)
+    low, high = solution.intervals[KEY]
     assert (low, high) == pytest.approx((0.1 - T_975[freedom] * 0.002, 0.1 + T_975[freedom] * 0.002), rel=1e-4)
-    low, high = found.intervals[OTHER]
+    low, high = solution.intervals[OTHER]
     assert (high - low) / 2 == pytest.approx(T_975[freedom] * 0.03 * 0.4, rel=1e-4)
-    below, above = found.band
+    below, above = solution.band
     np.testing.assert_allclose((above - below) / 2, T_975[freedom] * 0.02 * 0.01, rtol=1e-4)
 
 
@@ -63,20 +63,20 @@ def test_a_deviation_is_a_weight_and_a_width(curve):
     off = curve * np.array([1.0, 1.0, 1.0, 1.3])
     stated = curve * np.array([0.01, 0.01, 0.01, 0.5])
     bounds = {OTHER: (0.2, 0.6)}
-    told = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, off, deviation=stated), bounds)
+    reported = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, off, deviation=stated), bounds)
     blind = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, off), bounds)
-    assert abs(told.values[OTHER] / 0.36 - 1) < 0.01 < abs(blind.values[OTHER] / 0.36 - 1)
+    assert abs(reported.values[OTHER] / 0.36 - 1) < 0.01 < abs(blind.values[OTHER] / 0.36 - 1)
     # df/f = q d eta/eta: three points of 1 %, 0.58 % together, and at least that over q < 1 in the viscosity
-    width = told.deviations[OTHER] / told.values[OTHER]
+    width = reported.deviations[OTHER] / reported.values[OTHER]
     assert 0.0058 < width < 0.015
     wider = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, off, deviation=3 * stated), bounds)
-    assert wider.deviations[OTHER] == pytest.approx(3 * told.deviations[OTHER], rel=0.1)
+    assert wider.deviations[OTHER] == pytest.approx(3 * reported.deviations[OTHER], rel=0.1)
 
 
 def test_data_without_scatter_are_not_surer_than_the_solver(curve):
     """The interval is no narrower than the numerical error of f, though the points lie on the curve."""
-    found = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, curve), {OTHER: (0.2, 0.6)})
+    result = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, curve), {OTHER: (0.2, 0.6)})
     point = lubfric.friction(SCENE.with_(numerics={"tolerance": 0.01}), 2.0)
-    low, high = found.intervals[OTHER]
+    low, high = result.intervals[OTHER]
     assert low < 0.36 < high
-    assert found.deviations[OTHER] / 0.36 > 0.3 * point.uncertainty.numerical / math.sqrt(SPEEDS.size) > 0
+    assert result.deviations[OTHER] / 0.36 > 0.3 * point.uncertainty.numerical / math.sqrt(SPEEDS.size) > 0

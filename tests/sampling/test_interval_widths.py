@@ -50,12 +50,12 @@ def test_the_contact_that_a_line_misses(count):
     heights, spacing = summits(tops)
     length = 8 * spacing[1] / 1.75  # so that a block of 1.75 correlation lengths is one summit
     film = np.full(heights.shape[0], 1.5e-7)
-    found = undetected_load(heights, spacing, film, E_PRIME, WIDTH, length)
+    result = undetected_load(heights, spacing, film, E_PRIME, WIDTH, length)
     scale = tops.std(ddof=1) * math.sqrt(6) / math.pi * (2 if count < 14 else 1)
     place = tops.mean() - 1.5e-7 - 0.5772 * scale
     touching = 1 - math.exp(-math.exp(place / scale))
     sphere = 4 / 3 * (E_PRIME / 2) * math.sqrt(math.sqrt(RX * RY)) * scale**1.5 * 1.3293
-    assert found == pytest.approx(touching * sphere / (8 * spacing[1]) * WIDTH, rel=1e-3)
+    assert result == pytest.approx(touching * sphere / (8 * spacing[1]) * WIDTH, rel=1e-3)
 
 
 def test_the_error_of_load_sharing_itself_is_that_of_its_rule():
@@ -87,8 +87,8 @@ def test_an_interval_has_two_sides_and_the_farther_one_lies_away_from_0():
 
 def test_freedom_of_a_sum_is_no_more_than_that_of_its_largest_part():
     """Welch and Satterthwaite: 9²/(8.1²/5 + .9²/50) = 6.2, cut to 6."""
-    found = add_errors(StandardError(3 * math.sqrt(0.9), 5), StandardError(math.sqrt(0.9), 50))
-    assert found.error == pytest.approx(3.0) and found.freedom == 6
+    result = add_errors(StandardError(3 * math.sqrt(0.9), 5), StandardError(math.sqrt(0.9), 50))
+    assert result.error == pytest.approx(3.0) and result.freedom == 6
 
 
 @pytest.fixture(scope="module")
@@ -99,14 +99,14 @@ def point():
 
 def test_the_parts_of_the_error_of_f_belong_together(point):
     """The interval from its parts; another line of the width B; and neither part is nothing."""
-    scene, found = point
-    told = found.uncertainty
-    t = 2.0 if told.freedom >= 60 else 1.96  # no table has less
-    half = (told.interval[1] - told.interval[0]) / 2 / found.coefficient
-    assert half >= math.hypot(told.numerical, t * told.sampling) * 0.98
-    assert told.line_scatter == pytest.approx(told.sampling * math.sqrt(told.length / scene.bodies.width))
-    assert found.errors.coefficient == pytest.approx(math.hypot(told.numerical, told.sampling))
-    assert 1e-4 < told.numerical < 0.01 and 0.01 < told.sampling < 0.2
+    scene, result = point
+    stated = result.uncertainty
+    t = 2.0 if stated.freedom >= 60 else 1.96  # no table has less
+    half = (stated.interval[1] - stated.interval[0]) / 2 / result.coefficient
+    assert half >= math.hypot(stated.numerical, t * stated.sampling) * 0.98
+    assert stated.line_scatter == pytest.approx(stated.sampling * math.sqrt(stated.length / scene.bodies.width))
+    assert result.errors.coefficient == pytest.approx(math.hypot(stated.numerical, stated.sampling))
+    assert 1e-4 < stated.numerical < 0.01 and 0.01 < stated.sampling < 0.2
 
 
 # how they are printed: one way for all, and never as if they included a model-form error that is not known
