@@ -40,9 +40,9 @@ def timed():
     measured = made_up(1)
     before = slowness()
     begun = time.process_time()
-    found = lubfric.fit(SCENE, measured, BOUNDS)
+    result = lubfric.fit(SCENE, measured, BOUNDS)
     ended = time.process_time()
-    return found, (ended - begun) / (0.5 * (before + slowness()))
+    return result, (ended - begun) / (0.5 * (before + slowness()))
 
 
 @pytest.fixture(scope="module")
@@ -91,14 +91,14 @@ def test_independent_data_of_eyring_are_found_within_their_intervals():
     noise = 1 + 0.02 * np.random.default_rng(1).standard_normal(slips.size)
     f = hertz_and_eyring(slips, 1.8e-8, 5e6) * noise
     measured = lubfric.Measured(slips, f, over="slide_roll_ratio", rolling=False)
-    found = lubfric.fit(scene, measured, {alpha: (1.2e-8, 2.8e-8), stress: (1e6, 2e7)})
+    result = lubfric.fit(scene, measured, {alpha: (1.2e-8, 2.8e-8), stress: (1e6, 2e7)})
     for key, true, share in ((alpha, 1.8e-8, 0.1), (stress, 5e6, 0.4)):
-        low, high = found.intervals[key]
+        low, high = result.intervals[key]
         assert low < true < high and (high - low) / true < share
-    assert in_joint_region(found, {alpha: 1.8e-8, stress: 5e6})
-    curve = lubfric.traction(found.scene, slips[::5])
-    np.testing.assert_allclose(found.predicted[::5], curve.without_rolling, rtol=2e-3)
-    assert np.all(found.predicted[::5] < curve.coefficient)
+    assert in_joint_region(result, {alpha: 1.8e-8, stress: 5e6})
+    curve = lubfric.traction(result.scene, slips[::5])
+    np.testing.assert_allclose(result.predicted[::5], curve.without_rolling, rtol=2e-3)
+    assert np.all(result.predicted[::5] < curve.coefficient)
     assert "do not contain rolling friction" in lubfric.explain_fit(scene, measured, {alpha: (1.2e-8, 2.8e-8)})
 
 
@@ -181,8 +181,8 @@ def test_covariance_is_that_of_the_slopes(fitted):
     residuals = fitted.predicted / fitted.measured.coefficient - 1
     expected = residuals @ residuals / (SPEEDS.size - 2) * np.linalg.inv(slopes.T @ slopes)
     np.testing.assert_allclose(np.sqrt(np.diag(fitted.covariance)), np.sqrt(np.diag(expected)), rtol=0.1)
-    found = fitted.correlation[0, 1]
-    assert found == pytest.approx(expected[0, 1] / np.sqrt(expected[0, 0] * expected[1, 1]), abs=0.1)
+    result = fitted.correlation[0, 1]
+    assert result == pytest.approx(expected[0, 1] / np.sqrt(expected[0, 0] * expected[1, 1]), abs=0.1)
 
 
 @pytest.mark.slow
@@ -193,11 +193,11 @@ def test_data_that_fit_exactly_tell_nothing_of_a_parameter_without_effect(noise)
     scene = SCENE.with_(lubricant={"limiting_stress_coefficient": 0.5})
     curve = lubfric.stribeck(scene.with_(lubricant={"limiting_stress_coefficient": 0.4}), SPEEDS[:5]).coefficient
     exact = lubfric.Measured(SPEEDS[:5], curve * (1 + noise * np.array([1, -1, 1, 0, -1])))
-    found = lubfric.fit(scene, exact, {key: (0.3, 0.6), "bodies.boundary_friction_coefficient": (0.05, 0.2)})
-    assert found.undetermined == (key,) and f"the data do not determine {key}" in found.explain()
-    low, high = found.intervals[key]
+    result = lubfric.fit(scene, exact, {key: (0.3, 0.6), "bodies.boundary_friction_coefficient": (0.05, 0.2)})
+    assert result.undetermined == (key,) and f"the data do not determine {key}" in result.explain()
+    low, high = result.intervals[key]
     assert low < 0.4 < high
-    low, high = found.intervals["bodies.boundary_friction_coefficient"]
+    low, high = result.intervals["bodies.boundary_friction_coefficient"]
     assert low < 0.09 < high and high / low - 1 < 0.02
 
 
@@ -210,17 +210,17 @@ def test_ninety_of_a_hundred_regions_hold_the_truth():
 def test_a_file_is_read_by_the_names_of_its_columns(tmp_path):
     path = tmp_path / "m.csv"
     path.write_text("# rig 3\nU [mm/s],mu (-),s\n100,0.05,0.001\n1,0.1,0.002\n")
-    found = lubfric.read_measured(path, coefficient="mu (-)", speed="U [mm/s]", deviation="s")
-    np.testing.assert_allclose(found.x, [1e-3, 0.1])
-    np.testing.assert_allclose(found.coefficient, [0.1, 0.05])
-    np.testing.assert_allclose(found.deviation, [0.002, 0.001])
+    result = lubfric.read_measured(path, coefficient="mu (-)", speed="U [mm/s]", deviation="s")
+    np.testing.assert_allclose(result.x, [1e-3, 0.1])
+    np.testing.assert_allclose(result.coefficient, [0.1, 0.05])
+    np.testing.assert_allclose(result.deviation, [0.002, 0.001])
     path.write_text("Rig 3; test of 2026-11-20\noil A, 70\nU;mu;T\n100;0,05;70\n1;0,1;70\n")
-    found = lubfric.read_measured(path, coefficient="mu", speed="U [mm/s]")  # titles above; the unit from the call
-    np.testing.assert_allclose([found.x, found.coefficient], [[1e-3, 0.1], [0.1, 0.05]])
+    result = lubfric.read_measured(path, coefficient="mu", speed="U [mm/s]")  # titles above; the unit from the call
+    np.testing.assert_allclose([result.x, result.coefficient], [[1e-3, 0.1], [0.1, 0.05]])
     path.write_text("SRR [%];mu\n50;0,05\n10;0,02\n")
-    found = lubfric.read_measured(path, coefficient="mu", slide_roll_ratio="SRR [%]")
-    np.testing.assert_allclose(found.x, [0.1, 0.5])
-    np.testing.assert_allclose(found.coefficient, [0.02, 0.05])
+    result = lubfric.read_measured(path, coefficient="mu", slide_roll_ratio="SRR [%]")
+    np.testing.assert_allclose(result.x, [0.1, 0.5])
+    np.testing.assert_allclose(result.coefficient, [0.02, 0.05])
 
 
 PREAMBLE = "Test rig 7; operator: B. Smith\nDate;2026-11-20\n\nOil: A, 70 °C\n# remark\nStep 1 of 1\n"
@@ -343,16 +343,16 @@ def test_what_cannot_be_fitted_is_said_before_any_work(parameters, words):
         lubfric.fit(SCENE, measured, BOUNDS)
 
 
-def test_warnings_of_the_fitted_curve_are_told():
+def test_warnings_of_the_fitted_curve_are_reported():
     """A fit to points that are no answers (accepted: f of 1000) came out without a mark."""
     scene = SCENE.with_(
         bodies={"load": 60.0}, lubricant={"eyring_stress": None}, contact={"shape": (72, 48)}, numerics={"accept": True}
     )
     speeds = np.array([0.01, 0.03, 0.1])
     curve = lubfric.stribeck(scene, speeds)
-    found = lubfric.fit(scene, lubfric.Measured(speeds, curve.coefficient), {"lubricant.viscosity": (0.3, 0.4)})
-    assert [bool(told) for told in found.violations] == [bool(curve.violations(i)) for i in range(3)]
-    assert any(entry.severe for entry in found.violations[2]) and "not valid" in found.explain()
+    result = lubfric.fit(scene, lubfric.Measured(speeds, curve.coefficient), {"lubricant.viscosity": (0.3, 0.4)})
+    assert [bool(stated) for stated in result.violations] == [bool(curve.violations(i)) for i in range(3)]
+    assert any(entry.severe for entry in result.violations[2]) and "not valid" in result.explain()
 
 
 def test_a_parameter_given_twice_is_refused(capsys):
@@ -366,14 +366,14 @@ def test_a_short_form_is_fitted():
     smooth = SCENE.with_(surface={"sq": 1e-9})
     speeds = np.array([0.3, 0.5, 0.8])
     made = [lubfric.friction(smooth.with_(motion={"slip_percent": 50}), u).coefficient for u in speeds]
-    found = lubfric.fit(smooth, lubfric.Measured(speeds, np.array(made)), {"motion.slip_percent": (10, 300)})
-    assert found.values["motion.slip_percent"] == pytest.approx(50, rel=0.02)
+    result = lubfric.fit(smooth, lubfric.Measured(speeds, np.array(made)), {"motion.slip_percent": (10, 300)})
+    assert result.values["motion.slip_percent"] == pytest.approx(50, rel=0.02)
 
 
 def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_finds_too(tmp_path, capsys, monkeypatch):
     """Progress tells misfit and values once a curve; the last are those that were found."""
     measured = made_up(3, SPEEDS[::2])
-    told = []
+    stated = []
     lines = [f"{1e3 * u:.6g},{f:.6g}" for u, f in zip(measured.x, measured.coefficient)]
     (tmp_path / "rig.csv").write_text("\n".join(["U [mm/s],mu", *lines]))
     (tmp_path / "scene.toml").write_text(SCENE.to_toml())
@@ -386,20 +386,20 @@ def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_f
     read = lubfric.read_measured(tmp_path / "rig.csv", speed="U [mm/s]", coefficient="mu")
     bounds = {"bodies.boundary_friction_coefficient": (0.05, 0.2)}
     with ThreadPoolExecutor(2) as executor:
-        record_progress = {"on_progress": lambda *what: told.append(what)}
-        found = lubfric.fit(SCENE, read, bounds, starts=4, executor=executor, **record_progress)
-    done, total, left, misfit, values = zip(*told)
-    assert done == tuple(range(1, len(told) + 1)) and len(told) >= 2
+        record_progress = {"on_progress": lambda *what: stated.append(what)}
+        result = lubfric.fit(SCENE, read, bounds, starts=4, executor=executor, **record_progress)
+    done, total, left, misfit, values = zip(*stated)
+    assert done == tuple(range(1, len(stated) + 1)) and len(stated) >= 2
     assert all(n < of for n, of in zip(done, total)) and all(seconds > 0 for seconds in left)
     of_fit = np.array(misfit)[np.isfinite(misfit)]  # those of the search belong to another model and other points
     assert 0 < of_fit.size < len(misfit) and (np.diff(of_fit) <= 0).all()
-    squares = found.report.residuals["sum of squares"]
+    squares = result.report.residuals["sum of squares"]
     assert misfit[-1] == pytest.approx(np.sqrt(squares / read.x.size), rel=0.05)
-    assert values[-1] == pytest.approx(found.values, rel=0.05) and values[0] != values[-1]
+    assert values[-1] == pytest.approx(result.values, rel=0.05) and values[0] != values[-1]
     record = json.loads((tmp_path / "out" / "fit.json").read_text())
     fitted = lubfric.load_scene(tmp_path / "out" / "fitted.toml")
-    assert record["values"] == found.values and record["starts"] == 4 and record["describes_data"]
-    assert fitted.bodies.boundary_friction_coefficient == pytest.approx(list(found.values.values())[0])
+    assert record["values"] == result.values and record["starts"] == 4 and record["describes_data"]
+    assert fitted.bodies.boundary_friction_coefficient == pytest.approx(list(result.values.values())[0])
     assert (tmp_path / "out" / "fit.png").stat().st_size > 10_000
     assert main([*command, "--parameter", "lubricant.viscosity"]) == 2
     assert "section.key=lowest:highest" in capsys.readouterr().err
@@ -408,25 +408,25 @@ def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_f
     assert json.loads((tmp_path / "out" / "fit.json").read_text())["values"] == record["values"]
 
 
-def test_what_another_piece_of_the_surface_would_move_is_told_beside_the_intervals():
+def test_what_another_piece_of_the_surface_would_move_is_reported_beside_the_intervals():
     """In boundary lubrication f goes with the boundary friction coefficient, and so do their relative errors."""
     key = "bodies.boundary_friction_coefficient"
     speeds = [1e-4, 2e-4, 4e-4]
     scene = paper_scene(numerics={"sampling_tolerance": 0.1})
     points = [lubfric.friction(scene, speed) for speed in speeds]
-    found = lubfric.fit(scene, lubfric.Measured(speeds, [p.coefficient for p in points]), {key: (0.05, 0.2)})
+    result = lubfric.fit(scene, lubfric.Measured(speeds, [p.coefficient for p in points]), {key: (0.05, 0.2)})
     expected = np.mean([p.uncertainty.sampling for p in points])
-    assert found.moved_by_surface[key] / found.values[key] == pytest.approx(expected, rel=0.3)
-    assert "not in the intervals: another sample of the surface" in found.explain()
+    assert result.moved_by_surface[key] / result.values[key] == pytest.approx(expected, rel=0.3)
+    assert "not in the intervals: another sample of the surface" in result.explain()
 
 
 @pytest.mark.parametrize("stated, told", [(1.0, False), (0.1, True)])
-def test_points_farther_off_than_their_deviations_say_are_told(stated, told):
+def test_points_farther_off_than_their_deviations_say_are_reported(stated, told):
     """Points 3 % above and below in turn: with a tenth of that stated, the fit lies ten times as far off."""
     key = "bodies.boundary_friction_coefficient"
     speeds = np.geomspace(1e-3, 5e-3, 6)
     f = lubfric.stribeck(SCENE, speeds).coefficient
     off = 0.03 * f * np.array([1, -1, -1, 1, 1, -1])
-    found = lubfric.fit(SCENE, lubfric.Measured(speeds, f + off, deviation=stated * np.abs(off)), {key: (0.05, 0.2)})
-    assert ("times as large as the stated deviations" in found.explain()) == told
-    assert not told or "are 11 times" in found.explain()  # sqrt(6/5) of ten, one parameter
+    result = lubfric.fit(SCENE, lubfric.Measured(speeds, f + off, deviation=stated * np.abs(off)), {key: (0.05, 0.2)})
+    assert ("times as large as the stated deviations" in result.explain()) == told
+    assert not told or "are 11 times" in result.explain()  # sqrt(6/5) of ten, one parameter

@@ -25,27 +25,27 @@ def steady(**changed):
 
 
 def test_at_constant_speed_it_is_the_steady_starved_film():
-    found = solve_transient_ehl(**LINE, inlet_length=STARVED, times=[0.0, 1e-3])
+    result = solve_transient_ehl(**LINE, inlet_length=STARVED, times=[0.0, 1e-3])
     expected = steady()
     flooded = lubfric.solve_ehl(**LINE)
     assert expected.min_film < 0.85 * flooded.min_film
-    np.testing.assert_allclose(found.min_film, expected.min_film, rtol=0.01)
-    np.testing.assert_allclose(found.central_film, expected.central_film, rtol=0.01)
-    upstream = found.x <= -STARVED * (1 - 1e-6)
-    assert upstream.sum() > 20 and not found.pressure[:, upstream].any()
-    assert found.load[-1] == pytest.approx(1e5, rel=1e-6)
+    np.testing.assert_allclose(result.min_film, expected.min_film, rtol=0.01)
+    np.testing.assert_allclose(result.central_film, expected.central_film, rtol=0.01)
+    upstream = result.x <= -STARVED * (1 - 1e-6)
+    assert upstream.sum() > 20 and not result.pressure[:, upstream].any()
+    assert result.load[-1] == pytest.approx(1e5, rel=1e-6)
 
 
 def test_after_a_jump_of_the_speed_it_ends_in_the_other_steady_film():
     slower = Table(times=(0.0, 0.0, 1.0), values=(1.0, 0.5, 0.5))
-    found = solve_transient_ehl(**LINE | {"entrainment_speed": slower}, inlet_length=STARVED, times=[0.0, 4e-3])
+    result = solve_transient_ehl(**LINE | {"entrainment_speed": slower}, inlet_length=STARVED, times=[0.0, 4e-3])
     films = [steady(entrainment_speed=speed).min_film for speed in (1.0, 0.5)]
-    np.testing.assert_allclose(found.min_film, films, rtol=0.01)
+    np.testing.assert_allclose(result.min_film, films, rtol=0.01)
 
 
 def test_far_upstream_it_is_flooded():
-    found = solve_transient_ehl(**LINE, inlet_length=30 * HALF_WIDTH, times=[0.0, 1e-4])
-    assert found.min_film[-1] == pytest.approx(lubfric.solve_ehl(**LINE).min_film, rel=0.01)
+    result = solve_transient_ehl(**LINE, inlet_length=30 * HALF_WIDTH, times=[0.0, 1e-4])
+    assert result.min_film[-1] == pytest.approx(lubfric.solve_ehl(**LINE).min_film, rel=0.01)
 
 
 def test_backwards_it_is_the_mirror_image():
