@@ -29,7 +29,7 @@ ZERO_CELSIUS = Decimal("273.15")  # K
 MOST_DECIMALS = 7
 
 # Numbers without a unit below the one, or from the other on, are printed with a power of ten.
-SMALLEST = 1e-4
+SMALLEST_PLAIN = 1e-4
 LARGEST_PLAIN = 1e6
 _TABLE = tomllib.loads((files(__package__) / "units.toml").read_text(encoding="utf-8"))
 UNITS: dict[str, dict[str, float]] = _TABLE["units"]
@@ -141,7 +141,7 @@ def with_interval(value: float, low: float, high: float, level: str = " at 95 %"
     at 95 %)".
 
     All three have as many decimals as show two digits of half the width of the interval, and one unit of people;
-    numbers without a unit that are all smaller than `SMALLEST` have a common power of ten. Without a finite interval
+    numbers without a unit that are all smaller than `SMALLEST_PLAIN` have a common power of ten. Without a finite interval
     the value is alone, with three digits.
     """
     if not _is_interval(low, high):
@@ -168,7 +168,7 @@ def plain_number(value: float, unit: str = "-", digits: int = 3) -> str:
         return "not known" if math.isnan(value) else f"{value}"
     name = unit_for([value], unit)
     number = converted(value, unit, name) if name != unit else value
-    if number and not SMALLEST <= abs(number) < LARGEST_PLAIN:
+    if number and not SMALLEST_PLAIN <= abs(number) < LARGEST_PLAIN:
         power = math.floor(math.log10(abs(number)))
         text = f"{number / 10.0**power:.{digits}g}·10{str(power).translate(SUPERSCRIPTS)}"
     else:
@@ -189,7 +189,7 @@ def _shown(value: float, low: float, high: float, unit: str) -> list[str]:
     if name != unit:
         numbers = [converted(number, unit, name) for number in numbers]
     after = f" {printed(name)}".rstrip()
-    if unit == "-" and largest < SMALLEST:
+    if unit == "-" and largest < SMALLEST_PLAIN:
         power = math.floor(math.log10(largest))
         numbers = [number / 10.0**power for number in numbers]
         after = f"·10{str(power).translate(SUPERSCRIPTS)}"

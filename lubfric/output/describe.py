@@ -28,27 +28,27 @@ from ..samples import (
     takes_strips,
 )
 from ..scene import UNITS_OF_HISTORIES, Scene, has_moving_roughness, warn_unusual_values, why_gap_not_resolved
-from ..studies import EXPECTED_SPEEDS, in_words, span
+from ..studies import EXPECTED_SPEEDS, WITHIN_WORDS, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import check_run, estimated_run, periods, run_model_of, sampled_times, scene_at, speeds_of_run
 from ..units import worded
 from .inputs import FACTS, input_rows
 
-# speeds at which the work is counted, and that are in the table, about
+# Speeds of many at which the work is counted, about.
 SOME = 25
+
+# Speeds in the table, about.
 TABLE_SPEEDS = 6
+
 TABLE_CAPTION = "estimate with closed forms: full-load film, asperity contact, and cost"
 # How the deterministic model takes part where the roughness is at rest, and where it moves.
 DETERMINISTIC_IN_WORDS = (
     "load-sharing model, corrected by the deterministic model on some strips,",
     "deterministic model with moving roughness",
 )
-# How well times are estimated: 64 of 69 runs of verification.campaigns.estimates are within that; the
-# constants were chosen with half of them in sight.
-WITHIN_WORDS = "within a factor of 3 in four of five cases"
 # Processor seconds of ``lubfric run`` beside its solves: 1.0 to start, the others for pictures and files.
 COMMAND_SECONDS = 2.4
-# whether asperities touch, by the forecast
+# Whether asperities touch, by the estimate.
 ASPERITIES = {"touching": "yes", "none or a few summits": "few or none", "none": "no"}
 
 

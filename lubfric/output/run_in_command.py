@@ -18,11 +18,10 @@ from .._base import __version__, figures, plain, table_bytes, write_whole
 from ..errors import InputError, OutputError
 from ..running_in import RunIn, estimated_run_in, run_in
 from ..scene import Scene
-from ..studies import in_words
+from ..studies import WITHIN_WORDS, in_words
 from ..units import converted, number_of, plain_number, printed, unit_for, with_interval, worded
 from .command_line import scene_of
 from .commands import RunFolder, check_outputs, paced, run_folder, say
-from .describe import WITHIN_WORDS
 from .inputs import INPUT_SECTIONS, inputs
 from .progress import ProgressLine
 from .report import picture, style_sheet, table

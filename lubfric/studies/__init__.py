@@ -4,7 +4,7 @@ from .._base.processes import MOST_WORKERS, cluster, pool, processors
 from .choose import AUTO_SPEEDS, EXPECTED_SPEEDS, span
 from .codec import classes_of, decode, encode, fits
 from .curve import CurveResult, csv_bytes
-from .explain import estimated_study, in_words
+from .explain import WITHIN_WORDS, estimated_study, in_words
 from .fit import estimated_fit, explain_fit, fit
 from .fit_checks import ResidualTests, probability_of_order, probability_of_runs, residual_tests
 from .fit_input import Measured, read_measured

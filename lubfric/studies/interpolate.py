@@ -55,7 +55,7 @@ LITTLE = 0.02
 LEAST_LOAD_RATIO = 2e-3
 
 # Smallest divisor of an error relative to f.
-SMALLEST = 1e-300
+LEAST_POSITIVE = 1e-300
 
 # Film load ratio below which the film counts as carrying nothing.
 NO_FILM_LOAD = 1e-9
@@ -171,13 +171,13 @@ class Interpolant:
             knee = self.lift_off if 0 < left.contacts < left.speed.size else None
             value_without = Interpolant(left, knee).at(s.speed[i : i + 1])[0]
             at_point = s.boundary[i] + s.film[i]
-            change_without[i] = _distance(value_without, at_point) / max(abs(at_point), SMALLEST)
+            change_without[i] = _distance(value_without, at_point) / max(abs(at_point), LEAST_POSITIVE)
         right = np.clip(np.searchsorted(s.speed, speed), 1, s.speed.size - 1)
         low, high, at = (u**LOAD_RATIO_POWER for u in (s.speed[right - 1], s.speed[right], speed))
         between = 4.0 * (at - low) * (high - at) / (high - low) ** 2  # an error that is none at the points
         beside = BETWEEN_POINTS_RATIO * between * np.maximum(change_without[right - 1], change_without[right])
         is_known = np.isfinite(value)
-        size = np.where(is_known, np.maximum(np.abs(value), SMALLEST), 1.0)
+        size = np.where(is_known, np.maximum(np.abs(value), LEAST_POSITIVE), 1.0)
         return np.where(is_known, np.maximum(spread / size, beside), np.inf)
 
     def boundary(self, speed: np.ndarray, *, smooth: bool = True) -> np.ndarray:

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from lubfric.models.deterministic.shorter_cells import NARROWED
+from lubfric.models.deterministic.shorter_cells import NARROW_GAPS
 from verification.campaigns import table_file
 from verification.campaigns.moving_cells.table import COLUMNS, TABLE, errors
 from verification.campaigns.moving_controls import variance_left
@@ -62,7 +62,7 @@ def test_the_limit_is_that_of_second_order(tmp_path):
     (strip,) = errors(tmp_path / "table.csv")
     assert strip["limit"] == pytest.approx(0.05) and strip["error"] == pytest.approx(0.08)
     assert strip["order"] == pytest.approx(2.0)
-    assert strip["expected"] == pytest.approx(1 - math.exp(-NARROWED[0] * math.log(1.2, 4) / 16))
+    assert strip["expected"] == pytest.approx(1 - math.exp(-NARROW_GAPS[0] * math.log(1.2, 4) / 16))
 
 
 def test_the_stated_error_holds_that_of_the_cells():

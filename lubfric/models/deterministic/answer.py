@@ -66,7 +66,7 @@ BOUNDARY_FILM_KEY = "bodies.boundary_film"
 OF_LIMIT = "the limiting stress of the oil, which is not given: lubricant.limiting_stress_coefficient narrows it"
 LIMITED = ("coefficient", "at_least_limit", "at_most_limit")
 LARGER_TOLERANCE = "a larger numerics.tolerance"
-SMALLER_TOLERANCE = "a smaller numerics.tolerance"
+SMALLER_SOLVE_TOLERANCE = "a smaller numerics.tolerance"
 
 # Change of f at rest, by the flow of an oil with another stress, above which that oil is solved in motion too. Up to .006
 # the shear of the solved moments gave f within 7 % of its change (needle rollers, bearings, light contacts); at .023, a
@@ -298,7 +298,7 @@ def _shorter_cells_in_motion(prepared: Prepared) -> str:
 def _narrows_numerical(prepared: Prepared) -> str:
     """Return what narrows the numerical error, as text: where roughness moves no tolerance does."""
     is_moving = has_moving_roughness(prepared.scene)
-    return f"{_shorter_cells_in_motion(prepared) if is_moving else SMALLER_TOLERANCE} narrows it"
+    return f"{_shorter_cells_in_motion(prepared) if is_moving else SMALLER_SOLVE_TOLERANCE} narrows it"
 
 
 def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[str, ...]:

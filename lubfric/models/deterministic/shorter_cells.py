@@ -65,7 +65,7 @@ PIECES_WORK = 30.0
 # thinner. So the effect is in proportion to d ln f/d ln(boundary film).
 
 # Times (cell/correlation length)² along x and along y: the part by which the narrow gaps are too small [-].
-NARROWED = (1.4, 0.35)
+NARROW_GAPS = (1.4, 0.35)
 
 # Part of the effect of this by which single contacts differ from it, at 95 % [-]. On 12 of 13 Gaussian strips where ln f
 # changes by more than 0.1 with ln of the film the root mean square is 0.42, narrow strips' own scatter included; 2.7 on one.
@@ -197,7 +197,7 @@ class CellsInMotion:
     @property
     def of_narrow_gaps(self) -> float:
         """The relative change of f by a boundary film that is thicker by as much as the narrow gaps are too small."""
-        (along_x, along_y) = NARROWED
+        (along_x, along_y) = NARROW_GAPS
         return (along_x * self.coarse_x**2 + along_y * self.coarse_y**2) * self.steepness
 
     @property

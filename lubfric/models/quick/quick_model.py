@@ -95,7 +95,7 @@ NOT_FLOODED = (
 THICK_FILM_NOTE = "f of Eq. (9): the film is thick and touches no asperity, where the error of load sharing is small"
 STRIPS_NOT_SOLVED = "f of Eq. (9) with the error of load sharing: the strips on long cells were not solved ({})"
 NARROWER = "numerics.model = 'deterministic' reduces the error of f, at the cost that `lubfric info` estimates"
-NARROWED = "take numerics.model = 'deterministic', which narrows it"
+NARROWED_BY_DETERMINISTIC = "take numerics.model = 'deterministic', which narrows it"
 OF_CELLS = "the error of long cells, calibrated on {} contacts: numerics.model = 'deterministic' reduces it"
 
 
@@ -377,7 +377,11 @@ def quick_answer_of(prepared: Prepared, speed: float, strips: LongStrips) -> Mod
         violations=(
             *warnings,
             *warn_model_error(
-                prepared, max(below, above), f, consequence=FROM_PARTS, remedy=NARROWED if by_cells else ""
+                prepared,
+                max(below, above),
+                f,
+                consequence=FROM_PARTS,
+                remedy=NARROWED_BY_DETERMINISTIC if by_cells else "",
             ),
             *(part.violation for part in reported(strips.outside)),
         ),

@@ -18,7 +18,7 @@ import lubfric
 from ...types import PlainRow
 from .. import table_file
 from ..moving_coverage.contacts import RollingContact, contacts
-from ..moving_coverage.table import ANSWERS, FOLDER, REFERENCES, coefficient_of, judged, with_seed
+from ..moving_coverage.table import ANSWERS, FOLDER, REFERENCES, coefficient_of, judged_answers, with_seed
 from .measure import point, quartiles
 
 SEEDS = {True: (1,), False: (1, 2, 3)}
@@ -28,7 +28,7 @@ MODELS = {"quick": "quick answer", "paper": 'load sharing ("paper")'}
 
 def cases(*, quick: bool) -> dict[str, tuple[RollingContact, float, bool]]:
     """The contacts of the campaign that have a reference so far, with it."""
-    known = {answer.contact.name: answer.reference.coefficient for answer in judged()}
+    known = {answer.contact.name: answer.reference.coefficient for answer in judged_answers()}
     chosen = [contact for contact in contacts() if contact.name in known]
     return {contact.name: (contact, known[contact.name], quick) for contact in chosen}
 

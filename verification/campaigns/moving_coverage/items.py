@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ...check import ABSOLUTE, REPORTED, Check, Item, Table
 from ...kept import Run
-from .table import FOLDER, covered, judged, summary
+from .table import FOLDER, covered, judged_answers, summary
 
 # Share of the answers that hold it: the expected one, and how far it may be off: two standard deviations of 120 answers.
 INSIDE = (0.95, 0.04)
@@ -19,7 +19,7 @@ def coverage(level: str, run: Run = Run(), *, folder: Path = FOLDER) -> Iterator
     """Yield table and checks of the answers that ``python -m verification.campaigns.moving_coverage`` has solved. Nothing
     is solved here, at any ``level``, and ``run`` keeps nothing."""
     del level, run
-    answers = list(judged(folder))
+    answers = list(judged_answers(folder))
     groups = [*covered(folder)] + ([{"contact": "all"} | summary(answers)] if answers else [])
     rows = [
         [

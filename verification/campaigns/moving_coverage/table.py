@@ -199,7 +199,7 @@ KINDS = {"strip": reference_strip, "cells": change_by_cells}
 
 
 @dataclass(frozen=True)
-class Job:
+class CoverageJob:
     """One row of a table: an answer, or a ``kind`` of reference, of the contact of this ``name`` on surfaces of ``seed``."""
 
     kind: str
@@ -220,14 +220,14 @@ class Job:
         return row | {"seconds": time.process_time() - begun}
 
 
-def jobs_left(folder: Path, names: Sequence[str], *, answers: int, strips: int, narrow: int) -> list[Job]:
+def jobs_left(folder: Path, names: Sequence[str], *, answers: int, strips: int, narrow: int) -> list[CoverageJob]:
     """Return what the tables have not of the contacts ``names``: so many ``answers``, ``strips`` of the reference, and
     ``narrow`` strips of it on shorter cells, a round of all contacts after the other."""
     kept = {(row["kind"], row["contact"], row["seed"]) for row in table_file.rows(folder / REFERENCES)}
     kept |= {(ANSWER, row["contact"], row["seed"]) for row in table_file.rows(folder / ANSWERS)}
     counts = {"cells": narrow, "strip": strips, ANSWER: answers}
     jobs = [
-        Job(kind, name, seed)
+        CoverageJob(kind, name, seed)
         for seed in range(max(counts.values()))
         for kind, count in counts.items()
         if seed < count
@@ -236,7 +236,7 @@ def jobs_left(folder: Path, names: Sequence[str], *, answers: int, strips: int, 
     return [job for job in jobs if (job.kind, job.name, str(job.seed)) not in kept]
 
 
-def extend(jobs: Sequence[Job], seconds: float, folder: Path = FOLDER, workers: int = 1) -> Iterator[PlainRow]:
+def extend(jobs: Sequence[CoverageJob], seconds: float, folder: Path = FOLDER, workers: int = 1) -> Iterator[PlainRow]:
     """Solve ``jobs`` in so many processes, and append each row to the tables in ``folder`` when it is solved; after so many
     ``seconds`` of elapsed time those that are not ready are left out."""
     for row in extending.solved_in_processes(jobs, seconds, workers):
@@ -293,7 +293,7 @@ class Judged:
         return abs(self.contact.scene.motion.slide_roll_ratio) > 1.0
 
 
-def judged(folder: Path = FOLDER) -> Iterator[Judged]:
+def judged_answers(folder: Path = FOLDER) -> Iterator[Judged]:
     """Yield the answers whose contact has a reference, by contact, with the effect of cells by the law of today."""
     references = [row for row in table_file.rows(folder / REFERENCES) if not row["failure"]]
     answers = [row for row in table_file.rows(folder / ANSWERS) if not row["failure"]]
@@ -334,7 +334,7 @@ def summary(answers: Sequence[Judged]) -> PlainRow:
 def covered(folder: Path = FOLDER) -> Iterator[PlainRow]:
     """Yield the `summary` of each group of answers: of each contact with a name, and of the random ones by load and sliding."""
     groups: dict[str, list[Judged]] = {}
-    for answer in judged(folder):
+    for answer in judged_answers(folder):
         name = answer.contact.name
         if name.startswith(RANDOM):
             load = "heavy" if answer.contact.heavy else "light"
