@@ -3,7 +3,9 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.ndimage import minimum_filter
 
+from ..._base import BoolArray, FloatArray
 from .flow import MassBalance, mass_balance
 from .problem import Problem
 
@@ -22,6 +24,11 @@ CURVATURE = 1.0 / 3.0
 
 # Of the mass of a cell: how far it is extrapolated at most, as by the limiter of the Couette flow (`flow.couette_flow`).
 MOST_EXTRAPOLATED = 0.5
+
+# Suction of a fluid cell over the strongest of its eight neighbours [-], below which it does not rupture in a step in time: a
+# cell that ruptures spares its neighbours, and one that ruptured in vain fills late. A roller of 1 GPa takes 2.8, 3.1, 2.4,
+# 2.4, 2.9, 4.4 Newton steps in a step in time with 0, 0.2, 0.5, 0.7, 0.9, 1.
+STRONG_SUCTION = 0.5
 PULL = 0.01  # of U times the floor over dx: suction in a touching cell, below which it is left alone
 
 
@@ -169,15 +176,15 @@ def update_active_sets(at: Iterate) -> Iterate:
 def _resorted(at: Iterate) -> State:
     """Give every cell the equation that its pressure, gap and residual require.
 
-    - A fluid cell under suction ruptures. A ruptured cell that is full carries pressure again.
+    - A fluid cell under suction ruptures, in a step in time if no neighbour is under much stronger suction. A ruptured cell that is full carries pressure again.
     - A fluid cell closer than the floor touches. A touching cell under suction opens (`_opened`).
     - A cell with a pressure above P_u yields. One whose dent would vanish stops yielding.
     """
     problem = at.problem
     state = at.state
-    p = state.pressure
     kind = state.kind.copy()
     fluid, ruptured, touching = (kind == k for k in (FLUID, RUPTURED, TOUCHING))
+    p = state.pressure if at.history is None else _without_weak_suction(state.pressure, fluid)
     kind[ruptured & (state.fill > 1)] = FLUID
     kind[fluid & (p < 0)] = RUPTURED
     kind[(fluid & (p >= 0) | ruptured) & (at.gap < problem.floor)] = TOUCHING
@@ -194,6 +201,15 @@ def _resorted(at: Iterate) -> State:
         kind=kind,
         yielded=yielded,
     )
+
+
+def _without_weak_suction(pressure: FloatArray, fluid: BoolArray) -> np.ndarray:
+    """Return ``pressure`` with 0 in ``fluid`` cells whose suction is weaker than the part `STRONG_SUCTION` of the strongest of
+    their neighbours."""
+    if not np.any(fluid & (pressure < 0)):
+        return pressure
+    strongest = minimum_filter(np.where(fluid, pressure, 0.0), size=3, mode=("nearest", "wrap"))
+    return np.where(fluid & (pressure < 0) & (pressure > STRONG_SUCTION * strongest), 0.0, pressure)
 
 
 def _opened(touching: np.ndarray, surplus: np.ndarray, pull: float | np.ndarray) -> np.ndarray:
