@@ -32,20 +32,32 @@ def pressure_flow(problem: Problem, fluid: CellFluid, p: FloatArray, h: FloatArr
     """Return the pressure flow through the faces behind the cells along ``axis``: along x behind all but the last row,
     along y behind all (periodic)."""
 
+    def closed(f: FloatArray) -> FloatArray:
+        """Return ``f``, along y with its first column behind the last."""
+        return f if axis == 0 else np.concatenate([f, f[:, :1]], axis=1)
+
     def before(f: FloatArray) -> FloatArray:
-        return f[:-1] if axis == 0 else f
+        return f[:-1] if axis == 0 else f[:, :-1]
 
     def behind(f: FloatArray) -> FloatArray:
-        return f[1:] if axis == 0 else np.roll(f, -1, axis=1)
+        return f[1:] if axis == 0 else f[:, 1:]
+
+    p = closed(p)
+    h = closed(h)
+    density_at = closed(fluid.density)
+    log_viscosity = closed(fluid.log_viscosity)
+    log_slope = closed(fluid.log_slope)
+    density_slope = closed(fluid.density_slope)
+    laws = [tuple(closed(f) if np.ndim(f) else f for f in law) for law in fluid.critical]
 
     def mean(f: FloatArray) -> FloatArray:
         return 0.5 * (before(f) + behind(f))
 
     film = mean(h)
-    density = mean(fluid.density)
-    log_fluidity, l_before, l_behind = mean_fluidity(before(fluid.log_viscosity), behind(fluid.log_viscosity))
+    density = mean(density_at)
+    log_fluidity, l_before, l_behind = mean_fluidity(before(log_viscosity), behind(log_viscosity))
     fluidity = np.exp(log_fluidity)
-    critical = [mean(tau_c) if np.ndim(tau_c) else tau_c for tau_c, _ in fluid.critical]
+    critical = [mean(tau_c) if np.ndim(tau_c) else tau_c for tau_c, _ in laws]
     newtonian = problem.lubricant.viscosity * problem.sliding / (film * fluidity)
     thinner, exponent, parts = thinning(problem.lubricant, newtonian, critical, along=axis == 0)
     cubed = (before(h) * behind(h)) ** 2 / film
@@ -53,11 +65,11 @@ def pressure_flow(problem: Problem, fluid: CellFluid, p: FloatArray, h: FloatArr
     flow = mobility * (before(p) - behind(p))
 
     def by_p(side: Callable[..., Any], by_log: FloatArray, sign: float) -> FloatArray:
-        laws = (1 - exponent) * by_log * side(fluid.log_slope) + 0.5 * side(fluid.density_slope) / density
-        for part, tau_c, (_, slope) in zip(parts, critical, fluid.critical):
+        change = (1 - exponent) * by_log * side(log_slope) + 0.5 * side(density_slope) / density
+        for part, tau_c, (_, slope) in zip(parts, critical, laws):
             if np.ndim(tau_c):
-                laws = laws - part * 0.5 * (side(slope) if np.ndim(slope) else slope) / tau_c
-        return sign * mobility + flow * laws
+                change = change - part * 0.5 * (side(slope) if np.ndim(slope) else slope) / tau_c
+        return sign * mobility + flow * change
 
     by_before, by_behind = (flow * (2 / side(h) - (1 + exponent) / (2 * film)) for side in (before, behind))
     return PressureFlow(flow, (by_p(before, l_before, 1.0), by_p(behind, l_behind, -1.0)), (by_before, by_behind))

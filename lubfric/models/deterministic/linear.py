@@ -114,11 +114,13 @@ class System:
         by_p, by_h, by_fill = self._rows()
         patterns = Patterns.of(*shape, upstream_cells=1 if follows_lubricant(at) else 2)
         neighbours = Stencil.neighbours(*shape)
-        local = sum(
-            data * scale.ravel()[neighbours]
-            for data, scale in ((by_p, self.to_pressure), (by_h, self.to_dent), (by_fill, self.to_fill))
-        )
-        together = local + by_h * (problem.self_deflection * self.to_pressure).ravel()[neighbours]
+        by_own = self.to_pressure.ravel()[neighbours]
+        local = by_p * by_own
+        if dented.any():
+            local += by_h * self.to_dent.ravel()[neighbours]
+        if ruptured.any():
+            local += by_fill * self.to_fill.ravel()[neighbours]
+        together = local + by_h * (problem.self_deflection * by_own)
         self.local = patterns.rows(local)  # all but the deflection and h0
         self.by_h = patterns.rows(by_h)
         self.by_approach = self.by_h @ np.full(at.gap.size, self.film)
@@ -250,24 +252,25 @@ def gmres(
     if size == 0:
         return x, 0
     residual = right.copy()
+    basis = np.empty((most + 1, right.size))
+    directions = np.empty((most, right.size))
     for _ in range(cycles):
         beta = np.linalg.norm(residual)
-        basis = [residual / beta]
-        directions = []
+        basis[0] = residual / beta
         hessenberg = np.zeros((most + 1, most))
         reduced = np.zeros((most, most))  # upper triangle: the Hessenberg matrix after its Givens rotations
         rotations: list[tuple[float, float]] = []
         target = [beta]
         for k in range(most):
-            directions.append(precondition(basis[k]))
+            directions[k] = precondition(basis[k])
             image = apply(directions[k])
-            for j, vector in enumerate(basis):
-                hessenberg[j, k] = vector @ image
-                image -= hessenberg[j, k] * vector
+            along = basis[: k + 1] @ image
+            image = image - along @ basis[: k + 1]
+            hessenberg[: k + 1, k] = along
             size_of_image = float(np.linalg.norm(image))
             hessenberg[k + 1, k] = size_of_image
             count += 1
-            column = hessenberg[: k + 1, k].tolist()
+            column = along.tolist()
             for j, (cosine, sine) in enumerate(rotations):
                 upper = cosine * column[j] + sine * column[j + 1]
                 column[j + 1] = cosine * column[j + 1] - sine * column[j]
@@ -280,14 +283,14 @@ def gmres(
             reduced[: k + 1, k] = column
             target.append(-sine * target[k])
             target[k] *= cosine
-            basis.append(image / max(size_of_image, SMALLEST_PIVOT))
+            basis[k + 1] = image / max(size_of_image, SMALLEST_PIVOT)
             if abs(target[k + 1]) <= 0.5 * accuracy * size or size_of_image <= 1e-14 * beta:
                 break
         y = solve_triangular(reduced[: k + 1, : k + 1], target[: k + 1], check_finite=False)
         left = -(hessenberg[: k + 2, : k + 1] @ y)
         left[0] += beta
-        x = x + sum(c * z for c, z in zip(y, directions))
-        residual = sum(c * v for c, v in zip(left, basis))
+        x = x + y @ directions[: k + 1]
+        residual = left @ basis[: k + 2]
         if np.linalg.norm(residual) <= accuracy * size:
             break
     return x, count
