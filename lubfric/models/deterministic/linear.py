@@ -64,7 +64,7 @@ PANEL = 1
 
 # Cells that nested dissection does not cut again [-]: with 6, 12, 24, 48, 96 the LU of a five-point stencil on 162 x 64
 # cells takes 8.8, 9.1, 9.3, 10.6, 12.3 ms.
-UNCUT_CELLS = 24
+UNCUT_CELLS = 6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,7 +112,7 @@ class System:
         self.load_by_p = by_p / problem.load
         self.load_by_h = inlet.load_by_film / problem.load
         by_p, by_h, by_fill = self._rows()
-        patterns = Patterns.of(*shape, upstream_cells=1 if follows_lubricant(at) else 2)
+        patterns = Patterns.of(*shape)
         neighbours = Stencil.neighbours(*shape)
         by_own = self.to_pressure.ravel()[neighbours]
         local = by_p * by_own
@@ -124,6 +124,7 @@ class System:
         self.local = patterns.rows(local)  # all but the deflection and h0
         self.by_h = patterns.rows(by_h)
         self.by_approach = self.by_h @ np.full(at.gap.size, self.film)
+        _flow_of_first_order(together)
         self.order = patterns.order
         matrix = patterns.ordered(_notable(together) if follows_lubricant(at) else together)
         ordered = {"permc_spec": "NATURAL", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
@@ -214,6 +215,18 @@ class System:
                 accuracy,
             )
         return self.change(unknowns), iterations
+
+
+def _flow_of_first_order(data: FloatArray) -> None:
+    """Let the coefficients ``data`` (6, nx, ny) of the cell two cells upstream count for the next one, in place.
+
+    The Couette flow of the preconditioner then is first-order upwind: its LU has half the entries, and its single precision
+    loses less. A roller of 1 GPa at rest at 10, 3, 1, 0.3 m/s takes 99, 300, 555, 763 iterations of GMRES with the second-order
+    flow, and 93, 232, 441, 788 with this one, in 22 % less time.
+    """
+    far = Stencil.NAMES.index("WW")
+    data[Stencil.NAMES.index("W")] += data[far]
+    data[far] = 0.0
 
 
 def _notable(data: FloatArray) -> np.ndarray:
@@ -307,9 +320,9 @@ class Patterns:
 
     @staticmethod
     @lru_cache(maxsize=8)
-    def of(nx: int, ny: int, *, upstream_cells: int = 2) -> Patterns:
-        """Return the patterns of a grid (nx, ny), whose cells depend on so many ``upstream_cells``."""
-        order = nested_dissection(nx, ny, upstream_cells)
+    def of(nx: int, ny: int) -> Patterns:
+        """Return the patterns of a grid (nx, ny)."""
+        order = nested_dissection(nx, ny)
         column = Stencil.neighbours(nx, ny).reshape(-1, nx * ny)
         row = np.broadcast_to(np.arange(nx * ny), column.shape)
         place = np.empty_like(order)
@@ -345,43 +358,41 @@ def follows_lubricant(at: Iterate) -> bool:
     return at.history is not None and at.history.follows_lubricant
 
 
-def nested_dissection(nx: int, ny: int, upstream_cells: int = 2) -> np.ndarray:
+def nested_dissection(nx: int, ny: int) -> np.ndarray:
     """Return the numbers of the cells (i ny + j) of a grid (nx, ny), free along x and periodic along y, in the order of
     elimination.
 
     A line of cells cuts the grid in two and comes last. Each half is cut again, and so on (A. George, SIAM J. Numer.
-    Anal. 10 (1973) 345-363, doi:10.1137/0710032). A cut across x is as wide as the ``upstream_cells`` on which a cell
-    depends. y is periodic, and is cut twice first. The order follows from the grid at no cost. It fills in less than a
-    minimum degree order that is found anew for every matrix. Cuts one cell wide save a quarter of the factorisation.
+    Anal. 10 (1973) 345-363, doi:10.1137/0710032). y is periodic, and is cut twice first. The order follows from the grid at no cost. It fills in less than a
+    minimum degree order that is found anew for every matrix.
     """
-    order = np.concatenate(_ring(np.arange(nx * ny).reshape(nx, ny), upstream_cells))
+    order = np.concatenate(_ring(np.arange(nx * ny).reshape(nx, ny)))
     order.flags.writeable = False
     return order
 
 
-def _ring(cells: np.ndarray, width: int) -> list[np.ndarray]:
-    """Return the order for a part that is periodic along y. It is cut across x while the cut, of this ``width``, has fewer
-    cells than two cuts along x."""
+def _ring(cells: np.ndarray) -> list[np.ndarray]:
+    """Return the order for a part that is periodic along y. It is cut across x while the cut has fewer cells
+    than two cuts along x."""
     nx, ny = cells.shape
-    if 2 * nx > width * ny and nx > 3:
-        return _cut_across(cells, width, _ring)
+    if 2 * nx > ny and nx > 3:
+        return _cut_across(cells, _ring)
     if ny < 4:
-        return _box(cells, width)
+        return _box(cells)
     half = ny // 2
-    return [*_box(cells[:, :half], width), *_box(cells[:, half + 1 : -1], width), cells[:, half], cells[:, -1]]
+    return [*_box(cells[:, :half]), *_box(cells[:, half + 1 : -1]), cells[:, half], cells[:, -1]]
 
 
-def _box(cells: np.ndarray, width: int) -> list[np.ndarray]:
+def _box(cells: np.ndarray) -> list[np.ndarray]:
     nx, ny = cells.shape
     if cells.size <= UNCUT_CELLS:
         return [cells.ravel()]
-    if nx >= width * ny:
-        return _cut_across(cells, width, _box)
+    if nx >= ny:
+        return _cut_across(cells, _box)
     middle = ny // 2
-    return [*_box(cells[:, :middle], width), *_box(cells[:, middle + 1 :], width), cells[:, middle]]
+    return [*_box(cells[:, :middle]), *_box(cells[:, middle + 1 :]), cells[:, middle]]
 
 
-def _cut_across(cells: np.ndarray, width: int, order: Callable[..., Any]) -> list[np.ndarray]:
-    first = cells.shape[0] // 2 - width // 2
-    cut = cells[first : first + width].T.ravel()
-    return [*order(cells[:first], width), *order(cells[first + width :], width), cut]
+def _cut_across(cells: np.ndarray, order: Callable[..., Any]) -> list[np.ndarray]:
+    middle = cells.shape[0] // 2
+    return [*order(cells[:middle]), *order(cells[middle + 1 :]), cells[middle]]
