@@ -101,7 +101,7 @@ class TestSample:
         else:
             assert sample.distinct_rows(heights) == 12 and distance > 2 * half_width
             assert sample.for_fields() is sample and "2 strips" in sample.in_words(2)
-            assert "solved first" in sample.described(prepared.surface)[1]
+            assert "statistics of" in sample.described(prepared.surface)[1]
 
 
 class TestModel:

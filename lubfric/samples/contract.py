@@ -130,9 +130,9 @@ class Sample(ABC):
         return "a piece of the surface"
 
     def described(self, surface: Surface) -> list[str]:
-        """Return the map that the scene has, and ``surface``, the part of it that is solved first, in words."""
+        """Return the map that the scene has, and ``surface``, the part of it whose statistics are stated, in words."""
         joined = f"{self.first_strips} strips, joined along the line" if self.first_strips > 1 else "one strip"
-        return [self.map_in_words(surface), f"solved first: {joined}; {replace(surface, source='').describe()}"]
+        return [self.map_in_words(surface), f"statistics of {joined}: {replace(surface, source='').describe()}"]
 
     def map_in_words(self, surface: Surface) -> str:
         """Return the map that the scene has, of which ``surface`` is solved first, in words."""

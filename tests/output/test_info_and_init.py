@@ -181,7 +181,7 @@ def test_the_map_that_was_given_comes_before_its_strips(tmp_path):
     path = write_x3p(tmp_path / "mine.x3p", heights, steps=(2e-6, 2e-6))
     rough = {"file": path, "sq": None, "correlation_length": None}
     stated = describe_scene(lubfric.load_scene("paper").with_(surface=rough, contact={"shape": None, "spacing": None}))
-    assert "mine.x3p: 60 x 40 points, 120 x 80 µm" in stated and "solved first: " in stated
+    assert "mine.x3p: 60 x 40 points, 120 x 80 µm" in stated and "statistics of " in stated
 
 
 @pytest.mark.slow
