@@ -147,6 +147,30 @@ def test_no_solver_asks_a_contact_of_what_kind_it_is():
     assert len(kinds) >= 3 and requested == ["prepared.py"]
 
 
+def kinds_asked(kinds: set[str]) -> set[str]:
+    """Return the modules of lubfric and verification that ask an object whether it is one of ``kinds``."""
+    modules = set()
+    for file in [file for package in ("lubfric", "verification") for file in (ROOT / package).rglob("*.py")]:
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("isinstance", "issubclass", "type"):
+                if kinds & {getattr(part, "id", getattr(part, "attr", "")) for part in ast.walk(node)}:
+                    modules.add(file.name)
+    return modules
+
+
+@pytest.mark.parametrize(
+    "kinds, homes",
+    [
+        ({"GeneratedStrips", "MeasuredStrips", "OnlyMap", "SinglePatch", "UnresolvedSample"}, set()),
+        ({"StripSolution", "MovingStripSolution"}, {"moving_strip.py"}),
+        ({"PaperModel", "QuickModel", "DeterministicModel"}, set()),
+    ],
+)
+def test_what_has_a_contract_is_not_asked_of_what_kind_it_is(kinds, homes):
+    """Samples, strips and models answer by their contract; a motion on longer cells may have been followed or not."""
+    assert kinds_asked(kinds) == homes
+
+
 def python(code: str) -> str:
     """Output of a fresh interpreter."""
     return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT).stdout

@@ -93,6 +93,20 @@ def test_no_two_classes_have_one_name(package):
     assert len(twice) <= allowed(package, "classes"), twice
 
 
+def test_no_two_constants_have_one_name():
+    """In lubfric a constant means one thing: its value is written once, and imported elsewhere. Type variables aside."""
+    homes = defaultdict(set)
+    for path, tree in trees("lubfric").items():
+        for node in tree.body:
+            targets = node.targets if isinstance(node, ast.Assign) else [getattr(node, "target", None)]
+            names = {getattr(part, "id", "") for target in targets if target is not None for part in ast.walk(target)}
+            for name in names:
+                if name.isupper() and len(name) > 1:
+                    homes[name].add(path)
+    assert len(homes) > 1000
+    assert {name: sorted(paths) for name, paths in homes.items() if len(paths) > 1} == {}
+
+
 @pytest.mark.parametrize("package", PACKAGES)
 def test_names_say_what_a_thing_is(package):
     names = [f"{path} {name}" for path, node in nodes(package) for name in bound_names(node) if name in ODD_WORDS]

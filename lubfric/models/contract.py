@@ -311,6 +311,11 @@ class Model(ABC):
         """Whether a strip of moving roughness takes so long that its time is estimated, and shown, by itself."""
         return False
 
+    @property
+    def takes_wear(self) -> bool:
+        """Whether a scene that names it may wear: the asperity pressure of wear is that of the load-sharing model."""
+        return False
+
     def first_strips(self, sample: Sample) -> int:
         """Return the number of strips that are solved first."""
         return sample.first_strips

@@ -95,6 +95,10 @@ class PaperModel(Model):
     def name(self) -> str:
         return "paper"
 
+    @property
+    def takes_wear(self) -> bool:
+        return True
+
     def described(self, scene: Scene) -> str:
         width = "its model-form error is not known and not in the interval"
         return f"load-sharing model of the paper (numerics.model): fast; {width if why_gap_not_resolved(scene) else 'its interval is wide'}"

@@ -407,6 +407,10 @@ class QuickModel(Model):
     """Strips on long cells with a calibrated error, beside the balance of Eq. (8)."""
 
     @property
+    def takes_wear(self) -> bool:
+        return True
+
+    @property
     def name(self) -> str:
         return "quick"
 
