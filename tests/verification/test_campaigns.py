@@ -8,7 +8,9 @@ import pytest
 
 from verification import kept
 from verification.__main__ import main
+from verification.campaigns import opponents
 from verification.campaigns.charts import contact
+from verification.campaigns.charts.measure import machine
 from verification.campaigns.model import answers
 from verification.campaigns.sampling import coverage
 from verification.check import Check
@@ -145,3 +147,8 @@ def test_methods_agree_and_errors_fall_with_the_tolerance():
     assert max(tight.values()) < 1e-3
     assert [p.at["setting"] for p in result if p.at["default"]] == ["tolerance 1e-06"]
     assert np.array_equal(contact.heights(128, "gaussian")[::2, ::2], contact.heights(64, "gaussian"))
+
+
+def test_a_chart_says_which_solvers_of_others_are_missing(monkeypatch):
+    monkeypatch.setattr(opponents, "version", lambda package: "2.9.0" if package == "tamaas" else "")
+    assert "tamaas 2.9.0, aspher not installed" in machine()

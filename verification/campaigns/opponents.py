@@ -16,6 +16,9 @@ from lubfric.contact.operator import half_space
 from ..types import Keywords
 from .polonsky_keer import polonsky_keer
 
+# Packages of other people's solvers. A build of aspher needs the headers of Eigen, which PyPI has as cmeel-eigen:
+# CMAKE_PREFIX_PATH is its folder cmeel.prefix then.
+PEERS = ("tamaas", "aspher")
 COARSEST = 48  # cells: the side of the grids of aspher is halved down to about this many
 
 Solver = Callable[[float, float], np.ndarray]
@@ -27,6 +30,11 @@ def version(package: str) -> str:
         return importlib.metadata.version(package)
     except importlib.metadata.PackageNotFoundError:
         return ""
+
+
+def peers() -> str:
+    """Return the versions of other people's solvers, and which of them are missing, in one line."""
+    return ", ".join(f"{name} {version(name) or 'not installed'}" for name in PEERS)
 
 
 def tamaas_solver(

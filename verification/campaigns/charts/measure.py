@@ -12,7 +12,7 @@ import numpy as np
 from ...check import REPORTED, Check
 from ...frame import environment
 from ...types import PlainRow
-from ..opponents import version
+from ..opponents import peers
 
 K = TypeVar("K")
 V = TypeVar("V")
@@ -58,7 +58,7 @@ def machine(_: None = None) -> str:
     """One line for the head of a chart: processor, threads, how busy the machine is, versions, date."""
     values = environment()
     parts = [f"{name} {values[name]}" for name in ("python", "numpy", "scipy", "lubfric")]
-    parts += [f"{name} {version(name)}" for name in ("tamaas", "aspher") if version(name)]
+    parts.append(peers())
     try:
         lines = Path("/proc/cpuinfo").read_text().splitlines()
     except OSError:
