@@ -12,7 +12,7 @@ import numpy as np
 from .._base import Renamed, Shown, figures, packaged, validate
 from ..errors import InputError, Report
 from ..models import ContactFields, ModelDetails
-from ..models.shared import Decision, UnmodelledEffect, Violation
+from ..models.shared import OMITTED_HEAT, Decision, UnmodelledEffect, Violation
 from ..quantities import PointQuantities, described_in_doc, in_words
 from .bibtex import bibtex, source_in_words
 from .uncertainty import NumberErrors, Uncertainty
@@ -71,9 +71,16 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         facts = in_words(self, ("speed", "coefficient", "contact_load", "film_load", "lambda_ratio"))
         facts["f"] = f"{self.coefficient:.5g}{_interval(self.uncertainty.interval)}"
         facts[""] = self.report.status
-        if self.validity:
-            facts["warnings"] = "; ".join(violation.what for violation in self.validity)
+        warnings = [violation.what for violation in self.validity if not violation.is_note]
+        if warnings:
+            facts["warnings"] = "; ".join(warnings)
         return facts
+
+    @property
+    def not_in_interval(self) -> str:
+        """What changes f that neither f nor its interval has, as text; "" for nothing."""
+        heat = [violation for violation in self.validity if violation.what == OMITTED_HEAT]
+        return f"without heat, which lowers f by up to {heat[0].value_in_words} %" if heat else ""
 
     def cite(self, format: str = "text") -> str:
         """Return the papers behind what was used for this result, the model's first: one a line, or with ``format``

@@ -214,6 +214,7 @@ def _mark(
 ) -> None:
     """Ring the points at which an assumption is violated, unless it is at all of them, and cross out those at which f
     is meaningless. The text below says which. Then the key of all lines."""
+    violations = [[violation for violation in violated if not violation.is_note] for violated in violations]
     severe = np.array([any(violation.severe for violation in violated) for violated in violations], dtype=bool)
     minor = np.array([len(violated) > 0 for violated in violations], dtype=bool) & ~severe
     everywhere = minor.all()

@@ -13,10 +13,12 @@ import numpy as np
 from ..errors import InputError
 from ..estimate import FrictionResult
 from ..models.shared import (
+    NUMERICAL_ERROR,
     ExpectedEffect,
     Prepared,
     UnmodelledEffect,
     change_in_words,
+    is_note_text,
     percent,
     percent_of_sides,
     sentence,
@@ -167,11 +169,23 @@ def curve_status(curve: CurveResult) -> str:
     total = len(curve.points)
     solved = total - len(curve.errors)
     if not curve.errors:
-        return "Converged: the point is solved." if total == 1 else f"Converged: all {total} {plural} are solved."
+        head = "Converged: the point is solved." if total == 1 else f"Converged: all {total} {plural} are solved."
+        points = [point for point in curve.points if point is not None]
+        inexact = sum(any(violation.what == NUMERICAL_ERROR for violation in point.validity) for point in points)
+        unknown = sum(not math.isfinite(point.uncertainty.interval[0]) for point in points)
+        return " ".join(filter(None, (head, *shortfalls(inexact, unknown, total))))
     first = min(curve.errors)
     return f"Not complete: {solved} of {counted(total, plural)} solved. First failure {_place(curve, first)}: " + str(
         curve.errors[first]
     )
+
+
+def shortfalls(inexact: int, unknown: int, total: int) -> list[str]:
+    """Return how many of ``total`` solved points miss the requested tolerance, and how many have no interval, in
+    sentences."""
+    at = [f"At {count} of {total} points" if total > 1 else "There" for count in (inexact, unknown)]
+    words = "the numerical error of f is above the requested tolerance, and in its interval."
+    return [f"{at[0]} {words}"] * (inexact > 0) + [f"{at[1]} the interval of f is not known."] * (unknown > 0)
 
 
 def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding_speed: float) -> list[str]:
@@ -179,7 +193,8 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding
     ``sliding_speed`` [m/s], and over all."""
     low, high = point.uncertainty.interval
     unknown = "" if not math.isnan(point.uncertainty.model) else " The model-form error is not known and not included."
-    sentences = [f"f = {with_interval(point.coefficient, low, high)} {place}.{unknown}"]
+    omitted = f", {point.not_in_interval}" if point.not_in_interval else ""
+    sentences = [f"f = {with_interval(point.coefficient, low, high)} {place}{omitted}.{unknown}"]
     if point.decision.basis:
         sentences.append(sentence(point.decision.basis))
     low, high = point.power_loss_interval
@@ -504,8 +519,18 @@ def _effects(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: str) -
 
 
 def _warnings(validity: Iterable[str]) -> str:
-    texts = [sentence(text.removeprefix("warning: ").replace(": warning: ", ": ", 1)) for text in validity]
-    return _list(texts, "Every assumption that is checked holds.", "warning")
+    texts = {text: sentence(_without_head(text)) for text in validity}
+    warnings = [shown for text, shown in texts.items() if not is_note_text(text)]
+    notes = [shown for text, shown in texts.items() if is_note_text(text)]
+    heading = "<h3>Notes</h3>" if notes else ""
+    return _list(warnings, "Every assumption that is checked holds.", "warning") + heading + _list(notes)
+
+
+def _without_head(text: str) -> str:
+    """Return the text of a violation without the word that says whether it is a warning or a note."""
+    for head in ("warning", "note"):
+        text = text.removeprefix(f"{head}: ").replace(f": {head}: ", ": ", 1)
+    return text
 
 
 def _inputs(scene: Scene, section: str, given: dict[str, Any]) -> str:

@@ -475,6 +475,8 @@ def _progress(place: str) -> Callable[..., Any]:
         words = ", ".join(f"{symbol} = {load}" for symbol, load in loads.items())
         known = outcome.uncertainty
         largest = f"; {known.largest_part}" if known.largest_part else ""
-        say(f"{head}: {known.short(outcome.coefficient)}; {words} (wall-clock time {outcome.seconds:.2f} s){largest}")
+        omitted = f"; {outcome.not_in_interval}" if outcome.not_in_interval else ""
+        time_ = f"(wall-clock time {outcome.seconds:.2f} s)"
+        say(f"{head}: {known.short(outcome.coefficient)}{omitted}; {words} {time_}{largest}")
 
     return on_point

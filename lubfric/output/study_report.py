@@ -9,7 +9,7 @@ from string import Template
 import numpy as np
 
 from .._base import __version__
-from ..models.shared import gathered_texts, percent, sentence, student
+from ..models.shared import NUMERICAL_ERROR, gathered_texts, is_note_text, percent, sentence, student
 from ..quantities import CHOICES, COLUMNS, counted, worded_value
 from ..scene import SLIDE_ROLL_RATIO_KEY
 from ..studies import (
@@ -24,7 +24,7 @@ from ..studies import (
 )
 from ..units import ZERO_CELSIUS, converted, plain_number, printed, unit_of_largest, with_interval
 from .inputs import INPUT_SECTIONS, inputs
-from .report import picture, style_sheet, table
+from .report import picture, shortfalls, style_sheet, table
 
 # Rows of the table of a report; study.csv has all.
 MOST_ROWS = 60
@@ -59,7 +59,10 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     import scipy
 
     cells = [str(cell) for cell in columns_of_study(result)["validity"]]
-    warnings = [*(sentence(note) for note in result.plan.notes), *gathered_texts(cells)]
+    gathered = gathered_texts(cells)
+    warnings = [sentence(note) for note in result.plan.notes]
+    warnings += [text for text in gathered if not is_note_text(text)]
+    notes = [text.replace(": note: ", ": ", 1) for text in gathered if is_note_text(text)]
     rows = min(MOST_ROWS, result.status.size)
     size = result.status.size
     about = "study.csv has all numbers." if rows == size else f"{rows} of {size} points; study.csv has all of them."
@@ -80,7 +83,8 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         status=escape(study_status(result)),
         answer="".join(f'<p class="{"answer" if i == 0 else ""}">{escape(line)}</p>' for i, line in enumerate(answer)),
         pictures="".join(picture(content, CAPTION) for name, content in contents.items() if name.endswith(".png")),
-        warnings=_list(warnings) if warnings else "<p>Every assumption that is checked holds.</p>",
+        warnings=(_list(warnings) if warnings else "<p>Every assumption that is checked holds.</p>")
+        + (f"<h3>Notes</h3>{_list(notes)}" if notes else ""),
         about=about,
         table=_table(result, rows),
         varied=_list([_range(key, values) for key, (_, values) in result.coords.items()]),
@@ -119,7 +123,10 @@ def study_status(result: StudyResult) -> str:
     """Return in a sentence how many points of a study are solved, and the most frequent failures."""
     total = counted(result.solved, "points")
     if not result.failed:
-        return f"Converged: {'the point is' if result.solved == 1 else f'all {total} are'} solved."
+        head = f"Converged: {'the point is' if result.solved == 1 else f'all {total} are'} solved."
+        inexact = sum(NUMERICAL_ERROR in str(cell) for cell in result.validity.flat)
+        unknown = int(np.isnan(result["uncertainty_low"][np.isfinite(result["coefficient"])]).sum())
+        return " ".join((head, *shortfalls(inexact, unknown, result.solved)))
     failed = Counter(result.failures)
     reasons = "; ".join(f"{count} x {reason}" for reason, count in failed.most_common(3))
     return f"Not complete: {result.solved - result.failed} of {total} solved. Failures: {reasons}"
@@ -223,7 +230,8 @@ def _budget_line(result: StudyResult) -> list[str]:
     shown = {names.get(name, name): part for name, part in parts.items() if name != "not given" or part}
     words = ", ".join(f"{name} {percent(part)}" for name, part in shown.items())
     place = point_in_words(result, index).partition(":")[0]
-    return [f"The relative errors of f at {place}, each at 95 %, are: {words}."]
+    some = "" if np.isfinite(result["uncertainty_low"]).all() else " with an interval"
+    return [f"The relative errors of the largest f{some}, at {place}, each at 95 %, are: {words}."]
 
 
 def point_in_words(result: StudyResult, index: tuple[int, ...]) -> str:

@@ -13,6 +13,7 @@ from ..models.shared import (
     Violation,
     gathered,
     in_a_cell,
+    is_note_text,
     violations_of,
 )
 from ..quantities import NUMBERS, OF_UNCERTAINTY, counted, heading
@@ -85,7 +86,8 @@ class CurveResult(Renamed, Shown):
                 symbol: f"{known.min():.4g} to {known.max():.4g} {unit}".rstrip(),
                 "f": f"{f.min():.4g} to {f.max():.4g}",
             }
-        return facts | {"failed": str(len(self.errors)), "warnings": str(len(self.validity))}
+        warnings = [text for text in self.validity if not is_note_text(text)]
+        return facts | {"failed": str(len(self.errors)), "warnings": str(len(warnings))}
 
 
 def parted(outcomes: Sequence[Any]) -> tuple[tuple[FrictionResult | None, ...], dict[int, Exception]]:

@@ -56,7 +56,7 @@ def warnings_of(plan: Any) -> list[str]:
 def _in_sentences(violations: Sequence[Sequence[Violation]], plural: str) -> list[str]:
     """Return a sentence for each assumption that fails in ``violations`` (of each scene), with its smallest and largest
     value; ``plural``: the name of what there is one of for each of ``violations``."""
-    groups: dict[tuple[str, bool, bool], dict[int, Violation]] = {}
+    groups: dict[tuple[str, bool, bool, bool], dict[int, Violation]] = {}
     for place, of_scene in enumerate(violations):
         for violation in of_scene:
             groups.setdefault(violation.kind, {})[place] = violation
@@ -86,7 +86,9 @@ def _seconds_left(plan: Any, table: StudyTable) -> tuple[float, list[str], list[
             violations.append(_expected(prepared, speeds))
         except InputError as error:
             failed.append(f"  cannot be solved: {error}")
-    return seconds, failed, _in_sentences(violations, "scenes checked")
+    all_scenes = len(plan.scenes)
+    checked = "scenes" if len(violations) == all_scenes else f"scenes checked (of {all_scenes})"
+    return seconds, failed, _in_sentences(violations, checked)
 
 
 def _expected(prepared: Prepared, speeds: Sequence[float]) -> tuple[Violation, ...]:

@@ -18,6 +18,7 @@ from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import InputError
 from ..estimate import MethodUse, cited, methods_of
 from ..models import Model, candidates, prepare
+from ..models.shared import warnings_in_cell
 from ..quantities import NUMBERS
 from ..scene import Scene
 from .interpolate import Interpolant, through
@@ -104,8 +105,8 @@ class StudyResult(Shown):
 
     @property
     def with_warnings(self) -> int:
-        """Number of points at which an assumption does not hold."""
-        return int(np.count_nonzero(self.validity != ""))
+        """Number of points at which an assumption does not hold; notes do not count."""
+        return sum(bool(warnings_in_cell(str(cell))) for cell in self.validity.flat)
 
     @property
     def missing(self) -> int:

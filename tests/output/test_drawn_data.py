@@ -87,7 +87,7 @@ COLUMNS = {
 
 
 def test_a_curve_is_drawn_by_its_table(figures):
-    cautious = [(), (), (), (SimpleNamespace(severe=False, what="starved"),)]
+    cautious = [(), (), (), (SimpleNamespace(severe=False, is_note=False, what="starved"),)]
     plot_stribeck("x.png", COLUMNS, "title", cautious)
     top, middle, bottom = figures[0].axes
     for label, expected in (
@@ -323,7 +323,7 @@ def test_at_rest_no_friction_is_drawn(figures):
 
 
 def test_no_point_is_ringed_where_all_would_be(figures):
-    entry = SimpleNamespace(severe=False, what="starved")
+    entry = SimpleNamespace(severe=False, is_note=False, what="starved")
     columns = COLUMNS | {"ratio": COLUMNS["speed"]}
     plot_traction("x.png", columns, "title", [(entry,)] * 4)
     assert "with warnings" not in {line.get_label() for line in figures[0].axes[0].lines}

@@ -207,3 +207,29 @@ def test_a_local_film_peak_is_distinguished_from_the_hertz_pressure():
     (local,) = warn_pressure(heavy, 3e9)
     assert "peak film pressure is 1.2 GPa" in at_hertz.text and "local" not in at_hertz.text
     assert "highest local film pressure is 3 GPa" in local.text and "the peak Hertz pressure is 1.2 GPa" in local.text
+
+
+def test_notes_are_apart_from_warnings():
+    """A note is named as one, counted apart, and does not hide in the sentence of a warning on the same quantity."""
+    note = Violation(what="slip", value=7.0, limit=5.0, unit="%", consequence="it slides", remedy="", is_note=True)
+    assert note.text == "note: slip is 7 %, above 5 %. It slides."
+    texts = gathered([(0.1, (entry(8.0),)), (0.2, (note,))])
+    assert [is_note_text(text) for text in texts] == [False, True]
+    assert warnings_in_cell(in_a_cell([note, entry(8.0)])) == [entry(8.0).text] and not warnings_in_cell("")
+
+
+@pytest.mark.parametrize("coefficient, is_note", [(None, False), (0.05, True), ("f_b", True)])
+def test_a_film_above_the_range_of_its_law_is_a_note_where_its_stress_is_limited(coefficient, is_note):
+    scene = PAPER.with_(lubricant={"limiting_stress_coefficient": coefficient})
+    (found,) = warn_pressure(scene, 2e9)
+    assert found.is_note == is_note and ("limiting stress bounds" in found.consequence) == is_note
+    assert ("give a measured limiting stress" in found.remedy) != is_note
+
+
+def test_the_error_of_the_solve_is_a_note_and_heat_that_is_left_out_stands_beside_f():
+    scene = lubfric.load_scene("paper").with_(numerics={"model": "paper", "tolerance": 1e-4, "film_tolerance": 0.03})
+    fast = lubfric.friction(scene, 1.0)
+    kinds = {violation.what: violation.is_note for violation in fast.validity}
+    assert kinds[NUMERICAL_ERROR] is True and kinds[OMITTED_HEAT] is False
+    assert fast.not_in_interval.startswith("without heat, which lowers f by up to 2")
+    assert lubfric.friction(scene.with_(numerics={"heat": "off"}), 1.0).not_in_interval == ""

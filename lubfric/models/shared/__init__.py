@@ -6,6 +6,8 @@ each other, `quick` imports both, and all import this one.
 """
 
 from .checks import (
+    NUMERICAL_ERROR,
+    OMITTED_HEAT,
     meaningless,
     peak_hertz_pressure,
     warn_deflection,
@@ -80,4 +82,15 @@ from .unmodelled import (
     expected_effects,
     unmodelled_effects,
 )
-from .violation import Violation, at_value, gathered, gathered_texts, in_a_cell, refused, sentence, violations_of
+from .violation import (
+    Violation,
+    at_value,
+    gathered,
+    gathered_texts,
+    in_a_cell,
+    is_note_text,
+    refused,
+    sentence,
+    violations_of,
+    warnings_in_cell,
+)

@@ -57,6 +57,13 @@ ANOTHER = "numerics.film_deflection = 'scaled'"
 # Share of the contact load on the two edge columns of a patch from which its ends cut off the contact. Not measured:
 # it decides where a point is refused, no number.
 ON_ENDS = 0.01
+
+# Name of the numerical error where it is above the requested tolerance.
+NUMERICAL_ERROR = "estimated numerical error of f"
+
+# Name of the effect of the heat that a lubricant without a temperature coefficient leaves out: no part of the interval.
+OMITTED_HEAT = "reduction of f by the heat of the film"
+
 LONGER_PATCH = "make the patch longer in x: contact.shape, or for a measured map surface.extension = 'mirror'"
 
 # Share of f from stresses that no oil carries from which on f is refused. Not measured: a convention.
@@ -129,10 +136,11 @@ def warn_pressure(scene: Scene, peak: float) -> Iterator[Violation]:
     limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(law, math.inf)
     consequence = f"the viscosity law ({law}) is extrapolated there"
     is_local = peak > SPIKE * hertz_peak
+    is_limited = scene.lubricant.limit is not None or scene.lubricant.limited_by_boundary_friction
     remedy = (
-        "give a measured limiting stress (lubricant.limiting_stress_coefficient), which bounds the friction of the film"
-        if scene.lubricant.limiting_stress_coefficient is None
-        else "none is needed where the film is at its limiting stress, which bounds its friction"
+        ""
+        if is_limited
+        else "give a measured limiting stress (lubricant.limiting_stress_coefficient), which bounds the friction of the film"
     )
     severe = peak > NO_LIQUID
     if severe:
@@ -143,9 +151,12 @@ def warn_pressure(scene: Scene, peak: float) -> Iterator[Violation]:
         return
     if is_local:
         consequence += f"; it is a local peak, and the peak Hertz pressure is {hertz_peak / 1e9:.3g} GPa"
+    if is_limited and not severe:
+        consequence += "; the limiting stress bounds the friction of the film"
     if scene.lubricant.density_law == "constant" and hertz_peak < limit:
         consequence += "; a constant density causes such a spike"
-        remedy = f"give lubricant.density_law = 'dowson-higginson', which lowers it; {remedy}"
+        more = f"; {remedy}" if remedy else ""
+        remedy = f"give lubricant.density_law = 'dowson-higginson', which lowers it{more}"
     yield Violation(
         what="highest local film pressure" if is_local else "peak film pressure",
         value=peak / 1e9,
@@ -154,6 +165,7 @@ def warn_pressure(scene: Scene, peak: float) -> Iterator[Violation]:
         consequence=consequence,
         remedy=remedy,
         severe=severe,
+        is_note=is_limited and not severe,
     )
 
 
@@ -321,24 +333,25 @@ def warn_typical_heat(scene: Scene, change: float) -> Iterator[Violation]:
     if change > scene.numerics.tolerance:
         temperature, coefficient = TYPICAL
         yield Violation(
-            what="reduction of f by the heat of the film",
+            what=OMITTED_HEAT,
             value=100 * change,
             limit=100 * scene.numerics.tolerance,
             unit="%",
             consequence="heat is not included, because the viscosity is a number; this is its effect, at most, on a typical oil, whose "
             f"viscosity falls by {100 * coefficient:.2g} % per K, at {temperature - CELSIUS:.0f} °C",
             remedy="give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); numerics.heat = "
-            "'off' states that this is meant",
+            "'off' leaves heat out without this warning",
         )
 
 
 def warn_error(error: float | None, tolerance: float, remedy: str) -> Iterator[Violation]:
-    """Yield a warning if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not
-    known)."""
+    """Yield a note if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known): the
+    interval of f has it."""
     if error is not None and error > tolerance:
-        why = "the error of the solve is above the requested tolerance"
+        why = "that is more than numerics.tolerance requests, and in the interval of f"
         yield Violation(
-            what="estimated numerical error of f",
+            what=NUMERICAL_ERROR,
+            is_note=True,
             value=100 * error,
             limit=100 * tolerance,
             unit="%",

@@ -36,6 +36,7 @@ class Violation:
     consequence : what that does to the result
     remedy : what to change
     severe : True: the coefficient means nothing, and a `ValidityError` is raised unless accepted. False: a warning
+    is_note : the interval of f covers it, or nothing is to be done: a note instead of a warning
     """
 
     what: str
@@ -45,22 +46,23 @@ class Violation:
     consequence: str
     remedy: str
     severe: bool = False
+    is_note: bool = False
 
     def __post_init__(self) -> None:
-        for name, kind in (("value", float), ("limit", float), ("severe", bool)):
+        for name, kind in (("value", float), ("limit", float), ("severe", bool), ("is_note", bool)):
             object.__setattr__(self, name, kind(getattr(self, name)))
 
     @property
     def text(self) -> str:
-        """Three sentences: the violated assumption, what that does, what to do. The first begins with "warning: " or
-        "not valid: "."""
+        """Three sentences: the violated assumption, what that does, what to do. The first begins with "warning: ", "note: "
+        or "not valid: "."""
         return self.text_of(self.value_in_words)
 
     @property
-    def kind(self) -> tuple[str, bool, bool]:
-        """What violations have in common that one sentence may report together: the quantity, whether they are severe, and on
-        which side of the limit they are."""
-        return self.what, self.severe, self.value > self.limit
+    def kind(self) -> tuple[str, bool, bool, bool]:
+        """What violations have in common that one sentence may report together: the quantity, whether they are severe, or
+        notes, and on which side of the limit they are."""
+        return self.what, self.severe, self.is_note, self.value > self.limit
 
     @property
     def value_in_words(self) -> str:
@@ -74,7 +76,7 @@ class Violation:
 
     def text_of(self, values: str) -> str:
         """Return the `text` with ``values`` in place of the value, such as "5.2 (at 0.1 m/s) to 8.69 (at 3 m/s)"."""
-        head = "not valid" if self.severe else "warning"
+        head = "not valid" if self.severe else "note" if self.is_note else "warning"
         unit = f" {self.unit}" if self.unit not in ("", "-") else ""
         side = "above" if self.value > self.limit else "below"
         limit = f", {side} {self._beside_limit[1]}{unit}" if math.isfinite(self.limit) else ""
@@ -107,6 +109,16 @@ def violations_of(point: Any, error: Exception | None) -> tuple[Violation, ...]:
     return () if checked is None else checked.validity
 
 
+def warnings_in_cell(cell: str) -> list[str]:
+    """Return the texts of a ``cell`` (`in_a_cell`) that are no notes."""
+    return [text for text in cell.split(TEXT_SEPARATOR) if text and not is_note_text(text)]
+
+
+def is_note_text(text: str) -> bool:
+    """Return whether ``text``, of one violation or gathered over points, is that of a note."""
+    return text.startswith("note: ") or ": note: " in text
+
+
 def in_a_cell(violations: Iterable[Violation]) -> str:
     """Return the texts of ``violations`` in one cell of a table."""
     return TEXT_SEPARATOR.join(violation.text for violation in violations)
@@ -120,7 +132,7 @@ def gathered(
 
     ``points``: pairs (value of the swept quantity, violations of that point).
     """
-    groups: dict[tuple[str, bool, bool], list[tuple[float, Violation]]] = {}
+    groups: dict[tuple[str, bool, bool, bool], list[tuple[float, Violation]]] = {}
     for value, violations in points:
         for violation in violations:
             groups.setdefault(violation.kind, []).append((value, violation))
