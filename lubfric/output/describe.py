@@ -206,7 +206,8 @@ def _model(
         rows = [f"load-sharing model alone: {why}; its model-form error is not known and not in the interval"]
     elif not resolved and strip:
         rows = [
-            "quick answer (deterministic model on long cells, calibrated): on its usual cells it would take too long"
+            "quick answer (deterministic model on long cells, calibrated); on its usual cells the deterministic model would take "
+            "too long"
         ]
     elif not resolved:
         rows = ["load-sharing model alone: the film is thick or the surfaces are smooth, and both models agree"]

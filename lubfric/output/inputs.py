@@ -15,6 +15,9 @@ REPLACED = {"motion.slide_roll_ratio": "sliding"}
 # Key of the limiting stress at ambient pressure: without a limiting_stress_coefficient it is not used.
 LIMIT_OFFSET = "lubricant.limiting_stress_offset"
 
+# Key of the autocorrelation at the correlation length of a generated map: a measured one has none.
+DECAY_LEVEL = "surface.decay_level"
+
 INPUT_SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "transient", "numerics")
 
 
@@ -33,6 +36,8 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
             else ""
         )
         if key == LIMIT_OFFSET and scene.lubricant.limit is None:
+            continue
+        if key == DECAY_LEVEL and scene.surface.file is not None:
             continue
         if key in REPLACED and getattr(scene.transient, REPLACED[key], None) is not None:
             continue

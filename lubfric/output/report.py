@@ -428,12 +428,12 @@ def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
     sentences.append(
         f"The smallest film is {film}."
         if deterministic
-        else f"Under its share of the load, the film is at least {film} thick."
+        else f"The separation of the mean surfaces, which film and asperities keep together, is at least {film}."
     )
     ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio)]
     if ratio.size:
         sentences.append(
-            f"The lambda ratio of the full-load film lies between {_number(_rounded(ratio, int(ratio.argmin())))} and "
+            f"The lambda ratio, of the film that would carry the total load by itself, lies between {_number(_rounded(ratio, int(ratio.argmin())))} and "
             f"{_number(float(ratio.max()))}."
         )
     return sentences
@@ -452,8 +452,8 @@ def _history_budget(result: TransientResult) -> str:
     values = {name: max(below, above) for name, (below, above) in sides.items()}
     words = {name: percent_of_sides(*both, values[name]) for name, both in sides.items()}
     notes = [
-        "Numerical: the sum of the film's shear stress; the local error of the steps is within transient.tolerance, and "
-        "not included",
+        "The numerical part is the error of the integral of the film's shear stress. The error of a step in time, at most "
+        "transient.tolerance, is not included",
         "The errors have the same sign at all times: the interval of a mean is the mean of the intervals",
         *(f"Not included: {text}" for text in result.not_in),
     ]
@@ -544,7 +544,10 @@ def _inputs(scene: Scene, section: str, given: dict[str, Any]) -> str:
         rows.append(cells)
     for name, value in shown.items():
         label = KEYS[f"{section}.{name}"].label if f"{section}.{name}" in KEYS else name.replace("_", " ")
-        rows.append(f'<td>{escape(label)}</td><td></td><td class="key">{escape(_given(name, value))}</td>')
+        used = ", ".join(map(str, value)) if isinstance(value, list) else "" if isinstance(value, dict) else str(value)
+        rows.append(
+            f'<td>{escape(label)}</td><td>{escape(used)}</td><td class="key">{escape(_given(name, value))}</td>'
+        )
     facts = _list([sentence(text) for text in FACTS[section](scene)]) if section in FACTS else ""
     heads = ["quantity", "value used", "given as"]
     return (f"<h3>{section}</h3>{table(heads, rows)}" if rows else "") + facts
@@ -570,7 +573,7 @@ def _method(prepared: Prepared, result: CurveResult | TransientResult, estimate:
     elif isinstance(result, TransientResult):
         lines = [*lines, *planned]
         planned = []
-    surface = [*estimate.sections["surface"], *prepared.surface.notes]
+    surface = dict.fromkeys([*estimate.sections["surface"], *prepared.surface.notes])
     heads = estimate.table[0]
     rows = [_cells(row) for row in estimate.table[1:]]
     return (

@@ -82,7 +82,8 @@ def answer_lines(result: RunIn) -> list[str]:
     span = ""
     if result.ends:
         span = f" ({' to '.join(worded(surface.sq, 'm') for surface in result.ends)} by the range of the hardness)"
-    lines = [f"Sq changes from {worded(before.sq, 'm')} to {worded(after.sq, 'm')}{span}."]
+    first, last = (worded(surface.sq, "m") for surface in (before, after))
+    lines = [f"Sq stays {first}{span}." if first == last else f"Sq changes from {first} to {last}{span}."]
     passes = result.deepest.size
     dented = np.count_nonzero(result.dents) / result.dents.size
     if result.shaken_down and not dented:

@@ -365,7 +365,9 @@ def deterministic_moment(
     violations = [*solver.prepared.violations, *warn_motion(scene, speed, film), *warn_thickness(scene, film)]
     lost = max(heat.change, 1 - heat.inlet.factor if heat.inlet else 0.0)
     if lost > scene.numerics.tolerance:
-        remedy = "numerics.model = 'paper', which has the heat in time; heat = 'off' states that this is meant"
+        remedy = (
+            "numerics.model = 'paper', which has the heat in time; heat = 'off' leaves heat out without this warning"
+        )
         violations.append(
             Violation(
                 what="loss of film or f by heat",

@@ -194,7 +194,7 @@ def test_info_of_a_model_that_takes_too_long_says_what_answers():
         lubricant={"eyring_stress": 5e6},
     )
     text = describe_scene(moving)
-    assert "on its usual cells it would take too long" in text
+    assert "on its usual cells the deterministic model would take too long" in text
     result = lubfric.friction(moving.with_(numerics={"sampling_tolerance": 0.2})).uncertainty
     assert result.model > 0.05 and np.isfinite(result.interval).all()
 

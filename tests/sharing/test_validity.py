@@ -10,10 +10,13 @@ from scene_text import paper_scene
 import lubfric
 from lubfric.film import ShearForce
 from lubfric.models.shared import (
+    NUMERICAL_ERROR,
+    OMITTED_HEAT,
     Violation,
     gathered,
     gathered_texts,
     in_a_cell,
+    is_note_text,
     warn_bodies,
     warn_deflection,
     warn_map,
@@ -21,6 +24,7 @@ from lubfric.models.shared import (
     warn_pressure,
     warn_shear,
     warn_thickness,
+    warnings_in_cell,
 )
 
 PAPER = paper_scene(contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling": "patch"})

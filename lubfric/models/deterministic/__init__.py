@@ -1,6 +1,6 @@
 """The deterministic mixed-lubrication model: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
-from .answer import FROM_PARTS, answer_of
+from .answer import LARGEST_PART, answer_of
 from .estimated_work import work_of_fine_fields, work_on_strips
 from .flow import derivatives, mass_balance
 from .heat import strip_heat, why_too_hot

@@ -14,7 +14,6 @@ from ...samples import is_measured
 from ...scene import HARDNESS_KEY, Scene, has_moving_roughness, value_of
 from ..contract import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
-    SAMPLE_TOO_SHORT,
     Decision,
     Heat,
     Prepared,
@@ -35,6 +34,7 @@ from ..shared import (
     warn_motion,
     warn_pressure,
     warn_thickness,
+    why_sample_too_short,
 )
 from .estimated_work import pictured_length
 from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
@@ -44,7 +44,7 @@ from .rough_bodies import map_of, strip_surface
 from .strip import StripSolution, change_by_flow, solve_strip
 from .strip_on_two_grids import factors_of
 
-FROM_PARTS = "it comes from the law of the flow, heat, the scatter between the models, or cells"
+LARGEST_PART = "its largest part is {}"
 FEW_STRIPS = "not known from fewer than three strips"
 UNSOLVED_CELLS = (
     "shorter cells did not converge within the work of a point: the numerical error is twice the estimate from longer "
@@ -109,6 +109,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         "heat, of whose effect half is counted as error": error_by_heat(heat, levels.by_inlet),
     }
     model = math.hypot(*parts_of_model.values())
+    cause = LARGEST_PART.format(max(parts_of_model, key=lambda part: parts_of_model[part]).partition(":")[0])
     by_limit = _by_limit(scene, results)
     parts_of_model[OF_LIMIT] = max(by_limit)
     reasons = dict.fromkeys(depending_on("heat"), heat.reason(scene) or ONE_HEAT)
@@ -133,7 +134,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         ),
         violations=(
             *_violations(prepared, numbers, results, heat),
-            *warn_model_error(prepared, model, numbers["coefficient"], consequence=FROM_PARTS),
+            *warn_model_error(prepared, model, numbers["coefficient"], consequence=cause),
         ),
         recommendation=_recommendation(prepared),
         narrows_numerical=_narrows_numerical(prepared),
@@ -266,7 +267,7 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     known = heat.text(tolerance)
     return Decision(
         model="deterministic",
-        contact_load_in_words=f"{{part}} of the load rubs at boundary friction ({RUBS[scene.lubricant.newtonian]})",
+        contact_load_in_words=f"Boundary friction acts on {{part}} of the load ({RUBS[scene.lubricant.newtonian]})",
         film_in_words=words,
         contact_in_words="boundary film",
         tolerance=tolerance,
@@ -310,11 +311,11 @@ def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[s
     sample = prepared.sample
     tolerance = prepared.scene.numerics.sampling_tolerance
     if math.isnan(sampling):
-        return SAMPLE_TOO_SHORT.format(length / sample.correlation_lengths[1]), BIASED
+        return why_sample_too_short(prepared.scene, length / sample.correlation_lengths[1]), BIASED
     if sampling <= tolerance:
         return ()
     (stated, target) = percent_beside(sampling, tolerance)
-    return (f"the standard error of sampling, {stated}, is above its target of {target}",)
+    return (f"sampling: its standard error, {stated}, is above the target of {target} (numerics.sampling_tolerance)",)
 
 
 def _words_of_levels(levels: Levels) -> str:
@@ -376,8 +377,11 @@ def _violations(
         )
     share = mean(result.share_given_off for result in results)
     if share > MOST_GIVEN_OFF:
-        consequence = "f depends by about 1 % on the gap of 1 nm that touching cells keep"
-        remedy = "treat f as known to 2 %; almost no lubricant passes through the contact"
+        consequence = (
+            "almost no lubricant passes through the contact, and f changes by about 1 % with the gap of 1 nm that the model "
+            "leaves between touching cells"
+        )
+        remedy = "take f as known to 2 %"
         yield Violation(
             what="share of the lubricant that comes from touching cells",
             value=share,

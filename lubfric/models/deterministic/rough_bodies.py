@@ -109,5 +109,6 @@ def why_too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -
         return ""
     return (
         "not the deterministic model: the roughness moves, and one strip by the deterministic model would take about "
-        f"{work:.2g} s of processor time, more than {MOST_WORK_IN_AUTO:g} s; numerics.model = 'deterministic' asks for it"
+        f"{float(f'{work:.2g}'):g} s of processor time, more than {MOST_WORK_IN_AUTO:g} s; numerics.model = 'deterministic' "
+        "solves it"
     )

@@ -8,11 +8,11 @@ from ...scene import Scene, budget, has_moving_roughness, why_gap_not_resolved
 from ..shared import (
     FEW_CONTACTS,
     FREEDOM_NOT_COUNTED,
-    SAMPLE_TOO_SHORT,
     StandardError,
     error_by_heat,
     has_too_few_contacts,
     percent,
+    why_sample_too_short,
 )
 from .balance import Balance
 from .balanced_sample import BalancedSample
@@ -302,7 +302,7 @@ def _notes(balanced: BalancedSample, scene: Scene, sampling: float) -> tuple[str
             return (NO_CELLS,)
         if balanced.response is None:
             return (MISSED,)
-        return (SAMPLE_TOO_SHORT.format(balanced.scatter.length / sample.correlation_lengths[1]),)
+        return (why_sample_too_short(scene, balanced.scatter.length / sample.correlation_lengths[1]),)
     if sampling > tolerance and needed > 1:
         times = float(f"{needed:.2g}")
         notes.append(

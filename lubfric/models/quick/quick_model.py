@@ -22,7 +22,7 @@ from ...scene import Scene, has_moving_roughness, why_gap_not_resolved
 from ...surface import Surface
 from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
 from ..deterministic import (
-    FROM_PARTS,
+    LARGEST_PART,
     CellsInMotion,
     Levels,
     StripOnTwoGrids,
@@ -380,7 +380,7 @@ def quick_answer_of(prepared: Prepared, speed: float, strips: LongStrips) -> Mod
                 prepared,
                 max(below, above),
                 f,
-                consequence=FROM_PARTS,
+                consequence=LARGEST_PART.format(largest.partition(":")[0]),
                 remedy=NARROWED_BY_DETERMINISTIC if by_cells else "",
             ),
             *(part.violation for part in reported(strips.outside)),

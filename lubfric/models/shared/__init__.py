@@ -31,6 +31,7 @@ from .checks_before import (
     warn_bodies,
     warn_map,
     warn_unusual,
+    why_sample_too_short,
 )
 from .control_variate import ControlVariate
 from .decision import Decision
@@ -54,7 +55,6 @@ from .rolling import rolling_model_error, smooth_rolling_resistance
 from .statistics import (
     FEW_CONTACTS,
     FREEDOM_NOT_COUNTED,
-    SAMPLE_TOO_SHORT,
     SAMPLING_MATTERS,
     SHARED_LENGTH,
     STRIPS_SAFETY,

@@ -281,12 +281,12 @@ def warn_shear(scene: Scene, shear: ShearForce, film_load: float, friction_force
     if share > tolerance:
         severe = share > REFUSED_SHARE
         yield Violation(
-            what="share of f from shear stresses that no oil carries",
+            what="part of f from shear stresses above 5 MPa + 0.12 p",
             value=share,
             limit=REFUSED_SHARE if severe else tolerance,
             unit="",
-            consequence=f"{law} reaches {shear.stress_ratio:.2g} times the 5 MPa + 0.12 p that an oil carries, and gives the film a friction "
-            f"coefficient of {friction:.2g}",
+            consequence=f"no oil carries more; {law} reaches {shear.stress_ratio:.2g} times that stress, and gives the film a "
+            f"friction coefficient of {friction:.2g}",
             remedy=remedy,
             severe=severe,
         )

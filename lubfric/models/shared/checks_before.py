@@ -43,6 +43,15 @@ LEAST_PATCH_LENGTHS = 10
 YIELDED = 4.5e9
 
 
+def why_sample_too_short(scene: Scene, lengths: float) -> str:
+    """Return that so few correlation ``lengths`` of the solved surface along y give no interval, and what to change."""
+    keys = ["numerics.sampling"] * (scene.numerics.sampling == "patch")
+    keys += ["surface.extension"] * (scene.surface.extension != "none")
+    omit = f"omit {' and '.join(keys)}, or " if keys else ""
+    longer = "give a map that is longer along y"
+    return f"not known: {lengths:.3g} correlation lengths of the solved surface along y are too few for an interval; {omit}{longer}"
+
+
 def beforehand(scene: Scene, surface: Surface) -> tuple[Violation, ...]:
     """Return the violations for values far from the usual, for the bodies and for the map."""
     cells = [_cells_of_length(surface, axis) for axis in (0, 1)]

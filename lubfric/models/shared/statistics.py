@@ -67,10 +67,6 @@ FEW_CONTACTS = 10.0
 # Part of the sampling tolerance below which an error needs no more asperity contacts. Half and twice change nothing on
 # the points of the campaign above.
 SAMPLING_MATTERS = 0.25
-SAMPLE_TOO_SHORT = (
-    "not known: {:.2g} correlation lengths along y are too few for an interval (omit numerics.sampling and "
-    "surface.extension, or give a map that is longer along y)"
-)
 
 
 @dataclass(frozen=True)

@@ -134,7 +134,8 @@ def _all_effects(
         (
             "the ends of the line, edge pressure and misalignment",
             ends,
-            "the stated part of the line is next to an end; use a three-dimensional contact model for it",
+            "the change is the part of the line that lies within half a contact width of an end; a three-dimensional contact "
+            "model includes it",
         )
     )
     return effects

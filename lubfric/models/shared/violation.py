@@ -86,9 +86,10 @@ class Violation:
 
 
 def sentence(text: str) -> str:
-    """Return ``text`` with a capital letter at its begin, unless that is the name of a key, and a full stop at its
+    """Return ``text`` with a capital letter at its begin, unless that is the name of a key or the symbol f, and a full stop at its
     end."""
-    is_name = any(sign in text.partition(" ")[0].rstrip(".:,;") for sign in "._=")
+    word = text.partition(" ")[0].rstrip(".:,;")
+    is_name = word == "f" or any(sign in word for sign in "._=")
     first = text[:1] if is_name else text[:1].upper()
     return f"{first}{text[1:]}{'' if text.endswith(('.', '?')) else '.'}"
 
