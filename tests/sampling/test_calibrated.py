@@ -573,3 +573,13 @@ def test_the_former_name_of_the_quick_model_is_accepted(tmp_path):
 def test_the_unknown_limit_of_a_newtonian_oil_counts():
     result = lubfric.friction(PAPER, 0.03, model="quick")
     assert 0.1 < result.uncertainty.by_limit <= result.uncertainty.model
+
+
+def test_a_film_thinner_than_the_boundary_film_that_is_not_given_is_reported():
+    """On a surface so smooth that the film separates it, where the boundary film decides what rubs."""
+    scene = HEAVIER.with_(surface={"sq": 3e-9}, numerics={"model": "quick", "sampling_tolerance": 0.5})
+    for film, boundary_film, count in ((12e-9, None, 1), (12e-9, 5e-9, 0), (40e-9, None, 0)):
+        inputs = scene.with_(bodies={"boundary_film": boundary_film})
+        result = lubfric.friction(inputs, speed_of(inputs, film), raise_on_failure=False)
+        reported = [violation for violation in result.validity if "boundary film" in violation.consequence]
+        assert len(reported) == count, (film, boundary_film, result.decision.text)

@@ -10,7 +10,14 @@ from hypothesis import strategies as st
 
 import lubfric
 from lubfric.estimate.uncertainty import Uncertainty
-from lubfric.models.shared import Violation, gathered, percent_beside, warn_model_error
+from lubfric.models.shared import (
+    Violation,
+    gathered,
+    gathered_texts,
+    in_a_cell,
+    percent_beside,
+    warn_model_error,
+)
 
 
 @pytest.mark.parametrize(
@@ -77,3 +84,8 @@ def test_values_on_both_sides_of_a_range_are_two_sentences():
         "at 2 speeds, 1 to 2 m/s: warning: lambda ratio is 0.03 (at 1 m/s) to 0.04 (at 2 m/s), below 0.05. Why.",
         "at 3 m/s: warning: lambda ratio is 5, above 3. Why.",
     )
+    cells = [in_a_cell(at(*pair)) for pair in ((0.03, 0.05), (5.0, 3.0))]
+    assert gathered_texts(cells) == [
+        "At point 1: lambda ratio is 0.03, below 0.05. Why.",
+        "At point 2: lambda ratio is 5, above 3. Why.",
+    ]

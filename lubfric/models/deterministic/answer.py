@@ -39,6 +39,7 @@ from ..shared import (
 from .estimated_work import pictured_length
 from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
 from .levels import Levels, mean
+from .problem import BOUNDARY_FILM
 from .result import DeterministicResult, stress_with_oil
 from .rough_bodies import map_of, strip_surface
 from .strip import StripSolution, change_by_flow, solve_strip
@@ -363,6 +364,16 @@ def _violations(
     ):
         yield replace(violation, severe=False)  # of one cell: no stress there is above the limit, whatever the pressure
     yield from warn_thickness(scene, film)
+    if scene.bodies.boundary_film is None and film < BOUNDARY_FILM:
+        yield Violation(
+            what="film thickness",
+            value=1e9 * film,
+            limit=1e9 * BOUNDARY_FILM,
+            unit="nm",
+            consequence="that is less than the boundary film, which is not given: where the film is thinner, it rubs with "
+            "f_b and counts as asperity load",
+            remedy=f"give {BOUNDARY_FILM_KEY}",
+        )
     cut = mean(result.split.capped / result.load for result in results)
     if cut > CUT:
         consequence = "a Newtonian film would be sheared above f_b p there; its stress was limited to that"

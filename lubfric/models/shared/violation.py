@@ -162,10 +162,11 @@ def _from_to(group: list[tuple[float, Violation]], unit: str) -> str:
 def gathered_texts(cells: Sequence[str]) -> list[str]:
     """Return one sentence for each assumption that is violated anywhere, as `gathered`, from the ``cells`` of a table, one
     of each point (`in_a_cell`). Points are named by their number, from 1."""
-    groups: dict[str, dict[int, str]] = {}
+    groups: dict[tuple[str, bool], dict[int, str]] = {}
     for number, cell in enumerate(cells, 1):
         for text in cell.split(TEXT_SEPARATOR) if cell else ():
-            groups.setdefault(text.partition(" is ")[0], {})[number] = text
+            (what, _, numbers) = text.partition(" is ")
+            groups.setdefault((what, ", below " in numbers.partition(". ")[0]), {})[number] = text
     lines = []
     for group in sorted(groups.values(), key=len, reverse=True):
         matches = [(match, text) for text in group.values() if (match := _VALUE_IN_TEXT.search(text))]
