@@ -13,7 +13,7 @@ from lubfric.models import MODELS, DeterministicModel, Model, ModelAnswer, Paper
 from lubfric.models.shared import Decision, StandardError
 from lubfric.output import describe_scene, main
 from lubfric.quantities import CHOICES
-from lubfric.samples import Sample
+from lubfric.samples import Cells, Sample
 
 PAPER = lubfric.load_scene("paper")
 TWO = PAPER.with_(counterface={"sq": 50e-9, "correlation_length": 4e-6})
@@ -102,6 +102,52 @@ class TestSample:
             assert sample.distinct_rows(heights) == 12 and distance > 2 * half_width
             assert sample.for_fields() is sample and "2 strips" in sample.in_words(2)
             assert "statistics of" in sample.described(prepared.surface)[1]
+
+
+@dataclass(frozen=True, kw_only=True)
+class FromOutside(Sample):
+    """The strips of another sample, under a class that lubfric does not know."""
+
+    inner: Sample
+    cells: Cells
+    correlation_lengths: tuple[float, float]
+    strip_length: float
+    first_strips: int
+    available_strips: int
+    available_pieces: int
+    exact_sq: bool
+    represents_more: bool
+    refines_in_place: bool
+
+    @property
+    def made(self) -> Sample:
+        return replace(self.inner, cells=self.cells)
+
+    def joined(self, indices):
+        return self.made.joined(indices)
+
+    def piece(self, index, *length):
+        return self.made.piece(index, *length)
+
+    def of_body(self, body):
+        return replace(self, inner=self.inner.of_body(body))
+
+    def rows_of(self, count):
+        return self.made.rows_of(count)
+
+
+@pytest.mark.parametrize("model", [model.name for model in MODELS])
+@pytest.mark.parametrize("sampling", ["strips", "patch"])
+def test_a_sample_of_any_class_is_solved_by_its_contract_alone(model, sampling):
+    """By each model, on cells that shorten or not: f, its interval and its reasons are the same to the bit."""
+    prepared = lubfric.prepare(PAPER.with_(numerics={"sampling": sampling, "model": model}))
+    inner = prepared.sample
+    known = {name: getattr(inner, name) for name in FromOutside.__dataclass_fields__ if name != "inner"}
+    other = replace(prepared, sample=FromOutside(inner=inner, **known))
+    expected, result = (lubfric.friction(each, 0.03) for each in (prepared, other))
+    assert result.coefficient == expected.coefficient
+    assert result.uncertainty.interval == pytest.approx(expected.uncertainty.interval, rel=0, abs=0, nan_ok=True)
+    assert result.decision.model == model and result.decision.shape == expected.decision.shape
 
 
 class TestModel:

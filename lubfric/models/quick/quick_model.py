@@ -103,9 +103,14 @@ OF_CELLS = "the error of long cells, calibrated on {} contacts: numerics.model =
 class LongStrips:
     """The strips on long cells.
 
-    levels : their estimate; model : the error model of such contacts
-    bias : of ln of the sliding part of f; half_width : of its 95 % interval, in ln
-    widening : factor on the bounds outside of the range of the solved cases; outside : what is outside of it
+    Attributes
+    ----------
+    levels : their estimate
+    model : the error model of such contacts
+    bias : of ln of the sliding part of f
+    log_half_width : of the 95 % interval of the same
+    widening : factor on the bounds outside of the range of the solved cases
+    outside : what is outside of it
     """
 
     levels: Levels
@@ -404,7 +409,7 @@ def _error_of_thick_films(scene: Scene, sq: float, speed: float) -> float:
 
 
 class QuickModel(Model):
-    """Strips on long cells with a calibrated error, beside the balance of Eq. (8)."""
+    """Strips on long cells with a calibrated error; the balance of Eq. (8) where the calibration has no such contacts."""
 
     @property
     def takes_wear(self) -> bool:
