@@ -291,7 +291,7 @@ def study(
             return study(plan, executor=processes, store=store, on_progress=on_progress, on_point=on_point)
     with opened(store) as kept:
         kept.add(PLAN, tuple(getattr(plan, name) for name in PLAN_FIELDS))
-        return _result(_carried_out(plan, executor, kept, on_progress, on_point))
+        return result_of_table(_carried_out(plan, executor, kept, on_progress, on_point))
 
 
 def _carried_out(
@@ -361,7 +361,7 @@ def _keep(store: Store, key: str, record: Any) -> None:
         store.add(key, record)
 
 
-def _result(table: StudyTable) -> StudyResult:
+def result_of_table(table: StudyTable) -> StudyResult:
     """Return the result of a ``table``."""
     columns, status, validity = table.cut()
     names = [name for name in NUMBERS if name in columns or name != SPEED or table.plan.chooses_speeds]
@@ -394,4 +394,4 @@ def open_study(folder: str | Path) -> StudyResult:
         raise InputError(f"{folder} holds no study, or its plan is damaged; {way_out}")
     table = StudyTable(plan)
     table.read(store)
-    return _result(table)
+    return result_of_table(table)

@@ -18,6 +18,8 @@ BENCHMARKS = {
     "contact-aspher": "contact_vs_aspher",
     "contact-constants": "contact_constants",
     "film-times": "ehl_times",
+    "opened": "opened",
+    "stores": "stores",
     "study-points": "study",
 }
 CAMPAIGNS = {  # command: its tables
