@@ -14,6 +14,7 @@ from .._base import FloatArray, FrozenArrays, Shown, figures, validate
 from ..errors import InputError
 from . import prepare, regrid, statistics
 from .bearing import Bearing, bearing
+from .labels import check_labels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -28,7 +29,8 @@ class Surface(FrozenArrays, Shown):
 
     Attributes
     ----------
-    heights : (nx, ny) [m], upwards, at most 1 km; read-only. Unmeasured points are NaN until `fill` is called
+    heights : (nx, ny) [m], upwards, at most 1 km; read-only. Unmeasured points are NaN until `fill` is called. The unit and
+        the coordinates of an `xarray.DataArray` have to agree with metres and ``spacing``
     spacing : (dx, dy) [m]; one number means equal
     mask : (nx, ny), True where measured, also after filling. None: everywhere, or where a masked array is not masked
     periodic_axes : whether the map continues smoothly onto itself along x and along y
@@ -50,6 +52,7 @@ class Surface(FrozenArrays, Shown):
     notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
+        check_labels(self.heights, validate.spacing("spacing", self.spacing))
         heights = validate.real_array("heights", self.heights, "m").copy()
         mask = _mask(self.mask, self.heights, heights.shape)
         if np.ma.is_masked(self.heights):
