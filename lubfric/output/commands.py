@@ -122,11 +122,14 @@ def interruptible() -> Iterator[None]:
 
 @contextmanager
 def keeping(what: Callable[[], str]) -> Iterator[None]:
-    """Say on an interrupt that ``what()`` is kept, and that the same command continues from there."""
+    """Say on an interrupt that ``what()`` is kept, and that the same command continues from there; "": nothing is."""
     try:
         yield
     except KeyboardInterrupt as error:
-        said = f"interrupted; {what()}: the same command goes on from there"
+        kept = what()
+        said = f"interrupted; {kept}: the same command goes on from there"
+        if not kept:
+            said = "interrupted; nothing is solved so far that could be kept: the same command begins again"
         raise KeyboardInterrupt(said, *error.args[1:] or (INTERRUPTED,)) from None
 
 

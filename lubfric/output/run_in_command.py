@@ -16,12 +16,12 @@ import numpy as np
 
 from .._base import __version__, figures, plain, table_bytes, write_whole
 from ..errors import InputError, OutputError
-from ..running_in import RunIn, estimated_run_in, run_in
+from ..running_in import RECORDED, RunIn, estimated_run_in, run_in
 from ..scene import Scene
 from ..studies import WITHIN_WORDS, in_words
 from ..units import converted, number_of, plain_number, printed, unit_for, with_interval, worded
 from .command_line import scene_of
-from .commands import RunFolder, check_outputs, paced, run_folder, say
+from .commands import RunFolder, check_outputs, keeping, paced, run_folder, say
 from .inputs import INPUT_SECTIONS, inputs
 from .progress import ProgressLine
 from .report import picture, style_sheet, table
@@ -43,7 +43,7 @@ def run_in_scene(arguments: Namespace) -> None:
     with run_folder(arguments.out, begun) as folder:  # one that cannot be written to is refused before any work
         seconds = estimated_run_in(scene, distance=distance, wear_coefficient=coefficient)
         say(f"{scene.name}: running-in of its surface, about {in_words(seconds)} of processor time ({WITHIN_WORDS})")
-        with ProgressLine("parts") as shown:
+        with ProgressLine("parts") as shown, keeping(lambda: ""):
             result = run_in(
                 scene,
                 passes=arguments.passes,
@@ -143,10 +143,14 @@ def scene_after(scene: Scene, result: RunIn) -> str:
 
 def _progress(shown: ProgressLine) -> Callable[[str, int, int], None]:
     due = paced()
+    begun = time.perf_counter()
 
     def on_progress(what: str, done: int, total: int) -> None:
         shown.update(done, total)
-        if due(end=done == total):
+        if what == RECORDED:
+            left = (time.perf_counter() - begun) * (total - done) / done
+            say(f"{what}: {done} of {total}" + (f", about {in_words(left)} left" if done < total else ""))
+        elif due(end=done == total):
             say(f"wear: {done} %" if what == "wear" else f"{what}: {done} of at most {total}")
 
     return on_progress

@@ -74,6 +74,12 @@ def run_study(arguments: Namespace) -> None:
         raise ConvergenceError(said, report, result)
 
 
+# Time between two points up to which a process handed them over together [s].
+TOGETHER = 0.2
+
+# Time after which points that come one after the other are counted anew for the time left [s].
+LONGEST_BATCH = 5.0
+
 # Points of a study up to which each one gets a line on stderr.
 MOST_LINES = 200
 
@@ -182,7 +188,9 @@ def _kept(folder: Path) -> str:
     try:
         study = studies.open_study(folder)
     except InputError:
-        return "nothing is solved yet"
+        return ""
+    if not study.solved:
+        return ""
     left = f"{study.missing} {'curves' if study.chosen else 'points'} are left"
     return f"{study.solved} points are kept in {folder}, {left}"
 
@@ -192,17 +200,26 @@ def _point_reports(plan: studies.StudyPlan, begun: float) -> Callable[..., None]
     of up to `MOST_LINES` points, else of one a second."""
     due = paced()
     first = -1
+    batch = (
+        begun,
+        0,
+    )  # when the last points came together, as a process hands over several, and how many were done then
+    last = begun
 
     def on_point(done: int, total: int, index: tuple[int, ...], outcome: Any) -> None:
-        nonlocal first
+        nonlocal first, batch, last
         first = done - 1 if first < 0 else first  # what the store held already took no time
+        now = time.perf_counter()
+        if now - last > TOGETHER or last - batch[0] > LONGEST_BATCH:
+            batch = (last, done - 1 - first)
+        last = now
         if total > MOST_LINES and not due(end=done == total):
             return
         head = f"[{done:>{len(str(total))}}/{total}{' curves' if plan.chooses_speeds else ''}]"
         passed = time.perf_counter() - begun
         ends = f"{passed:.0f} s"
-        if first < done < total:
-            ends += f", about {studies.in_words(passed * (total - done) / (done - first))} left"
+        if 0 < batch[1] and done < total:
+            ends += f", about {studies.in_words((batch[0] - begun) * (total - done) / batch[1])} left"
         say(f"{head} {_place(plan, index, outcome)}: {_in_a_line(outcome)}; {ends}")
 
     return on_point

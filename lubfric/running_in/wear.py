@@ -50,6 +50,7 @@ WEAR_STEP_GROWTH = 2.0  # of the length of a step from one to the next, at most
 SHRINKAGE = 0.2  # of it, at least
 MOST_STEPS = 1000  # of one run: some 70 take the asperity load from the whole load to VANISHED
 STEPS_TO_VANISHED = 70.0  # about, that take the asperity load from the whole load to VANISHED
+RECORDED = "distances of wear with their friction"  # a part of the progress
 RECORDS = 9  # distances at which friction and lift-off speed are found: 0, and eight that double
 MOST_WINDOW_CELLS = 4_000_000  # of all windows together: memory
 SPEED_TOLERANCE = 5e-3  # of ln U, in the search of the lift-off speed
@@ -198,6 +199,7 @@ def worn_in(
                 heights, progress = _advance(rig, heights, progress, aim, coefficient / hardness[0])
                 report_progress("wear", round(100 * progress.distance / distance), 100)
             rows.append(_record(rig, heights, progress.distance))
+            report_progress(RECORDED, record, RECORDS - 1)
         except WorkLimitError as error:
             ended = f"{progress.distance:.4g} of {distance:g} m of wear are done"
             stopped = f"numerics.max_work = {error.limit:.4g} s: {ended}, and recorded to {rows[-1]['distance']:.4g} m"

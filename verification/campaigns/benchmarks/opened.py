@@ -35,7 +35,7 @@ class Filled(Store):
         super().__init__(None)
         self.record = b"".join(encode(point))
 
-    empty = False  # type: ignore[assignment]
+    empty = False
 
     def get(self, key: str, kind: Any = Any) -> Any:
         """Return the point."""
