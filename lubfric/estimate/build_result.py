@@ -11,7 +11,7 @@ from ..errors import ConvergenceError, InputError, Report
 from ..models import ContactFields, Model, ModelAnswer
 from ..models.shared import Prepared, largest_sliding_friction, unmodelled_effects, warn_error
 from ..quantities import NUMBERS
-from ..scene import Scene
+from ..scene import SLIDE_ROLL_RATIO_KEY, Scene
 from .choice import Choice
 from .full_load import full_load_numbers
 from .methods import MethodUse, methods_of
@@ -27,9 +27,6 @@ AT_MOST = (
 
 # Parts of the friction force that resist the sliding.
 SLIDING_FORCES = ("boundary_force", "couette_force")
-
-# Key of the slide-roll ratio, whose sign is that of the sliding.
-SLIDE_ROLL_RATIO = "motion.slide_roll_ratio"
 
 
 def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *, fine: bool = False) -> FrictionResult:
@@ -151,7 +148,7 @@ def _not_driving(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) ->
 def _always_slides(scene: Scene) -> bool:
     """Return whether the surfaces slide, and one way, at all values in the ranges of the inputs."""
     ratios = [scene.motion.slide_roll_ratio]
-    ratios += [end for name, *ends in scene.ranges if name == SLIDE_ROLL_RATIO for end in ends]
+    ratios += [end for name, *ends in scene.ranges if name == SLIDE_ROLL_RATIO_KEY for end in ends]
     return min(ratios) > 0 or max(ratios) < 0
 
 

@@ -26,7 +26,8 @@ if TYPE_CHECKING:
 @described_in_doc
 @dataclass(frozen=True, repr=False, kw_only=True)
 class FrictionResult(Renamed, PointQuantities[float], Shown):
-    """One operating point (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z).
+    """The friction of one operating point, its uncertainty, what was modelled, and fields (after Akchurin et al. 2015,
+    doi:10.1007/s11249-015-0536-z).
 
     The residuals are relative. All fields are of one solve, on the same cells: ``result.fields`` says which, and
     ``heights``, ``pressure``, ``gap``, ``x`` and ``y`` are read from it. ``fields=True`` solves a single patch on its own

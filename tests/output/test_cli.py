@@ -150,7 +150,7 @@ def test_how_far_a_long_point_is_is_reported_with_the_time_left(capsys, monkeypa
 
     clock = iter((0.0, 0.0, 1.0, 6.0, 7.0, 12.0))
     monkeypatch.setattr(run_curve.time, "monotonic", lambda: next(clock))
-    report = run_curve._moments_told(5.0)
+    report = run_curve._moment_reports(5.0)
     for done in range(1, 6):
         report("moving roughness", done, 10)
     lines = capsys.readouterr().err.splitlines()

@@ -135,9 +135,12 @@ def test_only_the_ends_of_ranges_are_solved(motion, monkeypatch):
         """Stand in for the march in time, which takes a minute here: only the number of solves counts."""
         return at_rest(scene, bodies[0].surface, speed, slope=True, **options)
 
-    for place in ("models.deterministic.strip_on_two_grids", "models.deterministic.answer"):
-        monkeypatch.setattr(f"lubfric.{place}.solve_strip", counted(at_rest))
-    monkeypatch.setattr("lubfric.models.deterministic.strip_on_two_grids.solve_moving_strip", counted(without_motion))
+    pair = "lubfric.models.deterministic.strip_on_two_grids"
+    for place in (pair, "lubfric.models.deterministic.strip"):
+        monkeypatch.setattr(f"{place}.solve_strip", counted(at_rest))
+    monkeypatch.setattr(f"{pair}.solve_moving_strip", counted(without_motion))
+    if motion:  # no second march, on longer cells
+        monkeypatch.setattr(f"{pair}.longer_than", lambda surface, factors, **options: factors)
     numerics = {"model": "deterministic", "sampling": "patch", "tolerance": 0.2}
     contact = {"shape": (24, 16), "spacing": (3e-6, 6e-6)}
     surface = {"correlation_length": (8e-6, 14e-6)}
