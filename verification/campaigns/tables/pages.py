@@ -19,6 +19,7 @@ BENCHMARKS = {
     "contact-constants": "contact_constants",
     "film-times": "ehl_times",
     "opened": "opened",
+    "rolling-costs": "rolling_costs",
     "stores": "stores",
     "study-points": "study",
 }
