@@ -39,6 +39,34 @@ print(resident_memory() - before)
 
 
 @linux
+def test_memory_that_a_step_frees_serves_the_next_step():
+    """Steps that each fill and free 4 MB in blocks of 80 kB: the system maps pages for the first one only."""
+    script = """
+import resource
+import numpy as np
+from lubfric._base import keep_freed_memory
+if {kept}:
+    keep_freed_memory()
+def step():
+    return len([np.ones(10_000) for _ in range(50)])
+step()
+before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
+for _ in range(20):
+    step()
+print(resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before)
+"""
+    faults = [
+        int(
+            subprocess.run(
+                [sys.executable, "-c", script.replace("{kept}", kept)], capture_output=True, check=True
+            ).stdout
+        )
+        for kept in ("True", "False")
+    ]
+    assert faults[0] < 0.1 * faults[1]
+
+
+@linux
 @pytest.mark.slow
 def test_points_of_varied_scenes_grow_by_less_than_200_megabytes():
     """The growth from the 20th to the last of 300 points, each of another surface on another grid."""

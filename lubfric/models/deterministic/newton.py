@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass, field
 
 import numpy as np
 
-from ..._base import BoolArray, count_work
+from ..._base import BoolArray, count_work, keep_freed_memory
 from .counted_work import work_of_steps
 from .linear import GMRES_RESIDUAL, Change, System
 from .problem import Problem
@@ -139,6 +139,7 @@ def newton(
     while a heavily loaded film finds its shape in short steps.) ``history``: of an implicit step in time (None: the
     film is steady); ``linear_accuracy``: of the linear system of a step (`System.solve`).
     """
+    keep_freed_memory()
     residual_history: list[float] = []
     promised: list[float] = []
     most = min(most, work.left)
