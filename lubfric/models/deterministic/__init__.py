@@ -39,7 +39,7 @@ from .rough_bodies import (
 )
 from .shorter_cells import CellsInMotion, cells_in_motion
 from .solve import dry_contact, solve_point
-from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, residuals
+from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, residuals, update_active_sets
 from .strip import (
     StripSolution,
     change_by_flow,

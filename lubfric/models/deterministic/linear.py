@@ -124,7 +124,7 @@ class System:
         self.local = patterns.rows(local)  # all but the deflection and h0
         self.by_h = patterns.rows(by_h)
         self.by_approach = self.by_h @ np.full(at.gap.size, self.film)
-        _flow_of_first_order(together)
+        flow_of_first_order(together)
         self.order = patterns.order
         matrix = patterns.ordered(_notable(together) if follows_lubricant(at) else together)
         ordered = {"permc_spec": "NATURAL", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
@@ -217,7 +217,7 @@ class System:
         return self.change(unknowns), iterations
 
 
-def _flow_of_first_order(data: FloatArray) -> None:
+def flow_of_first_order(data: FloatArray) -> None:
     """Let the coefficients ``data`` (6, nx, ny) of the cell two cells upstream count for the next one, in place.
 
     The Couette flow of the preconditioner then is first-order upwind: its LU has half the entries, and its single precision

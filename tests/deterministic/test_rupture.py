@@ -1,0 +1,46 @@
+"""Which cells rupture between two Newton steps."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.models.deterministic import RUPTURED, evaluated, lay_out, solve_point, state, update_active_sets
+
+SCENE = lubfric.load_scene("paper")
+MAP = lubfric.generate_surface((48, 24), 2e-6, sq=100e-9, correlation_length=8e-6, acf="gaussian", seed=4)
+PROBLEM = lay_out(MAP, SCENE.line_contact(0.05), sliding=0.1, boundary_friction=0.09)
+SOLVED = solve_point(PROBLEM)
+
+
+def ruptured(suction):
+    """Return which of the neighbours in the middle of the film rupture that are under so much suction over the pressure there."""
+    pressure = SOLVED.state.pressure.copy()
+    row = int(np.argmax(pressure.mean(axis=1)))
+    places = [(row, 4 + k) for k in range(len(suction))]
+    for place, part in zip(places, suction, strict=True):
+        pressure[place] = -part * pressure.max()
+    at = evaluated(PROBLEM, replace(SOLVED.state, pressure=pressure))
+    kind = update_active_sets(at).state.kind
+    return [bool(kind[place] == RUPTURED) for place in places]
+
+
+@pytest.mark.parametrize(
+    "suction, result",
+    [
+        ([0.1], [True]),
+        ([0.1, 0.09], [True, True]),
+        ([0.1, 0.01], [True, False]),
+        ([0.1, 0.01, 0.003], [True, False, False]),
+    ],
+)
+def test_weak_suction_beside_strong_waits(suction, result):
+    assert ruptured(suction) == result
+
+
+def test_a_solution_has_no_suction_whatever_ruptures_first(monkeypatch):
+    monkeypatch.setattr(state, "STRONG_SUCTION", 0.0)
+    other = solve_point(PROBLEM)
+    assert SOLVED.pressure.min() >= 0 and other.pressure.min() >= 0
+    assert SOLVED.coefficient == pytest.approx(other.coefficient, rel=1e-5)
