@@ -190,7 +190,8 @@ def rows(names: list[str]) -> Iterator[list[str]]:
         with limited_work(math.inf) as meter:
             coefficients = job.run()
         seconds = time.process_time() - begun
-        (low, high) = (min(coefficients), max(coefficients))
+        low = min(coefficients)
+        high = max(coefficients)
         shown = f"{low:.4f}" if low == high else f"{low:.4f}–{high:.4f}"
         before = "" if math.isnan(job.before) else f"{job.before:.0f}"
         yield [name, before, f"{seconds:.1f}", f"{meter.spent:.1f}", shown]
