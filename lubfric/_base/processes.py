@@ -177,7 +177,7 @@ def spread(executor: Any, jobs: Iterable[Callable[[], Iterator[Any]]], at_a_time
 
 
 def _attempt(job: Callable[[], Iterable[Any]]) -> tuple[bool, Any]:
-    """(True, the values) or (False, the exception): distinguishes errors of a job from those of the executor."""
+    """Return (True, the values) or (False, the exception): distinguishes errors of a job from those of the executor."""
     try:
         return True, list(job())
     except Exception as error:
@@ -242,7 +242,7 @@ def pool(workers: int) -> Iterator[ProcessPoolExecutor | None]:
 
 @contextmanager
 def _held() -> Iterator[None]:
-    """Signals wait while processes start: one that came before `_follow` would end in a traceback, or be lost."""
+    """Let signals wait while processes start: one that came before `_follow` would end in a traceback, or be lost."""
     before = signal.pthread_sigmask(signal.SIG_BLOCK, ENDING) if MASKS else ()
     try:
         yield
@@ -252,7 +252,7 @@ def _held() -> Iterator[None]:
 
 
 def _follow(parent: int) -> None:
-    """Runs in a worker: leave Ctrl-C to the command, and end when the command is gone."""
+    """Run in a worker: leave Ctrl-C to the command, and end when the command is gone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     if MASKS:

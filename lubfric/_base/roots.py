@@ -68,11 +68,11 @@ class _Search:
         self.best: tuple[float, float, Any] = (math.nan, math.inf, None)
 
     def at(self, x: float) -> tuple[float, float]:
-        """(x, f(x))."""
+        """Return (x, f(x))."""
         return self.keep(x, *self.f(x, self.last))
 
     def keep(self, x: float, value: float, payload: Any) -> tuple[float, float]:
-        """(x, f(x)), found with its payload."""
+        """Return (x, f(x)), found with its payload."""
         self.last = payload
         self.points.append((x, value))
         if len(self.points) == 1 or abs(value) < abs(self.best[1]):
@@ -85,7 +85,7 @@ class _Search:
         return abs(self.best[1]) <= self.tolerance or len(self.points) >= self.max_evaluations
 
     def root(self) -> Root:
-        """The result."""
+        """Return the result."""
         x, value, payload = self.best
         status = CONVERGED if abs(value) <= self.tolerance else ITERATION_LIMIT
         return Root(x=x, value=value, payload=payload, history=tuple(abs(f) for _, f in self.points), status=status)
@@ -94,7 +94,7 @@ class _Search:
 def _bracket(
     search: _Search, x: float, step: float, bounds: tuple[float, float], slope: float | None
 ) -> tuple[tuple[float, float], tuple[float, float]] | None:
-    """Points (upper, lower) of both signs; None if the search ended before they were found."""
+    """Return points (upper, lower) of both signs; None if the search ended before they were found."""
     lower = upper = None
     point = search.points[0] if search.points else search.at(x)
     while not search.done:
@@ -136,7 +136,7 @@ def _close_in(search: _Search, a: tuple[float, float], b: tuple[float, float]) -
 
 
 def _next_fraction(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]) -> float:
-    """Inverse quadratic interpolation where it is safe (Chandrupatla), else bisection; in (0, 1)."""
+    """Return the inverse quadratic interpolation where it is safe (Chandrupatla), else bisection; in (0, 1)."""
     xi = (a[0] - b[0]) / (c[0] - b[0])
     phi = (a[1] - b[1]) / (c[1] - b[1])
     if not (phi**2 < xi and (1 - phi) ** 2 < 1 - xi):

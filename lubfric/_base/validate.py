@@ -78,8 +78,8 @@ def in_plain(name: str, value: Any, unit: str) -> Any:
 
 
 def _real(value: Any) -> float:
-    """``value`` as a float. Raises TypeError if it is not one real number, OverflowError if it is too large for a
-    float."""
+    """Return ``value`` as a float. Raises TypeError if it is not one real number, OverflowError if it is too large for
+    a float."""
     if type(value) in (float, int):
         return float(value)
     if isinstance(value, (np.ma.MaskedArray, str, bytes)):
@@ -266,7 +266,7 @@ def real_array(name: str, value: Any, unit: str) -> np.ndarray:
 
 
 def _odd_entry(value: Any, depth: int) -> str:
-    """The first entry of a list that is no number but that NumPy would make one: True, False or a masked value."""
+    """Return the first entry of a list that is no number but that NumPy would make one: True, False or a masked value."""
     if isinstance(value, (list, tuple)) and depth > 0:
         return next(filter(None, (_odd_entry(v, depth - 1) for v in value)), "")
     if isinstance(value, (bool, np.bool_)):

@@ -16,7 +16,7 @@ AHEAD = ((0, 1), (1, -1), (1, 0), (1, 1))
 def _summit_finder(
     heights: FloatArray, spacing: tuple[float, float], periodic: tuple[bool, bool]
 ) -> Callable[..., Any]:
-    """The summits are found once; find(flat) -> (index, overlap, radius) of those that touch."""
+    """Return find(flat) -> (index, overlap, radius) of the summits that touch."""
     inside = np.ones(heights.shape, bool)
     for axis in range(2):
         if not periodic[axis]:
@@ -40,7 +40,7 @@ def _summit_finder(
 
 
 def _patch_finder(heights: FloatArray, spacing: tuple[float, float], periodic: tuple[bool, bool]) -> Callable[..., Any]:
-    """find(flat) -> (index of the largest overlap, that overlap, equivalent radius) of every region."""
+    """Return find(flat) -> (index of the largest overlap, that overlap, equivalent radius) of every region."""
 
     def find(flat: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
         overlap = (heights - flat).ravel()

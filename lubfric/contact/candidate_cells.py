@@ -168,7 +168,7 @@ def _series(nearest: tuple[float, float, float, float], shape: tuple[int, ...]) 
 
 
 def _summed(field: FloatArray) -> np.ndarray:
-    """Sums over FACTOR x FACTOR cells; the last ones of an axis may have fewer."""
+    """Return the sums over FACTOR x FACTOR cells; the last ones of an axis may have fewer."""
     for axis in (0, 1):
         field = np.moveaxis(field, axis, 0)
         total = field[::FACTOR].copy()

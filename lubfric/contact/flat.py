@@ -171,7 +171,8 @@ def contact_curve(
 
 
 def _table(solved: dict[float, ContactResult]) -> np.ndarray:
-    """Pressures, gaps, area and plastic fractions, and convolutions of all that was ``solved``, heaviest first."""
+    """Return the pressures, gaps, area and plastic fractions, and convolutions of all that was ``solved``, heaviest
+    first."""
     rows = [
         (pressure, r.mean_gap, r.contact_area_fraction, r.plastic_area_fraction, r.report.evaluations)
         for pressure, r in sorted(solved.items(), reverse=True)
@@ -180,8 +181,9 @@ def _table(solved: dict[float, ContactResult]) -> np.ndarray:
 
 
 def _inaccurate(pressure: FloatArray, gap: FloatArray, area: FloatArray, accuracy: float, halved: float) -> np.ndarray:
-    """Intervals in which the interpolated gap, the load at that gap, or the area that is left to the film may be off
-    by more than ``accuracy``. ``halved``: the error between two nodes, over that when one of them is omitted."""
+    """Return the intervals in which the interpolated gap, the load at that gap, or the area that is left to the film
+    may be off by more than ``accuracy``. ``halved``: the error between two nodes, over that when one of them is
+    omitted."""
     log_pressure = np.log(pressure)
     left_out_errors = [np.pad(left_out(log_pressure, values), 1) for values in (gap, area)]
     error, of_area = (halved * np.maximum(off[1:], off[:-1]) for off in left_out_errors)

@@ -103,7 +103,7 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
         return float((pressure[0].sum() + pressure[-1].sum()) / pressure.sum())
 
     def _first_touch(self, film: np.ndarray, under: np.ndarray) -> ContactState:
-        """Without load: the gap is open everywhere, and zero at one cell."""
+        """Return the contact without load: the gap is open everywhere, and zero at one cell."""
         mean, highest = self.profiles
         return ContactState(
             mean_gap=weighted_mean(under - mean, self.weight) - float((under - highest).min()),

@@ -179,8 +179,8 @@ class CandidateSearch:
         return max(self.overlap, misfit, excess)
 
     def _turn(self) -> None:
-        """Conjugate direction on the free cells (Polak-Ribiere, never negative), along which a given load does not
-        change. The residue becomes the one before."""
+        """Return the conjugate direction on the free cells (Polak-Ribiere, never negative), along which a given load
+        does not change. The residue becomes the one before."""
         turned = self.turned(self.residue)
         self.convolutions += self.exact
         power = dot(self.residue, turned)
@@ -236,7 +236,7 @@ class CandidateSearch:
             self._project(aim)
 
     def _limit(self, values: FloatArray, out: FloatArray) -> None:
-        """``values`` within the limits, into ``out``; `numpy.clip` with arrays takes six times as long."""
+        """Return ``values`` within the limits, into ``out``; `numpy.clip` with arrays takes six times as long."""
         np.maximum(values, self.lower, out=out)
         if self.plastic:
             np.minimum(out, self.upper, out=out)
@@ -254,8 +254,8 @@ class CandidateSearch:
         self.power = 0.0
 
     def _exact_step(self) -> None:
-        """The step that is exact along the direction, then brought within the limits and to the load, on the free
-        cells."""
+        """Return the step that is exact along the direction, then brought within the limits and to the load, on the
+        free cells."""
         curvature = dot(self.direction, self._answer(self.direction)) * self.compliance
         slope = dot(self.before, self.direction)
         if not (curvature > 0 and slope < 0):
@@ -270,7 +270,7 @@ class CandidateSearch:
         self.known[:] = self.change
 
     def _rounded(self, pressure: FloatArray, base: FloatArray, cells: slice | BoolArray) -> np.ndarray:
-        """Change of the pressure on ``cells`` in single precision, the limits met to the last digit."""
+        """Return the change of the pressure on ``cells`` in single precision, the limits met to the last digit."""
         change = np.where(pressure <= 0, self.lower[cells], (pressure - base).astype(np.float32))
         return np.where(pressure >= self.hardness, self.upper[cells], change)
 

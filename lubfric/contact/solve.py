@@ -138,7 +138,7 @@ def _coarse_start(
 
 
 def _gap_controlled(problem: ContactProblem, mean_gap: float, start: FloatArray | None) -> SearchResult:
-    """Contact whose mean gap is ``mean_gap`` [m].
+    """Solve the contact whose mean gap is ``mean_gap`` [m].
 
     In an elastic periodic contact the mean deflection is zero. So the approach is known, and one solve is enough.
     Otherwise, or if that solve fails, the load is searched. The first pressure is E' times rms height over the longer
@@ -194,7 +194,7 @@ def _load_searched(problem: ContactProblem, mean_gap: float, guess: float, start
 
 
 def _separated(problem: ContactProblem, mean_gap: float) -> SearchResult:
-    """Bodies that carry no load."""
+    """Return the bodies that carry no load."""
     zero = np.zeros_like(problem.gap0)
     state = trial_contact(problem, zero, zero.copy(), float(problem.gap0.mean()) - mean_gap)
     return SearchResult(

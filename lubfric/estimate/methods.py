@@ -46,7 +46,7 @@ def _names(used: Iterable[tuple[str, bool]]) -> list[str]:
 
 
 def _surface(prepared: Prepared) -> dict[str, bool]:
-    """How the map was made; nothing is known of a map that was handed over."""
+    """Return how the map was made; nothing is known of a map that was handed over."""
     scene = prepared.scene
     maps = [] if prepared.is_given else [rough for rough in (scene.surface, scene.counterface) if rough is not None]
     return {

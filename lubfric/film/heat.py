@@ -213,7 +213,7 @@ def heated_film(
 
 
 def _nodes(count: int) -> np.ndarray:
-    """Indices, evenly spread, of at most `FLASH_NODES` of ``count`` nodes; first and last are among them."""
+    """Return the indices, evenly spread, of at most `FLASH_NODES` of ``count`` nodes; first and last are among them."""
     return np.unique(np.linspace(0, count - 1, min(count, FLASH_NODES)).round().astype(int))
 
 

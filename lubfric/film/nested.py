@@ -103,7 +103,7 @@ def coarsest(problem: FilmProblem) -> int:
 
 
 def _ascend(problem: FilmProblem, effort: Effort, state: FilmState, n: int, fewest: int) -> list[FilmSolution]:
-    """Solutions on grids of n, 2n, ... cells, at least ``fewest`` of them, until they meet the tolerance."""
+    """Return the solutions on grids of n, 2n, ... cells, at least ``fewest`` of them, until they meet the tolerance."""
     rupture = rupture_guess(problem)
     levels: list[FilmSolution] = []
     while True:

@@ -31,7 +31,7 @@ class FilmState:
 
 
 def _expected_rupture(problem: FilmProblem) -> float:
-    """Rupture point of the guess, in units of x, of a flooded film."""
+    """Return the rupture point of the guess, in units of x, of a flooded film."""
     film = problem.flooded_film
     b = problem.half_width
     return b + 0.8 * film / (np.sqrt(2.0 * film) + b)

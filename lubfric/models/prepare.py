@@ -89,7 +89,7 @@ def _on_sample(scene: Scene, sample: Sample, *, is_given: bool) -> Prepared:
 
 
 def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -> tuple[Surface, ...]:
-    """The maps that were given to `prepare`, `combined_maps`."""
+    """Return the maps that were given to `prepare`, `combined_maps`."""
     for name, one in (("surface", surface), ("counterface", counterface)):
         if one is not None:
             validate.instance(name, one, Surface, "a lubfric.Surface")
@@ -117,7 +117,7 @@ def with_friction_at(prepared: Prepared, speed: float) -> Prepared:
 
 
 def _same_contact(scene: Scene, old: Scene) -> bool:
-    """Whether contact and cells of both scenes are the same to the bit."""
+    """Return whether contact and cells of both scenes are the same to the bit."""
     names = "tolerance", "contact_tolerance", "workers", "sampling", "grid", "model"
     same = all(getattr(scene.numerics, name) == getattr(old.numerics, name) for name in names)
     return same and _without_friction(scene.bodies) == _without_friction(old.bodies)

@@ -52,7 +52,7 @@ class Walther:
     said: tuple[tuple[str, float | str], ...] = ()
 
     def __call__(self, temperature: float) -> float:
-        """nu [m²/s] at ``temperature`` [K]."""
+        """Return nu [m²/s] at ``temperature`` [K]."""
         power = self.m - self.n * math.log10(checked_temperature(temperature))
         return _viscosity(10 ** (10**power)) * 1e-6
 
@@ -76,7 +76,7 @@ def walther(first: tuple[float, float], second: tuple[float, float], **said: flo
 
 
 def _viscosity(raised: float) -> float:
-    """nu [mm²/s] of Z: the standard's closed form, then Newton's method on its equation."""
+    """Return nu [mm²/s] of Z: the standard's closed form, then Newton's method on its equation."""
     x = raised - CONSTANT
     nu = x - math.exp(-0.7487 - 3.295 * x + 0.6119 * x**2 - 0.3193 * x**3)
     for _ in range(4 if nu < 5 else 0):
@@ -105,7 +105,7 @@ class ViscosityTable:
             self._law_up_to(i)
 
     def _law_up_to(self, i: int) -> Walther:
-        """Between the entries i - 1 and i."""
+        """Return the law between the entries i - 1 and i."""
         return walther(*zip(self.temperatures[i - 1 : i + 1], self.viscosities[i - 1 : i + 1]))
 
     def piece(self, temperature: float) -> Walther:
@@ -117,7 +117,7 @@ class ViscosityTable:
         return self._law_up_to(max(next(i for i, t in enumerate(self.temperatures) if t >= temperature), 1))
 
     def __call__(self, temperature: float) -> float:
-        """nu [m²/s] at ``temperature`` [K]."""
+        """Return nu [m²/s] at ``temperature`` [K]."""
         return self.piece(temperature)(temperature)
 
 

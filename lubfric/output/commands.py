@@ -215,7 +215,7 @@ def files_read(paths: Iterable[Any]) -> list[Path]:
 
 
 def _words(value: Any) -> list[str]:
-    """All texts in the tables and lists of ``value``."""
+    """Return all texts in the tables and lists of ``value``."""
     if isinstance(value, (dict, list)):
         return [word for part in (value.values() if isinstance(value, dict) else value) for word in _words(part)]
     return [value] if isinstance(value, str) else []
@@ -286,8 +286,8 @@ class RunFolder:
         units: dict[str, Quantity],
         **numbers: object,
     ) -> dict[str, Any]:
-        """The record of a run: date, resolved input, map, versions, timing, report, violated assumptions, ``numbers``;
-        ``units`` of these, beside those of the input."""
+        """Return the record of a run: date, resolved input, map, versions, timing, report, violated assumptions,
+        ``numbers``; ``units`` of these, beside those of the input."""
         import scipy
 
         surface = prepared.surface

@@ -230,7 +230,7 @@ def _model(
 
 
 def _histories(scene: Scene) -> list[str]:
-    """What changes in time, how, how often, and between which values; and the largest speeds."""
+    """Return what changes in time, how, how often, and between which values; and the largest speeds."""
     plan = scene.transient
     rows = []
     assert plan is not None
@@ -267,8 +267,8 @@ def _course(scene: Scene, sample: Sample, surface: Surface, speeds: list[float])
 
 
 def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[float]) -> list[tuple[str, ...]]:
-    """At some of the ``speeds`` [m/s]: Moes numbers and the expected film under the total load, whether the summits
-    touch, and, unless a run in time has one sample for all, what the sample costs."""
+    """Return a table at some of the ``speeds`` [m/s]: Moes numbers and the expected film under the total load, whether
+    the summits touch, and, unless a run in time has one sample for all, what the sample costs."""
     steady = scene.transient is None
     sampled = steady and sample.is_resolved
     table: list[tuple[str, ...]] = [("U [m/s]", "M", "L", "film [nm]", "lambda ratio", "asperity contact")]

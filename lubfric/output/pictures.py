@@ -250,7 +250,7 @@ def plot_compared(path: Path, prepared: Prepared, point: FrictionResult) -> None
 
 
 def _deterministic_picture(fields: Any, speed: float, half_width: float) -> Figure:
-    """Pressure, gap and shear around the Hertz strip, from above, in the part with the highest pressure."""
+    """Draw pressure, gap and shear around the Hertz strip, from above, in the part with the highest pressure."""
     from matplotlib.colors import LogNorm
     from matplotlib.layout_engine import ConstrainedLayoutEngine
 
@@ -287,7 +287,7 @@ def _size_of_maps(x: np.ndarray, y: np.ndarray, count: int) -> tuple[float, floa
 
 
 def _part(x: np.ndarray, y: np.ndarray, row: int) -> slice:
-    """The rows of ``y`` to draw: all, or of long strips those around ``row``, twice as long as ``x`` is wide."""
+    """Return the rows of ``y`` to draw: all, or of long strips those around ``row``, twice as long as ``x`` is wide."""
     across = x[-1] - x[0]
     if y[-1] < MOST_DRAWN_LENGTH * across:
         return slice(None)
@@ -296,7 +296,7 @@ def _part(x: np.ndarray, y: np.ndarray, row: int) -> slice:
 
 
 def _partly(y: np.ndarray, part: slice) -> str:
-    """Which part of the line is drawn, as text; "" for all of it."""
+    """Return which part of the line is drawn, as text; "" for all of it."""
     step = 1e6 * (y[1] - y[0])
     return "" if part == slice(None) else f"; {step * y[part].size:.0f} of {step * y.size:.0f} µm of the line"
 

@@ -141,8 +141,8 @@ def _write(
     estimate: SceneEstimate,
     chosen: list[float],
 ) -> None:
-    """The table, the law, the fields of the ``chosen`` speeds, the pictures, the record; and what else was requested.
-    ``estimate``: before it was solved."""
+    """Write the table, the law, the fields of the ``chosen`` speeds, the pictures, the record; and what else was
+    requested. ``estimate``: before it was solved."""
     name = "traction" if curve.SWEPT[0] == "ratio" else "stribeck"
     contents = folder.contents
     table = f"{name}.csv"
@@ -173,7 +173,7 @@ def _write(
 def _write_fields(
     folder: RunFolder, prepared: Prepared, curve: studies.CurveResult, chosen: list[float], *, vtk: bool
 ) -> None:
-    """The fields of the ``chosen`` speeds [m/s], and their pictures."""
+    """Write the fields of the ``chosen`` speeds [m/s], and their pictures."""
     points = [p for p in curve.points if p is not None and (p.fields is not None or p.balance is not None)]
     points.sort(key=lambda p: chosen.index(p.speed))
     if points:
@@ -201,7 +201,7 @@ def _title(name: str, points: list[dict[str, Any]]) -> str:
 
 
 def _law(curve: studies.CurveResult) -> studies.Law | str:
-    """The curve over the speed as a formula, or why there is none."""
+    """Return the curve over the speed as a formula, or why there is none."""
     if not isinstance(curve, studies.StribeckResult):
         return ""
     if any(violation.severe for i in range(len(curve.points)) for violation in curve.violations(i)):
@@ -213,13 +213,13 @@ def _law(curve: studies.CurveResult) -> studies.Law | str:
 
 
 def _drawable(columns: Columns) -> np.ndarray:
-    """Which rows of the table of a curve its picture can show: f is known, and over speeds something moves."""
+    """Return which rows of the table of a curve its picture can show: f is known, and over speeds something moves."""
     return np.isfinite(columns["coefficient"]) & ("ratio" in columns or columns["speed"] != 0)
 
 
 def _point(curve: studies.CurveResult, index: int) -> dict[str, Any]:
-    """The record of a point: its numbers, the error of f as text too, and the errors of the other numbers; or why
-    there are none."""
+    """Return the record of a point: its numbers, the error of f as text too, and the errors of the other numbers; or
+    why there are none."""
     name = curve.SWEPT[0]
     point = curve.points[index]
     swept = {
@@ -293,7 +293,7 @@ def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
 
 
 def _points_of(source: Path, columns: Columns, record: dict[str, Any]) -> list[dict[str, Any]]:
-    """The points of a ``record`` that belong to the table ``source``, of which something can be drawn."""
+    """Return the points of a ``record`` that belong to the table ``source``, of which something can be drawn."""
     points = record.get("points", [])
     count = columns["coefficient"].size
     if len(points) != count:
@@ -312,7 +312,7 @@ def _plot(
     measured: Any = None,
     options: PictureOptions = PictureOptions(),
 ) -> None:
-    """The picture of the table of a curve; ``points``: those of its record."""
+    """Draw the picture of the table of a curve; ``points``: those of its record."""
     unknown = {"value": math.nan, "limit": math.nan}  # numbers that are not finite are null in a record
     known = [
         [{k: v for k, v in violation.items() if v is not None} for violation in point["validity"]] for point in points
@@ -325,8 +325,8 @@ def _plot(
 
 
 def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
-    """The errors of f as text: at how many points, and in full for the least sure of them; at how many points too few
-    asperity contacts carry the load; and that results were accepted."""
+    """Return the errors of f as text: at how many points, and in full for the least sure of them; at how many points
+    too few asperity contacts carry the load; and that results were accepted."""
     name, _, unit, plural = curve.SWEPT
     points = [(value, p.uncertainty) for value, p in zip(getattr(curve, name), curve.points) if p is not None]
     noted = [point for point in points if point[1].notes]
@@ -464,7 +464,7 @@ def _moment_reports(interval: float = PROGRESS_SECONDS) -> Callable[[str, int, i
 
 
 def _progress(place: str) -> Callable[..., Any]:
-    """What says how a point ended; ``place``: the template of its place on the curve."""
+    """Return what says how a point ended; ``place``: the template of its place on the curve."""
 
     def on_point(done: int, total: int, value: float, outcome: FrictionResult | ValidityError) -> None:
         head = f"[{done:>{len(str(total))}}/{total}] {place.format(value)}"

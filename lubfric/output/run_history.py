@@ -60,7 +60,7 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
 
 
 def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, *, animation: bool) -> None:
-    """The table, the fields and the pictures of the run alone."""
+    """Write the table, the fields and the pictures of the run alone."""
     folder.add("history.csv", _table, result)
     fields = {"time": result.time, "x": result.x, "pressure": result.pressure, "film_thickness": result.film_thickness}
     folder.add("fields.npz", npz_bytes, fields)

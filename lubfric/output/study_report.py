@@ -133,7 +133,7 @@ def study_status(result: StudyResult) -> str:
 
 
 def _range(key: str, values: np.ndarray) -> str:
-    """The values of a key in a line: all if they are few, else their range."""
+    """Return the values of a key in a line: all if they are few, else their range."""
     label = COLUMNS[key].label if key in COLUMNS else key
     if values.dtype.kind == "f" and values.size > 6:
         ends = " to ".join(dict.fromkeys(worded_value(key, float(value)) for value in (values.min(), values.max())))

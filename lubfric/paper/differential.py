@@ -127,7 +127,8 @@ def domain_ends(problem: FilmProblem, domain: tuple[float, float] | None) -> tup
 
 
 def _cells(problem: FilmProblem, ends: tuple[float, float], nodes: int | None, most_nodes: int) -> list[int]:
-    """Numbers of cells of the nested grids. If the finest resolves the rise of the pressure, the coarsest does too."""
+    """Return the numbers of cells of the nested grids. If the finest resolves the rise of the pressure, the coarsest
+    does too."""
     film = math.sqrt(2.0 * problem.film_guess)
     b = problem.half_width
     enough = max(FIRST_GRID_CELLS, (ends[1] - ends[0]) / (MOST_FIRST_STEP * film * (film / (film + b)) ** (1 / 3)))
@@ -151,7 +152,8 @@ def _ascend(
     *,
     doubled: bool,
 ) -> list[DifferentialSolution]:
-    """Solutions on grids of as many ``cells``; if these are ``doubled``, until two grids agree to the tolerance."""
+    """Return the solutions on grids of as many ``cells``; if these are ``doubled``, until two grids agree to the
+    tolerance."""
     levels: list[DifferentialSolution] = []
     for n in cells:
         mesh = make_mesh(*ends, n + 1, flooded=problem.inlet is None)

@@ -177,7 +177,7 @@ def alternating(
 
 
 def _alternated(contact: ImposedFilm, pressure: FloatArray, update: str) -> SearchResult:
-    """Each solve of system (3) starts from the last one."""
+    """Return the solution of system (3), solved again and again, each time from the last one."""
     problem = contact.problem
     state = evaluate(contact.problem, contact.problem.operator, pressure)
     spent = 1.0

@@ -340,7 +340,7 @@ def _checked_wear(scene: Scene, distance: Any, coefficient: Any, hardness: Any) 
 
 
 def _whole(scene: Scene, surface: Surface | None) -> Surface:
-    """The map to run in, checked."""
+    """Return the map to run in, checked."""
     if scene.bodies.hardness is None:
         said = " is not given: nothing yields in an elastic contact, and no surface runs in"
         raise InputError(said, "bodies.hardness", "1 to 1e14 Pa (hardened steel: about 6e9 to 8e9 Pa)")
@@ -366,7 +366,7 @@ def _whole(scene: Scene, surface: Surface | None) -> Surface:
 
 
 def _way(scene: Scene, surface: Surface, step: float | None) -> np.ndarray:
-    """The columns of the map above which the cylinder is, one after the other, about ``step`` [m] apart."""
+    """Return the columns of the map above which the cylinder is, one after the other, about ``step`` [m] apart."""
     half_width = scene.bodies.half_width
     dx = surface.spacing[0]
     last = surface.shape[0] - 1

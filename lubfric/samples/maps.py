@@ -87,7 +87,7 @@ def combined_maps(first: Surface, second: Surface) -> tuple[Surface, ...]:
 
 
 def _facing(scene: Scene, second: Surface) -> Surface:
-    """The map of the ``second`` body, mirrored in y if that of the first is a mirror image.
+    """Return the map of the ``second`` body, mirrored in y if that of the first is a mirror image.
 
     A map whose axes were exchanged (`measured_map`) is the mirror image of its body in y. For one map, or for two
     mirrored ones, that changes no friction. If only one of two is mirrored, the other has to be mirrored too: else
@@ -199,7 +199,7 @@ def refuse_outliers(surface: Surface, name: str) -> None:
 
 
 def _cut_to_contact(scene: Scene, surface: Surface) -> Surface:
-    """The middle of a map, cut to the contact grid, and made periodic on the axes on which the contact is."""
+    """Return the middle of a map, cut to the contact grid, and made periodic on the axes on which the contact is."""
     domain = scene.contact
     cylinder = scene.contact.geometry == "cylinder"
     mirrored = is_extended(scene)

@@ -118,7 +118,7 @@ class GeneratedStrips(FieldsOnly, Sample):
         return {}
 
     def _generator(self, stream: int, spacing: tuple[float, float], shape: tuple[int, int]) -> Callable[[int], Surface]:
-        """The function that makes a map of the ``stream`` from its number."""
+        """Return the function that makes a map of the ``stream`` from its number."""
         bodies = [_one_body(rough, name, stream, spacing, shape) for rough, name in self.roughness]
 
         def made(index: int) -> Surface:

@@ -62,7 +62,7 @@ class FrictionTable:
             raise InputError(f" = {self.values} at {self.at}, a table over {self.over}", BOUNDARY_FRICTION_KEY, allowed)
 
     def __call__(self, at: float) -> float:
-        """f_b at a sliding speed [m/s] or a temperature [K]. Raises `InputError` outside the table."""
+        """Return f_b at a sliding speed [m/s] or a temperature [K]. Raises `InputError` outside the table."""
         unit = FRICTION_OVER[self.over]
         if not self.at[0] * (1 - 1e-9) <= at <= self.at[-1] * (1 + 1e-9):
             said = f", a table over {self.over}, has no value at {at:g} {unit}"

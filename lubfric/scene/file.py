@@ -101,7 +101,7 @@ def _put_map(table: dict[str, Any], section: str, path: str | Path) -> None:
 
 
 def _map_path(name: str, given: str | Path, folder: Path) -> Path:
-    """An existing file, its path absolute."""
+    """Return an existing file, its path absolute."""
     try:
         path = (folder / given).absolute()
         if path.is_file():
@@ -153,7 +153,7 @@ def scene_from_table(table: dict[str, Any], folder: Path, name: str) -> Scene:
 
 
 def _plan(table: dict[str, Any], folder: Path) -> tuple[dict[str, Any], Transient | None]:
-    """The `Transient` of a scene, and the table without its histories.
+    """Return the `Transient` of a scene, and the table without its histories.
 
     Histories are in [transient] or, as inline tables, in the sections they belong to. In their place the table gets a
     plain value: the largest load, else the value at the start.
@@ -185,7 +185,7 @@ def _plan(table: dict[str, Any], folder: Path) -> tuple[dict[str, Any], Transien
 
 
 def _read(source: object) -> tuple[dict[str, Any], Path, str]:
-    """Its tables, the folder that its files are relative to, and its name."""
+    """Return its tables, the folder that its files are relative to, and its name."""
     names = builtin_scenes()
     if not isinstance(source, (str, os.PathLike)):
         said = f"scene {validate.shown(source)} is a {type(source).__name__}"

@@ -146,8 +146,8 @@ class Table(History):
         return v[i - 1] + (v[i] - v[i - 1]) * (time - t[i - 1]) / (t[i] - t[i - 1])
 
     def _on_a_row(self, time: float, side: str) -> float:
-        """``time`` in the first period. If it differs only by rounding from a row of the table, it is the time of that
-        row: 0.1 + 0.2 s is a jump at 0.3 s."""
+        """Return ``time`` in the first period. If it differs only by rounding from a row of the table, it is the time
+        of that row: 0.1 + 0.2 s is a jump at 0.3 s."""
         t = self.times
         near = TIME_ROUNDING * max(time, t[-1])
         if self.repeat and time > 0.0:
@@ -173,7 +173,7 @@ class Table(History):
         return self._in_every_period(jump_times, duration)
 
     def _in_every_period(self, times: FloatArray | list[float], duration: float) -> tuple[float, ...]:
-        """The ``times`` of the table, in every period, from 0 to before ``duration``."""
+        """Return the ``times`` of the table, in every period, from 0 to before ``duration``."""
         laps = np.arange(math.ceil(duration / self.times[-1]) if self.repeat else 1)
         every_time = np.unique(np.asarray(times, float)[None, :] + laps[:, None] * self.times[-1])
         return tuple(every_time[(every_time >= 0.0) & (every_time < duration)].tolist())
@@ -188,7 +188,7 @@ class Table(History):
         return laps * self._area(self.times[-1]) + self._area(time - laps * self.times[-1])
 
     def _area(self, time: float) -> float:
-        """Under the lines from 0 to ``time``, in the first period."""
+        """Return the area under the lines from 0 to ``time``, in the first period."""
         t = np.array(self.times)
         v = np.array(self.values)
         inside = (t > 0.0) & (t < time)

@@ -203,7 +203,7 @@ def doubtful_values(section: str, given: Any) -> tuple[tuple[str, Any], ...]:
 
 
 def _index(scene: Any) -> float | None:
-    """Viscosity index of the oil; None without one, or of an oil so thin that it has none."""
+    """Return the viscosity index of the oil; None without one, or of an oil so thin that it has none."""
     try:
         return None if scene.lubricant.oil is None else round(scene.lubricant.oil.index, 6)
     except InputError:

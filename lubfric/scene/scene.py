@@ -226,7 +226,7 @@ class Scene(Shown):
 
 
 def _halved(text: str) -> bool:
-    """Whether there are surrogates in ``text``, which no file in UTF-8 holds."""
+    """Return whether there are surrogates in ``text``, which no file in UTF-8 holds."""
     return any("\ud800" <= mark <= "\udfff" for mark in text)
 
 

@@ -88,7 +88,7 @@ def is_of_oil(given: dict[str, Any], old: Lubricant | None) -> bool:
 
 
 def _of_radii(radii: Any, *_: Any) -> dict[str, Any]:
-    """R [m], 1/R = 1/R1 + 1/R2; a plane is inf, a hollow (the outer ring around a roller) negative."""
+    """Return R [m], 1/R = 1/R1 + 1/R2; a plane is inf, a hollow (the outer ring around a roller) negative."""
     first, second = pair("bodies.radii", radii, "m")
     for radius in (first, second):
         if isinstance(radius, bool) or not isinstance(radius, (int, float)) or radius == 0 or math.isnan(radius):
@@ -102,7 +102,7 @@ def _of_radii(radii: Any, *_: Any) -> dict[str, Any]:
 
 
 def _of_materials(names: Any, *_: Any) -> dict[str, Any]:
-    """Fields of one or two named materials (materials.toml)."""
+    """Return fields of one or two named materials (materials.toml)."""
     known = packaged(__package__, "materials.toml")
     both = (names, names) if isinstance(names, str) else pair("bodies.material", names, "names")
     first, second = (known[validate.choice("bodies.material", name, known)] for name in both)
@@ -126,7 +126,7 @@ def _of_moduli(moduli: Any, ratios: Any, *_: Any) -> dict[str, Any]:
 def _of_hertz_pressure(
     pressure: float, given: dict[str, float | tuple[float, float] | None], old: Bodies | None
 ) -> dict[str, Any]:
-    """The load [N] of a peak Hertz pressure [Pa]: w = 2 pi R p²/E'."""
+    """Return the load [N] of a peak Hertz pressure [Pa]: w = 2 pi R p²/E'."""
     validate.of_key("bodies.hertz_pressure", pressure)
     needed = ("radius", "width", "e_prime")
     if missing := [repr(key) for key in needed if key not in given and old is None]:
@@ -157,7 +157,7 @@ def speeds_of_range(name: str, value: Any) -> tuple[float, ...]:
 
 
 def _of_heights(key: str, per_sq: float) -> Callable[..., dict[str, Any]]:
-    """What turns the ``key`` of a generated map, ``per_sq`` times its Sq, into Sq [m]."""
+    """Return what turns the ``key`` of a generated map, ``per_sq`` times its Sq, into Sq [m]."""
 
     def plain(height: float, given: dict[str, float | str | None], old: Roughness | None) -> dict[str, float]:
         if given.get("file", getattr(old, "file", None)) is not None:
@@ -241,7 +241,8 @@ def of_celsius(celsius: float, *_: Any) -> dict[str, Any]:
 
 
 def _oil(source: dict[str, Any], before: Oil | None) -> Oil:
-    """The oil that ``source`` names. It keeps the properties of the one ``before`` that ``source`` does not change."""
+    """Return the oil that ``source`` names. It keeps the properties of the one ``before`` that ``source`` does not
+    change."""
     only_one("lubricant", source, "grade", "nu40+nu100", "viscosity_table", "oil")
     only_one("lubricant", source, "viscosity_index", "nu100", "viscosity_table", "oil")
     kept = {} if before is None else {name: getattr(before, name) for name in OF_AN_OIL.values()}

@@ -169,7 +169,7 @@ def between(curve: Interpolant) -> float:
 
 
 def _free(at: np.ndarray, speeds: np.ndarray) -> np.ndarray:
-    """The speeds of ``at`` that are not too close to a solved one."""
+    """Return the speeds of ``at`` that are not too close to a solved one."""
     return np.abs(np.log(at[:, None] / speeds[None, :])).min(axis=1) > np.log(LEAST_SPEED_RATIO)
 
 
@@ -218,7 +218,7 @@ def film_ratio(scene: Scene, sq: float, speed: float) -> float:
 
 
 def _speed_of(scene: Scene, sq: float, ratio: float, low: float, high: float) -> float:
-    """The speed [m/s] between ``low`` and ``high`` at which `film_ratio` is ``ratio``."""
+    """Return the speed [m/s] between ``low`` and ``high`` at which `film_ratio` is ``ratio``."""
     from scipy.optimize import brentq
 
     def excess(log_speed: float) -> float:

@@ -97,14 +97,14 @@ def fits(value: Any, kind: Any) -> bool:
 
 @cache
 def _hints(kind: Any) -> dict[str, Any]:
-    """The types of the fields of a dataclass or a named tuple. A type variable represents a number of one point."""
+    """Return the types of the fields of a dataclass or a named tuple. A type variable represents a number of one point."""
     hints = get_type_hints(kind)
     names = [f.name for f in fields(kind)] if is_dataclass(kind) else kind._fields
     return {name: float if isinstance(hints[name], TypeVar) else hints[name] for name in names}
 
 
 def _plain(value: Any, arrays: list[Any], field: Callable[..., Any]) -> Any:
-    """JSON types for ``value``. Its arrays are added to ``arrays``."""
+    """Return JSON types for ``value``. Its arrays are added to ``arrays``."""
     if value is None or isinstance(value, (bool, int, str)):
         return value
     if isinstance(value, np.generic):
@@ -130,7 +130,7 @@ def _plain(value: Any, arrays: list[Any], field: Callable[..., Any]) -> Any:
 
 
 def _value(plain: Any, classes: dict[str, type], content: memoryview) -> Any:
-    """What `_plain` was given. ``content``: the bytes of the arrays."""
+    """Return what `_plain` was given. ``content``: the bytes of the arrays."""
     if isinstance(plain, list):
         return tuple(_value(item, classes, content) for item in plain)
     if not isinstance(plain, dict):

@@ -145,7 +145,7 @@ def explain(plan: Any, store: Path | None = None) -> str:
 
 
 def _range(key: str, values: tuple[Any, ...]) -> str:
-    """The values of a key: all of them if they are few, else the smallest and the largest, or first and last."""
+    """Return the values of a key: all of them if they are few, else the smallest and the largest, or first and last."""
     if len(values) > LISTED:
         ends = (min(values), max(values)) if all(isinstance(v, Real) for v in values) else (values[0], values[-1])
         return " to ".join(dict.fromkeys(_range(key, (end,)) for end in ends))

@@ -177,7 +177,7 @@ class FitResult(Renamed, Shown):
         return dict(zip(self.parameters, relative.tolist()))
 
     def _identifiability(self) -> list[str]:
-        """What the data do not show of the parameters, one sentence each."""
+        """Return what the data do not show of the parameters, one sentence each."""
         lines = []
         for key in self.undetermined:
             change = 100 * self.effects[key]
@@ -215,7 +215,8 @@ class FitResult(Renamed, Shown):
         return f"not in the intervals: the model-form error of f{some}, {' to '.join(ends)}"
 
     def _surface_note(self) -> str:
-        """What the intervals do not include of another sample of the surface, as text; "" where that is next to nothing."""
+        """Return what the intervals do not include of another sample of the surface, as text; "" where that is next to
+        nothing."""
         if not np.isfinite(self.sampling).any():
             if self.base.surface.sq == 0 or not self.sampling.size:
                 return ""

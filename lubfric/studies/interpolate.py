@@ -301,9 +301,9 @@ def _distance(first: FloatArray, second: FloatArray) -> FloatArray:
 
 
 def _film_alone(speed: FloatArray, traction: FloatArray, at: FloatArray, *, smooth: bool) -> FloatArray:
-    """Interpolation where nothing touches, by cubics of t/sqrt(U) over 1/sqrt(U): a sqrt(U) + b + c/sqrt(U) + .... The
-    friction of a Newtonian film between rigid bodies is proportional to sqrt(U), and that of a film at its limiting
-    stress is constant."""
+    """Return the interpolation where nothing touches, by cubics of t/sqrt(U) over 1/sqrt(U): a sqrt(U) + b + c/sqrt(U)
+    + .... The friction of a Newtonian film between rigid bodies is proportional to sqrt(U), and that of a film at its
+    limiting stress is constant."""
     root = np.sqrt(speed)
     return np.sqrt(at) * _cubic(-1 / root, traction / root, -1 / np.sqrt(at), smooth=smooth)
 
@@ -317,8 +317,8 @@ def _of_logarithms(x: FloatArray, values: FloatArray, at: FloatArray, *, smooth:
 
 
 def _steered(x: FloatArray, values: FloatArray, slopes: FloatArray, at: FloatArray, *, smooth: bool) -> FloatArray:
-    """The mean of the spline through the points and of cubics with the ``slopes`` known there; beyond the points a
-    straight line. ``smooth=False``: these cubics alone."""
+    """Return the mean of the spline through the points and of cubics with the ``slopes`` known there; beyond the points
+    a straight line. ``smooth=False``: these cubics alone."""
     from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
     if x.size < 2 or not np.isfinite(slopes).any():
@@ -334,7 +334,7 @@ def _steered(x: FloatArray, values: FloatArray, slopes: FloatArray, at: FloatArr
 
 
 def _cubic(x: FloatArray, values: FloatArray, at: FloatArray, *, smooth: bool) -> FloatArray:
-    """A cubic between the points ``x``; beyond them a straight line or, for the shape-preserving kind, the last
+    """Return a cubic between the points ``x``; beyond them a straight line or, for the shape-preserving kind, the last
     secant."""
     from scipy.interpolate import CubicSpline, PchipInterpolator
 

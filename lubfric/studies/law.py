@@ -101,9 +101,9 @@ class Law(Shown):
         *,
         extrapolate: bool = False,
     ) -> FloatArray:
-        """f at ``speed`` [m/s] (either sign), ``temperature`` [K] and ``pressure`` [Pa], numbers or arrays; None: in
-        the middle of the range. Raises `InputError` outside ``ranges``, unless ``extrapolate``. Slower than the slowest
-        point, f goes to 0 at rest."""
+        """Return f at ``speed`` [m/s] (either sign), ``temperature`` [K] and ``pressure`` [Pa], numbers or arrays;
+        None: in the middle of the range. Raises `InputError` outside ``ranges``, unless ``extrapolate``. Slower than
+        the slowest point, f goes to 0 at rest."""
         given = {"speed": speed, "temperature": temperature, "pressure": pressure}
         for name, (low, high) in self.ranges.items():
             if given[name] is None:
@@ -249,8 +249,8 @@ def law_of_study(result: Any) -> Law:
 
 
 def _viscosity(T: FloatArray, eta: FloatArray, coefficient: FloatArray) -> dict[str, float]:
-    """A and B of `WALTHER` through the viscosities, or through one with its slope; none without a temperature, or where
-    at a single one the fluid is too thin for it."""
+    """Return a and B of `WALTHER` through the viscosities, or through one with its slope; none without a temperature,
+    or where at a single one the fluid is too thin for it."""
     thin = eta.min() <= LEAST_VISCOSITY
     if not np.isfinite(T).all() or thin and np.ptp(T) == 0:
         return {}
@@ -276,7 +276,7 @@ def _fitted(
     eta: FloatArray,
     at_rest: float,
 ) -> dict[str, float]:
-    """The other numbers, by least squares of ln f from several starts."""
+    """Return the other numbers, by least squares of ln f from several starts."""
     from scipy.optimize import least_squares
 
     (U, T, p) = at

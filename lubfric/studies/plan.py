@@ -280,7 +280,7 @@ def _add(known: dict[Any, Any], key: str | tuple[str, ...], values: Any) -> None
 
 
 def _flat(table: dict[str, Any], is_value: Callable[[Any], bool]) -> dict[str, Any]:
-    """{"section.key": value} from ``"section.key" = value`` or ``section.key = value``."""
+    """Return {"section.key": value} from ``"section.key" = value`` or ``section.key = value``."""
     flat: dict[str, Any] = {}
     for key, value in table.items():
         inner = {key: value} if is_value(value) else {f"{key}.{name}": part for name, part in value.items()}
@@ -290,7 +290,7 @@ def _flat(table: dict[str, Any], is_value: Callable[[Any], bool]) -> dict[str, A
 
 
 def _lists(table: Any, where: str, folder: Path) -> dict[str, list[Any]]:
-    """The lists of values by their keys. Files are relative to ``folder``."""
+    """Return the lists of values by their keys. Files are relative to ``folder``."""
     validate.instance(f"[{where}]", table, dict, "keys of a scene with lists of values")
     lists = _flat(table, lambda value: not isinstance(value, dict))
     for key, values in lists.items():
@@ -312,7 +312,7 @@ def _lists(table: Any, where: str, folder: Path) -> dict[str, list[Any]]:
 
 
 def _sampled(table: Any, file: str) -> tuple[Any, Any]:
-    """The key, or the keys, of [sample], and their values."""
+    """Return the key, or the keys, of [sample], and their values."""
     validate.instance("[sample]", table, dict, "a table")
     options: dict[str, Any] = {key: table.pop(key) for key in SAMPLE_KEYS if key in table}
     if "count" not in options:

@@ -202,7 +202,7 @@ def _digest(value: Any, counted: Callable[..., Any]) -> str:
 
 
 def _counted(part: Any, name: str) -> Any:
-    """What of the field ``name`` of a dataclass a number depends on."""
+    """Return what of the field ``name`` of a dataclass a number depends on."""
     value = getattr(part, name)
     if (type(part).__name__, name) in LABELS:
         return None

@@ -108,7 +108,7 @@ class StudyTable:
         return self.status[curve, place] == MISSING
 
     def _places_of(self, key: str, speed: float) -> list[tuple[int, int]]:
-        """Where a point is: (curve, place on it), of each curve that has it."""
+        """Return where a point is: (curve, place on it), of each curve that has it."""
         curves = self._curves[key]
         if self.plan.paired:
             return [(curve, 0) for curve in curves if self.plan.speeds_at(curve)[0] == speed]

@@ -291,7 +291,7 @@ def friction_over_speed(axes: Axes, columns: dict[str, np.ndarray], **style: Any
 
 
 def _line(columns: dict[str, np.ndarray]) -> tuple[np.ndarray, ...] | None:
-    """(speeds, f, its two parts) on the curve through the points, if f is `DRAWN_ERROR` between them."""
+    """Return (speeds, f, its two parts) on the curve through the points, if f is `DRAWN_ERROR` between them."""
     try:
         curve = through(columns)
     except (InputError, KeyError):  # too few of them, both directions, or a table without what the curve needs
@@ -352,7 +352,7 @@ def plot_map(path: Path, study: Any, across: str, up: str, title: str = "", quan
 
 
 def _table_of(ax: Axes, x: FloatArray, y: FloatArray, values: FloatArray, bar: str) -> None:
-    """Few values (ny, nx) as a table of colours with their numbers: contours would say more than is known."""
+    """Draw few values (ny, nx) as a table of colours with their numbers: contours would say more than is known."""
     image = ax.imshow(values, origin="lower", aspect="auto", cmap="viridis")
     ax.grid(visible=False)
     middle = 0.5 * (np.nanmin(values) + np.nanmax(values))
@@ -366,7 +366,7 @@ def _table_of(ax: Axes, x: FloatArray, y: FloatArray, values: FloatArray, bar: s
 
 
 def _numbers(key: str, values: np.ndarray) -> np.ndarray:
-    """The values [SI] of a key along one axis of a map."""
+    """Return the values [SI] of a key along one axis of a map."""
     if values.dtype.kind != "f" or np.unique(values).size < max(2, values.size):
         raise InputError(f"{key} = {', '.join(map(str, values))}; an axis of a map takes two or more different numbers")
     return values

@@ -248,7 +248,7 @@ def unit_of(key: str) -> str:
 
 
 def _value(key: str, value: Any) -> Any:
-    """In Python's types and in the unit of the ``key``, a list as a tuple, a path as text."""
+    """Return a value in Python's types and in the unit of the ``key``, a list as a tuple, a path as text."""
     value = str(value) if isinstance(value, Path) else validate.python_value(value)
     value = without_unit(f"vary: {key}", value, KEYS[key].unit, typical(key)) if key in KEYS else value
     if isinstance(value, dict):

@@ -209,7 +209,7 @@ def _honed_generator(
 def _spectrum(
     shape: tuple[int, int], spacing: tuple[float, float], scales: tuple[float, float], acf: str, cutoff: float | None
 ) -> np.ndarray:
-    """Power spectrum (nx, ny//2 + 1) of the periodic, zero-mean ACF on the grid."""
+    """Return the power spectrum (nx, ny//2 + 1) of the periodic, zero-mean ACF on the grid."""
     from scipy import fft
 
     power = 1.0 if acf == "exponential" else 2.0

@@ -359,7 +359,7 @@ def column_units(titles: Iterable[tuple[int, str]]) -> tuple[tuple[str, str, str
 
 
 def _square(words: set[str]) -> bool:
-    """Whether the words name a step of the lateral grid, not of time or of heights."""
+    """Return whether the words name a step of the lateral grid, not of time or of heights."""
     return bool(words & {"pixel", "pixelsize", "cellsize", "spacing", "pitch", "lateral"})
 
 

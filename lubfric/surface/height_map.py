@@ -318,7 +318,7 @@ class Surface(FrozenArrays, Shown):
 
 
 def _mask(given: Any, heights: Any, shape: tuple[int, ...]) -> np.ndarray | None:
-    """A copy of the mask ``given``, without the points that a masked array masks. None where every point is
+    """Return a copy of the mask ``given``, without the points that a masked array masks. None where every point is
     measured."""
     measured = np.ones(shape, bool) if given is None else np.array(given)
     if measured.dtype.kind != "b" or measured.shape != shape:

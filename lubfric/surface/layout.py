@@ -78,7 +78,7 @@ def _explain_points(name: str, table: np.ndarray) -> None:
 
 
 def _is_grid(x: np.ndarray, y: np.ndarray) -> bool:
-    """Whether two columns are the coordinates of points on a uniform grid, each given once, most of them given."""
+    """Return whether two columns are the coordinates of points on a uniform grid, each given once, most of them given."""
     if not (np.isfinite(x).all() and np.isfinite(y).all()):
         return False
     try:
@@ -92,7 +92,7 @@ def _is_grid(x: np.ndarray, y: np.ndarray) -> bool:
 
 
 def _rises(values: np.ndarray) -> bool:
-    """Whether values rise or fall all the way, as a coordinate does."""
+    """Return whether values rise or fall all the way, as a coordinate does."""
     steps = np.diff(values)
     return bool(values.size >= FEWEST_COORDINATES and ((steps > 0).all() or (steps < 0).all()))
 

@@ -62,7 +62,7 @@ def fitted_form(
 def _normal_solution(
     z: np.ndarray, weight: np.ndarray, along: list[np.ndarray], powers: Sequence[tuple[int, int]]
 ) -> dict[tuple[int, int], float] | None:
-    """{powers: coefficient} of the weighted least squares, or None if they have no unique solution.
+    """Return {powers: coefficient} of the weighted least squares, or None if they have no unique solution.
 
     The normal equations are used, because their sums need no array but ``z`` itself. They are solved twice, the second
     time for the remainder of the first solution.
@@ -82,7 +82,7 @@ def _normal_solution(
 
 
 def _polynomial(terms: dict[tuple[int, int], float], along: list[np.ndarray]) -> np.ndarray:
-    """The polynomial of the coefficients ``terms`` of the powers ``along`` x and y, (nx, ny)."""
+    """Return the polynomial of the coefficients ``terms`` of the powers ``along`` x and y, (nx, ny)."""
     matrix = np.zeros((along[0].shape[1], along[1].shape[1]))
     for powers, coefficient in terms.items():
         matrix[powers] = coefficient

@@ -144,7 +144,7 @@ def combined(first: Surface, second: Surface) -> Surface:
 
 
 def _common(axis: int, first: Surface, second: Surface) -> tuple[int, bool]:
-    """(points, whether periodic) of the sum along ``axis``; both maps have the same spacing here."""
+    """Return (points, whether periodic) of the sum along ``axis``; both maps have the same spacing here."""
     lengths = [s.size[axis] for s in (first, second)]
     closed = [s.periodic_axes[axis] for s in (first, second)]
     same = abs(lengths[0] / lengths[1] - 1) < EQUAL_LENGTHS

@@ -493,7 +493,8 @@ def _numbers(path: Path, lines: Lines, separator: str | None) -> np.ndarray:
 
 
 def _begins_a_block(comment: str) -> bool:
-    """Whether a comment among the numbers is the header of a second table (Gwyddion's export of several channels)."""
+    """Return whether a comment among the numbers is the header of a second table (Gwyddion's export of several
+    channels)."""
     return bool(re.match(r"#\s*(?:Channel|Width|Kanal|Breite|Canal|Largeur)\b\s*[:=：]", comment))
 
 
@@ -552,7 +553,7 @@ def _split_titles(path: Path, lines: Lines) -> tuple[Lines, Lines]:
 
 
 def _is_heading(path: Path, number: int, text: str) -> bool:
-    """Whether a line is a name with a mark and one number ('Width: 10 um'), or states something of the table."""
+    """Return whether a line is a name with a mark and one number ('Width: 10 um'), or states something of the table."""
     parts = statements(number, text)
     numbers = sum(len(statement.numbers) for statement in parts)
     if parts and numbers == 1 and parts[0].words and re.search(r"[:=;,\t]", text):
@@ -586,7 +587,7 @@ def _marks(path: Path, lines: Lines, decimal: str | None) -> tuple[str | None, b
 
 
 def _may_be_thousands(lines: Lines) -> bool:
-    """Whether every comma between digits stands before exactly three digits, and none behind a zero alone."""
+    """Return whether every comma between digits stands before exactly three digits, and none behind a zero alone."""
     cells = (cell for _, text in lines for cell in re.split(r"[\s;]+", text) if re.search(r"\d,\d", cell))
     return all(_THOUSANDS.fullmatch(cell) for cell in cells)
 

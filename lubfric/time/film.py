@@ -104,7 +104,7 @@ def solve_transient_ehl(
 
 
 def _start(line_history: LineHistory, tolerance: float) -> tuple[Setting, Step, dict[str, Residual]]:
-    """Setting, state at t = 0 and residual of its grid. The grid is refined until a steady start meets the
+    """Return the setting, state at t = 0 and residual of its grid. The grid is refined until a steady start meets the
     tolerance."""
     if line_history.initial_film is not None:
         setting = make_setting(line_history, tolerance)

@@ -98,7 +98,7 @@ def outside_shear(
 
 
 def _nodes(a: float, film: float, curvature: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Points s beyond a, the film there, and the weights ds."""
+    """Return points s beyond a, the film there, and the weights ds."""
     s = a / _POINTS
     return s, film + 0.5 * curvature * (s * s - a * a), _WEIGHTS * s * s / a
 
@@ -243,7 +243,8 @@ class StepEquations:
         return J
 
     def _flux_slopes(self, t: StepTerms) -> np.ndarray:
-        """Derivatives (n, n + 2) of the fluxes through the faces by z: by film, gradient, viscosity and density."""
+        """Return the derivatives (n, n + 2) of the fluxes through the faces by z: by film, gradient, viscosity and
+        density."""
         grid = self.grid
         speed = self.speed
         n = self.grid.n

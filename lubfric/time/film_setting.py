@@ -140,7 +140,7 @@ def make_setting(
 
 
 def _reference(line_history: LineHistory, sq: float) -> tuple[FilmProblem, tuple[float, float]]:
-    """The problem that gives the units, and the smallest and the largest film in them."""
+    """Return the problem that gives the units, and the smallest and the largest film in them."""
     c = line_history
     T = line_history.duration
     radius = c.radius.range(T)
@@ -275,7 +275,7 @@ def _iterated(equations: StepEquations, z: np.ndarray, tolerance: float, max_ste
 
 
 def _newton(J: np.ndarray, t: StepTerms, cavitated: np.ndarray) -> np.ndarray | None:
-    """Newton's step with P = 0 at the cavitated nodes; None: the matrix is singular."""
+    """Take Newton's step with P = 0 at the cavitated nodes; None: the matrix is singular."""
     from scipy.linalg.lapack import dgesv
 
     delta = np.zeros(t.P.size + 1)

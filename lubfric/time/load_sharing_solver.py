@@ -130,7 +130,7 @@ class LoadSharingSolver:
 
 
 def _softness(old: float, seen: tuple[float, float] | None, load: float, closed: ContactState) -> float:
-    """Secant of the gap over the logarithm of the load, if it is meaningful."""
+    """Return the secant of the gap over the logarithm of the load, if it is meaningful."""
     if seen is None or abs(math.log(load / seen[0])) < 1e-6:
         return old
     slope = (seen[1] - closed.mean_gap) / math.log(load / seen[0])

@@ -135,8 +135,8 @@ def plan_of(
 
 
 def _onto(known: np.ndarray, candidates: list[float]) -> np.ndarray:
-    """The times ``candidates`` [s], rising. One that differs only by rounding from one of ``known``, or from the one before
-    it, is replaced by that."""
+    """Return the times ``candidates`` [s], rising. One that differs only by rounding from one of ``known``, or from the
+    one before it, is replaced by that."""
     times = np.unique(np.array(candidates, float))
     times = times[np.diff(times, prepend=-np.inf) > STOP_ROUNDING * np.abs(times)]
     right = np.clip(np.searchsorted(known, times), 1, max(known.size - 1, 1))
@@ -151,7 +151,7 @@ def initial_progress(first: Step, plan: Plan) -> Progress:
 
 
 def _level(step: Step) -> Step:
-    """What later steps need of ``step``."""
+    """Return what later steps need of ``step``."""
     return replace(step, payload=None, terms=None)
 
 
@@ -284,7 +284,7 @@ def _solved(solver: Solver, time: float, memory: Memory, z: np.ndarray, payload:
 
 
 def _pair(now: Progress, end: float, solver: Solver) -> Attempt | None:
-    """Backward Euler over the full step and over its halves."""
+    """Take steps of backward Euler over the full step and over its halves."""
     start = now.levels[-1]
     step = end - start.time
     middle = start.time + 0.5 * step
@@ -297,7 +297,8 @@ def _pair(now: Progress, end: float, solver: Solver) -> Attempt | None:
 
 
 def _bdf2(now: Progress, end: float, solver: Solver) -> Attempt | None:
-    """BDF2 over the last two levels, from unknowns extrapolated along them, or from the last ones if that fails."""
+    """Take a step of BDF2 over the last two levels, from unknowns extrapolated along them, or from the last ones if
+    that fails."""
     old, last = now.levels[-2:]
     step = end - last.time
     before = last.time - old.time
@@ -320,7 +321,7 @@ def _bdf2(now: Progress, end: float, solver: Solver) -> Attempt | None:
 
 
 def _divided(times: list[float], values: list[np.ndarray]) -> np.ndarray:
-    """Highest divided difference."""
+    """Return the highest divided difference."""
     for k in range(1, len(times)):
         values = [(b - a) / (times[i + k] - times[i]) for i, (a, b) in enumerate(zip(values, values[1:]))]
     return values[0]

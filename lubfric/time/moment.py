@@ -145,7 +145,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
 def _violated(
     model: LoadSharingSolver, scene: Scene, row: dict[str, Any], shear: ShearForce, heat: Heat
 ) -> Iterator[Violation]:
-    """The assumptions of the steady model and of a run that do not hold at one moment."""
+    """Return the assumptions of the steady model and of a run that do not hold at one moment."""
     speed = row["entrainment_speed"]
     film = row["central_film"]
     force = abs(row["friction_force"])
@@ -246,8 +246,8 @@ def film_shear(
 def _summed(
     model: LoadSharingSolver, time: float, solution: Step, stress: Callable[..., Any], drag: float | None = None
 ) -> ShearForce:
-    """`ShearForce` by trapezes of ``stress(x, pressure, film)`` [Pa]. ``drag``: that times the film [N/m] beyond the
-    ends of the grid; None: as at the last node, because at any film its own heat thins it by the same factor."""
+    """Return `ShearForce` by trapezes of ``stress(x, pressure, film)`` [Pa]. ``drag``: that times the film [N/m] beyond
+    the ends of the grid; None: as at the last node, because at any film its own heat thins it by the same factor."""
     t = solution.terms
     p = model.setting.problem
     grid = model.setting.grid
@@ -286,8 +286,8 @@ def _halfway(nodal: np.ndarray) -> np.ndarray:
 
 
 def _tails(model: LoadSharingSolver, time: float, drags: np.ndarray, solution: Step) -> tuple[float, float]:
-    """Couette and rolling part [N/m] of the parabolic film beyond the ends of the grid. ``drags``: shear stress times
-    film [N/m] at both ends."""
+    """Return the Couette and rolling part [N/m] of the parabolic film beyond the ends of the grid. ``drags``: shear
+    stress times film [N/m] at both ends."""
     setting = model.setting
     t = solution.terms
     p = setting.problem

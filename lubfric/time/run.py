@@ -181,7 +181,7 @@ def _marched(
 
 
 def _with_plan(scene: Scene | Prepared, times: ArrayLike | None) -> tuple[Scene | Prepared, np.ndarray]:
-    """The scene with what changes until the last output, and the output times [s]."""
+    """Return the scene with what changes until the last output, and the output times [s]."""
     base = scene_of(scene)
     plan = base.transient
     if times is None:

@@ -92,7 +92,7 @@ def check_start(base: Scene) -> None:
 
 
 def _line_history(scene: Scene) -> LineHistory:
-    """The line contact of a scene in time, with the scene's constants where nothing changes."""
+    """Return the line contact of a scene in time, with the scene's constants where nothing changes."""
     bodies = scene.bodies
     plan = transient_of(scene)
     return LineHistory(
@@ -110,7 +110,7 @@ def _line_history(scene: Scene) -> LineHistory:
 
 
 def _first_state(model: TransientLoadSharing) -> tuple[Step, float]:
-    """The state at t = 0 and the grid error of the steady film in it (NaN from another start)."""
+    """Return the state at t = 0 and the grid error of the steady film in it (NaN from another start)."""
     plan = transient_of(model.scene)
     if plan.initial_film is not None:
         return _flying(model, plan.initial_film), math.nan
@@ -126,7 +126,7 @@ def _untouched(model: TransientLoadSharing, film: Step) -> Step:
 
 
 def _flying(model: TransientLoadSharing, film: float) -> Step:
-    """No pressure anywhere under a parabola at the height ``film`` [m]."""
+    """Return the state without pressure anywhere under a parabola at the height ``film`` [m]."""
     step = _untouched(model, model.setting.undeformed(film))
     state = step.payload.state
     if state.volume_residual > 0.0:
@@ -136,7 +136,8 @@ def _flying(model: TransientLoadSharing, film: float) -> Step:
 
 
 def _resting(model: TransientLoadSharing) -> Step:
-    """The contact carries the load under the undeformed cylinder, its gap full of lubricant without pressure."""
+    """Return the state in which the contact carries the load under the undeformed cylinder, its gap full of lubricant
+    without pressure."""
     setting = model.setting
     patch = model.patch
     load = model.setting.line_history.load.before(0.0)
@@ -153,7 +154,7 @@ def _resting(model: TransientLoadSharing) -> Step:
 
 
 def _steady(model: TransientLoadSharing) -> tuple[Step, float]:
-    """The balance of the steady state, and then the same on the grid of the run."""
+    """Solve the balance of the steady state, and then the same on the grid of the run."""
     setting = model.setting
     scene = model.scene
     c = model.setting.line_history
@@ -236,8 +237,9 @@ def speeds_of_run(scene: Scene) -> list[float]:
 
 
 def _needs(prepared: Prepared, sample: Sample, speeds: list[float]) -> np.ndarray:
-    """What each steady speed needs, in rows: the number of strips, the relative change of f by their cells (infinite if
-    finer ones were needed), and the factors of `TransientLoadSharing`. A speed without a steady solution needs the first strips."""
+    """Return what each steady speed needs, in rows: the number of strips, the relative change of f by their cells
+    (infinite if finer ones were needed), and the factors of `TransientLoadSharing`. A speed without a steady solution
+    needs the first strips."""
     rows = []
     for speed in speeds:
         try:

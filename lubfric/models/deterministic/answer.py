@@ -279,7 +279,7 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
 
 
 def _recommendation(prepared: Prepared) -> str:
-    """What makes the error by the cells smaller: shorter ones, if the map has them."""
+    """Return what makes the error by the cells smaller: shorter ones, if the map has them."""
     scene = prepared.scene
     sample = prepared.sample
     if has_moving_roughness(scene):
@@ -308,7 +308,7 @@ def _narrows_numerical(prepared: Prepared) -> str:
 
 
 def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[str, ...]:
-    """What a reader should know of the ``sampling`` error of strips of this ``length`` [m]."""
+    """Return what a reader should know of the ``sampling`` error of strips of this ``length`` [m]."""
     sample = prepared.sample
     tolerance = prepared.scene.numerics.sampling_tolerance
     if math.isnan(sampling):
@@ -320,7 +320,7 @@ def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[s
 
 
 def _words_of_levels(levels: Levels) -> str:
-    """The film in one phrase: its strips and cells, and what was added up."""
+    """Return the film in one phrase: its strips and cells, and what was added up."""
     first = levels.pairs[0].resolved.result
     count = len(levels.pairs)
     pieces = levels.pieces

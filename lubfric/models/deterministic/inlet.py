@@ -35,7 +35,7 @@ MOST_ALPHA_Q = 0.8
 
 @cache
 def _rule() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Gauss points and weights on (0, 1), and the matrix of the integrals from 0 to each point."""
+    """Return the Gauss points and weights on (0, 1), and the matrix of the integrals from 0 to each point."""
     node, weight = np.polynomial.legendre.leggauss(INLET_POINTS)
     values = np.polynomial.legendre.legvander(node, INLET_POINTS)  # of P_0..P_n at the nodes
     order = np.arange(INLET_POINTS)
@@ -123,7 +123,7 @@ def _ambient_thinning(problem: Problem, gap: FloatArray) -> Any:
 
 
 def _reduced(lubricant: Lubricant, pressure: FloatArray) -> tuple[np.ndarray, np.ndarray]:
-    """∫_0^p eta0/eta dp and its derivative, with the viscosity exponential between 0 and p."""
+    """Return ∫_0^p eta0/eta dp and its derivative, with the viscosity exponential between 0 and p."""
     fluid = cell_fluid(lubricant, pressure)
     log_mean, _, by = mean_fluidity(np.zeros_like(pressure), fluid.log_viscosity)
     mean = np.exp(log_mean)

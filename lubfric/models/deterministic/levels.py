@@ -361,7 +361,7 @@ def mean(values: Iterable[float]) -> float:
 
 
 def _errors(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], numbers: dict[str, float]) -> dict[str, float]:
-    """Relative standard errors of the ``numbers`` by their scatter between strips."""
+    """Return the relative standard errors of the ``numbers`` by their scatter between strips."""
     if len(pairs) < STRIPS_FOR_SCATTER:
         return {}
     rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
@@ -372,9 +372,9 @@ def _errors(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], numbers: dict[
 def _scatter(
     pairs: Sequence[StripOnTwoGrids], sample: Sample, control: ControlVariate | None = None, share: float = 0.0
 ) -> StandardError:
-    """Standard error of the mean over ``pairs`` of f by the deterministic model less ``share`` times the differences of
-    these strips by the ``control``. (On a line of N strips, of which n are pairs, all of the sum scatters as with 1 -
-    n/N: Eq. (8) on the pairs is part of the line.)
+    """Return the standard error of the mean over ``pairs`` of f by the deterministic model less ``share`` times the
+    differences of these strips by the ``control``. (On a line of N strips, of which n are pairs, all of the sum
+    scatters as with 1 - n/N: Eq. (8) on the pairs is part of the line.)
 
     Strips show their scatter themselves, but few of them badly. Blocks within them show it at once, but off by up to a
     factor of two. So the variances of both are pooled, that of blocks with the weight of `PRIOR` strips. If windows of
@@ -400,7 +400,8 @@ def _scatter(
 
 
 def _block_error(values: Sequence[np.ndarray], sample: Sample, pair: StripOnTwoGrids) -> StandardError:
-    """Standard error of the mean of ``values`` along strips such as ``pair``; of a mirrored map only half counts."""
+    """Return the standard error of the mean of ``values`` along strips such as ``pair``; of a mirrored map only half
+    counts."""
     kept = values[0].size // (2 if pair.mirrored else 1)
     places = np.concatenate([one[:kept] for one in values])
     return block_error(places, pair.resolved.problem.spacing[1], sample.correlation_lengths[1])

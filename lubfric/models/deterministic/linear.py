@@ -141,7 +141,7 @@ class System:
         self.schur = float(self.load_by_h.sum()) * self.film - float(self.load_row @ self.solved_column)
 
     def _rows(self) -> tuple[np.ndarray, ...]:
-        """d(equation)/dp, d/dh and d/dfill of every cell, as the data of a `Stencil`."""
+        """Return d(equation)/dp, d/dh and d/dfill of every cell, as the data of a `Stencil`."""
         at = self.at
         fluid = self.at.mass_balance.fluid
         fill = self.at.state.fill
@@ -347,7 +347,7 @@ class Patterns:
 
 
 def _pattern(lines: IntArray, across: IntArray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The pattern of entries (6, n) on the ``lines`` of a matrix, sorted by them."""
+    """Return the pattern of entries (6, n) on the ``lines`` of a matrix, sorted by them."""
     entries = np.lexsort((across.ravel(), lines.ravel()))
     first = np.searchsorted(lines.ravel()[entries], np.arange(lines.shape[1] + 1))
     return entries, across.ravel()[entries].astype(np.int32), first.astype(np.int32)

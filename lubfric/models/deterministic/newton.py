@@ -173,8 +173,8 @@ def _stalled(history: list[float], patience: int) -> bool:
 
 
 def _advanced(at: Iterate, step: Change) -> tuple[Iterate, float, float]:
-    """The state after the longest part of ``step`` that is accepted, the merit of the longest part that was tried, and
-    the part that was accepted."""
+    """Return the state after the longest part of ``step`` that is accepted, the merit of the longest part that was
+    tried, and the part that was accepted."""
     apart = at.state.kind != TOUCHING
     length = _longest(at, step)
     before = _merit(at, apart)
@@ -195,7 +195,7 @@ def _longest(at: Iterate, step: Change) -> float:
 
 
 def _merit(at: Iterate, apart: BoolArray) -> float:
-    """Σ |r| over the cells that were ``apart``, and the load error, both relative."""
+    """Return σ |r| over the cells that were ``apart``, and the load error, both relative."""
     flow = at.mean_flow * apart.shape[1] / at.problem.spacing[0]
     merit = float(np.abs(at.residual[apart]).sum()) / flow + abs(at.load_error) / at.problem.load
     return merit if math.isfinite(merit) else math.inf

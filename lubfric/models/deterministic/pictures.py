@@ -62,14 +62,14 @@ def plot_passing(path: Path | str, strip: MovingStripSolution) -> None:
 
 
 def _limits(moments: Sequence[Moment]) -> tuple[float, float]:
-    """The largest gap [nm] and pressure [GPa] that are drawn."""
+    """Return the largest gap [nm] and pressure [GPa] that are drawn."""
     near = np.abs(moments[0].at.problem.x) < 1.2 * half_width(moments[0].at.problem.line)
     gap = 1.3 * max(np.quantile(moment.at.gap[near], 0.98) for moment in moments)
     return 1e9 * float(gap), 1e-9 * float(max(moment.at.state.pressure.max() for moment in moments))
 
 
 def _fields(axes: Any, moment: Moment, gap: float, pressure: float) -> None:
-    """Both fields of a ``moment``; lines, if there is one row of cells."""
+    """Return both fields of a ``moment``; lines, if there is one row of cells."""
     problem = moment.at.problem
     y = np.arange(moment.at.gap.shape[1]) * problem.spacing[1]
     for one, values, most, colours, label in (

@@ -383,8 +383,8 @@ def changed(
 
 
 def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...], StandardError]:
-    """The pieces at the nearest fixed speed; at ``speed`` itself where a given film arrives at any speed, or where they
-    cannot be solved there."""
+    """Return the pieces at the nearest fixed speed; at ``speed`` itself where a given film arrives at any speed, or
+    where they cannot be solved there."""
     scene = prepared.scene
     sample = prepared.sample
     sq = prepared.surface.sq
@@ -409,8 +409,8 @@ def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...]
 
 
 def _pieces(prepared: Prepared, speed: float, first: StripOnTwoGrids | None) -> tuple[tuple[Piece, ...], StandardError]:
-    """Pieces at ``speed`` [m/s] until the standard error of their mean relative change of f is small; ``first``: the
-    strip that is the first of them (None: all are pieces)."""
+    """Return the pieces at ``speed`` [m/s] until the standard error of their mean relative change of f is small;
+    ``first``: the strip that is the first of them (None: all are pieces)."""
     sample = prepared.sample
     tolerance = PIECES_SAMPLING_SHARE * prepared.scene.numerics.sampling_tolerance
     pieces: list[Piece] = []
@@ -435,11 +435,11 @@ def _refined(
     times: int = 2,
     length: float = PIECE,
 ) -> Piece:
-    """A piece of the surface of this ``length`` in correlation lengths, on cells twice as long as those of the strips,
-    on the same, and on shorter and shorter ones, at last so many ``times`` as short. ``first``: the strip that is it,
-    solved on the first two; of a patch: all of it, until the estimated error is within ``numerics.tolerance``, at last
-    (with ``numerics.grid = "given"`` always) on the map's own. ``slope``: of friction over load [-] (None: found by a
-    second solve)."""
+    """Return a piece of the surface of this ``length`` in correlation lengths, on cells twice as long as those of the
+    strips, on the same, and on shorter and shorter ones, at last so many ``times`` as short. ``first``: the strip that
+    is it, solved on the first two; of a patch: all of it, until the estimated error is within ``numerics.tolerance``,
+    at last (with ``numerics.grid = "given"`` always) on the map's own. ``slope``: of friction over load [-] (None:
+    found by a second solve)."""
     scene = prepared.scene
     sample = prepared.sample
     surface, factors = surface_and_factors(prepared, index)
@@ -464,8 +464,8 @@ def _refined(
 
 
 def _error(pieces: Sequence[Piece], sample: Sample) -> StandardError:
-    """Standard error of the mean relative change of f from the cells of the second level to the last ones, from place
-    to place."""
+    """Return the standard error of the mean relative change of f from the cells of the second level to the last ones,
+    from place to place."""
     changes = []
     for piece in pieces:
         base = piece[1]

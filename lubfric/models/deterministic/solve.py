@@ -350,7 +350,8 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
 
 
 def _interpolated(field: FloatArray, along: FloatArray, across: FloatArray) -> np.ndarray:
-    """Linear interpolation at the cells ``along`` x (zero outside) and ``across`` y (periodic), counted in cells."""
+    """Return the linear interpolation at the cells ``along`` x (zero outside) and ``across`` y (periodic), counted in
+    cells."""
     i = np.floor(along).astype(int)
     j = np.floor(across).astype(int)
     s = (along - i)[:, None]

@@ -214,8 +214,8 @@ def _without_weak_suction(pressure: FloatArray, fluid: BoolArray) -> np.ndarray:
 
 
 def _opened(touching: np.ndarray, surplus: np.ndarray, pull: float | np.ndarray) -> np.ndarray:
-    """The touching cells that open: those with a ``surplus`` of inflow [m/s] above ``pull``, and those behind them that
-    it reaches. It is handed on along x, and what a cell gives off is taken from it.
+    """Return the touching cells that open: those with a ``surplus`` of inflow [m/s] above ``pull``, and those behind
+    them that it reaches. It is handed on along x, and what a cell gives off is taken from it.
 
     Along a furrow that the film wets, cells would otherwise open one by one. A cell that is opened although it gives
     off more than it is handed would sink below the floor, and close all that were opened with it, for ever.

@@ -275,7 +275,7 @@ def change_of_places(coarse: Places, fine: Places, mean_load: float) -> float:
 
 
 def _blocks(values: np.ndarray, count: int) -> np.ndarray:
-    """Means of ``values`` over ``count`` equal parts of their length."""
+    """Return the means of ``values`` over ``count`` equal parts of their length."""
     sums = np.append(0.0, np.cumsum(values)) / values.size
     ends = np.interp(np.linspace(0, 1, count + 1), np.linspace(0, 1, values.size + 1), sums)
     return np.diff(ends) * count

@@ -164,7 +164,7 @@ def edge_load_share(balanced: BalancedSample) -> float:
 
 
 def _finer(change: float, tolerance: float) -> tuple[Violation, ...]:
-    """A warning where cells half as long as the map's own would change f by more than ``tolerance``."""
+    """Return a warning where cells half as long as the map's own would change f by more than ``tolerance``."""
     if not change > tolerance:
         return ()
     what = "change of f by cells half as long, estimated"
@@ -203,8 +203,8 @@ def _numbers(balanced: BalancedSample) -> dict[str, float]:
 
 
 def _steepness(balanced: BalancedSample) -> float:
-    """d ln(F_H/F_C)/d ln U: at a given division of the load the film grows as U^e, with closed forms at F_H. NaN where
-    film and contact do not share the load."""
+    """Return d ln(F_H/F_C)/d ln U: at a given division of the load the film grows as U^e, with closed forms at F_H. NaN
+    where film and contact do not share the load."""
     response = balanced.response
     balance = balanced.balance
     if response is None or balance.film is None or balance.contact_load == 0:

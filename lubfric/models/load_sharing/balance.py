@@ -163,7 +163,8 @@ def _dry(scene: Scene, rough_contact: RoughContact, why: str) -> Balance:
 
 
 def _film_alone(point: Point) -> Balance:
-    """The film under the total load, on the cells that the sum of its shear stress needs, over the unloaded contact."""
+    """Return the film under the total load, on the cells that the sum of its shear stress needs, over the unloaded
+    contact."""
     load = point.scene.bodies.load
     trial = point.trial(load, 0.0)
     while True:
@@ -187,8 +188,8 @@ def _film_alone(point: Point) -> Balance:
 
 
 def _certainly_touching(scene: Scene, speed: float, rough_contact: RoughContact) -> bool:
-    """Whether the summits would even reach through twice Moes' film over an undeformed cylinder, which is thicker than
-    any film."""
+    """Return whether the summits would even reach through twice Moes' film over an undeformed cylinder, which is
+    thicker than any film."""
     film = SAFE_FILM * scene.line_contact(speed).moes_film
     return rough_contact.close(film + rough_contact.x**2 / (2 * scene.bodies.radius), 0.0).volume_residual > 0
 
@@ -323,7 +324,8 @@ def _seen_root(point: Point, near: RootStart) -> tuple[Point, Root]:
 
 
 def _contact_tolerance(point: Point, contact_state: ContactState, volume: float) -> float | None:
-    """The tolerance that leaves less than ``volume`` of the gap of ``contact_state`` open: that of ``point`` if it does."""
+    """Return the tolerance that leaves less than ``volume`` of the gap of ``contact_state`` open: that of ``point`` if
+    it does."""
     now = point.settings.contact_tolerance
     adjustable = point.rough_contact.adjustable_tolerance
     fields = contact_state.fields
@@ -385,7 +387,7 @@ def _first_settings(scene: Scene, *, alone: bool = False) -> Settings:
 
 
 def _needed(point: Point, balance: Balance) -> Settings:
-    """The settings that ``balance`` shows to be needed: those of ``point`` if they are enough."""
+    """Return the settings that ``balance`` shows to be needed: those of ``point`` if they are enough."""
     numerics = point.scene.numerics
     now = point.settings
     response = balance.response
@@ -422,8 +424,8 @@ def _tightened(now: float, needed: float) -> float:
 
 
 def _cells(point: Point, film: EHLResult, friction: Forces) -> int:
-    """Least number of cells of the film: twice its present number where the sum of its shear stress is not exact
-    enough. It stays where that sum is of stresses that no oil carries."""
+    """Return the least number of cells of the film: twice its present number where the sum of its shear stress is not
+    exact enough. It stays where that sum is of stresses that no oil carries."""
     numerics = point.scene.numerics
     now = point.settings.film_cells
     resolved = friction.quadrature <= budget.SHEAR_SUM * numerics.tolerance or meaningless(friction.shear)

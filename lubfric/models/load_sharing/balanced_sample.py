@@ -314,9 +314,9 @@ def solve_sample(
 
 
 def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | None:
-    """A balance on the first strips to start from: that of the nearest of three fixed speeds (None where a given film
-    arrives, at any speed, and where no contact is expected). It depends on scene and cells alone, so that no result
-    depends on which speeds were solved before."""
+    """Return a balance on the first strips to start from: that of the nearest of three fixed speeds (None where a given
+    film arrives, at any speed, and where no contact is expected). It depends on scene and cells alone, so that no
+    result depends on which speeds were solved before."""
     scene = prepared.scene
     sq = prepared.surface.sq
     if speed == 0 or not sample.represents_more or sq == 0 or scene.lubricant.inlet_film is not None:
@@ -345,8 +345,8 @@ def nearest_reference(film: float) -> float | None:
 
 
 def _effect(prepared: Prepared, point: Point, balance: Balance, sample: Sample) -> CellEffect:
-    """The effect of the cells at ``balance``: that at the reference point, if the load on the contact is so near that
-    the difference changes f little, else its own."""
+    """Return the effect of the cells at ``balance``: that at the reference point, if the load on the contact is so near
+    that the difference changes f little, else its own."""
     reference = _reference(prepared, point.speed, sample)
     response = balance.response
     if reference is not None and abs(math.log(balance.contact_load / reference.contact_load)) < NEAR_LOAD:

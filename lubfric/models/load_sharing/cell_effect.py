@@ -153,8 +153,8 @@ def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, sample: 
 
 
 def _error_of_area(steps: Sequence[CellStep]) -> float:
-    """Relative error of the mean factor on the contact area; from the differences between pieces where they are too
-    short for blocks (NaN: too few of them)."""
+    """Return the relative error of the mean factor on the contact area; from the differences between pieces where they
+    are too short for blocks (NaN: too few of them)."""
     within = sum(step.area_error for step in steps) / len(steps) / math.sqrt(len(steps))
     if math.isfinite(within):
         return within
@@ -167,16 +167,16 @@ def _error_of_area(steps: Sequence[CellStep]) -> float:
 
 
 def _settled(steps: Sequence[CellStep], most: float, scatter: float) -> bool:
-    """Whether these pieces are enough: the error of their mean is within ``scatter`` [m], there are no more pieces, or
-    there are three that are too short for blocks."""
+    """Return whether these pieces are enough: the error of their mean is within ``scatter`` [m], there are no more
+    pieces, or there are three that are too short for blocks."""
     short = len(steps) >= FEWEST_PIECES and not math.isfinite(steps[0].error.error)
     return len(steps) > 0 and (short or len(steps) >= most or mean_error(steps).error <= scatter)
 
 
 def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, index: int, enough: float) -> CellStep:
-    """Piece number ``index`` on finer and finer cells. Where that takes more than `MOST_PIECE_CELLS` cells, it ends when the
-    rest is within ``enough`` [m]. The change is averaged over blocks along y, each with its influence on the mean
-    gap."""
+    """Solve piece number ``index`` on finer and finer cells. Where that takes more than `MOST_PIECE_CELLS` cells, it
+    ends when the rest is within ``enough`` [m]. The change is averaged over blocks along y, each with its influence on
+    the mean gap."""
     assert balance.film is not None and balance.response is not None
     slope = balance.response.slopes.gap
     ladder = sample.cells.coarsenings()
@@ -221,8 +221,8 @@ def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, in
 def _along_y(
     rough_contact: HalfSpaceContact, contact_state: ContactState, slope: float, rows: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Influence on the mean gap beyond the mean film [m], and share of A in contact, means over ``rows`` cells along
-    y."""
+    """Return the influence on the mean gap beyond the mean film [m], and share of A in contact, means over ``rows``
+    cells along y."""
     assert contact_state.fields is not None
     gap = (
         gap_influence(hertz_mean_gap(rough_contact, contact_state), line_load(rough_contact, contact_state), slope)
@@ -233,7 +233,7 @@ def _along_y(
 
 
 def _ratio(fine: np.ndarray, coarse: np.ndarray, step: float, correlation: float) -> tuple[float, float]:
-    """Ratio of the means of two fields along y, and its relative standard error."""
+    """Return the ratio of the means of two fields along y, and its relative standard error."""
     if not coarse.any() or not fine.any():
         return 1.0, math.nan
     ratio = float(fine.mean() / coarse.mean())

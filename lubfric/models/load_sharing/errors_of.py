@@ -161,8 +161,8 @@ def solver_errors_of(balanced: BalancedSample) -> SolverErrors:
 
 
 def _contact_errors(scene: Scene, balanced: BalancedSample, solver: SolverErrors) -> dict[str, float]:
-    """Relative errors where film and contact share the load, by the names of `FrictionResult`: the root of the sum of
-    squares of the standard error by the surface and of the estimated error by solvers and grids.
+    """Return the relative errors where film and contact share the load, by the names of `FrictionResult`: the root of
+    the sum of squares of the standard error by the surface and of the estimated error by solvers and grids.
 
     An error of the gap changes the division of the load, and everything with it (`Response.rates`). Films also have the
     error of the film solve. The area also has its own scatter at given load, and what its cells may change.
@@ -191,7 +191,7 @@ def _contact_errors(scene: Scene, balanced: BalancedSample, solver: SolverErrors
 
 
 def _area_errors(scene: Scene, balance: Balance, scatter: Scatter) -> dict[str, float]:
-    """Relative standard errors of the areas at given load."""
+    """Return the relative standard errors of the areas at given load."""
     fraction = balance.contact_state.real_contact_area_fraction
     length = float(
         balance.contact_state.contact_fraction.sum() * (balance.contact_state.x[1] - balance.contact_state.x[0])
@@ -203,8 +203,9 @@ def _area_errors(scene: Scene, balance: Balance, scatter: Scatter) -> dict[str, 
 
 
 def _given_load(forces: Forces, film_error: float) -> dict[str, float]:
-    """Errors of what depends on a film at a given load, whose relative error is ``film_error``. Where the heat of the inlet
-    is omitted, its factor is off by what is known of it; a temperature rise that was omitted has no error (NaN)."""
+    """Return the errors of what depends on a film at a given load, whose relative error is ``film_error``. Where the
+    heat of the inlet is omitted, its factor is off by what is known of it; a temperature rise that was omitted has no
+    error (NaN)."""
     heat = forces.heat
     of_heat = dict.fromkeys(depending_on("heat"), film_error if heat.heated else math.nan)
     of_heat["inlet_film_factor"] = math.nan if heat.inlet is None else film_error + heat.film_factor - heat.inlet.factor
@@ -212,8 +213,8 @@ def _given_load(forces: Forces, film_error: float) -> dict[str, float]:
 
 
 def _shear_errors(forces: Forces, film_error: float) -> dict[str, float]:
-    """Relative errors of the film's friction and its parts, by the relative error ``film_error`` of the film and by the sums
-    over its nodes. The rolling part is a small difference of large numbers, so its error is large."""
+    """Return the relative errors of the film's friction and its parts, by the relative error ``film_error`` of the film
+    and by the sums over its nodes. The rolling part is a small difference of large numbers, so its error is large."""
     shear = forces.shear
     rolling = film_error * max(abs(shear.rolling), shear.rolling_parts)
     heat = forces.heat.left_out * forces.total
@@ -285,7 +286,8 @@ def why_moment_unknown(scene: Scene) -> str:
 
 
 def _area_needed(balanced: BalancedSample, scene: Scene) -> float:
-    """How many times more of a map that ends would be needed (1: enough, or there is more of it; NaN: not known)."""
+    """Return how many times more of a map that ends would be needed (1: enough, or there is more of it; NaN: not
+    known)."""
     needed = 1.0
     if balanced.sample.ends_after(balanced.count):
         needed = (balanced.sampling / scene.numerics.sampling_tolerance) ** 2

@@ -91,8 +91,8 @@ def hidden_contact(scene: Scene, rough_contact: HalfSpaceContact, forces: Forces
 
 
 def _share(scene: Scene, load: float, forces: Forces) -> float:
-    """Relative effect of a contact ``load`` [N] on f: by its own friction, where the surfaces slide, or by the load
-    that the film loses, to whose friction that is at most in proportion."""
+    """Return the relative effect of a contact ``load`` [N] on f: by its own friction, where the surfaces slide, or by
+    the load that the film loses, to whose friction that is at most in proportion."""
     bodies = scene.bodies
     friction = abs(forces.coefficient)
     boundary_friction = bodies.boundary_friction_coefficient if scene.motion.slide_roll_ratio else 0.0

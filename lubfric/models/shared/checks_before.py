@@ -75,8 +75,8 @@ def warn_unusual(scene: Scene) -> tuple[Violation, ...]:
 
 
 def _cells_of_length(surface: Surface, axis: int) -> float:
-    """Correlation length of the map along ``axis`` over its cells; NaN if it has no such length: a lay along that axis,
-    a flat map, or one of a few cells."""
+    """Return the correlation length of the map along ``axis`` over its cells; NaN if it has no such length: a lay along
+    that axis, a flat map, or one of a few cells."""
     if surface.shape[axis] < 8 or surface.sq == 0:
         return math.nan
     try:

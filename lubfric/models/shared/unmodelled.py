@@ -144,7 +144,7 @@ def _all_effects(
 def _of_film(
     scene: Scene, sq: float, speed: float, known: tuple[float, float] | None, *, includes_motion: bool
 ) -> list[UnmodelledEffect]:
-    """What needs a film."""
+    """Return what needs a film."""
     line = scene.line_contact(speed)
     lubricant = scene.lubricant
     thinner = math.exp(-WARMER * (lubricant.temperature_coefficient or TYPICAL[1]))
@@ -186,8 +186,8 @@ def _of_film(
 def _scaled(
     f_b: float, before: tuple[float, float], after: tuple[float, float], known: tuple[float, float]
 ) -> tuple[float, float]:
-    """The parts ``after``, as changes from the guess ``before`` to what is ``known``: λ that gives the share known, and
-    mu in proportion."""
+    """Return the parts ``after``, as changes from the guess ``before`` to what is ``known``: λ that gives the share
+    known, and mu in proportion."""
     if not f_b:
         return 0.0, after[1] / before[1] * known[1]
     shares = [min(max(parts[0] / f_b, LEAST_SCALED_SHARE), 1 - LEAST_SCALED_SHARE) for parts in (before, after, known)]
@@ -199,7 +199,8 @@ def _scaled(
 
 
 def _parts(scene: Scene, sq: float, speed: float, times: float = 1.0) -> tuple[float, float]:
-    """The friction [-] of asperities alone and of all, to some ten per cent, at so many ``times`` the expected film."""
+    """Return the friction [-] of asperities alone and of all, to some ten per cent, at so many ``times`` the expected
+    film."""
     bodies = scene.bodies
     ratio = scene.motion.slide_roll_ratio
     rubs = bodies.boundary_friction_coefficient * (ratio != 0)

@@ -207,7 +207,7 @@ def at_value(value: float, unit: str, name: str) -> str:
 
 
 def _distance(violation: Violation) -> float:
-    """The ratio by which the value is beyond its limit."""
+    """Return the ratio by which the value is beyond its limit."""
     if violation.limit == 0 or violation.value == 0:
         return abs(violation.value - violation.limit)
     ratio = abs(violation.value / violation.limit)
