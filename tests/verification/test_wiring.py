@@ -6,7 +6,7 @@ from functools import partial
 import pytest
 
 from verification.campaigns import mutants
-from verification.campaigns.mutants import FAILED, PASSED, ROOT, Mutant, outcome_of, table
+from verification.campaigns.mutants import FAILED, PASSED, Mutant, outcome_of, table
 from verification.catalogue import STUDIES
 from verification.check import Check
 from verification.run import load
@@ -27,13 +27,15 @@ def test_a_lost_option_is_noticed():
 
 
 def test_every_mutant_quotes_text_that_stands_once_in_its_place():
-    wrong = []
-    for mutant in table():
-        try:
-            mutant.broken(ROOT / "lubfric")
-        except ValueError as error:
-            wrong.append(str(error))
-    assert wrong == []
+    assert [message for mutant in table() if (message := mutant.misquoted())] == []
+
+
+def test_a_wrong_quote_fails_and_stops_no_other_trial(tmp_path, monkeypatch):
+    good, bad = table()[0], Mutant("oil", "no such text", "", ("oil/test_oil.py",))
+    monkeypatch.setattr(mutants, "table", lambda: [bad, good])
+    monkeypatch.setattr(mutants, "outcome_of", lambda mutant, names, longest: FAILED if mutant else PASSED)
+    checks = [item for item in mutants.mutants("default", file=tmp_path / "t.csv") if isinstance(item, Check)]
+    assert [check.passed for check in checks] == [False, True, True] and "0 times" in checks[0].refused
 
 
 def test_a_quoted_text_is_found_however_its_lines_are_broken(tmp_path):

@@ -88,6 +88,14 @@ class Mutant:
         content = contents[file]
         return file, content[: match.start()] + self.wrong + content[match.end() :]
 
+    def misquoted(self, root: Path = ROOT) -> str:
+        """Return what is wrong with the quote, or ""."""
+        try:
+            self.broken(root / "lubfric")
+        except ValueError as error:
+            return str(error)
+        return ""
+
     def fingerprint(self, root: Path = ROOT) -> str:
         """Return a hash of the mistake, of the function or top-level statement of `lubfric` that it changes, and of the
         tests and studies that have to detect it."""
@@ -199,6 +207,11 @@ def mutants(
     """
     chosen = [mutant for mutant in table() if not places or mutant.place.startswith(tuple(places))]
     chosen.sort(key=lambda mutant: not mutant.place.startswith(FIRST))
+    wrong = {mutant: mutant.misquoted() for mutant in chosen}
+    for mutant, message in wrong.items():
+        if message:
+            yield verdict(mutant.name, BROKEN, FAILED, message)
+    chosen = [mutant for mutant in chosen if not wrong[mutant]]
     prints = {trial: trial.fingerprint() for trial in with_controls(chosen)}
     extend([trial for trial, print_ in prints.items() if print_ not in known(file)], prints, seconds, run.workers, file)
     codes = {trial: known(file)[print_] for trial, print_ in prints.items() if print_ in known(file)}
@@ -299,9 +312,9 @@ def outcome_of(mutant: Mutant | None, names: tuple[str, ...], longest: float = L
         return code if code in (PASSED, FAILED) else BROKEN
 
 
-def verdict(name: str, code: int, wanted: int) -> Check:
-    """Return the check that the exit ``code`` of a trial is the ``wanted`` one."""
-    refused = "it did not come to an end" if code == BROKEN else ""
+def verdict(name: str, code: int, wanted: int, message: str = "it did not come to an end") -> Check:
+    """Return the check that the exit ``code`` of a trial is the ``wanted`` one; ``message`` says what has no code."""
+    refused = message if code == BROKEN else ""
     kind = AT_LEAST if wanted == FAILED else AT_MOST
     value = float("nan") if refused else code
     return Check(
