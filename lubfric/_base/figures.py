@@ -31,6 +31,7 @@ GREY = "#6b6b6b"
 FRICTION_LABEL = axis_label("coefficient")
 KEY_SIZE = 8.0  # pt: of the letters of a key, at most
 LETTER = 3.8  # pt: width of a letter of that size, about
+TITLE_LETTER = 0.56  # width of a letter of a title over the size of its font, about
 SLENDER_MAP = 4.0  # ratio of the sides beyond which a map is not drawn to scale
 
 
@@ -85,6 +86,18 @@ def animated(
 def plain_words(text: str) -> str:
     """Return ``text`` of a user, such as the name of a scene, for a picture, in which a $ would begin a formula."""
     return text.replace("$", r"\$")
+
+
+def head(figure: Figure, title: str) -> None:
+    """Write ``title`` above ``figure``, in lines that are no wider than it."""
+    from textwrap import fill
+
+    from matplotlib import rcParams
+    from matplotlib.font_manager import FontProperties
+
+    size = FontProperties(size=rcParams["figure.titlesize"]).get_size_in_points()
+    letters = int(72.0 * figure.get_figwidth() / (TITLE_LETTER * size))
+    figure.suptitle("\n".join(fill(line, letters) for line in title.splitlines()))
 
 
 def axes_or_new(ax: Axes | None, layout: str = "constrained") -> Axes:

@@ -192,7 +192,9 @@ def read_record(folder: Path) -> dict[str, Any]:
     if not os.path.lexists(path):
         raise InputError(f"{folder} holds no {RESULT}; {again}")
     record = read_json(path, again)
-    numbers = {name: kind | None if kind is float else kind for name, kind in get_type_hints(Violation).items()}
+    hints = get_type_hints(Violation)
+    hints.pop("is_note")  # records of version 1.0.0 have none
+    numbers = {name: kind | None if kind is float else kind for name, kind in hints.items()}
     kind = {"scene": {"name": str}, "points": [{"validity": [numbers]}]}
     if not isinstance(record, dict) or not fits({"points": []} | record, kind):
         raise InputError(f"{path} is damaged, or no record of a run; {again}")

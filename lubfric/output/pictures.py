@@ -57,12 +57,16 @@ class PictureOptions:
     panels : of a Stribeck curve, of "friction", "load" and "film"
     x_scale, y_scale : "linear" or "log", of the axis of speeds, ratios or times, and of f; None: by the data
     width : of the figure [m]; a journal's column is some 85 mm wide. None: `PICTURE_WIDTH`
+    has_warnings : whether points with warnings are marked, and the warnings named below
+    has_parts : whether lines show the errors by the model and by the surface alone
     """
 
     panels: tuple[str, ...] = PANELS
     x_scale: str | None = None
     y_scale: str | None = None
     width: float | None = None
+    has_warnings: bool = True
+    has_parts: bool = True
 
     def size(self, heights: Sequence[float]) -> tuple[float, float]:
         """Return width and height [inch] of a figure with panels of these ``heights`` [inch] at the usual width."""
@@ -129,13 +133,13 @@ def plot_stribeck(
     speed = np.abs(c["speed"])
     if "friction" in axes:
         top = axes["friction"]
-        friction_over_speed(top, columns)
+        friction_over_speed(top, columns, has_parts=options.has_parts)
         if measured is not None:
             measured.draw(top)
             top.set_ylim(bottom=min(top.get_ylim()[0], 1.1 * measured.coefficient.min()))
-        _mark(figure, top, speed, c["coefficient"], [violations[i] for i in order])
+        _mark(figure, top, speed, c["coefficient"], [violations[i] for i in order], options)
         top.set(xlabel="")
-    figure.suptitle(title)
+    figures.head(figure, title)
     if "load" in axes:
         figures.load_shares(axes["load"], speed, c["contact_load"] / (c["contact_load"] + c["film_load"]))
         figures.key_above(axes["load"])
@@ -189,11 +193,11 @@ def plot_traction(
     warm = bool((c["flash_temperature_rise"] > 0).any() or (c["film_temperature_rise"] > 0).any())
     figure = figures.new_figure(figsize=options.size([6.5 if warm else 4.5]))
     top, *others = figure.subplots(1 + warm, 1, sharex=True, squeeze=False, height_ratios=[3, 2][: 1 + warm]).flat
-    interval_band(top, ratio, c)
+    interval_band(top, ratio, c, has_parts=options.has_parts)
     parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
     figures.friction_lines(top, ratio, parts, marker="o", ms=4)
-    _mark(figure, top, ratio, c["coefficient"], [violations[i] for i in order])
-    figure.suptitle(title)
+    _mark(figure, top, ratio, c["coefficient"], [violations[i] for i in order], options)
+    figures.head(figure, title)
     top.set_ylabel(figures.FRICTION_LABEL)
     for bottom in others:
         bottom.plot(ratio, c["flash_temperature_rise"], "-", color=figures.RED, label="surfaces (flash temperature)")
@@ -210,11 +214,19 @@ def plot_traction(
 
 
 def _mark(
-    figure: Figure, axes: Axes, speed: FloatArray, coefficient: FloatArray, violations: list[Sequence[Any]]
+    figure: Figure,
+    axes: Axes,
+    speed: FloatArray,
+    coefficient: FloatArray,
+    violations: list[Sequence[Any]],
+    options: PictureOptions,
 ) -> None:
     """Ring the points at which an assumption is violated, unless it is at all of them, and cross out those at which f
     is meaningless. The text below says which. Then the key of all lines."""
-    violations = [[violation for violation in violated if not violation.is_note] for violated in violations]
+    violations = [
+        [violation for violation in violated if violation.severe or (options.has_warnings and not violation.is_note)]
+        for violated in violations
+    ]
     severe = np.array([any(violation.severe for violation in violated) for violated in violations], dtype=bool)
     minor = np.array([len(violated) > 0 for violated in violations], dtype=bool) & ~severe
     everywhere = minor.all()
@@ -360,7 +372,7 @@ def _section(axes: Axes, fields: Any, row: int, *, touching: bool) -> None:
     surface = fields.heights[:, row]
     smooth = fields.film[:, row]
     drawn = [surface]
-    axes.plot(micro, smooth * 1e9, color=figures.GREEN, label="smooth film h")
+    axes.plot(micro, smooth * 1e9, color=figures.GREEN, label="film of smooth surfaces under $F_H$")
     axes.plot(micro, surface * 1e9, color=figures.GREY, lw=0.8, ls="--", label="rough surface, undeformed")
     if touching:
         deflection = fields.deflection[:, row]
@@ -409,7 +421,7 @@ def plot_history(
     first.plot(t, c["entrainment_speed"], color="k")
     first.axhline(0.0, color=figures.GREY, lw=0.6)
     first.set_ylabel("entrainment speed U (m/s)")
-    figure.suptitle(title)
+    figures.head(figure, title)
     load = first.twinx()
     load.grid(visible=False)
     load.spines["right"].set_visible(True)

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 
 
 AXIS_SCALES = ("linear", "log")  # of an axis
+LEFT_OUT = ("warnings", "parts")  # of a picture, where a user does not want them
 FORMATS = ("png", "pdf", "svg")  # of a picture that is drawn again
 NARROWEST = 0.05  # m: width of a picture
 WIDEST_PICTURE = 0.6  # m: width of a picture
@@ -82,6 +83,8 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
     else:
         workers = _default_workers(scene, speeds)
     speeds_apart = speeds != studies.AUTO_SPEEDS and len(speeds) >= max(2, workers)  # else the parts of each point are
+    if speeds_apart and workers > 1:
+        say(f"{workers} processes solve the speeds beside each other: points end in any order, and their times overlap")
     with (
         ProgressLine("speeds") as shown,
         studies.pool(workers) as executor,
@@ -289,7 +292,15 @@ def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
     if arguments.width is not None:
         number = number_of("--width", arguments.width, "m")
         width = validate.number("--width", number, "m", minimum=NARROWEST, maximum=WIDEST_PICTURE)
-    return PictureOptions(panels=panels, width=width, **scales)
+    words = [] if arguments.without is None else arguments.without.split(",")
+    left_out = [validate.choice("--without", word.strip(), LEFT_OUT) for word in words]
+    return PictureOptions(
+        panels=panels,
+        width=width,
+        **scales,
+        has_warnings="warnings" not in left_out,
+        has_parts="parts" not in left_out,
+    )
 
 
 def _points_of(source: Path, columns: Columns, record: dict[str, Any]) -> list[dict[str, Any]]:

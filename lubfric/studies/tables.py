@@ -35,6 +35,9 @@ MOST_PLOTTED_LINES = 500
 # Lines of a plot that get a label, at most.
 NAMED = 10
 
+# Markers and dashes of the values of a second number that is varied, one pair for each; more values have none.
+STYLES = (("o", "-"), ("s", "--"), ("^", ":"), ("D", "-."), ("v", (0, (5, 1))), ("P", (0, (1, 1))), ("X", (0, (7, 3))))
+
 # Points of a line between solved ones.
 LINE_POINTS = 200
 
@@ -100,7 +103,8 @@ def columns_of_study(result: Any) -> dict[str, np.ndarray]:
 
 def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
     """Draw f over speed, a line for each curve, on ``ax`` or new axes, which are returned; ``style``: of the lines.
-    Many curves are coloured by the first number that is varied. Where speeds were chosen, the lines are interpolated."""
+    Many curves are coloured by the first number that is varied, and have markers and dashes by the second. Where speeds
+    were chosen, the lines are interpolated."""
     from matplotlib import colormaps
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
@@ -114,7 +118,11 @@ def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
     few = len(indices) <= NAMED
     shades: np.ndarray = np.linspace(0.0, 0.9, len(indices))
     colours = colormaps["viridis"]
-    key = next((k for k, (_, v) in result.coords.items() if k != SPEED and v.dtype.kind == "f"), None)
+    keys = [k for k, (_, v) in result.coords.items() if k != SPEED and v.dtype.kind == "f" and v.size > 1]
+    key = next(iter(keys), None)
+    styles: dict[float, Any] = {}
+    if len(keys) > 1 and not few and np.unique(result.coords[keys[1]][1]).size <= len(STYLES):
+        styles = dict(zip(np.unique(result.coords[keys[1]][1]).tolist(), STYLES))
     if key is not None and not few:
         dim, values = result.coords[key]
         scale = Normalize(values.min(), values.max())
@@ -122,7 +130,12 @@ def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
         axes.figure.colorbar(ScalarMappable(scale, colours), ax=axes, label=axis_label(key))
     for index, colour in zip(indices, colours(shades)):
         named = figures.plain_words(label(result.plan, index)) if few else None
-        line_style: dict[str, Any] = {"color": colour, "lw": 1.0, "label": named} | style
+        line_style: dict[str, Any] = {"color": colour, "lw": 1.0, "label": named}
+        if styles:
+            dim, values = result.coords[keys[1]]
+            marker, dashes = styles[float(values[index[result.dims.index(dim)]])]
+            line_style |= {"marker": marker, "ls": dashes, "ms": 3.5}
+        line_style |= style
         speed = np.abs(result.speeds(index))
         f = result.columns["coefficient"][index]
         curve = result.curve(index) if result.chosen else None
@@ -136,7 +149,12 @@ def plot(result: Any, ax: Axes | None = None, **style: Any) -> Axes:
         axes.plot(speed[good], f[good], **dots | line_style)
     axes.set(xscale="log", xlabel=axis_label(SPEED), ylabel=figures.FRICTION_LABEL)
     figures.plain_ticks(axes.xaxis)
-    rows = figures.key_above(axes, 2) if few and len(indices) > 1 else 0
+    for value, (marker, dashes) in styles.items():
+        named = (
+            f"{COLUMNS[keys[1]].label} {worded_value(keys[1], value)}" if keys[1] in COLUMNS else f"{keys[1]} {value:g}"
+        )
+        axes.plot([], [], color=figures.GREY, lw=1.0, ls=dashes, marker=marker, ms=3.5, label=named)
+    rows = figures.key_above(axes, 2) if styles or (few and len(indices) > 1) else 0
     some = "" if len(indices) == count else f": {len(indices)} of {count} curves"
     axes.set_title(figures.plain_words(result.plan.scene.name) + some, pad=6 + 13 * rows)
     return axes
@@ -157,10 +175,14 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
     unit = unit_of_largest(result[quantity].ravel().tolist(), COLUMNS[quantity].unit)
     times = converted(1.0, COLUMNS[quantity].unit, unit)
     indices = list(np.ndindex(*result.status.shape[:-1]))[:NAMED]
+    gaps: dict[str, Any] = {"color": figures.GREY, "alpha": 0.12, "lw": 0, "label": "the sliding changes its direction"}
     for index in indices:
         values = times * result[quantity][index][order]
         breaks = _changes_of_direction(result, index)[order] if quantity == "coefficient" else np.zeros(0)
         ends = np.flatnonzero(np.diff(breaks)) + 1  # before these points a line ends
+        for end in ends if index == indices[0] else ():
+            axes.axvspan(over[order][end - 1], over[order][end], **gaps)
+            gaps.pop("label", None)
         named = figures.plain_words(label(result.plan, (*index, slice(None)))) if len(indices) > 1 else None
         line_style: dict[str, Any] = {"marker": "o", "ms": 3, "lw": 1.2, "label": named or COLUMNS[quantity].label}
         line_style |= {"color": figures.BLUE} if len(indices) == 1 else {}
@@ -227,9 +249,12 @@ def interval_band(
     over: np.ndarray,
     columns: Columns | dict[str, FloatArray],
     line: Sequence[FloatArray] | None = None,
+    *,
+    has_parts: bool = True,
 ) -> None:
     """Draw the intervals of f as one band ``over`` speeds or ratios, if ``columns`` have them, with thin lines for what
-    the model and the finite surface leave by themselves. ``line``: (speeds, f) of a smooth curve to draw them about."""
+    the model and the finite surface leave by themselves, unless not ``has_parts``. ``line``: (speeds, f) of a smooth
+    curve to draw them about."""
     unknown = np.full(over.shape, np.nan)
     f = columns["coefficient"]
     x, y = (over, f) if line is None else line
@@ -252,7 +277,7 @@ def interval_band(
     ends = y * (1 + low), y * (1 + high)
     wide, *sides = figures.widened(x, *ends)
     ax.fill_between(wide, sides[0], sides[1], color=figures.BLUE, alpha=0.2, lw=0, label=band)
-    for name, times, dashes in OF_INTERVAL:
+    for name, times, dashes in OF_INTERVAL if has_parts else ():
         error = at(times * columns.get(name, unknown))
         towards, away = (at(times * columns.get(f"{name}_{end}", unknown)) for end in ("low", "high"))
         towards, away = (np.where(np.isfinite(side), side, error) for side in (towards, away))
@@ -266,9 +291,11 @@ def interval_band(
             )
 
 
-def friction_over_speed(axes: Axes, columns: dict[str, np.ndarray], **style: Any) -> np.ndarray:
-    """Draw friction over the magnitude of the speed with its parts and the band of its intervals, by the ``columns`` of
-    a `lubfric.StribeckResult`; between its points where f is `DRAWN_ERROR` there. Returns the indices of the points
+def friction_over_speed(
+    axes: Axes, columns: dict[str, np.ndarray], *, has_parts: bool = True, **style: Any
+) -> np.ndarray:
+    """Draw friction over the magnitude of the speed with its parts and the band of its intervals (``has_parts``: and of
+    their parts), by the ``columns`` of a `lubfric.StribeckResult`; between its points where f is `DRAWN_ERROR` there. Returns the indices of the points
     drawn, in order: those that failed, and rest, are omitted."""
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
@@ -276,7 +303,7 @@ def friction_over_speed(axes: Axes, columns: dict[str, np.ndarray], **style: Any
     speed = np.abs(c["speed"])
     load = c["contact_load"] + c["film_load"]
     line = _line(c)
-    interval_band(axes, speed, c, line and line[:2])
+    interval_band(axes, speed, c, line and line[:2], has_parts=has_parts)
     if line is None:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
         figures.friction_lines(axes, speed, parts, **{"marker": "o", "ms": 4} | style)
@@ -304,7 +331,7 @@ def _line(columns: dict[str, np.ndarray]) -> tuple[np.ndarray, ...] | None:
     return fine, contact + film, contact, film
 
 
-def curve_axes(curve: Any, ax: Axes | None = None, **style: str) -> Axes:
+def curve_axes(curve: Any, ax: Axes | None = None, **style: Any) -> Axes:
     """Draw friction over speed, with its parts and the band of its intervals, on ``ax`` or new axes, which are
     returned; ``style``: of the line."""
     axes = figures.axes_or_new(ax)
