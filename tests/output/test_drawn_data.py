@@ -220,7 +220,7 @@ def test_the_picture_of_a_contact_holds_its_fields(figures, solved):
     half = 1e6 * np.sqrt(8 * 5.5 / 6e-3 * 2e-3 / (np.pi * 231e9))
     dashed = sorted(line.get_xdata()[0] for line in above.lines if line.get_linestyle() == "--")
     assert dashed == pytest.approx([-half, half])
-    x, film = data(section, "smooth film h")
+    x, film = data(section, "film of smooth surfaces under $F_H$")
     np.testing.assert_allclose(film, 1e9 * point.balance.film.film_at(x * 1e-6))
     _, surface = data(section, "rough surface, undeformed")
     np.testing.assert_allclose(surface, 1e9 * (prepared.surface.heights[:, row] - prepared.surface.heights.mean()))
