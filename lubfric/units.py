@@ -140,7 +140,7 @@ def with_interval(value: float, low: float, high: float, level: str = " at 95 %"
     """Return a ``value`` in the SI ``unit`` with its interval: "0.0443 (0.0413 to 0.0473 at 95 %)", "3.39 W (3.36 to 3.43 W
     at 95 %)".
 
-    All three have as many decimals as show two digits of half the width of the interval, and one unit of people;
+    All three have as many decimals as show two digits of half the width of the interval, or none, and one unit of people;
     numbers without a unit that are all smaller than `SMALLEST_PLAIN` have a common power of ten. Without a finite interval
     the value is alone, with three digits.
     """
@@ -194,8 +194,8 @@ def _shown(value: float, low: float, high: float, unit: str) -> list[str]:
         numbers = [number / 10.0**power for number in numbers]
         after = f"·10{str(power).translate(SUPERSCRIPTS)}"
     half = 0.5 * (numbers[2] - numbers[1])
-    digits = min(1 - math.floor(math.log10(half)), MOST_DECIMALS)
-    return [f"{round(number, digits):z.{max(digits, 0)}f}{after}" for number in numbers]
+    digits = min(max(1 - math.floor(math.log10(half)), 0), MOST_DECIMALS)
+    return [f"{number:z.{digits}f}{after}" for number in numbers]
 
 
 def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), depth: int = 3) -> Any:

@@ -9,7 +9,7 @@ from typing import Any
 from .._base import share_read_only
 from ..errors import ConvergenceError, InputError, Report
 from ..models import ContactFields, Model, ModelAnswer
-from ..models.shared import Prepared, largest_sliding_friction, unmodelled_effects, warn_error
+from ..models.shared import MAP_WIDTH, Prepared, largest_sliding_friction, unmodelled_effects, warn_error
 from ..quantities import NUMBERS
 from ..scene import SLIDE_ROLL_RATIO_KEY, Scene
 from .choice import Choice
@@ -24,6 +24,10 @@ AT_MOST = (
     "the interval ends at the largest f that the limits of the shear stress allow, {} by sliding: f_b, or the stress of the oil "
     "in the thinnest film"
 )
+
+# What narrows the sampling error, by whether the sample has more strips.
+SMALLER_TOLERANCE = "a smaller numerics.sampling_tolerance narrows it"
+LARGER_MAP = "a larger map narrows it"
 
 # Parts of the friction force that resist the sliding.
 SLIDING_FORCES = ("boundary_force", "couette_force")
@@ -49,7 +53,8 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
     loss = _power_loss(scene, speed, choice.model, answer, numbers, uncertainty)
     numbers["power_loss"] = loss.value
     errors = answer.errors | {"power_loss": loss.error}
-    violations = (*answer.violations, *warn_error(answer.numerical, scene.numerics.tolerance, answer.recommendation))
+    of_answer = [each for each in answer.violations if each.what != MAP_WIDTH or answer.sampling.error != 0]
+    violations = (*of_answer, *warn_error(answer.numerical, scene.numerics.tolerance, answer.recommendation))
     decision = answer.decision
     if choice.why:
         decision = replace(decision, notes=(*decision.notes, choice.why))
@@ -107,6 +112,9 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
         by_limit=answer.by_limit,
         largest_in_model=answer.largest_in_model,
         narrows_numerical=answer.narrows_numerical,
+        narrows_sampling=LARGER_MAP
+        if prepared.sample.available_strips <= answer.decision.strips
+        else SMALLER_TOLERANCE,
         notes=answer.notes,
     )
     known = with_missing_inputs(of_solve, f, answer.not_given)

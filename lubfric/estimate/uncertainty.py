@@ -35,7 +35,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     model_sides, not_given_sides, input_sides : ``model``, ``not_given`` and ``inputs`` towards 0 and away from it; NaN
         where only the larger is known
     largest_in_model : what the largest part of ``model`` is, and what narrows it; "" where it has one part
-    narrows_numerical : what narrows ``numerical``, as text
+    narrows_numerical, narrows_sampling : what narrows ``numerical`` and ``sampling``, as text
     missing_input : the key of the input that the scene does not give, whose range changes f most ("": none)
     largest_input : the input whose range changes f most
     """
@@ -50,6 +50,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     input_sides: tuple[float, float] = (math.nan, math.nan)
     largest_in_model: str = ""
     narrows_numerical: str = "a smaller numerics.tolerance narrows it"
+    narrows_sampling: str = "a smaller numerics.sampling_tolerance narrows it"
     missing_input: str = ""
     largest_input: str = ""
     _RENAMED = RENAMED
@@ -93,7 +94,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         """What the largest part of the budget is, and what narrows it; "" where that is not known."""
         recommendations = {
             "numerical": self.narrows_numerical,
-            "sampling": "a smaller numerics.sampling_tolerance or a larger map narrows it",
+            "sampling": self.narrows_sampling,
             "model-form": self.largest_in_model or "numerics.model = 'deterministic' narrows it",
             "not given": f"{self.missing_input} narrows it",
             "input": f"a measured {self.largest_input or 'value'} narrows it",

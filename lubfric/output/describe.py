@@ -135,8 +135,8 @@ def estimate_scene(
         includes_motion=any(model.includes_motion for model in candidates(scene.numerics.model)),
     )
     changes = [
-        f"likely changes of f at {scene_speed:g} m/s, estimated by closed forms before the solve; the report has those of the "
-        "result:",
+        f"likely changes of f at {scene_speed:.4g} m/s, estimated by closed forms before the solve, as ranges over the "
+        "asperity load ratios that the result may have; the report has those of the result:",
         *map(effect_in_words, effects),
     ]
     sections = {

@@ -303,7 +303,11 @@ def _operating_table(curve: CurveResult) -> str:
         f = with_interval(point.coefficient, low, high).partition(" (")[0]
         interval = interval_in_words(low, high, value=point.coefficient)
         ratio = point.contact_load / (point.contact_load + point.film_load)
+        loss = converted(np.array(point.power_loss_interval), COLUMNS["power_loss"].unit, units["power_loss"])
         numbers = [_number(shown[name][index]) for name in OF_POINT]
+        numbers[OF_POINT.index("power_loss")] = with_interval(
+            float(shown["power_loss"][index]), float(loss[0]), float(loss[1]), ""
+        )
         rows.append(_cells([at, f, interval, *numbers, f"{ratio:.3g}"]))
     return f"<h2>Operating points</h2>{table(heads, rows)}"
 

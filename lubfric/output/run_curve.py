@@ -30,7 +30,7 @@ from ..models.shared import (
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..samples import takes_strips
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene, given_tables, has_moving_roughness
-from ..units import number_of, numbers_of
+from ..units import number_of, numbers_of, with_interval
 from .commands import RunFolder, check_outputs, made, read_record, run_begun, say
 from .describe import SceneEstimate
 from .fields import fields_bytes, vtk_bytes
@@ -488,6 +488,7 @@ def _progress(place: str) -> Callable[..., Any]:
         largest = f"; {known.largest_part}" if known.largest_part else ""
         omitted = f"; {outcome.not_in_interval}" if outcome.not_in_interval else ""
         time_ = f"(wall-clock time {outcome.seconds:.2f} s)"
-        say(f"{head}: {known.short(outcome.coefficient)}{omitted}; {words} {time_}{largest}")
+        loss = f"P = {with_interval(outcome.power_loss, *outcome.power_loss_interval, unit='W')}"
+        say(f"{head}: {known.short(outcome.coefficient)}{omitted}; {loss}; {words} {time_}{largest}")
 
     return on_point

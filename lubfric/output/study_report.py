@@ -29,12 +29,15 @@ from .report import picture, shortfalls, style_sheet, table
 # Rows of the table of a report; study.csv has all.
 MOST_ROWS = 60
 
+# Heading of the column of the asperity load ratio.
+ASPERITY_LOAD_RATIO = "asperity load ratio F_C/F_T"
+
 # Numbers of the table of a report, each in a unit of people, with the ends of their interval where they have one.
 REPORTED_NUMBERS: dict[str, tuple[str, str] | None] = {
     **INTERVAL_COLUMNS,
     "full_load_film": None,
     "lambda_ratio": None,
-    "contact_load": None,
+    ASPERITY_LOAD_RATIO: None,
 }
 
 # Parts of the uncertainty budget, and their columns of a study.
@@ -149,6 +152,7 @@ def _range(key: str, values: np.ndarray) -> str:
 def _table(result: StudyResult, rows: int) -> str:
     """Return the points of a study with what is varied, and the numbers `REPORTED_NUMBERS`, each column in one unit."""
     columns = columns_of_study(result)
+    columns[ASPERITY_LOAD_RATIO] = columns["contact_load"] / (columns["contact_load"] + columns["film_load"])
     count = len(next(iter(columns.values())))
     picked = np.unique(np.linspace(0, count - 1, rows).round().astype(int))
     heads = ["no."]

@@ -3,6 +3,8 @@ scene."""
 
 import time
 from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
 from numbers import Real
 from pathlib import Path
 from textwrap import shorten
@@ -13,8 +15,9 @@ from ..estimate import estimated_work_of_point, seconds_of_points
 from ..models import candidates, prepare
 from ..models.shared import Prepared, Violation, beforehand, sentence, warn_unusual
 from ..quantities import counted, worded_value
+from ..scene import SLIDE_ROLL_RATIO_KEY
 from .choose import EXPECTED_SPEEDS, first_speeds
-from .operating_points import POINT
+from .operating_points import POINT, SLIDING_COLUMN, U1
 from .store import Store
 from .study_table import StudyTable
 
@@ -49,8 +52,20 @@ def estimated_study(plan: Any, store: str | Path | None = None) -> float:
 def warnings_of(plan: Any) -> list[str]:
     """Return what is known before the solve to be doubtful of a `StudyPlan`, in sentences: how plain numbers were read,
     and unusual values of its scenes. Nothing is made or solved."""
-    violations = [warn_unusual(scene) for scene in plan.scenes]
+    violations = [_of_given_sliding(plan, warn_unusual(scene)) for scene in plan.scenes]
     return [*(f"warning: {sentence(note)}" for note in plan.notes), *_in_sentences(violations, "scenes")]
+
+
+def _of_given_sliding(plan: Any, violations: Sequence[Violation]) -> tuple[Violation, ...]:
+    """Return the ``violations`` of a scene of a `StudyPlan`; where its table gives the speeds of sliding or of the surfaces,
+    those of the slide-roll ratio, which follows from these, do not ask for its unit."""
+    if not {SLIDING_COLUMN, U1}.intersection(plan.coordinates):
+        return tuple(violations)
+    ratios = (SLIDE_ROLL_RATIO_KEY, "slide-roll ratio")
+    from_speeds = partial(
+        replace, consequence="it follows from the speeds of the table", remedy="check the speeds of the surfaces"
+    )
+    return tuple(from_speeds(each) if each.what in ratios else each for each in violations)
 
 
 def _in_sentences(violations: Sequence[Sequence[Violation]], plural: str) -> list[str]:
@@ -83,7 +98,7 @@ def _seconds_left(plan: Any, table: StudyTable) -> tuple[float, list[str], list[
             prepared = prepare(scene)
             one = curve_seconds(prepared, speeds) + time.process_time() - begun
             seconds += one * len(left) / len(some)
-            violations.append(_expected(prepared, speeds))
+            violations.append(_of_given_sliding(plan, _expected(prepared, speeds)))
         except InputError as error:
             failed.append(f"  cannot be solved: {error}")
     all_scenes = len(plan.scenes)

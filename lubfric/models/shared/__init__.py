@@ -24,6 +24,7 @@ from .checks import (
     warn_typical_heat,
 )
 from .checks_before import (
+    MAP_WIDTH,
     ExpectedViolations,
     beforehand,
     expected_in_film,

@@ -79,7 +79,9 @@ def warn_motion(scene: Scene, speed: float, thickness: float) -> Iterator[Violat
     if ratio > OPPOSED * (1 + 1e-12):
         why = "the surfaces move in opposite directions: heat and dimples of such films are not modelled"
         what = "slide-roll ratio"
-        advice = "in percent? give motion.slip_percent; 2 is simple sliding"
+        advice = (
+            "check the speeds of the surfaces: 2 is simple sliding; a slip in percent goes into motion.slip_percent"
+        )
         if scene.transient is not None:  # the ratio follows from the speeds of the moment
             advice = (
                 "give numerics.heat = 'off' if the sliding is meant; else check transient.speed and transient.sliding"

@@ -38,6 +38,9 @@ FILTERED = "lines in the right order, or surface.s_filter"
 # Correlation lengths that a patch should be wide: the fewest for two blocks (statistics.py).
 LEAST_PATCH_LENGTHS = 10
 
+# Name of the width of the map where it is small: it matters where f has a sampling error.
+MAP_WIDTH = "width of the map over its correlation length"
+
 # Peak Hertz pressure [Pa] that hard steel does not carry elastically: static ratings of bearings allow 4.0 to 4.6 GPa
 # (ISO 76).
 YIELDED = 4.5e9
@@ -145,7 +148,7 @@ def warn_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Itera
     if lengths < LEAST_PATCH_LENGTHS:
         why = "few asperities: another patch of the same surface would give another f"
         yield Violation(
-            what="width of the map over its correlation length",
+            what=MAP_WIDTH,
             value=lengths,
             limit=LEAST_PATCH_LENGTHS,
             unit="",
