@@ -75,7 +75,7 @@ def run_study(arguments: Namespace) -> None:
 
 
 # Time between two points up to which a process handed them over together [s].
-TOGETHER = 0.2
+SECONDS_OF_A_BATCH = 0.2
 
 # Time after which points that come one after the other are counted anew for the time left [s].
 LONGEST_BATCH = 5.0
@@ -210,7 +210,7 @@ def _point_reports(plan: studies.StudyPlan, begun: float) -> Callable[..., None]
         nonlocal first, batch, last
         first = done - 1 if first < 0 else first  # what the store held already took no time
         now = time.perf_counter()
-        if now - last > TOGETHER or last - batch[0] > LONGEST_BATCH:
+        if now - last > SECONDS_OF_A_BATCH or last - batch[0] > LONGEST_BATCH:
             batch = (last, done - 1 - first)
         last = now
         if total > MOST_LINES and not due(end=done == total):

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 PLAN = "plan"  # its key in the store
 PLAN_FIELDS = ("scene", "axes", "speeds", "keys", "point_speeds", "coordinates", "notes")  # what is stored of it
 # Points that a process of an executor receives at once.
-TOGETHER = 8
+POINTS_AT_ONCE = 8
 
 
 @dataclass(frozen=True, repr=False)
@@ -314,7 +314,7 @@ def _carried_out(
             on_progress(done(), total)
 
     report()
-    jobs = _jobs(plan, list(table.left()), store, TOGETHER if executor is not None else None)
+    jobs = _jobs(plan, list(table.left()), store, POINTS_AT_ONCE if executor is not None else None)
     if plan.chooses_speeds:  # points of a curve come again, in the order in which they were chosen
         for key in {*plan.keys} - table.ended:
             table.forget(key)

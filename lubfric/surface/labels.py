@@ -45,7 +45,8 @@ def _check_coordinate(coordinate: Any, axis: Any, step: float) -> None:
     if (steps < 0).all():
         raise InputError(f"heights has descending coordinates {axis!r}", way_out=f"give heights.sortby({axis!r})")
     if not (np.abs(steps - step) <= LABEL_TOLERANCE * step).all():
-        least, largest = steps.min(), steps.max()
+        least = steps.min()
+        largest = steps.max()
         said = (
             f"heights has coordinates {axis!r} with steps of {least:.4g} to {largest:.4g} m, and spacing = {step:.4g} m"
         )

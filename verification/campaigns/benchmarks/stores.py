@@ -214,7 +214,7 @@ def row_of(name: str, root: Path, points: int, workers: int) -> list[str]:
             job.join()
 
     wall, _ = timed(together)
-    found = sum(record is not None for record in kind(root / f"{name}-shared").read(range(share * workers)))
+    read = sum(record is not None for record in kind(root / f"{name}-shared").read(range(share * workers)))
     (reported, lost) = lost_by_kills(kind, root / f"{name}-killed")
     return [
         name,
@@ -224,7 +224,7 @@ def row_of(name: str, root: Path, points: int, workers: int) -> list[str]:
         f"{size / points / 1e3:.1f}",
         f"{len(files)}",
         f"{1e3 * wall / points:.2f}",
-        f"{share * workers - found}",
+        f"{share * workers - read}",
         f"{lost} of {reported}",
     ]
 
