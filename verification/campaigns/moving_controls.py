@@ -27,7 +27,7 @@ from .moving_coverage.table import FOLDER, REFERENCE_SEED, REFERENCES, with_seed
 # Gap at which the attenuated map is pressed, over the smooth film: moving gaps are wider than the film by some .25 Sq.
 PRESSED_AT = 1.25
 
-FEWEST = 6  # strips of a contact, whose scatter says something
+FEWEST = 3  # strips of a contact: a scatter of fewer says nothing
 TOLERANCE = 1e-4  # of the dry contacts
 
 

@@ -83,7 +83,9 @@ LIMIT = 4.0 / 3.0
 # Standard errors of the reference that an answer may be off beyond its own half-width.
 OF_REFERENCE = 2.0
 
-FEWEST = 2  # strips, and narrow strips, of a reference
+# Scatter of the change by cells between narrow strips: a share of its mean, and at least so much, relative to f [-]. Of 14
+# contacts with two or three narrow strips, ten scatter by less.
+NARROW_SCATTER = (0.25, 0.005)
 
 DIGITS = 7  # of a number in the tables
 
@@ -256,18 +258,22 @@ class Reference:
 def reference_of(rows: Sequence[dict[str, str]]) -> Reference | None:
     """Return the reference by the ``rows`` of one contact; None where they lack strips, or narrow strips on shorter cells.
 
-    The error of the strips is that of their blocks, or that by their scatter where it is larger.
+    The error of the strips is that of their blocks, or that by their scatter where it is larger. That of the narrow strips
+    is by their scatter, or by that of all contacts (`NARROW_SCATTER`) where it is larger.
     """
     strips = [row for row in rows if row["kind"] == "strip" and not row["failure"]]
     limits = [1.0 + LIMIT * (float(row["f"]) - 1.0) for row in rows if row["kind"] == "cells" and not row["failure"]]
-    if len(strips) < FEWEST or len(limits) < FEWEST:
+    if not strips or not limits:
         return None
     f = np.array([float(row["f"]) for row in strips])
     by_blocks = math.sqrt(sum(float(row["error"]) ** 2 for row in strips)) / f.size
-    by_scatter = float(f.std(ddof=1)) / math.sqrt(f.size)
-    of_cells = float(np.std(limits, ddof=1)) / math.sqrt(len(limits)) / float(np.mean(limits))
+    by_scatter = float(f.std(ddof=1)) / math.sqrt(f.size) if f.size > 1 else 0.0
+    limit = float(np.mean(limits))
+    (share, least) = NARROW_SCATTER
+    scatter = max(float(np.std(limits, ddof=1)) if len(limits) > 1 else 0.0, share * abs(limit - 1.0) + least)
+    of_cells = scatter / math.sqrt(len(limits)) / limit
     error = math.hypot(max(by_blocks, by_scatter) / float(f.mean()), of_cells)
-    return Reference(coefficient=float(f.mean() * np.mean(limits)), error=error)
+    return Reference(coefficient=float(f.mean()) * limit, error=error)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -337,8 +343,7 @@ def covered(folder: Path = FOLDER) -> Iterator[PlainRow]:
     for answer in judged_answers(folder):
         name = answer.contact.name
         if name.startswith(RANDOM):
-            load = "heavy" if answer.contact.heavy else "light"
-            name = f"random, {load}, slide-roll {'1 to 2' if answer.is_fast else 'up to 1'}"
+            name = f"random, {'slide-roll 1 to 2' if answer.is_fast else 'heavy' if answer.contact.heavy else 'light'}"
         groups.setdefault(name, []).append(answer)
     for name, answers in groups.items():
         yield {"contact": name, "heavy": answers[0].contact.heavy} | summary(answers)
