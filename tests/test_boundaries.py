@@ -2,6 +2,7 @@
 
 import ast
 import importlib
+import re
 import subprocess
 import sys
 import tomllib
@@ -145,6 +146,23 @@ def test_no_solver_asks_a_contact_of_what_kind_it_is():
                 named = {getattr(part, "id", getattr(part, "attr", "")) for part in ast.walk(node)}
                 requested += [file.name] if named & (kinds | {"OWN_CONTACTS"}) else []
     assert len(kinds) >= 3 and requested == ["prepared.py"]
+
+
+def test_a_room_imports_only_rooms_above_it():
+    """In the order of the table of docs/architecture.md, which names all of them."""
+    table = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8").partition("\n## ")[0]
+    cells = [line.split("|")[1] for line in table.splitlines() if line.startswith("| `")]
+    order = list(dict.fromkeys(name.split("/")[0] for cell in cells for name in re.findall(r"`([^`]+)`", cell)))
+    folders = {path.parent.name for path in (ROOT / "lubfric").glob("*/__init__.py")}
+    assert folders <= set(order)
+    wrong = [
+        f"{file.relative_to(ROOT)} imports {name}"
+        for room in order
+        for file in sorted([*(ROOT / "lubfric" / room).rglob("*.py"), *(ROOT / "lubfric").glob(f"{room}.py")])
+        for name in imported(file)
+        if name.startswith("lubfric.") and name.split(".")[1] in order[order.index(room) + 1 :]
+    ]
+    assert wrong == []
 
 
 def kinds_asked(kinds: set[str]) -> set[str]:

@@ -317,7 +317,7 @@ def full_part(x: np.ndarray, pressure: np.ndarray, dry: np.ndarray) -> tuple[np.
     root = np.sqrt(np.maximum(pressure, 0.0))
     part = ((wet[1:] | dry[1:]) & (wet[:-1] | dry[:-1]) & (wet[1:] | wet[:-1])).astype(float)
     error = np.zeros_like(part)
-    for i in np.flatnonzero((wet[1:] != wet[:-1]) & (part == 0.0)):
+    for i in np.flatnonzero((wet[1:] != wet[:-1]) & (part == 0.0)).tolist():
         last, step = (i, 1) if wet[i] else (i + 1, -1)
         parts = [
             (_rupture(x, root, node, step) - x[last]) / (x[last + step] - x[last])
