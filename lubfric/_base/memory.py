@@ -16,6 +16,8 @@ from functools import cache, wraps
 from importlib import import_module
 from typing import ParamSpec, TypeVar
 
+import numpy as np
+
 P = ParamSpec("P")
 T = TypeVar("T")
 
@@ -23,14 +25,9 @@ T = TypeVar("T")
 # about 1 ms a 100 MB.
 RELEASED_GROWTH = 64 * 2**20
 
-# Bytes of free memory at the end of the heap, up to which glibc keeps it, and the size of a block from which it asks the system
-# for that block alone: its own upper bound. A Newton step on 10,368 cells takes 28 instead of 35 ms with both.
-KEPT_FREE = 256 * 2**20
-LARGEST_IN_HEAP = 32 * 2**20
-
-# Parameters of ``mallopt`` in glibc's malloc.h.
-TRIM_THRESHOLD = -1
-MMAP_THRESHOLD = -3
+# Bytes of the block whose release lets glibc keep as much again as it holds: a little less than the largest size from which
+# glibc learns, 32 MB (mallopt(3), "M_MMAP_THRESHOLD"). A Newton step on 10,368 cells takes 28 instead of 35 ms.
+LEARNED_SIZE = 32 * 2**20 - 2**16
 
 # Address space that the first linear algebra of a process takes [bytes]: OpenBLAS of NumPy and that of SciPy 32 MB each,
 # and a margin. Where they get none they try again without end, and no signal stops them.
@@ -74,11 +71,13 @@ def check_address_space() -> None:
 
 @cache
 def keep_freed_memory() -> None:
-    """Let glibc keep what a solver frees, from the first call on; nothing changes elsewhere."""
-    set_option = _of_glibc("mallopt")
-    if set_option is not None and _trim is not None:
-        set_option(MMAP_THRESHOLD, LARGEST_IN_HEAP)
-        set_option(TRIM_THRESHOLD, KEPT_FREE)
+    """Let glibc keep what a solver frees, from the first call on; nothing changes elsewhere.
+
+    glibc learns from the blocks that a program frees: after one of 32 MB, none of whose pages is touched here, it keeps
+    up to 64 MB. That is what any large array of NumPy does. ``mallopt`` would set it too, for the whole process and
+    against what the host may have set.
+    """
+    np.empty(LEARNED_SIZE, np.uint8)
 
 
 def release_freed_memory() -> None:
