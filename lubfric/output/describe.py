@@ -30,7 +30,7 @@ from ..samples import (
 from ..scene import UNITS_OF_HISTORIES, Scene, has_moving_roughness, warn_unusual_values, why_gap_not_resolved
 from ..studies import EXPECTED_SPEEDS, WITHIN_WORDS, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
-from ..time import check_run, estimated_run, periods, run_model_of, sampled_times, scene_at, speeds_of_run
+from ..time import RunEstimate, check_run, estimated_run, periods, run_model_of, sampled_times, scene_at, speeds_of_run
 from ..units import worded
 from .inputs import FACTS, input_rows
 
@@ -67,6 +67,7 @@ class SceneEstimate:
         costs
     refusals : assumptions that fail by what is known so far, so that f means nothing
     effects : effects that are not modelled (`lubfric.models.shared.expected_effects`)
+    run : steps and time of a run in time; None of any other scene
     """
 
     sections: dict[str, list[str]]
@@ -76,6 +77,7 @@ class SceneEstimate:
     table: list[tuple[str, ...]]
     refusals: list[str]
     effects: tuple[ExpectedEffect, ...]
+    run: RunEstimate | None = None
 
 
 def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
@@ -115,8 +117,11 @@ def estimate_scene(
     if scene.transient is None and sample.is_resolved:
         beside += estimated_work_of_point(scene, sample, surface, scene_speed).fine_fields_seconds
     cost = f"about {in_words(seconds)} of processor time for {over} ({WITHIN_WORDS})" if seconds else ""
+    run = None
     if scene.transient is not None:
-        cost, seconds, lines = _course(scene, sample, surface, speeds)
+        run = estimated_run(scene, sample, surface)
+        seconds = run.seconds
+        cost, lines = _course(scene, run, speeds)
         changing = [*_histories(scene), cost, *lines]
     elif cost:
         model.append(f"cost: {cost}; 'lubfric run' takes {in_words(beside)} more for start, pictures and files")
@@ -155,6 +160,7 @@ def estimate_scene(
         table=_speed_table(scene, sample, surface, speeds),
         refusals=refusals,
         effects=effects,
+        run=run,
     )
 
 
@@ -249,21 +255,21 @@ def _histories(scene: Scene) -> list[str]:
     return [*rows, f"start: {start}"]
 
 
-def _course(scene: Scene, sample: Sample, surface: Surface, speeds: list[float]) -> tuple[str, float, list[str]]:
-    """Return the steps and the time of a run as text, its processor seconds, and its sample as text; ``speeds`` [m/s]:
-    some of it."""
+def _course(scene: Scene, estimate: RunEstimate, speeds: list[float]) -> tuple[str, list[str]]:
+    """Return the steps and the time of a run as text, and its sample as text; ``speeds`` [m/s]: some of it."""
     plan = scene.transient
     assert plan is not None
-    estimate = estimated_run(scene, sample, surface)
     lines = []
     if estimate.widest is not None:
         target = f"sampling error of f at most {100 * scene.numerics.sampling_tolerance:g} %"
         target += f" at {estimate.widest.speed:.3g} m/s"
         lines = [f"sample: {counted(estimate.widest.strips, 'strips')} of the roughness, at all times ({target})"]
     top = f"top speed {max(speeds):.4g} m/s" if max(speeds) else "no entrainment"
-    course = f"{plan.duration:.4g} s in about {estimate.steps:.2g} steps, {counted(plan.outputs, 'outputs')}"
+    course = (
+        f"{plan.duration:.4g} s in about {float(f'{estimate.steps:.2g}'):.0f} steps, {counted(plan.outputs, 'outputs')}"
+    )
     cost = f"about {in_words(estimate.seconds)} of processor time ({WITHIN_WORDS})"
-    return f"{top}; {course}; {cost}", estimate.seconds, lines
+    return f"{top}; {course}; {cost}", lines
 
 
 def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[float]) -> list[tuple[str, ...]]:

@@ -41,9 +41,11 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
             continue
         if key in REPLACED and getattr(scene.transient, REPLACED[key], None) is not None:
             continue
+        text = worded_value(key, value)
         changing = [name for name, of in HISTORIES.items() if of == key and getattr(scene.transient, name, None)]
         if changing:
-            note = f", which changes in time: transient.{changing[0]}"
+            note = f" over the run: transient.{changing[0]}"
+            text = over_the_run(scene, changing[0], value, quantity.unit)
         for name, *known in scene.ranges:
             if name == key:
                 words = [word for word, usual in alike.items() if usual == known]
@@ -54,7 +56,22 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
             unit = FRICTION_OVER[table.over]
             points = (f"{value:.4g} at {worded(at, unit)}" for at, value in zip(table.at, table.values))
             note = f", by a table over {table.over}: {', '.join(points)}"
-        yield quantity.label, worded_value(key, value), key, note
+        yield quantity.label, text, key, note
+
+
+def over_the_run(scene: Scene, name: str, constant: float, unit: str) -> str:
+    """Return the range of what a run in time changes under ``name`` as text, in the SI ``unit``: "300 to 700 N"; the
+    ``constant`` where nothing changes it."""
+    history = getattr(scene.transient, name, None)
+    if scene.transient is None or history is None:
+        return worded(constant, unit)
+    return range_in_words(*history.range(scene.transient.duration), unit)
+
+
+def range_in_words(low: float, high: float, unit: str) -> str:
+    """Return "300 to 700 N", or one number where both are alike."""
+    alike = worded(low, unit) == worded(high, unit)
+    return worded(high, unit) if alike else worded((low, high), unit).replace(" and ", " to ")
 
 
 def input_rows(scene: Scene, section: str) -> list[str]:
@@ -72,8 +89,11 @@ def _bodies(scene: Scene) -> list[str]:
         ]
     else:
         low, high, time = _cycle_peak_pressure(scene)
+        widths = [scene_at(scene, each).bodies.half_width for each in sampled_times(scene)]
         rows = [
-            f"Hertz: peak pressure {_pressures_in_words(low, high, time)}; half-width {worded(b.half_width, 'm')} at bodies.load and bodies.radius"
+            f"Hertz: peak pressure {_pressures_in_words(low, high, time)}; half-width "
+            f"{range_in_words(min(widths), max(widths), 'm')}; area A of the volume balance: the strip of bodies.load and "
+            f"bodies.radius, of half-width {worded(b.half_width, 'm')}"
         ]
     if b.hardness is None:
         rows.append("asperity contacts: elastic (no bodies.hardness)")
@@ -84,7 +104,7 @@ def _pressures_in_words(low: float, high: float, time: float) -> str:
     """Return the smallest and the largest peak pressure [Pa] of a run, the latter at a ``time`` [s], as text."""
     if worded(low, "Pa") == worded(high, "Pa"):
         return f"{worded(high, 'Pa')} at all times"
-    return f"{worded((low, high), 'Pa').replace(' and ', ' to ')} over the run, largest at t = {worded(time, 's')}"
+    return f"{range_in_words(low, high, 'Pa')} over the run, largest at t = {worded(time, 's')}"
 
 
 def _cycle_peak_pressure(scene: Scene) -> tuple[float, float, float]:

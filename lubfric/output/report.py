@@ -3,6 +3,7 @@
 import base64
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from html import escape
 from importlib.resources import files
 from string import Template
@@ -22,14 +23,15 @@ from ..models.shared import (
     percent,
     percent_of_sides,
     sentence,
+    unmodelled_effects,
 )
 from ..quantities import COLUMNS, KEYS, counted
 from ..scene import Scene, short_keys
 from ..studies import DRAWN_ERROR, CurveResult, Law, StribeckResult, TractionResult
-from ..time import TransientResult, in_motion
+from ..time import TransientResult, in_motion, run_model_of, scene_at
 from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval, worded
 from .describe import TABLE_CAPTION, SceneEstimate
-from .inputs import FACTS, INPUT_SECTIONS, inputs
+from .inputs import FACTS, INPUT_SECTIONS, inputs, over_the_run
 
 # columns of the operating table, after the swept quantity, f and its interval
 OF_POINT = ("power_loss", "full_load_film", "lambda_ratio")
@@ -103,7 +105,7 @@ def report_page(
     parts = (
         _curve_parts(scene, result, law, estimate)
         if isinstance(result, CurveResult)
-        else _history_parts(result, estimate)
+        else _history_parts(prepared, result, estimate)
     )
     home = files(__package__)
     page = Template((home / "report.html").read_text(encoding="utf-8")).substitute(
@@ -135,9 +137,12 @@ def _subject(scene: Scene) -> str:
     bodies = scene.bodies
     oil = scene.lubricant
     warm = "" if oil.temperature is None else f" at {oil.temperature - 273.15:.4g} °C"
+    radius = over_the_run(scene, "radius", bodies.radius, "m")
+    load = over_the_run(scene, "load", bodies.load, "N")
+    viscosity = over_the_run(scene, "viscosity", oil.viscosity, "Pa s")
     return (
-        f"Line contact of reduced radius {worded(bodies.radius, 'm')} and length {worded(bodies.width, 'm')} under "
-        f"{worded(bodies.load, 'N')}, in an oil of {worded(oil.viscosity, 'Pa s')}{warm}"
+        f"Line contact of reduced radius {radius} and length {worded(bodies.width, 'm')} under {load}, in an oil of "
+        f"{viscosity}{warm}"
     )
 
 
@@ -393,19 +398,38 @@ def _place(curve: CurveResult, index: int) -> str:
 # runs in time
 
 
-def _history_parts(result: TransientResult, estimate: SceneEstimate) -> dict[str, str]:
+def _history_parts(prepared: Prepared, result: TransientResult, estimate: SceneEstimate) -> dict[str, str]:
     """Return the parts of the page that a run in time fills."""
     complete = result.status.startswith("Converged")
     return {
         "kind": "" if complete else "failed",
         "status": escape(result.status),
-        "answer": _paragraphs(history_answer(result, complete=complete)),
+        "answer": _paragraphs([*history_answer(result, complete=complete), *_history_notes(result)]),
         "budget": _history_budget(result),
         "table": _history_table(result),
-        "effects": _effects(estimate.effects, "at the largest speed"),
+        "effects": _history_effects(prepared, result, estimate),
         "details": "",
         "sources": _list(result.cite().splitlines()),
     }
+
+
+def _history_effects(prepared: Prepared, result: TransientResult, estimate: SceneEstimate) -> str:
+    """Return the table of the effects that are not modelled, at the output at which f is nearest to its mean."""
+    rolls = np.flatnonzero(in_motion(result.columns) & (result.entrainment_speed != 0))
+    if result.time.size < 2 or not rolls.size:
+        return _effects(estimate.effects, "at the largest speed")
+    index = int(rolls[np.argmin(np.abs(result.coefficient[rolls] - result.average().coefficient))])
+    time = float(result.time[index])
+    moment = replace(scene_at(prepared.scene, time), ranges=prepared.scene.ranges)
+    load = result.load[index]
+    effects = unmodelled_effects(
+        moment,
+        prepared.surface.sq,
+        abs(float(result.entrainment_speed[index])),
+        (abs(float(result.boundary_force[index] / load)), abs(float(result.coefficient[index]))),
+        includes_motion=run_model_of(prepared.scene).moves_roughness,
+    )
+    return _effects(effects, f"at t = {worded(time, 's')}, where f is nearest to its mean")
 
 
 def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
@@ -421,9 +445,12 @@ def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
     head = "" if complete else "The run has no valid answer. Its outputs so far show: "
     film = plain_number(float(np.nanmin(result.min_film)), "m")
     deterministic = "deterministic model" in result.methods
-    mean_text = with_interval(mean.coefficient, *mean.interval)
+    level = " at 95 %" + (", without the model-form error, which is not known" if result.model_form_unknown else "")
+    mean_text = with_interval(mean.coefficient, *mean.interval, level)
     sentences = [sentence(f"{head}the mean friction coefficient {when} is {mean_text}.")]
-    range_ = with_interval(float(f[peak]), low, high)
+    if result.model_form_unknown:
+        sentences.append(sentence(f"why the model-form error is not known: {result.model_form_unknown}"))
+    range_ = with_interval(float(f[peak]), low, high, level)
     sentences.append(f"The largest f is {range_}, at t = {worded(float(result.time[peak]), 's')}.")
     power = result.power_loss
     if np.isfinite(power).any():
@@ -432,7 +459,7 @@ def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
     sentences.append(
         f"The smallest film is {film}."
         if deterministic
-        else f"The separation of the mean surfaces, which film and asperities keep together, is at least {film}."
+        else f"The smallest film, under the part of the load that it carries, is {film} thick."
     )
     ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio)]
     if ratio.size:
@@ -441,6 +468,22 @@ def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
             f"{_number(float(ratio.max()))}."
         )
     return sentences
+
+
+def _history_notes(result: TransientResult) -> list[str]:
+    """Return what a reader of f and of its mean should know: why f is negative at some times, and that the run contains
+    its start."""
+    notes = []
+    negative = int(np.sum((result.coefficient < 0) & (result.sliding_speed != 0)))
+    if negative:
+        notes.append(
+            f"f is the force on the upper surface along its sliding, over the load. It is negative at "
+            f"{counted(negative, 'outputs')}, where the rolling resistance of that surface is above the friction of "
+            "sliding; the power loss counts both surfaces."
+        )
+    if result.start_in_words:
+        notes.append(result.start_in_words)
+    return notes
 
 
 def _largest_friction(result: TransientResult) -> int:
@@ -485,7 +528,7 @@ def _history_table(result: TransientResult) -> str:
     heads = [_heading(name, units[name]) for name in before]
     heads += [
         "f",
-        "95 % interval of f",
+        "95 % interval of f" + (", without model-form error" if result.model_form_unknown else ""),
         *(_heading(name, units[name]) for name in after),
         "asperity load ratio F_C/F_T",
     ]
@@ -502,7 +545,13 @@ def _history_table(result: TransientResult) -> str:
             interval = "-"
         rows.append(_cells([*(_number(_rounded(shown[name], index)) for name in before), f, interval, *numbers, ratio]))
     about = f"{len(rows)} of {counted(count, 'outputs')}, spread evenly, with the largest f and the largest power loss;"
-    return f"<h2>Operating points</h2><p>{about} history.csv has all of them.</p>{table(heads, rows)}"
+    films = (
+        " The full-load film is that of smooth surfaces under the total load; the smallest film is solved under the part "
+        "of the load that the film carries, so it may be thicker."
+        if (c["contact_load"] > 0).any()
+        else ""
+    )
+    return f"<h2>Operating points</h2><p>{about} history.csv has all of them.{films}</p>{table(heads, rows)}"
 
 
 # parts that all pages share

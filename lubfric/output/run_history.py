@@ -1,5 +1,6 @@
 """``lubfric run`` on a scene whose motion, load or lubricant changes in time."""
 
+import time
 from argparse import Namespace
 
 from .._base import figures, table_bytes
@@ -7,12 +8,16 @@ from ..errors import ConvergenceError, LubfricError, ValidityError
 from ..models.shared import in_a_cell
 from ..quantities import OF_MOMENT, heading
 from ..scene import Scene, given_tables
+from ..studies import in_words
 from ..time import TransientResult, raise_if_failed, run_in_time
 from . import commands
 from .fields import npz_bytes
 from .pictures import animate, plot_history
 from .progress import ProgressLine
 from .report import history_answer
+
+# Part of the expected steps of a run between two lines of its progress.
+PART_OF_LINE = 0.04
 
 
 def run_history(scene: Scene, arguments: Namespace) -> None:
@@ -24,17 +29,31 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
     raises `ConvergenceError`.
     """
     reached = 0.0
+    begun_at = time.monotonic()
+    first: float | None = None
+    reported = 0.0
     due = commands.paced()
     failure: LubfricError | None = None
     names = ["history.csv", "history.png", *["animation.gif"] * arguments.animation]
 
     def on_step(now: float, duration: float, row: dict[str, float] | None) -> None:
-        nonlocal reached
+        nonlocal reached, first, reported, begun_at
         reached = now
-        shown.update(now, duration)
-        if row is not None and due(end=now >= duration):
+        assert estimate.run is not None
+        part = estimate.run.part(now)
+        if first is None:
+            first = part
+            begun_at = time.monotonic()
+        shown.update(100.0 * part, 100.0)
+        is_end = now >= duration
+        if row is not None and (is_end or part >= reported + PART_OF_LINE) and due(end=is_end):
+            reported = part
+            left = ""
+            if not is_end and part > first:
+                seconds = (time.monotonic() - begun_at) * (1.0 - part) / (part - first)
+                left = f", about {in_words(seconds)} left"
             commands.say(
-                f"t = {now:.5g} of {duration:g} s: U = {row['entrainment_speed']:.4g} m/s, f = "
+                f"{100 * part:.0f} %{left}: t = {now:.5g} of {duration:g} s, U = {row['entrainment_speed']:.4g} m/s, f = "
                 f"{row['coefficient']:z.5f}, F_C = {row['contact_load']:.4g} N, F_H = {row['film_load']:.4g} N, "
                 f"h_min = {row['min_film'] * 1e9:.4g} nm (step {row['steps']:.0f})"
             )
@@ -43,7 +62,7 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
         return f"the state at t = {reached:.5g} s is kept in {arguments.out}"
 
     begun = commands.run_begun(scene, arguments, names, kept)
-    with ProgressLine("s") as shown, begun as (folder, prepared, estimate):
+    with ProgressLine("%") as shown, begun as (folder, prepared, estimate):
         if folder.unfinished.is_dir():
             commands.say(f"the run continues from {folder.unfinished}")
         result, _ = run_in_time(prepared, checkpoint=folder.unfinished, on_step=on_step)

@@ -1,6 +1,6 @@
 """Runs in time: the march, the film of smooth bodies in time, and two models of the mixed contact."""
 
-from .estimated import periods
+from .estimated import RunEstimate, periods
 from .film import solve_transient_ehl
 from .film_equations import Spring, StepEquations, outside, outside_shear
 from .film_grid import make_fixed_grid, symmetric_nodes

@@ -34,7 +34,8 @@ class TimeModel(Protocol):
     ``prepared`` has the strip of rough surface of the run, ``scene`` what changes in time, ``x`` the nodes of the film
     [m], ``cells`` its grid as text. ``tolerance`` is the largest residual of a solved step, ``time_error`` the largest
     local error of a step unless the scene states one, ``first_step`` [s] the step after a start or a jump, and
-    ``stops`` [s] the times at which a step has to end. ``notes`` say what a reader of the result should know.
+    ``stops`` [s] the times at which a step has to end. ``notes`` say what a reader of the result should know, and
+    ``model_form_unknown`` why the model-form error of f is not known ("" where it is).
     """
 
     @property
@@ -63,6 +64,9 @@ class TimeModel(Protocol):
 
     @property
     def notes(self) -> tuple[str, ...]: ...
+
+    @property
+    def model_form_unknown(self) -> str: ...
 
     def solve(self, time: float, memory: Memory, z: np.ndarray, payload: Any) -> Step:
         """Return the step that ends at ``time`` [s], from the unknowns ``z`` and what the last step handed on."""

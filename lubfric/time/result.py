@@ -33,6 +33,14 @@ MANY_BLOCKS = 30  # blocks less one: of a strip
 NOT_IN = "not in the interval, as a run in time is solved with its value alone; solve it with both ends to see"
 TINY = 1e-30  # no f is divided by less
 POWER = ("power_loss", "power_loss_low", "power_loss_high")  # columns whose means are those of the whole run
+
+# Difference of speeds and load, over the largest, below which two moments have the same conditions.
+SAME_CONDITIONS = 1e-3
+
+# Difference of the asperity load ratio, and relative one of the film, from which two moments differ.
+OTHER_RATIO = 0.02
+OTHER_FILM = 0.05
+
 MASS = 1e-3  # largest residual of a step's mass
 
 
@@ -90,6 +98,7 @@ class TransientResult(Renamed, Shown):
     inputs : how far the range of f_b moves f down and up at every time [-], (2, nt)
     not_in : inputs, as text, whose ranges are not in ``uncertainty``: a run is solved with their values alone
     requested : the output times [s] of the run, whether or not they were reached
+    model_form_unknown : why the model-form error of f is not known and not in ``uncertainty``; "" where it is
     methods : names of the methods that it rests on, where a paper is behind them. ``cite()`` gives the papers
     line_length, width, renewal : length of the line of rough surface, width of the contact, and the distance that a
         surface moves until other asperity contacts carry the load (the Hertz strip and a correlation length) [m]; NaN
@@ -109,6 +118,7 @@ class TransientResult(Renamed, Shown):
     width: float = math.nan
     renewal: float = math.nan
     requested: np.ndarray | tuple[float, ...] = ()
+    model_form_unknown: str = ""
     methods: tuple[str, ...] = ()
 
     def cite(self, format: str = "text") -> str:
@@ -131,6 +141,27 @@ class TransientResult(Renamed, Shown):
                 "fails so badly that f means nothing (see the warnings)."
             )
         return f"Converged: all {count} outputs to t = {end} are solved, and every residual is within its tolerance."
+
+    @property
+    def start_in_words(self) -> str:
+        """That the run contains its start, as a sentence, where its end has the speeds and the load of its start and
+        another film; else ""."""
+        if self.time.size < 2:
+            return ""
+        for name in ("entrainment_speed", "sliding_speed", "load"):
+            values = self.columns[name]
+            if abs(values[-1] - values[0]) > SAME_CONDITIONS * np.max(np.abs(values), initial=0.0):
+                return ""
+        ratio = self.contact_load / self.load
+        film = self.central_film
+        if abs(ratio[-1] - ratio[0]) < OTHER_RATIO and abs(film[-1] / film[0] - 1.0) < OTHER_FILM:
+            return ""
+        return (
+            "The run is not periodic: its end has the speeds and the load of its start, but an asperity load ratio of "
+            f"{ratio[-1]:.3g} instead of {ratio[0]:.3g} and a central separation of {worded(float(film[-1]), 'm')} instead of "
+            f"{worded(float(film[0]), 'm')}. So the mean contains the start of the run; for the periodic motion, compute two "
+            "periods (repeat = true in a table) and read the second."
+        )
 
     def average(self) -> TimeAverage:
         """Return the average of f over the time in motion, by trapezes between the outputs (which have to be dense
@@ -366,6 +397,7 @@ def collect(
         width=prepared.scene.bodies.width,
         renewal=renewal,
         requested=plan.times,
+        model_form_unknown=model.model_form_unknown,
         methods=methods_of(prepared, _use(prepared, columns)),
     )
 

@@ -27,7 +27,7 @@ def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:
     contact has it, and so are its ranges."""
 
     def now(name: str, constant: float) -> float:
-        return _value(scene, name, constant, time, side)
+        return value_at(scene, name, constant, time, side)
 
     bodies = scene.bodies
     oil = scene.lubricant
@@ -51,17 +51,19 @@ def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:
 def sliding_at(scene: Scene, time: float, side: str = "before") -> float:
     """Return u2 - u1 [m/s]."""
     motion = scene.motion
-    speed = _value(scene, "speed", motion.entrainment_speed, time, side)
-    return _value(scene, "sliding", motion.slide_roll_ratio * speed, time, side)
+    speed = value_at(scene, "speed", motion.entrainment_speed, time, side)
+    return value_at(scene, "sliding", motion.slide_roll_ratio * speed, time, side)
 
 
 def surface_speed(scene: Scene, body: str, time: float) -> float:
     """Return the speed [m/s] of the ``body`` with that section ("surface", "counterface"), just before ``time`` [s]."""
-    speed = _value(scene, "speed", scene.motion.entrainment_speed, time, "before")
+    speed = value_at(scene, "speed", scene.motion.entrainment_speed, time, "before")
     return speed + SLIDING_PART[body] * sliding_at(scene, time)
 
 
-def _value(scene: Scene, name: str, constant: float, time: float, side: str) -> float:
+def value_at(scene: Scene, name: str, constant: float, time: float, side: str = "before") -> float:
+    """Return the value of what a run in time changes under ``name``, just "before" ``time`` [s] or "at" it; ``constant``
+    where nothing changes it."""
     history = getattr(transient_of(scene), name)
     return constant if history is None else getattr(history, side)(time)
 

@@ -81,6 +81,7 @@ class TransientDeterministic:
     tolerance = RUN_STEP_RESIDUAL
     time_error = TIME_ERROR
     notes = ()
+    model_form_unknown = "in time the deterministic model has one strip, whose cells are not compared with finer ones"
 
     @property
     def scene(self) -> Scene:
@@ -259,14 +260,14 @@ def start_deterministic(scene: Scene | Prepared) -> Start:
     return Start(model=model, state=model.start(), grid_error=math.nan)
 
 
-def work_of_run(scene: Scene) -> tuple[int, float]:
-    """Return about how many steps a run takes, and its processor time [s of a usual core]."""
+def work_of_run(scene: Scene) -> tuple[int, float, tuple[float, ...]]:
+    """Return about how many steps a run takes, its processor time [s of a usual core], and the times [s] at which the
+    motion of the roughness ends a step."""
     solver = make_deterministic(scene)
     plan = transient_of(scene)
     steps = max(len(solver.stops), plan.outputs) + OTHER_STEPS
-    return steps, STEP_SECONDS * steps * work_of_steps(
-        solver.base.heights.size, FACTORISATIONS_IN_A_STEP, KRYLOV_IN_A_STEP
-    )
+    seconds = work_of_steps(solver.base.heights.size, FACTORISATIONS_IN_A_STEP, KRYLOV_IN_A_STEP)
+    return steps, STEP_SECONDS * steps * seconds, solver.stops
 
 
 def check_deterministic(scene: Scene) -> None:

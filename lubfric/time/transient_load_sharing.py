@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..film import cubic
+from ..models.load_sharing import why_moment_unknown
 from ..models.shared import Prepared
 from ..scene import moving_bodies
 from .film_setting import TIME_SHARE, Setting
@@ -44,6 +45,11 @@ class TransientLoadSharing(LoadSharingSolver):
     def cells(self) -> str:
         """The grid as text."""
         return f"{self.setting.grid.n} cells"
+
+    @property
+    def model_form_unknown(self) -> str:
+        """Why the model-form error of f is not known; "" where it is."""
+        return why_moment_unknown(self.scene)
 
     @property
     def notes(self) -> tuple[str, ...]:

@@ -1,6 +1,8 @@
 """Runs in time: the interval and the power loss of every output and of the mean, against steady answers and sums."""
 
+import re
 from dataclasses import replace
+from html import unescape
 
 import numpy as np
 import pytest
@@ -125,3 +127,51 @@ def test_the_report_of_a_run_has_budget_table_and_sources(tmp_path):
     assert "The mean power loss is" in page and "Akchurin" in page.partition("Method and sources")[2]
     header = (tmp_path / "out" / "history.csv").read_text().splitlines()[0]
     assert "interval_low [-]" in header and "power_loss_high [W]" in header and "model_error_high [-]" in header
+
+
+def run_and_page(scene, folder, capsys):
+    """What the command says of a run, and its report as text without markup."""
+    folder.mkdir()
+    (folder / "s.toml").write_text(scene.to_toml())
+    assert main(["run", str(folder / "s.toml"), "--out", str(folder / "out")]) in (0, 1)
+    page = (folder / "out" / "report.html").read_text(encoding="utf-8")
+    return capsys.readouterr().err, unescape(re.sub(r"<[^>]*>", " ", page.partition("</style>")[2]))
+
+
+def test_the_report_of_a_cycle_states_ranges_signs_and_its_start(tmp_path, capsys):
+    """Load and speed of a cycle that begins at rest and slides against the rolling."""
+    plan = Transient(
+        0.01,
+        outputs=20,
+        speed=Harmonic(amplitude=0.5, frequency=100.0),
+        sliding=Harmonic(amplitude=-0.01, frequency=100.0),
+        load=Harmonic(mean=3.0, amplitude=1.0, frequency=100.0),
+    )
+    said, page = run_and_page(
+        paper_scene(numerics={"sampling": "patch", "accept": True}).with_(transient=plan), tmp_path / "a", capsys
+    )
+    assert "under 2 to 4 N" in page and "total load 2 to 4 N over the run" in " ".join(page.split())
+    assert "It is negative at" in page and "where f is nearest to its mean" in page
+    assert "The run is not periodic" in page and "the mean contains the start" in page
+    assert " %: t = 0.01 of 0.01 s" in said and "without the model-form" not in said + page
+
+
+def test_an_interval_without_model_form_error_says_so_and_why(tmp_path, capsys):
+    plan = Transient(1e-3, outputs=4)
+    scene = paper_scene(numerics={"accept": True}, contact={"region": "box"})
+    scene = scene.with_(motion={"entrainment_speed": 0.03}, transient=plan)
+    said, page = run_and_page(scene, tmp_path / "a", capsys)
+    assert "without the model-form error, which is not known)" in said
+    for text in (said, page):
+        assert "Why the model-form error is not known: contact.region = 'box'" in text
+    assert "95 % interval of f, without model-form error" in page
+    known = lubfric.transient(paper_scene(numerics={"sampling": "patch"}).with_(transient=plan))
+    assert known.model_form_unknown == "" and np.isfinite(known.uncertainty.model).all()
+
+
+def test_a_run_that_ends_as_it_begins_says_nothing_of_its_start(held):
+    assert held.start_in_words == ""
+    other = replace(held, columns=held.columns | {"central_film": held.central_film * np.array([1.0, 1.0, 1.1])})
+    assert "not periodic" in other.start_in_words
+    faster = {"entrainment_speed": held.entrainment_speed * np.array([1.0, 1.0, 1.1])}
+    assert replace(other, columns=other.columns | faster).start_in_words == ""

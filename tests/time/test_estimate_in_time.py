@@ -1,0 +1,56 @@
+"""Estimated steps of runs in time: by the changes of their histories, against the steps of runs."""
+
+import numpy as np
+import pytest
+from scene_text import paper_scene
+
+import lubfric
+from lubfric.output.describe import estimate_scene
+from lubfric.scene import Harmonic, Table, Transient
+
+PATCH = paper_scene(numerics={"sampling": "patch"})
+
+
+def estimated(plan, scene=PATCH):
+    prepared = lubfric.prepare(scene.with_(transient=plan))
+    return estimate_scene(prepared.scene, prepared.sample, prepared.surface).run
+
+
+def test_every_further_cycle_takes_as_many_steps():
+    """The same reversal again and again, as a sine and as a table that is repeated."""
+    wave = Harmonic(amplitude=0.03, frequency=100.0)
+    zigzag = Table(times=(0.0, 0.005, 0.01), values=(-0.03, 0.03, -0.03), repeat=True)
+    for speed in (wave, zigzag):
+        one, two, four = (estimated(Transient(0.01 * n, outputs=2, speed=speed)).steps for n in (1, 2, 4))
+        assert four - two == pytest.approx(2 * (two - one), rel=0.02) and two - one > 30
+
+
+def test_more_changes_take_more_steps():
+    steady = estimated(Transient(0.01, outputs=2)).steps
+    swing = estimated(Transient(0.2, outputs=2, speed=Harmonic(mean=0.03, amplitude=0.01, frequency=5.0))).steps
+    reversing = Harmonic(amplitude=0.03, frequency=5.0)
+    reversal = estimated(Transient(0.2, outputs=2, speed=reversing)).steps
+    loaded = Transient(0.2, outputs=2, speed=reversing, load=Harmonic(mean=2.0, amplitude=1.5, frequency=5.0))
+    assert steady < swing < reversal < estimated(loaded).steps
+    assert estimated(Transient(0.01, outputs=5000)).steps == pytest.approx(5000)
+
+
+def test_the_part_of_the_steps_follows_the_reversals():
+    """Most steps of a run that reverses at its middle fall there."""
+    run = estimated(Transient(0.01, outputs=2, speed=Harmonic(amplitude=0.03, frequency=50.0, phase=np.pi / 2)))
+    parts = [run.part(time) for time in np.linspace(0.0, 0.01, 11)]
+    assert np.all(np.diff(parts) >= 0) and parts[-1] == 1.0
+    assert parts[8] - parts[2] > 0.6 * (1.0 - parts[0])
+
+
+@pytest.mark.parametrize(
+    "plan",
+    [
+        Transient(0.02, outputs=4, speed=Harmonic(amplitude=0.03, frequency=50.0, phase=1.5)),
+        Transient(0.01, outputs=4, load=Harmonic(mean=2.5, amplitude=2.0, frequency=200.0)),
+    ],
+)
+def test_a_run_takes_about_the_estimated_steps(plan):
+    scene = PATCH.with_(motion={"entrainment_speed": 0.03})
+    steps = lubfric.transient(scene.with_(transient=plan)).steps[-1]
+    assert steps / 3 < estimated(plan, scene).steps < 3 * steps
