@@ -65,7 +65,8 @@ def over_the_run(scene: Scene, name: str, constant: float, unit: str) -> str:
     history = getattr(scene.transient, name, None)
     if scene.transient is None or history is None:
         return worded(constant, unit)
-    return range_in_words(*history.range(scene.transient.duration), unit)
+    low, high = history.range(scene.transient.duration)
+    return range_in_words(low, high, unit)
 
 
 def range_in_words(low: float, high: float, unit: str) -> str:

@@ -155,7 +155,10 @@ def test_info_of_a_run_in_time_is_one_story():
     stated = describe_scene(lubfric.load_scene("paper").with_(transient=plan, motion={"slide_roll_ratio": 0.1}))
     head = stated.partition("U [m/s]")[2].partition("\n")[0]
     assert "strips" not in head and "time (s)" not in head and "(below)" not in stated and "alone" not in stated
-    assert "-0.05 to 0.05 m/s  (motion.entrainment_speed) over the run: transient.speed" in stated and stated.count("of the roughness, ") == 1
+    assert (
+        "-0.05 to 0.05 m/s  (motion.entrainment_speed) over the run: transient.speed" in stated
+        and stated.count("of the roughness, ") == 1
+    )
     assert "moving roughness is treated as stationary" in stated
     squeeze = describe_scene(SWINGING.with_(transient=lubfric.Transient(1e-3, speed=0.0, initial_film=2e-6)))
     assert "no entrainment" in squeeze and "all load" not in squeeze and "film of 2 µm" in squeeze
