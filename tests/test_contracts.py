@@ -115,7 +115,7 @@ class FromOutside(Sample):
     first_strips: int
     available_strips: int
     available_pieces: int
-    exact_sq: bool
+    has_exact_sq: bool
     represents_more: bool
     refines_in_place: bool
 

@@ -46,7 +46,7 @@ class Sample(ABC):
     strip_length : what one strip adds to the line [m], along y
     first_strips, available_strips : number of strips that are solved first, and that there are
     available_pieces : number of pieces that there are
-    exact_sq : whether every strip has the Sq of the surface
+    has_exact_sq : whether every strip has the Sq of the surface
     is_homogeneous : whether all strips are parts of one random surface; False: windows of a measured map
     represents_more : whether its strips stand for a larger surface; False: they are all of it
     refines_in_place : whether shorter cells, down to native ones, are those of the same strip; a piece is then all of it
@@ -61,7 +61,7 @@ class Sample(ABC):
     first_strips: int
     available_strips: int
     available_pieces: int
-    exact_sq: bool = False
+    has_exact_sq: bool = False
     is_homogeneous: bool = True
     represents_more: bool = True
     refines_in_place: bool = False

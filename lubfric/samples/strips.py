@@ -87,7 +87,7 @@ class GeneratedStrips(FieldsOnly, Sample):
     first_strips: int
     available_strips: int
     available_pieces: int
-    exact_sq: bool
+    has_exact_sq: bool
     roughness: tuple[tuple[Roughness, str], ...]
 
     def rows_of(self, count: int) -> int:
@@ -253,7 +253,7 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
         first_strips=first,
         available_strips=available,
         available_pieces=available,
-        exact_sq=len(bodies) == 1 and bodies[0].sk is None,
+        has_exact_sq=len(bodies) == 1 and bodies[0].sk is None,
         roughness=tuple(rough_bodies(scene)),
     )
 

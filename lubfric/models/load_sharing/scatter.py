@@ -91,7 +91,7 @@ def scatter_of(scene: Scene, rough_contact: HalfSpaceContact, balance: Balance, 
     by_place = line_load(rough_contact, state)[rows]
     step = rough_contact.spacing[1]
     touching = state.fields.pressure[:, rows] > 0
-    squares = np.square(rough_contact.heights[:, rows]).mean(axis=0) if sample.exact_sq else None
+    squares = np.square(rough_contact.heights[:, rows]).mean(axis=0) if sample.has_exact_sq else None
 
     def error(influence: FloatArray) -> StandardError:
         return place_error(influence, step, sample, count, squares)
