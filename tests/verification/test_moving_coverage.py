@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from lubfric.models.deterministic.shorter_cells import NARROW_GAPS
+from lubfric.models.deterministic.cells_in_motion import NARROW_GAPS
 from verification.campaigns import table_file
 from verification.campaigns.moving_cells.table import COLUMNS, TABLE, errors
 from verification.campaigns.moving_controls import variance_left

@@ -1,6 +1,7 @@
 """The deterministic mixed-lubrication model: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
 from .answer import LARGEST_PART, answer_of
+from .cells_in_motion import CellsInMotion, cells_in_motion
 from .estimated_work import work_of_fine_fields, work_on_strips
 from .flow import derivatives, mass_balance
 from .heat import strip_heat, why_too_hot
@@ -37,7 +38,6 @@ from .rough_bodies import (
     moving_point_work,
     strip_surface,
 )
-from .shorter_cells import CellsInMotion, cells_in_motion
 from .solve import dry_contact, solve_point
 from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, residuals, update_active_sets
 from .strip import (

@@ -28,12 +28,12 @@ from ..shared import (
     required_strips,
     student,
 )
+from .cells_in_motion import changed_as_expected
 from .result import DeterministicResult
 from .rough_bodies import summit_control
 from .shorter_cells import (
     NO_SHORTER_CELLS,
     changed,
-    changed_as_expected,
     on_shorter_cells,
 )
 from .strip import (

@@ -1,0 +1,135 @@
+"""The effect of the cells on f where roughness moves: expected from measurements, because no shorter cells are solved."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ..shared import Prepared, smooth_over_cells
+from .strip import StripSolution
+from .strip_on_two_grids import factors_of, surface_and_factors
+
+# The constants of the effect of the cells where roughness moves are fitted to `verification.campaigns.moving_cells`: f of
+# narrow strips of random contacts on cells half as long along both axes, extrapolated by second order. They are judged by
+# `verification.campaigns.moving_coverage`, on other contacts and surfaces. Shorter cells let more lubricant into the narrow
+# gaps, by a part of their height that falls with the square of the cells: f changes as if the boundary film were
+# thinner. So the effect is in proportion to d ln f/d ln(boundary film).
+
+# Times (cell/correlation length)² along x and along y: the part by which the narrow gaps are too small [-].
+NARROW_GAPS = (1.4, 0.35)
+
+# Part of the effect of this by which single contacts differ from it, at 95 % [-]. On 12 of 13 Gaussian strips where ln f
+# changes by more than 0.1 with ln of the film the root mean square is 0.42, narrow strips' own scatter included; 2.7 on one.
+SCATTER_BY_CELLS = 0.7
+
+# Times (cell along x/correlation length)² [-]: relative error of f, at 95 %, that does not depend on the boundary film; by
+# steps of second order, and along the lubricant, of third. Nine contacts that hardly depend on it differ by 0.1 to 0.9 %.
+ALONG_X = (0.3, 0.08)
+
+# The same along y: nine contacts with names differ by 0.02 to 0.4 %.
+ALONG_Y = 0.016
+
+# Times (cell along x/Hertz half-width) to the order of the steps, second, and along the lubricant third [-]: the same because
+# the pressure has few cells. Between 6 and 12 cells in the half-width f of a separated contact changes by 3.2 %, between 7
+# and 14 by 2.7 %.
+IN_HALF_WIDTH = (3.0, 14.0)
+
+# Factors on the errors by ALONG_X and ALONG_Y, and on the effect of the narrow gaps, where heights change from cell to cell
+# (`smooth_over_cells`) [-]: shorter cells then show new summits, which act against it, and nothing is expected. On five
+# exponential surfaces f rises by 5 to 20 %, by 0.4 to 1.3 of the change of ln f with ln of the film.
+UNSMOOTH = 5.0
+UNSMOOTH_NARROWED = 5.5
+
+# Factor on the change of f from cells twice as long along y [-]: by second order a third of it is left.
+BY_LONGER = 1 / 3
+
+# Change of ln f with ln of the boundary film, at most [-]: boundary friction in proportion to it has 1.
+STEEPEST = 1.0
+
+# Numbers of a point that change with f where the change is only expected.
+CHANGED_WITH_FRICTION = (
+    *("coefficient", "shear_force", "couette_force", "rolling_force", "boundary_force", "contact_load"),
+    *("boundary_film_load", "real_contact_area", "real_contact_area_fraction"),
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CellsInMotion:
+    """What is known of the cells on which roughness moves, and their expected effect on f.
+
+    Attributes
+    ----------
+    film_ratio : f with twice the boundary film over f with half of it
+    coarse_x, coarse_y : length of the cells over the correlation length
+    coarse_b : length of the cells along x over the Hertz half-width
+    by_longer : relative change of f from cells twice as long along y
+    follows_lubricant : whether steps were of third order along the lubricant
+    is_smooth : whether the heights are smooth over the cells
+    """
+
+    film_ratio: float
+    coarse_x: float
+    coarse_y: float
+    coarse_b: float
+    by_longer: float
+    follows_lubricant: bool
+    is_smooth: bool
+
+    @property
+    def steepness(self) -> float:
+        """The change of ln f with ln of the boundary film; 0 where f is so small that it changes its sign."""
+        slope = math.log(self.film_ratio) / math.log(4.0) if self.film_ratio > 0 else 0.0
+        return min(max(slope, -STEEPEST), STEEPEST)
+
+    @property
+    def of_narrow_gaps(self) -> float:
+        """The relative change of f by a boundary film that is thicker by as much as the narrow gaps are too small."""
+        (along_x, along_y) = NARROW_GAPS
+        return (along_x * self.coarse_x**2 + along_y * self.coarse_y**2) * self.steepness
+
+    @property
+    def change(self) -> float:
+        """The expected relative change of f from the cells of an answer to short ones."""
+        return math.expm1(-self.of_narrow_gaps) if self.is_smooth else 0.0
+
+    @property
+    def error(self) -> float:
+        """The relative error of f after this change, at 95 %."""
+        of_roughness = ALONG_X[self.follows_lubricant] * self.coarse_x**2 + ALONG_Y * self.coarse_y**2
+        return math.hypot(
+            of_roughness * (1.0 if self.is_smooth else UNSMOOTH),
+            IN_HALF_WIDTH[self.follows_lubricant] * self.coarse_b ** (3 if self.follows_lubricant else 2),
+            (SCATTER_BY_CELLS if self.is_smooth else UNSMOOTH_NARROWED) * self.of_narrow_gaps,
+            BY_LONGER * self.by_longer,
+        )
+
+
+def cells_in_motion(prepared: Prepared, strips: Sequence[StripSolution], by_longer: float) -> CellsInMotion:
+    """Return what is known of the cells of ``strips`` whose roughness moves; ``by_longer``: the change of their f from cells
+    twice as long along y."""
+    results = [strip.result for strip in strips]
+    half = sum(result.at_half_film for result in results)
+    twice = sum(result.at_twice_film for result in results)
+    sample = prepared.sample
+    (coarse_x, coarse_y) = (
+        factor * cell / length
+        for factor, cell, length in zip(
+            factors_of(prepared.scene, sample), sample.cells.spacing, sample.correlation_lengths, strict=True
+        )
+    )
+    return CellsInMotion(
+        film_ratio=twice / half if half else 1.0,  # an f of 0 has no relative change
+        coarse_x=coarse_x,
+        coarse_y=coarse_y,
+        coarse_b=strips[0].problem.spacing[0] / prepared.scene.bodies.half_width,
+        by_longer=by_longer,
+        follows_lubricant=all(strip.follows_lubricant for strip in strips),
+        is_smooth=smooth_over_cells(surface_and_factors(prepared, 0)[0].heights),
+    )
+
+
+def changed_as_expected(numbers: dict[str, float], change: float) -> dict[str, float]:
+    """Return ``numbers`` of a point with f, its forces and the asperity load changed by this relative ``change``."""
+    if not change:
+        return numbers
+    new = numbers | {name: (1.0 + change) * numbers[name] for name in CHANGED_WITH_FRICTION}
+    return new | {"film_load": numbers["film_load"] + numbers["contact_load"] - new["contact_load"]}
