@@ -144,7 +144,8 @@ def row_of(speed: float, outcome: Outcome) -> dict[str, Any]:
     if not isinstance(outcome, FrictionResult):
         return {STATUS: f"{type(outcome).__name__}: {outcome}", SPEED: speed}
     numbers = {name: getattr(outcome, name) for name in NUMBERS}
-    numbers |= {f"uncertainty_{n}": v for n, v in vars(outcome.uncertainty).items() if isinstance(v, float)}
+    errors = {name: value for name, value in vars(outcome.uncertainty).items() if name not in NUMBERS}  # f is not one
+    numbers |= {f"uncertainty_{name}": value for name, value in errors.items() if isinstance(value, float)}
     numbers |= zip(("uncertainty_low", "uncertainty_high"), outcome.uncertainty.interval)
     numbers |= zip(("power_loss_low", "power_loss_high"), outcome.power_loss_interval)
     return {STATUS: outcome.report.status, VALIDITY: in_a_cell(outcome.validity), **numbers}
