@@ -125,7 +125,7 @@ def mixed_values() -> Cells:
     for check in ran("mixed", published=True).checks:
         if check.unit == "1":
             ours, theirs = check.errors
-            values = (f"{check.expected:.3g} ± {theirs:.2g}", f"{check.measured:.3g} ± {ours:.2g}")
+            values = (f"{check.expected:.3g}±{theirs:.2g}", f"{check.measured:.3g}±{ours:.2g}")
             difference = f"{check.units:.2g}"
             rows.append([check.name, *values, difference])
     return ["quantity", "published", "lubfric", "difference over both bounds"], rows
@@ -144,7 +144,7 @@ def differing() -> Cells:
         for check in ordered if len(ordered) <= 2 else (ordered[0], ordered[-1]):
             ours, theirs = check.errors
             name = check.name if check.unit == "1" else f"{check.name}, in {check.unit}"
-            values = (f"{check.expected:.4g} ± {theirs:.2g}", f"{check.measured:.4g} ± {ours:.2g}")
+            values = (f"{check.expected:.4g}±{theirs:.2g}", f"{check.measured:.4g}±{ours:.2g}")
             rows.append(
                 [
                     name,
