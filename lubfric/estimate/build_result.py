@@ -26,7 +26,7 @@ AT_MOST = (
 )
 
 # What narrows the sampling error, by whether the sample has more strips.
-SMALLER_TOLERANCE = "a smaller numerics.sampling_tolerance narrows it"
+SMALLER_SAMPLING_TOLERANCE = "a smaller numerics.sampling_tolerance narrows it"
 LARGER_MAP = "a larger map narrows it"
 
 # Parts of the friction force that resist the sliding.
@@ -114,7 +114,7 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
         narrows_numerical=answer.narrows_numerical,
         narrows_sampling=LARGER_MAP
         if prepared.sample.available_strips <= answer.decision.strips
-        else SMALLER_TOLERANCE,
+        else SMALLER_SAMPLING_TOLERANCE,
         notes=answer.notes,
     )
     known = with_missing_inputs(of_solve, f, answer.not_given)
