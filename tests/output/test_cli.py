@@ -138,7 +138,7 @@ def test_the_error_of_the_model_is_a_column_inside_the_interval(tmp_path, capsys
     half = (table["interval_high"] - table["interval_low"]) / 2 / table["coefficient"]
     assert np.all(0 < table["model_error"]) and np.all(table["model_error"] < half)
     said = capsys.readouterr().err
-    assert (tmp_path / "sharing.png").is_file()  # what the strips with one gap correct
+    assert (tmp_path / "sharing.png").is_file()  # what the deterministic strips correct
     assert f"model-form {100 * table['model_error'][0]:.2g} %" in said
     assert main(["info", "paper", "--speeds", "0.001,0.3"]) == 0
     cost = capsys.readouterr().out.partition("cost: ")[2].splitlines()[0]

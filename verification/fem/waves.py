@@ -49,7 +49,7 @@ def laid_out(line: LineContact, speed: float, cells: float, ends: tuple[float, f
 
 
 def smooth_film(line: LineContact, sliding: float) -> DeterministicResult:
-    """The film of one gap without roughness, on 512 cells."""
+    """Return the film without roughness by the deterministic model, on 512 cells."""
     step = sum(reach(line, 0.0)) / 512
     flat = Surface(np.zeros((64, 1)), (step, step), periodic_axes=(True, True))
     return solve_point(lay_out(flat, line, sliding=sliding, boundary_friction=0.09))

@@ -26,7 +26,7 @@ VISCOSITY = 0.36  # Pa s, of the paper's oil
 ALPHA = 25e-9  # 1/Pa, of the paper's oil
 LOAD = 917.0  # N/m, of the paper's cylinder
 WIDTH = 90e-6  # m, side of the patch
-SPOT = 1e8  # Pa: from there on the pressure is prescribed to the finite elements
+PRESCRIBED_PRESSURE = 1e8  # Pa: from there on the pressure is prescribed to the finite elements
 CASES = {  # cells over 90 µm and speeds [m/s]
     "quick": ((112, (0.1,)),),
     "default": ((128, (0.1,)), (192, (0.03,))),
@@ -119,7 +119,7 @@ def same_gap(cells: int, speed: float) -> Iterator[Item]:
     solution = solve_point(case)
     pressure = 0.5 * (solution.pressure + solution.pressure[:, ::-1])
     gap = 0.5 * (solution.gap + solution.gap[:, ::-1])
-    contacts = pressure > SPOT
+    contacts = pressure > PRESCRIBED_PRESSURE
     given = GivenGap(
         x=solution.x, dy=case.spacing[1], gap=gap, pressure=pressure, contact=contacts, radius=RADIUS, log=case.edge_log
     )
