@@ -16,6 +16,10 @@ from ..units import interval_in_words, with_interval
 RENAMED = {"spots": "effective_contacts", "fluid": "by_limit", "few_spots": "has_few_contacts"}
 
 
+# Part of the budget, relative, below which nothing is recommended that narrows it. A convention.
+SMALL_PART = 0.005
+
+
 @described_in_doc
 @dataclass(frozen=True, kw_only=True)
 class Uncertainty(Renamed, UncertaintyQuantities[float]):
@@ -103,6 +107,8 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         if not known or not math.isfinite(self.sampling):
             return ""
         name = max(known, key=lambda name: known[name])
+        if known[name] < SMALL_PART:
+            return f"largest part: {name} {self.budget_in_words[name]}"
         return f"largest part: {name} {self.budget_in_words[name]}, {recommendations[name]}"
 
     @property

@@ -18,7 +18,7 @@ from ..quantities import counted, worded_value
 from ..scene import SLIDE_ROLL_RATIO_KEY
 from .choose import EXPECTED_SPEEDS, first_speeds
 from .operating_points import POINT, SLIDING_COLUMN, U1
-from .store import Store
+from .store import PLAN, Store
 from .study_table import StudyTable
 
 # How well times are estimated: 64 of 69 runs of verification.campaigns.estimates are within that; the constants were chosen
@@ -150,6 +150,10 @@ def explain(plan: Any, store: Path | None = None) -> str:
         total = len(plan.requested) if plan.chooses_speeds else sum(map(len, plan.requested.values()))
         what = "curves" if plan.chooses_speeds else "points"
         lines.append(f"  kept     {held} of {total} {what} are in {store} already")
+    kept = Store(store)
+    others = 0 if plan.chooses_speeds else kept.count - held - kept.has(PLAN)
+    if others > 0:
+        lines.append(f"  other    {counted(others, 'points')} of other scenes stay in {store}, and do not count here")
     if not any(True for _ in table.left()):
         lines += [f"  {text}" for text in warnings_of(plan)]
         return "\n".join([*lines, "  time     nothing is left to solve"])

@@ -26,7 +26,7 @@ from .law import law_of_study
 from .operating_points import DURATION, INTERVAL_COLUMNS, mean_over_cycle
 from .plan import StudyPlan, plan_study, scenes_of
 from .points import CONVERGED_COLUMN, MISSING, SPEED, UNUSED, MapError, solved_together
-from .store import PLANNED, Store, digest, opened, point_key
+from .store import PLAN, PLANNED, Store, digest, opened, point_key
 from .study_table import StudyTable
 from .tables import place_in_words, plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
 
@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     pass
 
 
-PLAN = "plan"  # its key in the store
 PLAN_FIELDS = ("scene", "axes", "speeds", "keys", "point_speeds", "coordinates", "notes")  # what is stored of it
 # Points that a process of an executor receives at once.
 POINTS_AT_ONCE = 8

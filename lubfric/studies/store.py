@@ -48,6 +48,7 @@ ERRORS = {kind.__name__: kind for kind in (InputError, ConvergenceError, Validit
 OUTCOME = FrictionResult | Failure  # what is stored of a point
 # What is stored of the plan of a study: scene, axes, speeds [m/s], keys, and speeds, coordinates and notes of operating
 # points.
+PLAN = "plan"  # key of the plan of a study
 PLANNED = tuple[
     Scene,
     tuple[Axis, ...],
@@ -100,6 +101,11 @@ class Store:
     def empty(self) -> bool:
         """Whether there is no record at all."""
         return self.folder is None or not self.folder.is_dir()
+
+    @property
+    def count(self) -> int:
+        """Number of records, sound or not."""
+        return 0 if self.folder is None or not self.folder.is_dir() else sum(1 for _ in self.folder.glob("*.bin"))
 
     def has(self, key: str) -> bool:
         """Return whether there is a record of ``key``, sound or not."""

@@ -372,3 +372,12 @@ def test_folders_that_are_no_store(tmp_path):
         lubfric.open_study(tmp_path)
     lubfric.study(SCENE, {}, [0.01], store=tmp_path)
     assert lubfric.open_study(tmp_path).plan.speeds == (0.01,)
+
+
+def test_records_of_another_scene_are_named(tmp_path):
+    """A folder that another scene was solved into: its points stay, do not count, and are reported."""
+    lubfric.study(SCENE, {"bodies.load": [1.0, 2.0]}, [0.01, 0.02], store=tmp_path)
+    same_plan = lubfric.plan_study(SCENE, {"bodies.load": [1.0, 2.0]}, [0.01, 0.02])
+    assert "of other scenes" not in same_plan.explain(tmp_path)
+    other = lubfric.plan_study(SCENE.with_(bodies={"width": 0.02}), {"bodies.load": [1.0, 2.0]}, [0.01, 0.02])
+    assert f"4 points of other scenes stay in {tmp_path}" in other.explain(tmp_path)
