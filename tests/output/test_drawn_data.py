@@ -381,3 +381,50 @@ def test_the_model_form_error_is_drawn_with_both_its_sides():
     interval_band(axes, np.array([1.0, 2.0]), columns)
     low, high = (line.get_ydata() for line in axes.lines[:2])
     assert low == pytest.approx(0.07) and high == pytest.approx(0.18)
+
+
+def test_marks_of_warnings_and_lines_of_parts_are_left_out_where_requested(figures):
+    """The rings, the text below and the lines of single errors go; what f means nothing at stays crossed out."""
+    entry = SimpleNamespace(severe=False, is_note=False, what="starved")
+    severe = SimpleNamespace(severe=True, is_note=False, what="turbulent")
+    columns = COLUMNS | {"model_error": np.array([0.02, 0.02, np.nan, 0.02])}
+    violations = [(entry,), (), (), (severe,)]
+    for options in (PictureOptions(), PictureOptions(has_warnings=False, has_parts=False)):
+        plot_stribeck("x.png", columns, "title", violations, options=options)
+    labels = [{line.get_label() for line in figure.axes[0].lines} for figure in figures]
+    assert {"with warnings", "model-form error alone"} <= labels[0] and "starved" in figures[0].get_supxlabel()
+    assert not {"with warnings", "model-form error alone"} & labels[1] and "starved" not in figures[1].get_supxlabel()
+    assert all("outside the model (accepted)" in each for each in labels)
+
+
+def test_a_note_is_not_marked(figures):
+    note = SimpleNamespace(severe=False, is_note=True, what="numerical error")
+    plot_stribeck("x.png", COLUMNS, "title", [(note,), (), (), ()])
+    assert "with warnings" not in {line.get_label() for line in figures[0].axes[0].lines}
+    assert figures[0].get_supxlabel() == ""
+
+
+def test_a_long_title_lies_within_a_narrow_picture(figures):
+    options = PictureOptions(width=0.085)
+    plot_stribeck(
+        "x.png",
+        COLUMNS,
+        "a deterministic model on long cells, calibrated on 295 solved cases",
+        [()] * 4,
+        options=options,
+    )
+    (figure,) = figures
+    figure.canvas.draw()
+    box = figure._suptitle.get_window_extent()
+    assert figure.bbox.x0 <= box.x0 and box.x1 <= figure.bbox.x1
+
+
+def test_two_numbers_that_are_varied_are_told_apart_in_the_picture_of_a_study(figures):
+    """Of many curves: colour by the first number, marker and dashes by the second, which the key names."""
+    vary = {"bodies.load": [2.0, 3.0, 4.0, 5.0], "surface.sq": [5e-8, 1e-7, 1.5e-7]}
+    study = lubfric.study(SCENE.with_(numerics={"model": "paper"}), vary, [0.02, 0.1])
+    axes = study.plot(new_figure().subplots())
+    curves = [line for line in axes.lines if len(line.get_xdata())]
+    assert len({(line.get_marker(), str(line.get_color())) for line in curves}) == len(curves) == 12
+    assert len({line.get_marker() for line in curves}) == 3
+    assert {"50 nm", "100 nm", "150 nm"} <= {line.get_label().rpartition("roughness ")[2] for line in axes.lines}
