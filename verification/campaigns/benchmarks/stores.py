@@ -10,13 +10,14 @@ are left out.
 import argparse
 import multiprocessing
 import os
+import resource
 import shutil
 import signal
 import sqlite3
 import tempfile
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from functools import partial
 from importlib import import_module, util
@@ -180,22 +181,21 @@ def lost_by_kills(kind: type[PointStore], folder: Path) -> tuple[int, int]:
     return len(reported), sum(record is None for record in kind(folder).read(reported))
 
 
-def timed(call: Any) -> tuple[float, float]:
-    """Return elapsed and processor time [s] of a ``call``."""
-    begun = time.perf_counter()
+def timed(call: Callable[[], object]) -> float:
+    """Return the processor time [s] of a ``call``."""
     used = time.process_time()
     call()
-    return time.perf_counter() - begun, time.process_time() - used
+    return time.process_time() - used
 
 
 def row_of(name: str, root: Path, points: int, workers: int) -> list[str]:
     """Return the row of the store ``name``."""
     kind = STORES[name]
     folder = root / name
-    _, writing = timed(partial(write, kind, folder, range(points)))
+    writing = timed(partial(write, kind, folder, range(points)))
     store = kind(folder)
-    _, listing = timed(store.listed)
-    _, reading = timed(lambda: sum(record is not None for record in store.read(range(points))))
+    listing = timed(store.listed)
+    reading = timed(lambda: sum(record is not None for record in store.read(range(points))))
     files = [path for path in folder.rglob("*") if path.is_file()]
     size = sum(path.stat().st_blocks * 512 for path in files)
     share = points // workers
@@ -213,7 +213,10 @@ def row_of(name: str, root: Path, points: int, workers: int) -> list[str]:
         for job in jobs:
             job.join()
 
-    wall, _ = timed(together)
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    together()
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    shared = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     read = sum(record is not None for record in kind(root / f"{name}-shared").read(range(share * workers)))
     (reported, lost) = lost_by_kills(kind, root / f"{name}-killed")
     return [
@@ -223,23 +226,13 @@ def row_of(name: str, root: Path, points: int, workers: int) -> list[str]:
         f"{listing:.2f}",
         f"{size / points / 1e3:.1f}",
         f"{len(files)}",
-        f"{1e3 * wall / points:.2f}",
+        f"{1e3 * shared / points:.2f}",
         f"{share * workers - read}",
         f"{lost} of {reported}",
     ]
 
 
-COLUMNS = (
-    "store",
-    "ms to write a point",
-    "ms to read",
-    "s to list",
-    "kB a point",
-    "files",
-    "ms a point, 4 writers",
-    "lost",
-    "lost by kills",
-)
+COLUMNS = ("store", "ms to write", "to read", "s to list", "kB", "files", "ms, 4 writers", "lost", "by kills")
 
 
 def main() -> None:
