@@ -36,7 +36,7 @@ def main() -> None:
     result = table(options.table)
     print(markdown(result.columns, result.rows), *outside(options.table), sep="\n")
     if options.docs:
-        put(options.docs, result, f"python -m {MODULE} {options.count} --docs docs")
+        put(options.docs, table(options.table, brief=True), f"python -m {MODULE} {options.count}")
 
 
 if __name__ == "__main__":

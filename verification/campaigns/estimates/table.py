@@ -20,6 +20,19 @@ from .jobs import KINDS, MOST_WORK, drawn, seconds
 TABLE = Path(__file__).parent / "table.csv"
 # Digits of a number in the table.
 DIGITS = 4
+# Kinds, by their first word, that a page shows together.
+GROUPS = {
+    "rest": "points",
+    "rolling": "points",
+    "curve": "curves",
+    "traction": "curves",
+    "study": "curves",
+    "fit": "fits",
+    "time": "time",
+    "run-in": "wear",
+    "wear": "wear",
+    "command": "command",
+}
 COLUMNS = ("seed", "draw", "kind", "lambda_ratio", "pressure", "sq", "estimate", "work", "seconds", "failure")
 
 
@@ -102,17 +115,21 @@ def ratios(file: Path = TABLE) -> dict[str, np.ndarray]:
     return {kind: np.array(values) for kind, values in by_kind.items()}
 
 
-def table(file: Path = TABLE) -> Table:
-    """Return, of all runs and by kind: runs, parts within factors of 2 and 3, median and extremes of the ratio."""
-    of_kind = ratios(file)
+def table(file: Path = TABLE, *, brief: bool = False) -> Table:
+    """Return, of all runs and by kind: runs, parts within factors of 2 and 3, median and extremes of the ratio; ``brief``:
+    without these three, by `GROUPS`."""
+    of_kind: dict[str, np.ndarray] = {}
+    for kind, values in ratios(file).items():
+        name = GROUPS[kind.split()[0]] if brief else kind
+        of_kind[name] = np.concatenate([of_kind.get(name, np.empty(0)), values])
     both = {"all": np.concatenate(list(of_kind.values())), **of_kind} if of_kind else {}
     lines = []
     for kind, values in both.items():
         apart = np.abs(np.log(values))
         within = [f"{100 * np.mean(apart <= math.log(factor)):.0f} %" for factor in (2, 3)]
-        numbers = [f"{value:.2g}" for value in (np.median(values), values.min(), values.max())]
+        numbers = [] if brief else [f"{value:.2g}" for value in (np.median(values), values.min(), values.max())]
         lines.append([kind, str(values.size), *within, *numbers])
-    columns = ["kind", "runs", "within 2", "within 3", "median", "least", "largest"]
+    columns = ["kind", "runs", "within 2", "within 3", *([] if brief else ["median", "least", "largest"])]
     return Table("estimates", "estimated over taken time", columns, lines)
 
 
