@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Iterable, Sequence
 from functools import wraps
-from importlib.resources import files
+from importlib.resources import as_file, files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
@@ -42,7 +42,10 @@ def styled(plot: Plot) -> Plot:
     def drawn(*args: Any, **options: Any) -> Any:
         from matplotlib import rc_context, rc_params_from_file
 
-        style = rc_params_from_file(str(files(__package__) / "pictures.mplstyle"), use_default_template=False)
+        with as_file(
+            files(__package__) / "pictures.mplstyle"
+        ) as path:  # a file for the time being, if it is in an archive
+            style = rc_params_from_file(str(path), use_default_template=False)
         chosen = next((value for value in (*args, *options.values()) if hasattr(value, "fonts")), None)
         with rc_context({**style, **(chosen.fonts() if chosen is not None else {})}):
             return plot(*args, **options)

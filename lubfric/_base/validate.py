@@ -234,9 +234,9 @@ def listed(values: Any) -> Any:
 
 def folder(name: str, value: Any) -> Path:
     """Return a path as words or a `pathlib.Path` that the file system takes, whether or not there is anything."""
-    if isinstance(value, (str, os.PathLike)) and "\0" not in str(value):
-        path = Path(value)
-        with suppress(OSError):
+    if isinstance(value, (str, os.PathLike)) and value != "" and "\0" not in str(value):
+        with suppress(OSError, TypeError):  # a TypeError of a path that is not of words
+            path = Path(value)
             path.exists()
             return path
     raise InputError(f" = {shown(value)} is no path", name, "a string or a pathlib.Path that the file system takes")

@@ -192,7 +192,7 @@ def _read(source: object) -> tuple[dict[str, Any], Path, str]:
         raise InputError(said, allowed=f"a path, or one of {names}")
     if str(source) in names:
         return read_toml(SCENES / f"{source}.toml", "scene"), Path(), str(source)
-    path = Path(source)
+    path = validate.folder("scene", source) if isinstance(source, os.PathLike) else Path(source)
     if not os.path.isfile(path):
         said = f"scene {validate.shown(str(source))} is neither a file nor a built-in scene"
         raise InputError(f"{said}{_nearest_scene(path, names)}; built in: {', '.join(names)}")

@@ -93,7 +93,7 @@ def main() -> None:
     for points, paired in ((arguments.points, False), (arguments.paired, True)):
         rows.append(row_of(points, paired=paired))
         print(*rows[-1], sep=" | ", flush=True)
-    page.write("opened", COLUMNS, rows, (parser, arguments))
+    page.write("opened", COLUMNS, rows[:1], (parser, arguments))
 
 
 if __name__ == "__main__":

@@ -71,7 +71,7 @@ class Files(PointStore):
 
     def read(self, numbers: Iterable[int]) -> Iterable[bytes | None]:
         for number in numbers:
-            yield self.store.get(digest(number)) and b"found"
+            yield self.store.get(digest(number)) and b"there"
 
     def listed(self) -> int:
         return sum(entry.name.endswith(".bin") for entry in os.scandir(self.folder / "points"))
@@ -97,7 +97,7 @@ class Database(PointStore):
         decode = import_module("lubfric.studies.codec").decode
         for number in numbers:
             row = self.database.execute("select record from points where key = ?", (digest(number),)).fetchone()
-            yield row and decode(row[0], store.classes, Any) and b"found"
+            yield row and decode(row[0], store.classes, Any) and b"there"
 
     def listed(self) -> int:
         return int(self.database.execute("select count(*) from points").fetchone()[0])
@@ -123,7 +123,7 @@ class Chunks(PointStore):
         decode = import_module("lubfric.studies.codec").decode
         for number in numbers:
             record = self.array[number].tobytes()
-            yield decode(record, store.classes, Any) and b"found" if any(record[:8]) else None
+            yield decode(record, store.classes, Any) and b"there" if any(record[:8]) else None
 
     def listed(self) -> int:
         return sum(len(files) for _, _, files in os.walk(self.folder)) - 1
@@ -253,9 +253,9 @@ def main() -> None:
             print(*rows[-1], sep=" | ", flush=True)
     finally:
         shutil.rmtree(root)
-    kept = [COLUMNS.index(name) for name in ("store", "ms to write", "to read", "kB", "files")]
-    in_page = [[row[place] for place in kept] for row in rows]
-    page.write("stores", [COLUMNS[place] for place in kept], in_page, (parser, arguments))
+    places = [COLUMNS.index(name) for name in ("store", "ms to write", "to read", "kB", "files")]
+    in_page = [[row[place] for place in places] for row in rows]
+    page.write("stores", [COLUMNS[place] for place in places], in_page, (parser, arguments))
 
 
 if __name__ == "__main__":
