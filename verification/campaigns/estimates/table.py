@@ -120,8 +120,8 @@ def ratios(file: Path = TABLE) -> dict[str, np.ndarray]:
 
 
 def table(file: Path = TABLE, *, brief: bool = False) -> Table:
-    """Return, of all runs and by kind: runs, parts within factors of 2 and 3, median and extremes of the ratio; ``brief``:
-    without these three, by `GROUPS`."""
+    """Return, of all runs and by kind: runs, parts within factors of 2 and 3, median and extremes of the ratio; ``brief``: the
+    part within 3 alone, by `GROUPS`."""
     of_kind: dict[str, np.ndarray] = {}
     for kind, values in ratios(file).items():
         name = GROUPS[kind.split()[0]] if brief else kind
@@ -130,10 +130,12 @@ def table(file: Path = TABLE, *, brief: bool = False) -> Table:
     lines = []
     for kind, values in both.items():
         apart = np.abs(np.log(values))
-        within = [f"{100 * np.mean(apart <= math.log(factor)):.0f} %" for factor in (2, 3)]
+        within = [f"{100 * np.mean(apart <= math.log(factor)):.0f} %" for factor in ((3,) if brief else (2, 3))]
         numbers = [] if brief else [f"{value:.2g}" for value in (np.median(values), values.min(), values.max())]
         lines.append([kind, str(values.size), *within, *numbers])
-    columns = ["kind", "runs", "within 2", "within 3", *([] if brief else ["median", "least", "largest"])]
+    columns = ["kind", "runs", "within 3"]
+    if not brief:
+        columns = ["kind", "runs", "within 2", "within 3", "median", "least", "largest"]
     return Table("estimates", "estimated over taken time", columns, lines)
 
 
