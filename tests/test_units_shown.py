@@ -52,3 +52,13 @@ def test_zero_is_in_the_si_unit():
 def test_a_column_is_in_the_unit_in_which_its_largest_number_reads_well():
     assert unit_of_largest([0.002, 0.003, 39.284], "W") == "W" and unit_of_largest([2e-3, 0.5], "W") == "mW"
     assert unit_of_largest([math.nan, math.inf, -4e-3, 1e-6], "m") == "mm" and unit_of_largest([], "m") == "m"
+
+
+def test_no_number_is_rounded_above_its_unit():
+    assert with_interval(536.2, 373.4, 694.8, unit="W") == "536 W (373 to 695 W at 95 %)"
+    assert with_interval(289.6, 214.1, 364.2, unit="W") == "290 W (214 to 364 W at 95 %)"
+    assert with_interval(0.0443, 0.0413, 0.0473) == "0.0443 (0.0413 to 0.0473 at 95 %)"
+
+
+def test_a_small_stress_is_in_pascal():
+    assert worded(5.0, "Pa") == "5 Pa" and worded(23.0, "Pa") == "23 Pa" and worded(6e6, "Pa") == "6 MPa"

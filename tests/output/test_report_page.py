@@ -13,6 +13,7 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 from scipy.special import stdtrit
 
 from lubfric.output import main
+from lubfric.output.report import shortfalls
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 OPTIONS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run"]
@@ -132,3 +133,11 @@ def test_the_method_is_what_was_solved_and_the_seeds_are_distinguished(run):
     assert "At U = 0.3 m/s: film: " in unescape(solved) and "target of the numerical error of f" not in solved
     assert "target of the numerical error of f" in estimate
     assert "seed of the scene (surface.seed), from which those of the strips follow" in page
+
+
+def test_a_status_states_what_misses_its_target_and_what_has_no_interval():
+    assert shortfalls(0, 0, 3) == []
+    inexact, unknown = shortfalls(2, 3, 3)
+    assert inexact.startswith("At 2 of 3 points the numerical error of f is above the requested tolerance")
+    assert unknown == "At 3 of 3 points the interval of f is not known."
+    assert shortfalls(0, 1, 1) == ["There the interval of f is not known."]

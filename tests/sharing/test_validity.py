@@ -10,6 +10,7 @@ from scene_text import paper_scene
 import lubfric
 from lubfric.film import ShearForce
 from lubfric.models.shared import (
+    MAP_WIDTH,
     NUMERICAL_ERROR,
     OMITTED_HEAT,
     Violation,
@@ -17,6 +18,7 @@ from lubfric.models.shared import (
     gathered_texts,
     in_a_cell,
     is_note_text,
+    sentence,
     warn_bodies,
     warn_deflection,
     warn_map,
@@ -237,3 +239,28 @@ def test_the_error_of_the_solve_is_a_note_and_heat_that_is_left_out_stands_besid
     assert kinds[NUMERICAL_ERROR] is True and kinds[OMITTED_HEAT] is False
     assert fast.not_in_interval.startswith("without heat, which lowers f by up to 2")
     assert lubfric.friction(scene.with_(numerics={"heat": "off"}), 1.0).not_in_interval == ""
+
+
+def test_a_sentence_begins_with_the_symbol_of_friction_as_it_is():
+    assert sentence("f depends on it") == "f depends on it." and sentence("film and f") == "Film and f."
+
+
+def test_the_width_of_the_map_matters_where_it_gives_a_sampling_error():
+    """A patch of nine correlation lengths: at high speed no asperity touches, and another patch has the same f."""
+    short = PAPER.with_(
+        contact={"shape": (48, 44), "spacing": 1.8e-6}, numerics={"model": "paper", "sampling": "patch"}
+    )
+    slow, fast = (lubfric.friction(short, speed) for speed in (0.01, 1.0))
+    assert any(violation.what == MAP_WIDTH for violation in slow.validity)
+    assert fast.contact_load == 0 and (
+        fast.uncertainty.sampling != 0 or MAP_WIDTH not in [v.what for v in fast.validity]
+    )
+
+
+def test_a_sample_that_ends_asks_for_a_larger_map():
+    wide = lubfric.load_scene("paper").with_(numerics={"model": "paper", "sampling_tolerance": 0.2})
+    few = lubfric.friction(wide, 0.03).uncertainty
+    assert "numerics.sampling_tolerance" in few.narrows_sampling
+    surface = lubfric.generate_surface((64, 400), 1.8e-6, sq=1e-7, correlation_length=8e-6, seed=2)
+    given = lubfric.friction(lubfric.prepare(wide, surface), 0.03).uncertainty
+    assert given.narrows_sampling == "a larger map narrows it"

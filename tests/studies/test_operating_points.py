@@ -265,3 +265,12 @@ def test_the_line_of_f_ends_where_the_sliding_changes_its_direction(result):
     np.testing.assert_array_equal(np.isnan(drawn), [False, True, False, True, False])
     power = plot_points(result, "power_loss").lines[0].get_ydata()
     assert np.isfinite(power).all() and power.size == 3
+
+
+def test_a_ratio_that_follows_from_given_speeds_is_not_asked_for_its_unit():
+    """Neither the plan nor the check of the motion asks for percent where the table gives the sliding speed."""
+    scene = SCENE.with_(numerics={"sampling": "patch", "model": "paper"})
+    table = {"speed [m/s]": [0.1, 0.1], "sliding_speed [m/s]": [0.48, 0.56]}
+    text = lubfric.plan_study(scene, points=table).explain()
+    assert "slide" in text and "percent" not in text.replace("slip_percent", "percent") and "Did you mean" not in text
+    assert "check the speeds of the surfaces" in text
