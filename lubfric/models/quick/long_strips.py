@@ -39,12 +39,18 @@ CELLS_IN_MOTION = (2.0, 1.25)
 # step in time takes 1.5 times as long, and there are 1.5 times as many.
 CELLS_OF_THIN_FILM = 3.0
 
-# Change of f at rest, from half to twice the boundary film, over its sliding part, from which on it does.
-THIN_BY_FILM = 0.2
+# Change of f at rest by the boundary film, from which on it does (`LongCellsInMotion.by_film`): with .2 the half-width where f
+# hangs on the film is 21 instead of 18 %, with .4 more.
+THIN_BY_FILM = 0.05
 
 # Cells in a correlation length along x and along y, and along x in the half-width, of the solved cases that move
 # (verification/campaigns/calibration/case.py).
 CELLS_OF_REFERENCES = (4.0, 2.5)
+
+# Distance of f at rest from f_b, over f_b, below which f hangs the less on the boundary film the nearer it is [-]: with ten
+# times as much the half-width where it does is 20 instead of 18 %, with none contacts whose asperities carry the load take
+# twice as long.
+NEAR_AT_REST = 0.03
 
 # Effort in the place of `TIGHT`: steps end at 5 times its residual, which goes into the next step. f of four rollers moves by
 # up to .06 %, their counted work falls by 15 to 25 %. A continuation discards as much as an economical one: then the ends of a
@@ -108,20 +114,23 @@ def _divisor(rows: int, most: float) -> int:
 
 @dataclass(frozen=True, kw_only=True)
 class LongCellsInMotion:
-    """Rough ``bodies`` that move, with their maps on long cells along x; ``factors``: what is left of the length of the long
+    """Rough ``bodies`` that move, with their maps on long cells along x, ``per_length`` in a correlation length; ``factors``: what is left of the length of the long
     cells in those of these maps; ``effort``: how accurately the film is followed; ``rest``: the strip at rest there."""
 
     bodies: tuple[RoughBody, ...]
+    per_length: float
     factors: tuple[int, int]
     effort: MovingEffort
     rest: StripSolution
 
     @property
     def by_film(self) -> float:
-        """The change of f at rest, from half to twice the boundary film, over its sliding part."""
+        """The change of f at rest, from half to twice the boundary film, over its sliding part; less where that is near f_b,
+        because no cell takes it beyond."""
         result = self.rest.result
-        sliding = abs(result.coefficient - result.rolling / result.load)
-        return abs(result.at_twice_film - result.at_half_film) / max(sliding, LEAST_SLIDING)
+        sliding = max(abs(result.coefficient - result.rolling / result.load), LEAST_SLIDING)
+        below = max(1.0 - sliding / self.rest.problem.boundary_friction, 0.0)
+        return abs(result.at_twice_film - result.at_half_film) / sliding * min(below / NEAR_AT_REST, 1.0)
 
 
 def long_cells_in_motion(
@@ -148,7 +157,7 @@ def long_cells_of(
     effort = effort_of(scene, bodies, speed, factors)
     effort = LOOSER_EFFORT if effort == TIGHT else effort
     rest = strip_at_rest(scene, bodies, speed, factors=factors, effort=effort)
-    return LongCellsInMotion(bodies=bodies, factors=factors, effort=effort, rest=rest)
+    return LongCellsInMotion(bodies=bodies, per_length=per_length, factors=factors, effort=effort, rest=rest)
 
 
 def factors_in_motion(
@@ -207,10 +216,11 @@ def solve_moving(
     return StripOnTwoGrids(strip, strip.rest)
 
 
-def numbers_of_strip(pair: StripOnTwoGrids) -> dict[str, float]:
+def numbers_of_strip(pair: StripOnTwoGrids, length: float, *, is_smooth: bool) -> dict[str, float]:
     """Return the numbers of a strip by which `features` are found: parts of f, f at half and at twice the boundary film,
     and ln of the sliding part of f over that on longer cells, ``by_cells``, or, of moving roughness, at rest, ``by_motion``
-    (NaN: not known)."""
+    (NaN: not known); ``coarse``, the cell along x over the correlation ``length`` [m], and ``smooth``, 1 where heights are
+    smooth over the cells of their map (`smooth_over_cells`), else 0."""
     result = pair.resolved.result
     is_moving = pair.resolved.moves
     longer = pair.longer.result
@@ -224,6 +234,8 @@ def numbers_of_strip(pair: StripOnTwoGrids) -> dict[str, float]:
         "at_twice_film": result.at_twice_film,
         "by_cells": math.nan if is_moving else change,
         "by_motion": change if is_moving else math.nan,
+        "coarse": pair.resolved.problem.spacing[0] / length,
+        "smooth": float(is_smooth),
     }
 
 
@@ -235,6 +247,9 @@ def features(numbers: Mapping[str, float], friction: float) -> dict[str, float]:
     - "one"; "cells", by_cells between ± `MOST_BY_CELLS`, and "ln cells" of its size;
     - "film": c/(1 + c) of the change c of f by twice the boundary film instead of half of it, over the sliding part of f,
       and "ln film", ln(1 + c/`LITTLE_BY_FILM`);
+    - "narrowed": change of ln of the sliding part of f with ln of the boundary film, between ± 1, times the square of the
+      cell along x over that of `CELLS_OF_THIN_FILM`, where heights are smooth: long cells let too little lubricant into narrow
+      gaps (`CellsInMotion`). "summits": that change where they are not, and shorter cells show new summits;
     - "rolling": part of f by the gradient of the pressure, over the sliding part;
     - "ln below": ln of how far the sliding part of f is below f_b, over f_b; "ln near": the same, to `NEAR_FRICTION` only.
     """
@@ -243,12 +258,16 @@ def features(numbers: Mapping[str, float], friction: float) -> dict[str, float]:
     by_cells = numbers["by_cells"]
     size = MOST_BY_CELLS if math.isnan(by_cells) else min(abs(by_cells), MOST_BY_CELLS)
     by_film = min(abs(numbers["at_twice_film"] - numbers["at_half_film"]) / sliding, MOST_BY_FILM)
+    half, twice = (numbers[f"at_{name}_film"] - numbers["rolling"] for name in ("half", "twice"))
+    steepness = min(max(math.log(twice / half) / math.log(4.0), -1.0), 1.0) if half > 0 < twice else 0.0
     return {
         "one": 1.0,
         "cells": 0.0 if math.isnan(by_cells) else math.copysign(size, by_cells),
         "ln cells": math.log(max(size, LEAST_BY_CELLS) / MIDDLE_BY_CELLS),
         "film": by_film / (1 + by_film),
         "ln film": math.log(1 + by_film / LITTLE_BY_FILM),
+        "narrowed": steepness * (CELLS_OF_THIN_FILM * numbers["coarse"]) ** 2 * numbers["smooth"],
+        "summits": steepness * (1.0 - numbers["smooth"]),
         "rolling": min(abs(numbers["rolling"]) / sliding, MOST_ROLLING),
         "ln below": math.log(max(below, LEAST_BELOW)),
         "ln near": math.log((min(max(below, 0.0), NEAR_FRICTION) + LEAST_NEAR) / NEAR_FRICTION),

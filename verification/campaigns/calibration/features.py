@@ -33,4 +33,5 @@ def quick(case: Case, per_length: float) -> dict[str, float]:
         factors = factors_of_long_cells(case.scene, case.surface.spacing, case.surface.shape[1], lengths)
         pair = solve_at_rest(case.scene, case.surface, case.speed, factors)
         film_at_rest = 0.0
-    return numbers_of_strip(pair) | {"film_at_rest": film_at_rest, "seconds": time.process_time() - begun}
+    numbers = numbers_of_strip(pair, lengths[0], is_smooth=facts["acf"] == "gaussian")
+    return numbers | {"film_at_rest": film_at_rest, "seconds": time.process_time() - begun}
