@@ -281,7 +281,7 @@ def test_bounds_widen_outside_the_campaign_and_info_and_result_say_so():
 
 STRIP = {
     "coefficient": 0.05, "rolling": 0.001, "at_half_film": 0.048, "at_twice_film": 0.053, "by_cells": 0.02,
-    "by_motion": math.nan,
+    "by_motion": math.nan, "coarse": 1 / 3, "smooth": 1.0,
 }  # fmt: skip
 
 
@@ -304,10 +304,25 @@ def test_the_bounds_grow_where_no_case_is_alike():
     assert model.log_half_width(x | {"cells": 10.0}) > 1.5 * model.log_half_width(x)
 
 
+def test_the_bias_of_narrow_gaps_grows_with_the_cells_and_that_of_summits_has_the_other_sign():
+    """Where nothing hangs on the boundary film there is none of either."""
+    model = error_models()["rolling"]
+    flat = {"at_half_film": 0.05, "at_twice_film": 0.05}
+
+    def bias(**numbers):
+        return model.bias_at(features(STRIP | numbers, 0.09))
+
+    steep = {"at_half_film": 0.03, "at_twice_film": 0.08}
+    assert bias(**steep, coarse=0.5) < bias(**steep) < bias(**flat) < bias(**steep, smooth=0.0)
+    assert bias(**flat, smooth=0.0) == bias(**flat) == bias(**flat, coarse=0.5)
+    (third, half) = (bias(**steep, coarse=cell) - bias(**flat) for cell in (1 / 3, 1 / 2))
+    assert half / third == pytest.approx(2.25)
+
+
 def test_the_fit_finds_a_known_bias_and_spread():
     rng = np.random.default_rng(1)
     features = np.stack([np.ones(3000), rng.uniform(0, 1.5, 3000)], axis=1)
-    errors = features @ [0.1, -0.05] + np.exp(features @ [-2.0, 0.8]) * rng.standard_t(6, 3000)
+    errors = features @ [0.1, -0.05] + np.exp(features @ [-2.0, 0.8]) * rng.standard_t(fit.FREEDOM, 3000)
     known = fit.fitted(errors, features, features)
     assert known.bias == pytest.approx([0.1, -0.05], abs=0.02)
     assert known.spread == pytest.approx([-2.0, 0.8], abs=0.08)
@@ -317,7 +332,7 @@ def test_the_fit_finds_a_known_bias_and_spread():
 def test_the_covariance_of_the_fit_is_the_scatter_of_its_coefficients():
     rng = np.random.default_rng(2)
     features = np.stack([np.ones(200), rng.uniform(-1, 1, 200)], axis=1)
-    fits = [fit.fitted(0.1 * rng.standard_t(6, 200), features, features[:, :1]) for _ in range(200)]
+    fits = [fit.fitted(0.1 * rng.standard_t(fit.FREEDOM, 200), features, features[:, :1]) for _ in range(200)]
     scatter = np.cov([known.bias for known in fits], rowvar=False)
     assert np.diag(scatter) == pytest.approx(np.diag(fits[0].covariance), rel=0.3)
 
