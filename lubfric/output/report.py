@@ -69,7 +69,7 @@ BUDGET = {
 # A number smaller than this times the largest of its column is 0 in a table.
 TABLE_ROUNDING = 1e-9
 # Part of the power loss from which the report names the rolling resistance in it.
-SMALL_PART = 0.01
+SMALL_ROLLING_PART = 0.01
 
 # Largest error of f between the solved speeds that is stated: beyond it f is not known there. A convention.
 LARGEST_BETWEEN = 0.5
@@ -205,7 +205,7 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding
     low, high = point.power_loss_interval
     loss = f"The power loss is {with_interval(point.power_loss, low, high, unit='W')}"
     rolling = point.power_loss - abs(sliding_speed) * point.coefficient * (point.contact_load + point.film_load)
-    if rolling > SMALL_PART * abs(point.power_loss):
+    if rolling > SMALL_ROLLING_PART * abs(point.power_loss):
         loss += f", of which {plain_number(rolling, 'W')} is rolling resistance"
     sentences.append(f"{loss}.")
     if math.isfinite(point.lambda_ratio):
