@@ -115,7 +115,7 @@ def publications_of(part: str) -> Cells:
 
 def span(values: list[float], sign: str = "") -> str:
     """Return the lowest and the highest of ``values`` in percent as one word, with a ``sign`` or none."""
-    low, high = (f"{round(100 * value, 2) + 0.0:{sign}.2g}" for value in (min(values), max(values)))
+    low, high = (f"{float(f'{round(100 * value, 2) + 0.0:.2g}'):{sign}g}" for value in (min(values), max(values)))
     return low if low == high else f"{low}…{high}"
 
 
@@ -179,10 +179,10 @@ def citation(source: Source) -> str:
 
 
 def authors(source: Source) -> str:
-    """Return surnames and year, as in "Dowson, Toyoda 1978"."""
+    """Return surnames and year, as in "Dowson, Toyoda 1978"; of a company its name."""
     people = people_of(source)
     year = re.search(r"\b(18|19|20)\d\d\b", source.words)
-    return f"{surnames(people)} {year[0]}" if people and year else source.words
+    return f"{surnames(people)} {year[0]}" if people and year else source.words.split(", ")[0]
 
 
 TABLES: dict[str, Callable[[], Cells]] = {

@@ -57,7 +57,7 @@ def mixed(level: str) -> Iterator[Item]:
     own_errors = 2 * values.std(axis=0, ddof=1) / np.sqrt(len(values))
     low, high = references.load_share_band(RATIOS)
     for ratio, value, error, a, b in zip(RATIOS, ours, own_errors, low, high):
-        name = f"load share of the asperities, film/Sq = {ratio:g}"
+        name = f"asperity load ratio, Λ = {ratio:g}"
         half = (b - a) / (a + b)
         note = "not independent: the boundary film of 20 nm was chosen as the nearest to these laws"
         if ratio * min(SURFACES.values()) <= BOUNDARY_FILM:
@@ -66,7 +66,7 @@ def mixed(level: str) -> Iterator[Item]:
         yield against("shares", name, value, (a + b) / 2, error / value, note=note, error=half, listed=listed)
     at = RATIOS.index(1.0)
     for key, (law_name, law) in zip(LAWS, references.LOAD_SHARES.items(), strict=True):
-        name = f"load share of the asperities, film/Sq = 1, {law_name}"
+        name = f"asperity load ratio, Λ = 1, {law_name.partition(' (')[2].rstrip(')')}"
         note = "the laws differ among themselves by a factor of 2.5 there"
         yield against(key, name, ours[at], float(law(np.ones(1))[0]), own_errors[at] / ours[at], note=note)
     yield from masjedi(level)
@@ -208,7 +208,7 @@ def gears() -> Iterator[Item]:
             "fernandes": references.fernandes(GEAR_TORQUE, rpm, viscosity, alpha),
         }
         for key, theirs in fits.items():
-            name = f"mean friction of gear C14, 183.4 N m, {rpm} rpm, by {key.capitalize()}"
+            name = f"friction of gear C14, {rpm} rpm, {key.capitalize()}"
             note = "f_b from 0.065 to 0.105; the film is isothermal"
             yield against(key, name, ours, theirs, error / ours, note=note)
 

@@ -54,7 +54,7 @@ def starved(level: str) -> Iterator[Item]:
     bodies: dict[int, Discretisation] = {}
     for place in PLACES:
         films = [film_from(place, n, bodies) for n in grids]
-        name = f"lubricant begins at {place:g} b"
+        name = f"inlet at {place:g} b"
         ours = lubfric.solve_ehl(**CASE, **OIL, inlet_length=place * half_width(), tolerance=1e-4)
         yield from compared(name, ours, films, grids, rows)
         if place == PLACES[0]:
@@ -63,7 +63,7 @@ def starved(level: str) -> Iterator[Item]:
     for share in LAYERS if level != "quick" else LAYERS[:1]:
         layer = share * flooded
         films = [fed_with(layer, n, bodies) for n in grids[1:]]
-        name = f"a layer of {share:g} of the flooded flow arrives"
+        name = f"layer of {share:g} of the flow"
         ours = lubfric.solve_ehl(**CASE, **OIL, inlet_film=layer, tolerance=1e-4)
         yield from compared(name, ours, films, grids[1:], rows)
     caption = "Starved inlets: films by lubfric, and by finite elements extrapolated to no cells"
@@ -133,7 +133,7 @@ def compared(
     """The checks of one inlet."""
     mine = (ours.min_film, float(ours.film_at(np.array([0.0]))[0]), ours.flow_film)
     theirs = extrapolated(films, grids)
-    for by, values in (("lubfric", mine), ("finite elements", theirs)):
+    for by, values in (("lubfric", mine), ("elements", theirs)):
         rows.append((name, by, *(f"{1e9 * value:.2f}" for value in values)))
     for (quantity, allowed), value, expected in zip(ALLOWED.items(), mine, theirs):
         yield Check(f"{name}: {quantity}", value, expected=float(expected), tolerance=allowed, source=SOURCE, unit="m")
