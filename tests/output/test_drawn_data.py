@@ -144,7 +144,11 @@ def test_a_picture_is_drawn_as_the_command_says(figures, tmp_path, monkeypatch):
     assert top.get_yscale() == "log" and bottom.get_xscale() == "linear" and "film" in bottom.get_ylabel()
     low, high = top.get_ylim()
     assert 0 < low < 0.02 and high > 0.09
-    for wrong in (["--format", "bmp"], ["--panels", "torque"], ["--y-scale", "cubic"], ["--width", "1 mm"]):
+    assert requested[-1].has_warnings and requested[-1].has_parts
+    main(["plot", out, "--without", "parts, warnings"])
+    assert not requested[-1].has_warnings and not requested[-1].has_parts
+    wrong_words = (["--panels", "torque"], ["--y-scale", "cubic"], ["--without", "curve"])
+    for wrong in (["--format", "bmp"], ["--width", "1 mm"], *wrong_words):
         assert main(["plot", out, *wrong]) == 2
 
 
