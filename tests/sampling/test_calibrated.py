@@ -535,6 +535,8 @@ def test_the_asperity_load_of_a_calibrated_answer_is_that_of_the_deterministic_m
 def test_next_to_pure_rolling_the_error_of_a_small_difference_is_of_its_parts():
     """f is rolling and sliding, of opposite signs on one side of pure rolling: its error is no larger than a few times both,
     however near to 0 their sum is."""
+    error_of = error_models()["rest"].rolling_error
+    assert error_of(-1e-4, 3e-4) == pytest.approx(2 * error_of(1e-4, 0.0)) and error_of(1e-4, 0.0) > 0
     scene = HEAVIER.with_(numerics={"model": "quick"})
     surface = patch((28, 24), (3.6e-6, 4e-6))
     load = scene.bodies.load

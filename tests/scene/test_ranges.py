@@ -92,6 +92,8 @@ def test_a_range_widens_a_friction_below_zero_to_the_right_side():
     assert most - plain.coefficient == pytest.approx(
         math.hypot(high - plain.coefficient, 0.0199 * plain.contact_load / 5.5), rel=1e-6
     )
+    towards_zero, away_from_zero = known.uncertainty.input_sides
+    assert away_from_zero == 0 < towards_zero
 
 
 def test_the_deterministic_answer_has_its_ranges_too():
