@@ -159,4 +159,4 @@ def test_no_piece_of_a_map_is_compared_twice(tmp_path):
         strips.piece(strips.available_pieces)
     unsure = lubfric.friction(scene, 0.01).uncertainty
     assert np.isnan([unsure.sampling, unsure.area_needed, *unsure.interval]).all()  # not "no more is needed"
-    assert "correlation lengths along y are too few" in unsure.text
+    assert "correlation lengths of the solved surface along y are too few" in unsure.text
