@@ -147,7 +147,10 @@ def test_a_given_map_is_a_sample_and_its_mirror_image_no_more_of_it():
 def test_one_patch_is_too_short_for_an_interval():
     known = lubfric.friction(PATCH, 0.03).uncertainty
     assert math.isnan(known.sampling) and all(math.isnan(end) for end in known.interval)
-    assert "correlation lengths of the solved surface along y are too few for an interval" in known.text and known.numerical > 0
+    assert (
+        "correlation lengths of the solved surface along y are too few for an interval" in known.text
+        and known.numerical > 0
+    )
     cleared = lubfric.friction(PATCH.with_(contact={"shape": (200, 80)}), 0.15).uncertainty
     assert "too short along y to estimate the undetected contact" in cleared.text
 
