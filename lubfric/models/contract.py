@@ -105,7 +105,7 @@ class ModelAnswer:
     numbers : quantities of a point by name (`lubfric.quantities`), among them ``coefficient``; those omitted are NaN
     numerical : relative error of f by solver and grids
     sampling : relative standard error of f because the sample is finite; an error that is NaN is not known
-    model_error : relative error of f by the model itself, at 95 %, below and above f; NaN: not known
+    model_error : relative error of f by the model itself, at 95 %, towards 0 and away from it; NaN: not known
     by_limit : part of ``model_error`` because the limiting stress of a Newtonian lubricant is not known
     largest_in_model : the largest part of the model error, as text; "": one part only
     narrows_numerical : what narrows ``numerical``, as text
@@ -280,7 +280,8 @@ class Model(ABC):
         start: SampleSolution | None = None,
         control: ControlVariate | None = None,
     ) -> SampleSolution:
-        """Solve the first ``count`` strips of ``sample`` at ``speed`` [m/s].
+        """Solve the first ``count`` strips of ``sample`` at ``speed`` [m/s]: those of the line, which a model may lay out on
+        cells of its own, and of which it may solve as many as its own error asks for.
 
         ``start``: the solution of fewer of the same strips; ``control``: what a cheaper model knows of them. Raises
         `ConvergenceError`.

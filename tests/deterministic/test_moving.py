@@ -403,7 +403,7 @@ def test_means_are_those_of_what_counts_and_are_drawn(tmp_path):
     """The film has passed the contact once before anything counts."""
     scene = scene_of(slide_roll_ratio=0.5)
     surface = rough(5)
-    strip = solve_moving_strip(scene, [RoughBody(surface, 0.225)], 0.3, slope=True)
+    strip = solve_moving_strip(scene, [RoughBody(surface, 0.225)], 0.3, find_slope=True)
     f = strip.series["coefficient"]
     discarded = strip.discarded
     assert f.size - discarded == round(32 * 0.3 / 0.225) and strip.result.coefficient == pytest.approx(

@@ -18,7 +18,7 @@ def solved(speed=0.01, factors=(2, 2), scene=SCENE, surface=MAP, **more):
     return solve_strip(scene, surface, speed, factors=factors, **more)
 
 
-FOUND = solved(slope=True)
+FOUND = solved(find_slope=True)
 
 
 def test_longer_cells_take_heights_where_they_are():
@@ -62,7 +62,7 @@ def test_a_smooth_strip_has_the_smooth_film(lubricant, closeness):
 
 
 def test_a_start_saves_work_and_changes_nothing_but_what_the_tolerance_allows():
-    assert solved(slope=True).result.coefficient == FOUND.result.coefficient
+    assert solved(find_slope=True).result.coefficient == FOUND.result.coefficient
     faster = solved(0.015)
     again = solved(start=faster)
     finer = solved(factors=(1, 1), start=FOUND)

@@ -103,7 +103,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
             errors["rolling_resistance"] = error
     sampling = levels.sampling.error if math.isfinite(levels.sampling.error) else math.nan
     by_scatter = student(levels.difference.freedom) * levels.difference.error
-    below, above = levels.by_film
+    with_thinner, with_thicker = levels.by_film
     parts_of_model = {
         "the difference of the models from place to place: a smaller numerics.model_tolerance narrows it": by_scatter,
         "the flow of a film at its limiting stress, on which published theories differ": abs(levels.by_flow),
@@ -121,7 +121,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         model_error=(math.hypot(model, by_limit[0]), math.hypot(model, by_limit[1])),
         by_limit=max(by_limit),
         largest_in_model=max(parts_of_model, key=lambda part: parts_of_model[part]),
-        not_given={} if scene.bodies.boundary_film is not None else {BOUNDARY_FILM_KEY: (below, above)},
+        not_given={} if scene.bodies.boundary_film is not None else {BOUNDARY_FILM_KEY: (with_thinner, with_thicker)},
         report=replace(results[0].report, notes=()),
         decision=_decision(scene, results, levels, heat),
         errors=errors | dict.fromkeys(reasons, math.nan),

@@ -221,7 +221,7 @@ def solve_moving_strip(
     *,
     factors: tuple[int, int] = (1, 1),
     start: StripSolution | None = None,
-    slope: bool = False,
+    find_slope: bool = False,
     effort: MovingEffort | None = None,
     most_steps: int | None = None,
     target: SampleTarget | None = None,
@@ -234,14 +234,14 @@ def solve_moving_strip(
 
     Parameters
     ----------
-    factors, start, slope : as in `solve_strip`, for the roughness at rest, from which the motion starts
+    factors, start, find_slope : as in `solve_strip`, for the roughness at rest, from which the motion starts
     effort : None: `effort_for` the contact
     most_steps : moments that count, at most (None: a complete pass of the map)
     target : None: the complete map passes
     """
     effort = effort_of(scene, bodies, speed, factors) if effort is None else effort
     near = None if start is None else start.at_rest
-    rest = strip_at_rest(scene, bodies, speed, factors=factors, start=near, slope=slope, effort=effort)
+    rest = strip_at_rest(scene, bodies, speed, factors=factors, start=near, find_slope=find_slope, effort=effort)
     step, discarded, count = _steps_of(scene, bodies, speed, rest.problem.spacing[0], effort)
     count = count if most_steps is None else min(count, most_steps)
     travelled = _travelled(bodies, speed, step, half_width(rest.problem.line))
@@ -413,14 +413,16 @@ def strip_at_rest(
     *,
     factors: tuple[int, int] = (1, 1),
     start: StripSolution | None = None,
-    slope: bool = False,
+    find_slope: bool = False,
     effort: MovingEffort | None = None,
 ) -> StripSolution:
     """Solve the strip of `solve_moving_strip` with its roughness at rest, unchanged at time 0."""
     surface, upper = _combined(bodies)
     effort = effort_of(scene, bodies, speed, factors) if effort is None else effort
     ends = _ends(scene, bodies, speed, effort)
-    return solve_strip(scene, surface, speed, factors=factors, start=start, slope=slope, upper=upper, ends=ends)
+    return solve_strip(
+        scene, surface, speed, factors=factors, start=start, find_slope=find_slope, upper=upper, ends=ends
+    )
 
 
 def _combined(bodies: Sequence[RoughBody]) -> tuple[Surface, Surface | None]:

@@ -331,7 +331,7 @@ def _refined(
         longer: StripSolution | None = None
         with suppress(ConvergenceError):  # it is a start only, and cells so long may have no solution
             longer = solve_strip(scene, surface, speed, factors=longer_than(surface, factors), most=AS_START)
-        strip = solve_strip(scene, surface, speed, factors=factors, start=longer, slope=slope is None)
+        strip = solve_strip(scene, surface, speed, factors=factors, start=longer, find_slope=slope is None)
         ladder = [strip if longer is None else longer, strip]
     while factors != (1, 1) and (len(ladder) == 2 or error_by_cells(changes_of(ladder)) > enough):
         factors = max(1, factors[0] // 2), max(1, factors[1] // 2)

@@ -128,7 +128,7 @@ def solve_strip(
     *,
     factors: tuple[int, int] = (1, 1),
     start: StripSolution | None = None,
-    slope: bool = False,
+    find_slope: bool = False,
     tolerance: float = STRIP_RESIDUAL,
     upper: Surface | None = None,
     ends: tuple[float, float] | None = None,
@@ -139,7 +139,7 @@ def solve_strip(
     The cells are those of the map, or ``factors`` (fx, fy) times as long: they take every fx-th and fy-th height where
     it is, so that strips of different factors are the same strip. ``start``: the same strip at another speed, on these
     cells or on longer ones. Without it, strip and speed alone decide the result; many cells then start from cells
-    twice as long. ``slope``: solve it a second time, for `Strip.slope`. ``tolerance``: of the residuals
+    twice as long. ``find_slope``: solve it a second time, for `StripSolution.slope`. ``tolerance``: of the residuals
     (`lubfric.models.deterministic.state.residuals`). ``upper``: the part of ``surface`` that is surface 2, where both
     bodies are rough. ``ends`` [m]: of the grid, up and down stream (None: `reach`). ``most``: LU factorisations, at
     most.
@@ -160,7 +160,7 @@ def solve_strip(
     near, least = (None, 0.0) if start is None else refined_start(start.problem, problem, start.result)
     result = solve_point(problem, start=near, least=least, tolerance=tolerance, most=most)
     work += work_of(result)
-    if slope:
+    if find_slope:
         heavier = problem.at_load(SECOND_LOAD * problem.load)
         second = solve_point(heavier, start=result.state, tolerance=tolerance)
         work += work_of(second)

@@ -113,7 +113,7 @@ def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int
                 )
     else:
         longer = solve_strip(scene, surface, speed, factors=longer_cells)
-        strip = solve_strip(scene, surface, speed, factors=factors, start=longer, slope=find_slope)
+        strip = solve_strip(scene, surface, speed, factors=factors, start=longer, find_slope=find_slope)
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + longer.work)
     is_mirrored = prepared.sample.distinct_rows(surface.heights) < surface.shape[1]
     return StripOnTwoGrids(strip, longer, is_mirrored)

@@ -198,7 +198,7 @@ def solve_at_rest(
     if surface.shape[1] % (2 * fy) == 0:
         with suppress(ConvergenceError):
             longer = solve_strip(scene, surface, speed, factors=(2 * fx, 2 * fy))
-    strip = solve_strip(scene, surface, speed, factors=factors, start=longer, slope=slope is None)
+    strip = solve_strip(scene, surface, speed, factors=factors, start=longer, find_slope=slope is None)
     if slope is not None:
         strip = replace(strip, slope=slope)
     return StripOnTwoGrids(strip, strip if longer is None else longer)
