@@ -91,7 +91,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     def is_near_zero(self) -> bool:
         """Whether f is near 0 and a part of its error is larger, so that errors are stated in f and not relative to it."""
         known = [part for part in self.budget.values() if math.isfinite(part)]
-        return is_near_zero(self.coefficient, max(known, default=0.0))
+        return bool(is_near_zero(self.coefficient, max(known, default=0.0)))
 
     @property
     def largest_part(self) -> str:

@@ -25,6 +25,7 @@ def test_answers_that_miss_the_reference_lower_the_coverage(tmp_path, inside, pa
     cells = {
         "change": 0.0,
         "film_ratio": 1.0,
+        "sliding_share": 1.0,
         "coarse_x": 0.0,
         "coarse_y": 0.0,
         "coarse_b": 0.0,

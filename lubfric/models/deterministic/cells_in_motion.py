@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..shared import Prepared, smooth_over_cells
+from .result import DeterministicResult
 from .strip import StripSolution
 from .strip_on_two_grids import factors_of, surface_and_factors
 
@@ -45,9 +46,9 @@ BY_LONGER = 1 / 3
 # Change of ln f with ln of the boundary film, at most [-]: boundary friction in proportion to it has 1.
 STEEPEST = 1.0
 
-# Numbers of a point that change with f where the change is only expected.
-CHANGED_WITH_FRICTION = (
-    *("coefficient", "shear_force", "couette_force", "rolling_force", "boundary_force", "contact_load"),
+# Numbers of a point that change with the sliding part of f where the change is only expected.
+CHANGED_WITH_SLIDING = (
+    *("couette_force", "boundary_force", "contact_load"),
     *("boundary_film_load", "real_contact_area", "real_contact_area_fraction"),
 )
 
@@ -58,12 +59,13 @@ class CellsInMotion:
 
     Attributes
     ----------
-    film_ratio : f with twice the boundary film over f with half of it
+    film_ratio : sliding part of f with twice the boundary film over that with half of it
     coarse_x, coarse_y : length of the cells over the correlation length
     coarse_b : length of the cells along x over the Hertz half-width
     by_longer : relative change of f from cells twice as long along y
     follows_lubricant : whether steps were of third order along the lubricant
     is_smooth : whether the heights are smooth over the cells
+    sliding_share : sliding part of f over f; the rest is the gradient of the pressure, which the film does not change
     """
 
     film_ratio: float
@@ -73,23 +75,30 @@ class CellsInMotion:
     by_longer: float
     follows_lubricant: bool
     is_smooth: bool
+    sliding_share: float = 1.0
 
     @property
     def steepness(self) -> float:
-        """The change of ln f with ln of the boundary film; 0 where f is so small that it changes its sign."""
+        """The change of ln of the sliding part of f with ln of the boundary film; 0 where that part changes its sign."""
         slope = math.log(self.film_ratio) / math.log(4.0) if self.film_ratio > 0 else 0.0
         return min(max(slope, -STEEPEST), STEEPEST)
 
     @property
     def of_narrow_gaps(self) -> float:
-        """The relative change of f by a boundary film that is thicker by as much as the narrow gaps are too small."""
+        """The relative change of the sliding part of f by a boundary film that is thicker by as much as the narrow gaps are
+        too small."""
         (along_x, along_y) = NARROW_GAPS
         return (along_x * self.coarse_x**2 + along_y * self.coarse_y**2) * self.steepness
 
     @property
-    def change(self) -> float:
-        """The expected relative change of f from the cells of an answer to short ones."""
+    def change_of_sliding(self) -> float:
+        """The expected relative change of the sliding part of f from the cells of an answer to short ones."""
         return math.expm1(-self.of_narrow_gaps) if self.is_smooth else 0.0
+
+    @property
+    def change(self) -> float:
+        """The expected relative change of f."""
+        return self.sliding_share * self.change_of_sliding
 
     @property
     def error(self) -> float:
@@ -98,7 +107,7 @@ class CellsInMotion:
         return math.hypot(
             of_roughness * (1.0 if self.is_smooth else UNSMOOTH),
             IN_HALF_WIDTH[self.follows_lubricant] * self.coarse_b ** (3 if self.follows_lubricant else 2),
-            (SCATTER_BY_CELLS if self.is_smooth else UNSMOOTH_NARROWED) * self.of_narrow_gaps,
+            (SCATTER_BY_CELLS if self.is_smooth else UNSMOOTH_NARROWED) * self.sliding_share * self.of_narrow_gaps,
             BY_LONGER * self.by_longer,
         )
 
@@ -107,8 +116,6 @@ def cells_in_motion(prepared: Prepared, strips: Sequence[StripSolution], by_long
     """Return what is known of the cells of ``strips`` whose roughness moves; ``by_longer``: the change of their f from cells
     twice as long along y."""
     results = [strip.result for strip in strips]
-    half = sum(result.at_half_film for result in results)
-    twice = sum(result.at_twice_film for result in results)
     sample = prepared.sample
     (coarse_x, coarse_y) = (
         factor * cell / length
@@ -117,19 +124,41 @@ def cells_in_motion(prepared: Prepared, strips: Sequence[StripSolution], by_long
         )
     )
     return CellsInMotion(
-        film_ratio=twice / half if half else 1.0,  # an f of 0 has no relative change
+        film_ratio=film_ratio_of(results),
         coarse_x=coarse_x,
         coarse_y=coarse_y,
         coarse_b=strips[0].problem.spacing[0] / prepared.scene.bodies.half_width,
         by_longer=by_longer,
         follows_lubricant=all(strip.follows_lubricant for strip in strips),
         is_smooth=smooth_over_cells(surface_and_factors(prepared, 0)[0].heights),
+        sliding_share=sliding_share_of(results),
     )
 
 
+def film_ratio_of(results: Sequence[DeterministicResult]) -> float:
+    """Return the sliding part of f with twice the boundary film over that with half of it, of these ``results`` together;
+    1 where f does not slide. The gradient of the pressure is left out: it moves one body by as much as it holds the other."""
+    rolling = sum(result.rolling / result.load for result in results)
+    half = sum(result.at_half_film for result in results) - rolling
+    twice = sum(result.at_twice_film for result in results) - rolling
+    return twice / half if half else 1.0
+
+
+def sliding_share_of(results: Sequence[DeterministicResult]) -> float:
+    """Return the sliding part of f over f, of these ``results`` together; 1 where f is 0."""
+    friction = sum(result.coefficient for result in results)
+    rolling = sum(result.rolling / result.load for result in results)
+    return 1.0 - rolling / friction if friction else 1.0
+
+
 def changed_as_expected(numbers: dict[str, float], change: float) -> dict[str, float]:
-    """Return ``numbers`` of a point with f, its forces and the asperity load changed by this relative ``change``."""
+    """Return ``numbers`` of a point with the sliding part of f, its forces and the asperity load changed by this relative
+    ``change``."""
     if not change:
         return numbers
-    new = numbers | {name: (1.0 + change) * numbers[name] for name in CHANGED_WITH_FRICTION}
-    return new | {"film_load": numbers["film_load"] + numbers["contact_load"] - new["contact_load"]}
+    new = numbers | {name: (1.0 + change) * numbers[name] for name in CHANGED_WITH_SLIDING}
+    load = numbers["film_load"] + numbers["contact_load"]
+    new["shear_force"] = numbers["shear_force"] + change * numbers["couette_force"]
+    new["coefficient"] = numbers["coefficient"] + change * (numbers["couette_force"] + numbers["boundary_force"]) / load
+    new["film_load"] = load - new["contact_load"]
+    return new

@@ -228,6 +228,7 @@ def levels_of(
     is for others to state. Raises `ConvergenceError`."""
     shorter = on_shorter_cells(prepared, speed, pairs) if with_shorter_cells else NO_SHORTER_CELLS
     numbers = changed_as_expected(estimate.numbers, shorter.change)
+    expected_change = numbers["coefficient"] / estimate.numbers["coefficient"] - 1 if shorter.change else 0.0
     numbers = changed(prepared, numbers, [(piece[1], piece[-1]) for piece in shorter.pieces])
     numbers = changed(prepared, numbers, [shorter.shortest[-2:]] if shorter.shortest else [])
     results = [pair.resolved.result for pair in pairs]
@@ -264,7 +265,7 @@ def levels_of(
         numerical=shorter.error,
         length=length,
         note="; ".join(
-            filter(None, (estimate.note, CORRECTED_BY_CELLS.format(100 * shorter.change) if shorter.change else ""))
+            filter(None, (estimate.note, CORRECTED_BY_CELLS.format(100 * expected_change) if expected_change else ""))
         ),
     )
 

@@ -110,7 +110,7 @@ class ShorterCells:
     shortest : the piece of the fourth level; (): it is not needed, or not solved
     strip : the first strip itself on the shortest cells, if the sample refines in place; None: it is not solved on them
     sampling : standard error of the mean relative change of f on ``pieces``, from place to place
-    change : expected relative change of f by short cells where roughness moves, which are not solved
+    change : expected relative change of the sliding part of f by short cells where roughness moves, which are not solved
     error : relative error of f that the last cells leave
     has_unsolved : whether shorter cells were needed, and did not converge or would have taken too much work
     """
@@ -147,7 +147,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     strips = [pair.resolved for pair in pairs]
     if is_moving:
         cells = cells_in_motion(prepared, strips, by_longer)
-        return ShorterCells(change=cells.change, error=max(cells.error, SOLVED))
+        return ShorterCells(change=cells.change_of_sliding, error=max(cells.error, SOLVED))
     error = max(error_by_cells([by_longer]), SOLVED, error_of_soft_bodies(strips[0]))
     if _are_enough(prepared, error):
         return ShorterCells(error=error)

@@ -27,8 +27,10 @@ from ..deterministic import (
     Levels,
     StripOnTwoGrids,
     bodies_of,
+    film_ratio_of,
     levels_of,
     sample_target,
+    sliding_share_of,
     strip_surface,
     two_levels,
     work_of_fine_fields,
@@ -330,13 +332,14 @@ def _error_of_references(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -
     (along, across) = CELLS_OF_REFERENCES
     cell = min(length, half_width) / along
     return CellsInMotion(
-        film_ratio=sum(r.at_twice_film for r in results) / sum(r.at_half_film for r in results),
+        film_ratio=film_ratio_of(results),
         coarse_x=cell / length,
         coarse_y=1.0 / across,
         coarse_b=cell / half_width,
         by_longer=0.0,
         follows_lubricant=all(pair.resolved.follows_lubricant for pair in pairs),
         is_smooth=smooth_over_cells(prepared.surface.heights),
+        sliding_share=sliding_share_of(results),
     ).error
 
 

@@ -57,6 +57,7 @@ ANSWER_COLUMNS = (
     "by_longer",
     "follows_lubricant",
     "is_smooth",
+    "sliding_share",
     "strips",
     "steps",
     "work",
@@ -133,6 +134,7 @@ def cells_of(row: dict[str, str]) -> CellsInMotion:
         by_longer=float(row["by_longer"]),
         follows_lubricant=float(row["follows_lubricant"]) == 1.0,
         is_smooth=float(row["is_smooth"]) == 1.0,
+        sliding_share=float(row["sliding_share"]),
     )
 
 
