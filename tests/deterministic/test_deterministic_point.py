@@ -145,12 +145,13 @@ def test_the_gap_of_touching_bodies_matters_where_they_give_off_the_lubricant():
 
 @pytest.mark.parametrize(
     "sq, load, speed, across, way, most",
-    [(200e-9, 2.72e5, 0.3, 28, "the dry contact", 50), (100e-9, 3e5, 1e-3, 24, "a faster speed", 90)],
+    [(200e-9, 2.72e5, 0.3, 28, "the dry contact", 50), (100e-9, 3e5, 1e-3, 24, "the dry contact", 30)],
 )
 def test_a_bearing_at_a_gigapascal_is_solved_from_a_cold_start(sq, load, speed, across, way, most):
     """By Newton's method alone, or step by step. In the valleys of the Hertz strip the start has fluid, and the film
     finds its shape in short steps before the residual falls. Cells that are opened although they give off fluid would
-    sink below the floor, close those that had to stay open, and so on for ever (114 factorisations in the last case).
+    sink below the floor, close those that had to stay open, and so on for ever (114 factorisations in the last case; 18
+    where a cell ruptures only under the strongest suction nearby).
     Load, gap and signs are those of the map's own judge."""
     problem = bearing(sq, load, speed, across=across)
     result = solve_point(problem)

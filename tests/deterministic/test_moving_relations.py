@@ -104,7 +104,7 @@ def test_f_is_that_of_the_strip_as_shorter_cells_change_it(results):
     result = results["deterministic"]
     strip = result.deterministic
     change = result.coefficient / strip.coefficient - 1
-    slope = np.log(strip.at_twice_film / strip.at_half_film) / np.log(4.0)
+    slope = np.log(strip.sliding_at_twice_film / strip.sliding_at_half_film) / np.log(4.0)
     assert slope > 1e-3 and -0.5 * slope < change < 0
     assert f"f corrected by {100 * change:+.2g} % for shorter cells" in result.decision.text
     assert result.shear_force + result.boundary_force == pytest.approx(result.coefficient * 60.0, rel=1e-9)
@@ -132,7 +132,7 @@ def test_the_same_roughness_on_the_other_body(model, results):
     result = lubfric.friction(lubfric.prepare(scene, smooth, counterface=MAP), SPEED)
     before = results[model]
     for name in ("contact_load", "film_load", "mean_gap", "central_film", "boundary_force"):
-        assert abs(getattr(result, name)) == pytest.approx(abs(getattr(before, name)), rel=1e-6), name
+        assert abs(getattr(result, name)) == pytest.approx(abs(getattr(before, name)), rel=1e-5), name
 
 
 def test_a_map_twice_as_long_across_the_motion(results):

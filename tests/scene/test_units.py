@@ -196,7 +196,8 @@ def test_ra_and_rz_of_every_map_are_reported():
     for heights, mask in ((z, None), (np.where(seen, z, np.nan), seen)):
         lines = heights.reshape(5, 800, 400)
         rz = np.mean(np.nanmax(lines, 1) - np.nanmin(lines, 1))
-        stated = f"Ra {1e9 * np.nanmean(abs(heights - np.nanmean(heights))):.4g} nm, Rz {1e9 * rz:.4g} nm over 0.8 mm"
+        ra = np.nanmean(abs(heights - np.nanmean(heights)))
+        stated = f"Ra {1e9 * ra:.4g} nm, Rz {1e9 * rz:.4g} nm (mean over lengths of 0.8 mm)"
         surface = lubfric.Surface(heights, 1e-6, mask=mask)
         assert stated in repr(surface) and stated in surface.describe()
 

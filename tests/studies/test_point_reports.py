@@ -70,4 +70,4 @@ def test_command_writes_f_and_power_of_each_point(tmp_path, capsys):
         power = with_interval(point.power_loss, *point.power_loss_interval, unit="W")
         start = f"[{number}/2] point {number} (position {place}): f = {point.coefficient:.3g}"
         assert lines[number - 1].startswith(start[:-1]) and f"P = {power}; " in lines[number - 1]
-    assert re.search(r"; \d+ s, about \S+ s left$", lines[0]) and lines[1].endswith(" s")
+    assert all(re.search(r"; \d+ s$", line) for line in lines)  # two points in a second are no measure of the time left

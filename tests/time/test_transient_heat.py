@@ -122,7 +122,7 @@ NEWTONIAN = BASE.with_(
 
 
 def test_what_no_oil_carries_is_refused_with_the_run_attached():
-    with pytest.raises(lubfric.ValidityError, match="no oil carries") as caught:
+    with pytest.raises(lubfric.ValidityError, match="No oil carries") as caught:
         in_time(NEWTONIAN)
     result = caught.value.result
     assert result.coefficient[-1] > 0.5 and any(entry.severe for entry in result.violations[-1])
@@ -135,9 +135,9 @@ def test_the_command_writes_a_refused_run_marked(tmp_path, capsys):
     path = tmp_path / "scene.toml"
     path.write_text(scene.to_toml())
     assert cli.main(["run", str(path), "--out", str(tmp_path / "out")]) != 0
-    assert "no oil carries" in capsys.readouterr().err
+    assert "No oil carries" in capsys.readouterr().err
     record = json.loads((tmp_path / "out" / "result.json").read_text())
-    assert any("no oil carries" in text for text in record["validity"])
+    assert any("No oil carries" in text for text in record["validity"])
     assert "not valid" in (tmp_path / "out" / "history.csv").read_text().splitlines()[-1]
     assert cli.main(["run", str(path), "--accept", "--out", str(tmp_path / "kept")]) == 0
     assert cli.main(["plot", str(tmp_path / "kept")]) == 0

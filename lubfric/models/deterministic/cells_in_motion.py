@@ -137,10 +137,9 @@ def cells_in_motion(prepared: Prepared, strips: Sequence[StripSolution], by_long
 
 def film_ratio_of(results: Sequence[DeterministicResult]) -> float:
     """Return the sliding part of f with twice the boundary film over that with half of it, of these ``results`` together;
-    1 where f does not slide. The gradient of the pressure is left out: it moves one body by as much as it holds the other."""
-    rolling = sum(result.rolling / result.load for result in results)
-    half = sum(result.at_half_film for result in results) - rolling
-    twice = sum(result.at_twice_film for result in results) - rolling
+    1 where f does not slide."""
+    half = sum(result.sliding_at_half_film for result in results)
+    twice = sum(result.sliding_at_twice_film for result in results)
     return twice / half if half else 1.0
 
 

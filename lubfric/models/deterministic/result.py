@@ -66,6 +66,7 @@ class DeterministicResult(Renamed, ModelDetails):
     dent : plastic depth [m]
     coefficient : (boundary + couette + rolling)/load [-], of surface 2 against its sliding (`Problem`)
     at_half_film, at_twice_film : the same with half and with twice the boundary film
+    sliding_at_half_film, sliding_at_twice_film : their parts (boundary + couette)/load, which no gradient of pressure moves
     at_least_limit, at_most_limit : the same with the limiting stress of a Newtonian oil at the ends of `LIMIT_RANGE` times p
         instead of f_b p, on the same fields
     boundary : f_b p over the rubbing cells
@@ -105,6 +106,8 @@ class DeterministicResult(Renamed, ModelDetails):
     coefficient: float
     at_half_film: float
     at_twice_film: float
+    sliding_at_half_film: float
+    sliding_at_twice_film: float
     at_least_limit: float
     at_most_limit: float
     boundary: float
@@ -259,6 +262,7 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
         law = shear_stress(problem.sheared or problem.lubricant, p, problem.sliding / h)
     sheared, *others = (surface_shear(at, law, times * problem.boundary_film) for times in (1.0, 0.5, 2.0))
     coefficients = [float(one.friction.mean()) / problem.load for one in (sheared, *others)]
+    sliding = [float((one.boundary + one.couette).mean()) / problem.load for one in others]
     rubbing = sheared.rubbing
     capped = rubbing & ~sheared.thin
     saturated = capped | (sheared.wet & at_its_limit(problem.sheared or problem.lubricant, p, law))
@@ -278,6 +282,8 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
         coefficient=coefficients[0],
         at_half_film=coefficients[1],
         at_twice_film=coefficients[2],
+        sliding_at_half_film=sliding[0],
+        sliding_at_twice_film=sliding[1],
         at_least_limit=coefficients[0] + with_limit(problem, sheared, p, law, LIMIT_RANGE[0]),
         at_most_limit=coefficients[0] + with_limit(problem, sheared, p, law, LIMIT_RANGE[1]),
         boundary=float(sheared.boundary.mean()),

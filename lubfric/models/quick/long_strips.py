@@ -224,14 +224,20 @@ def numbers_of_strip(pair: StripOnTwoGrids, length: float, *, is_smooth: bool) -
     result = pair.resolved.result
     is_moving = pair.resolved.moves
     longer = pair.longer.result
-    sliding = result.coefficient - result.rolling / result.load
+    rolling = result.rolling / result.load
+    sliding = result.coefficient - rolling
+    half = result.at_half_film
+    twice = result.at_twice_film
+    if is_moving:  # the gradient of pressure in cells that no longer rub is left out: it depends on which body is rough
+        half = result.sliding_at_half_film + rolling
+        twice = result.sliding_at_twice_film + rolling
     before = longer.coefficient - longer.rolling / longer.load
     change = math.log(sliding / before) if sliding > 0 < before and pair.longer is not pair.resolved else math.nan
     return {
         "coefficient": result.coefficient,
-        "rolling": result.rolling / result.load,
-        "at_half_film": result.at_half_film,
-        "at_twice_film": result.at_twice_film,
+        "rolling": rolling,
+        "at_half_film": half,
+        "at_twice_film": twice,
         "by_cells": math.nan if is_moving else change,
         "by_motion": change if is_moving else math.nan,
         "coarse": pair.resolved.problem.spacing[0] / length,
