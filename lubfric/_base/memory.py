@@ -36,14 +36,14 @@ FIRST_ALGEBRA = 96 * 2**20
 _STATM = "/proc/self/statm"  # of Linux; the second number is the resident pages
 
 
-def _of_glibc(name: str) -> Callable[..., int] | None:
-    """Return the function ``name`` of glibc; None elsewhere."""
+def _malloc_trim() -> Callable[[int], int] | None:
+    """Return the function of glibc; None elsewhere."""
     with suppress(OSError, AttributeError, TypeError):
-        return getattr(ctypes.CDLL(None), name)
+        return ctypes.CDLL(None).malloc_trim
     return None
 
 
-_trim = _of_glibc("malloc_trim")
+_trim = _malloc_trim()
 _after_last = [0]  # bytes of resident memory after the last release
 
 
