@@ -129,7 +129,7 @@ def likely_unit(name: str, value: float, *, is_text: bool = False) -> str:
 def unusual_values(scene: Any) -> tuple[UnusualValue, ...]:
     """Return the values of a scene that are outside their usual range, or of a doubtful convention: those that the user
     wrote by the keys that he wrote, then those that follow from others."""
-    unusual = [_unusual(key, written) for key, written in scene.doubtful]
+    unusual = [_of_convention(key, written) or _unusual(key, written) for key, written in scene.doubtful]
     stated = {name for key, _ in scene.doubtful for name in fields_of_key(key)}
     for name in KEYS:
         section, _, key = name.rpartition(".")
@@ -137,27 +137,35 @@ def unusual_values(scene: Any) -> tuple[UnusualValue, ...]:
             continue
         value = _index(scene) if key == "viscosity_index" else getattr(getattr(scene, section, None), key, None)
         for number in value if isinstance(value, (list, tuple)) else (value,):
-            if number is not None and slip(name, number) is not None:
+            if number is not None:
                 unusual.append(_unusual(name, number))
-    return tuple(unusual)
+    return tuple(value for value in unusual if value is not None)
 
 
-def _unusual(key: str, written: Any) -> UnusualValue:
-    """Return what is unusual of the value ``written`` for a ``key``, which is outside its usual range or doubtful."""
+def _of_convention(key: str, written: Any) -> UnusualValue | None:
+    """Return what is doubtful of the convention of a sliding ``written`` for a ``key``; None where nothing is."""
+    unit = KEYS[key].unit
+    question = other_convention(key, [written])
+    if not question:
+        return None
+    return UnusualValue(
+        key=key,
+        value=written,
+        limit=math.nan,
+        unit=unit,
+        written=_read_as(written, unit),
+        question=question,
+        advice="",
+    )
+
+
+def _unusual(key: str, written: Any) -> UnusualValue | None:
+    """Return what is unusual of the value ``written`` for a ``key``; None where it is in its usual range."""
     q = KEYS[key]
+    question = slip(key, written)
     value = _in_si(key, written)
-    if convention := other_convention(key, [written]):
-        return UnusualValue(
-            key=key,
-            value=written,
-            limit=math.nan,
-            unit=q.unit,
-            written=_read_as(written, q.unit),
-            question=convention,
-            advice="",
-        )
-    assert value is not None  # as `slip` found it unusual
-    question = slip(key, written) or ""
+    if question is None or value is None:
+        return None
     if question and key.endswith(".sq") and not isinstance(written, str) and not _is_as_written(value):
         unit = printed(likely_unit(key, value))
         question = f"did you mean ra or rz in {unit}?" if value > NO_ROUGHNESS else ""
