@@ -79,9 +79,8 @@ class CellsInMotion:
 
     @property
     def steepness(self) -> float:
-        """The change of ln of the sliding part of f with ln of the boundary film; 0 where that part changes its sign."""
-        slope = math.log(self.film_ratio) / math.log(4.0) if self.film_ratio > 0 else 0.0
-        return min(max(slope, -STEEPEST), STEEPEST)
+        """The change of ln of the sliding part of f with ln of the boundary film (`steepness_of`)."""
+        return steepness_of(self.film_ratio)
 
     @property
     def of_narrow_gaps(self) -> float:
@@ -133,6 +132,13 @@ def cells_in_motion(prepared: Prepared, strips: Sequence[StripSolution], by_long
         is_smooth=smooth_over_cells(surface_and_factors(prepared, 0)[0].heights),
         sliding_share=sliding_share_of(results),
     )
+
+
+def steepness_of(film_ratio: float) -> float:
+    """Return the change of ln of the sliding part of f with ln of the boundary film, between ± `STEEPEST`, where that part
+    changes by the factor ``film_ratio`` from half of the film to twice the film; 0 where it changes its sign."""
+    slope = math.log(film_ratio) / math.log(4.0) if film_ratio > 0 else 0.0
+    return min(max(slope, -STEEPEST), STEEPEST)
 
 
 def film_ratio_of(results: Sequence[DeterministicResult]) -> float:

@@ -24,6 +24,7 @@ from ..deterministic import (
     effort_of,
     solve_moving_strip,
     solve_strip,
+    steepness_of,
     strip_at_rest,
 )
 
@@ -265,7 +266,7 @@ def features(numbers: Mapping[str, float], friction: float) -> dict[str, float]:
     size = MOST_BY_CELLS if math.isnan(by_cells) else min(abs(by_cells), MOST_BY_CELLS)
     by_film = min(abs(numbers["at_twice_film"] - numbers["at_half_film"]) / sliding, MOST_BY_FILM)
     half, twice = (numbers[f"at_{name}_film"] - numbers["rolling"] for name in ("half", "twice"))
-    steepness = min(max(math.log(twice / half) / math.log(4.0), -1.0), 1.0) if half > 0 < twice else 0.0
+    steepness = steepness_of(twice / half) if half > 0 < twice else 0.0
     return {
         "one": 1.0,
         "cells": 0.0 if math.isnan(by_cells) else math.copysign(size, by_cells),
