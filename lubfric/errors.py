@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import KW_ONLY, asdict, dataclass, field
-from typing import Any, TypeVar
+from typing import Any, NoReturn, TypeVar
 
 T = TypeVar("T", bound=Any)  # a result with a report
 
@@ -33,21 +33,28 @@ class InputError(LubfricError, ValueError):
     """An input is outside its allowed range; raised before any work starts.
 
     The message names the quantity, the value, the allowed range and the unit. The error has these as attributes:
-    ``quantity``, with which the message begins (``also``: others that it is about), ``allowed``, and ``way_out``, which
-    says what to do if there is no range.
+    ``quantity``, with which the message begins (``also``: others that it is about), ``allowed``, and ``recommendation``,
+    which says what to do if there is no range.
     """
 
-    def __init__(self, said: str, quantity: str = "", allowed: str = "", way_out: str = "", also: tuple[str, ...] = ()):
-        super().__init__(said, quantity, allowed, way_out, also)
+    def __init__(
+        self, said: str, quantity: str = "", allowed: str = "", recommendation: str = "", also: tuple[str, ...] = ()
+    ):
+        super().__init__(said, quantity, allowed, recommendation, also)
         self.said = said
         self.quantity = quantity
         self.allowed = allowed
-        self.way_out = way_out
+        self.recommendation = recommendation
         self.also = also
+
+    @property
+    def way_out(self) -> NoReturn:
+        """Raise `AttributeError`: the attribute has another name today."""
+        raise AttributeError("InputError.way_out is called InputError.recommendation now")
 
     def worded(self) -> str:
         allowed = self.allowed and f"; allowed: {self.allowed}"
-        return f"{self.quantity}{self.said}{allowed}{self.way_out and '; ' + self.way_out}"
+        return f"{self.quantity}{self.said}{allowed}{self.recommendation and '; ' + self.recommendation}"
 
 
 class OutputError(LubfricError, OSError):

@@ -259,7 +259,7 @@ def check_all_have_units(name: str, values: Iterable[Any], units: Iterable[str])
             bare.setdefault(unit, str(value))
     for unit in bare.keys() & with_unit.keys():
         said = f" has {with_unit[unit][:40]!r} with a unit and {bare[unit][:40]} without one"
-        raise InputError(said, name, way_out="give each its unit, or none; write a point in decimals, 1.5")
+        raise InputError(said, name, recommendation="give each its unit, or none; write a point in decimals, 1.5")
 
 
 def numbers_of(name: str, words: list[str], units: list[str]) -> list[float]:

@@ -7,7 +7,18 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 FILES = sorted((ROOT / "lubfric").rglob("*.py"))
-PROSE = ("text", "notes", "words", "film_words", "deflection", "heat", "consequence", "remedy", "source", "validity")
+PROSE = (
+    "text",
+    "notes",
+    "words",
+    "film_words",
+    "deflection",
+    "heat",
+    "consequence",
+    "recommendation",
+    "source",
+    "validity",
+)
 READ = ("startswith", "endswith", "split", "partition", "rpartition", "find", "index", "count")
 
 

@@ -47,16 +47,16 @@ def plain(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def read_json(path: Path, remedy: str) -> Any:
-    """Return what is in a JSON file. Raises `InputError`, which ends with the ``remedy``, if it cannot be read, is cut
+def read_json(path: Path, recommendation: str) -> Any:
+    """Return what is in a JSON file. Raises `InputError`, which ends with the ``recommendation``, if it cannot be read, is cut
     off, nested too deeply or binary."""
     if not Path(path).is_file():  # nor is one waited for that is no file, such as a pipe
-        raise InputError(f"{path} is no file; {remedy}")
+        raise InputError(f"{path} is no file; {recommendation}")
     try:
         return json.loads(Path(path).read_bytes().decode("utf-8"))
     except (OSError, ValueError, RecursionError, MemoryError) as problem:
         why = problem.strerror if isinstance(problem, OSError) else type(problem).__name__
-        raise InputError(f"{path} is damaged, or no such record ({why}); {remedy}") from None
+        raise InputError(f"{path} is damaged, or no such record ({why}); {recommendation}") from None
 
 
 def table_bytes(columns: dict[str, np.ndarray | list[str]]) -> bytes:
@@ -171,7 +171,7 @@ def _unit_of_column(path: Path, heading: str, name: str, stated: str | None) -> 
     for unit in named[1:]:
         if spelled(unit) != spelled(named[0]):
             said = f"column {heading!r} of {path.name} is in {named[0]!r} and in {unit!r}"
-            raise InputError(said, way_out="name one unit")
+            raise InputError(said, recommendation="name one unit")
     return named[0] if named else None
 
 

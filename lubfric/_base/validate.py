@@ -319,7 +319,7 @@ def pair(name: str, value: Any, check: Callable[[str, Any], T], what: str) -> tu
         raise InputError(f" = {shown(value)} must be {what} or a pair of them, for x and y", name)
     if several and isinstance(value[0], str) != isinstance(value[1], str):
         said = f" = {shown(value)} has one part with a unit and one without one"
-        raise InputError(said, name, way_out="give each its unit, or none")
+        raise InputError(said, name, recommendation="give each its unit, or none")
     first, second = (check(f"{name}[{i}]", part) for i, part in enumerate(value if several else (value, value)))
     return first, second
 

@@ -120,7 +120,7 @@ def contact_problem(
         for name, value in required.items():
             if (built := getattr(operator, name)) != value:
                 said = f"operator was built for {name} = {built}, the contact has {value}"
-                raise InputError(said, way_out="they must be the same")
+                raise InputError(said, recommendation="they must be the same")
     offset = float(gap0.min())
     gap0 = gap0 - offset if offset else gap0
     return ContactProblem(

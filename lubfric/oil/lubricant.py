@@ -105,7 +105,7 @@ class Lubricant(Shown):
         for kind, what in ((FLOW_LAWS, "two laws of one flow"), (LIMIT_LAWS, "two limits of one stress")):
             keys = [law.key for law in kind if getattr(self, law.key) is not None]
             if len(keys) > 1:
-                raise InputError(f" and {keys[0]} are {what}", keys[1], way_out="give one of them")
+                raise InputError(f" and {keys[0]} are {what}", keys[1], recommendation="give one of them")
         for law in self.shear_laws:
             object.__setattr__(self, law.key, law.checked(getattr(self, law.key)))
         if self.temperature is not None:

@@ -56,7 +56,7 @@ class MeasuredCoefficients:
                 f": the coefficient of this oil was measured from {low:g} to {high:g} K, and {temperature:g} K is more "
                 f"than {CONTINUED_TEMPERATURES:g} K outside",
                 "pressure_viscosity_coefficient",
-                way_out="give pressure_viscosity_coefficient [1/Pa] at that temperature",
+                recommendation="give pressure_viscosity_coefficient [1/Pa] at that temperature",
             )
         right = min(max(int(np.searchsorted(self.temperatures, temperature)), 1), len(self.temperatures) - 1)
         cold, warm = self.temperatures[right - 1 : right + 1]

@@ -52,10 +52,12 @@ class ShearLaw:
         """Return tau_c [Pa] at pressure [Pa] and temperature [K]."""
         return self.critical(pressure)[0] * self.warmth(temperature)
 
-    def refuse(self, part: str, model: str, way_out: str) -> NoReturn:
+    def refuse(self, part: str, model: str, recommendation: str) -> NoReturn:
         """Raise `InputError`: this law does not have the ``part`` that the ``model`` needs."""
         said = f" has a shear law without {part}, which {model} needs"
-        raise InputError(said, f"lubricant.{self.key}", way_out=f"give it in lubfric/oil/shear_laws.py, or {way_out}")
+        raise InputError(
+            said, f"lubricant.{self.key}", recommendation=f"give it in lubfric/oil/shear_laws.py, or {recommendation}"
+        )
 
     def f(self, s: float | np.ndarray) -> FloatArray:
         """Return tau/tau_c, odd in s."""

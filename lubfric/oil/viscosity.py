@@ -180,7 +180,7 @@ def viscosity_at_100(nu40: float, index: float) -> float:
     if at_40 <= least or _index(at_40, least) > index:
         said = f" = {index:g} (-) with nu40 = {nu40:g} m²/s is less than 2e-6 m²/s at 100 °C, where it is not defined"
         instead = "give the kinematic viscosities at 40 and 100 °C instead"
-        raise InputError(said, "viscosity_index", way_out=instead, also=("nu40",))
+        raise InputError(said, "viscosity_index", recommendation=instead, also=("nu40",))
     if _index(at_40, 0.999 * at_40) < index:
         said = f" = {index:g} (-) has no oil of nu40 = {nu40:g} m²/s"
         raise InputError(said, "viscosity_index", "a lower index", also=("nu40",))

@@ -431,28 +431,32 @@ def _range(option: str, words: list[str], unit: str, most: float, *, linear: boo
     example = "0:0.5:11" if linear else "0.001:1:13"
     if len(words) != 3:
         parts = counted(len(words), "parts")
-        raise InputError(f" {text} has {parts}", option, way_out=f"write low:high:count, such as {example}")
+        raise InputError(f" {text} has {parts}", option, recommendation=f"write low:high:count, such as {example}")
     low, high, count = numbers_of(option, words, [unit, unit, "-"])
     for end in (low, high):
         validate.number(option, end, unit, minimum=-most, maximum=most)
     shown = "" if unit == "-" else f" {unit}"
     if low == high:
-        way_out = f"write {low:g} for this value alone"
-        raise InputError(f" {text} begins and ends at {low:g}{shown}", option, way_out=way_out)
+        recommendation = f"write {low:g} for this value alone"
+        raise InputError(f" {text} begins and ends at {low:g}{shown}", option, recommendation=recommendation)
     if low > high:
-        way_out = f"write the smaller one first, {words[1].strip()}:{words[0].strip()}:{words[2].strip()}"
-        raise InputError(f" {text} begins at {low:g}{shown}, above its end {high:g}{shown}", option, way_out=way_out)
-    if not linear and low <= 0:
-        way_out = "begin above 0, or list the values, separated by commas"
-        way_out += ", or end it with :linear" if option == "--ratios" else ""
+        recommendation = f"write the smaller one first, {words[1].strip()}:{words[0].strip()}:{words[2].strip()}"
         raise InputError(
-            f" {text} begins at {low:g}{shown}: a geometric range has no value at or below 0", option, way_out=way_out
+            f" {text} begins at {low:g}{shown}, above its end {high:g}{shown}", option, recommendation=recommendation
+        )
+    if not linear and low <= 0:
+        recommendation = "begin above 0, or list the values, separated by commas"
+        recommendation += ", or end it with :linear" if option == "--ratios" else ""
+        raise InputError(
+            f" {text} begins at {low:g}{shown}: a geometric range has no value at or below 0",
+            option,
+            recommendation=recommendation,
         )
     if count not in range(2, MOST_SPEEDS + 1):
-        way_out = f"write a whole number from 2 to {MOST_SPEEDS}" + (
+        recommendation = f"write a whole number from 2 to {MOST_SPEEDS}" + (
             f", or {low:g} for one value" if count == 1 else ""
         )
-        raise InputError(f" {text} has {count:g} values", option, way_out=way_out)
+        raise InputError(f" {text} has {count:g} values", option, recommendation=recommendation)
     return (np.linspace if linear else np.geomspace)(low, high, int(count)).tolist()
 
 

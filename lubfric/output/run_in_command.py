@@ -37,7 +37,9 @@ def run_in_scene(arguments: Namespace) -> None:
     coefficient = number_of("--wear-coefficient", arguments.wear_coefficient, "-")
     if (distance > 0) != (coefficient > 0):
         given, missing = ("--distance", "--wear-coefficient") if distance > 0 else ("--wear-coefficient", "--distance")
-        raise InputError(f"{given} is for wear, which needs {missing} as well", way_out=f"give {missing}, or neither")
+        raise InputError(
+            f"{given} is for wear, which needs {missing} as well", recommendation=f"give {missing}, or neither"
+        )
     check_outputs(arguments, arguments.out, FOLDER_FILES)
     begun = time.perf_counter()
     with run_folder(arguments.out, begun) as folder:  # one that cannot be written to is refused before any work

@@ -291,7 +291,7 @@ def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
         ways = "write 'section.key=lowest:highest', in SI or with units, once for each key"
         unit = KEYS[key].unit if key in KEYS else "-"
         if ends.count(":") != 1 or key in bounds:
-            raise InputError(f" {validate.shown(text)}", "--parameter", way_out=ways)
+            raise InputError(f" {validate.shown(text)}", "--parameter", recommendation=ways)
         (low, high) = numbers_of(f"--parameter {key}", ends.split(":"), [unit, unit])
         bounds[key] = (low, high)
     return bounds

@@ -169,7 +169,7 @@ def no_cells(bodies: Sequence[Roughness], reach: float = 0.0, name: str = "surfa
     example = f'for example shape = [{along}, {along // 2}] and spacing = "{worded(spacing, "m")}"'
     return InputError(
         f"contact.shape and contact.spacing [m] are needed for a generated {name}",
-        way_out=f"{example}: twice the spacing is the shortest wavelength that the surface has",
+        recommendation=f"{example}: twice the spacing is the shortest wavelength that the surface has",
     )
 
 

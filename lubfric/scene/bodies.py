@@ -145,7 +145,7 @@ class Bodies(Shown):
         at = abs(sliding) if table.over == "sliding_speed" else temperature
         if at is None:
             raise InputError(
-                " is a table over the temperature", BOUNDARY_FRICTION_KEY, way_out="give lubricant.temperature"
+                " is a table over the temperature", BOUNDARY_FRICTION_KEY, recommendation="give lubricant.temperature"
             )
         return table(at)
 

@@ -114,7 +114,7 @@ def _map_path(name: str, given: str | Path, folder: Path) -> Path:
     meant = f" (did you mean {' or '.join(map(repr, near))}?)" if near else ""
     where = f" in {folder}" if folder.name else ""
     said = f" = {validate.shown(str(given))}: no such file{where}{meant}"
-    raise InputError(said, name, way_out=f"give its complete path, or its path from {folder.resolve()}")
+    raise InputError(said, name, recommendation=f"give its complete path, or its path from {folder.resolve()}")
 
 
 def builtin_scenes() -> tuple[str, ...]:

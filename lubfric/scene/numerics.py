@@ -85,6 +85,8 @@ def refuse_dropped(given: dict[str, Any]) -> None:
     """Raise `InputError` for a key of [numerics], or a value of one, that there is no more; it says what to do."""
     dropped = packaged(__package__, "other_words.toml")["dropped"]["numerics"]
     for key, value in given.items():
-        way_out = dropped.get(f"{key} = {validate.shown(value)}") or dropped.get(key)
-        if way_out:
-            raise InputError(f" = {validate.shown(value)} is not there any more", f"numerics.{key}", way_out=way_out)
+        recommendation = dropped.get(f"{key} = {validate.shown(value)}") or dropped.get(key)
+        if recommendation:
+            raise InputError(
+                f" = {validate.shown(value)} is not there any more", f"numerics.{key}", recommendation=recommendation
+            )

@@ -92,7 +92,9 @@ class Roughness(Shown):
         if isinstance(self.file, os.PathLike):
             object.__setattr__(self, "file", os.fspath(self.file))
         if self.file is not None and (not isinstance(self.file, str) or "\0" in self.file):
-            raise InputError(f" = {validate.shown(self.file)} is no path", "surface.file", way_out="write it in quotes")
+            raise InputError(
+                f" = {validate.shown(self.file)} is no path", "surface.file", recommendation="write it in quotes"
+            )
         for name, check in _CHECKS.items():
             value = getattr(self, name)
             if value is not None:
@@ -112,7 +114,7 @@ class Roughness(Shown):
         sq = honed_sq(self.sk, self.spk, self.svk)
         if self.sq is not None and abs(self.sq - sq) > SAME_SQ * sq:
             said = f" = {validate.shown(self.sq)} does not go with sk, spk and svk, from which Sq {sq:.4g} m follows"
-            raise InputError(said, "surface.sq", way_out="give sq, or sk, spk and svk (the others None)")
+            raise InputError(said, "surface.sq", recommendation="give sq, or sk, spk and svk (the others None)")
         return sq
 
 
@@ -134,7 +136,7 @@ def check_fields(given: dict[str, Any]) -> None:
     for name, value in given.items():
         if name not in ("file", "sq", *PER_SQ) and (name in GENERATED) != generated:
             said = f" = {validate.shown(value)} applies to {this}, and this one is {other}"
-            raise InputError(said, f"surface.{name}", way_out="leave it out")
+            raise InputError(said, f"surface.{name}", recommendation="leave it out")
 
 
 @contextmanager

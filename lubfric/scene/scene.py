@@ -74,7 +74,7 @@ class Scene(Shown):
             by_numbers = "lubricant.temperature [K] and temperature_coefficient [1/K]"
             ways = f"give an oil (lubricant.grade, nu40, oil) or {by_numbers}, or heat = 'auto'"
             said = " = 'on' needs the temperature coefficient of the viscosity"
-            raise InputError(said, "numerics.heat", way_out=ways)
+            raise InputError(said, "numerics.heat", recommendation=ways)
         sliding = self.motion.slide_roll_ratio * self.motion.entrainment_speed
         friction = self.bodies.boundary_friction(sliding, self.lubricant.temperature)
         if friction != self.bodies.boundary_friction_coefficient:
@@ -84,11 +84,13 @@ class Scene(Shown):
         if self.transient is not None and self.lubricant.shear_modulus is not None:
             said = f" = {self.lubricant.shear_modulus:g} Pa does not go with [transient]"
             raise InputError(
-                said, "lubricant.shear_modulus", way_out="leave it out: runs in time have no elastic shear"
+                said, "lubricant.shear_modulus", recommendation="leave it out: runs in time have no elastic shear"
             )
         if self.transient is not None and self.lubricant.inlet_film is not None:
             said = " does not go with lubricant.inlet_film"
-            raise InputError(said, "transient", way_out="give inlet_length, or a flooded inlet, for a run in time")
+            raise InputError(
+                said, "transient", recommendation="give inlet_length, or a flooded inlet, for a run in time"
+            )
         if length is not None and length <= half_width:
             said = f" = {length:g} m lies inside the dry contact, where no film begins"
             raise InputError(said, "lubricant.inlet_length", f"more than its half-width {half_width:.4g} m")
@@ -113,8 +115,8 @@ class Scene(Shown):
             if section not in self.__dataclass_fields__:
                 near = validate.nearest(section, self.__dataclass_fields__)
                 (first, _, key) = section.partition(".")
-                way_out = f"; write with_({first}={{{key!r}: {validate.shown(values)}}})" if key else ""
-                raise InputError(f"scene has no section {section!r}{near}{way_out}")
+                recommendation = f"; write with_({first}={{{key!r}: {validate.shown(values)}}})" if key else ""
+                raise InputError(f"scene has no section {section!r}{near}{recommendation}")
             new[section] = changed_section(section, getattr(self, section), values)
             if section in SECTIONS:
                 ranges |= ranges_of(section, values)

@@ -92,8 +92,8 @@ def _of_radii(radii: Any, *_: Any) -> dict[str, Any]:
     first, second = pair("bodies.radii", radii, "m")
     for radius in (first, second):
         if isinstance(radius, bool) or not isinstance(radius, (int, float)) or radius == 0 or math.isnan(radius):
-            way_out = "give radii in m, inf for a plane, negative for a hollow"
-            raise InputError(f" has {validate.shown(radius)}", "bodies.radii", way_out=way_out)
+            recommendation = "give radii in m, inf for a plane, negative for a hollow"
+            raise InputError(f" has {validate.shown(radius)}", "bodies.radii", recommendation=recommendation)
     curvature = 1 / first + 1 / second
     if curvature <= 0:
         allowed = "1/R1 + 1/R2 > 0 (inf for a plane, negative for a hollow that is wider than the other body)"
@@ -162,7 +162,7 @@ def _of_heights(key: str, per_sq: float) -> Callable[..., dict[str, Any]]:
     def plain(height: float, given: dict[str, float | str | None], old: Roughness | None) -> dict[str, float]:
         if given.get("file", getattr(old, "file", None)) is not None:
             said = " is for generated maps, and this one is read from a file"
-            raise InputError(said, f"surface.{key}", way_out="leave it out, or scale the map by sq")
+            raise InputError(said, f"surface.{key}", recommendation="leave it out, or scale the map by sq")
         return {"sq": validate.nonnegative(f"surface.{key}", height, "m", maximum=1.0) / per_sq}
 
     return plain

@@ -135,7 +135,7 @@ def checked_history(name: str, value: Any, unit: str, duration: float, *, positi
         last = given.times[-1]
         if not given.repeat and last < duration * (1 - 1e-9):
             said = f": the table ends at {last:g} s, the run lasts {duration:g} s"
-            raise InputError(said, name, way_out="give a table as long as the run, or repeat = true")
+            raise InputError(said, name, recommendation="give a table as long as the run, or repeat = true")
         if given.repeat and duration > MOST_LAPS * last:
             said = f": the table of {last:g} s is repeated {duration / last:.3g} times"
             raise InputError(said, name, f"up to {MOST_LAPS:g}")

@@ -198,7 +198,7 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
     """
     if any(u < 0 for u in scene.motion.speeds):
         ways = "give motion.speed_range, or speeds in m/s"
-        raise InputError(" = 'auto' runs forwards, and motion.speeds backwards", "speeds", way_out=ways)
+        raise InputError(" = 'auto' runs forwards, and motion.speeds backwards", "speeds", recommendation=ways)
     speeds = sorted({u for u in scene.motion.speeds if u != 0})
     if len(speeds) > 1:
         return speeds[0], speeds[-1]
@@ -206,7 +206,7 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
         raise InputError("speeds = 'auto' of a smooth surface (Sq = 0 m) needs a range; give motion.speed_range in m/s")
     if film_ratio(scene, sq, SLOWEST_SEARCHED) > THIN or film_ratio(scene, sq, FASTEST_SEARCHED) < FULL_FILM_RATIO:
         said = " = 'auto' finds no range from boundary lubrication to a full film"
-        raise InputError(said, "speeds", way_out="give motion.speed_range")
+        raise InputError(said, "speeds", recommendation="give motion.speed_range")
     return _speed_of(scene, sq, THIN, SLOWEST_SEARCHED, FASTEST_SEARCHED), _speed_of(
         scene, sq, FULL_FILM_RATIO, SLOWEST_SEARCHED, FASTEST_SEARCHED
     )

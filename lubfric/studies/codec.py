@@ -18,7 +18,7 @@ from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from .._base import Shown
+from .._base import Renamed, Shown
 
 HOME = "lubfric."
 SCALARS = {"float64": np.float64, "int64": np.int64, "bool": np.bool_}
@@ -35,7 +35,7 @@ def classes_of(*roots: type) -> dict[str, type]:
     while waiting:
         kind = waiting.pop()
         waiting += get_args(kind)
-        if isinstance(kind, type) and kind.__module__.startswith(HOME) and kind not in (*seen, Shown):
+        if isinstance(kind, type) and kind.__module__.startswith(HOME) and kind not in (*seen, Renamed, Shown):
             seen.add(kind)
             waiting += [*kind.__bases__, *kind.__subclasses__()]
             waiting += get_type_hints(kind).values() if is_dataclass(kind) else ()

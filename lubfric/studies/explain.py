@@ -63,7 +63,9 @@ def _of_given_sliding(plan: Any, violations: Sequence[Violation]) -> tuple[Viola
         return tuple(violations)
     ratios = (SLIDE_ROLL_RATIO_KEY, "slide-roll ratio")
     from_speeds = partial(
-        replace, consequence="it follows from the speeds of the table", remedy="check the speeds of the surfaces"
+        replace,
+        consequence="it follows from the speeds of the table",
+        recommendation="check the speeds of the surfaces",
     )
     return tuple(from_speeds(each) if each.what in ratios else each for each in violations)
 

@@ -152,7 +152,7 @@ def _check_without_unit(name: str, key: str, quantity: Quantity, values: Any) ->
             raise InputError(
                 f": the column {name} has no unit, so {value:.4g} is read as {read_as}, which no machine has",
                 "points",
-                way_out=f"write the heading {name} [{likely}]"
+                recommendation=f"write the heading {name} [{likely}]"
                 + (f", or {name} [{unit}] for {read_as}" if unit else ""),
             )
 

@@ -236,7 +236,7 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
     if "scene" not in table and not SCENE_SECTIONS.isdisjoint(table):
         raise InputError(
             f"{path.name} is a scene, not a study",
-            way_out=f"give a study file with scene = {str(path.name)!r}, or --points with a table of operating points",
+            recommendation=f"give a study file with scene = {str(path.name)!r}, or --points with a table of operating points",
         )
     validate.keys(path.name, table, STUDY_KEYS)
     name: Any = table.get("scene")

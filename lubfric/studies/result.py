@@ -389,8 +389,8 @@ def open_study(folder: str | Path) -> StudyResult:
     stored = store.get(PLAN, PLANNED)
     plan = None if stored is None else StudyPlan(**dict(zip(PLAN_FIELDS, stored)))
     if plan is None or len(plan.keys) != math.prod(plan.curve_shape):
-        way_out = "give the folder of one, or run the study again in this folder, which writes its plan anew"
-        raise InputError(f"{folder} holds no study, or its plan is damaged; {way_out}")
+        recommendation = "give the folder of one, or run the study again in this folder, which writes its plan anew"
+        raise InputError(f"{folder} holds no study, or its plan is damaged; {recommendation}")
     table = StudyTable(plan)
     table.read(store)
     return result_of_table(table)

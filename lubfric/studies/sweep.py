@@ -107,7 +107,7 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         within 5 %."""
         if self.between > DRAWN_ERROR:
             said = f"between the speeds f is known within {100 * self.between:.2g} %"
-            raise InputError(said, way_out=MORE_SPEEDS)
+            raise InputError(said, recommendation=MORE_SPEEDS)
         low, high = self.uncertainty.interval.T
         curves = [(conditions_of(self.scene), self._curve)]
         return law_of(self.scene, curves, self.coefficient, low, high, self.uncertainty.model)
@@ -212,7 +212,7 @@ def _requested(speeds: str | ArrayLike | None, fields: Any, scene: Scene) -> tup
     kept = [alike(speed, requested) for speed in kept]
     if not set(kept) <= set(requested):
         said = f" = {fields!r} m/s are not all among the speeds of the curve"
-        raise InputError(said, "fields", way_out="give some of them, or fields = True")
+        raise InputError(said, "fields", recommendation="give some of them, or fields = True")
     return requested, requested if fields is True else kept
 
 

@@ -140,8 +140,8 @@ def sample(ranges: Iterable[Any], count: int, sampler: str = "sobol", seed: int 
         if count & (count - 1):
             above = 2 ** count.bit_length()
             said = f" = {count} of a Sobol sequence"
-            way_out = f"write {above // 2} or {above}, or sampler = 'random' for {count} points"
-            raise InputError(said, "count", "powers of two", way_out)
+            recommendation = f"write {above // 2} or {above}, or sampler = 'random' for {count} points"
+            raise InputError(said, "count", "powers of two", recommendation)
         shares = qmc.Sobol(len(parts), seed=seed).random(count)
     else:
         shares = np.random.default_rng(seed).random((count, len(parts)))
@@ -170,7 +170,7 @@ def check_key(
     if key == "motion" or key in SPEED_KEYS:
         ways = "give speeds = [...] in m/s (a fit takes those of the measurement)"
         said = f"{what}: {key!r} is what a curve is over"
-        raise InputError(said, way_out=f"{ways}; motion.slide_roll_ratio is a key")
+        raise InputError(said, recommendation=f"{ways}; motion.slide_roll_ratio is a key")
     if key in seen:
         raise InputError(f"{what}: {key!r} is given twice; give it once")
 
@@ -192,7 +192,7 @@ def _refuse_key(what: str, scene: Scene, key: Any, sections: Iterable[str]) -> N
     meant = f" (did you mean {' or '.join(map(repr, candidates))}?)" if candidates else ""
     raise InputError(
         f"{what}: {validate.shown(key)} is no key of a scene{meant}",
-        way_out="write a key as 'section.key', such as 'bodies.load'; keys that change together are a tuple of such "
+        recommendation="write a key as 'section.key', such as 'bodies.load'; keys that change together are a tuple of such "
         "names, ('bodies.load', 'bodies.radius'), with a tuple of values for each point",
     )
 

@@ -170,10 +170,14 @@ def honing_of(
         extra = {"honing_angle": angle, "groove_width": groove_width}
         for name, value in extra.items():
             if value is not None:
-                raise InputError(f" = {value!r} is of a plateau-honed surface", name, way_out="give sk, spk and svk")
+                raise InputError(
+                    f" = {value!r} is of a plateau-honed surface", name, recommendation="give sk, spk and svk"
+                )
         return None
     if len(given) < 3:
-        raise InputError(" alone make no plateau-honed surface", " and ".join(given), way_out="give sk, spk and svk")
+        raise InputError(
+            " alone make no plateau-honed surface", " and ".join(given), recommendation="give sk, spk and svk"
+        )
     return Honing(
         **given,
         angle=Honing.angle if angle is None else angle,

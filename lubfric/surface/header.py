@@ -118,7 +118,7 @@ class Stated:
 def contradiction(name: str, quantity: str, old: Statement | Stated, new: Statement | Stated) -> InputError:
     """Return the error of a file of which two lines contradict each other."""
     said = f"file {name} contradicts itself about {quantity}: {old.worded()} and {new.worded()}"
-    return InputError(said, way_out="remove the wrong line")
+    return InputError(said, recommendation="remove the wrong line")
 
 
 @dataclass(kw_only=True)
@@ -256,8 +256,8 @@ def _refuse_inverted(header: Header, statement: Statement) -> None:
     inverted = words & INVERTED and (words & TRUE or statement.numbers == (1.0,))
     if inverted or "positive" in words and words & DOWN or spoken == {"depth"} and not statement.numbers:
         said = f"file {header.name}: {statement.worded()} leaves the sign of the heights open"
-        way_out = "remove the line where heights rise out of the material; else change their sign and remove it"
-        raise InputError(said, way_out=way_out)
+        recommendation = "remove the line where heights rise out of the material; else change their sign and remove it"
+        raise InputError(said, recommendation=recommendation)
 
 
 def _file(header: Header, statement: Statement) -> None:
@@ -398,7 +398,7 @@ def grid_of(header: Header, lines: int, columns: int) -> TablePlacement:
             elif not by_extent * (1 - SAME_LENGTH) <= step <= length / max(count - 1, 1) * (1 + SAME_LENGTH):
                 parts = f"{header.stated['d' + axis].worded()} and {header.stated[extent].worded()}"
                 said = f"file {header.name}: {count} points along {axis} do not go with {parts}"
-                raise InputError(said, way_out="remove the wrong line")
+                raise InputError(said, recommendation="remove the wrong line")
         steps.append(step)
     dx, dy = steps
     if dx is None or dy is None:
@@ -423,7 +423,7 @@ def _direction(header: Header, lines: int, columns: int) -> tuple[bool, bool]:
         if not along and not down:
             where = " and ".join(header.stated[q].worded() for q in ("nx", "ny") if q in header.stated)
             said = f"file {header.name}: the table has {lines} lines of {columns} numbers, and its header {where}"
-            raise InputError(said, way_out="give the whole file, or remove the wrong lines")
+            raise InputError(said, recommendation="give the whole file, or remove the wrong lines")
         if along != down:
             return along, True
         if header.program:
@@ -437,4 +437,4 @@ def _agree(header: Header, quantity: str, count: int, what: str) -> None:
     stated = header.stated.get(quantity)
     if stated is not None and stated.value != count:
         said = f"file {header.name}: the table has {count} {what}, and its header {stated.worded()}"
-        raise InputError(said, way_out="give the whole file, or remove the wrong line")
+        raise InputError(said, recommendation="give the whole file, or remove the wrong line")

@@ -189,7 +189,7 @@ class Surface(FrozenArrays, Shown):
         )
         if s is not None and l is not None and s >= l:
             said = f"s_filter = {s:g} m and l_filter = {l:g} m leave no wave"
-            raise InputError(said, way_out="give an s_filter below l_filter")
+            raise InputError(said, recommendation="give an s_filter below l_filter")
         new = self
         if s is not None:
             new = new._with(new._mean(s), f"S-filter: waves shorter than {s:.4e} m taken out")

@@ -120,7 +120,7 @@ def _stratified(honing: Honing, plateau: np.ndarray, families: list[np.ndarray])
         f" = {honing.sk:g}, {honing.spk:g} and {honing.svk:g} m are not reached together on this map: "
         f"{curve.sk:.3g}, {curve.spk:.3g} and {curve.svk:.3g} m are",
         "sk, spk and svk",
-        way_out="give a larger map, or a Spk and a Svk nearer to Sk",
+        recommendation="give a larger map, or a Spk and a Svk nearer to Sk",
     )
 
 

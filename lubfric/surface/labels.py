@@ -22,11 +22,11 @@ def check_labels(heights: Any, spacing: tuple[float, float]) -> None:
     if not isinstance(axes, tuple) or len(axes) != 2 or not hasattr(heights, "coords"):
         return
     if axes == ("y", "x"):
-        raise InputError("heights has the axes ('y', 'x')", way_out="give heights.transpose('x', 'y')")
+        raise InputError("heights has the axes ('y', 'x')", recommendation="give heights.transpose('x', 'y')")
     unit = _unit_of(heights)
     if unit not in METRES:
         raise InputError(
-            f"heights is in {unit!r} (attrs['units'])", way_out="convert it to metres, and set the unit to 'm'"
+            f"heights is in {unit!r} (attrs['units'])", recommendation="convert it to metres, and set the unit to 'm'"
         )
     for axis, step in zip(axes, spacing):
         if axis in heights.coords:
@@ -43,14 +43,18 @@ def _check_coordinate(coordinate: Any, axis: Any, step: float) -> None:
     metre = 1.0 if unit in METRES else in_si(f"coordinate {axis!r} of heights", f"1 {unit}")[0]
     steps = metre * np.diff(values)
     if (steps < 0).all():
-        raise InputError(f"heights has descending coordinates {axis!r}", way_out=f"give heights.sortby({axis!r})")
+        raise InputError(
+            f"heights has descending coordinates {axis!r}", recommendation=f"give heights.sortby({axis!r})"
+        )
     if not (np.abs(steps - step) <= LABEL_TOLERANCE * step).all():
         least = steps.min()
         largest = steps.max()
         said = (
             f"heights has coordinates {axis!r} with steps of {least:.4g} to {largest:.4g} m, and spacing = {step:.4g} m"
         )
-        raise InputError(said, way_out="give the spacing of the coordinates, or heights without them (heights.values)")
+        raise InputError(
+            said, recommendation="give the spacing of the coordinates, or heights without them (heights.values)"
+        )
 
 
 def _unit_of(labelled: Any) -> str:

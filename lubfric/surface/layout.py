@@ -43,7 +43,7 @@ def kind_of_table(name: str, table: np.ndarray) -> str:
         said = f"file {name} has {lines} lines of {columns} numbers, which is no map"
         if _rises(table[0]):
             said += ": the first line rises like a coordinate"
-        raise InputError(said, way_out="give points as three columns x y z, a profile as generate_surface says")
+        raise InputError(said, recommendation="give points as three columns x y z, a profile as generate_surface says")
     if columns == 2 and lines >= PROFILE_LINES:
         if _rises(table[:, 0]):
             return "profile"
@@ -57,7 +57,7 @@ def kind_of_table(name: str, table: np.ndarray) -> str:
                 if columns == 3:
                     return "points"
                 said = f"file {name} has {columns} columns, of which two are coordinates of a grid"
-                raise InputError(said, way_out="leave only the three columns x y z")
+                raise InputError(said, recommendation="leave only the three columns x y z")
         if columns == 3 and lines >= LONG_LIST:
             if _rises(table[:, 0]):
                 return "profile"
@@ -132,7 +132,7 @@ def refuse_profile(name: str, table: np.ndarray, header: Header | None, units: t
     """Raise `InputError` for a profile, with the statistics that make a surface of it."""
     values = table.ravel() if min(table.shape) == 1 else table[:, 1]
     said = f"file {name} holds a profile of {values.size} points, not a map of heights"
-    way_out = (
+    recommendation = (
         "measure a map; or generate a surface with the statistics of the profile: [surface] sq and correlation_length = "
         "[along, across the motion] in place of file"
     )
@@ -158,7 +158,7 @@ def refuse_profile(name: str, table: np.ndarray, header: Header | None, units: t
             said += f", correlation length {length:.3g} steps" if step is None else ""
             said += "" if step is None else f", correlation length {length * step:.4g} in the unit of its first column"
         said += ")"
-    raise InputError(said, way_out=way_out)
+    raise InputError(said, recommendation=recommendation)
 
 
 def _correlation_steps(z: np.ndarray) -> float | None:

@@ -35,7 +35,7 @@ def gridded(name: str, table: np.ndarray) -> tuple[np.ndarray, tuple[float, floa
     np.add.at(count, (i, j), 1)
     if count.max() > 1:
         said = f": {np.count_nonzero(count > 1)} grid points are given more than once"
-        raise InputError(said, f"file {name}", way_out="give each once")
+        raise InputError(said, f"file {name}", recommendation="give each once")
     heights[i, j] = table[:, 2]
     off = float(max(np.abs(off_x).max(), np.abs(off_y).max()))
     notes: tuple[str, ...] = ()
@@ -98,6 +98,6 @@ def _interpolated(
     else:
         raise InputError(
             f"heights of points off a uniform grid: interpolation misses them by {np.sqrt(np.mean(remainder**2)):.2g}",
-            way_out="resample the points on a uniform grid first",
+            recommendation="resample the points on a uniform grid first",
         )
     return np.where(measured, grid + level, np.nan)

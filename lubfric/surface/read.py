@@ -104,7 +104,7 @@ def read_surface(
     except MemoryError:
         size = path.stat().st_size
         said = f"path = {str(path)!r} with {size:.3g} bytes does not fit into the memory that this process may use"
-        raise InputError(said, way_out="give a smaller part of the map, or allow more memory") from None
+        raise InputError(said, recommendation="give a smaller part of the map, or allow more memory") from None
 
 
 def _read(path: Path, head: bytes, spacing: Any, unit: Any, decimal: str | None, missing_value: Any) -> Surface:
@@ -113,7 +113,7 @@ def _read(path: Path, head: bytes, spacing: Any, unit: Any, decimal: str | None,
     binary = b"\0" in head and not head.startswith((b"\xff\xfe", b"\xfe\xff"))  # no text: .dat of an interferometer
     if head.startswith(SURFER_BINARY):
         said = f"path = {str(path)!r} is a binary grid of Surfer"
-        raise InputError(said, way_out="save it as a Surfer 6 text grid (DSAA)")
+        raise InputError(said, recommendation="save it as a Surfer 6 text grid (DSAA)")
     if head.lstrip(b"\xef\xbb\xbf \r\n").startswith(ISO_TEXT):
         return _plain(path, ".txt", spacing, unit, decimal, missing_value)
     by_instrument = suffix in TEXT and binary or suffix not in SUFFIXES and suffix in INSTRUMENTS
@@ -170,7 +170,7 @@ def _plain(path: Path, suffix: str, spacing: Any, unit: Any, decimal: str | None
             refuse_profile(path.name, heights, None, units)
         if kind == "points":
             said = f"path = {str(path)!r} holds points x y z on a grid, not a map of heights"
-            raise InputError(said, way_out="write them as text with the suffix .xyz")
+            raise InputError(said, recommendation="write them as text with the suffix .xyz")
         if missing_value is not None and heights.dtype.kind == "f":
             missing_value = float(heights.dtype.type(missing_value))  # in the precision of the file
         scale = LENGTH_UNITS["m" if units is None else units[2]]
@@ -187,7 +187,7 @@ def _refuse(suffix: str, **given: Any) -> None:
     for name, value in given.items():
         if value is not None:
             said = f" = {value!r} is given, and this {suffix} file carries its own or has none"
-            raise InputError(said, name, way_out="leave it out")
+            raise InputError(said, name, recommendation="leave it out")
 
 
 def _masked(
@@ -278,7 +278,7 @@ def _instrument(path: Path) -> Surface:
         unit = topography.unit
     except Exception as problem:  # the package raises many kinds for files it cannot read
         said = f" cannot be read by SurfaceTopography ({type(problem).__name__}: {validate.shown(str(problem))})"
-        raise InputError(said, name, way_out="give a complete file of a format it knows") from problem
+        raise InputError(said, name, recommendation="give a complete file of a format it knows") from problem
     if unit not in LENGTH_UNITS:
         raise InputError(
             f": heights are in {validate.shown(unit)}", name, f"a channel of heights in {', '.join(LENGTH_UNITS)}"

@@ -30,11 +30,11 @@ def read_sdf(
     """
     name = f"path = {str(path)!r}"
     if units is not None:
-        raise InputError(f"unit = {units[2]!r} is given, and {name} carries its own (m)", way_out="leave it out")
+        raise InputError(f"unit = {units[2]!r} is given, and {name} carries its own (m)", recommendation="leave it out")
     records = text.split("*")
     if len(records) < 3:
         said = f"{name} is cut off: it has {len(records) - 1} of the marks '*' that end its header and its heights"
-        raise InputError(said, way_out="give the whole file")
+        raise InputError(said, recommendation="give the whole file")
     magic, *lines = records[0].splitlines()
     fields = _fields(name, lines)
     nx, ny = (int(_number(name, fields, field, whole=True)) for field in COUNT_FIELDS)
@@ -68,7 +68,7 @@ def _number(name: str, fields: dict[str, str], field: str, *, whole: bool = Fals
     """Return the positive number of a field."""
     given = fields.get(field)
     if given is None:
-        raise InputError(f"{name} does not state {field}", way_out="export the file again")
+        raise InputError(f"{name} does not state {field}", recommendation="export the file again")
     try:
         value = float(given)
     except ValueError:
@@ -83,7 +83,7 @@ def _heights(name: str, record: str, count: int) -> FloatArray:
     words = record.split()
     if len(words) != count:
         said = f"{name} has {len(words)} heights, and its header states {count}"
-        raise InputError(said, way_out="give the whole file")
+        raise InputError(said, recommendation="give the whole file")
     try:
         return np.array(["nan" if word.lower() in UNMEASURED_WORDS else word for word in words], float)
     except ValueError as problem:

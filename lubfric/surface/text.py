@@ -165,7 +165,7 @@ def _refuse_smd(path: Path, text: str) -> None:
         z = np.array([float(words[0]) for words in lines[begin + 1 : end] if words])
     except (KeyError, ValueError, IndexError, OverflowError):
         said = f"path = {str(path)!r} is a profile (PRF) whose records are not those of ISO 5436-2"
-        raise InputError(said, way_out="measure a map") from None
+        raise InputError(said, recommendation="measure a map") from None
     refuse_profile(path.name, np.stack([step * np.arange(z.size), scale * z], axis=1), None, ("m", "m", "m"))
 
 
@@ -222,7 +222,9 @@ def _unitless_steps(path: Path, header: Header, spacing: Pair) -> tuple[str, ...
         if _all_near(steps, spacing) or _all_near(steps, spacing[::-1]):
             return ()
     said = f"spacing = {spacing[0]:g}, {spacing[1]:g} m is given, and file {path.name} states {stated[0].worded()}"
-    raise InputError(said, allowed="that in m, mm, um or nm", way_out="give it, or remove the wrong line from the file")
+    raise InputError(
+        said, allowed="that in m, mm, um or nm", recommendation="give it, or remove the wrong line from the file"
+    )
 
 
 def _coordinates(
@@ -242,11 +244,11 @@ def _coordinates(
     note = f"{border.worded()} taken off"
     if unit is None:
         said = f"file {path.name}: {border.worded()}, and no line states their unit"
-        raise InputError(said, way_out="give spacing in m, or write '# xy unit = um' above the table")
+        raise InputError(said, recommendation="give spacing in m, or write '# xy unit = um' above the table")
     if pair[0] is None or pair[1] is None:
         if expected is None:
             said = f"file {path.name}: {border.worded()}, and the other step is not stated"
-            raise InputError(said, way_out="give spacing = (dx, dy) in m")
+            raise InputError(said, recommendation="give spacing = (dx, dy) in m")
         return numbers, None, (note,)
     return numbers, (pair[0] * unit, pair[1] * unit), (note,)
 
@@ -260,7 +262,7 @@ def _same_spacing(path: Path, given: tuple[float, float], steps: tuple[float, fl
     if _all_near(given, steps) or either and _all_near(given, steps[::-1]):
         return
     said = f"spacing = {given[0]:g}, {given[1]:g} m is given, and file {path.name} states {steps[0]:g}, {steps[1]:g} m"
-    raise InputError(said, way_out="leave spacing out, or remove the wrong line from the file")
+    raise InputError(said, recommendation="leave spacing out, or remove the wrong line from the file")
 
 
 def _height_scale(path: Path, table: NumberTable, units: Units) -> tuple[float, tuple[str, ...]]:
@@ -271,7 +273,7 @@ def _height_scale(path: Path, table: NumberTable, units: Units) -> tuple[float, 
     if stated is not None:
         if units is not None and LENGTH_UNITS[units[2]] != stated.value:
             said = f"unit = {units[2]!r} is given, and file {path.name} says {stated.unit}: {stated.worded()}"
-            raise InputError(said, way_out="leave unit out, or remove the wrong line from the file")
+            raise InputError(said, recommendation="leave unit out, or remove the wrong line from the file")
         return stated.value * factor, (f"heights in {stated.unit} by {stated.worded()}",)
     if units is None:
         _refuse_unit_words(path, table)
@@ -304,7 +306,7 @@ def _points(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
     if named is not None:
         if units is not None and [LENGTH_UNITS[unit] for unit in units] != [LENGTHS[unit] for unit in named[0]]:
             said = f"unit = {', '.join(units)} is given, and file {path.name} says {', '.join(named[0])}: {named[1]!r}"
-            raise InputError(said, way_out="leave unit out, or correct the headings")
+            raise InputError(said, recommendation="leave unit out, or correct the headings")
         scales = [LENGTHS[unit] for unit in named[0]]
         notes += (f"columns in {', '.join(named[0])} by {named[1][:60]!r}",)
     elif {"z unit", "xy unit"} & set(table.header.stated):
@@ -329,11 +331,11 @@ def _stated_scales(path: Path, table: NumberTable, units: Units) -> list[float]:
         given = None if unit is None else LENGTH_UNITS[unit]
         if statement is not None and given is not None and statement.value != given:
             said = f"unit = {unit!r} is given, and file {path.name} says {statement.unit}: {statement.worded()}"
-            raise InputError(said, way_out="leave unit out, or remove the wrong line from the file")
+            raise InputError(said, recommendation="leave unit out, or remove the wrong line from the file")
         scale = given if statement is None else statement.value
         if scale is None:
             said = f"file {path.name} does not state the unit of {'the heights' if place == 2 else 'x and y'}"
-            raise InputError(said, way_out="give unit = (unit of x, of y, of z), such as ('mm', 'mm', 'um')")
+            raise InputError(said, recommendation="give unit = (unit of x, of y, of z), such as ('mm', 'mm', 'um')")
         scales.append(scale)
     return scales
 
@@ -348,7 +350,9 @@ def _wyko(path: Path, text: str, units: Units, spacing: Pair) -> TextMap:
     in waves: times Wavelength [nm] over Mult. Pixel_size is in mm; Aspect is dy/dx (Gwyddion's opdfile.c).
     """
     if units is not None:
-        raise InputError(f"unit = {units[2]!r} is given, and a Wyko file has its own (nm, mm)", way_out="leave it out")
+        raise InputError(
+            f"unit = {units[2]!r} is given, and a Wyko file has its own (nm, mm)", recommendation="leave it out"
+        )
     rows = text.splitlines()
     flags = rows[0].removeprefix(WYKO).split()
     fields: dict[str, str] = {}
@@ -489,7 +493,7 @@ def _numbers(path: Path, lines: Lines, separator: str | None) -> np.ndarray:
         return np.loadtxt([text for _, text in lines], delimiter=separator, ndmin=2, comments=None)
     except ValueError as problem:
         said = f"path = {str(path)!r} is not a table of numbers: {_fault(lines, separator) or problem}"
-        raise InputError(said, way_out="use lines of equally many numbers, 'nan' where unmeasured") from None
+        raise InputError(said, recommendation="use lines of equally many numbers, 'nan' where unmeasured") from None
 
 
 def _begins_a_block(comment: str) -> bool:

@@ -50,7 +50,7 @@ def read_zygo(
         intensities = int(header[INTENSITIES][2]) * int(header[INTENSITIES][3])
     except (ValueError, IndexError):
         said = f"{name} begins as a text file of Zygo, but its header has another layout"
-        raise InputError(said, way_out="export it from MetroPro or Mx again, or as .x3p or .datx") from None
+        raise InputError(said, recommendation="export it from MetroPro or Mx again, or as .x3p or .datx") from None
     blocks = _blocks(lines[end + 1 :])
     if not (nx > 0 and ny > 0 and nx * ny <= len(text) and np.isfinite(optics).all() and pitch >= 0 and blocks):
         raise InputError(f"{name} is cut off, or states a map of {nx} x {ny} points with a pixel of {pitch:g} m")
@@ -58,12 +58,12 @@ def read_zygo(
         if units is None:
             said = f"{name} is a list of points of Zygo, which does not state the unit of its heights"
             way = "give unit: MetroPro writes 'um'; Mx writes the unit that was set (for waves: export again in nm)"
-            raise InputError(said, way_out=way)
+            raise InputError(said, recommendation=way)
         heights = LENGTH_UNITS[units[2]] * _points(name, blocks[0], (x0, y0), (nx, ny))
         notes: tuple[str, ...] = (f"points of Zygo, heights in {units[2]} as given",)
     else:
         if units is not None:
-            raise InputError(f"unit = {units[2]!r} is given, and {name} carries its own", way_out="leave it out")
+            raise InputError(f"unit = {units[2]!r} is given, and {name} carries its own", recommendation="leave it out")
         waves = COUNTS_OF_A_WAVE.get(resolution)
         scale = optics[1] * optics[2] * optics[4]
         if waves is None or not scale > 0:

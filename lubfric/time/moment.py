@@ -163,7 +163,7 @@ def _violated(
             limit=scene.numerics.tolerance,
             unit="",
             consequence="the grid of a run in time does not hold the pressure spike, or the film is ruptured where it shears most",
-            remedy="a tighter numerics.film_tolerance; the steady f at the same speed (lubfric.friction) resolves the spike",
+            recommendation="a tighter numerics.film_tolerance; the steady f at the same speed (lubfric.friction) resolves the spike",
         )
     if row["contact_load"] > 0:
         yield from warn_deflection(scene, row["mean_gap"], STEADY_ONLY)

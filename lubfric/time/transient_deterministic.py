@@ -123,8 +123,8 @@ class TransientDeterministic:
         way = np.append(0.0, np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(times)))
         if way[-1] > MOST_PASSED_CELLS * dx:
             said = f" = {duration:g} s: the roughness would move by {way[-1] / dx:.2g} cells, a step each"
-            way_out = "a shorter run, or numerics.model = 'paper'"
-            raise InputError(said, "transient.duration", f"up to {MOST_PASSED_CELLS:g} cells", way_out)
+            recommendation = "a shorter run, or numerics.model = 'paper'"
+            raise InputError(said, "transient.duration", f"up to {MOST_PASSED_CELLS:g} cells", recommendation)
         return tuple(np.interp(dx * np.arange(1, math.floor(way[-1] / dx) + 1), way, times).tolist())
 
     def problem_at(self, time: float) -> Problem:
@@ -214,8 +214,8 @@ class TransientDeterministic:
             )
         elif np.min(problem.rigid_gap) + plan.initial_film < problem.floor:
             least = problem.floor - float(np.min(problem.rigid_gap))
-            way_out = f"give more than {least:g} m, or initial = 'rest'"
-            raise InputError("transient.initial_film: the surfaces touch", way_out=way_out)
+            recommendation = f"give more than {least:g} m, or initial = 'rest'"
+            raise InputError("transient.initial_film: the surfaces touch", recommendation=recommendation)
         return self._step(evaluated(problem, state), back)
 
     def record(self, progress: Progress) -> Output:
@@ -366,7 +366,7 @@ def deterministic_moment(
     violations = [*solver.prepared.violations, *warn_motion(scene, speed, film), *warn_thickness(scene, film)]
     lost = max(heat.change, 1 - heat.inlet.factor if heat.inlet else 0.0)
     if lost > scene.numerics.tolerance:
-        remedy = (
+        recommendation = (
             "numerics.model = 'paper', which has the heat in time; heat = 'off' leaves heat out without this warning"
         )
         violations.append(
@@ -376,7 +376,7 @@ def deterministic_moment(
                 limit=scene.numerics.tolerance,
                 unit="",
                 consequence=ISOTHERMAL,
-                remedy=remedy,
+                recommendation=recommendation,
             )
         )
     return row, tuple(violations)

@@ -1,5 +1,5 @@
 """The deterministic answer and its warnings: heat on smooth surfaces is that of the smooth film, none of it the
-isothermal answer; a way out exists."""
+isothermal answer; a recommendation exists."""
 
 from dataclasses import replace
 
@@ -77,7 +77,7 @@ def test_the_recommendation_of_an_error_by_the_cells_is_one_that_the_map_has():
     scene = ROLLER.with_(numerics={"tolerance": 1e-4, "heat": "off", "model": "deterministic"})
     surface = lubfric.prepare(scene).surface
     made, given = (lubfric.friction(lubfric.prepare(scene, one), 0.3).validity for one in (None, surface))
-    made, given = (next(e.remedy for e in stated if "numerical error" in e.what) for stated in (made, given))
+    made, given = (next(e.recommendation for e in stated if "numerical error" in e.what) for stated in (made, given))
     assert "contact.spacing" in made and "contact.spacing" not in given
 
 

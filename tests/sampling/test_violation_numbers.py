@@ -25,7 +25,7 @@ from lubfric.models.shared import (
     [(8786.0, "8790"), (999.4, "999"), (999.6, "1000"), (0.0305, "0.0305"), (2.5e6, "2.5e+06"), (-4321.0, "-4320")],
 )
 def test_value_has_three_digits_and_no_power_of_ten_up_to_a_million(value, shown):
-    violation = Violation(what="it", value=value, limit=math.nan, unit="%", consequence="why", remedy="")
+    violation = Violation(what="it", value=value, limit=math.nan, unit="%", consequence="why", recommendation="")
     assert violation.text == f"warning: it is {shown} %. Why."
 
 
@@ -35,7 +35,7 @@ def test_a_value_and_its_target_are_distinguished(target, beyond):
     value = target * (1 + beyond)
     (stated, allowed) = percent_beside(value, target)
     assert stated != allowed
-    violation = Violation(what="it", value=value, limit=target, unit="%", consequence="why", remedy="")
+    violation = Violation(what="it", value=value, limit=target, unit="%", consequence="why", recommendation="")
     (shown, limit) = re.findall(r"is (\S+) %, above (\S+) %", violation.text)[0]
     assert float(shown) > float(limit)
 
@@ -77,7 +77,9 @@ def test_values_on_both_sides_of_a_range_are_two_sentences():
     """A value below the range is not reported as above it."""
 
     def at(value, limit):
-        return (Violation(what="lambda ratio", value=value, limit=limit, unit="", consequence="why", remedy=""),)
+        return (
+            Violation(what="lambda ratio", value=value, limit=limit, unit="", consequence="why", recommendation=""),
+        )
 
     lines = gathered([(1.0, at(0.03, 0.05)), (2.0, at(0.04, 0.05)), (3.0, at(5.0, 3.0))])
     assert lines == (

@@ -188,7 +188,7 @@ def test_contact_keys_that_would_do_nothing_are_refused(contact, words):
 
 
 @pytest.mark.parametrize(
-    "numerics, way_out",
+    "numerics, recommendation",
     [
         ({"closure": "one-way"}, "leave it out, or give numerics.model = 'deterministic'"),
         ({"closure": "separation"}, "lubfric.paper"),
@@ -201,7 +201,7 @@ def test_contact_keys_that_would_do_nothing_are_refused(contact, words):
         ({"sampling": "line"}, "'strips'"),
     ],
 )
-def test_a_key_that_there_is_no_more_says_what_to_do(tmp_path, numerics, way_out):
+def test_a_key_that_there_is_no_more_says_what_to_do(tmp_path, numerics, recommendation):
     ((key, value),) = numerics.items()
     file = write(tmp_path, toml(**{f"numerics__{key}": repr(value)}))
     for act in (
@@ -209,5 +209,5 @@ def test_a_key_that_there_is_no_more_says_what_to_do(tmp_path, numerics, way_out
         lambda: PAPER.with_(numerics=numerics),
         lambda: lubfric.Numerics(**numerics),
     ):
-        with pytest.raises(lubfric.InputError, match=f"numerics.{key} = {value!r}.*{way_out}"):
+        with pytest.raises(lubfric.InputError, match=f"numerics.{key} = {value!r}.*{recommendation}"):
             act()

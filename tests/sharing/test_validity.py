@@ -52,7 +52,7 @@ def test_the_paper_scene_needs_none():
 )
 def test_each_limit_is_reported(words, entries):
     (entry,) = [entry for entry in entries if words in entry.text]
-    assert entry.value != entry.limit and entry.remedy
+    assert entry.value != entry.limit and entry.recommendation
     assert entry.text.startswith("warning: ") and not entry.severe
 
 
@@ -178,7 +178,9 @@ def test_cells_too_long_for_the_roughness_are_a_warning():
 
 
 def entry(value, what="slip", *, severe=False):
-    return Violation(what=what, value=value, limit=5.0, unit="%", consequence="it slides", remedy="less", severe=severe)
+    return Violation(
+        what=what, value=value, limit=5.0, unit="%", consequence="it slides", recommendation="less", severe=severe
+    )
 
 
 def test_a_warning_of_several_speeds_gives_the_smallest_and_the_largest_value_with_their_speeds():
@@ -217,7 +219,9 @@ def test_a_local_film_peak_is_distinguished_from_the_hertz_pressure():
 
 def test_notes_are_apart_from_warnings():
     """A note is named as one, counted apart, and does not hide in the sentence of a warning on the same quantity."""
-    note = Violation(what="slip", value=7.0, limit=5.0, unit="%", consequence="it slides", remedy="", is_note=True)
+    note = Violation(
+        what="slip", value=7.0, limit=5.0, unit="%", consequence="it slides", recommendation="", is_note=True
+    )
     assert note.text == "note: slip is 7 %, above 5 %. It slides."
     texts = gathered([(0.1, (entry(8.0),)), (0.2, (note,))])
     assert [is_note_text(text) for text in texts] == [False, True]
@@ -229,7 +233,7 @@ def test_a_film_above_the_range_of_its_law_is_a_note_where_its_stress_is_limited
     scene = PAPER.with_(lubricant={"limiting_stress_coefficient": coefficient})
     (found,) = warn_pressure(scene, 2e9)
     assert found.is_note == is_note and ("limiting stress bounds" in found.consequence) == is_note
-    assert ("give a measured limiting stress" in found.remedy) != is_note
+    assert ("give a measured limiting stress" in found.recommendation) != is_note
 
 
 def test_the_error_of_the_solve_is_a_note_and_heat_that_is_left_out_stands_beside_f():
@@ -264,3 +268,10 @@ def test_a_sample_that_ends_asks_for_a_larger_map():
     surface = lubfric.generate_surface((64, 400), 1.8e-6, sq=1e-7, correlation_length=8e-6, seed=2)
     given = lubfric.friction(lubfric.prepare(wide, surface), 0.03).uncertainty
     assert given.narrows_sampling == "a larger map narrows it"
+
+
+def test_a_former_name_of_the_recommendation_names_that_of_today():
+    with pytest.raises(AttributeError, match="recommendation"):
+        entry(6.0).remedy
+    with pytest.raises(AttributeError, match="recommendation"):
+        lubfric.InputError("text").way_out

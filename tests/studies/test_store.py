@@ -156,7 +156,9 @@ def test_a_record_that_was_renamed_does_not_count(tmp_path):
 
 
 def test_every_outcome_comes_back_as_it_was(tmp_path):
-    entry = Violation(what="f", value=2.0, limit=1.0, unit="", consequence="too much", remedy="less", severe=True)
+    entry = Violation(
+        what="f", value=2.0, limit=1.0, unit="", consequence="too much", recommendation="less", severe=True
+    )
     store = Store(tmp_path)
     model = prepare(SCENE)
     point = lubfric.friction(model, 0.01).without_fields()

@@ -372,19 +372,19 @@ def _violations(
             unit="nm",
             consequence="that is less than the boundary film, which is not given: where the film is thinner, it rubs with "
             "f_b and counts as asperity load",
-            remedy=f"give {BOUNDARY_FILM_KEY}",
+            recommendation=f"give {BOUNDARY_FILM_KEY}",
         )
     cut = mean(result.split.capped / result.load for result in results)
     if cut > CUT:
         consequence = "a Newtonian film would be sheared above f_b p there; its stress was limited to that"
-        remedy = 'give lubricant.limiting_stress_coefficient (or "f_b" if that is meant) or eyring_stress'
+        recommendation = 'give lubricant.limiting_stress_coefficient (or "f_b" if that is meant) or eyring_stress'
         yield Violation(
             what="share of the load on a saturated film",
             value=cut,
             limit=CUT,
             unit="",
             consequence=consequence,
-            remedy=remedy,
+            recommendation=recommendation,
         )
     share = mean(result.share_given_off for result in results)
     if share > MOST_GIVEN_OFF:
@@ -392,14 +392,14 @@ def _violations(
             "almost no lubricant passes through the contact, and f changes by about 1 % with the gap of 1 nm that the model "
             "leaves between touching cells"
         )
-        remedy = "take f as known to 2 %"
+        recommendation = "take f as known to 2 %"
         yield Violation(
             what="share of the lubricant that comes from touching cells",
             value=share,
             limit=MOST_GIVEN_OFF,
             unit="",
             consequence=consequence,
-            remedy=remedy,
+            recommendation=recommendation,
         )
     yield from warn_heat(scene, heat)
     if why := why_too_hot(heat):
@@ -410,5 +410,5 @@ def _violations(
             limit=1.0,
             unit="",
             consequence=why,
-            remedy="read f with its interval",
+            recommendation="read f with its interval",
         )

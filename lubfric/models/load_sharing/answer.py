@@ -168,11 +168,16 @@ def _finer(change: float, tolerance: float) -> tuple[Violation, ...]:
     if not change > tolerance:
         return ()
     what = "change of f by cells half as long, estimated"
-    remedy = "use a map on shorter cells"
+    recommendation = "use a map on shorter cells"
     consequence = "the map is too coarse for its roughness; the interval of f does not include that"
     return (
         Violation(
-            what=what, value=100 * change, limit=100 * tolerance, unit="%", consequence=consequence, remedy=remedy
+            what=what,
+            value=100 * change,
+            limit=100 * tolerance,
+            unit="%",
+            consequence=consequence,
+            recommendation=recommendation,
         ),
     )
 

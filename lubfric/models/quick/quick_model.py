@@ -398,7 +398,7 @@ def quick_answer_of(prepared: Prepared, speed: float, strips: LongStrips) -> Mod
                 max(below, above),
                 f,
                 consequence=LARGEST_PART.format(largest.partition(":")[0]),
-                remedy=NARROWED_BY_DETERMINISTIC if by_cells else "",
+                recommendation=NARROWED_BY_DETERMINISTIC if by_cells else "",
             ),
             *(part.violation for part in reported(strips.outside)),
         ),

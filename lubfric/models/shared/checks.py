@@ -86,7 +86,7 @@ def warn_motion(scene: Scene, speed: float, thickness: float) -> Iterator[Violat
             advice = (
                 "give numerics.heat = 'off' if the sliding is meant; else check transient.speed and transient.sliding"
             )
-        yield Violation(what=what, value=ratio, limit=OPPOSED, unit="", consequence=why, remedy=advice)
+        yield Violation(what=what, value=ratio, limit=OPPOSED, unit="", consequence=why, recommendation=advice)
     if math.isfinite(thickness) and thickness > 0:
         oil = scene.lubricant.oil
         temperature = scene.lubricant.temperature
@@ -97,21 +97,26 @@ def warn_motion(scene: Scene, speed: float, thickness: float) -> Iterator[Violat
             limit = TURBULENT if reynolds > TURBULENT else LAMINAR
             why = "the film is turbulent or near it"
             what = "Reynolds number"
-            remedy = "a laminar film needs less speed or more viscosity"
+            recommendation = "a laminar film needs less speed or more viscosity"
             yield Violation(
                 what=what,
                 value=reynolds,
                 limit=limit,
                 unit="",
                 consequence=why,
-                remedy=remedy,
+                recommendation=recommendation,
                 severe=reynolds > TURBULENT,
             )
         elif inertia > INERTIA:
             why = "Reynolds' equation leaves inertia out"
             what = "inertia over viscous forces in the film"
             yield Violation(
-                what=what, value=inertia, limit=INERTIA, unit="", consequence=why, remedy="less speed or more viscosity"
+                what=what,
+                value=inertia,
+                limit=INERTIA,
+                unit="",
+                consequence=why,
+                recommendation="less speed or more viscosity",
             )
 
 
@@ -139,7 +144,7 @@ def warn_pressure(scene: Scene, peak: float) -> Iterator[Violation]:
     consequence = f"the viscosity law ({law}) is extrapolated there"
     is_local = peak > SPIKE * hertz_peak
     is_limited = scene.lubricant.limit is not None or scene.lubricant.limited_by_boundary_friction
-    remedy = (
+    recommendation = (
         ""
         if is_limited
         else "give a measured limiting stress (lubricant.limiting_stress_coefficient), which bounds the friction of the film"
@@ -148,7 +153,7 @@ def warn_pressure(scene: Scene, peak: float) -> Iterator[Violation]:
     if severe:
         limit = NO_LIQUID
         consequence = "no oil is a liquid there"
-        remedy = "check bodies.load"
+        recommendation = "check bodies.load"
     if not peak > limit:
         return
     if is_local:
@@ -157,15 +162,15 @@ def warn_pressure(scene: Scene, peak: float) -> Iterator[Violation]:
         consequence += "; the limiting stress bounds the friction of the film"
     if scene.lubricant.density_law == "constant" and hertz_peak < limit:
         consequence += "; a constant density causes such a spike"
-        more = f"; {remedy}" if remedy else ""
-        remedy = f"give lubricant.density_law = 'dowson-higginson', which lowers it{more}"
+        more = f"; {recommendation}" if recommendation else ""
+        recommendation = f"give lubricant.density_law = 'dowson-higginson', which lowers it{more}"
     yield Violation(
         what="highest local film pressure" if is_local else "peak film pressure",
         value=peak / 1e9,
         limit=limit / 1e9,
         unit="GPa",
         consequence=consequence,
-        remedy=remedy,
+        recommendation=recommendation,
         severe=severe,
         is_note=is_limited and not severe,
     )
@@ -183,7 +188,7 @@ def warn_thickness(scene: Scene, thickness: float) -> Iterator[Violation]:
         limit=THICK_FILM,
         unit="",
         consequence=why,
-        remedy="check bodies.radius, viscosity and speed",
+        recommendation="check bodies.radius, viscosity and speed",
     )
 
 
@@ -200,7 +205,7 @@ def warn_inlet(scene: Scene, line: LineContact, flow: float, friction: float) ->
         consequence = "inlet_length or inlet_film makes the inlet starved; f depends on their values"
         what = "film over that of a fully flooded inlet (Moes)"
         yield Violation(
-            what=what, value=flow / flooded, limit=1.0, unit="", consequence=consequence, remedy="omit both"
+            what=what, value=flow / flooded, limit=1.0, unit="", consequence=consequence, recommendation="omit both"
         )
     elif lost > tolerance * friction:
         what = "rolling friction of the inlet beyond inlet_length, relative to f"
@@ -211,11 +216,11 @@ def warn_inlet(scene: Scene, line: LineContact, flow: float, friction: float) ->
             limit=100 * tolerance,
             unit="%",
             consequence=why,
-            remedy="omit lubricant.inlet_length for a fully flooded inlet",
+            recommendation="omit lubricant.inlet_length for a fully flooded inlet",
         )
 
 
-def warn_deflection(scene: Scene, mean_gap: float, remedy: str = ANOTHER) -> Iterator[Violation]:
+def warn_deflection(scene: Scene, mean_gap: float, recommendation: str = ANOTHER) -> Iterator[Violation]:
     """Yield the violations by a film that only its own pressure deflects, over a contact with that ``mean_gap`` [m]: the possible
     error of its share of the load."""
     change = scene.bodies.strip_rise / max(mean_gap, 1e-300)
@@ -223,7 +228,7 @@ def warn_deflection(scene: Scene, mean_gap: float, remedy: str = ANOTHER) -> Ite
         return
     why = "a film flattened by its own pressure alone takes too much of the load: f does not tend to f_b"
     what = "rise of the undeformed cylinder over the Hertz strip, relative to the mean gap,"
-    yield Violation(what=what, value=change, limit=STRIP_SHARE, unit="", consequence=why, remedy=remedy)
+    yield Violation(what=what, value=change, limit=STRIP_SHARE, unit="", consequence=why, recommendation=recommendation)
 
 
 def warn_ends(share: float, length: float) -> Iterator[Violation]:
@@ -237,7 +242,7 @@ def warn_ends(share: float, length: float) -> Iterator[Violation]:
             limit=100 * ON_ENDS,
             unit="%",
             consequence=why,
-            remedy=LONGER_PATCH,
+            recommendation=LONGER_PATCH,
             severe=True,
         )
 
@@ -257,7 +262,7 @@ def warn_patches(scene: Scene, heights: FloatArray, area: float) -> Iterator[Vio
             limit=0,
             unit="",
             consequence=why,
-            remedy="contact.model = 'half-space', or 'summits'",
+            recommendation="contact.model = 'half-space', or 'summits'",
         )
 
 
@@ -279,7 +284,7 @@ def warn_shear(scene: Scene, shear: ShearForce, film_load: float, friction_force
     share = shear.excess / friction_force if shear.excess < math.inf else 1.0
     friction = abs(shear.couette) / max(film_load, 1e-300)
     law = "Newtonian shear" if scene.lubricant.newtonian else "the shear law"
-    remedy = "give lubricant.eyring_stress (some 5e6 Pa) and limiting_stress_coefficient (some 0.05 to 0.1)"
+    recommendation = "give lubricant.eyring_stress (some 5e6 Pa) and limiting_stress_coefficient (some 0.05 to 0.1)"
     if share > tolerance:
         severe = share > REFUSED_SHARE
         yield Violation(
@@ -289,13 +294,15 @@ def warn_shear(scene: Scene, shear: ShearForce, film_load: float, friction_force
             unit="",
             consequence=f"no oil carries more; {law} reaches {shear.stress_ratio:.2g} times that stress, and gives the film a "
             f"friction coefficient of {friction:.2g}",
-            remedy=remedy,
+            recommendation=recommendation,
             severe=severe,
         )
     elif friction > MOST_FILM_FRICTION and abs(shear.couette) > tolerance * friction_force:
         what = "friction coefficient of the film"
         why = "more than any lubricant gives"
-        yield Violation(what=what, value=friction, limit=MOST_FILM_FRICTION, unit="", consequence=why, remedy=remedy)
+        yield Violation(
+            what=what, value=friction, limit=MOST_FILM_FRICTION, unit="", consequence=why, recommendation=recommendation
+        )
 
 
 def warn_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
@@ -315,7 +322,7 @@ def warn_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
                 unit="",
                 consequence=f"the film is between {heat.inlet.factor:.2g} and {heat.inlet.other:.2g} times as thick as the "
                 "isothermal one; neither factor was derived for such sliding",
-                remedy="a measured film; numerics.heat = 'off' gives the isothermal bound",
+                recommendation="a measured film; numerics.heat = 'off' gives the isothermal bound",
             )
     if heat.is_slow and heat.change > tolerance:
         yield Violation(
@@ -325,7 +332,7 @@ def warn_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
             unit="",
             consequence="the heat source moves slowly: the flash temperature "
             f"used is too high, and f too low by at most {100 * heat.change:.2g} %",
-            remedy="numerics.heat = 'off' gives the other bound",
+            recommendation="numerics.heat = 'off' gives the other bound",
         )
 
 
@@ -341,12 +348,12 @@ def warn_typical_heat(scene: Scene, change: float) -> Iterator[Violation]:
             unit="%",
             consequence="heat is not included, because the viscosity is a number; this is its effect, at most, on a typical oil, whose "
             f"viscosity falls by {100 * coefficient:.2g} % per K, at {temperature - CELSIUS:.0f} °C",
-            remedy="give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); numerics.heat = "
+            recommendation="give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); numerics.heat = "
             "'off' leaves heat out without this warning",
         )
 
 
-def warn_error(error: float | None, tolerance: float, remedy: str) -> Iterator[Violation]:
+def warn_error(error: float | None, tolerance: float, recommendation: str) -> Iterator[Violation]:
     """Yield a note if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known): the
     interval of f has it."""
     if error is not None and error > tolerance:
@@ -358,5 +365,5 @@ def warn_error(error: float | None, tolerance: float, remedy: str) -> Iterator[V
             limit=100 * tolerance,
             unit="%",
             consequence=why,
-            remedy=remedy,
+            recommendation=recommendation,
         )

@@ -71,7 +71,7 @@ def warn_unusual(scene: Scene) -> tuple[Violation, ...]:
             limit=value.limit,
             unit=value.unit,
             consequence=value.question or "the value is unusual",
-            remedy=value.advice,
+            recommendation=value.advice,
         )
         for value in unusual_values(scene)
     )
@@ -92,7 +92,7 @@ def warn_bodies(bodies: Bodies) -> Iterator[Violation]:
     """Yield warnings about the half-space and the elasticity of the Hertz contact."""
     wide = bodies.half_width / bodies.radius
     if wide > WIDE_STRIP:
-        remedy = "check bodies.load, e_prime and radius; a lighter load or a stiffer body"
+        recommendation = "check bodies.load, e_prime and radius; a lighter load or a stiffer body"
         why = "the contact is about as wide as the body, which is then no half-space"
         what = "contact half-width over radius"
         yield Violation(
@@ -101,7 +101,7 @@ def warn_bodies(bodies: Bodies) -> Iterator[Violation]:
             limit=WIDEST_STRIP if wide > WIDEST_STRIP else WIDE_STRIP,
             unit="",
             consequence=why,
-            remedy=remedy,
+            recommendation=recommendation,
             severe=wide > WIDEST_STRIP,
         )
     if bodies.width < 2 * bodies.half_width:
@@ -113,7 +113,7 @@ def warn_bodies(bodies: Bodies) -> Iterator[Violation]:
             limit=1.0,
             unit="",
             consequence=why,
-            remedy="check bodies.width and load",
+            recommendation="check bodies.width and load",
         )
     peak = hertz.line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
     if bodies.hardness is None and peak > YIELDED:
@@ -125,7 +125,7 @@ def warn_bodies(bodies: Bodies) -> Iterator[Violation]:
             limit=YIELDED / 1e9,
             unit="GPa",
             consequence=why,
-            remedy="check bodies.load; give bodies.hardness",
+            recommendation="check bodies.load; give bodies.hardness",
         )
 
 
@@ -133,7 +133,7 @@ def warn_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Itera
     """Yield the violations by the map. ``slope``: its rms slope [-]; ``lengths``: its width over its correlation length across the
     motion; ``cells``: in its correlation length along x and y. NaN: not known."""
     if slope > STEEP:
-        remedy = "check the units of heights and spacing; filter the map at the scale that matters"
+        recommendation = "check the units of heights and spacing; filter the map at the scale that matters"
         why = "the half-space assumes small slopes; contact area and pressures are wrong"
         what = "rms slope of the map"
         yield Violation(
@@ -142,7 +142,7 @@ def warn_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Itera
             limit=REFUSED_SLOPE if slope > REFUSED_SLOPE else STEEP,
             unit="",
             consequence=why,
-            remedy=remedy,
+            recommendation=recommendation,
             severe=slope > REFUSED_SLOPE,
         )
     if lengths < LEAST_PATCH_LENGTHS:
@@ -153,19 +153,19 @@ def warn_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Itera
             limit=LEAST_PATCH_LENGTHS,
             unit="",
             consequence=why,
-            remedy="a larger map",
+            recommendation="a larger map",
         )
     for axis, count in zip("xy", cells):
         if count < NOISE:
             what = f"cells in a correlation length along {axis}"
-            remedy = f"a shorter step along {axis}, {FILTERED}"
+            recommendation = f"a shorter step along {axis}, {FILTERED}"
             yield Violation(
                 what=what,
                 value=count,
                 limit=NOISE,
                 unit="",
                 consequence="neighbouring heights are uncorrelated, like noise",
-                remedy=remedy,
+                recommendation=recommendation,
                 severe=True,
             )
 

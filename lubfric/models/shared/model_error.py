@@ -12,11 +12,11 @@ MODEL_ERROR_NEAR_ZERO = f"{MODEL_ERROR} near 0, in f itself,"
 
 
 def warn_model_error(
-    prepared: Prepared, error: float, f: float, *, consequence: str, remedy: str = ""
+    prepared: Prepared, error: float, f: float, *, consequence: str, recommendation: str = ""
 ) -> Iterator[Violation]:
     """Yield a warning where the model-form ``error`` of ``f``, relative, is above ``numerics.model_tolerance``.
 
-    ``consequence``: where it comes from; ``remedy``: what narrows it ("": a longer map, where the surface is measured).
+    ``consequence``: where it comes from; ``recommendation``: what narrows it ("": a longer map, where the surface is measured).
     Where f is near 0, the warning states the error in f itself.
     """
     tolerance = prepared.scene.numerics.model_tolerance
@@ -31,5 +31,5 @@ def warn_model_error(
         limit=unit * tolerance,
         unit="%" if is_relative else "",
         consequence=consequence,
-        remedy=remedy or f"read f with its interval{', or give a longer map' if has_map else ''}",
+        recommendation=recommendation or f"read f with its interval{', or give a longer map' if has_map else ''}",
     )

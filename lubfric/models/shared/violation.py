@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ..._base import Renamed
 from ...errors import ValidityError
 from .statistics import distinct_texts
 
@@ -26,7 +27,7 @@ def _in_digits(value: float, digits: int) -> str:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Violation:
+class Violation(Renamed):
     """An assumption of the model that is violated.
 
     Attributes
@@ -34,7 +35,7 @@ class Violation:
     what : the quantity, as text
     value, limit : its value, and the limit of the model, both in ``unit``
     consequence : what that does to the result
-    remedy : what to change
+    recommendation : what to change
     severe : True: the coefficient means nothing, and a `ValidityError` is raised unless accepted. False: a warning
     is_note : the interval of f covers it, or nothing is to be done: a note instead of a warning
     """
@@ -44,9 +45,10 @@ class Violation:
     limit: float
     unit: str
     consequence: str
-    remedy: str
+    recommendation: str
     severe: bool = False
     is_note: bool = False
+    _RENAMED = {"remedy": "recommendation"}
 
     def __post_init__(self) -> None:
         for name, kind in (("value", float), ("limit", float), ("severe", bool), ("is_note", bool)):
@@ -81,8 +83,8 @@ class Violation:
         side = "above" if self.value > self.limit else "below"
         limit = f", {side} {self._beside_limit[1]}{unit}" if math.isfinite(self.limit) else ""
         numbers = f"{values}{unit}{limit}"
-        remedy = f" Recommendation: {self.remedy}." if self.remedy else ""
-        return f"{head}: {self.what} is {numbers}. {sentence(self.consequence)}{remedy}"
+        last = f" Recommendation: {self.recommendation}." if self.recommendation else ""
+        return f"{head}: {self.what} is {numbers}. {sentence(self.consequence)}{last}"
 
 
 def sentence(text: str) -> str:
