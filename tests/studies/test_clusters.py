@@ -149,12 +149,15 @@ def test_a_server_that_says_nothing_is_no_scheduler(monkeypatch):
                 pass
 
 
-def test_a_client_that_does_not_start_is_given_up(cluster, monkeypatch):
-    monkeypatch.setattr("distributed.Client", lambda *_, **__: time.sleep(5))
+def test_a_client_that_does_not_start_is_given_up(monkeypatch):
+    """At an address where something speaks first, as a scheduler does."""
+    monkeypatch.setattr("distributed.Client", lambda *_, **__: time.sleep(1))
     monkeypatch.setattr("lubfric._base.processes.LONGEST_START", 0.2)
-    with pytest.raises(lubfric.InputError, match="did not start in 0.2 s"):
-        with lubfric.studies.cluster(cluster.address):
-            pass
+    with socket.create_server(("127.0.0.1", 0)) as speaking:
+        threading.Thread(target=lambda: speaking.accept()[0].send(b"hello"), daemon=True).start()
+        with pytest.raises(lubfric.InputError, match="did not start in 0.2 s"):
+            with lubfric.studies.cluster("tcp://127.0.0.1:%d" % speaking.getsockname()[1]):
+                pass
 
 
 class Elsewhere(ThreadPoolExecutor):
