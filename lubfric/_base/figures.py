@@ -190,10 +190,13 @@ def field_image(
     colours: str,
     label: str,
     extend: str = "neither",
+    place: Literal["right", "top"] = "right",
     **options: Any,
 ) -> AxesImage:
-    """Draw ``values`` (nx, ny) over cells at ``x`` and ``y`` [m], from above, with a bar of colours; returns the image.
+    """Draw ``values`` (nx, ny) over cells at ``x`` and ``y`` [m], from above, with a bar of colours at ``place``; returns the image.
     To scale, unless it would be too slender; then the axis says so."""
+    from matplotlib.colors import LogNorm
+
     half_x, half_y = (0.5 * (a[1] - a[0] if a.size > 1 else 1e-6) for a in (x, y))
     extent = (1e6 * (x[0] - half_x), 1e6 * (x[-1] + half_x), 1e6 * (y[0] - half_y), 1e6 * (y[-1] + half_y))
     ratio = (extent[3] - extent[2]) / (extent[1] - extent[0])
@@ -201,9 +204,9 @@ def field_image(
     aspect: Literal["auto", "equal"] = "auto" if slender else "equal"
     image = axes.imshow(values.T, origin="lower", aspect=aspect, cmap=colours, extent=extent, **options)
     axes.grid(visible=False)
-    bar = axes.figure.colorbar(image, ax=axes, label=label, extend=extend)
-    if bar.ax.get_yscale() == "log":
-        bar.ax.yaxis.set_major_formatter("{x:g}")
+    bar = axes.figure.colorbar(image, ax=axes, label=label, extend=extend, location=place)
+    if isinstance(image.norm, LogNorm):
+        bar.long_axis.set_major_formatter("{x:g}")
     axes.set(xlabel="x (µm), along the motion")
     axes.set(ylabel=f"y (µm), along the line{' (not to scale)' if slender else ''}")
     return image

@@ -2,8 +2,9 @@
 
 from .command_line import main
 from .commands import read_record
+from .contact_pictures import drawn_contact, plot_contact
 from .describe import describe_scene
 from .fields import fields_bytes, grid_bytes, write_moments
-from .pictures import plot_contact, plot_history, plot_stribeck, plot_surface, plot_traction
+from .pictures import plot_history, plot_stribeck, plot_surface, plot_traction
 from .progress import ProgressLine
 from .run_curve import parse_ratios, parse_speeds

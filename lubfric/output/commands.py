@@ -147,7 +147,17 @@ INPUTS = (
 )  # options of commands that name files they read
 OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
     *(f"{table}.{kind}" for table in ("stribeck", "traction", "history") for kind in ("csv", "png", "pdf", "svg")),
-    *("contact.png", "contact_*.vtk", "sharing.png", "surface.png", "animation.gif", "law.json", "law.c"),
+    *(
+        "contact.png",
+        "contact.pdf",
+        "contact.svg",
+        "contact_*.vtk",
+        "sharing.png",
+        "surface.png",
+        "animation.gif",
+        "law.json",
+        "law.c",
+    ),
     *("fields.npz", "report.html", RESOLVED_SCENE, RESULT),
 )
 

@@ -2,14 +2,19 @@
 
 import io
 import json
+import zlib
 from collections.abc import Iterable
 from pathlib import Path
+from zipfile import BadZipFile
 
 import numpy as np
 
 from .._base import validate, write_whole
+from ..errors import InputError
 from ..estimate import FrictionResult
+from ..models import ContactFields
 from ..models.deterministic import Moment
+from .contact_pictures import DrawnContact
 
 FIELDS = (
     "heights",
@@ -19,17 +24,22 @@ FIELDS = (
     "film",
     "shear",
 )  # of `lubfric.models.ContactFields`, all on the same cells
+SAME_SPEED = 1e-3  # relative: a speed as a user reads it, of three digits
 OF_STRIP = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "rubbing", "wet")  # of a `DeterministicResult`
 
 
-def fields_bytes(points: list[FrictionResult]) -> bytes:
-    """Return the fields of some speeds as arrays named ``<quantity>_<index>``, and ``speed``; SI units.
+def fields_bytes(points: list[FrictionResult], half_width: float) -> bytes:
+    """Return the fields of some speeds as arrays named ``<quantity>_<index>``, and ``speed`` and the ``half_width``
+    of the Hertz strip; SI units.
 
     Of each point x, y and all fields of one solve, on the same cells; ``solve`` says which. Of the smooth film of load
     sharing x, thickness and pressure on its own nodes; of the first strip of the deterministic model all its fields, on
     the cells of the answer, under names that begin with ``strip_``.
     """
-    arrays: dict[str, np.ndarray] = {"speed": np.array([point.speed for point in points])}
+    arrays: dict[str, np.ndarray] = {
+        "speed": np.array([point.speed for point in points]),
+        "half_width": np.array(half_width),
+    }
     for i, point in enumerate(points):
         film = point.balance.film if point.balance else None
         if film is not None and point.deterministic is None:
@@ -43,6 +53,42 @@ def fields_bytes(points: list[FrictionResult]) -> bytes:
             arrays |= {f"strip_{name}_{i}": getattr(strip, name) for name in OF_STRIP}
             arrays[f"strip_spacing_{i}"] = np.array(strip.spacing)
     return npz_bytes(arrays)
+
+
+def read_contact(path: Path, speed: float) -> DrawnContact:
+    """Return the contact at one ``speed`` [m/s] of those whose fields `fields_bytes` put into the file ``path``.
+
+    Raise `InputError` where the file does not hold it, or is damaged.
+    """
+    again = "run 'lubfric run' again"
+    if not path.is_file():
+        raise InputError(f"{path.parent} holds no {path.name}; {again}")
+    try:
+        with open(path, "rb") as stream, np.load(stream) as file:
+            arrays = dict(file)
+    except (OSError, ValueError, EOFError, KeyError, BadZipFile, zlib.error) as error:
+        raise InputError(f"{path} is damaged ({error}); {again}") from error
+    if "half_width" not in arrays or "speed" not in arrays:
+        raise InputError(f"{path} does not hold the contact of a steady run by this version; {again}")
+    speeds = arrays["speed"]
+    near = np.flatnonzero(np.isclose(speeds, speed, rtol=SAME_SPEED, atol=0.0))
+    if near.size == 0:
+        known = ", ".join(f"{each:.4g}" for each in speeds)
+        raise InputError(
+            f" = {speed:g} m/s: {path.name} has the fields at {known} m/s", "--contact", f"one of {known} m/s"
+        )
+    i = near[0]
+    fields = None
+    if f"solve_{i}" in arrays:
+        of_point = {name: arrays[f"{name}_{i}"] for name in ("x", "y", *FIELDS)}
+        fields = ContactFields(solve=str(arrays[f"solve_{i}"]), **of_point)
+    return DrawnContact(
+        speed=float(speeds[i]),
+        half_width=float(arrays["half_width"]),
+        fields=fields,
+        is_deterministic=f"strip_x_{i}" in arrays,
+        has_film=f"film_x_{i}" in arrays,
+    )
 
 
 def vtk_bytes(point: FrictionResult) -> bytes:

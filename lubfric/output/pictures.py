@@ -1,11 +1,9 @@
-"""Pictures of a run: the curve, the contact of one speed (Akchurin et al. 2015, Figs. 8-10), and what changes in
-time."""
+"""Pictures of a run: the curve, the surface, and what changes in time."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,96 +13,22 @@ from .._base import FloatArray, figures
 from ..studies import friction_over_speed, interval_band
 from ..time import band_label, friction_over_time, in_motion, time_scale
 from ..units import converted, printed, unit_for, worded
+from .contact_pictures import PANEL_GAP, drawn_part, part_in_words, size_of_maps
+from .picture_options import PANELS, PictureOptions
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ..estimate import FrictionResult
     from ..models.shared import Prepared
     from ..time import TransientResult
 
 
-MOST_DRAWN_LENGTH = 3.0  # times as long along y as along x: no more is drawn whole
 FRAMES = 150  # of an animation at most, spread over the run
-PANELS = ("friction", "load", "film")  # of a Stribeck curve, from the top
 PANEL_HEIGHTS = {"friction": 3.6, "load": 2.1, "film": 2.3}  # inch, at the usual width
-PICTURE_WIDTH = 7.0  # inch: of a picture
-INCH = 0.0254  # m
-LEAST_SCALE = 0.8  # of the heights: panels of a narrow picture are no lower
-NARROW_PICTURE = 4.5  # inch: narrower pictures have smaller fonts
 LONE = 2.0  # factor between a lone speed and the ends of its axis
-LOWEST = 0.2  # of the smallest f, where a logarithmic axis of f begins
-SLENDER_PICTURE = 1.5  # times as long along y as along x: a narrow picture
-PANEL_GAP = 0.15  # inch between panels, so that a colour bar does not touch the next panel
-MAP_HEIGHT = 4.6  # inch: of a map of fields, where its width allows it
-MAP_WIDTHS = (1.6, 3.0)  # inch: of a map of fields
-MAP_BESIDE = 1.3  # inch beside a map: its bar of colours and the labels
-MAP_ABOVE = 1.0  # inch above and below a map: title and labels
 BEARING_WIDTH = 4.0  # inch: of a bearing curve
-# Size of lines and markers of a narrow picture over that of the usual one, of twice its width.
-THINNER = 0.6
 QUANTILES = 401  # of the heights, of a bearing curve
-PICTURED_HALF_WIDTHS = 4.0  # half-widths of the Hertz strip around which a gap is drawn
-
-
-@dataclass(frozen=True, kw_only=True)
-class PictureOptions:
-    """What a user may choose of the picture of a curve or a run in time.
-
-    Attributes
-    ----------
-    panels : of a Stribeck curve, of "friction", "load" and "film"
-    x_scale, y_scale : "linear" or "log", of the axis of speeds, ratios or times, and of f; None: by the data
-    width : of the figure [m]; a journal's column is some 85 mm wide. None: `PICTURE_WIDTH`
-    has_warnings : whether points with warnings are marked, and the warnings named below
-    has_parts : whether lines show the errors by the model and by the surface alone
-    """
-
-    panels: tuple[str, ...] = PANELS
-    x_scale: str | None = None
-    y_scale: str | None = None
-    width: float | None = None
-    has_warnings: bool = True
-    has_parts: bool = True
-
-    def size(self, heights: Sequence[float]) -> tuple[float, float]:
-        """Return width and height [inch] of a figure with panels of these ``heights`` [inch] at the usual width."""
-        width = PICTURE_WIDTH if self.width is None else self.width / INCH
-        return width, max(width / PICTURE_WIDTH, LEAST_SCALE) * sum(heights)
-
-    def scale(self, axes: Axes, *, friction: Axes | None = None, f: np.ndarray | None = None) -> None:
-        """Set the scales that the user chose: of x on ``axes``, and on the axes ``friction`` that of ``f``."""
-        if self.x_scale:
-            axes.set_xscale(self.x_scale)
-        if friction is not None and self.y_scale:
-            if self.y_scale == "log" and f is not None and np.any(f > 0):
-                friction.set_ylim(LOWEST * float(np.min(f[f > 0])), 2.0 * float(np.nanmax(f)))
-            friction.set_yscale(self.y_scale)
-            figures.plain_ticks(friction.yaxis)
-
-    @property
-    def is_narrow(self) -> bool:
-        """Whether the picture is for a journal's column: its fonts, lines and markers are smaller."""
-        return self.width is not None and self.width / INCH <= NARROW_PICTURE
-
-    def thin(self, figure: Figure) -> None:
-        """Make lines and markers of a narrow ``figure`` smaller by `THINNER`, as `fonts` does with its texts."""
-        if not self.is_narrow:
-            return
-        for axes in figure.axes:
-            legend = axes.get_legend()
-            for line in (*axes.lines, *(() if legend is None else legend.get_lines())):
-                line.set_linewidth(THINNER * line.get_linewidth())
-                line.set_markersize(THINNER * line.get_markersize())
-                line.set_markeredgewidth(THINNER * line.get_markeredgewidth())
-
-    def fonts(self) -> dict[str, float]:
-        """Return the sizes of fonts [pt] that differ from the style: those of a narrow picture are smaller."""
-        if not self.is_narrow:
-            return {}
-        small = dict.fromkeys(("font.size", "axes.labelsize", "figure.titlesize"), 8.0)
-        return small | dict.fromkeys(("xtick.labelsize", "ytick.labelsize"), 7.0) | {"legend.fontsize": 6.0}
 
 
 @figures.styled
@@ -246,162 +170,21 @@ def _mark(
 
 
 @figures.styled
-def plot_contact(path: Path, prepared: Prepared, point: FrictionResult) -> None:
-    """Draw the fields of ``point``, a `lubfric.FrictionResult`, as PNG."""
-    if point.deterministic is not None:
-        figure = _deterministic_picture(point.fields, point.speed, prepared.scene.bodies.half_width)
-    else:
-        figure = _two_pressures(prepared, point, point.fields)
-    figure.savefig(path)
-
-
-@figures.styled
-def plot_compared(path: Path, prepared: Prepared, point: FrictionResult) -> None:
-    """Draw the fields of the load-sharing model with which ``point`` is compared, as PNG."""
-    _two_pressures(prepared, point, point.compared_fields).savefig(path)
-
-
-def _deterministic_picture(fields: Any, speed: float, half_width: float) -> Figure:
-    """Draw pressure, gap and shear around the Hertz strip, from above, in the part with the highest pressure."""
-    from matplotlib.colors import LogNorm
-    from matplotlib.layout_engine import ConstrainedLayoutEngine
-
-    near = np.abs(fields.x) <= PICTURED_HALF_WIDTHS * half_width
-    x = fields.x[near]
-    y = fields.y
-    part = _part(x, y, int(fields.pressure[near].max(axis=0).argmax()))
-    engine = ConstrainedLayoutEngine(compress=True, w_pad=PANEL_GAP)
-    figure = figures.new_figure(figsize=_size_of_maps(x, y[part], 3), layout=engine)
-    for axes, (label, unit, field, colours, norm) in zip(
-        figure.subplots(1, 3, sharey=True),
-        (
-            ("pressure", "Pa", fields.pressure, "magma_r", None),
-            ("gap", "m", fields.gap, "viridis", LogNorm()),
-            ("shear stress", "Pa", fields.shear, "cividis", None),
-        ),
-    ):
-        values, name = figures.in_unit_for(field[near][:, part], unit)
-        figures.field_image(axes, x, y[part], values, colours, f"{label} ({name})", norm=norm)
-        _hertz_strip(axes, half_width)
-        axes.label_outer()
-    figure.suptitle(f"U = {speed:g} m/s; {fields.solve}{_partly(y, part)}; dashed: Hertz strip", fontsize=10)
-    return figure
-
-
-def _size_of_maps(x: np.ndarray, y: np.ndarray, count: int) -> tuple[float, float]:
-    """Return width and height [inch] of a figure with so many maps of x and y beside each other, each with its bar of
-    colours, without room that nothing fills."""
-    ratio = np.ptp(y) / np.ptp(x)
-    if not 1 / figures.SLENDER_MAP <= ratio <= figures.SLENDER_MAP:  # drawn not to scale
-        ratio = MAP_HEIGHT / MAP_WIDTHS[1]
-    width = float(np.clip(MAP_HEIGHT / ratio, *MAP_WIDTHS))
-    return count * (width + MAP_BESIDE), width * ratio + MAP_ABOVE
-
-
-def _part(x: np.ndarray, y: np.ndarray, row: int) -> slice:
-    """Return the rows of ``y`` to draw: all, or of long strips those around ``row``, twice as long as ``x`` is wide."""
-    across = x[-1] - x[0]
-    if y[-1] < MOST_DRAWN_LENGTH * across:
-        return slice(None)
-    first = min(max(y[row] - across, 0.0), y[-1] - 2 * across)
-    return slice(int(np.searchsorted(y, first)), int(np.searchsorted(y, first + 2 * across)) + 1)
-
-
-def _partly(y: np.ndarray, part: slice) -> str:
-    """Return which part of the line is drawn, as text; "" for all of it."""
-    step = 1e6 * (y[1] - y[0])
-    return "" if part == slice(None) else f"; {step * y[part].size:.0f} of {step * y.size:.0f} µm of the line"
-
-
-def _two_pressures(prepared: Prepared, point: FrictionResult, fields: Any) -> Figure:
-    """Map of the contact pressure; beside it film and surfaces on a section through the highest pressure.
-
-    The section shows what the paper's Fig. 10 shows: the smooth film h, the separation h_s = h - epsilon as the
-    counterface, and the rough surface, deformed (z - u) and undeformed (z). epsilon and u are known up to one constant.
-    It is chosen so that u has zero mean over the section.
-    """
-    touching = fields is not None and bool(fields.pressure.any())
-    balance = point.balance
-    assert balance is not None  # of the load-sharing model
-    film = balance.film
-    half_width = prepared.scene.bodies.half_width
-    row = 0 if fields is None else int(fields.pressure.max(axis=0).argmax())
-    if fields is not None and not touching:
-        row = fields.y.size // 2
-    in_section = film is not None and fields is not None
-    panels = [touching or not in_section, in_section]
-    part = slice(None) if not touching else _part(fields.x, fields.y, row)
-    slender = touching and np.ptp(fields.y[part]) > SLENDER_PICTURE * np.ptp(fields.x)
-    ratios = [0.55 if slender else 1.0, 1.0][: sum(panels)]
-    from matplotlib.layout_engine import ConstrainedLayoutEngine
-
-    engine = ConstrainedLayoutEngine(w_pad=PANEL_GAP)
-    figure = figures.new_figure(figsize=(5.5 * sum(ratios), 5.0), layout=engine)
-    axes = list(figure.subplots(1, sum(panels), squeeze=False, width_ratios=ratios).flat)
-    title = f"load-sharing model: U = {point.speed:g} m/s"
-    if touching:
-        pressure, unit = figures.in_unit_for(fields.pressure[:, part], "Pa")
-        label = f"contact pressure ({unit})"
-        figures.field_image(axes[0], fields.x, fields.y[part], pressure, "magma_r", label, vmin=0)
-        _hertz_strip(axes[0], half_width)
-        axes[0].axhline(fields.y[row] * 1e6, color=figures.GREEN, lw=0.8, ls=":")
-        title += _partly(fields.y, part)
-    elif panels[0]:
-        said = {"ha": "center", "va": "center", "transform": axes[0].transAxes}
-        axes[0].text(0.5, 0.5, "no field of the dry contact\n(separated, or read from a contact curve)", **said)
-        axes[0].set_axis_off()
-    title += "; dashed: Hertz strip" if panels[0] else ": no contact"
-    figure.suptitle(title, fontsize=10)
-    if in_section:
-        _section(axes[-1], fields, row, touching=touching)
-        _hertz_strip(axes[-1], half_width)
-        if touching:
-            axes[-1].set_xlabel(f"x (µm) at y = {fields.y[row] * 1e6:.4g} µm (dotted)")
-    return figure
-
-
-def _hertz_strip(axes: Axes, half_width: float) -> None:
-    for edge in (-half_width, half_width):
-        axes.axvline(edge * 1e6, color=figures.GREY, lw=0.8, ls="--")
-    axes.set_xlabel("x (µm), along the motion")
-
-
-def _section(axes: Axes, fields: Any, row: int, *, touching: bool) -> None:
-    """Draw heights above the mean of the rough surface, as high as the thinnest film and the summits need."""
-    micro = fields.x * 1e6
-    surface = fields.heights[:, row]
-    smooth = fields.film[:, row]
-    drawn = [surface]
-    axes.plot(micro, smooth * 1e9, color=figures.GREEN, label="film of smooth surfaces under $F_H$")
-    axes.plot(micro, surface * 1e9, color=figures.GREY, lw=0.8, ls="--", label="rough surface, undeformed")
-    if touching:
-        deflection = fields.deflection[:, row]
-        drawn.append(surface - deflection + deflection.mean())
-        axes.plot(micro, drawn[-1] * 1e9, color=figures.GREY, lw=1, label="rough surface, deformed")
-        axes.plot(micro, (fields.gap[:, row] + drawn[-1]) * 1e9, color=figures.RED, label="counterface")
-    low = 1e9 * min(z.min() for z in drawn)
-    high = 1e9 * max(*(z.max() for z in drawn), 1.2 * smooth.min())
-    room = 0.15 * (high - low)
-    axes.set(ylim=(low - room, high + room), ylabel="height (nm)")
-    figures.key_above(axes, 2)
-
-
-@figures.styled
 def plot_surface(path: Path, prepared: Prepared) -> None:
     """Draw the map that the scene of ``prepared`` has, to scale, of a long line the beginning; and the bearing
     (Abbott-Firestone) curve of the whole of it."""
     surface = prepared.sample.map
     x, y = (np.arange(count) * step for count, step in zip(surface.shape, surface.spacing))
-    part = _part(x, y, 0)
+    part = drawn_part(x, y, 0)
     higher = np.linspace(0.0, 1.0, QUANTILES)
-    width = _size_of_maps(x, y[part], 1)[0]
+    width = size_of_maps(x, y[part], 1)[0]
     from matplotlib.layout_engine import ConstrainedLayoutEngine
 
     engine = ConstrainedLayoutEngine(w_pad=PANEL_GAP)
     figure = figures.new_figure(figsize=(width + BEARING_WIDTH, 4.5), layout=engine)
     above, bearing = figure.subplots(1, 2, width_ratios=(width, BEARING_WIDTH))
     surface.cropped((x.size, y[part].size), (0, 0)).plot(above)
-    above.set_title(above.get_title() + _partly(y, part), fontsize=10)
+    above.set_title(above.get_title() + part_in_words(y, part), fontsize=10)
     heights = 1e9 * (np.quantile(surface.measured, 1 - higher) - surface.measured.mean())
     bearing.plot(100 * higher, heights, color=figures.BLUE)
     bearing.set(xlim=(0, 100), xlabel="bearing area (%)", ylabel="height (nm)")

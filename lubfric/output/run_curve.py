@@ -32,9 +32,11 @@ from ..samples import takes_strips
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene, given_tables, has_moving_roughness
 from ..units import number_of, numbers_of, with_interval
 from .commands import RunFolder, check_outputs, made, read_record, run_begun, say
+from .contact_pictures import compared_contact, drawn_contact, plot_contact
 from .describe import SceneEstimate
-from .fields import fields_bytes, vtk_bytes
-from .pictures import PANELS, PictureOptions, plot_compared, plot_contact, plot_history, plot_stribeck, plot_traction
+from .fields import fields_bytes, read_contact, vtk_bytes
+from .picture_options import PANELS, PictureOptions
+from .pictures import plot_history, plot_stribeck, plot_traction
 from .progress import ProgressLine
 
 if TYPE_CHECKING:
@@ -180,10 +182,10 @@ def _write_fields(
     points = [p for p in curve.points if p is not None and (p.fields is not None or p.balance is not None)]
     points.sort(key=lambda p: chosen.index(p.speed))
     if points:
-        folder.add("fields.npz", fields_bytes, points)
-        folder.draw("contact.png", plot_contact, prepared, points[0])
+        folder.add("fields.npz", fields_bytes, points, prepared.scene.bodies.half_width)
+        folder.draw("contact.png", plot_contact, drawn_contact(prepared, points[0]))
         if points[0].compared_fields is not None:
-            folder.draw("sharing.png", plot_compared, prepared, points[0])
+            folder.draw("sharing.png", plot_contact, compared_contact(prepared, points[0]))
     if vtk:
         touching = [p for p in points if p.shows_contact]
         for i, point in enumerate(touching):
@@ -243,7 +245,10 @@ def _point(curve: studies.CurveResult, index: int) -> dict[str, Any]:
 
 def plot_again(arguments: Namespace) -> None:
     """Draw the picture of a run again from its table, as a PNG, or as a PDF or SVG for a paper; of a Stribeck curve with the measured curve that the
-    ``arguments`` of ``lubfric plot`` name."""
+    ``arguments`` of ``lubfric plot`` name. With ``--contact`` draw the contact at one speed again, from fields.npz."""
+    if arguments.contact is not None:
+        _plot_contact_again(arguments)
+        return
     folder = arguments.folder
     name = next((name for name in TABLES if (folder / f"{name}.csv").is_file()), None)
     given = [option for option in ("measured", "speed", "coefficient") if getattr(arguments, option) is not None]
@@ -269,12 +274,38 @@ def plot_again(arguments: Namespace) -> None:
             raise InputError("--measured needs --speed and --coefficient, the headings of its columns")
         columns_of = {"coefficient": arguments.coefficient, "speed": arguments.speed}
         again = partial(again, measured=studies.read_measured(arguments.measured, **columns_of))
+    _write_picture(arguments, name, again)
+
+
+def _plot_contact_again(arguments: Namespace) -> None:
+    """Draw the picture of the contact at the speed ``arguments.contact`` again."""
+    of_curves = ("measured", "speed", "coefficient", "panels", "x_scale", "y_scale", "without")
+    given = next((name for name in of_curves if getattr(arguments, name) is not None), None)
+    if given is not None:
+        option = given.replace("_", "-")
+        raise InputError(f"--{option} is for the picture of a curve, and --contact draws the contact; omit one of them")
+    contact = read_contact(arguments.folder / "fields.npz", number_of("--contact", arguments.contact, "m/s"))
+    options = PictureOptions(width=_width(arguments))
+    _write_picture(arguments, "contact", partial(plot_contact, contact=contact, options=options))
+
+
+def _write_picture(arguments: Namespace, name: str, draw: Callable[..., Any]) -> None:
+    """Put what ``draw(path)`` draws into the folder of ``lubfric plot``, as ``name`` in the format of the ``arguments``."""
+    folder = arguments.folder
     file = f"{name}.{validate.choice('--format', arguments.format, FORMATS)}"
     check_outputs(arguments, folder, [file])
-    content = made(file, again)
+    content = made(file, draw)
     with FolderLock(folder):
         OwnFiles(folder).replace({file: content})
     say(f"wrote {file} to {folder}")
+
+
+def _width(arguments: Namespace) -> float | None:
+    """Return the width of the picture [m] that the ``arguments`` ask for."""
+    if arguments.width is None:
+        return None
+    number = number_of("--width", arguments.width, "m")
+    return validate.number("--width", number, "m", minimum=NARROWEST, maximum=WIDEST_PICTURE)
 
 
 def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
@@ -288,15 +319,11 @@ def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
     for option, scale in scales.items():
         if scale is not None:
             validate.choice(f"--{option.replace('_', '-')}", scale, AXIS_SCALES)
-    width = None
-    if arguments.width is not None:
-        number = number_of("--width", arguments.width, "m")
-        width = validate.number("--width", number, "m", minimum=NARROWEST, maximum=WIDEST_PICTURE)
     words = [] if arguments.without is None else arguments.without.split(",")
     left_out = [validate.choice("--without", word.strip(), LEFT_OUT) for word in words]
     return PictureOptions(
         panels=panels,
-        width=width,
+        width=_width(arguments),
         **scales,
         has_warnings="warnings" not in left_out,
         has_parts="parts" not in left_out,

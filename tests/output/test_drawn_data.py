@@ -13,6 +13,7 @@ from scene_text import paper_scene
 import lubfric
 from lubfric._base.figures import field_image, new_figure
 from lubfric.output import (
+    drawn_contact,
     fields_bytes,
     grid_bytes,
     main,
@@ -22,7 +23,7 @@ from lubfric.output import (
     plot_surface,
     plot_traction,
 )
-from lubfric.output.pictures import PictureOptions
+from lubfric.output.picture_options import PictureOptions
 from lubfric.studies import csv_bytes, interval_band, plot_map
 
 UNITS = {  # of the columns of results, typed by hand
@@ -211,7 +212,7 @@ def test_a_map_is_seen_from_above_in_micrometres():
 
 def test_the_picture_of_a_contact_holds_its_fields(figures, solved):
     prepared, point = solved
-    plot_contact("x.png", prepared, point)
+    plot_contact("x.png", drawn_contact(prepared, point))
     above, section = figures[0].axes[:2]
     (image,) = above.images
     label = next(axes.get_ylabel() for axes in figures[0].axes if "pressure" in axes.get_ylabel())
@@ -236,6 +237,53 @@ def test_the_picture_of_a_contact_holds_its_fields(figures, solved):
     assert high < 1.6e9 * max(point.heights.max(), point.balance.film.film_thickness.min()) and low > -1e3
 
 
+@pytest.fixture
+def kept(solved, tmp_path):
+    """A folder with the fields of a contact, as a run writes them."""
+    (prepared, point) = solved
+    (tmp_path / "fields.npz").write_bytes(fields_bytes([point], prepared.scene.bodies.half_width))
+    return tmp_path
+
+
+@pytest.mark.parametrize("width", ["85 mm", "180 mm"])
+def test_a_contact_is_drawn_again_from_its_file(figures, solved, kept, monkeypatch, width):
+    """With the same numbers, at the width of a journal's column, and all texts within it."""
+    monkeypatch.setattr("lubfric.output.run_curve.made", lambda name, draw: draw(name) or b"a picture")
+    assert main(["plot", str(kept), "--contact", "0.01", "--width", width, "--format", "pdf"]) == 0
+    assert (kept / "contact.pdf").read_bytes() == b"a picture"
+    plot_contact("x.png", drawn_contact(*solved))
+    (again, first) = figures
+    pictures = [figure.axes[0].images[0].get_array() for figure in figures]
+    np.testing.assert_array_equal(*pictures)
+    for label in ("counterface", "rough surface, deformed"):
+        np.testing.assert_array_equal(data(again.axes[1], label), data(first.axes[1], label))
+    assert again.get_figwidth() == pytest.approx(float(width.split()[0]) / 25.4)
+    again.canvas.draw()
+    assert again.bbox.padded(1).contains(*again.get_tightbbox().transformed(again.dpi_scale_trans).min)
+    assert again.bbox.padded(1).contains(*again.get_tightbbox().transformed(again.dpi_scale_trans).max)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--contact", "0.3"], "has the fields at 0.01 m/s"),
+        (["--contact", "0.01", "--panels", "film"], "omit one of them"),
+        (["--contact", "fast"], "--contact"),
+    ],
+)
+def test_a_contact_that_cannot_be_drawn_again_is_refused(kept, capsys, options, said):
+    assert main(["plot", str(kept), *options]) == 2
+    assert said in capsys.readouterr().err and not (kept / "contact.png").exists()
+
+
+@pytest.mark.parametrize("content", [None, b"PK\x03\x04 and no more", b"text"])
+def test_fields_that_are_damaged_or_missing_are_refused(tmp_path, capsys, content):
+    if content is not None:
+        (tmp_path / "fields.npz").write_bytes(content)
+    assert main(["plot", str(tmp_path), "--contact", "0.01"]) == 2
+    assert "run 'lubfric run' again" in capsys.readouterr().err
+
+
 def test_the_picture_of_the_roughness_is_the_beginning_of_a_long_line(figures, solved):
     for prepared, rows in ((solved[0], 32), (lubfric.prepare(lubfric.load_scene("paper")), 103)):
         plot_surface("x.png", prepared)
@@ -250,7 +298,7 @@ def test_the_picture_of_the_roughness_is_the_beginning_of_a_long_line(figures, s
 
 def test_fields_are_written_the_right_way_round(solved):
     prepared, point = solved
-    with np.load(io.BytesIO(fields_bytes([point]))) as kept:
+    with np.load(io.BytesIO(fields_bytes([point], 4e-6))) as kept:
         for name in ("heights", "pressure", "gap", "deflection", "film", "shear"):
             np.testing.assert_array_equal(kept[f"{name}_0"], getattr(point.fields, name))
         assert np.diff(kept["x_0"]) == pytest.approx(1.1e-6) and np.diff(kept["y_0"]) == pytest.approx(1.7e-6)

@@ -1,0 +1,257 @@
+"""Pictures of the contact at one speed (Akchurin et al. 2015, Figs. 8-10)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from .._base import figures
+from ..models import ContactFields
+from .picture_options import INCH, PictureOptions
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from matplotlib.layout_engine import LayoutEngine
+
+    from ..estimate import FrictionResult
+    from ..models.shared import Prepared
+
+
+MOST_DRAWN_LENGTH = 3.0  # times as long along y as along x: no more is drawn whole
+SLENDER_PICTURE = 1.5  # times as long along y as along x: a narrow picture
+PANEL_GAP = 0.15  # inch between panels, so that a colour bar does not touch the next panel
+MAP_HEIGHT = 4.6  # inch: of a map of fields, where its width allows it
+MAP_WIDTHS = (1.6, 3.0)  # inch: of a map of fields
+MAP_BESIDE = 1.3  # inch beside a map: its bar of colours and the labels
+MAP_ABOVE = 1.0  # inch above and below a map: title and labels
+PICTURED_HALF_WIDTHS = 4.0  # half-widths of the Hertz strip around which a gap is drawn
+SECTION_SIZE = (5.5, 5.0)  # inch: of a map of the contact pressure, and of the section beside it
+ASIDE = 0.6  # inch beside the maps of a picture whose width is chosen: labels of y
+ABOVE_BAR = 1.3  # inch above and below such maps: title, bar of colours, labels
+
+
+@dataclass(frozen=True, kw_only=True)
+class DrawnContact:
+    """The contact at one speed, as its picture shows it.
+
+    Attributes
+    ----------
+    speed : entrainment speed [m/s]
+    half_width : of the Hertz strip [m]; NaN without one
+    fields : of one solve; None: there is no field of a contact
+    is_deterministic : whether they are of the deterministic model
+    has_film : whether a smooth film was solved
+    """
+
+    speed: float
+    half_width: float
+    fields: ContactFields | None
+    is_deterministic: bool
+    has_film: bool
+
+
+def drawn_contact(prepared: Prepared, point: FrictionResult) -> DrawnContact:
+    """Return what a picture shows of ``point``, an answer to the scene of ``prepared``."""
+    return DrawnContact(
+        speed=point.speed,
+        half_width=prepared.scene.bodies.half_width,
+        fields=point.fields,
+        is_deterministic=point.deterministic is not None,
+        has_film=point.balance is not None and point.balance.film is not None,
+    )
+
+
+@figures.styled
+def plot_contact(path: Path, contact: DrawnContact, options: PictureOptions = PictureOptions()) -> None:
+    """Draw the fields of a ``contact``: of the deterministic model pressure, gap and shear stress from above; of load
+    sharing the contact pressure from above, and film and surfaces on a section."""
+    if contact.is_deterministic:
+        figure = _deterministic_picture(contact, options)
+    else:
+        figure = _two_pressures(contact, options)
+    figure.savefig(path)
+
+
+def compared_contact(prepared: Prepared, point: FrictionResult) -> DrawnContact:
+    """Return what a picture shows of the load-sharing model with which ``point`` is compared."""
+    return replace(drawn_contact(prepared, point), fields=point.compared_fields, is_deterministic=False)
+
+
+def _deterministic_picture(contact: DrawnContact, options: PictureOptions) -> Figure:
+    """Draw pressure, gap and shear around the Hertz strip, from above, in the part with the highest pressure."""
+    from matplotlib.colors import LogNorm
+
+    fields = contact.fields
+    assert fields is not None  # of the deterministic model
+    near = np.abs(fields.x) <= PICTURED_HALF_WIDTHS * contact.half_width
+    x = fields.x[near]
+    y = fields.y
+    part = drawn_part(x, y, int(fields.pressure[near].max(axis=0).argmax()))
+    size = size_of_maps(x, y[part], 3) if options.width is None else _size_below_bars(x, y[part], 3, options.width)
+    figure = figures.new_figure(figsize=size, layout=_layout(options, compress=True))
+    for axes, (label, unit, field, colours, norm) in zip(
+        figure.subplots(1, 3, sharey=True),
+        (
+            ("pressure", "Pa", fields.pressure, "magma_r", None),
+            ("gap", "m", fields.gap, "viridis", LogNorm()),
+            ("shear" if options.is_narrow else "shear stress", "Pa", fields.shear, "cividis", None),
+        ),
+    ):
+        values, name = figures.in_unit_for(field[near][:, part], unit)
+        figures.field_image(
+            axes, x, y[part], values, colours, f"{label} ({name})", place=_place_of_bar(options), norm=norm
+        )
+        _hertz_strip(axes, contact.half_width, options)
+        axes.label_outer()
+    solve = "" if options.is_narrow else f"; {fields.solve}{part_in_words(y, part)}"
+    _title(figure, f"U = {contact.speed:g} m/s{solve}; dashed: Hertz strip", options)
+    return figure
+
+
+def _layout(options: PictureOptions, *, compress: bool = False) -> LayoutEngine:
+    """Return the engine that lays out panels with room between them."""
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    gap = PANEL_GAP if options.width is None else 0.2 * PANEL_GAP
+    return ConstrainedLayoutEngine(compress=compress, w_pad=gap)
+
+
+def _place_of_bar(options: PictureOptions) -> Literal["right", "top"]:
+    """Return where the bar of colours of a map is: above it where the width of the picture is chosen."""
+    return "right" if options.width is None else "top"
+
+
+def _title(figure: Figure, text: str, options: PictureOptions) -> None:
+    figure.suptitle(text, fontsize=None if options.is_narrow else 10, wrap=options.width is not None)
+
+
+def size_of_maps(x: np.ndarray, y: np.ndarray, count: int) -> tuple[float, float]:
+    """Return width and height [inch] of a figure with so many maps of x and y beside each other, each with its bar of
+    colours, without room that nothing fills."""
+    ratio = _drawn_ratio(x, y)
+    width = float(np.clip(MAP_HEIGHT / ratio, *MAP_WIDTHS))
+    return count * (width + MAP_BESIDE), width * ratio + MAP_ABOVE
+
+
+def _size_below_bars(x: np.ndarray, y: np.ndarray, count: int, width: float) -> tuple[float, float]:
+    """Return width and height [inch] of a figure of a given ``width`` [m] with so many maps beside each other, each
+    below its bar of colours."""
+    whole = width / INCH
+    return whole, (whole - ASIDE) / count * _drawn_ratio(x, y) + ABOVE_BAR
+
+
+def _drawn_ratio(x: np.ndarray, y: np.ndarray) -> float:
+    """Return the height over the width of a map of x and y; one too slender is not drawn to scale."""
+    ratio = float(np.ptp(y) / np.ptp(x))
+    is_to_scale = 1 / figures.SLENDER_MAP <= ratio <= figures.SLENDER_MAP
+    return ratio if is_to_scale else MAP_HEIGHT / MAP_WIDTHS[1]
+
+
+def drawn_part(x: np.ndarray, y: np.ndarray, row: int) -> slice:
+    """Return the rows of ``y`` to draw: all, or of long strips those around ``row``, twice as long as ``x`` is wide."""
+    across = x[-1] - x[0]
+    if y[-1] < MOST_DRAWN_LENGTH * across:
+        return slice(None)
+    first = min(max(y[row] - across, 0.0), y[-1] - 2 * across)
+    return slice(int(np.searchsorted(y, first)), int(np.searchsorted(y, first + 2 * across)) + 1)
+
+
+def part_in_words(y: np.ndarray, part: slice) -> str:
+    """Return which part of the line is drawn, as text; "" for all of it."""
+    step = 1e6 * (y[1] - y[0])
+    return "" if part == slice(None) else f"; {step * y[part].size:.0f} of {step * y.size:.0f} µm of the line"
+
+
+def _two_pressures(contact: DrawnContact, options: PictureOptions) -> Figure:
+    """Draw a map of the contact pressure; beside it, or in a narrow picture below it, film and surfaces on a section
+    through the highest pressure.
+
+    The section shows what the paper's Fig. 10 shows: the smooth film h, the separation h_s = h - epsilon as the
+    counterface, and the rough surface, deformed (z - u) and undeformed (z). epsilon and u are known up to one constant.
+    It is chosen so that u has zero mean over the section.
+    """
+    fields = contact.fields
+    touching = fields is not None and bool(fields.pressure.any())
+    row = 0 if fields is None else int(fields.pressure.max(axis=0).argmax())
+    if fields is not None and not touching:
+        row = fields.y.size // 2
+    in_section = contact.has_film and fields is not None
+    panels = [touching or not in_section, in_section]
+    part = slice(None)
+    slender = False
+    if fields is not None and touching:
+        part = drawn_part(fields.x, fields.y, row)
+        slender = bool(np.ptp(fields.y[part]) > SLENDER_PICTURE * np.ptp(fields.x))
+    (figure, axes) = _panels(sum(panels), options, slender=slender)
+    title = f"{'' if options.is_narrow else 'load-sharing model: '}U = {contact.speed:g} m/s"
+    if fields is not None and touching:
+        pressure, unit = figures.in_unit_for(fields.pressure[:, part], "Pa")
+        label = f"contact pressure ({unit})"
+        figures.field_image(
+            axes[0], fields.x, fields.y[part], pressure, "magma_r", label, place=_place_of_bar(options), vmin=0
+        )
+        _hertz_strip(axes[0], contact.half_width, options)
+        axes[0].axhline(fields.y[row] * 1e6, color=figures.GREEN, lw=0.8, ls=":")
+        title += "" if options.is_narrow else part_in_words(fields.y, part)
+    elif panels[0]:
+        said = {"ha": "center", "va": "center", "transform": axes[0].transAxes}
+        axes[0].text(0.5, 0.5, "no field of the dry contact\n(separated, or read from a contact curve)", **said)
+        axes[0].set_axis_off()
+    title += "; dashed: Hertz strip" if panels[0] else ": no contact"
+    _title(figure, title, options)
+    if fields is not None and in_section:
+        _section(axes[-1], fields, row, touching=touching, columns=2 if options.width is None else 1)
+        _hertz_strip(axes[-1], contact.half_width, options)
+        if touching:
+            axes[-1].set_xlabel(f"x (µm) at y = {fields.y[row] * 1e6:.4g} µm (dotted)")
+    return figure
+
+
+def _panels(count: int, options: PictureOptions, *, slender: bool) -> tuple[Figure, list[Axes]]:
+    """Return a figure with ``count`` panels: beside each other, or in a narrow picture below each other."""
+    ratios = [0.55 if slender else 1.0, 1.0][:count]
+    (width, height) = SECTION_SIZE
+    size = (width * sum(ratios), height)
+    if options.width is not None:
+        whole = options.width / INCH
+        size = (whole, whole * (0.9 * count if options.is_narrow else height / size[0]))
+    figure = figures.new_figure(figsize=size, layout=_layout(options))
+    if options.is_narrow:
+        shown = figure.subplots(count, 1, squeeze=False)
+    else:
+        shown = figure.subplots(1, count, squeeze=False, width_ratios=ratios)
+    return figure, list(shown.flat)
+
+
+def _hertz_strip(axes: Axes, half_width: float, options: PictureOptions) -> None:
+    """Draw the edges of the Hertz strip, and label the axis along the motion."""
+    if math.isfinite(half_width):
+        for edge in (-half_width, half_width):
+            axes.axvline(edge * 1e6, color=figures.GREY, lw=0.8, ls="--")
+    axes.set_xlabel("x (µm)" if options.is_narrow else "x (µm), along the motion")
+
+
+def _section(axes: Axes, fields: Any, row: int, *, touching: bool, columns: int) -> None:
+    """Draw heights above the mean of the rough surface, as high as the thinnest film and the summits need; the legend has
+    so many ``columns``."""
+    micro = fields.x * 1e6
+    surface = fields.heights[:, row]
+    smooth = fields.film[:, row]
+    drawn = [surface]
+    axes.plot(micro, smooth * 1e9, color=figures.GREEN, label="film of smooth surfaces under $F_H$")
+    axes.plot(micro, surface * 1e9, color=figures.GREY, lw=0.8, ls="--", label="rough surface, undeformed")
+    if touching:
+        deflection = fields.deflection[:, row]
+        drawn.append(surface - deflection + deflection.mean())
+        axes.plot(micro, drawn[-1] * 1e9, color=figures.GREY, lw=1, label="rough surface, deformed")
+        axes.plot(micro, (fields.gap[:, row] + drawn[-1]) * 1e9, color=figures.RED, label="counterface")
+    low = 1e9 * min(z.min() for z in drawn)
+    high = 1e9 * max(*(z.max() for z in drawn), 1.2 * smooth.min())
+    room = 0.15 * (high - low)
+    axes.set(ylim=(low - room, high + room), ylabel="height (nm)")
+    figures.key_above(axes, columns)
