@@ -9,7 +9,13 @@ from typing import Any
 from .._base import share_read_only
 from ..errors import ConvergenceError, InputError, Report
 from ..models import ContactFields, Model, ModelAnswer
-from ..models.shared import MAP_WIDTH, Prepared, largest_sliding_friction, unmodelled_effects, warn_error
+from ..models.shared import (
+    MAP_WIDTH,
+    Prepared,
+    largest_sliding_friction,
+    unmodelled_effects,
+    violations_by_numerical_error,
+)
 from ..quantities import NUMBERS
 from ..scene import SLIDE_ROLL_RATIO_KEY, Scene
 from .choice import Choice
@@ -54,7 +60,10 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
     numbers["power_loss"] = loss.value
     errors = answer.errors | {"power_loss": loss.error}
     of_answer = [each for each in answer.violations if each.what != MAP_WIDTH or answer.sampling.error != 0]
-    violations = (*of_answer, *warn_error(answer.numerical, scene.numerics.tolerance, answer.recommendation))
+    violations = (
+        *of_answer,
+        *violations_by_numerical_error(answer.numerical, scene.numerics.tolerance, answer.recommendation),
+    )
     decision = answer.decision
     if choice.why:
         decision = replace(decision, notes=(*decision.notes, choice.why))

@@ -45,14 +45,14 @@ def choose(prepared: Prepared, speed: float, requested: str | Model, *, for_fiel
     """
     if isinstance(requested, Model):
         return Choice(model=requested, solution=solve_to_tolerance(prepared, speed, requested, for_fields=for_fields))
-    candidates = models_up_to(requested)
-    able = [model for model in candidates if not model.why_unable(prepared, speed)]
+    up_to_requested = models_up_to(requested)
+    able = [model for model in up_to_requested if not model.why_unable(prepared, speed)]
     if requested == AUTO:
         return _cheapest(prepared, speed, able, for_fields=for_fields)
     *cheaper, model = able
     why = ""
-    if model is not candidates[-1]:
-        why = f"the {model.name} model in place of the {requested} model: {candidates[-1].why_unable(prepared, speed)}"
+    if model is not up_to_requested[-1]:
+        why = f"the {model.name} model in place of the {requested} model: {up_to_requested[-1].why_unable(prepared, speed)}"
     if not cheaper or not model.takes_control(prepared.scene, prepared.sample):
         return Choice(model=model, solution=solve_to_tolerance(prepared, speed, model, for_fields=for_fields), why=why)
     compared = (cheaper[0], solve_to_tolerance(prepared, speed, cheaper[0], for_fields=for_fields))

@@ -9,7 +9,7 @@ from .._base.jobs import current_executor, parts_on
 from .._base.processes import MOST_WORKERS, pool
 from ..models import Model, prepared_with, with_friction_at
 from ..models.shared import Prepared, refused
-from ..scene import FASTEST, Scene, warn_unusual_values
+from ..scene import FASTEST, Scene, hint_unusual_values
 from .build_result import result_of
 from .choice import choose, work_for_an_answer
 from .result import FrictionResult
@@ -79,7 +79,7 @@ def friction(
     workers = validate.integer("workers", workers, minimum=1, maximum=MOST_WORKERS)
     numerics = prepared.scene.numerics
     limit = most_work(prepared, speed)
-    with warn_unusual_values(prepared.scene), pool(workers) as executor, parts_on(executor or current_executor()):
+    with hint_unusual_values(prepared.scene), pool(workers) as executor, parts_on(executor or current_executor()):
         with limited_work(limit):
             requested = model if isinstance(model, Model) else numerics.model
             choice = choose(prepared, speed, requested, for_fields=bool(fields))

@@ -12,4 +12,4 @@ from .deterministic import DeterministicModel, DeterministicResult
 from .load_sharing import Balance, PaperModel
 from .prepare import prepare, prepare_on_maps, prepared_with, with_friction_at
 from .quick import QuickModel
-from .registry import AUTO, MODELS, candidates, model_named, models_up_to
+from .registry import AUTO, MODELS, model_named, models_that_may_answer, models_up_to

@@ -30,7 +30,7 @@ from .shared import (
     Prepared,
     StandardError,
     Violation,
-    required_strips,
+    strips_for_error,
 )
 
 
@@ -228,8 +228,12 @@ class SampleSolution(ABC):
     def required_strips(self) -> int:
         """Return the number of strips that the tolerances need: `count` if these are enough."""
         tolerance = self.prepared.scene.numerics.sampling_tolerance
-        return required_strips(
-            self.count, self.sample.first_strips, self.sample.available_strips, self.sampling_error, tolerance
+        return strips_for_error(
+            self.sampling_error,
+            tolerance,
+            count=self.count,
+            first=self.sample.first_strips,
+            available=self.sample.available_strips,
         )
 
     def is_too_coarse(self) -> bool:

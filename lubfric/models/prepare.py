@@ -8,7 +8,7 @@ from .._base import validate, with_default_errors
 from ..contact import RoughContact
 from ..errors import InputError
 from ..samples import Sample, check_map, combined_maps, sample_of
-from ..scene import Bodies, Scene, warn_unusual_values
+from ..scene import Bodies, Scene, hint_unusual_values
 from ..surface import Surface
 from .registry import check_by_model
 from .shared import Memo, Prepared, StackKey, beforehand, cells_of_contact, operator_on, scene_of
@@ -56,7 +56,7 @@ def prepare(
             return prepared
         maps = (like.surface, *like.sample.bodies) if like.is_given else ()
         contact = None if like.has_own_contact else like.rough_contact
-    with warn_unusual_values(scene):
+    with hint_unusual_values(scene):
         sample = sample_of(scene, maps, contact=contact)
         return _on_sample(scene, sample, is_given=bool(maps) or contact is not None)
 
@@ -65,7 +65,7 @@ def prepare_on_maps(scene: Scene, read: tuple[Surface, ...]) -> Prepared:
     """Return ``scene`` made ready on the maps that `lubfric.samples.whole_maps` ``read`` for it, which are not read
     again."""
     check_by_model(scene, is_joint=False)
-    with warn_unusual_values(scene):
+    with hint_unusual_values(scene):
         return _on_sample(scene, sample_of(scene, read=read), is_given=False)
 
 

@@ -33,7 +33,7 @@ def models_up_to(name: str) -> tuple[Model, ...]:
     return MODELS[: MODELS.index(model_named(name)) + 1]
 
 
-def candidates(name: str) -> tuple[Model, ...]:
+def models_that_may_answer(name: str) -> tuple[Model, ...]:
     """Return the models whose answer the value ``name`` of ``numerics.model`` may give, the cheapest first."""
     return MODELS if name == AUTO else (model_named(name),)
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..estimate import estimated_work_of_point, seconds_of_points
-from ..models import AUTO, candidates, model_named
+from ..models import AUTO, model_named, models_that_may_answer
 from ..models.deterministic import MOST_WORK_IN_AUTO
 from ..models.shared import (
     ExpectedEffect,
@@ -18,7 +18,7 @@ from ..models.shared import (
     effect_in_words,
     expected_effects,
     gathered,
-    warn_unusual,
+    violations_by_unusual_inputs,
 )
 from ..quantities import counted
 from ..samples import (
@@ -27,7 +27,7 @@ from ..samples import (
     sample_of,
     takes_strips,
 )
-from ..scene import UNITS_OF_HISTORIES, Scene, has_moving_roughness, warn_unusual_values, why_gap_not_resolved
+from ..scene import UNITS_OF_HISTORIES, Scene, has_moving_roughness, hint_unusual_values, why_gap_not_resolved
 from ..studies import EXPECTED_SPEEDS, WITHIN_WORDS, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import RunEstimate, check_run, estimated_run, periods, run_model_of, sampled_times, scene_at, speeds_of_run
@@ -83,7 +83,7 @@ class SceneEstimate:
 def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
     """Return inputs, regime numbers (Hertz, Moes M and L, lambda at its speeds) and the plan, as text. Nothing is
     solved. ``speeds`` [m/s]: instead of those of the scene; "auto": about those that a curve would choose."""
-    with warn_unusual_values(scene):
+    with hint_unusual_values(scene):
         if scene.transient is not None:
             check_run(scene)
         sample = sample_of(scene)
@@ -94,7 +94,7 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
     rows = [f"  {name}\n" + "\n".join(f"    {text}" for text in texts) for name, texts in sections.items() if texts]
     widths = [max(map(len, column)) for column in zip(*estimate.table)]
     table = ["  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)) for row in estimate.table]
-    first = [violation.text for violation in warn_unusual(scene)]
+    first = [violation.text for violation in violations_by_unusual_inputs(scene)]
     return "\n".join([*first, f"scene {scene.name}", *rows, f"  {TABLE_CAPTION}", *map(str.rstrip, table)])
 
 
@@ -125,7 +125,7 @@ def estimate_scene(
         changing = [*_histories(scene), cost, *lines]
     elif cost:
         model.append(f"cost: {cost}; 'lubfric run' takes {in_words(beside)} more for start, pictures and files")
-    first_model = candidates(scene.numerics.model)[0]
+    first_model = models_that_may_answer(scene.numerics.model)[0]
     at = [
         *((None, violation) for violation in beforehand(scene, surface)),
         *first_model.expected_violations(scene, sorted(set(speeds))),
@@ -137,7 +137,7 @@ def estimate_scene(
         _fastest_moment(scene),
         scene_map.sq,
         scene_speed,
-        includes_motion=any(model.includes_motion for model in candidates(scene.numerics.model)),
+        includes_motion=any(model.includes_motion for model in models_that_may_answer(scene.numerics.model)),
     )
     changes = [
         f"likely changes of f at {scene_speed:.4g} m/s, estimated by closed forms before the solve, as ranges over the "
@@ -226,7 +226,7 @@ def _model(
         ]
     if strip:
         takes = f"one strip of moving roughness takes about {in_words(strip)} by the deterministic model"
-        if not any(model.includes_motion for model in candidates(name)):
+        if not any(model.includes_motion for model in models_that_may_answer(name)):
             takes = f"moving roughness is treated as stationary; {takes}"
         if name == AUTO:
             takes += f"; above {MOST_WORK_IN_AUTO:g} s of counted work, the quick answer replaces it"

@@ -16,12 +16,12 @@ from .file import builtin_scenes, given_tables, load_scene, read_toml, scene_fro
 from .history import Constant, Harmonic, History, Ramp, Table
 from .numerics import Numerics
 from .plausible import (
+    hint_unusual_values,
     likely_unit,
     other_convention,
     source_of,
     typical,
     unusual_values,
-    warn_unusual_values,
 )
 from .roughness import Roughness, named
 from .scene import Scene, check_resolved_gap, has_moving_roughness, moving_bodies, value_of, why_gap_not_resolved

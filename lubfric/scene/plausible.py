@@ -234,8 +234,8 @@ def naming_slips(section: str, values: dict[str, Any]) -> Iterator[None]:
 
 
 @contextmanager
-def warn_unusual_values(scene: Any) -> Iterator[None]:
-    """Add the unusual values of a scene to an `InputError` or `ConvergenceError`: they are its likely cause."""
+def hint_unusual_values(scene: Any) -> Iterator[None]:
+    """Hint at the unusual values of a scene in an `InputError` or `ConvergenceError`: they are its likely cause."""
     try:
         yield
     except (InputError, ConvergenceError) as error:

@@ -12,8 +12,8 @@ from typing import Any
 
 from ..errors import InputError
 from ..estimate import estimated_work_of_point, seconds_of_points
-from ..models import candidates, prepare
-from ..models.shared import Prepared, Violation, beforehand, sentence, warn_unusual
+from ..models import models_that_may_answer, prepare
+from ..models.shared import Prepared, Violation, beforehand, sentence, violations_by_unusual_inputs
 from ..quantities import counted, worded_value
 from ..scene import SLIDE_ROLL_RATIO_KEY
 from .choose import EXPECTED_SPEEDS, first_speeds
@@ -52,7 +52,7 @@ def estimated_study(plan: Any, store: str | Path | None = None) -> float:
 def warnings_of(plan: Any) -> list[str]:
     """Return what is known before the solve to be doubtful of a `StudyPlan`, in sentences: how plain numbers were read,
     and unusual values of its scenes. Nothing is made or solved."""
-    violations = [_of_given_sliding(plan, warn_unusual(scene)) for scene in plan.scenes]
+    violations = [_of_given_sliding(plan, violations_by_unusual_inputs(scene)) for scene in plan.scenes]
     return [*(f"warning: {sentence(note)}" for note in plan.notes), *_in_sentences(violations, "scenes")]
 
 
@@ -113,8 +113,8 @@ def _expected(prepared: Prepared, speeds: Sequence[float]) -> tuple[Violation, .
     values."""
     scene = prepared.scene
     at = list(speeds) or list(first_speeds(scene, prepared.surface.sq))
-    expected = candidates(scene.numerics.model)[0].expected_violations(scene, at)
-    unusual = {violation.what for violation in warn_unusual(scene)}
+    expected = models_that_may_answer(scene.numerics.model)[0].expected_violations(scene, at)
+    unusual = {violation.what for violation in violations_by_unusual_inputs(scene)}
     known = (*beforehand(scene, prepared.surface), *(violation for _, violation in expected))
     return tuple(violation for violation in known if violation.what not in unusual)
 

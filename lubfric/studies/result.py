@@ -17,7 +17,7 @@ from .._base import Shown, validate, with_default_errors
 from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import InputError
 from ..estimate import MethodUse, cited, methods_of
-from ..models import Model, candidates, prepare
+from ..models import Model, models_that_may_answer, prepare
 from ..models.shared import warnings_in_cell
 from ..quantities import NUMBERS
 from ..scene import Scene
@@ -188,7 +188,7 @@ class StudyResult(Shown):
         """Return the papers behind what was used for this study, the model's first: one a line, or with ``format``
         "bibtex" as BibTeX entries."""
         prepared = prepare(next(iter(scenes_of(self.plan.scene, self.plan.axes))))
-        models = candidates(prepared.scene.numerics.model)
+        models = models_that_may_answer(prepared.scene.numerics.model)
         names = dict.fromkeys(name for answers in models for name in methods_of(prepared, self._use(answers)))
         return cited(names, format)
 

@@ -22,11 +22,11 @@ from ..models.shared import (
     inlet_at,
     point_heat,
     typical_heat,
-    warn_deflection,
-    warn_ends,
-    warn_film,
-    warn_motion,
-    warn_typical_heat,
+    violations_by_deflection,
+    violations_by_ends,
+    violations_by_film,
+    violations_by_motion,
+    violations_by_typical_heat,
 )
 from ..oil import shear_stress
 from ..scene import Scene
@@ -139,7 +139,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
     }
     peclet = heat.peclet if heat.heated else math.inf
     heat = replace(heat, inlet=inlet, is_used=film_factor < 1.0, heated=None, peclet=peclet)
-    return row, tuple([*_violated(model, scene, row, shear, heat), *warn_typical_heat(scene, heat.typical)])
+    return row, tuple([*_violated(model, scene, row, shear, heat), *violations_by_typical_heat(scene, heat.typical)])
 
 
 def _violated(
@@ -151,9 +151,9 @@ def _violated(
     force = abs(row["friction_force"])
     prepared = model.prepared
     yield from prepared.violations
-    yield from warn_ends(row["edge_load"], prepared.surface.size[0])
-    yield from warn_motion(scene, speed, film)
-    yield from warn_film(scene, film, row["max_pressure"], shear, row["film_load"], force, heat)
+    yield from violations_by_ends(row["edge_load"], prepared.surface.size[0])
+    yield from violations_by_motion(scene, speed, film)
+    yield from violations_by_film(scene, film, row["max_pressure"], shear, row["film_load"], force, heat)
     smallest_force = SMALL_FRICTION * scene.bodies.boundary_friction_coefficient * row["load"]
     shear_error = shear.quadrature / max(force, smallest_force, TINY_FORCE)
     if shear_error > scene.numerics.tolerance:
@@ -166,7 +166,7 @@ def _violated(
             recommendation="a tighter numerics.film_tolerance; the steady f at the same speed (lubfric.friction) resolves the spike",
         )
     if row["contact_load"] > 0:
-        yield from warn_deflection(scene, row["mean_gap"], STEADY_ONLY)
+        yield from violations_by_deflection(scene, row["mean_gap"], STEADY_ONLY)
 
 
 def _full_load_in_time(

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from ..errors import InputError
-from ..models import AUTO, candidates
+from ..models import AUTO, models_that_may_answer
 from ..models.load_sharing import why_moment_unknown
 from ..models.shared import Prepared
 from ..samples import Sample
@@ -62,7 +62,7 @@ RUNS = {"paper": LOAD_SHARING, "quick": LOAD_SHARING, "deterministic": DETERMINI
 def run_model_of(scene: Scene) -> RunModel:
     """Return how the model of ``scene`` runs in time; for "auto" the cheapest that does. `InputError` if it has no run."""
     name = scene.numerics.model
-    for model in candidates(name):
+    for model in models_that_may_answer(name):
         if model.name in RUNS:
             return RUNS[model.name]
     raise InputError(

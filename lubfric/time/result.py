@@ -9,7 +9,7 @@ import numpy as np
 from .._base import FloatArray, Renamed, Shown, figures
 from ..errors import Report
 from ..estimate import MethodUse, UncertaintyCurve, cited, methods_of
-from ..models import candidates
+from ..models import models_that_may_answer
 from ..models.load_sharing import OF_ROLLING
 from ..models.shared import (
     Prepared,
@@ -405,7 +405,7 @@ def collect(
 def _use(prepared: Prepared, columns: dict[str, np.ndarray]) -> MethodUse:
     """Return what the ``columns`` of a run show of the methods that it uses."""
     return MethodUse(
-        model=candidates(prepared.scene.numerics.model)[0],
+        model=models_that_may_answer(prepared.scene.numerics.model)[0],
         has_contact=bool((columns["contact_load"] > 0).any()),
         has_film=bool((columns["film_load"] > 0).any()),
         sliding=bool((columns["sliding_speed"] != 0).any()),

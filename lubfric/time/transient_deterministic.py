@@ -44,7 +44,7 @@ from ..models.deterministic import (
     surface_and_factors,
     work_of_steps,
 )
-from ..models.shared import Prepared, Violation, block_error, warn_motion, warn_thickness
+from ..models.shared import Prepared, Violation, block_error, violations_by_motion, violations_by_thickness
 from ..quantities import OF_MOMENT
 from ..scene import Constant, Scene, moving_bodies
 from .film_setting import WET_PRESSURE
@@ -363,7 +363,11 @@ def deterministic_moment(
     }
     film = result.central_gap
     heat = strip_heat(scene, result)
-    violations = [*solver.prepared.violations, *warn_motion(scene, speed, film), *warn_thickness(scene, film)]
+    violations = [
+        *solver.prepared.violations,
+        *violations_by_motion(scene, speed, film),
+        *violations_by_thickness(scene, film),
+    ]
     lost = max(heat.change, 1 - heat.inlet.factor if heat.inlet else 0.0)
     if lost > scene.numerics.tolerance:
         recommendation = (

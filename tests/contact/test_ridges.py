@@ -6,7 +6,7 @@ from scipy import ndimage
 
 import lubfric
 from lubfric.contact import ridges
-from lubfric.models.shared import warn_patches
+from lubfric.models.shared import violations_by_patches
 
 FLAT = lubfric.load_scene("flat").with_(
     contact={"shape": (64, 64), "spacing": 8e-6, "model": "patches"},
@@ -51,9 +51,9 @@ def test_a_patch_without_ends_holds_the_same_cell_of_two_periods(periodic):
 def test_a_map_under_a_cylinder_repeats_along_the_cylinder_only(geometry, axis, reaches_round):
     scene = FLAT.with_(contact={"geometry": geometry})
     crest_in_the_middle = np.roll(ridge(axis=axis), N // 2, (0, 1))
-    assert [entry.value for entry in warn_patches(scene, crest_in_the_middle, 0.05)] == [1.0] * reaches_round
+    assert [entry.value for entry in violations_by_patches(scene, crest_in_the_middle, 0.05)] == [1.0] * reaches_round
     for model in ("summits", "half-space"):
-        assert not list(warn_patches(scene.with_(contact={"model": model}), crest_in_the_middle, 0.05))
+        assert not list(violations_by_patches(scene.with_(contact={"model": model}), crest_in_the_middle, 0.05))
 
 
 def told(result):

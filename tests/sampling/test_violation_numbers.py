@@ -16,7 +16,7 @@ from lubfric.models.shared import (
     gathered_texts,
     in_a_cell,
     percent_beside,
-    warn_model_error,
+    violations_by_model_error,
 )
 
 
@@ -66,11 +66,11 @@ def test_errors_of_an_f_near_zero_are_in_f_itself():
 
 def test_a_warning_of_the_error_of_an_f_near_zero_is_in_f_itself():
     prepared = lubfric.prepare(lubfric.load_scene("paper").with_(numerics={"model_tolerance": 0.05}))
-    (relative,) = warn_model_error(prepared, 0.2, 0.04, consequence="why")
+    (relative,) = violations_by_model_error(prepared, 0.2, 0.04, consequence="why")
     assert "is 20 %, above 5 %" in relative.text
-    (itself,) = warn_model_error(prepared, 88.0, -1e-5, consequence="why")
+    (itself,) = violations_by_model_error(prepared, 88.0, -1e-5, consequence="why")
     assert "near 0, in f itself, is 0.00088, above 5e-07." in itself.text
-    assert not list(warn_model_error(prepared, 0.04, 1e-5, consequence="why"))
+    assert not list(violations_by_model_error(prepared, 0.04, 1e-5, consequence="why"))
 
 
 def test_values_on_both_sides_of_a_range_are_two_sentences():

@@ -19,13 +19,13 @@ from lubfric.models.shared import (
     in_a_cell,
     is_note_text,
     sentence,
-    warn_bodies,
-    warn_deflection,
-    warn_map,
-    warn_motion,
-    warn_pressure,
-    warn_shear,
-    warn_thickness,
+    violations_by_bodies,
+    violations_by_deflection,
+    violations_by_map,
+    violations_by_motion,
+    violations_by_pressure,
+    violations_by_shear,
+    violations_by_thickness,
     warnings_in_cell,
 )
 
@@ -41,13 +41,16 @@ def test_the_paper_scene_needs_none():
 @pytest.mark.parametrize(
     "words, entries",
     [
-        ("extrapolated", warn_pressure(PAPER, 2e9)),
-        ("eyring_stress", warn_shear(PAPER, ShearForce(couette=5.0, rolling=0.0), PAPER.bodies.load, FRICTION)),
-        ("does not tend to f_b", warn_deflection(PAPER.with_(bodies={"load": 550.0}), 3e-7)),
-        ("not thin", warn_thickness(PAPER.with_(bodies={"radius": 1e-6}), 3e-7)),
-        ("opposite directions", warn_motion(PAPER.with_(motion={"slide_roll_ratio": 3.0}), 0.003, 3e-7)),
-        ("wider than long", warn_bodies(PAPER.with_(bodies={"width": 4e-6, "load": 0.01}).bodies)),
-        ("steel yields", warn_bodies(PAPER.with_(bodies={"hardness": None, "hertz_pressure": 6e9}).bodies)),
+        ("extrapolated", violations_by_pressure(PAPER, 2e9)),
+        (
+            "eyring_stress",
+            violations_by_shear(PAPER, ShearForce(couette=5.0, rolling=0.0), PAPER.bodies.load, FRICTION),
+        ),
+        ("does not tend to f_b", violations_by_deflection(PAPER.with_(bodies={"load": 550.0}), 3e-7)),
+        ("not thin", violations_by_thickness(PAPER.with_(bodies={"radius": 1e-6}), 3e-7)),
+        ("opposite directions", violations_by_motion(PAPER.with_(motion={"slide_roll_ratio": 3.0}), 0.003, 3e-7)),
+        ("wider than long", violations_by_bodies(PAPER.with_(bodies={"width": 4e-6, "load": 0.01}).bodies)),
+        ("steel yields", violations_by_bodies(PAPER.with_(bodies={"hardness": None, "hertz_pressure": 6e9}).bodies)),
     ],
 )
 def test_each_limit_is_reported(words, entries):
@@ -59,16 +62,16 @@ def test_each_limit_is_reported(words, entries):
 @pytest.mark.parametrize("share, severe", [(0.005, None), (0.05, False), (0.5, True)])
 def test_stress_that_no_oil_carries_by_its_share_of_f(share, severe):
     shear = ShearForce(couette=0.0, rolling=0.0, excess=share * FRICTION, stress_ratio=3.0)
-    entries = list(warn_shear(PAPER, shear, PAPER.bodies.load, FRICTION))
+    entries = list(violations_by_shear(PAPER, shear, PAPER.bodies.load, FRICTION))
     assert [entry.severe for entry in entries] == ([] if severe is None else [severe])
     assert all("Newtonian" in entry.text for entry in entries)
 
 
 def test_bodies_and_maps_are_judged_before_anything_is_solved():
     wide = PAPER.with_(bodies={"radius": 0.01, "load": 3e5, "e_prime": 1e8, "width": 0.1, "hardness": None})
-    assert [e.severe for e in warn_bodies(wide.bodies) if "no half-space" in e.text] == [True]
-    assert [[e.severe for e in warn_map(slope, 20)] for slope in (0.3, 0.7, 2.0)] == [[], [False], [True]]
-    assert "Few asperities" in next(warn_map(0.1, 3)).text
+    assert [e.severe for e in violations_by_bodies(wide.bodies) if "no half-space" in e.text] == [True]
+    assert [[e.severe for e in violations_by_map(slope, 20)] for slope in (0.3, 0.7, 2.0)] == [[], [False], [True]]
+    assert "Few asperities" in next(violations_by_map(0.1, 3)).text
 
 
 @pytest.mark.parametrize("axis", [0, 1])
@@ -88,9 +91,9 @@ def test_a_map_that_is_noise_along_an_axis_is_refused_with_what_to_do(axis):
 
 def test_the_reynolds_number_is_that_of_the_film():
     scene = PAPER.with_(lubricant={"viscosity": 1e-4, "viscosity_law": "constant"})
-    entry = next(warn_motion(scene, 100.0, 30e-6))
+    entry = next(violations_by_motion(scene, 100.0, 30e-6))
     assert entry.value == pytest.approx(870 * 100 * 30e-6 / 1e-4) and entry.severe
-    assert not list(warn_motion(PAPER, 1.0, 1e-6))
+    assert not list(violations_by_motion(PAPER, 1.0, 1e-6))
 
 
 def heavy(**lubricant):
@@ -211,8 +214,8 @@ def test_warnings_of_a_table_name_their_points(places, words):
 
 def test_a_local_film_peak_is_distinguished_from_the_hertz_pressure():
     heavy = PAPER.with_(bodies={"hertz_pressure": 1.2e9, "hardness": None})
-    (at_hertz,) = warn_pressure(heavy, 1.2e9)
-    (local,) = warn_pressure(heavy, 3e9)
+    (at_hertz,) = violations_by_pressure(heavy, 1.2e9)
+    (local,) = violations_by_pressure(heavy, 3e9)
     assert "peak film pressure is 1.2 GPa" in at_hertz.text and "local" not in at_hertz.text
     assert "highest local film pressure is 3 GPa" in local.text and "the peak Hertz pressure is 1.2 GPa" in local.text
 
@@ -231,7 +234,7 @@ def test_notes_are_apart_from_warnings():
 @pytest.mark.parametrize("coefficient, is_note", [(None, False), (0.05, True), ("f_b", True)])
 def test_a_film_above_the_range_of_its_law_is_a_note_where_its_stress_is_limited(coefficient, is_note):
     scene = PAPER.with_(lubricant={"limiting_stress_coefficient": coefficient})
-    (found,) = warn_pressure(scene, 2e9)
+    (found,) = violations_by_pressure(scene, 2e9)
     assert found.is_note == is_note and ("limiting stress bounds" in found.consequence) == is_note
     assert ("give a measured limiting stress" in found.recommendation) != is_note
 

@@ -28,12 +28,12 @@ from ..shared import (
     percent_beside,
     smooth_rolling_resistance,
     student,
-    warn_heat,
-    warn_inlet,
-    warn_model_error,
-    warn_motion,
-    warn_pressure,
-    warn_thickness,
+    violations_by_heat,
+    violations_by_inlet,
+    violations_by_model_error,
+    violations_by_motion,
+    violations_by_pressure,
+    violations_by_thickness,
     why_sample_too_short,
 )
 from .estimated_work import pictured_length
@@ -135,7 +135,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         ),
         violations=(
             *_violations(prepared, numbers, results, heat),
-            *warn_model_error(prepared, model, numbers["coefficient"], consequence=cause),
+            *violations_by_model_error(prepared, model, numbers["coefficient"], consequence=cause),
         ),
         recommendation=_recommendation(prepared),
         narrows_numerical=_narrows_numerical(prepared),
@@ -355,15 +355,15 @@ def _violations(
     speed = numbers["speed"]
     film = numbers["central_film"]
     yield from prepared.violations
-    yield from warn_motion(scene, speed, film)
+    yield from violations_by_motion(scene, speed, film)
     flow = mean(result.flow_film for result in results)
     friction = abs(numbers["coefficient"]) * scene.bodies.load
-    yield from warn_inlet(scene, scene.line_contact(abs(speed)), flow, friction)
-    for violation in warn_pressure(
+    yield from violations_by_inlet(scene, scene.line_contact(abs(speed)), flow, friction)
+    for violation in violations_by_pressure(
         scene, max(peak_hertz_pressure(scene), *(result.top_pressure for result in results))
     ):
         yield replace(violation, severe=False)  # of one cell: no stress there is above the limit, whatever the pressure
-    yield from warn_thickness(scene, film)
+    yield from violations_by_thickness(scene, film)
     if scene.bodies.boundary_film is None and film < BOUNDARY_FILM:
         yield Violation(
             what="film thickness",
@@ -401,7 +401,7 @@ def _violations(
             consequence=consequence,
             recommendation=recommendation,
         )
-    yield from warn_heat(scene, heat)
+    yield from violations_by_heat(scene, heat)
     if why := why_too_hot(heat):
         parts = (1 - heat.film_factor) / (1 - LEAST_FILM), heat.change / MOST_CHANGE
         yield Violation(

@@ -1,13 +1,21 @@
 """Friction of an infinite line contact by the deterministic model, from levels of cost.
 
-    f = mean over strips of (f by the deterministic model - control)              a few strips
-      * mean f on cells half as long / mean f on the cells of the strips          pieces, half as long as a strip
-      * mean f on cells a quarter as long / mean f on cells half as long          one piece, a sixth as long as a strip
+    f = mean over strips of (f by the deterministic model - control)              levels 1 and 2
+      * mean f on cells half as long / mean f on the cells of the strips          level 3
+      * mean f on cells a quarter as long / mean f on cells half as long          level 4
 
-The first level is the control: by how much each strip differs from the many strips that Eq. (8) joins
+    level   what is solved                      where
+    1       the control, by Eq. (8)             many strips, joined
+    2       the deterministic model             a few of these strips
+    3       the same on cells half as long      pieces, half as long as a strip (`shorter_cells`)
+    4       the same on a quarter               one piece, a sixth as long as a strip
+
+The control is by how much each strip differs from the many strips that Eq. (8) joins
 (`lubfric.models.load_sharing.control_variate`). It shows what is chance in the few. These are few where both models
 scatter alike, as they do about lift-off on most surfaces. Where they do not, the control is omitted. Which of the two
 needs fewer strips is read off those that are solved (M. B. Giles, Oper. Res. 56 (2008) 607-617, doi:10.1287/opre.1070.0496).
+Where roughness moves there is level 2 alone, with the control of its summits (`summits`) and a factor for the cells
+(`cells_in_motion`).
 """
 
 import math
@@ -25,7 +33,7 @@ from ..shared import (
     StandardError,
     add_errors,
     block_error,
-    required_strips,
+    strips_for_error,
     student,
 )
 from .cells_in_motion import changed_as_expected
@@ -77,10 +85,10 @@ FREEDOM = 5
 # speed (docs/uncertainty.md). Half and twice change the interval by up to 1 %.
 BALANCED = 1.3
 
-# Factors by which the number of strips may grow, the first time and later [-] (`required_strips`).
+# Factors by which the number of strips may grow, the first time and later [-] (`strips_for_error`).
 STRIPS_GROWTH = (4.0, 2.0)
 
-# Factor on the strips that an error needs, and least growth [-] (`required_strips`).
+# Factor on the strips that an error needs, and least growth [-] (`strips_for_error`).
 STRIPS_SPARE = (1.1, 1.2)
 
 # Counted work of the strips of one point [s], at most: `rough_bodies.MOST_WORK_IN_AUTO`, from which "auto" declines.
@@ -157,18 +165,20 @@ class TwoLevelEstimate:
     between: float
     note: str = ""
 
-    def required_strips(self, numerics: Numerics, count: int, most: int) -> int:
+    def strips_for_tolerances(self, numerics: Numerics, *, count: int, most: int) -> int:
         """Return the number of strips of the second level, at most ``most``, that the tolerances need; there are
         ``count``."""
         f = abs(self.numbers["coefficient"])
-        tolerance = numerics.sampling_tolerance
-        if not self.control_strips:
-            return required_strips(count, 1, most, self.error, f * tolerance, growth=STRIPS_GROWTH, spare=STRIPS_SPARE)
-        allowed = f * DIFFERENCE_SHARE * numerics.model_tolerance / student(self.difference.freedom)
-        errors = (self.error, math.hypot(f * tolerance, allowed)), (self.difference, allowed)
+        of_sampling = f * numerics.sampling_tolerance
+        targets = [(self.error, of_sampling)]
+        if self.control_strips:
+            of_difference = f * DIFFERENCE_SHARE * numerics.model_tolerance / student(self.difference.freedom)
+            targets = [(self.error, math.hypot(of_sampling, of_difference)), (self.difference, of_difference)]
         return max(
-            required_strips(count, 1, most, error, limit, growth=STRIPS_GROWTH, spare=STRIPS_SPARE)
-            for error, limit in errors
+            strips_for_error(
+                error, target, count=count, first=1, available=most, growth=STRIPS_GROWTH, spare=STRIPS_SPARE
+            )
+            for error, target in targets
         )
 
 
@@ -201,12 +211,12 @@ def two_levels(
     moving = [each for each in places if each is not None]
     if moving:
         estimate = _of_moving(prepared, pairs, moving)
-        return estimate, max(estimate.required_strips(numerics, len(pairs), most), len(pairs))
+        return estimate, max(estimate.strips_for_tolerances(numerics, count=len(pairs), most=most), len(pairs))
     estimates = [
         _of_pairs(prepared, pairs, each) for each in (control, None) if each is None or len(pairs) <= each.count
     ]
     estimates = [each for each in estimates if not each.control_strips or 0 <= each.numbers["contact_load"] <= load]
-    counts = [each.required_strips(numerics, len(pairs), most) for each in estimates]
+    counts = [each.strips_for_tolerances(numerics, count=len(pairs), most=most) for each in estimates]
     chosen = next(
         k
         for k, each in enumerate(estimates)

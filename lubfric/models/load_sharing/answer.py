@@ -10,7 +10,14 @@ from ...contact import ContactResult, HalfSpaceContact
 from ...oil import estimate_in_words
 from ...scene import Scene, has_moving_roughness
 from ..contract import AtInputs, ContactFields, ModelAnswer
-from ..shared import Violation, contact_at_inputs, contact_on_piece, contact_on_strips, exponents, warn_model_error
+from ..shared import (
+    Violation,
+    contact_at_inputs,
+    contact_on_piece,
+    contact_on_strips,
+    exponents,
+    violations_by_model_error,
+)
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
 from .decision import decision_of
@@ -56,7 +63,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         violations=(
             *violations_of_sample(balanced),
             *(
-                warn_model_error(
+                violations_by_model_error(
                     balanced.prepared, max(errors.model), numbers["coefficient"], consequence=FROM_EQUATION
                 )
                 if scene.numerics.model == "auto"

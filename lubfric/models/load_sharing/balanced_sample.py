@@ -27,8 +27,8 @@ from ..shared import (
     contact_on_piece,
     contact_on_strips,
     has_too_few_contacts,
-    required_strips,
     speed_of,
+    strips_for_error,
 )
 from .balance import (
     Balance,
@@ -195,9 +195,13 @@ class BalancedSample:
         contacts = self.scatter.effective_contacts
         few = self.response is not None and has_too_few_contacts(contacts, self.sampling, tolerance)
         at_least = min(FEW_CONTACTS / contacts, (self.sampling / (SAMPLING_MATTERS * tolerance)) ** 2) if few else 0.0
-        error = self.sampling_error
-        count = required_strips(
-            self.count, self.sample.first_strips, self.sample.available_strips, error, tolerance, at_least
+        count = strips_for_error(
+            self.sampling_error,
+            tolerance,
+            count=self.count,
+            first=self.sample.first_strips,
+            available=self.sample.available_strips,
+            at_least=at_least,
         )
         return count if count == self.count else min(self.sample.available_strips, fft.next_fast_len(count, real=True))
 

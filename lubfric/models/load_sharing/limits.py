@@ -6,13 +6,13 @@ from ..shared import (
     Prepared,
     Violation,
     typical_heat,
-    warn_deflection,
-    warn_ends,
-    warn_film,
-    warn_inlet,
-    warn_motion,
-    warn_patches,
-    warn_typical_heat,
+    violations_by_deflection,
+    violations_by_ends,
+    violations_by_film,
+    violations_by_inlet,
+    violations_by_motion,
+    violations_by_patches,
+    violations_by_typical_heat,
 )
 from .balance import Balance
 
@@ -25,18 +25,22 @@ def limits_exceeded(prepared: Prepared, speed: float, balance: Balance, ends: fl
     thickness = film.central_film if film is not None else math.nan
     violations = [
         *prepared.violations,
-        *warn_motion(scene, speed, thickness),
-        *warn_ends(ends, prepared.surface.size[0]),
+        *violations_by_motion(scene, speed, thickness),
+        *violations_by_ends(ends, prepared.surface.size[0]),
     ]
-    violations += warn_patches(scene, prepared.surface.heights, balance.contact_state.real_contact_area_fraction)
+    violations += violations_by_patches(
+        scene, prepared.surface.heights, balance.contact_state.real_contact_area_fraction
+    )
     if film is not None:
         peak = float(film.pressure.max())
         friction = balance.forces
         force = abs(friction.coefficient) * scene.bodies.load
-        violations += warn_inlet(scene, film.line, film.flow_film, force)
-        violations += warn_film(scene, thickness, peak, friction.shear, balance.film_load, force, friction.heat)
+        violations += violations_by_inlet(scene, film.line, film.flow_film, force)
+        violations += violations_by_film(
+            scene, thickness, peak, friction.shear, balance.film_load, force, friction.heat
+        )
         typical = typical_heat(scene, film, balance.contact_state, balance.contact_load, force, friction.shear)
-        violations += warn_typical_heat(scene, typical)
+        violations += violations_by_typical_heat(scene, typical)
         if scene.numerics.film_deflection == "hydrodynamic" and balance.contact_load > 0:
-            violations += warn_deflection(scene, balance.contact_state.mean_gap)
+            violations += violations_by_deflection(scene, balance.contact_state.mean_gap)
     return tuple(violations)

@@ -50,7 +50,7 @@ from ..shared import (
     percent_beside,
     rolling_model_error,
     smooth_over_cells,
-    warn_model_error,
+    violations_by_model_error,
     why_no_rough_film,
 )
 from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, reported, widening
@@ -393,7 +393,7 @@ def quick_answer_of(prepared: Prepared, speed: float, strips: LongStrips) -> Mod
         largest_in_model=largest,
         violations=(
             *warnings,
-            *warn_model_error(
+            *violations_by_model_error(
                 prepared,
                 max(below, above),
                 f,

@@ -10,18 +10,18 @@ from .checks import (
     OMITTED_HEAT,
     meaningless,
     peak_hertz_pressure,
-    warn_deflection,
-    warn_ends,
-    warn_error,
-    warn_film,
-    warn_heat,
-    warn_inlet,
-    warn_motion,
-    warn_patches,
-    warn_pressure,
-    warn_shear,
-    warn_thickness,
-    warn_typical_heat,
+    violations_by_deflection,
+    violations_by_ends,
+    violations_by_film,
+    violations_by_heat,
+    violations_by_inlet,
+    violations_by_motion,
+    violations_by_numerical_error,
+    violations_by_patches,
+    violations_by_pressure,
+    violations_by_shear,
+    violations_by_thickness,
+    violations_by_typical_heat,
 )
 from .checks_before import (
     MAP_WIDTH,
@@ -29,9 +29,9 @@ from .checks_before import (
     beforehand,
     expected_in_film,
     expected_on_hertz,
-    warn_bodies,
-    warn_map,
-    warn_unusual,
+    violations_by_bodies,
+    violations_by_map,
+    violations_by_unusual_inputs,
     why_sample_too_short,
 )
 from .control_variate import ControlVariate
@@ -40,7 +40,7 @@ from .film_speed import exponents, speed_of
 from .heat import Heat, error_by_heat, film_lubricant, inlet_at, peclet_at, point_heat, surroundings, typical_heat
 from .largest_friction import at_largest_ends, largest_at_load, largest_of_oil, largest_sliding_friction
 from .memo import Key, Memo, ReferenceKey, StackKey
-from .model_error import MODEL_ERROR, warn_model_error
+from .model_error import MODEL_ERROR, violations_by_model_error
 from .prepared import (
     Prepared,
     cells_of_contact,
@@ -68,9 +68,9 @@ from .statistics import (
     percent,
     percent_beside,
     percent_of_sides,
-    required_strips,
     sides_in_f,
     smooth_over_cells,
+    strips_for_error,
     student,
 )
 from .unknown_limit import LIMIT_RANGE, limit_bounds, limit_in_words

@@ -73,7 +73,7 @@ REFUSED_SHARE = 0.2
 MOST_FILM_FRICTION = 0.2
 
 
-def warn_motion(scene: Scene, speed: float, thickness: float) -> Iterator[Violation]:
+def violations_by_motion(scene: Scene, speed: float, thickness: float) -> Iterator[Violation]:
     """Yield the violations by sliding, inertia and turbulence at ``speed`` [m/s] and a film thickness [m] (NaN: no film)."""
     ratio = abs(scene.motion.slide_roll_ratio)
     if ratio > OPPOSED * (1 + 1e-12):
@@ -120,14 +120,15 @@ def warn_motion(scene: Scene, speed: float, thickness: float) -> Iterator[Violat
             )
 
 
-def warn_film(
+def violations_by_film(
     scene: Scene, thickness: float, peak: float, shear: ShearForce, film_load: float, force: float, heat: Heat
 ) -> Iterator[Violation]:
-    """Yield the violations by a film of central ``thickness`` [m] and ``peak`` pressure [Pa]; the rest: `warn_shear`, `warn_heat`."""
-    yield from warn_pressure(scene, max(peak, peak_hertz_pressure(scene)))
-    yield from warn_thickness(scene, thickness)
-    yield from warn_shear(scene, shear, film_load, force)
-    yield from warn_heat(scene, heat)
+    """Yield the violations by a film of central ``thickness`` [m] and ``peak`` pressure [Pa], by its ``shear`` and its
+    ``heat``."""
+    yield from violations_by_pressure(scene, max(peak, peak_hertz_pressure(scene)))
+    yield from violations_by_thickness(scene, thickness)
+    yield from violations_by_shear(scene, shear, film_load, force)
+    yield from violations_by_heat(scene, heat)
 
 
 def peak_hertz_pressure(scene: Scene) -> float:
@@ -136,7 +137,7 @@ def peak_hertz_pressure(scene: Scene) -> float:
     return 4 / math.pi * scene.bodies.mean_hertz_pressure
 
 
-def warn_pressure(scene: Scene, peak: float) -> Iterator[Violation]:
+def violations_by_pressure(scene: Scene, peak: float) -> Iterator[Violation]:
     """Yield the violations by the highest film pressure ``peak`` [Pa]."""
     law = scene.lubricant.viscosity_law
     hertz_peak = peak_hertz_pressure(scene)
@@ -176,7 +177,7 @@ def warn_pressure(scene: Scene, peak: float) -> Iterator[Violation]:
     )
 
 
-def warn_thickness(scene: Scene, thickness: float) -> Iterator[Violation]:
+def violations_by_thickness(scene: Scene, thickness: float) -> Iterator[Violation]:
     """Yield the violations by the central film thickness ``thickness`` [m]."""
     radius = scene.bodies.radius
     if not thickness > THICK_FILM * radius:
@@ -192,7 +193,7 @@ def warn_thickness(scene: Scene, thickness: float) -> Iterator[Violation]:
     )
 
 
-def warn_inlet(scene: Scene, line: LineContact, flow: float, friction: float) -> Iterator[Violation]:
+def violations_by_inlet(scene: Scene, line: LineContact, flow: float, friction: float) -> Iterator[Violation]:
     """Yield the violations by a film of ``line``, a `LineContact`, that a given inlet changes: its ``flow`` film [m] over that of a
     full one, by Moes; or what the lubricant farther out would add to ``friction`` |f| F_T [N] by rolling, 12 eta U R/x
     a width from x on: ∫ h/2 dp/dx dx, where the film is far thicker than where it rolls in."""
@@ -220,7 +221,7 @@ def warn_inlet(scene: Scene, line: LineContact, flow: float, friction: float) ->
         )
 
 
-def warn_deflection(scene: Scene, mean_gap: float, recommendation: str = ANOTHER) -> Iterator[Violation]:
+def violations_by_deflection(scene: Scene, mean_gap: float, recommendation: str = ANOTHER) -> Iterator[Violation]:
     """Yield the violations by a film that only its own pressure deflects, over a contact with that ``mean_gap`` [m]: the possible
     error of its share of the load."""
     change = scene.bodies.strip_rise / max(mean_gap, 1e-300)
@@ -231,7 +232,7 @@ def warn_deflection(scene: Scene, mean_gap: float, recommendation: str = ANOTHER
     yield Violation(what=what, value=change, limit=STRIP_SHARE, unit="", consequence=why, recommendation=recommendation)
 
 
-def warn_ends(share: float, length: float) -> Iterator[Violation]:
+def violations_by_ends(share: float, length: float) -> Iterator[Violation]:
     """Yield the violations by the ``share`` of the contact's load on the edge columns of a patch of ``length`` [m] along x."""
     if share > ON_ENDS:
         why = f"the ends of the patch, {worded(length, 'm')} apart, cut the contact off"
@@ -247,7 +248,7 @@ def warn_ends(share: float, length: float) -> Iterator[Violation]:
         )
 
 
-def warn_patches(scene: Scene, heights: FloatArray, area: float) -> Iterator[Violation]:
+def violations_by_patches(scene: Scene, heights: FloatArray, area: float) -> Iterator[Violation]:
     """Yield the violations by asperities that are patches of ``heights`` [m] (nx, ny), whose contact area is the fraction ``area``:
     half of their base area, since they are paraboloids."""
     if scene.contact.model != "patches" or area == 0:
@@ -271,7 +272,9 @@ def meaningless(shear: ShearForce) -> bool:
     return not shear.excess <= 0.5 * abs(shear.couette)
 
 
-def warn_shear(scene: Scene, shear: ShearForce, film_load: float, friction_force: float) -> Iterator[Violation]:
+def violations_by_shear(
+    scene: Scene, shear: ShearForce, film_load: float, friction_force: float
+) -> Iterator[Violation]:
     """Yield the violations by the ``shear`` (`ShearForce`) of a film that carries ``film_load``; ``friction_force``: f F_T; both in
     N, or both per width.
 
@@ -305,8 +308,8 @@ def warn_shear(scene: Scene, shear: ShearForce, film_load: float, friction_force
         )
 
 
-def warn_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
-    """Yield warnings about the ``heat`` of a point that is large, or not known."""
+def violations_by_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
+    """Yield the violations by the ``heat`` of a point that is large, or not known."""
     tolerance = scene.numerics.tolerance
     if heat.is_used and heat.inlet is not None:
         spread = abs(heat.inlet.other / max(heat.inlet.factor, 1e-12) - 1)
@@ -336,7 +339,7 @@ def warn_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
         )
 
 
-def warn_typical_heat(scene: Scene, change: float) -> Iterator[Violation]:
+def violations_by_typical_heat(scene: Scene, change: float) -> Iterator[Violation]:
     """Yield the violations by heat that is omitted because the lubricant does not say how its viscosity falls with the
     temperature. ``change``: the share of f that a typical oil would lose by it (`typical_heat`)."""
     if change > scene.numerics.tolerance:
@@ -353,7 +356,7 @@ def warn_typical_heat(scene: Scene, change: float) -> Iterator[Violation]:
         )
 
 
-def warn_error(error: float | None, tolerance: float, recommendation: str) -> Iterator[Violation]:
+def violations_by_numerical_error(error: float | None, tolerance: float, recommendation: str) -> Iterator[Violation]:
     """Yield a note if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known): the
     interval of f has it."""
     if error is not None and error > tolerance:

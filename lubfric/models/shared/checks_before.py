@@ -11,7 +11,7 @@ from ...film import ShearForce, hertz
 from ...oil import carried_stress, shear_stress
 from ...scene import Bodies, Scene, unusual_values
 from ...surface import Surface, correlation_length, rms_slope
-from .checks import peak_hertz_pressure, warn_motion, warn_pressure, warn_shear
+from .checks import peak_hertz_pressure, violations_by_motion, violations_by_pressure, violations_by_shear
 from .violation import Violation
 
 # Nodes across the Hertz strip of the estimate of the shear: their sum is off by 6e-5 with an Eyring stress.
@@ -58,11 +58,11 @@ def why_sample_too_short(scene: Scene, lengths: float) -> str:
 def beforehand(scene: Scene, surface: Surface) -> tuple[Violation, ...]:
     """Return the violations for values far from the usual, for the bodies and for the map."""
     cells = [_cells_of_length(surface, axis) for axis in (0, 1)]
-    of_map = warn_map(rms_slope(surface)[2], surface.shape[1] / cells[1], cells)
-    return (*warn_unusual(scene), *warn_bodies(scene.bodies), *of_map)
+    of_map = violations_by_map(rms_slope(surface)[2], surface.shape[1] / cells[1], cells)
+    return (*violations_by_unusual_inputs(scene), *violations_by_bodies(scene.bodies), *of_map)
 
 
-def warn_unusual(scene: Scene) -> tuple[Violation, ...]:
+def violations_by_unusual_inputs(scene: Scene) -> tuple[Violation, ...]:
     """Return the violations for values far from the usual."""
     return tuple(
         Violation(
@@ -88,8 +88,8 @@ def _cells_of_length(surface: Surface, axis: int) -> float:
         return math.nan
 
 
-def warn_bodies(bodies: Bodies) -> Iterator[Violation]:
-    """Yield warnings about the half-space and the elasticity of the Hertz contact."""
+def violations_by_bodies(bodies: Bodies) -> Iterator[Violation]:
+    """Yield the violations by a load beyond the half-space and the elasticity of the Hertz contact."""
     wide = bodies.half_width / bodies.radius
     if wide > WIDE_STRIP:
         recommendation = "check bodies.load, e_prime and radius; a lighter load or a stiffer body"
@@ -129,7 +129,7 @@ def warn_bodies(bodies: Bodies) -> Iterator[Violation]:
         )
 
 
-def warn_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterator[Violation]:
+def violations_by_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterator[Violation]:
     """Yield the violations by the map. ``slope``: its rms slope [-]; ``lengths``: its width over its correlation length across the
     motion; ``cells``: in its correlation length along x and y. NaN: not known."""
     if slope > STEEP:
@@ -177,7 +177,8 @@ ExpectedViolations = tuple[tuple[float | None, Violation], ...]
 def expected_on_hertz(scene: Scene) -> ExpectedViolations:
     """Return the limits of the oil that the peak Hertz pressure exceeds at all speeds, none of them severe."""
     return tuple(
-        (None, replace(violation, severe=False)) for violation in warn_pressure(scene, peak_hertz_pressure(scene))
+        (None, replace(violation, severe=False))
+        for violation in violations_by_pressure(scene, peak_hertz_pressure(scene))
     )
 
 
@@ -187,12 +188,12 @@ def expected_in_film(scene: Scene, speeds: list[float]) -> ExpectedViolations:
     for speed in speeds:
         if speed != 0:
             film = scene.line_contact(speed).expected_film
-            expected += [(speed, violation) for violation in warn_motion(scene, speed, film)]
-            expected += [(speed, violation) for violation in _warn_film(scene, speed, film)]
+            expected += [(speed, violation) for violation in violations_by_motion(scene, speed, film)]
+            expected += [(speed, violation) for violation in _expected_violations_by_film(scene, speed, film)]
     return tuple(expected)
 
 
-def _warn_film(scene: Scene, speed: float, thickness: float) -> list[Violation]:
+def _expected_violations_by_film(scene: Scene, speed: float, thickness: float) -> list[Violation]:
     """Return the violations by a film of even ``thickness`` [m] under the Hertz pressure."""
     bodies = scene.bodies
     lubricant = scene.lubricant
@@ -208,4 +209,7 @@ def _warn_film(scene: Scene, speed: float, thickness: float) -> list[Violation]:
         couette=force, rolling=0.0, excess=excess, stress_ratio=float(np.max(stress / carried_stress(pressure)))
     )
     total = max(force, bodies.boundary_friction_coefficient * bodies.load)
-    return [*warn_pressure(scene, peak_hertz_pressure(scene)), *warn_shear(scene, shear, bodies.load, total)]
+    return [
+        *violations_by_pressure(scene, peak_hertz_pressure(scene)),
+        *violations_by_shear(scene, shear, bodies.load, total),
+    ]

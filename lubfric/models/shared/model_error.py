@@ -11,10 +11,10 @@ MODEL_ERROR = "model-form error of f"
 MODEL_ERROR_NEAR_ZERO = f"{MODEL_ERROR} near 0, in f itself,"
 
 
-def warn_model_error(
+def violations_by_model_error(
     prepared: Prepared, error: float, f: float, *, consequence: str, recommendation: str = ""
 ) -> Iterator[Violation]:
-    """Yield a warning where the model-form ``error`` of ``f``, relative, is above ``numerics.model_tolerance``.
+    """Yield a violation where the model-form ``error`` of ``f``, relative, is above ``numerics.model_tolerance``.
 
     ``consequence``: where it comes from; ``recommendation``: what narrows it ("": a longer map, where the surface is measured).
     Where f is near 0, the warning states the error in f itself.

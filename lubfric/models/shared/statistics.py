@@ -126,14 +126,14 @@ def add_errors(*parts: StandardError) -> StandardError:
     return StandardError(math.sqrt(variance), int(variance**2 / sum(v**2 / max(f, 1) for v, f in terms)))
 
 
-def required_strips(
+def strips_for_error(
+    error: StandardError,
+    target: float,
+    *,
     count: int,
     first: int,
     available: int,
-    error: StandardError,
-    target: float,
     at_least: float = 0.0,
-    *,
     growth: tuple[float, float] = SAMPLE_GROWTH,
     spare: tuple[float, float] = (STRIPS_SAFETY, LEAST_GROWTH),
 ) -> int:
