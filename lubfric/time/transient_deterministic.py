@@ -41,7 +41,7 @@ from ..models.deterministic import (
     shifted,
     solve_point,
     strip_heat,
-    surface_and_factors,
+    surface_and_map_coarsening,
     work_of_steps,
 )
 from ..models.shared import Prepared, Violation, block_error, violations_by_motion, violations_by_thickness
@@ -288,12 +288,12 @@ def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
     if not sample.is_resolved:
         raise InputError(" needs a contact of cells under a cylinder", "numerics.model")
     check_deterministic(scene)
-    surface, factors = surface_and_factors(prepared, 0)
+    surface, map_coarsening = surface_and_map_coarsening(prepared, 0)
     maps = maps_of(prepared, 0)
     if len(maps) == 1 and plan.sliding is not None and len(moving_bodies(scene)) > 1:
         raise InputError(" moves two rough bodies apart", "transient.sliding", "a map of each (lubfric.prepare)")
     if not maps:  # smooth
-        surface, factors = replace(surface, heights=surface.heights[:, :1], mask=None), (factors[0], 1)
+        surface, map_coarsening = replace(surface, heights=surface.heights[:, :1], mask=None), (map_coarsening[0], 1)
     speed = plan.speed or Constant(scene.motion.entrainment_speed)
     low, high = speed.range(plan.duration)
     line = scene.line_contact(max(abs(low), abs(high)) or scene.bodies.half_width / plan.duration)
@@ -306,7 +306,7 @@ def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
         hardness=scene.bodies.hardness,
         boundary_film=BOUNDARY_FILM if scene.bodies.boundary_film is None else scene.bodies.boundary_film,
         ends=(upstream, upstream if low <= 0.0 else downstream),
-        factors=factors,
+        map_coarsening=map_coarsening,
     )
     base = replace(base, least_flow=LEAST_FLOW * line.entrainment_speed * line.moes_film)
     of_strip = replace(prepared, surface=surface)

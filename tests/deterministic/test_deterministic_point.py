@@ -166,7 +166,7 @@ def test_the_film_of_longer_cells_leads_to_shorter_ones_in_a_few_whole_steps():
     oil = replace(LIMITED, viscosity=0.02, pressure_viscosity_coefficient=18e-9, limiting_stress_coefficient=0.06)
     surface = lubfric.generate_surface((64, 32), 2.25e-6, sq=150e-9, correlation_length=10e-6, acf="gaussian", seed=1)
     line = contact(1.6e5, 1.0, oil, 6e-3)
-    coarse, fine = (lay_out(surface, line, sliding=2.0, boundary_friction=0.12, factors=(k, k)) for k in (2, 1))
+    coarse, fine = (lay_out(surface, line, sliding=2.0, boundary_friction=0.12, map_coarsening=(k, k)) for k in (2, 1))
     start, least = refined_start(coarse, fine, solve_point(coarse, tolerance=1e-2))
     near, none = (solve_point(fine, start=start, least=part) for part in (least, 2.0))
     assert "from a neighbouring state" in near.report.notes[0] and "from the dry contact" in none.report.notes[0]
@@ -181,7 +181,7 @@ def test_a_gigapascal_starts_from_half_of_the_film(speed):
     oil = Lubricant(0.02, 18e-9, limiting_stress_coefficient=0.06, eyring_stress=5e6)
     surface = lubfric.generate_surface((64, 64), 4e-6, sq=150e-9, correlation_length=10e-6, acf="gaussian", seed=1)
     line = contact(1.6e5, speed, oil, 6e-3)
-    problem = lay_out(surface, line, sliding=2 * speed, boundary_friction=0.12, factors=(2, 2))
+    problem = lay_out(surface, line, sliding=2 * speed, boundary_friction=0.12, map_coarsening=(2, 2))
     result = solve_point(problem, tolerance=3e-3)
     assert result.report.iterations <= 9 and "from the dry contact" in result.report.notes[0]
 
@@ -263,7 +263,7 @@ def test_a_film_between_soft_rollers_is_solved_from_a_cold_start():
         line = LineContact(
             load_per_width=11200.0, radius=9.4e-3, e_prime=19.2e9, entrainment_speed=speed, lubricant=oil
         )
-        return lay_out(surface, line, sliding=2 * speed, boundary_friction=0.1, hardness=1.8e8, factors=(2, 2))
+        return lay_out(surface, line, sliding=2 * speed, boundary_friction=0.1, hardness=1.8e8, map_coarsening=(2, 2))
 
     result = solve_point(at(2.6e-3))
     assert "in time from the dry contact" in result.report.notes[0] and result.report.iterations <= 150
@@ -282,7 +282,7 @@ def test_a_starved_film_is_solved_from_a_cold_start():
     def at(arriving):
         starved = replace(oil, inlet_film=arriving)
         line = LineContact(load_per_width=1e5, radius=12e-3, e_prime=2.27e11, entrainment_speed=1.0, lubricant=starved)
-        return lay_out(surface, line, sliding=2.0, boundary_friction=0.11, factors=(2, 2))
+        return lay_out(surface, line, sliding=2.0, boundary_friction=0.11, map_coarsening=(2, 2))
 
     cold = solve_point(at(60e-9), tolerance=1e-4)
     assert "from the dry contact" in cold.report.notes[0]

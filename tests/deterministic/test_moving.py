@@ -73,7 +73,7 @@ def test_two_discretisations_have_one_limit():
     surface = generate_surface((64, 24), (CELL / 2,) * 2, sq=0.1e-6, correlation_length=12e-6, acf="gaussian", seed=1)
     difference = []
     for factor in (2, 1):
-        problem = laid(surface, sliding=0.6, factors=(factor, factor))
+        problem = laid(surface, sliding=0.6, map_coarsening=(factor, factor))
         steady = solve_point(problem, tolerance=1e-6)
         passing = moments(lambda t: problem, problem.spacing[0] / 0.3, start=steady.state, tolerance=1e-4)
         followed = next(islice(passing, 60 // factor, None)).result
@@ -334,7 +334,7 @@ def test_cells_along_ridges_do_not_matter():
         strip = solve_moving_strip(scene_of(slide_roll_ratio=0.5), body, 0.3, effort=ECONOMICAL, most_steps=12)
         steps = compared_moments(strip)
         longer = solve_moving_strip(
-            scene_of(slide_roll_ratio=0.5), body, 0.3, effort=ECONOMICAL, most_steps=steps, factors=(1, 2)
+            scene_of(slide_roll_ratio=0.5), body, 0.3, effort=ECONOMICAL, most_steps=steps, map_coarsening=(1, 2)
         )
         assert longer.times == pytest.approx(strip.times[: longer.times.size]) and longer.discarded == strip.discarded
         changes.append(StripOnTwoGrids(strip, longer).change_by_cells)

@@ -17,8 +17,8 @@ from lubfric.models.deterministic import (
     attenuated,
     cells_in_a_step,
     control_of,
-    factors_of,
     mean_over_blocks,
+    sample_coarsening_of,
     solve_moving_strip,
 )
 from lubfric.surface import Surface, generate_surface
@@ -182,7 +182,7 @@ def test_a_given_grid_takes_the_cells_of_the_scene_where_roughness_moves():
 
     def cell(scene):
         sample = lubfric.prepare(scene).sample
-        return tuple(factor * step for factor, step in zip(factors_of(scene, sample), sample.cells.spacing))
+        return tuple(factor * step for factor, step in zip(sample_coarsening_of(scene, sample), sample.cells.spacing))
 
     given = scene.with_(numerics={"grid": "given"})
     assert cell(scene) == pytest.approx((4e-6, 8e-6)) and cell(given) == pytest.approx((2e-6, 2e-6))

@@ -24,6 +24,6 @@ def test_the_numerical_error_of_long_cells_holds_f_on_short_ones(speed: float) -
     result = lubfric.friction(lubfric.prepare(ROLLER, long), speed)
     strip = None
     for factor in (4, 2, 1):
-        strip = solve_strip(ROLLER, MAP, speed, factors=(factor, factor), start=strip)
+        strip = solve_strip(ROLLER, MAP, speed, map_coarsening=(factor, factor), start=strip)
     short = strip.result.coefficient
     assert result.uncertainty.numerical > abs(result.coefficient / short - 1) > 0.02

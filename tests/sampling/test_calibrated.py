@@ -23,9 +23,9 @@ from lubfric.models.load_sharing import least_error, starved_error
 from lubfric.models.quick import (
     QuickModel,
     error_models,
-    factors_of_long_cells,
     features,
     long_cells_in_motion,
+    map_coarsening_at_rest,
     numbers_of_strip,
     on_cells_along_x,
     solve_at_rest,
@@ -56,7 +56,7 @@ def patch(shape=(96, 64), spacing=(0.9e-6, 1.2e-6), seed=3):
 def test_long_cells_divide_the_map_and_resolve_roughness_and_contact(dx, dy, rows, length):
     """On a map that resolves both; the cells of another are its own. Cells one longer would be too long."""
     half_width = PAPER.bodies.half_width
-    (fx, fy) = factors_of_long_cells(PAPER, (dx * 1e-6, dy * 1e-6), rows, (length * 1e-6, length * 1e-6))
+    (fx, fy) = map_coarsening_at_rest(PAPER, (dx * 1e-6, dy * 1e-6), rows, (length * 1e-6, length * 1e-6))
     assert fx >= 1 <= fy and rows % fy == 0
     longest = min(length * 1e-6 / 2.5, half_width / 2)
     assert fx == 1 or fx * dx * 1e-6 <= longest * (1 + 1e-6)

@@ -15,11 +15,11 @@ from lubfric.models import DeterministicModel, PaperModel
 from lubfric.models.deterministic import (
     StripOnTwoGrids,
     change_by_flow,
-    factors_of,
     levels,
     moving_point_work,
+    sample_coarsening_of,
     solve_strip,
-    surface_and_factors,
+    surface_and_map_coarsening,
 )
 from lubfric.models.deterministic import (
     shorter_cells as shorter,
@@ -77,7 +77,7 @@ def test_the_effect_of_shorter_cells_is_that_on_other_strips():
     changes = []
     for k in range(3):
         surface = lubfric.prepare(FINE.with_(surface={"seed": 90 + k})).sample.strip(0)
-        coarse, own = (solve_strip(FINE, surface, 0.1, factors=n).result.coefficient for n in ((2, 2), (1, 1)))
+        coarse, own = (solve_strip(FINE, surface, 0.1, map_coarsening=n).result.coefficient for n in ((2, 2), (1, 1)))
         changes.append(own / coarse - 1)
     shift = result.numbers["coefficient"] / alone - 1
     assert len(result.pieces) >= 1 and prepared.sample.cells.coarsening == (4, 4)
@@ -88,7 +88,7 @@ def test_the_effect_of_shorter_cells_is_that_on_other_strips():
 def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
     """f = .05 (1 + (dx/18 µm)^p) on every strip and piece, on cells from 7.2 to 0.9 µm; the scene's own are .45 µm."""
     prepared = lubfric.prepare(FINE)
-    solved = solve_strip(FINE, prepared.sample.strip(0), 0.1, factors=(4, 4))
+    solved = solve_strip(FINE, prepared.sample.strip(0), 0.1, map_coarsening=(4, 4))
     pair = StripOnTwoGrids(solved, solved, None)
     for order, most in ((3.0, 0.01), (1.0, 0.06), (0.5, 0.13)):
 
@@ -180,9 +180,9 @@ def test_where_roughness_moves_cells_along_the_motion_are_a_quarter_of_a_correla
     for motion, most in ((ROLLING, 0.25), ({}, 0.5)):
         prepared = lubfric.prepare(FINE.with_(motion=motion))
         strips = prepared.sample
-        factors = surface_and_factors(prepared, 0)[1]
+        map_coarsening = surface_and_map_coarsening(prepared, 0)[1]
         along, across = (
-            f * cell / one for f, cell, one in zip(factors, strips.cells.spacing, strips.correlation_lengths)
+            f * cell / one for f, cell, one in zip(map_coarsening, strips.cells.spacing, strips.correlation_lengths)
         )
         assert most / 2 < along <= most and 0.25 < across <= 0.5
 
@@ -192,9 +192,9 @@ def test_cells_along_y_are_twice_as_long_where_the_rows_of_a_strip_allow_it():
     for scene in (FINE, FINE.with_(contact={"spacing": 0.48e-6}), FINE.with_(contact={"spacing": 0.53e-6}), PATCH):
         strips = lubfric.prepare(scene).sample
         assert strips.rows == strips.strip(0).shape[1]
-        assert not strips.represents_more or factors_of(scene, strips)[1] == 2
+        assert not strips.represents_more or sample_coarsening_of(scene, strips)[1] == 2
     odd = lubfric.prepare(PATCH.with_(contact={"shape": (40, 33)})).sample
-    assert odd.rows == odd.strip(0).shape[1] == 33 and factors_of(PATCH, odd)[1] == 1
+    assert odd.rows == odd.strip(0).shape[1] == 33 and sample_coarsening_of(PATCH, odd)[1] == 1
 
 
 def test_a_tighter_tolerance_takes_more_strips(prepared, found):
@@ -237,8 +237,8 @@ def test_the_flow_of_a_limit_twice_as_high_by_hand():
     prepared = lubfric.prepare(scene)
     pair = solve_pair(prepared, 0.03, None, 0)
     twice = {"limiting_stress_coefficient": 0.09, "limiting_stress_offset": 2 * scene.lubricant.limiting_stress_offset}
-    surface, factors = surface_and_factors(prepared, 0)
-    other = solve_strip(scene.with_(lubricant=twice), surface, 0.03, factors=factors).result
+    surface, map_coarsening = surface_and_map_coarsening(prepared, 0)
+    other = solve_strip(scene.with_(lubricant=twice), surface, 0.03, map_coarsening=map_coarsening).result
     dx = other.spacing[0]
     ny = other.pressure.shape[1]
     rate = 2 * 0.03 / other.gap
@@ -363,6 +363,10 @@ def test_the_work_of_moving_roughness_is_estimated_within_a_factor_of_two(bodies
     oil = {"eyring_stress": 5e6, "limiting_stress_coefficient": None}
     prepared = lubfric.prepare(scene.with_(lubricant=oil))
     estimate = moving_point_work(
-        prepared.scene, prepared.sample, prepared.surface.sq, speed, factors_of(prepared.scene, prepared.sample)
+        prepared.scene,
+        prepared.sample,
+        prepared.surface.sq,
+        speed,
+        sample_coarsening_of(prepared.scene, prepared.sample),
     )
     assert 0.5 < solve_pair(prepared, speed, None, 0).resolved.work / estimate < 2

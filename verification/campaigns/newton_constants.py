@@ -108,7 +108,7 @@ def films() -> dict[str, Callable[[], Film]]:
     soft_line = LineContact(
         load_per_width=11200.0, radius=9.4e-3, e_prime=19.2e9, entrainment_speed=2.6e-3, lubricant=soft_oil
     )
-    soft = lay_out(soft_map, soft_line, sliding=5e-3, boundary_friction=0.1, hardness=1.8e8, factors=(2, 2))
+    soft = lay_out(soft_map, soft_line, sliding=5e-3, boundary_friction=0.1, hardness=1.8e8, map_coarsening=(2, 2))
     rolling = heavy(1.0)
     return {
         "light, mixed": lambda: at_rest(light(917.0, 0.03)),

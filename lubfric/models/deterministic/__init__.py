@@ -48,6 +48,12 @@ from .strip import (
     solve_strip,
     work_of_steps,
 )
-from .strip_on_two_grids import StripOnTwoGrids, factors_of, numbers_of, sample_target, surface_and_factors
+from .strip_on_two_grids import (
+    StripOnTwoGrids,
+    numbers_of,
+    sample_coarsening_of,
+    sample_target,
+    surface_and_map_coarsening,
+)
 from .summits import SummitControl, attenuated, control_of
 from .time_and_place import TimeAndPlace, mean_over_blocks

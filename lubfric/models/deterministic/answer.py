@@ -43,7 +43,7 @@ from .problem import BOUNDARY_FILM
 from .result import DeterministicResult, stress_with_oil
 from .rough_bodies import map_of, strip_surface
 from .strip import StripSolution, change_by_flow, solve_strip
-from .strip_on_two_grids import factors_of
+from .strip_on_two_grids import sample_coarsening_of
 
 LARGEST_PART = "its largest part is {}"
 FEW_STRIPS = "not known from fewer than three strips"
@@ -294,7 +294,7 @@ def _recommendation(prepared: Prepared) -> str:
 def _shorter_cells_in_motion(prepared: Prepared) -> str:
     """Return how a scene whose roughness moves takes shorter cells, as text."""
     scene = prepared.scene
-    if not prepared.sample.cells.is_native or factors_of(scene, prepared.sample) != (1, 1):
+    if not prepared.sample.cells.is_native or sample_coarsening_of(scene, prepared.sample) != (1, 1):
         return "numerics.grid = 'given' for shorter cells"
     if prepared.is_given or is_measured(scene):
         return "a map with shorter cells and numerics.grid = 'given'"

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ..shared import Prepared, smooth_over_cells
 from .result import DeterministicResult
 from .strip import StripSolution
-from .strip_on_two_grids import factors_of, surface_and_factors
+from .strip_on_two_grids import sample_coarsening_of, surface_and_map_coarsening
 
 # The constants of the effect of the cells where roughness moves are fitted to `verification.campaigns.moving_cells`: f of
 # narrow strips of random contacts on cells half as long along both axes, extrapolated by second order. They are judged by
@@ -119,7 +119,7 @@ def cells_in_motion(prepared: Prepared, strips: Sequence[StripSolution], by_long
     (coarse_x, coarse_y) = (
         factor * cell / length
         for factor, cell, length in zip(
-            factors_of(prepared.scene, sample), sample.cells.spacing, sample.correlation_lengths, strict=True
+            sample_coarsening_of(prepared.scene, sample), sample.cells.spacing, sample.correlation_lengths, strict=True
         )
     )
     return CellsInMotion(
@@ -129,7 +129,7 @@ def cells_in_motion(prepared: Prepared, strips: Sequence[StripSolution], by_long
         coarse_b=strips[0].problem.spacing[0] / prepared.scene.bodies.half_width,
         by_longer=by_longer,
         follows_lubricant=all(strip.follows_lubricant for strip in strips),
-        is_smooth=smooth_over_cells(surface_and_factors(prepared, 0)[0].heights),
+        is_smooth=smooth_over_cells(surface_and_map_coarsening(prepared, 0)[0].heights),
         sliding_share=sliding_share_of(results),
     )
 

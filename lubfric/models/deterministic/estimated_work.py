@@ -16,7 +16,7 @@ from .moving_strip import OF_SHEAR
 from .problem import are_soft, reach
 from .rough_bodies import MOST_WORK_IN_AUTO, moving_point_work
 from .shorter_cells import LAST_PIECE, SHORT
-from .strip_on_two_grids import factors_of
+from .strip_on_two_grids import sample_coarsening_of
 
 # Newton steps on a strip, about.
 STRIP_STEPS = 9
@@ -105,8 +105,8 @@ def estimated_work(
     sq = surface.sq
     if speed == 0 or sq == 0 or not sample.is_resolved:
         return NO_WORK
-    both = factors_of(scene, sample)
-    one_strip = moving_point_work(scene, sample, sq, speed, both) if has_moving_roughness(scene) else 0.0
+    sample_coarsening = sample_coarsening_of(scene, sample)
+    one_strip = moving_point_work(scene, sample, sq, speed, sample_coarsening) if has_moving_roughness(scene) else 0.0
     if scene.transient is not None or why_gap_not_resolved(scene):
         strip_seconds = _seconds_in_motion(scene, sample, sq, speed, one_strip) if one_strip else 0.0
         return WorkEstimate(strips=0, seconds=0.0, strip_seconds=strip_seconds)
@@ -145,7 +145,7 @@ def _work_at_rest(
 ) -> float:
     """Return the counted work [s] of ``count`` strips whose roughness rests, of shorter cells, and of so many ``ends``
     of input ranges; ``is_smooth``: whether the heights are smooth over a cell."""
-    (fx, fy) = factors_of(scene, sample)
+    (fx, fy) = sample_coarsening_of(scene, sample)
     (dx, dy) = sample.cells.spacing
     (ux, uy) = sample.cells.coarsening
     cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * sample.strip_length / (fy * dy)
@@ -209,15 +209,15 @@ def pictured_length(scene: Scene, sample: Sample) -> float:
 
 
 def work_on_strips(
-    scene: Scene, sample: Sample, sq: float, speed: float, cell_ratios: tuple[float, float], count: int
+    scene: Scene, sample: Sample, sq: float, speed: float, sample_coarsening: tuple[float, float], count: int
 ) -> float:
-    """Return the counted work [s] of ``count`` strips on cells ``cell_ratios`` times as long as those of ``sample``, and of the
+    """Return the counted work [s] of ``count`` strips on cells ``sample_coarsening`` times as long as those of ``sample``, and of the
     ends of input ranges; ``sq`` [m]: of the surface."""
     if has_moving_roughness(scene):
         continued = tuple(ends for ends in scene.ranges if ends[0] not in OF_SHEAR)  # the others are not solved again
-        work = moving_point_work(replace(scene, ranges=continued), sample, sq, speed, cell_ratios)
+        work = moving_point_work(replace(scene, ranges=continued), sample, sq, speed, sample_coarsening)
         return count * _seconds_in_motion(scene, sample, sq, speed, work)
-    (fx, fy) = cell_ratios
+    (fx, fy) = sample_coarsening
     (dx, dy) = sample.cells.spacing
     (ux, uy) = sample.refinement
     length = sum(reach(scene.line_contact(abs(speed)), sq))

@@ -23,7 +23,7 @@ from .estimated_work import estimated_work
 from .heat import why_too_hot
 from .levels import Levels, TwoLevelEstimate, levels_of, solve_strips, two_levels
 from .rough_bodies import why_too_costly
-from .strip_on_two_grids import StripOnTwoGrids, factors_of
+from .strip_on_two_grids import StripOnTwoGrids, sample_coarsening_of
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -115,7 +115,7 @@ class DeterministicModel(Model):
         """Solve the first ``count`` strips.
 
         The strips are those of ``prepared.sample``, whatever cells ``sample`` has, because this model chooses its own
-        (`factors_of`).
+        (`sample_coarsening_of`).
         """
         solved = start.pairs if isinstance(start, DeterministicSolution) else ()
         strips = solve_strips(prepared, speed, count, solved)
@@ -131,4 +131,4 @@ class DeterministicModel(Model):
         why = why_gap_not_resolved(prepared.scene, is_joint=prepared.is_joint) or why_too_hot(cheaper.heat())
         if why:
             return f"not the deterministic model: {why}"
-        return why_too_costly(prepared, speed, factors_of(prepared.scene, prepared.sample))
+        return why_too_costly(prepared, speed, sample_coarsening_of(prepared.scene, prepared.sample))

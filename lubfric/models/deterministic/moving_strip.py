@@ -219,7 +219,7 @@ def solve_moving_strip(
     bodies: Sequence[RoughBody],
     speed: float,
     *,
-    factors: tuple[int, int] = (1, 1),
+    map_coarsening: tuple[int, int] = (1, 1),
     start: StripSolution | None = None,
     find_slope: bool = False,
     effort: MovingEffort | None = None,
@@ -234,14 +234,16 @@ def solve_moving_strip(
 
     Parameters
     ----------
-    factors, start, find_slope : as in `solve_strip`, for the roughness at rest, from which the motion starts
+    map_coarsening, start, find_slope : as in `solve_strip`, for the roughness at rest, from which the motion starts
     effort : None: `effort_for` the contact
     most_steps : moments that count, at most (None: a complete pass of the map)
     target : None: the complete map passes
     """
-    effort = effort_of(scene, bodies, speed, factors) if effort is None else effort
+    effort = effort_of(scene, bodies, speed, map_coarsening) if effort is None else effort
     near = None if start is None else start.at_rest
-    rest = strip_at_rest(scene, bodies, speed, factors=factors, start=near, find_slope=find_slope, effort=effort)
+    rest = strip_at_rest(
+        scene, bodies, speed, map_coarsening=map_coarsening, start=near, find_slope=find_slope, effort=effort
+    )
     step, discarded, count = _steps_of(scene, bodies, speed, rest.problem.spacing[0], effort)
     count = count if most_steps is None else min(count, most_steps)
     travelled = _travelled(bodies, speed, step, half_width(rest.problem.line))
@@ -330,9 +332,9 @@ def continued_strip(scene: Scene, speed: float, strip: MovingStripSolution) -> t
     bodies = strip.bodies
     cell = rest.problem.spacing[0]
     (dx, dy) = bodies[0].surface.spacing
-    factors = (round(cell / dx), round(rest.problem.spacing[1] / dy))
+    map_coarsening = (round(cell / dx), round(rest.problem.spacing[1] / dy))
     surface, upper = _combined(bodies)
-    problem = problem_of(scene, surface, speed, factors, upper, strip.ends)
+    problem = problem_of(scene, surface, speed, map_coarsening, upper, strip.ends)
     step = float(strip.times[0])
     (discarded, counted) = continued_moments(rest.problem.line, cell, abs(speed) * step, strip.effort)
     begun = float(strip.times[strip.discarded - 1])
@@ -411,17 +413,17 @@ def strip_at_rest(
     bodies: Sequence[RoughBody],
     speed: float,
     *,
-    factors: tuple[int, int] = (1, 1),
+    map_coarsening: tuple[int, int] = (1, 1),
     start: StripSolution | None = None,
     find_slope: bool = False,
     effort: MovingEffort | None = None,
 ) -> StripSolution:
     """Solve the strip of `solve_moving_strip` with its roughness at rest, unchanged at time 0."""
     surface, upper = _combined(bodies)
-    effort = effort_of(scene, bodies, speed, factors) if effort is None else effort
+    effort = effort_of(scene, bodies, speed, map_coarsening) if effort is None else effort
     ends = _ends(scene, bodies, speed, effort)
     return solve_strip(
-        scene, surface, speed, factors=factors, start=start, find_slope=find_slope, upper=upper, ends=ends
+        scene, surface, speed, map_coarsening=map_coarsening, start=start, find_slope=find_slope, upper=upper, ends=ends
     )
 
 
@@ -506,12 +508,12 @@ def _mean(rows: Sequence[dict[str, Any]], last: DeterministicResult) -> Determin
 
 
 def effort_of(
-    scene: Scene, bodies: Sequence[RoughBody], speed: float, factors: tuple[int, int] = (1, 1)
+    scene: Scene, bodies: Sequence[RoughBody], speed: float, map_coarsening: tuple[int, int] = (1, 1)
 ) -> MovingEffort:
-    """Return the `effort_for` the contact of ``scene`` at ``speed`` [m/s], on cells ``factors`` times as long as those of
+    """Return the `effort_for` the contact of ``scene`` at ``speed`` [m/s], on cells ``map_coarsening`` times as long as those of
     the maps."""
     surface, _ = _combined(bodies)
-    return effort_for(scene.line_contact(abs(speed)), surface.sq, factors[0] * surface.spacing[0])
+    return effort_for(scene.line_contact(abs(speed)), surface.sq, map_coarsening[0] * surface.spacing[0])
 
 
 def effort_for(line: LineContact, sq: float, cell: float) -> MovingEffort:

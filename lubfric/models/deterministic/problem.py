@@ -176,21 +176,23 @@ def lay_out(
     hardness: float | None = None,
     boundary_film: float = BOUNDARY_FILM,
     ends: tuple[float, float] | None = None,
-    factors: tuple[int, int] = (1, 1),
+    map_coarsening: tuple[int, int] = (1, 1),
 ) -> Problem:
     """Return the `Problem` of ``surface``, its middle under the line of contact, on its own cells or on cells
-    ``factors`` (fx, fy) times as long, which take every fx-th and fy-th of its heights where they are.
+    ``map_coarsening`` (fx, fy) times as long, which take every fx-th and fy-th of its heights where they are.
 
     If the grid is longer than the map, the map is repeated, or mirrored if it is not periodic along x. ``ends`` [m]:
-    lengths up and down stream (default: `reach`). Raises `InputError` for more cells than `MOST_GRID_CELLS`, and for factors
-    that do not divide the map.
+    lengths up and down stream (default: `reach`). Raises `InputError` for more cells than `MOST_GRID_CELLS`, and for a
+    coarsening that does not divide the map.
     """
     (nx, ny) = surface.shape
-    (fx, fy) = factors
+    (fx, fy) = map_coarsening
     dx = surface.spacing[0] * fx
     dy = surface.spacing[1] * fy
     if ny % fy:
-        raise InputError(f"factors = {factors} do not divide the {ny} cells of the map along y; allowed: its divisors")
+        raise InputError(
+            f"map_coarsening = {map_coarsening} does not divide the {ny} cells of the map along y; allowed: its divisors"
+        )
     upstream, downstream = reach(line, surface.sq) if ends is None else ends
     begins = line.lubricant.inlet_length
     if begins is not None and begins < upstream + dx:  # the first cell is the first that is all behind it

@@ -80,13 +80,15 @@ def summit_control(prepared: Prepared) -> SummitControl | None:
     return prepared.memo.get(key, make)
 
 
-def moving_point_work(scene: Scene, sample: Sample, sq: float, speed: float, cell_ratios: tuple[float, float]) -> float:
+def moving_point_work(
+    scene: Scene, sample: Sample, sq: float, speed: float, sample_coarsening: tuple[float, float]
+) -> float:
     """Estimate the counted work [s] of a point on one strip of moving roughness, ends of input ranges included.
 
-    The cells are ``cell_ratios`` times as long as those of ``sample``; ``sq`` [m]: of the surface. The ends of a range of
+    The cells are ``sample_coarsening`` times as long as those of ``sample``; ``sq`` [m]: of the surface. The ends of a range of
     the hardness are omitted, because in most contacts no pressure reaches them.
     """
-    (fx, fy) = cell_ratios
+    (fx, fy) = sample_coarsening
     (dx, dy) = sample.cells.spacing
     line = scene.line_contact(abs(speed))
     effort = effort_for(line, sq, fx * dx)
@@ -100,11 +102,15 @@ def moving_point_work(scene: Scene, sample: Sample, sq: float, speed: float, cel
     return moving_work(line, sq, fx * dx, fastest, sample.cells.columns * dx, cells, continuations)
 
 
-def why_too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -> str:
+def why_too_costly(prepared: Prepared, speed: float, sample_coarsening: tuple[float, float]) -> str:
     """Return why "auto" leaves moving roughness to load sharing; "" if it does not."""
     scene = prepared.scene
     sample = prepared.sample
-    work = moving_point_work(scene, sample, prepared.surface.sq, speed, factors) if has_moving_roughness(scene) else 0.0
+    work = (
+        moving_point_work(scene, sample, prepared.surface.sq, speed, sample_coarsening)
+        if has_moving_roughness(scene)
+        else 0.0
+    )
     if work <= MOST_WORK_IN_AUTO:
         return ""
     return (

@@ -39,10 +39,10 @@ from .strip import (
 )
 from .strip_on_two_grids import (
     StripOnTwoGrids,
-    factors_of,
     longer_than,
     numbers_of,
-    surface_and_factors,
+    sample_coarsening_of,
+    surface_and_map_coarsening,
 )
 
 # The effects of half and twice a constant are those on three points of the scene "paper" (`python -m
@@ -165,8 +165,8 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
         return ShorterCells(error=UNSOLVED_FACTOR * error, has_unsolved=True)
     changes = [piece[-1].result.coefficient / piece[1].result.coefficient - 1 for piece in pieces]
     change = abs(float(np.mean(changes)))  # its error is reported
-    factors = zip(factors_of(scene, sample), sample.cells.coarsening)
-    halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to native ones
+    coarsening = (s * n for s, n in zip(sample_coarsening_of(scene, sample), sample.cells.coarsening))
+    halvings = round(math.log2(max(coarsening)))  # from the cells of the strips to native ones
     floor = max(SOLVED, error_of_soft_bodies(pieces[0][-1]))
     error = max(error_by_cells((by_longer, change), max(halvings - 1, 1)), floor)
     if error <= tolerance or halvings < 2 or _is_costly(sample, pairs, pieces):
@@ -197,7 +197,7 @@ def _are_enough(prepared: Prepared, error: float) -> bool:
     """Return whether the cells of the strips, with this estimated ``error`` of f, are short enough, or native."""
     scene = prepared.scene
     sample = prepared.sample
-    if sample.cells.is_native and factors_of(scene, sample) == (1, 1):
+    if sample.cells.is_native and sample_coarsening_of(scene, sample) == (1, 1):
         return True
     if error > scene.numerics.tolerance:
         return False
@@ -212,7 +212,7 @@ def _third_level(
     """Return the pieces of the third level, and the standard error of their mean relative change of f."""
     sample = prepared.sample
     is_short = sample.strip_length < SHORT * sample.correlation_lengths[1]
-    if is_short and surface_and_factors(prepared, 0)[1] != (1, 1):
+    if is_short and surface_and_map_coarsening(prepared, 0)[1] != (1, 1):
         return _pieces(prepared, speed, pairs[0])
     if _by_boundary_film([pair.resolved for pair in pairs]) > SPEED_MATTERS:
         return _pieces(prepared, speed, None)
@@ -319,23 +319,27 @@ def _refined(
     found by a second solve)."""
     scene = prepared.scene
     sample = prepared.sample
-    surface, factors = surface_and_factors(prepared, index)
+    surface, map_coarsening = surface_and_map_coarsening(prepared, index)
     enough = scene.numerics.tolerance if sample.refines_in_place and scene.numerics.grid != "given" else 0.0
     if first is not None:
         ladder = [first.longer, first.resolved]
     else:
-        cells = tuple(f * n for f, n in zip(factors, sample.cells.coarsening))
-        last = max(1, cells[0] // times), max(1, cells[1] // times)
-        factors = cells[0] // last[0], cells[1] // last[1]
+        coarsening = tuple(m * n for m, n in zip(map_coarsening, sample.cells.coarsening))
+        last = max(1, coarsening[0] // times), max(1, coarsening[1] // times)
+        map_coarsening = coarsening[0] // last[0], coarsening[1] // last[1]
         surface = map_of(prepared, contact_on_piece(prepared, sample, index, last, length=length))
         longer: StripSolution | None = None
         with suppress(ConvergenceError):  # it is a start only, and cells so long may have no solution
-            longer = solve_strip(scene, surface, speed, factors=longer_than(surface, factors), most=AS_START)
-        strip = solve_strip(scene, surface, speed, factors=factors, start=longer, find_slope=slope is None)
+            longer = solve_strip(
+                scene, surface, speed, map_coarsening=longer_than(surface, map_coarsening), most=AS_START
+            )
+        strip = solve_strip(
+            scene, surface, speed, map_coarsening=map_coarsening, start=longer, find_slope=slope is None
+        )
         ladder = [strip if longer is None else longer, strip]
-    while factors != (1, 1) and (len(ladder) == 2 or error_by_cells(changes_of(ladder)) > enough):
-        factors = max(1, factors[0] // 2), max(1, factors[1] // 2)
-        ladder.append(solve_strip(scene, surface, speed, factors=factors, start=ladder[-1]))
+    while map_coarsening != (1, 1) and (len(ladder) == 2 or error_by_cells(changes_of(ladder)) > enough):
+        map_coarsening = max(1, map_coarsening[0] // 2), max(1, map_coarsening[1] // 2)
+        ladder.append(solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=ladder[-1]))
     slope = ladder[1].slope if slope is None else slope
     return tuple(replace(one, slope=slope) for one in ladder)
 

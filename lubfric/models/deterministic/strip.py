@@ -109,8 +109,8 @@ class StripSolution:
         """
         strip = make_map()
         dx, dy = self.problem.spacing
-        factors = (round(dx / strip.spacing[0]), round(dy / strip.spacing[1]))
-        return solve_strip(scene, strip, speed, factors=factors, start=self).result
+        map_coarsening = (round(dx / strip.spacing[0]), round(dy / strip.spacing[1]))
+        return solve_strip(scene, strip, speed, map_coarsening=map_coarsening, start=self).result
 
     @property
     def deviations(self) -> np.ndarray:
@@ -126,7 +126,7 @@ def solve_strip(
     surface: Surface,
     speed: float,
     *,
-    factors: tuple[int, int] = (1, 1),
+    map_coarsening: tuple[int, int] = (1, 1),
     start: StripSolution | None = None,
     find_slope: bool = False,
     tolerance: float = STRIP_RESIDUAL,
@@ -136,8 +136,8 @@ def solve_strip(
 ) -> StripSolution:
     """Solve ``surface``, a strip that is periodic along y, under the bodies of ``scene`` at ``speed`` [m/s], not 0.
 
-    The cells are those of the map, or ``factors`` (fx, fy) times as long: they take every fx-th and fy-th height where
-    it is, so that strips of different factors are the same strip. ``start``: the same strip at another speed, on these
+    The cells are those of the map, or ``map_coarsening`` (fx, fy) times as long: they take every fx-th and fy-th height
+    where it is, so that strips of different coarsening are the same strip. ``start``: the same strip at another speed, on these
     cells or on longer ones. Without it, strip and speed alone decide the result; many cells then start from cells
     twice as long. ``find_slope``: solve it a second time, for `StripSolution.slope`. ``tolerance``: of the residuals
     (`lubfric.models.deterministic.state.residuals`). ``upper``: the part of ``surface`` that is surface 2, where both
@@ -147,14 +147,14 @@ def solve_strip(
     Raises `InputError` and `ConvergenceError`.
     """
     check_resolved_gap(scene)
-    problem = problem_of(scene, surface, speed, factors, upper, ends)
+    problem = problem_of(scene, surface, speed, map_coarsening, upper, ends)
     work = 0.0
     rise = math.nan
-    longer = (2 * factors[0], 2 * factors[1])
+    longer = (2 * map_coarsening[0], 2 * map_coarsening[1])
     if start is None and problem.heights.size > MANY_CELLS and surface.shape[1] % longer[1] == 0:
         with suppress(ConvergenceError):
             start = solve_strip(
-                scene, surface, speed, factors=longer, tolerance=LONGER_CELLS_RESIDUAL, upper=upper, ends=ends
+                scene, surface, speed, map_coarsening=longer, tolerance=LONGER_CELLS_RESIDUAL, upper=upper, ends=ends
             )
             work = start.work
     near, least = (None, 0.0) if start is None else refined_start(start.problem, problem, start.result)
@@ -196,12 +196,12 @@ def problem_of(
     scene: Scene,
     surface: Surface,
     speed: float,
-    factors: tuple[int, int] = (1, 1),
+    map_coarsening: tuple[int, int] = (1, 1),
     upper: Surface | None = None,
     ends: tuple[float, float] | None = None,
 ) -> Problem:
-    """Return the problem of ``surface`` under the bodies of ``scene`` at ``speed`` [m/s], not 0, on its own cells or on cells ``factors``
-    times as long (`lay_out`). For a negative speed the maps are turned. ``upper``: the part of it that is surface 2
+    """Return the problem of ``surface`` under the bodies of ``scene`` at ``speed`` [m/s], not 0, on its own cells or on
+    cells ``map_coarsening`` times as long (`lay_out`). For a negative speed the maps are turned. ``upper``: the part of it that is surface 2
     (all of it where only the counterface is rough). The lubricant flows with the viscosity of its heated inlet."""
     film = scene.bodies.boundary_film
     ratio = scene.motion.slide_roll_ratio
@@ -219,7 +219,7 @@ def problem_of(
         boundary_friction=scene.bodies.boundary_friction_coefficient,
         hardness=scene.bodies.hardness,
         boundary_film=BOUNDARY_FILM if film is None else film,
-        factors=factors,
+        map_coarsening=map_coarsening,
         ends=ends,
     )
     heights = None if upper is None else shifted(problem, turned(upper))(0.0)

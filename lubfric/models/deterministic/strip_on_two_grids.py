@@ -49,8 +49,8 @@ class StripOnTwoGrids:
         return self.resolved.change_from(self.longer)
 
 
-def factors_of(scene: Scene, sample: Sample) -> tuple[int, int]:
-    """Return the length of the cells of the deterministic model in cells of the ``sample``, along x and y: 2, or 1
+def sample_coarsening_of(scene: Scene, sample: Sample) -> tuple[int, int]:
+    """Return the length of the cells of the deterministic model in those of the ``sample``, along x and y: 2, or 1
     where 2 would leave less than `PER_LENGTH` (or `PER_LENGTH_IN_MOTION`) in a correlation length or `PER_HALF_WIDTH`
     in half the Hertz strip, or does not divide the rows of a strip. Where roughness moves, whose cells are not refined,
     ``numerics.grid = "given"`` takes those of the scene."""
@@ -67,20 +67,20 @@ def factors_of(scene: Scene, sample: Sample) -> tuple[int, int]:
     return 1 + along, 1 + across
 
 
-def surface_and_factors(prepared: Prepared, index: int) -> tuple[Surface, tuple[int, int]]:
-    """Return strip ``index`` and the length of the cells of the deterministic model in its own; of a patch at rest all of it,
-    on the map's own cells."""
+def surface_and_map_coarsening(prepared: Prepared, index: int) -> tuple[Surface, tuple[int, int]]:
+    """Return the map of strip ``index``, and the length of the cells of the deterministic model in those of this map. The map
+    of a patch at rest is all of it, on its own cells (`Sample.refinement`)."""
     sample = prepared.sample
-    fx, fy = factors_of(prepared.scene, sample)
-    ux, uy = (1, 1) if has_moving_roughness(prepared.scene) else sample.refinement
-    return strip_surface(prepared, index), (fx * ux, fy * uy)
+    (sx, sy) = sample_coarsening_of(prepared.scene, sample)
+    (rx, ry) = (1, 1) if has_moving_roughness(prepared.scene) else sample.refinement
+    return strip_surface(prepared, index), (sx * rx, sy * ry)
 
 
-def longer_than(surface: Surface, factors: tuple[int, int], *, moving: bool = False) -> tuple[int, int]:
-    """Return cells of ``surface`` twice as long as ``factors``; as long along y where twice that does not divide the
-    map, and along x where roughness is ``moving``."""
-    along = factors[0] if moving else 2 * factors[0]
-    return along, factors[1] if surface.shape[1] % (2 * factors[1]) else 2 * factors[1]
+def longer_than(surface: Surface, map_coarsening: tuple[int, int], *, moving: bool = False) -> tuple[int, int]:
+    """Return twice ``map_coarsening``; the same along y where twice that does not divide the map ``surface``, and along x where
+    roughness is ``moving``."""
+    along = map_coarsening[0] if moving else 2 * map_coarsening[0]
+    return along, map_coarsening[1] if surface.shape[1] % (2 * map_coarsening[1]) else 2 * map_coarsening[1]
 
 
 def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int) -> StripOnTwoGrids:
@@ -90,30 +90,32 @@ def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int
     place show it). Raises `ConvergenceError`.
     """
     scene = prepared.scene
-    surface, factors = surface_and_factors(prepared, index)
+    surface, map_coarsening = surface_and_map_coarsening(prepared, index)
     find_slope = slope is None
-    longer_cells = longer_than(surface, factors, moving=has_moving_roughness(scene))
+    longer_cells = longer_than(surface, map_coarsening, moving=has_moving_roughness(scene))
     longer: StripSolution
     strip: StripSolution
     if has_moving_roughness(scene):
         bodies = bodies_of(prepared, index, speed)
-        longer = strip_at_rest(scene, bodies, speed, factors=longer_cells)
+        longer = strip_at_rest(scene, bodies, speed, map_coarsening=longer_cells)
         target = sample_target(prepared, MOVING_SAMPLE * scene.numerics.sampling_tolerance)
-        strip = moving = solve_moving_strip(scene, bodies, speed, factors=factors, start=longer, target=target)
-        if longer_cells[1] > factors[1]:
+        strip = moving = solve_moving_strip(
+            scene, bodies, speed, map_coarsening=map_coarsening, start=longer, target=target
+        )
+        if longer_cells[1] > map_coarsening[1]:
             with suppress(ConvergenceError):  # then the change at rest is all that is known
                 longer = solve_moving_strip(
                     scene,
                     bodies,
                     speed,
-                    factors=longer_cells,
+                    map_coarsening=longer_cells,
                     start=longer,
                     effort=moving.effort,
                     most_steps=compared_moments(moving),
                 )
     else:
-        longer = solve_strip(scene, surface, speed, factors=longer_cells)
-        strip = solve_strip(scene, surface, speed, factors=factors, start=longer, find_slope=find_slope)
+        longer = solve_strip(scene, surface, speed, map_coarsening=longer_cells)
+        strip = solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + longer.work)
     is_mirrored = prepared.sample.distinct_rows(surface.heights) < surface.shape[1]
     return StripOnTwoGrids(strip, longer, is_mirrored)

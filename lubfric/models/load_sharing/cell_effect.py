@@ -185,13 +185,13 @@ def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, in
     changes: list[float] = []
     states: list[ContactState] = []
     remaining_change = math.inf
-    for factors in ladder:
-        rough_contact = contact_on_piece(prepared, sample, index, factors)
+    for coarsening in ladder:
+        rough_contact = contact_on_piece(prepared, sample, index, coarsening)
         if remaining_change <= enough and rough_contact.heights.size > MOST_PIECE_CELLS:
             break
         start = states[-1] if states else None
         states.append(point.pressed(rough_contact, balance.film, balance.contact_load, start))
-        places.append(_along_y(rough_contact, states[-1], slope, coarse.coarsening[1] // factors[1]))
+        places.append(_along_y(rough_contact, states[-1], slope, coarse.coarsening[1] // coarsening[1]))
         if len(places) > 1:
             changes.append(float(np.mean(places[-1][0]) - np.mean(places[-2][0])))
             remaining_change = remaining(changes)
@@ -281,7 +281,7 @@ def lost_summits(prepared: Prepared, point: Point, balance: Balance, sample: Sam
     its distance to the film above it."""
     assert balance.film is not None
     native, coarse = (
-        point.pressed(contact_on_piece(prepared, sample, 0, factors), balance.film, 0.0, None).mean_gap
-        for factors in ((1, 1), sample.cells.coarsening)
+        point.pressed(contact_on_piece(prepared, sample, 0, coarsening), balance.film, 0.0, None).mean_gap
+        for coarsening in ((1, 1), sample.cells.coarsening)
     )
     return native - coarse

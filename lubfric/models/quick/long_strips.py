@@ -97,7 +97,7 @@ LEAST_NEAR = 0.01
 MOST_ROLLING = 1.5
 
 
-def factors_of_long_cells(
+def map_coarsening_at_rest(
     scene: Scene, spacing: Sequence[float], rows: int, lengths: Sequence[float]
 ) -> tuple[int, int]:
     """Return the length of the long cells in those of a map of roughness at rest, of this ``spacing`` [m] and with so many
@@ -115,12 +115,20 @@ def _divisor(rows: int, most: float) -> int:
 
 @dataclass(frozen=True, kw_only=True)
 class LongCellsInMotion:
-    """Rough ``bodies`` that move, with their maps on long cells along x, ``per_length`` in a correlation length; ``factors``: what is left of the length of the long
-    cells in those of these maps; ``effort``: how accurately the film is followed; ``rest``: the strip at rest there."""
+    """Rough bodies that move, on long cells.
+
+    Attributes
+    ----------
+    bodies : their maps have the long cells along x, but not along y
+    per_length : number of long cells along x in a correlation length
+    map_coarsening : length of the long cells in those of these maps, (1, fy)
+    effort : how accurately the film is followed
+    rest : the strip at rest on these cells
+    """
 
     bodies: tuple[RoughBody, ...]
     per_length: float
-    factors: tuple[int, int]
+    map_coarsening: tuple[int, int]
     effort: MovingEffort
     rest: StripSolution
 
@@ -151,20 +159,22 @@ def long_cells_of(
     """Return rough ``bodies`` on cells of which ``per_length`` along x are in a correlation length, and in the Hertz
     half-width; other arguments as of `long_cells_in_motion`."""
     (nx, ny) = bodies[0].surface.shape
-    (along, across) = factors_in_motion(scene, bodies[0].surface.spacing, ny, lengths, per_length)
+    (along, across) = map_coarsening_in_motion(scene, bodies[0].surface.spacing, ny, lengths, per_length)
     count = math.ceil(nx / along * (1 - ROUNDING))
     bodies = tuple(body._replace(surface=on_cells_along_x(body.surface, count)) for body in bodies)
-    factors = (1, across)
-    effort = effort_of(scene, bodies, speed, factors)
+    map_coarsening = (1, across)
+    effort = effort_of(scene, bodies, speed, map_coarsening)
     effort = LOOSER_EFFORT if effort == TIGHT else effort
-    rest = strip_at_rest(scene, bodies, speed, factors=factors, effort=effort)
-    return LongCellsInMotion(bodies=bodies, per_length=per_length, factors=factors, effort=effort, rest=rest)
+    rest = strip_at_rest(scene, bodies, speed, map_coarsening=map_coarsening, effort=effort)
+    return LongCellsInMotion(
+        bodies=bodies, per_length=per_length, map_coarsening=map_coarsening, effort=effort, rest=rest
+    )
 
 
-def factors_in_motion(
+def map_coarsening_in_motion(
     scene: Scene, spacing: Sequence[float], rows: int, lengths: Sequence[float], per_length: float
 ) -> tuple[float, int]:
-    """Return the same as `factors_of_long_cells` where roughness moves: along x as long as they may be, because the maps are
+    """Return the same as `map_coarsening_at_rest` where roughness moves: along x as long as they may be, because the maps are
     laid out anew there; ``per_length`` as of `long_cells_of`."""
     longest = min(lengths[0], scene.bodies.half_width) / per_length
     return max(1.0, longest / spacing[0]), _divisor(rows, lengths[1] / CELLS_IN_MOTION[1] / spacing[1])
@@ -189,17 +199,17 @@ def on_cells_along_x(surface: Surface, count: int) -> Surface:
 
 
 def solve_at_rest(
-    scene: Scene, surface: Surface, speed: float, factors: tuple[int, int], slope: float | None = math.nan
+    scene: Scene, surface: Surface, speed: float, map_coarsening: tuple[int, int], slope: float | None = math.nan
 ) -> StripOnTwoGrids:
-    """Solve the strip ``surface`` at ``speed`` [m/s], not 0, on cells ``factors`` times as long as its own, and before on
+    """Solve the strip ``surface`` at ``speed`` [m/s], not 0, on cells ``map_coarsening`` times as long as its own, and before on
     cells twice as long, where it has those and they have a solution (else both are the same). ``slope``: of friction over
     load, which is put into the strip (NaN: none; None: found by a second solve). Raises `ConvergenceError`."""
-    (fx, fy) = factors
+    (fx, fy) = map_coarsening
     longer: StripSolution | None = None
     if surface.shape[1] % (2 * fy) == 0:
         with suppress(ConvergenceError):
-            longer = solve_strip(scene, surface, speed, factors=(2 * fx, 2 * fy))
-    strip = solve_strip(scene, surface, speed, factors=factors, start=longer, find_slope=slope is None)
+            longer = solve_strip(scene, surface, speed, map_coarsening=(2 * fx, 2 * fy))
+    strip = solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=longer, find_slope=slope is None)
     if slope is not None:
         strip = replace(strip, slope=slope)
     return StripOnTwoGrids(strip, strip if longer is None else longer)
@@ -212,7 +222,13 @@ def solve_moving(
     reached (None: for a pass of the map). The second strip is at rest, from which the motion starts. Raises
     `ConvergenceError`."""
     strip = solve_moving_strip(
-        scene, cells.bodies, speed, factors=cells.factors, target=target, effort=cells.effort, start=cells.rest
+        scene,
+        cells.bodies,
+        speed,
+        map_coarsening=cells.map_coarsening,
+        target=target,
+        effort=cells.effort,
+        start=cells.rest,
     )
     return StripOnTwoGrids(strip, strip.rest)
 

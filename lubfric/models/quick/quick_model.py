@@ -57,10 +57,10 @@ from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range,
 from .long_strips import (
     CELLS_OF_REFERENCES,
     CELLS_OF_THIN_FILM,
-    factors_in_motion,
-    factors_of_long_cells,
     features,
     long_cells_in_motion,
+    map_coarsening_at_rest,
+    map_coarsening_in_motion,
     numbers_of_strip,
     solve_at_rest,
     solve_moving,
@@ -310,14 +310,14 @@ def solve_long_strips(prepared: Prepared, speed: float) -> LongStrips:
     )
 
 
-def long_factors_of(scene: Scene, sample: Sample) -> tuple[float, float]:
+def sample_coarsening_of_long_cells(scene: Scene, sample: Sample) -> tuple[float, float]:
     """Return the length of the long cells in those of ``sample``, of a patch at rest in those of the map; where roughness
     moves those of a thin film, which are the shorter ones."""
     (dx, dy) = sample.cells.spacing
     if has_moving_roughness(scene):
-        return factors_in_motion(scene, (dx, dy), sample.rows, sample.correlation_lengths, CELLS_OF_THIN_FILM)
+        return map_coarsening_in_motion(scene, (dx, dy), sample.rows, sample.correlation_lengths, CELLS_OF_THIN_FILM)
     (fx, fy) = sample.refinement
-    return factors_of_long_cells(scene, (dx / fx, dy / fy), sample.rows * fy, sample.correlation_lengths)
+    return map_coarsening_at_rest(scene, (dx / fx, dy / fy), sample.rows * fy, sample.correlation_lengths)
 
 
 def _error_of_references(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -> float:
@@ -365,8 +365,8 @@ def _solve_strip(prepared: Prepared, speed: float, index: int, slope: float | No
     lengths = sample.correlation_lengths
     is_mirrored = sample.distinct_rows(surface.heights) < surface.shape[1]
     if not has_moving_roughness(scene):
-        factors = factors_of_long_cells(scene, surface.spacing, surface.shape[1], lengths)
-        return replace(solve_at_rest(scene, surface, speed, factors, slope), mirrored=is_mirrored)
+        map_coarsening = map_coarsening_at_rest(scene, surface.spacing, surface.shape[1], lengths)
+        return replace(solve_at_rest(scene, surface, speed, map_coarsening, slope), mirrored=is_mirrored)
     cells = long_cells_in_motion(scene, bodies_of(prepared, index, speed), speed, lengths)
     part = OF_NARROW_BOUNDS if cells.per_length == CELLS_OF_THIN_FILM else OF_BOUNDS
     target = sample_target(prepared, _sampling_error(prepared, StripOnTwoGrids(cells.rest, cells.rest), part))
@@ -468,7 +468,9 @@ class QuickModel(Model):
         seconds = alone.seconds if has_line else 0.0
         if speed and surface.sq and sample.is_resolved and scene.transient is None:
             count = 1 if has_moving_roughness(scene) else EXPECTED_STRIPS
-            seconds += work_on_strips(scene, sample, surface.sq, speed, long_factors_of(scene, sample), count)
+            seconds += work_on_strips(
+                scene, sample, surface.sq, speed, sample_coarsening_of_long_cells(scene, sample), count
+            )
         if has_moving_roughness(scene):
             return replace(alone, strips=1, length=sample.line_length(1), seconds=seconds, shared=())
         fine_fields = work_of_fine_fields(scene, sample, surface.sq, speed) if seconds else 0.0

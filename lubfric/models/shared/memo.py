@@ -50,7 +50,7 @@ class StripKey(Key[HalfSpaceContact]):
 class PieceMapKey(Key[Surface]):
     """The map of piece ``index``, some ``length`` correlation lengths long, on native cells."""
 
-    sample_coarsening: tuple[int, int]
+    coarsening_of_sample: tuple[int, int]
     index: int
     length: float
 
@@ -59,7 +59,7 @@ class PieceMapKey(Key[Surface]):
 class PieceKey(Key[HalfSpaceContact]):
     """The contact on piece ``index``, on ``coarsening`` so many native ones long."""
 
-    sample_coarsening: tuple[int, int]
+    coarsening_of_sample: tuple[int, int]
     index: int
     length: float
     coarsening: tuple[int, int]

@@ -102,18 +102,22 @@ def contact_on_strip(prepared: Prepared, sample: Sample, index: int) -> HalfSpac
 
 
 def contact_on_piece(
-    prepared: Prepared, sample: Sample, index: int, cells: tuple[int, int], length: float = PIECE
+    prepared: Prepared, sample: Sample, index: int, coarsening: tuple[int, int], length: float = PIECE
 ) -> HalfSpaceContact:
-    """Return the contact on piece ``index`` of ``sample`` (`Sample.piece`), on ``cells`` so many native ones long."""
-    coarsening = sample.cells.coarsening
+    """Return the contact on piece ``index`` of ``sample`` (`Sample.piece`), on cells of this ``coarsening``."""
+    coarsening_of_sample = sample.cells.coarsening
 
     def make() -> HalfSpaceContact:
-        surface = prepared.memo.get(PieceMapKey(coarsening, index, length), lambda: sample.piece(index, length))
-        heights = sample.cells.thinned(surface.heights, cells)
-        spacing = surface.spacing[0] * cells[0], surface.spacing[1] * cells[1]
-        return _contact(prepared, heights, spacing, sample.cells.axis(cells))
+        surface = prepared.memo.get(
+            PieceMapKey(coarsening_of_sample, index, length), lambda: sample.piece(index, length)
+        )
+        heights = sample.cells.thinned(surface.heights, coarsening)
+        spacing = surface.spacing[0] * coarsening[0], surface.spacing[1] * coarsening[1]
+        return _contact(prepared, heights, spacing, sample.cells.axis(coarsening))
 
-    return prepared.memo.get(PieceKey(coarsening, index, length, cells), make, lambda contact: contact.heights.size)
+    return prepared.memo.get(
+        PieceKey(coarsening_of_sample, index, length, coarsening), make, lambda contact: contact.heights.size
+    )
 
 
 def _contact(prepared: Prepared, heights: np.ndarray, spacing: tuple[float, float], x: np.ndarray) -> HalfSpaceContact:

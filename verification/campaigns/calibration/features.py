@@ -5,8 +5,8 @@ import time
 from lubfric.models.quick import (
     CELLS_IN_MOTION,
     CELLS_OF_THIN_FILM,
-    factors_of_long_cells,
     long_cells_of,
+    map_coarsening_at_rest,
     numbers_of_strip,
     solve_at_rest,
     solve_moving,
@@ -30,8 +30,8 @@ def quick(case: Case, per_length: float) -> dict[str, float]:
         pair = solve_moving(case.scene, cells, case.speed)
         film_at_rest = cells.by_film
     else:
-        factors = factors_of_long_cells(case.scene, case.surface.spacing, case.surface.shape[1], lengths)
-        pair = solve_at_rest(case.scene, case.surface, case.speed, factors)
+        map_coarsening = map_coarsening_at_rest(case.scene, case.surface.spacing, case.surface.shape[1], lengths)
+        pair = solve_at_rest(case.scene, case.surface, case.speed, map_coarsening)
         film_at_rest = 0.0
     numbers = numbers_of_strip(pair, lengths[0], is_smooth=facts["acf"] == "gaussian")
     return numbers | {"film_at_rest": film_at_rest, "seconds": time.process_time() - begun}

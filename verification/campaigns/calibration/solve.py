@@ -107,7 +107,7 @@ def deterministic(case: Case) -> dict[str, float]:
         return numbers(moving.result) | {"f_rest": at_rest, "f_coarse": math.nan, "work": moving.work}
     first: StripSolution | None = None
     with suppress(lubfric.ConvergenceError):
-        first = solve_strip(scene, case.surface, case.speed, factors=(COARSE, COARSE))
+        first = solve_strip(scene, case.surface, case.speed, map_coarsening=(COARSE, COARSE))
     strip = solve_strip(scene, case.surface, case.speed, start=first)
     coarse = math.nan if first is None else first.result.coefficient
     work = strip.work + (0.0 if first is None else first.work)

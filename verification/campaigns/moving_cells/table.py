@@ -68,13 +68,15 @@ def followed(contact: RollingContact, seed: int, axis: str, halvings: int) -> Pl
     scene = prepared.scene
     along_x = max(halvings, 0) if "x" in axis else 0
     along_y = halvings if "y" in axis else 0
-    factors = (round(fx / 2**along_x), round(fy / 2**along_y))
-    cell = factors[0] * bodies[0].surface.spacing[0]
+    map_coarsening = (round(fx / 2**along_x), round(fy / 2**along_y))
+    cell = map_coarsening[0] * bodies[0].surface.spacing[0]
     (lx, ly) = prepared.sample.correlation_lengths
-    coarse_y = factors[1] * bodies[0].surface.spacing[1] / ly
+    coarse_y = map_coarsening[1] * bodies[0].surface.spacing[1] / ly
     steps = round(WAY * half_width(scene.line_contact(contact.speed)) / cell)
     effort = effort_of(scene, bodies, contact.speed, (fx, fy))  # that of the answer
-    strip = solve_moving_strip(scene, bodies, contact.speed, factors=factors, effort=effort, most_steps=steps)
+    strip = solve_moving_strip(
+        scene, bodies, contact.speed, map_coarsening=map_coarsening, effort=effort, most_steps=steps
+    )
     result = strip.result
     return {
         "f": result.coefficient,

@@ -29,7 +29,7 @@ from lubfric.models.deterministic import (
     solve_moving_strip,
 )
 from lubfric.models.deterministic.rough_bodies import bodies_of, summit_control
-from lubfric.models.deterministic.strip_on_two_grids import surface_and_factors
+from lubfric.models.deterministic.strip_on_two_grids import surface_and_map_coarsening
 from lubfric.models.shared import Prepared, student
 from lubfric.scene import Scene, moving_bodies
 from lubfric.surface import generate_surface
@@ -146,14 +146,16 @@ def coefficient_of(row: dict[str, str]) -> float:
 def reference_strip(contact: RollingContact, seed: int) -> PlainRow:
     """Return f of a whole pass of one strip and its standard error, on the cells of the answers."""
     prepared = prepare(with_seed(contact, REFERENCE_SEED + seed))
-    _, factors = surface_and_factors(prepared, 0)
+    _, map_coarsening = surface_and_map_coarsening(prepared, 0)
     bodies = bodies_of(prepared, 0, contact.speed)
-    effort = replace(effort_of(prepared.scene, bodies, contact.speed, factors), discarded=REFERENCE_DISCARDED)
+    effort = replace(effort_of(prepared.scene, bodies, contact.speed, map_coarsening), discarded=REFERENCE_DISCARDED)
     control = summit_control(prepared)
     assert control is not None  # the sample has strips
     length = prepared.sample.correlation_lengths[1]
     target = SampleTarget(error=WHOLE_PASS, correlation_length=length, control=control)
-    strip = solve_moving_strip(prepared.scene, bodies, contact.speed, factors=factors, effort=effort, target=target)
+    strip = solve_moving_strip(
+        prepared.scene, bodies, contact.speed, map_coarsening=map_coarsening, effort=effort, target=target
+    )
     mean = mean_over_blocks([strip.places], "friction", length, control)
     plain = {"plain": mean.value - mean.correction, "plain_error": mean.plain.error}
     return {"f": mean.value, "error": mean.error.error} | plain
@@ -166,11 +168,11 @@ def narrow_strip(
     y, and the length of the cells of an answer in these."""
     scene = with_seed(contact, REFERENCE_SEED + seed)
     prepared = prepare(scene)
-    _, (fx, fy) = surface_and_factors(prepared, 0)
+    _, (fx, fy) = surface_and_map_coarsening(prepared, 0)
     (dx, dy) = prepared.sample.cells.spacing
-    factors = (fx * 2 ** halvings[0], fy * 2 ** halvings[1])
-    columns = factors[0] * math.ceil(6 * scene.bodies.half_width / (fx * dx))
-    rows = 4 * factors[1] * math.ceil(NARROW * prepared.sample.correlation_lengths[1] / (4 * fy * dy))
+    map_coarsening = (fx * 2 ** halvings[0], fy * 2 ** halvings[1])
+    columns = map_coarsening[0] * math.ceil(6 * scene.bodies.half_width / (fx * dx))
+    rows = 4 * map_coarsening[1] * math.ceil(NARROW * prepared.sample.correlation_lengths[1] / (4 * fy * dy))
     bodies = []
     for k, (name, ratio) in enumerate(moving_bodies(scene)):
         rough = getattr(scene, name)
@@ -184,7 +186,7 @@ def narrow_strip(
             seed=seed + 17 * k,
         )
         bodies.append(RoughBody(surface, contact.speed * ratio, name == "counterface"))
-    return prepared, bodies, factors
+    return prepared, bodies, map_coarsening
 
 
 def change_by_cells(contact: RollingContact, seed: int) -> PlainRow:
@@ -192,9 +194,9 @@ def change_by_cells(contact: RollingContact, seed: int) -> PlainRow:
     prepared, bodies, (fx, fy) = narrow_strip(contact, seed, (1, 1))
     scene = prepared.scene
     f = []
-    for factors in ((fx, fy), (fx // 2, fy // 2)):
-        steps = round(WAY * scene.bodies.half_width / (factors[0] * bodies[0].surface.spacing[0]))
-        strip = solve_moving_strip(scene, bodies, contact.speed, factors=factors, most_steps=steps)
+    for map_coarsening in ((fx, fy), (fx // 2, fy // 2)):
+        steps = round(WAY * scene.bodies.half_width / (map_coarsening[0] * bodies[0].surface.spacing[0]))
+        strip = solve_moving_strip(scene, bodies, contact.speed, map_coarsening=map_coarsening, most_steps=steps)
         f.append(strip.result.coefficient)
     return {"f": f[1] / f[0], "error": 0.0}
 
