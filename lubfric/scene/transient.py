@@ -35,7 +35,9 @@ class Transient:
     Attributes
     ----------
     duration : [s]
-    outputs : number of output times, spread evenly, in addition to 0
+    outputs : number of output times, spread evenly, in addition to the first
+    first_output : time of the first output [s]; what is before it, the start of a periodic motion, is solved and is in
+        no result
     speed : entrainment speed [m/s]
     sliding : u2 - u1 [m/s]; None: slide-roll ratio x speed
     load : [N]
@@ -50,6 +52,7 @@ class Transient:
     duration: float
     outputs: int = 200
     _: KW_ONLY
+    first_output: float = 0.0
     speed: History | None = None
     sliding: History | None = None
     load: History | None = None
@@ -68,6 +71,9 @@ class Transient:
         validate.python_fields(self, "transient")
         validate.in_range("transient", self)
         validate.integer("transient.outputs", self.outputs, minimum=1, maximum=1_000_000)
+        if self.first_output >= self.duration:
+            said = f" = {self.first_output:g} s is not before the end of the run, {self.duration:g} s"
+            raise InputError(said, "transient.first_output", f"0 to below {self.duration:g} s")
         if self.initial_film is not None and self.initial != "auto":
             said = f" = {self.initial!r} has no effect together with initial_film, from which the run starts"
             raise InputError(said, "transient.initial", "one of the two")

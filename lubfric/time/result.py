@@ -144,7 +144,7 @@ class TransientResult(Renamed, Shown):
 
     @property
     def start_in_words(self) -> str:
-        """That the run contains its start, as a sentence, where its end has the speeds and the load of its start and
+        """That the run contains its start, as a sentence, where its end has the speeds and the load of its first output and
         another film; else ""."""
         if self.time.size < 2:
             return ""
@@ -157,10 +157,10 @@ class TransientResult(Renamed, Shown):
         if abs(ratio[-1] - ratio[0]) < OTHER_RATIO and abs(film[-1] / film[0] - 1.0) < OTHER_FILM:
             return ""
         return (
-            "The run is not periodic: its end has the speeds and the load of its start, but an asperity load ratio of "
+            "The run is not periodic: its end has the speeds and the load of its first output, but an asperity load ratio of "
             f"{ratio[-1]:.3g} instead of {ratio[0]:.3g} and a central separation of {worded(float(film[-1]), 'm')} instead of "
-            f"{worded(float(film[0]), 'm')}. So the mean contains the start of the run; for the periodic motion, compute two "
-            "periods (repeat = true in a table) and read the second."
+            f"{worded(float(film[0]), 'm')}. So the mean contains the start of the run; for the periodic motion, solve two "
+            "periods (transient.duration; repeat = true in a table), and give the first as transient.first_output."
         )
 
     def average(self) -> TimeAverage:

@@ -187,8 +187,8 @@ def _with_plan(scene: Scene | Prepared, times: ArrayLike | None) -> tuple[Scene 
     if times is None:
         if plan is None:
             raise InputError("scene has no [transient] table; give one, or output times in s")
-        return scene, np.linspace(0.0, plan.duration, plan.outputs + 1)
+        return scene, np.linspace(plan.first_output, plan.duration, plan.outputs + 1)
     times = checked_times(times)
     last = float(times[-1])
-    base = replace(base, transient=Transient(last) if plan is None else replace(plan, duration=last))
+    base = replace(base, transient=Transient(last) if plan is None else replace(plan, duration=last, first_output=0.0))
     return (replace(scene, scene=base) if isinstance(scene, Prepared) else base), times

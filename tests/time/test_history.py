@@ -80,6 +80,8 @@ def test_bad_histories_are_refused(table, words):
         ({"speed": Table(times=(0.0, 0.5), values=(1.0, 0.0))}, "table ends at 0.5 s"),
         ({"duration": 0.0}, "duration"),
         ({"outputs": 0}, "outputs"),
+        ({"first_output": 1.0}, "first_output"),
+        ({"first_output": -0.1}, "first_output"),
     ],
 )
 def test_bad_runs_are_refused(values, words):

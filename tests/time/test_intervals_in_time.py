@@ -175,3 +175,25 @@ def test_a_run_that_ends_as_it_begins_says_nothing_of_its_start(held):
     assert "not periodic" in other.start_in_words
     faster = {"entrainment_speed": held.entrainment_speed * np.array([1.0, 1.0, 1.1])}
     assert replace(other, columns=other.columns | faster).start_in_words == ""
+
+
+def test_the_second_period_of_two_is_read_alone(tmp_path):
+    """Its numbers are those of the second half of a run with all outputs, and it ends as it begins."""
+    motion = {
+        "speed": Harmonic(amplitude=0.5, frequency=100.0),
+        "load": Harmonic(mean=3.0, amplitude=1.0, frequency=100.0),
+    }
+    scene = paper_scene(numerics={"sampling": "patch", "accept": True})
+    whole = lubfric.transient(scene.with_(transient=Transient(0.02, outputs=16, **motion)))
+    second = scene.with_(transient=Transient(0.02, outputs=8, first_output=0.01, **motion))
+    (tmp_path / "s.toml").write_text(second.to_toml())
+    result = lubfric.transient(lubfric.load_scene(tmp_path / "s.toml"))
+    np.testing.assert_allclose(result.time, whole.time[8:], rtol=1e-12)
+    for name in ("coefficient", "contact_load", "central_film"):
+        np.testing.assert_allclose(getattr(result, name), getattr(whole, name)[8:], rtol=5e-3)
+    assert result.average().coefficient == pytest.approx(
+        np.trapezoid(whole.coefficient[8:], whole.time[8:]) / 0.01, rel=5e-3
+    )
+    assert result.start_in_words == ""
+    first = lubfric.transient(scene.with_(transient=Transient(0.01, outputs=8, **motion)))
+    assert "transient.first_output" in first.start_in_words
