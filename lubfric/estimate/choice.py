@@ -48,7 +48,7 @@ def choose(prepared: Prepared, speed: float, requested: str | Model, *, for_fiel
     up_to_requested = models_up_to(requested)
     able = [model for model in up_to_requested if not model.why_unable(prepared, speed)]
     if requested == AUTO:
-        return _cheapest(prepared, speed, able, for_fields=for_fields)
+        return _completed(_cheapest(prepared, speed, able, for_fields=for_fields))
     *cheaper, model = able
     why = ""
     if model is not up_to_requested[-1]:
@@ -78,6 +78,8 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
     control = first.control()
     choice = Choice(model=models[0], solution=first)
     for model in models[1:]:
+        if choice.solution.may_suffice():
+            choice = replace(choice, solution=choice.solution.completed())
         solution = choice.solution
         why = solution.why_sufficient()
         if why or any(violation.severe for violation in solution.violations()):
@@ -90,15 +92,16 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
         try:
             solution = solve_to_tolerance(prepared, speed, model, for_fields=for_fields, control=control)
         except ConvergenceError as error:
-            why = f"the {model.name} model was not solved ({error})"
-            return _given_up(replace(choice, why=why, gave_up=True))
+            return replace(choice, why=f"the {model.name} model was not solved ({error})", gave_up=True)
         choice = Choice(model=model, solution=solution, compared=None if control is None else (models[0], first))
     return choice
 
 
-def _given_up(choice: Choice) -> Choice:
-    """Return ``choice`` after a more expensive model was tried in vain, its answer found within what is left of the work, or
-    within `LEAST_WORK_OF_CHEAPEST`: a model may solve only when it has to answer."""
+def _completed(choice: Choice) -> Choice:
+    """Return ``choice`` with its solution completed; after a more expensive model was tried in vain, within what is left of
+    the work, or within `LEAST_WORK_OF_CHEAPEST`."""
+    if not choice.gave_up:
+        return replace(choice, solution=choice.solution.completed())
     with suppress(WorkLimitError), limited_work(work_for_an_answer()):
-        choice.solution.answer()
+        return replace(choice, solution=choice.solution.completed())
     return choice

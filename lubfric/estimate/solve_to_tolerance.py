@@ -25,7 +25,7 @@ def solve_to_tolerance(
     while True:
         solution = _on_enough_strips(prepared, sample, speed, model, control)
         if sample.cells.is_native or not solution.is_too_coarse():
-            return solution.corrected()
+            return solution.corrected().completed()
         sample = sample.halved()
 
 

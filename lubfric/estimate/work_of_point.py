@@ -22,12 +22,12 @@ class PointWorkEstimate:
     error : relative standard error of f after the first strips of the cheapest model
     strips : number of strips that ``numerics.sampling_tolerance`` needs, by the last model that has a line of its own
     length : of these strips [m]
-    long_point_strips : number of strips by the model of long points (`lubfric.models.Model.has_long_points`); 0: it is
+    slow_strips : number of strips by the model of slow strips (`lubfric.models.Model.has_slow_strips`); 0: it is
         not asked
     seconds : processor time [s]
     shared : the parts of it that other points are spared
     fine_fields_seconds : processor time [s] of fields on fine cells, if they are requested
-    long_strip_seconds : processor time [s] of one strip by that model if its roughness moves; 0 where it does not, or has little
+    slow_strip_seconds : processor time [s] of one strip by that model if its roughness moves; 0 where it does not, or has little
         effect
     """
 
@@ -36,11 +36,11 @@ class PointWorkEstimate:
     error: float
     strips: int
     length: float
-    long_point_strips: int
+    slow_strips: int
     seconds: float
     shared: tuple[SharedWork, ...] = ()
     fine_fields_seconds: float = 0.0
-    long_strip_seconds: float = 0.0
+    slow_strip_seconds: float = 0.0
 
 
 def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, speed: float) -> PointWorkEstimate:
@@ -61,18 +61,18 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
         solved = range(min(enough, default=last) + 1)
     with_line = [k for k in solved if estimates[k].strips and math.isfinite(estimates[k].length)]
     line = estimates[max(with_line, default=0)]
-    with_long_points = [k for k, model in enumerate(models) if model.has_long_points]
+    with_slow_strips = [k for k, model in enumerate(models) if model.has_slow_strips]
     return PointWorkEstimate(
         speed=speed,
         touching=cheapest.touching,
         error=cheapest.sampling,
         strips=line.strips,
         length=line.length,
-        long_point_strips=max((estimates[k].strips for k in with_long_points if k in solved), default=0),
+        slow_strips=max((estimates[k].strips for k in with_slow_strips if k in solved), default=0),
         seconds=sum(estimates[k].seconds for k in solved),
         fine_fields_seconds=max(estimates[k].fine_fields_seconds for k in solved),
         shared=tuple(part for k in solved for part in estimates[k].shared),
-        long_strip_seconds=max((estimates[k].strip_seconds for k in with_long_points), default=0.0),
+        slow_strip_seconds=max((estimates[k].strip_seconds for k in with_slow_strips), default=0.0),
     )
 
 

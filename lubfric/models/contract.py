@@ -201,8 +201,10 @@ class WorkEstimate:
 
 
 class SampleSolution(ABC):
-    """The first ``count`` strips of a sample, solved by a model. Means over them are the answer. A solution may solve
-    more when it is asked for its answer.
+    """The first ``count`` strips of a sample, solved by a model. Means over them are the answer.
+
+    `lubfric.estimate` requests more strips or shorter cells until there are enough, then `corrected`, then `completed`, and
+    at last the `answer`.
 
     Attributes
     ----------
@@ -245,15 +247,24 @@ class SampleSolution(ABC):
         return False
 
     def corrected(self) -> SampleSolution:
-        """Return this solution as native cells would change it, if the model knows."""
+        """Return this solution as native cells would change it, if the model knows. It may take further solves."""
         return self
+
+    def completed(self) -> SampleSolution:
+        """Solve what the answer needs and was left out so far, because a more expensive model might answer; itself where
+        nothing was. `answer` does so itself, at the cost of a solve at each call."""
+        return self
+
+    def may_suffice(self) -> bool:
+        """Return whether it may suffice once it is completed (`why_sufficient`), as far as is known before."""
+        return True
 
     def control(self) -> ControlVariate | None:
         """Return what is known of the strips for a more expensive model; None if nothing is."""
         return None
 
     def why_sufficient(self) -> str:
-        """Return why numerics.model = "auto" needs no more expensive model, as text; "" if it does."""
+        """Return why numerics.model = "auto" needs no more expensive model, as text; "" if it does. Nothing is solved."""
         return ""
 
     def heat(self) -> Heat | None:
@@ -312,8 +323,8 @@ class Model(ABC):
         return False
 
     @property
-    def has_long_points(self) -> bool:
-        """Whether a strip of moving roughness takes so long that its time is estimated, and shown, by itself."""
+    def has_slow_strips(self) -> bool:
+        """Whether one strip of moving roughness takes so much time that this is estimated, and shown, by itself."""
         return False
 
     @property

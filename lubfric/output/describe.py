@@ -204,8 +204,8 @@ def _model(
     if len(ratios):
         points = [(scene.with_(motion={"slide_roll_ratio": ratio}), speeds[0]) for ratio in ratios]
     forecasts = [estimated_work_of_point(at, sample, surface, speed) for at, speed in points]
-    resolved = [one.speed for one in forecasts if one.long_point_strips]
-    strip = max((one.long_strip_seconds for one in forecasts), default=0.0)
+    resolved = [one.speed for one in forecasts if one.slow_strips]
+    strip = max((one.slow_strip_seconds for one in forecasts), default=0.0)
     if name != AUTO:
         rows = [model_named(name).described(scene)]
     elif why:
@@ -291,7 +291,7 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
             film = *numbers, ASPERITIES[one.touching]
         counts = (
             f"{one.strips}",
-            *(f"{one.long_point_strips}" for _ in chosen),
+            *(f"{one.slow_strips}" for _ in chosen),
             f"{1e3 * one.length:.2g}".replace("nan", "-"),
             f"{float(f'{one.seconds:.1g}'):g}",
         )

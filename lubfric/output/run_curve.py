@@ -112,10 +112,10 @@ def _default_workers(scene: Scene, speeds: str | list[float]) -> int:
     """Return the number of processes of a curve: all processors but one, and two at least, where that pays. The numbers do
     not depend on it."""
     several_speeds = speeds != studies.AUTO_SPEEDS and len(speeds) >= WORTH and takes_strips(scene)
-    long_points = has_moving_roughness(scene) and any(
-        model.has_long_points for model in models_up_to(scene.numerics.model)
+    slow_strips = has_moving_roughness(scene) and any(
+        model.has_slow_strips for model in models_up_to(scene.numerics.model)
     )
-    if not (several_speeds or long_points) or studies.processors() == 1:
+    if not (several_speeds or slow_strips) or studies.processors() == 1:
         return 1
     return max(2, studies.processors() - 1)
 

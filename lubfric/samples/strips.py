@@ -240,12 +240,12 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
     else:
         cells = choose_cells(spacing, shortest, half_width, max(patch.shape[0] * spacing[0], reach_of(scene, sq)))
     narrow = WIDE_HALF_WIDTH * lengths[0] / half_width
-    long = STRIP_LENGTHS if narrow > 1 else STRIP_LENGTHS / 2
+    length_ratio = STRIP_LENGTHS if narrow > 1 else STRIP_LENGTHS / 2  # of a strip, over the correlation length along y
     if has_moving_roughness(scene):  # other places pass through the contact in time
-        long = min(STRIP_LENGTHS, MOVING_STRIP_LENGTHS * max(1.0, narrow))
-    length = min(long * lengths[1], MOST_JOINED_CELLS / 2 / cells.columns * cells.spacing[1])
-    available = int(min(MOST_LENGTHS / long, MOST_JOINED_CELLS / (cells.columns * cells.rows(length))))
-    first = min(round(FIRST_LENGTHS / long), available)
+        length_ratio = min(STRIP_LENGTHS, MOVING_STRIP_LENGTHS * max(1.0, narrow))
+    length = min(length_ratio * lengths[1], MOST_JOINED_CELLS / 2 / cells.columns * cells.spacing[1])
+    available = int(min(MOST_LENGTHS / length_ratio, MOST_JOINED_CELLS / (cells.columns * cells.rows(length))))
+    first = min(round(FIRST_LENGTHS / length_ratio), available)
     return GeneratedStrips(
         cells=cells,
         correlation_lengths=lengths,

@@ -177,7 +177,7 @@ def test_an_estimate_is_right_to_a_factor_of_four():
     for ratio, speed in ((0.02, 0.3), (0.02, 0.7), (1.0, 0.3), (1.0, 0.5), (2.0, 0.15), (2.0, 0.2)):
         scene = PAPER.with_(motion={"slide_roll_ratio": ratio}, numerics={"model": "auto"})
         error = lubfric.friction(scene, speed, model="paper").uncertainty.model
-        assert (estimated_work_of_point(scene, prepared.sample, prepared.surface, speed).long_point_strips > 0) == (
+        assert (estimated_work_of_point(scene, prepared.sample, prepared.surface, speed).slow_strips > 0) == (
             error > 0.05
         )
 
@@ -196,7 +196,7 @@ def test_the_work_of_the_deterministic_model_is_estimated_to_a_factor_of_two(sam
         solved = [*(pair.resolved for pair in levels.pairs), *levels.shortest]
         counted += sum(strip.work for strip in [*solved, *(strip for piece in levels.pieces for strip in piece)])
         stated += one.seconds
-        assert one.long_point_strips
+        assert one.slow_strips
     assert 0.5 < stated / counted < 2
 
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, replace
 
 from ...samples import Sample
 from ...scene import Scene, check_resolved_gap, has_moving_roughness, why_gap_not_resolved
@@ -28,7 +27,15 @@ from .strip_on_two_grids import StripOnTwoGrids, sample_coarsening_of
 
 @dataclass(frozen=True, kw_only=True)
 class DeterministicSolution(SampleSolution):
-    """Strips that are solved one by one; the mean over them, with the ``control`` of a cheaper model or alone."""
+    """Strips that are solved one by one.
+
+    Attributes
+    ----------
+    pairs : the strips
+    estimate : the mean over them, with the control of a cheaper model or alone
+    wanted : number of strips that the tolerances need
+    levels : with the effect of shorter cells, as `corrected` solves it; None: not solved
+    """
 
     prepared: Prepared
     sample: Sample
@@ -36,6 +43,7 @@ class DeterministicSolution(SampleSolution):
     pairs: tuple[StripOnTwoGrids, ...]
     estimate: TwoLevelEstimate
     wanted: int
+    levels: Levels | None = None
 
     @property
     def count(self) -> int:  # type: ignore[override]
@@ -50,17 +58,14 @@ class DeterministicSolution(SampleSolution):
     def required_strips(self) -> int:
         return self.wanted
 
-    @cached_property
-    def levels(self) -> Levels:
-        """The sum over levels, with the effect of shorter cells, which takes solves of its own."""
-        return levels_of(self.prepared, self.speed, self.pairs, self.estimate)
-
     def corrected(self) -> DeterministicSolution:
-        _ = self.levels  # solved here, so that shorter cells that do not converge are a failure of the solve
-        return self
+        """Solve the effect of shorter cells. Raises `ConvergenceError`, as a failure of the solve."""
+        return replace(self, levels=levels_of(self.prepared, self.speed, self.pairs, self.estimate))
 
     def answer(self) -> ModelAnswer:
-        return answer_of(self.prepared, self.speed, self.levels)
+        levels = self.corrected().levels if self.levels is None else self.levels
+        assert levels is not None
+        return answer_of(self.prepared, self.speed, levels)
 
 
 class DeterministicModel(Model):
@@ -71,7 +76,7 @@ class DeterministicModel(Model):
         return "deterministic"
 
     @property
-    def has_long_points(self) -> bool:
+    def has_slow_strips(self) -> bool:
         return True
 
     @property

@@ -1,0 +1,257 @@
+"""The strips of the quick answer: solved on long cells, their f without its bias, and its error."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..._base import work_left
+from ...scene import Scene, has_moving_roughness
+from ..contract import ModelAnswer
+from ..deterministic import (
+    LARGEST_PART,
+    CellsInMotion,
+    Levels,
+    StripOnTwoGrids,
+    bodies_of,
+    film_ratio_of,
+    levels_of,
+    sample_target,
+    sliding_share_of,
+    strip_surface,
+    two_levels,
+)
+from ..deterministic import answer_of as deterministic_answer
+from ..shared import MODEL_ERROR, Prepared, smooth_over_cells, violations_by_model_error
+from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, reported, widening
+from .long_cells import (
+    CELLS_OF_REFERENCES,
+    CELLS_OF_THIN_FILM,
+    features,
+    long_cells_in_motion,
+    map_coarsening_at_rest,
+    numbers_of_strip,
+    solve_at_rest,
+    solve_moving,
+)
+
+# Strips at rest, at most: each adds .2 s.
+MOST_STRIPS = 4
+
+# Standard error of f by the sample that strips are solved for, relative, at least: a smaller one takes more time than the
+# error by the cells is worth.
+LEAST_SAMPLING_ERROR = 0.03
+
+# The same, over the half-width of the bounds of f by the cells: with Student's t it widens the interval by a tenth.
+OF_BOUNDS = 0.2
+
+# The same on cells for thin films, where a moment takes twice as long and the bounds are half as wide: by four tenths.
+OF_NARROW_BOUNDS = 0.4
+
+# Part of the work that a point has left, which one more strip may take [-]: the rest is for the ends of input ranges.
+PART_OF_WORK = 0.25
+
+# numerics.model_tolerance below which "auto" does not try this model: the bounds are those of kinds of contacts, and a
+# point would be solved twice for the few whose bounds are narrower.
+LEAST_TOLERANCE = 0.1
+
+# Part of f_b by which the stress of asperities exceeds that of the film, at least, where a bias of f is one of the
+# asperity load. Where both are alike, it is one of the film.
+LEAST_CONTRAST = 0.05
+
+NARROWER = "numerics.model = 'deterministic' reduces the error of f, at the cost that `lubfric info` estimates"
+NARROWED_BY_DETERMINISTIC = "take numerics.model = 'deterministic', which narrows it"
+OF_CELLS = "the error of long cells, calibrated on {} contacts: numerics.model = 'deterministic' reduces it"
+
+
+@dataclass(frozen=True, kw_only=True)
+class StripsOnLongCells:
+    """The strips on long cells.
+
+    Attributes
+    ----------
+    levels : their estimate
+    error_model : of such contacts
+    bias : of ln of the sliding part of f
+    log_half_width : of the 95 % interval of the same
+    widening : factor on the bounds outside of the range of the solved cases
+    outside : what is outside of it
+    """
+
+    levels: Levels
+    error_model: ErrorModel
+    bias: float
+    log_half_width: float
+    widening: float
+    outside: tuple[Outside, ...]
+
+    def numbers(self, scene: Scene) -> dict[str, float]:
+        """Return the numbers of the strips without their bias, which is one of the sliding part of f.
+
+        The bias of f is one of the asperity load, with f_b on asperities and the mean stress of the film beside it as
+        they are. What f has beyond that, because asperities carry none or all of the load, or have the stress of the
+        film, remains in the shear of the film. So the forces add up to f.
+        """
+        numbers = self.levels.numbers
+        if scene.motion.slide_roll_ratio == 0:
+            return numbers
+        load = scene.bodies.load
+        rolling = numbers["rolling_force"]
+        force = rolling + (load * numbers["coefficient"] - rolling) * math.exp(self.bias)
+        rubs = scene.bodies.boundary_friction_coefficient
+        share = numbers["contact_load"] / load
+        contrast = rubs - (numbers["couette_force"] / numbers["film_load"] if numbers["film_load"] > 0 else rubs)
+        new_share = share
+        if contrast > LEAST_CONTRAST * rubs:
+            new_share = min(max(share + (force / load - numbers["coefficient"]) / contrast, 0.0), 1.0)
+        boundary = numbers["boundary_force"] * (new_share / share if share > 0 else 0.0)
+        boundary += rubs * new_share * load * (share == 0)
+        times = new_share / share if share > 0 else 0.0
+        of_films = times if scene.lubricant.newtonian else (1 - new_share) / (1 - share) if share < 1 else 0.0
+        return numbers | {
+            "coefficient": force / load,
+            "contact_load": new_share * load,
+            "film_load": (1 - new_share) * load,
+            "boundary_film_load": numbers["boundary_film_load"] * times if share > 0 else new_share * load,
+            "saturated_film_load": numbers["saturated_film_load"] * of_films,
+            "boundary_force": boundary,
+            "shear_force": force - boundary,
+            "couette_force": force - boundary - rolling,
+        }
+
+    def bounds(self, scene: Scene) -> tuple[float, float]:
+        """Return the 95 % bounds of f by the cells, relative, below and above. In pure rolling all of f is the rolling
+        part."""
+        numbers = self.numbers(scene)
+        f = numbers["coefficient"]
+        rolling = f if scene.motion.slide_roll_ratio == 0 else numbers["rolling_force"] / scene.bodies.load
+        sliding = abs(f - rolling)
+        if f == 0:
+            return math.inf, math.inf
+        of_rolling = self.widening * self.error_model.rolling_error(rolling, sliding)
+        down, up = (sliding * abs(math.expm1(side * self.log_half_width)) for side in (-1, 1))
+        return math.hypot(down, of_rolling) / abs(f), math.hypot(up, of_rolling) / abs(f)
+
+
+def solve_on_long_cells(prepared: Prepared, speed: float) -> StripsOnLongCells:
+    """Return the strips of ``prepared`` at ``speed`` [m/s], not 0, on long cells. Raises `ConvergenceError`."""
+    scene = prepared.scene
+    pairs = [_solve_strip(prepared, speed, 0, None)]
+    numerics = replace(
+        scene.numerics,
+        sampling_tolerance=_sampling_error(prepared, pairs[0]),
+        model_tolerance=max(scene.numerics.model_tolerance, LEAST_TOLERANCE),
+    )
+    most = 1 if has_moving_roughness(scene) else MOST_STRIPS
+    while True:
+        estimate, wanted = two_levels(prepared, pairs, None, numerics)
+        if len(pairs) >= min(wanted, most) or pairs[0].resolved.work > PART_OF_WORK * work_left():
+            break
+        pairs.append(_solve_strip(prepared, speed, len(pairs), pairs[0].resolved.slope))
+    rows = [_features(prepared, pair) for pair in pairs]
+    x = {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
+    error_model = error_model_of(scene)
+    outside = out_of_range(scene, prepared.surface.sq, speed, error_model.range)
+    factor = widening(part.distance for part in outside)
+    return StripsOnLongCells(
+        levels=levels_of(prepared, speed, pairs, estimate, with_shorter_cells=False),
+        error_model=error_model,
+        bias=error_model.bias_at(x),
+        log_half_width=math.hypot(factor * error_model.log_half_width(x), _error_of_references(prepared, pairs)),
+        widening=factor,
+        outside=outside,
+    )
+
+
+def _error_of_references(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -> float:
+    """Return the relative error, at 95 %, that the cells of the solved cases behind the calibration have in a contact like
+    this, by what the deterministic model expects (`CellsInMotion`); 0 where roughness rests, as the cases tell it there."""
+    scene = prepared.scene
+    if not has_moving_roughness(scene):
+        return 0.0
+    results = [pair.resolved.result for pair in pairs]
+    half_width = scene.bodies.half_width
+    length = prepared.sample.correlation_lengths[0]
+    (along, across) = CELLS_OF_REFERENCES
+    cell = min(length, half_width) / along
+    return CellsInMotion(
+        film_ratio=film_ratio_of(results),
+        coarse_x=cell / length,
+        coarse_y=1.0 / across,
+        coarse_b=cell / half_width,
+        by_longer=0.0,
+        follows_lubricant=all(pair.resolved.follows_lubricant for pair in pairs),
+        is_smooth=smooth_over_cells(prepared.surface.heights),
+        sliding_share=sliding_share_of(results),
+    ).error
+
+
+def _features(prepared: Prepared, pair: StripOnTwoGrids) -> dict[str, float]:
+    """Return the `features` of a ``pair``."""
+    length = prepared.sample.correlation_lengths[0]
+    numbers = numbers_of_strip(pair, length, is_smooth=smooth_over_cells(prepared.surface.heights))
+    return features(numbers, prepared.scene.bodies.boundary_friction_coefficient)
+
+
+def _sampling_error(prepared: Prepared, pair: StripOnTwoGrids, part: float = OF_BOUNDS) -> float:
+    """Return the relative standard error of f by the sample that strips are solved for: this ``part`` of the bounds at the
+    features of the first ``pair``."""
+    bounds = min(error_model_of(prepared.scene).log_half_width(_features(prepared, pair)), 1.0)
+    return max(prepared.scene.numerics.sampling_tolerance, LEAST_SAMPLING_ERROR, part * bounds)
+
+
+def _solve_strip(prepared: Prepared, speed: float, index: int, slope: float | None) -> StripOnTwoGrids:
+    """Return strip ``index`` on long cells."""
+    scene = prepared.scene
+    sample = prepared.sample
+    surface = strip_surface(prepared, index)
+    lengths = sample.correlation_lengths
+    is_mirrored = sample.distinct_rows(surface.heights) < surface.shape[1]
+    if not has_moving_roughness(scene):
+        map_coarsening = map_coarsening_at_rest(scene, surface.spacing, surface.shape[1], lengths)
+        return replace(solve_at_rest(scene, surface, speed, map_coarsening, slope), mirrored=is_mirrored)
+    cells = long_cells_in_motion(scene, bodies_of(prepared, index, speed), speed, lengths)
+    part = OF_NARROW_BOUNDS if cells.per_length == CELLS_OF_THIN_FILM else OF_BOUNDS
+    target = sample_target(prepared, _sampling_error(prepared, StripOnTwoGrids(cells.rest, cells.rest), part))
+    return replace(solve_moving(scene, cells, speed, target), mirrored=is_mirrored)
+
+
+def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLongCells) -> ModelAnswer:
+    """Return the answer of the strips ``on_long_cells`` at ``speed`` [m/s] without their bias, with its error."""
+    scene = prepared.scene
+    levels = replace(on_long_cells.levels, numbers=on_long_cells.numbers(scene))
+    answer = deterministic_answer(prepared, speed, levels)
+    bounds = on_long_cells.bounds(scene)
+    by_cells = max(bounds) >= max(answer.model_error)
+    largest = OF_CELLS.format(on_long_cells.error_model.cases) if by_cells else answer.largest_in_model
+    f = levels.numbers["coefficient"]
+    basis = f"deterministic model on long cells, calibrated on {on_long_cells.error_model.cases} solved cases"
+    below, above = (math.hypot(part, bound) for part, bound in zip(answer.model_error, bounds))
+    warnings = (
+        violation for violation in answer.violations if not violation.what.startswith(MODEL_ERROR)
+    )  # which was without the cells
+    return replace(
+        answer,
+        model_error=(min(below, 1.0), above),
+        largest_in_model=largest,
+        violations=(
+            *warnings,
+            *violations_by_model_error(
+                prepared,
+                max(below, above),
+                f,
+                consequence=LARGEST_PART.format(largest.partition(":")[0]),
+                recommendation=NARROWED_BY_DETERMINISTIC if by_cells else "",
+            ),
+            *(part.violation for part in reported(on_long_cells.outside)),
+        ),
+        decision=replace(
+            answer.decision,
+            model="quick",
+            basis=basis,
+            notes=(*((NARROWER,) if by_cells else ()), *answer.decision.notes),
+        ),
+    )
