@@ -159,7 +159,7 @@ class TestModel:
         assert isinstance(solution, SampleSolution) and solution.count == count
         assert solution.required_strips() >= count and solution.sampling_error.error >= 0
         answer = solution.corrected().answer()
-        assert 0 < answer.numbers["coefficient"] < 0.1 and answer.numerical > 0 and answer.sampling.error > 0
+        assert 0 < answer.numbers["coefficient"] < 0.1 and answer.numerical > 0 and answer.sampling_error.error > 0
         assert answer.report.converged
         assert answer.fields.heights.shape == answer.fields.shear.shape == answer.fields.pressure.shape
         again = model.solve(prepared, prepared.sample, count, 0.03, start=solution)
@@ -215,7 +215,7 @@ class Highest(SampleSolution):
             numbers=numbers | {"boundary_force": f * load, "rolling_resistance": 1.0},
             errors={"rolling_resistance": 0.0},
             numerical=0.0,
-            sampling=self.sampling_error,
+            sampling_error=self.sampling_error,
             model_error=(0.5, 0.5),
             report=Report("highest summit", CONVERGED, iterations=1, residual=0.0, tolerance=1.0, residuals={}),
             decision=Decision(

@@ -59,7 +59,7 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
     loss = _power_loss(scene, speed, choice.model, answer, numbers, uncertainty)
     numbers["power_loss"] = loss.value
     errors = answer.errors | {"power_loss": loss.error}
-    of_answer = [each for each in answer.violations if each.what != MAP_WIDTH or answer.sampling.error != 0]
+    of_answer = [each for each in answer.violations if each.what != MAP_WIDTH or answer.sampling_error.error != 0]
     violations = (
         *of_answer,
         *violations_by_numerical_error(answer.numerical, scene.numerics.tolerance, answer.recommendation),
@@ -104,16 +104,16 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
     """Return the uncertainty budget of f of an ``answer``, the ranges of inputs included."""
     scene = prepared.scene
     f = answer.numbers["coefficient"]
-    sampling = answer.sampling.error
+    sampling_error = answer.sampling_error
     of_solve = Uncertainty(
         coefficient=f,
         numerical=answer.numerical,
-        sampling=sampling,
-        interval=interval(f, answer.numerical, sampling, answer.sampling.freedom, *answer.model_error),
-        line_scatter=sampling * math.sqrt(answer.length / scene.bodies.width),
+        sampling=sampling_error.error,
+        interval=interval(f, numerical=answer.numerical, sampling_error=sampling_error, model_error=answer.model_error),
+        line_scatter=sampling_error.error * math.sqrt(answer.length / scene.bodies.width),
         effective_contacts=answer.effective_contacts,
         length=answer.length,
-        freedom=float(answer.sampling.freedom),
+        freedom=float(sampling_error.freedom),
         tolerance=scene.numerics.sampling_tolerance,
         area_needed=answer.area_needed,
         model=max(answer.model_error),

@@ -8,7 +8,14 @@ from typing import Any
 import numpy as np
 
 from .._base import Renamed
-from ..models.shared import has_too_few_contacts, is_near_zero, percent_of_sides, sides_in_f, student
+from ..models.shared import (
+    StandardError,
+    has_too_few_contacts,
+    is_near_zero,
+    percent_of_sides,
+    sides_in_f,
+    student,
+)
 from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuantities, described_in_doc
 from ..units import interval_in_words, with_interval
 
@@ -121,19 +128,21 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         """The 95 % interval of f and the uncertainty budget, as text."""
         if not math.isfinite(self.sampling):
             return "; ".join((f"f: {self._in_words('not known')}", *self.notes))
-        sampling = f"{self.budget_in_words['sampling']} of a line of {1e3 * self.length:.3g} mm"
+        sampling_in_words = f"{self.budget_in_words['sampling']} of a line of {1e3 * self.length:.3g} mm"
         interval_text = interval_in_words(*self.interval)
-        return "; ".join((f"95 % interval of f {interval_text}: {self._in_words(sampling)}", *self.notes))
+        return "; ".join((f"95 % interval of f {interval_text}: {self._in_words(sampling_in_words)}", *self.notes))
 
     def short(self, coefficient: float) -> str:
         """Return f with its 95 % interval, and the uncertainty budget, as text."""
         return f"f = {with_interval(coefficient, *self.interval)}; {self._in_words(self.budget_in_words['sampling'])}"
 
-    def _in_words(self, sampling: str) -> str:
+    def _in_words(self, sampling_in_words: str) -> str:
         unknown = " (not included)" * math.isnan(self.model)
         words = self.budget_in_words
         inputs = f", input {words['input']}" if self.inputs != 0 else ""
-        known = f"numerical {words['numerical']}, sampling {sampling}, model-form {words['model-form']}{unknown}"
+        known = (
+            f"numerical {words['numerical']}, sampling {sampling_in_words}, model-form {words['model-form']}{unknown}"
+        )
         missing = f", {self.missing_input} not given {words['not given']}" if self.not_given else ""
         return f"{'errors of f itself, which is near 0: ' * self.is_near_zero}{known}{missing}{inputs}"
 
@@ -183,12 +192,18 @@ def number_errors_of(known: dict[str, float], why: str, reasons: dict[str, str] 
     return NumberErrors(**errors, reasons={name: (reasons or {}).get(name, why) for name in unknown})
 
 
-def interval(value: float, numerical: float, sampling: float, freedom: float, *model: float) -> tuple[float, float]:
-    """Return value (1 ± sqrt(numerical² + (t sampling)² + model²)), t the 97.5 % quantile of Student's t with
-    ``freedom`` degrees; ``model``: of both sides, or towards 0 and away from it; it counts where it is known."""
-    if not math.isfinite(sampling):
+def interval(
+    value: float, *, numerical: float, sampling_error: StandardError, model_error: tuple[float, float]
+) -> tuple[float, float]:
+    """Return value (1 ± sqrt(numerical² + (t sampling error)² + model error²)), t the 97.5 % quantile of Student's t with
+    the degrees of freedom of the ``sampling_error``; ``model_error``: towards 0 and away from it; it counts where it is
+    known."""
+    error = sampling_error.error
+    if not math.isfinite(error):
         return math.nan, math.nan
-    of_sample = student(freedom) * sampling if sampling else 0.0
-    sides = [abs(value) * math.hypot(numerical, of_sample, 0.0 if math.isnan(one) else one) for one in model]
-    down, up = (sides[0], sides[-1]) if value >= 0 else (sides[-1], sides[0])
+    of_sample = student(sampling_error.freedom) * error if error else 0.0
+    below, above = (
+        abs(value) * math.hypot(numerical, of_sample, 0.0 if math.isnan(side) else side) for side in model_error
+    )
+    down, up = (below, above) if value >= 0 else (above, below)
     return value - down, value + up

@@ -53,7 +53,7 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
     cheapest = estimates[0]
     last = len(models_up_to(scene.numerics.model)) - 1
     # AUTO tries one after the other until one is good enough
-    enough = [k for k in range(last) if estimates[k].model_error <= scene.numerics.model_tolerance]
+    enough = [k for k in range(last) if estimates[k].expected_model_error <= scene.numerics.model_tolerance]
     # a model that has no answer here leaves its place to the cheapest: those between lack it for the same reason
     is_alone = estimates[last].seconds > 0 and not models[last].takes_control(scene, sample)
     solved: Collection[int] = {last} if is_alone else {0, last}
@@ -65,7 +65,7 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
     return PointWorkEstimate(
         speed=speed,
         touching=cheapest.touching,
-        error=cheapest.sampling,
+        error=cheapest.expected_sampling_error,
         strips=line.strips,
         length=line.length,
         slow_strips=max((estimates[k].strips for k in with_slow_strips if k in solved), default=0),

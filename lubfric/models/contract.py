@@ -104,7 +104,7 @@ class ModelAnswer:
     ----------
     numbers : quantities of a point by name (`lubfric.quantities`), among them ``coefficient``; those omitted are NaN
     numerical : relative error of f by solver and grids
-    sampling : relative standard error of f because the sample is finite; an error that is NaN is not known
+    sampling_error : relative standard error of f because the sample is finite; an error that is NaN is not known
     model_error : relative error of f by the model itself, at 95 %, towards 0 and away from it; NaN: not known
     by_limit : part of ``model_error`` because the limiting stress of a Newtonian lubricant is not known
     largest_in_model : the largest part of the model error, as text; "": one part only
@@ -129,7 +129,7 @@ class ModelAnswer:
 
     numbers: dict[str, float]
     numerical: float
-    sampling: StandardError
+    sampling_error: StandardError
     model_error: tuple[float, float]
     report: Report
     decision: Decision
@@ -184,8 +184,8 @@ class WorkEstimate:
     strip_seconds : processor time [s] of one strip, where its roughness moves; 0 where it does not, or has little
         effect
     length : of the strips [m]; NaN: there is one patch
-    sampling : relative standard error of f after the first strips; NaN: there is one patch
-    model_error : relative model-form error of f
+    expected_sampling_error : relative standard error of f after the first strips; NaN: there is one patch
+    expected_model_error : relative model-form error of f
     touching : whether asperities touch: "touching", "none or a few summits", or "none"
     """
 
@@ -195,8 +195,8 @@ class WorkEstimate:
     fine_fields_seconds: float = 0.0
     strip_seconds: float = 0.0
     length: float = math.nan
-    sampling: float = math.nan
-    model_error: float = math.nan
+    expected_sampling_error: float = math.nan
+    expected_model_error: float = math.nan
     touching: str = ""
 
 
@@ -221,7 +221,7 @@ class SampleSolution(ABC):
     @abstractmethod
     def sampling_error(self) -> StandardError:
         """The relative standard error of f, because the sample is finite, by which more strips are requested; that of
-        the answer is `ModelAnswer.sampling`."""
+        the answer is `ModelAnswer.sampling_error`."""
 
     @abstractmethod
     def answer(self) -> ModelAnswer:

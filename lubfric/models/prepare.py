@@ -100,9 +100,9 @@ def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -
     return combined_maps(surface, counterface)
 
 
-def prepared_with(scene: Scene | Prepared, tolerance: float | None, model: str | None) -> Prepared:
+def prepared_with(scene: Scene | Prepared, tolerance: float | None, model_name: str | None) -> Prepared:
     """Return ``scene`` made ready, with another tolerance on f and another model if they are given."""
-    changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
+    changed = {name: value for name, value in (("tolerance", tolerance), ("model", model_name)) if value is not None}
     if not changed and isinstance(scene, Prepared):
         return scene
     requested = scene_of(scene).with_(numerics=changed)

@@ -249,8 +249,8 @@ def _needs(prepared: Prepared, sample: Sample, speeds: list[float]) -> np.ndarra
         except LubfricError:
             rows.append((sample.first_strips, 0.0, math.nan, math.nan))
             continue
-        plastic = balanced.solved.contact_state.plastic_area_fraction
-        corrected = balanced.balance.contact_state.plastic_area_fraction
+        plastic = balanced.raw_balance.contact_state.plastic_area_fraction
+        corrected = balanced.corrected_balance.contact_state.plastic_area_fraction
         area = balanced.effect.area_factor if balanced.response is not None else math.nan
         same = balanced.sample.cells.coarsening == sample.cells.coarsening
         by_cells = balanced.change("gap_change") if same else math.inf

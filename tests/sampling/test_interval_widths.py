@@ -23,9 +23,11 @@ T_975 = {1: 12.7062, 2: 4.3027, 5: 2.5706, 10: 2.2281, 30: 2.0423}  # of any tab
 
 @pytest.mark.parametrize("freedom", T_975)
 def test_an_interval_is_as_wide_as_students_table_says(freedom):
-    low, high = interval(0.05, 0.0, 0.01, freedom, math.nan)
+    low, high = interval(
+        0.05, numerical=0.0, sampling_error=StandardError(0.01, freedom), model_error=(math.nan, math.nan)
+    )
     assert (high - low) / 2 == pytest.approx(T_975[freedom] * 5e-4, rel=1e-4)
-    low, high = interval(0.05, 0.03, 0.01, freedom, 0.0)
+    low, high = interval(0.05, numerical=0.03, sampling_error=StandardError(0.01, freedom), model_error=(0.0, 0.0))
     assert (high - low) / 2 == pytest.approx(0.05 * math.hypot(0.03, 0.01 * T_975[freedom]), rel=1e-4)
 
 
@@ -81,8 +83,9 @@ def test_the_error_of_load_sharing_itself_is_that_of_its_rule():
 
 
 def test_an_interval_has_two_sides_and_the_farther_one_lies_away_from_0():
-    assert interval(0.05, 0.03, 0.0, 30, 0.04, 0.4) == pytest.approx((0.0475, 0.05 * (1 + math.hypot(0.03, 0.4))))
-    assert interval(-0.05, 0.03, 0.0, 30, 0.04, 0.4) == pytest.approx((-0.05 * (1 + math.hypot(0.03, 0.4)), -0.0475))
+    parts = {"numerical": 0.03, "sampling_error": StandardError(0.0, 30), "model_error": (0.04, 0.4)}
+    assert interval(0.05, **parts) == pytest.approx((0.0475, 0.05 * (1 + math.hypot(0.03, 0.4))))
+    assert interval(-0.05, **parts) == pytest.approx((-0.05 * (1 + math.hypot(0.03, 0.4)), -0.0475))
 
 
 def test_freedom_of_a_sum_is_no_more_than_that_of_its_largest_part():

@@ -17,7 +17,6 @@ from ..shared import (
     Decision,
     Heat,
     Prepared,
-    StandardError,
     Violation,
     contact_on_piece,
     error_by_heat,
@@ -101,7 +100,9 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
             resistance, error = smooth_rolling_resistance(scene, speed, numbers["film_load"])
             numbers["rolling_resistance"] = resistance
             errors["rolling_resistance"] = error
-    sampling = levels.sampling.error if math.isfinite(levels.sampling.error) else math.nan
+    sampling_error = levels.sampling_error
+    if not math.isfinite(sampling_error.error):
+        sampling_error = replace(sampling_error, error=math.nan)
     by_scatter = student(levels.difference.freedom) * levels.difference.error
     with_thinner, with_thicker = levels.by_film
     parts_of_model = {
@@ -117,7 +118,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     return ModelAnswer(
         numbers=numbers,
         numerical=levels.numerical,
-        sampling=StandardError(sampling, levels.sampling.freedom),
+        sampling_error=sampling_error,
         model_error=(math.hypot(model, by_limit[0]), math.hypot(model, by_limit[1])),
         by_limit=max(by_limit),
         largest_in_model=max(parts_of_model, key=lambda part: parts_of_model[part]),
@@ -129,7 +130,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         reasons=reasons,
         length=levels.length,
         notes=(
-            *_sample_notes(prepared, sampling, levels.length),
+            *_sample_notes(prepared, sampling_error.error, levels.length),
             *filter(None, [limit_in_words(by_limit)]),
             *([UNSOLVED_CELLS] if levels.has_unsolved_cells else []),
         ),
@@ -307,15 +308,15 @@ def _narrows_numerical(prepared: Prepared) -> str:
     return f"{_shorter_cells_in_motion(prepared) if is_moving else SMALLER_SOLVE_TOLERANCE} narrows it"
 
 
-def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[str, ...]:
+def _sample_notes(prepared: Prepared, error: float, length: float) -> tuple[str, ...]:
     """Return what a reader should know of the ``sampling`` error of strips of this ``length`` [m]."""
     sample = prepared.sample
     tolerance = prepared.scene.numerics.sampling_tolerance
-    if math.isnan(sampling):
+    if math.isnan(error):
         return why_sample_too_short(prepared.scene, length / sample.correlation_lengths[1]), BIASED
-    if sampling <= tolerance:
+    if error <= tolerance:
         return ()
-    (stated, target) = percent_beside(sampling, tolerance)
+    (stated, target) = percent_beside(error, tolerance)
     return (f"sampling: its standard error, {stated}, is above the target of {target} (numerics.sampling_tolerance)",)
 
 

@@ -111,10 +111,10 @@ def estimated_work(
         strip_seconds = _seconds_in_motion(scene, sample, sq, speed, one_strip) if one_strip else 0.0
         return WorkEstimate(strips=0, seconds=0.0, strip_seconds=strip_seconds)
     scatter = 0.0
-    if numerics.model == "auto" and cheaper is not None and cheaper.model_error <= numerics.model_tolerance:
+    if numerics.model == "auto" and cheaper is not None and cheaper.expected_model_error <= numerics.model_tolerance:
         return NO_WORK
-    if cheaper is not None and math.isfinite(cheaper.sampling):
-        scatter = cheaper.sampling * math.sqrt(sample.first_strips)
+    if cheaper is not None and math.isfinite(cheaper.expected_sampling_error):
+        scatter = cheaper.expected_sampling_error * math.sqrt(sample.first_strips)
     allowed = math.hypot(
         DIFFERENCE_SHARE * numerics.model_tolerance / student(FREEDOM_NOT_COUNTED), numerics.sampling_tolerance
     )

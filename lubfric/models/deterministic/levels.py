@@ -120,7 +120,7 @@ class Levels:
     pieces : those of the third, each on shorter and shorter cells
     shortest : the piece of the fourth; (): none
     finest : the first strip, on the shortest cells that it is solved on
-    sampling : relative standard error of f, by the number of strips
+    sampling_error : relative, of f, by the number of strips
     difference : relative standard error of f, by the difference between the models
     numerical : relative error of f, by the cells of the last level
     length : of all strips [m]
@@ -138,7 +138,7 @@ class Levels:
     pieces: tuple[tuple[StripSolution, ...], ...]
     shortest: tuple[StripSolution, ...]
     finest: StripSolution
-    sampling: StandardError
+    sampling_error: StandardError
     difference: StandardError
     numerical: float
     length: float
@@ -244,14 +244,14 @@ def levels_of(
     results = [pair.resolved.result for pair in pairs]
     numbers = with_divided_contact_load(prepared.scene, numbers, results)
     f = abs(numbers["coefficient"])
-    of_strips = add_errors(estimate.error, replace(shorter.sampling, error=shorter.sampling.error * f))
+    of_strips = add_errors(estimate.error, replace(shorter.sampling_error, error=shorter.sampling_error.error * f))
     difference = StandardError(min(estimate.difference.error, of_strips.error) / f, estimate.difference.freedom)
     by_chance = math.sqrt((of_strips.error / f) ** 2 - difference.error**2)
-    sampling = replace(of_strips, error=math.hypot(by_chance, BALANCED * (estimate.between / f) ** 2))
+    sampling_error = replace(of_strips, error=math.hypot(by_chance, BALANCED * (estimate.between / f) ** 2))
     films = tuple(mean(getattr(result, name) - result.coefficient for result in results) / f for name in OTHER_FILMS)
     errors = _errors(prepared, pairs, numbers)
     errors["coefficient"] = math.hypot(
-        *(e for e in (sampling.error, difference.error, shorter.error) if math.isfinite(e))
+        *(e for e in (sampling_error.error, difference.error, shorter.error) if math.isfinite(e))
     )
     length = prepared.sample.line_length(max(estimate.control_strips, len(pairs)))
     first = pairs[0].resolved
@@ -270,7 +270,7 @@ def levels_of(
         has_unsolved_cells=shorter.has_unsolved,
         shortest=shorter.shortest,
         finest=shorter.strip or pairs[0].resolved,
-        sampling=sampling,
+        sampling_error=sampling_error,
         difference=difference,
         numerical=shorter.error,
         length=length,
@@ -319,7 +319,9 @@ def _of_pairs(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], control: Con
     for name, differences in control.numbers.items():
         numbers[name] -= mean(differences[:count])
     unsolved = 1 - count / control.count
-    others = replace(control.sampling, error=math.sqrt(unsolved) * control.sampling.error * abs(numbers["coefficient"]))
+    others = replace(
+        control.sampling_error, error=math.sqrt(unsolved) * control.sampling_error.error * abs(numbers["coefficient"])
+    )
     error = add_errors(_scatter(pairs, prepared.sample, control, unsolved), others)
     between = float(np.std(control.numbers["coefficient"]))
     return TwoLevelEstimate(

@@ -109,7 +109,7 @@ class ShorterCells:
     pieces : those of the third level; (): it is not needed, or not solved
     shortest : the piece of the fourth level; (): it is not needed, or not solved
     strip : the first strip itself on the shortest cells, if the sample refines in place; None: it is not solved on them
-    sampling : standard error of the mean relative change of f on ``pieces``, from place to place
+    sampling_error : of the mean relative change of f on ``pieces``, from place to place
     change : expected relative change of the sliding part of f by short cells where roughness moves, which are not solved
     error : relative error of f that the last cells leave
     has_unsolved : whether shorter cells were needed, and did not converge or would have taken too much work
@@ -118,7 +118,7 @@ class ShorterCells:
     pieces: tuple[Piece, ...] = ()
     shortest: Piece = ()
     strip: StripSolution | None = None
-    sampling: StandardError = StandardError(0.0, 1)
+    sampling_error: StandardError = StandardError(0.0, 1)
     change: float = 0.0
     error: float
     has_unsolved: bool = False
@@ -170,18 +170,18 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     floor = max(SOLVED, error_of_soft_bodies(pieces[0][-1]))
     error = max(error_by_cells((by_longer, change), max(halvings - 1, 1)), floor)
     if error <= tolerance or halvings < 2 or _is_costly(sample, pairs, pieces):
-        return ShorterCells(pieces=pieces, sampling=scatter, error=error)
+        return ShorterCells(pieces=pieces, sampling_error=scatter, error=error)
     try:
         with limited_work(PIECES_SHARE * work_left()):
             shortest = _refined(prepared, speed, 0, None, pairs[0].resolved.slope, times=4, length=LAST_PIECE)
     except ConvergenceError:
-        return ShorterCells(pieces=pieces, sampling=scatter, error=UNSOLVED_FACTOR * error, has_unsolved=True)
+        return ShorterCells(pieces=pieces, sampling_error=scatter, error=UNSOLVED_FACTOR * error, has_unsolved=True)
     coarse, fine = (strip.result for strip in shortest[-2:])
     further = abs(1 - coarse.coefficient / fine.coefficient)
     of_mean = math.sqrt(max(changes_of(shortest[-2:])[0] ** 2 - further**2, 0.0))  # scatter of it over places
     floor = max(SOLVED, error_of_soft_bodies(shortest[-1]))
     error = math.hypot(max(error_by_cells((change, further), max(halvings - 2, 1)), OFF * further, floor), of_mean)
-    return ShorterCells(pieces=pieces, shortest=shortest, sampling=scatter, error=error)
+    return ShorterCells(pieces=pieces, shortest=shortest, sampling_error=scatter, error=error)
 
 
 def error_of_soft_bodies(strip: StripSolution) -> float:

@@ -44,15 +44,15 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
     oil = scene.lubricant.oil
     temperature = scene.lubricant.temperature
     estimated = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
-    report = balanced.balance.report
+    report = balanced.corrected_balance.report
     return ModelAnswer(
         numbers=numbers,
         numerical=errors.numerical,
-        sampling=errors.sampling,
-        model_error=errors.model,
+        sampling_error=errors.sampling_error,
+        model_error=errors.model_error,
         most_rolling_ratio=OF_ROLLING if has_moving_roughness(scene) else 2.0,
         report=replace(report, notes=(*report.notes, *estimated)),
-        decision=decision_of(scene, balanced.rough_contact, balanced.balance, numbers["clearance"], **sample),
+        decision=decision_of(scene, balanced.rough_contact, balanced.corrected_balance, numbers["clearance"], **sample),
         errors=errors.errors,
         why_no_error=errors.why_not,
         reasons=errors.reasons,
@@ -64,7 +64,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
             *violations_of_sample(balanced),
             *(
                 violations_by_model_error(
-                    balanced.prepared, max(errors.model), numbers["coefficient"], consequence=FROM_EQUATION
+                    balanced.prepared, max(errors.model_error), numbers["coefficient"], consequence=FROM_EQUATION
                 )
                 if scene.numerics.model == "auto"
                 else ()
@@ -75,8 +75,10 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         fields=fields_of(balanced),
         fine_fields=None if balanced.on_cells is None else partial(fine_fields_of, balanced),
         details=replace(
-            balanced.balance,
-            contact_state=replace(balanced.balance.contact_state, fields=balanced.solved.contact_state.fields),
+            balanced.corrected_balance,
+            contact_state=replace(
+                balanced.corrected_balance.contact_state, fields=balanced.raw_balance.contact_state.fields
+            ),
         ),
         at_inputs=lambda: _at_inputs(balanced),
     )
@@ -84,7 +86,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
 
 def violations_of_sample(balanced: BalancedSample) -> tuple[Violation, ...]:
     """Return the limits of load sharing that ``balanced`` exceeds."""
-    return limits_exceeded(balanced.prepared, balanced.speed, balanced.balance, edge_load_share(balanced))
+    return limits_exceeded(balanced.prepared, balanced.speed, balanced.corrected_balance, edge_load_share(balanced))
 
 
 def fields_of(balanced: BalancedSample) -> ContactFields | None:
@@ -95,9 +97,9 @@ def fields_of(balanced: BalancedSample) -> ContactFields | None:
     rough_contact = balanced.on_cells
     if rough_contact is None:
         return None
-    solved = balanced.solved
+    raw_balance = balanced.raw_balance
     where = balanced.sample.in_words(balanced.count)
-    return fields_on(rough_contact, solved, solved.contact_state.fields, balanced.prepared.scene, where)
+    return fields_on(rough_contact, raw_balance, raw_balance.contact_state.fields, balanced.prepared.scene, where)
 
 
 def fine_fields_of(balanced: BalancedSample) -> ContactFields:
@@ -108,7 +110,7 @@ def fine_fields_of(balanced: BalancedSample) -> ContactFields:
     sample = balanced.sample
     cells = sample.coarsening_to_look_at(scene.bodies.half_width)
     rough_contact = contact_on_piece(prepared, sample, 0, cells)
-    balance = balanced.balance
+    balance = balanced.corrected_balance
     if balance.film is None:
         state = rough_contact.close(rough_contact.x**2 / (2 * scene.bodies.radius), balance.contact_load)
     else:
@@ -118,17 +120,17 @@ def fine_fields_of(balanced: BalancedSample) -> ContactFields:
 
 
 def fields_on(
-    rough_contact: HalfSpaceContact, solved: Balance, fields: ContactResult | None, scene: Scene, where: str
+    rough_contact: HalfSpaceContact, balance: Balance, fields: ContactResult | None, scene: Scene, where: str
 ) -> ContactFields:
-    """Return the ``fields`` of ``rough_contact`` (None: separated) in the balance ``solved``, on the part of the surface that
+    """Return the ``fields`` of ``rough_contact`` (None: separated) in the ``balance``, on the part of the surface that
     ``where`` says."""
     shape = rough_contact.heights.shape
     film = np.full(rough_contact.x.size, math.nan)
     shear = np.full(rough_contact.x.size, math.nan)
-    if solved.film is not None:
-        film = solved.film.film_at(rough_contact.x)
-        if solved.forces.heat.heated is None:
-            shear = film_stress(scene, rough_contact, solved.film)
+    if balance.film is not None:
+        film = balance.film.film_at(rough_contact.x)
+        if balance.forces.heat.heated is None:
+            shear = film_stress(scene, rough_contact, balance.film)
     slides = scene.motion.slide_roll_ratio != 0
     pressure = np.zeros(shape) if fields is None else fields.pressure
     boundary = scene.bodies.boundary_friction_coefficient * slides * pressure
@@ -167,7 +169,7 @@ def edge_load_share(balanced: BalancedSample) -> float:
     sample = balanced.sample
     if sample.refines_in_place and not sample.cells.is_native:
         return balanced.effect.edge_load_share
-    return balanced.rough_contact.on_the_ends(balanced.solved.contact_state) / sample.cells.coarsening[0]
+    return balanced.rough_contact.on_the_ends(balanced.raw_balance.contact_state) / sample.cells.coarsening[0]
 
 
 def _finer(change: float, tolerance: float) -> tuple[Violation, ...]:
@@ -193,7 +195,7 @@ def _numbers(balanced: BalancedSample) -> dict[str, float]:
     """Return all numbers of the sample that load sharing has, by name."""
     prepared = balanced.prepared
     scene = prepared.scene
-    balance = balanced.balance
+    balance = balanced.corrected_balance
     sq = prepared.surface.sq
     contact_state = balance.contact_state
     film = balance.film
@@ -208,7 +210,7 @@ def _numbers(balanced: BalancedSample) -> dict[str, float]:
         "plastic_area_fraction": contact_state.plastic_area_fraction,
         "film_to_roughness_ratio": numbers["central_film"] / sq if sq > 0 else math.inf,
         "load_residual": (sum(loads) - scene.bodies.load) / scene.bodies.load,
-        "volume_residual": 0.0 if film is None or separated else balanced.solved.contact_state.volume_residual,
+        "volume_residual": 0.0 if film is None or separated else balanced.raw_balance.contact_state.volume_residual,
         "clearance": (contact_state.mean_film - contact_state.mean_gap) / max(sq, 1e-12) if separated else math.nan,
         "steepness": _steepness(balanced),
     }
@@ -218,7 +220,7 @@ def _steepness(balanced: BalancedSample) -> float:
     """Return d ln(F_H/F_C)/d ln U: at a given division of the load the film grows as U^e, with closed forms at F_H. NaN
     where film and contact do not share the load."""
     response = balanced.response
-    balance = balanced.balance
+    balance = balanced.corrected_balance
     if response is None or balance.film is None or balance.contact_load == 0:
         return math.nan
     scene = balanced.prepared.scene

@@ -90,8 +90,8 @@ class BalancedSample:
     Attributes
     ----------
     prepared, speed : the scene, and the entrainment speed [m/s]
-    balance : with the division of the load that native cells demand
-    solved : the balance as it was solved on ``rough_contact``
+    raw_balance : as it was solved on ``rough_contact``
+    corrected_balance : with the division of the load that native cells demand (`corrected`); before, the raw one
     rough_contact : on the first ``count`` strips of ``sample``
     scatter : from place to place
     sample, count : what was solved, on its cells
@@ -102,8 +102,8 @@ class BalancedSample:
 
     prepared: Prepared
     speed: float
-    balance: Balance
-    solved: Balance
+    raw_balance: Balance
+    corrected_balance: Balance
     rough_contact: RoughContact
     scatter: Scatter
     sample: Sample
@@ -114,8 +114,8 @@ class BalancedSample:
 
     @property
     def response(self) -> Response | None:
-        """Return the response of the balance as it was solved."""
-        return self.solved.response
+        """The response of the raw balance; None where nothing touches, or no film is."""
+        return self.raw_balance.response
 
     @property
     def gap_scatter(self) -> StandardError:
@@ -123,9 +123,13 @@ class BalancedSample:
         return add_errors(self.scatter.gap, self.effect.error)
 
     @property
-    def sampling(self) -> float:
-        """Relative standard error of f because the sample is finite; NaN where it is not known."""
-        if self.solved.film is None:
+    def sampling_error(self) -> StandardError:
+        """The relative standard error of f because the sample is finite; NaN where it is not known."""
+        freedom = self.friction_scatter.freedom if self.response is not None else 0
+        return StandardError(self._sampling_error(), freedom)
+
+    def _sampling_error(self) -> float:
+        if self.raw_balance.film is None:
             return 0.0
         if self.response is None:
             return self.undetected
@@ -154,8 +158,8 @@ class BalancedSample:
 
     @property
     def left_by_root(self) -> float:
-        """Mean gap less mean film [m], as the balance was solved."""
-        return self.solved.contact_state.mean_gap - self.solved.contact_state.mean_film
+        """Mean gap less mean film [m], of the raw balance."""
+        return self.raw_balance.contact_state.mean_gap - self.raw_balance.contact_state.mean_film
 
     @property
     def second_order(self) -> float:
@@ -168,15 +172,10 @@ class BalancedSample:
         return 0.0 if self.response is None else self.response.relative("coefficient", getattr(self.effect, name))
 
     @property
-    def sampling_error(self) -> StandardError:
-        """The relative standard error of f because the sample is finite."""
-        return StandardError(self.sampling, self.friction_scatter.freedom if self.response is not None else 0)
-
-    @property
     def point(self) -> Point:
         """The point on this contact, with the settings of the balance."""
-        assert self.solved.settings is not None
-        return Point(self.prepared.scene, self.speed, self.rough_contact, self.solved.settings)
+        assert self.raw_balance.settings is not None
+        return Point(self.prepared.scene, self.speed, self.rough_contact, self.raw_balance.settings)
 
     @property
     def on_cells(self) -> HalfSpaceContact | None:
@@ -188,15 +187,16 @@ class BalancedSample:
         """The balance from which that of more strips starts; None where nothing touches."""
         if self.response is None:
             return None
-        return replace(self.solved, contact_state=replace(self.solved.contact_state, fields=None))
+        return replace(self.raw_balance, contact_state=replace(self.raw_balance.contact_state, fields=None))
 
     def required_strips(self) -> int:
         tolerance = self.prepared.scene.numerics.sampling_tolerance
         contacts = self.scatter.effective_contacts
-        few = self.response is not None and has_too_few_contacts(contacts, self.sampling, tolerance)
-        at_least = min(FEW_CONTACTS / contacts, (self.sampling / (SAMPLING_MATTERS * tolerance)) ** 2) if few else 0.0
+        error = self.sampling_error
+        few = self.response is not None and has_too_few_contacts(contacts, error.error, tolerance)
+        at_least = min(FEW_CONTACTS / contacts, (error.error / (SAMPLING_MATTERS * tolerance)) ** 2) if few else 0.0
         count = strips_for_error(
-            self.sampling_error,
+            error,
             tolerance,
             count=self.count,
             first=self.sample.first_strips,
@@ -221,19 +221,19 @@ class BalancedSample:
         response = self.response
         sample = self.sample
         scene = self.prepared.scene
-        solved = self.solved
-        if sample.cells.is_native or solved.film is None:
+        raw_balance = self.raw_balance
+        if sample.cells.is_native or raw_balance.film is None:
             return False
         allowed = budget.CONTACT_GRID * scene.numerics.tolerance
         if response is not None:
             moved = abs(response.log_load_ratio_per_gap * self.corrected_gap)
             if (
                 max(abs(self.corrected_gap), abs(self.effect.film_change))
-                > MOST_CORRECTED_GAP * solved.contact_state.mean_gap
+                > MOST_CORRECTED_GAP * raw_balance.contact_state.mean_gap
             ):
                 return True
-            by_contact = solved.forces.boundary / max(solved.forces.total, 1e-300)
-            part = max(by_contact, solved.contact_load / scene.bodies.load)  # of the friction, or of the load
+            by_contact = raw_balance.forces.boundary / max(raw_balance.forces.total, 1e-300)
+            part = max(by_contact, raw_balance.contact_load / scene.bodies.load)  # of the friction, or of the load
             if (
                 self.count == sample.available_strips or self.scatter.effective_contacts >= FEW_CONTACTS
             ):  # else it is known to a factor anyway
@@ -241,41 +241,41 @@ class BalancedSample:
             if moved > MOST_CORRECTED_LOG_RATIO and part * math.expm1(min(moved, 30.0)) > allowed:
                 return True
             return response.relative("coefficient", self.second_order) > allowed
-        clearance = solved.contact_state.mean_film - solved.contact_state.mean_gap
+        clearance = raw_balance.contact_state.mean_film - raw_balance.contact_state.mean_gap
         if self.count > sample.first_strips or clearance > LARGE_CLEARANCE * self.prepared.surface.sq:
             return False
-        depth = lost_summits(self.prepared, self.point, solved, sample) - clearance
+        depth = lost_summits(self.prepared, self.point, raw_balance, sample) - clearance
         native = contact_on_piece(self.prepared, sample, 0, (1, 1))
-        return depth > 0 and hidden_contact(scene, native, solved.forces, depth) > allowed
+        return depth > 0 and hidden_contact(scene, native, raw_balance.forces, depth) > allowed
 
     def corrected(self) -> BalancedSample:
         """Divide the load as native cells and the end of the root demand: film and friction are those of that division,
         areas follow its load."""
-        solved = self.solved
+        raw_balance = self.raw_balance
         response = self.response
         scene = self.prepared.scene
         effect = self.effect
-        if response is None or solved.film is None or not self.corrected_gap:
+        if response is None or raw_balance.film is None or not self.corrected_gap:
             return self
-        ratio = solved.log_load_ratio + response.log_load_ratio_per_gap * self.corrected_gap
+        ratio = raw_balance.log_load_ratio + response.log_load_ratio_per_gap * self.corrected_gap
         loads = loads_at(scene.bodies.load, ratio)
-        film = self.point.film(loads[0], solved.film, solved.film.cells)
-        state = solved.contact_state
-        area = solved.contact_state.real_contact_area_fraction
-        by_load = response.slopes.area_factor(loads[1] - solved.contact_load, scene.bodies.width, area)
+        film = self.point.film(loads[0], raw_balance.film, raw_balance.film.cells)
+        state = raw_balance.contact_state
+        area = raw_balance.contact_state.real_contact_area_fraction
+        by_load = response.slopes.area_factor(loads[1] - raw_balance.contact_load, scene.bodies.width, area)
         plastic = max(state.plastic_area_fraction + effect.plastic_change, 0.0)
         state = with_contact_area_scaled(replace(state, plastic_area_fraction=plastic), effect.area_factor * by_load)
         mean = weighted_mean(film.film_at(self.rough_contact.x), self.rough_contact.weight) + effect.film_change
         state = replace(state, mean_gap=mean, mean_film=mean)
-        balance = replace(
-            solved,
+        corrected_balance = replace(
+            raw_balance,
             film_load=loads[0],
             contact_load=loads[1],
             film=film,
             contact_state=state,
             forces=forces(scene, film, state, loads[1]),
         )
-        return replace(self, balance=balance)
+        return replace(self, corrected_balance=corrected_balance)
 
 
 def solve_sample(
@@ -287,12 +287,12 @@ def solve_sample(
     rough_contact = contact_on_strips(prepared, sample, count)
     begin = _reference(prepared, speed, sample) if start is None else start.start
     coarse = not sample.cells.is_native
-    solved = solve_balance(scene, speed, rough_contact, prepared.surface.sq, begin, correctable=coarse)
+    raw_balance = solve_balance(scene, speed, rough_contact, prepared.surface.sq, begin, correctable=coarse)
     solution = BalancedSample(
         prepared=prepared,
         speed=speed,
-        balance=solved,
-        solved=solved,
+        raw_balance=raw_balance,
+        corrected_balance=raw_balance,
         rough_contact=rough_contact,
         scatter=Scatter(length=sample.line_length(count)),
         sample=sample,
@@ -302,17 +302,19 @@ def solve_sample(
     on_cells = solution.on_cells
     if on_cells is None:
         return replace(solution, undetected=math.nan)
-    if solved.response is None:
-        assert solved.film is not None
-        undetected = undetected_contact(scene, on_cells, solved.film, solved.forces, sample.correlation_lengths[1])
+    if raw_balance.response is None:
+        assert raw_balance.film is not None
+        undetected = undetected_contact(
+            scene, on_cells, raw_balance.film, raw_balance.forces, sample.correlation_lengths[1]
+        )
         return replace(solution, undetected=undetected)
     effect = solution.first_effect
-    if effect is None and solved.film is not None:
-        effect = _effect(prepared, solution.point, solved, sample)
+    if effect is None and raw_balance.film is not None:
+        effect = _effect(prepared, solution.point, raw_balance, sample)
     return replace(
         solution,
-        scatter=scatter_of(scene, on_cells, solved, sample, count),
-        effect=(effect or CellEffect()).at_load(solved.contact_load),
+        scatter=scatter_of(scene, on_cells, raw_balance, sample, count),
+        effect=(effect or CellEffect()).at_load(raw_balance.contact_load),
         first_effect=effect,
     )
 

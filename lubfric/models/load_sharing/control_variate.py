@@ -33,12 +33,14 @@ def control_for(solution: BalancedSample) -> ControlVariate | None:
     prepared = solution.prepared
     sample = prepared.sample
     has_others = solution.sample.cells == sample.cells and sample.represents_more
-    return control_variate_of(prepared, solution) if has_others and math.isfinite(solution.sampling) else None
+    return (
+        control_variate_of(prepared, solution) if has_others and math.isfinite(solution.sampling_error.error) else None
+    )
 
 
 def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlVariate:
     """Return the differences of the strips of ``balanced`` from their line. Where nothing touches, strips do not differ."""
-    solved = balanced.solved
+    raw_balance = balanced.raw_balance
     response = balanced.response
     load = prepared.scene.bodies.load
     rough_contact = balanced.on_cells
@@ -51,22 +53,24 @@ def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlV
     def of_strips(places: np.ndarray) -> np.ndarray:
         return np.array([places[start : start + rows] for start in starts]) - places.mean()
 
-    places = of_strips(solved.forces.coefficient * friction_influence(prepared.scene, rough_contact, solved))
+    places = of_strips(raw_balance.forces.coefficient * friction_influence(prepared.scene, rough_contact, raw_balance))
     numbers = {"coefficient": places.mean(axis=1)}
     if response is None or response.rates is None:
-        return ControlVariate(places, numbers, StandardError(balanced.sampling, FREEDOM_NOT_COUNTED))
-    gap, loads = (of(rough_contact, solved.contact_state) for of in (hertz_mean_gap, line_load))
+        return ControlVariate(places, numbers, StandardError(balanced.sampling_error.error, FREEDOM_NOT_COUNTED))
+    gap, loads = (of(rough_contact, raw_balance.contact_state) for of in (hertz_mean_gap, line_load))
     influence = gap_influence(gap, loads, response.slopes.gap)
     moved = response.log_load_ratio_per_gap * of_strips(influence).mean(axis=1)  # of ln(F_H/F_C)
     for name, value in (
-        ("contact_load", solved.contact_load),
-        ("film_load", solved.film_load),
-        ("boundary_force", solved.forces.boundary),
-        ("rolling_force", solved.forces.shear.rolling),
-        ("rolling_resistance", solved.forces.shear.resistance),
-        ("mean_gap", solved.contact_state.mean_gap),
+        ("contact_load", raw_balance.contact_load),
+        ("film_load", raw_balance.film_load),
+        ("boundary_force", raw_balance.forces.boundary),
+        ("rolling_force", raw_balance.forces.shear.rolling),
+        ("rolling_resistance", raw_balance.forces.shear.resistance),
+        ("mean_gap", raw_balance.contact_state.mean_gap),
     ):
         numbers[name] = value * response.rates[name] * moved
     numbers["shear_force"] = load * numbers["coefficient"] - numbers["boundary_force"]
     numbers["couette_force"] = numbers["shear_force"] - numbers["rolling_force"]
-    return ControlVariate(places, numbers, StandardError(balanced.sampling, balanced.friction_scatter.freedom))
+    return ControlVariate(
+        places, numbers, StandardError(balanced.sampling_error.error, balanced.friction_scatter.freedom)
+    )

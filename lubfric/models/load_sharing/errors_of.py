@@ -41,8 +41,8 @@ class PointErrors:
     Attributes
     ----------
     numerical : of f, by solvers and grids
-    sampling : of f, because the sample is finite
-    model : of f, by the model, below and above f
+    sampling_error : of f, because the sample is finite
+    model_error : of f, by the model, below and above f
     errors : of all numbers, by name
     why_not : why an error is not known
     reasons : why that of some numbers is not, by name
@@ -51,8 +51,8 @@ class PointErrors:
     """
 
     numerical: float
-    sampling: StandardError
-    model: tuple[float, float]
+    sampling_error: StandardError
+    model_error: tuple[float, float]
     errors: dict[str, float]
     why_not: str
     reasons: dict[str, str]
@@ -81,13 +81,13 @@ class SolverErrors:
 
 def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
     """Return the errors of ``balanced``."""
-    balance = balanced.balance
+    balance = balanced.corrected_balance
     response = balanced.response
     solver = solver_errors_of(balanced)
     relative = solver.shear_error
     forces = balance.forces
     scatter = balanced.scatter
-    sampling = balanced.sampling
+    sampling = balanced.sampling_error.error
     error = StandardError(0.0, FREEDOM_NOT_COUNTED)
     why = "there was none, or too little to estimate it"
     if balance.film is None:
@@ -106,7 +106,7 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
         relative += response.per_film(forces, mean_film) * solver.film_error
         relative += response.relative("coefficient", solver.gap_error)
         errors = _contact_errors(scene, balanced, solver)
-    notes = _notes(balanced, scene, sampling)
+    notes = _notes(balanced, scene)
     if not math.isfinite(sampling):
         sampling = math.nan
     of_model, unknown = model_error_of_eq8(balanced)
@@ -119,8 +119,8 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
     left_out = dict.fromkeys(depending_on("heat"), forces.heat.reason(scene)) if balance.film is not None else {}
     return PointErrors(
         numerical=relative,
-        sampling=StandardError(sampling, error.freedom),
-        model=of_model,
+        sampling_error=StandardError(sampling, error.freedom),
+        model_error=of_model,
         errors=errors | {"coefficient": both},
         why_not=why,
         reasons=left_out,
@@ -131,9 +131,9 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
 
 def solver_errors_of(balanced: BalancedSample) -> SolverErrors:
     """Return the errors of ``balanced`` by solvers and grids."""
-    balance = balanced.balance
+    balance = balanced.corrected_balance
     effect = balanced.effect
-    solved = balanced.solved
+    raw_balance = balanced.raw_balance
     film_error = 0.0
     if balance.film is not None:
         residuals = balance.film.report.residuals
@@ -145,13 +145,13 @@ def solver_errors_of(balanced: BalancedSample) -> SolverErrors:
             effect.remaining_change
             + balanced.second_order
             + (budget.SLOPE * abs(balanced.corrected_gap) or abs(balanced.left_by_root))
-            + solved.contact_state.gap_error
+            + raw_balance.contact_state.gap_error
         )
-    read = solved.contact_state.area_error / max(solved.contact_state.real_contact_area_fraction, 1e-300)
+    read = raw_balance.contact_state.area_error / max(raw_balance.contact_state.real_contact_area_fraction, 1e-300)
     by_area = 0.0
-    if solved.contact_state.area_error and forces.total:
-        open_ = max(1 - solved.contact_state.real_contact_area_fraction, solved.contact_state.area_error)
-        by_area = solved.contact_state.area_error / open_ * forces.shear.magnitude / forces.total
+    if raw_balance.contact_state.area_error and forces.total:
+        open_ = max(1 - raw_balance.contact_state.real_contact_area_fraction, raw_balance.contact_state.area_error)
+        by_area = raw_balance.contact_state.area_error / open_ * forces.shear.magnitude / forces.total
     return SolverErrors(
         film_error=film_error,
         gap_error=gap_error,
@@ -167,7 +167,7 @@ def _contact_errors(scene: Scene, balanced: BalancedSample, solver: SolverErrors
     An error of the gap changes the division of the load, and everything with it (`Response.rates`). Films also have the
     error of the film solve. The area also has its own scatter at given load, and what its cells may change.
     """
-    balance = balanced.balance
+    balance = balanced.corrected_balance
     response = balanced.response
     assert response is not None
     scattered = balanced.gap_scatter.error if math.isfinite(balanced.gap_scatter.error) else 0.0
@@ -230,7 +230,7 @@ def _shear_errors(forces: Forces, film_error: float) -> dict[str, float]:
 def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], tuple[str, ...]]:
     """Return the relative error of f by load sharing itself, at 95 %, below and above f; where it is not known NaN, and
     why."""
-    balance = balanced.balance
+    balance = balanced.corrected_balance
     scene = balanced.prepared.scene
     if balance.film is None:
         fed = scene.lubricant.inlet_film
@@ -290,29 +290,30 @@ def _area_needed(balanced: BalancedSample, scene: Scene) -> float:
     known)."""
     needed = 1.0
     if balanced.sample.ends_after(balanced.count):
-        needed = (balanced.sampling / scene.numerics.sampling_tolerance) ** 2
+        needed = (balanced.sampling_error.error / scene.numerics.sampling_tolerance) ** 2
     return 1.0 if needed < 1 else needed if math.isfinite(needed) else math.nan
 
 
-def _notes(balanced: BalancedSample, scene: Scene, sampling: float) -> tuple[str, ...]:
+def _notes(balanced: BalancedSample, scene: Scene) -> tuple[str, ...]:
+    error = balanced.sampling_error.error
     tolerance = scene.numerics.sampling_tolerance
     sample = balanced.sample
     notes = []
     needed = _area_needed(balanced, scene)
-    if not math.isfinite(sampling):
+    if not math.isfinite(error):
         if balanced.on_cells is None:
             return (NO_CELLS,)
         if balanced.response is None:
             return (MISSED,)
         return (why_sample_too_short(scene, balanced.scatter.length / sample.correlation_lengths[1]),)
-    if sampling > tolerance and needed > 1:
+    if error > tolerance and needed > 1:
         times = float(f"{needed:.2g}")
         notes.append(
             f"the map ends before the requested {percent(tolerance)}: that would take about {times:g} times its area"
         )
-    elif sampling > tolerance:
+    elif error > tolerance:
         notes.append(f"more than the requested {percent(tolerance)}")
-    if has_too_few_contacts(balanced.scatter.effective_contacts, sampling, tolerance):
+    if has_too_few_contacts(balanced.scatter.effective_contacts, error, tolerance):
         notes.append(
             f"few asperity contacts carry the load (as {balanced.scatter.effective_contacts:.2g} equal ones would, fewer than {FEW_CONTACTS:g}): the "
             "interval is too narrow more often than it says"

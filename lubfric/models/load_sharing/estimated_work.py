@@ -114,7 +114,7 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     if not sample.represents_more:
         if touching != "none":
             seconds += PATCH_SECONDS + MAP_SECONDS * surface.heights.size
-        return WorkEstimate(strips=1, seconds=seconds, model_error=error_of_model, touching=touching)
+        return WorkEstimate(strips=1, seconds=seconds, expected_model_error=error_of_model, touching=touching)
     (lx, ly) = sample.correlation_lengths
     first = sample.first_strips * sample.strip_length
     target = scene.numerics.sampling_tolerance
@@ -162,8 +162,8 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
         seconds=seconds,
         shared=shared,
         length=sample.line_length(count),
-        sampling=error,
-        model_error=error_of_model,
+        expected_sampling_error=error,
+        expected_model_error=error_of_model,
         touching=touching,
     )
 

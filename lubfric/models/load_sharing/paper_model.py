@@ -78,7 +78,7 @@ class PaperSolution(SampleSolution):
         return ""
 
     def heat(self) -> Heat:
-        return self.balanced.balance.forces.heat
+        return self.balanced.corrected_balance.forces.heat
 
     def violations(self) -> tuple[Violation, ...]:
         return violations_of_sample(self.balanced)

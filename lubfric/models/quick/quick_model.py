@@ -211,7 +211,7 @@ class QuickModel(Model):
     ) -> WorkEstimate:
         alone = PaperModel().estimate_work(scene, sample, surface, speed, None)
         is_named = scene.numerics.model == self.name
-        if alone.touching == "none" and alone.model_error <= _error_of_thick_films(scene, surface.sq, speed):
+        if alone.touching == "none" and alone.expected_model_error <= _error_of_thick_films(scene, surface.sq, speed):
             return replace(alone, seconds=alone.seconds if is_named else 0.0)
         has_line = is_named and _may_answer_by_equation(scene, surface.sq, speed)
         seconds = alone.seconds if has_line else 0.0

@@ -15,12 +15,12 @@ class ControlVariate:
     ----------
     by_place : of f at every place of each strip (count, rows)
     numbers : of each strip (count,), by name
-    sampling : relative standard error of f on the line
+    sampling_error : relative, of f on the line
     """
 
     by_place: np.ndarray
     numbers: dict[str, np.ndarray]
-    sampling: StandardError
+    sampling_error: StandardError
 
     @property
     def count(self) -> int:

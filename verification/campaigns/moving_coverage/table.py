@@ -116,8 +116,8 @@ def answer(contact: RollingContact, seed: int) -> PlainRow:
     return {
         "f": parts.numbers["coefficient"],
         "change": cells.change,
-        "sampling": parts.sampling.error,
-        "freedom": parts.sampling.freedom,
+        "sampling": parts.sampling_error.error,
+        "freedom": parts.sampling_error.freedom,
         "strips": len(pairs),
         "steps": places.friction.shape[0],
         "work": sum(strip.work for strip in strips),
