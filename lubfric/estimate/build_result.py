@@ -56,7 +56,7 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
         )
     numbers |= full_load_numbers(scene, speed, prepared.surface.sq, numbers["inlet_film_factor"])
     uncertainty = uncertainty_of(prepared, answer)
-    loss = _power_loss(scene, speed, choice.model, answer, numbers, uncertainty)
+    loss = _power_loss(scene, speed, model=choice.model, answer=answer, numbers=numbers, uncertainty=uncertainty)
     numbers["power_loss"] = loss.value
     errors = answer.errors | {"power_loss": loss.error}
     of_answer = [each for each in answer.violations if each.what != MAP_WIDTH or answer.sampling_error.error != 0]
@@ -170,7 +170,7 @@ def _always_slides(scene: Scene) -> bool:
 
 
 def _power_loss(
-    scene: Scene, speed: float, model: Model, answer: ModelAnswer, numbers: dict[str, Any], uncertainty: Uncertainty
+    scene: Scene, speed: float, *, model: Model, answer: ModelAnswer, numbers: dict[str, Any], uncertainty: Uncertainty
 ) -> PowerLoss:
     """Return the power loss of the ``answer`` of ``model`` at ``speed`` [m/s]; its ``numbers`` have the lambda ratio."""
     return power_loss_of(

@@ -85,19 +85,25 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
     finite = moment_error(
         cast(HalfSpaceContact, model.patch),
         state,
-        loads,
-        contact_step.softness,
-        scene.bodies.width,
-        length,
-        parts,
-        thinning,
+        loads=loads,
+        softness=contact_step.softness,
+        width=scene.bodies.width,
+        correlation_length=length,
+        parts=parts,
+        thinning=thinning,
     )
     touches = contact_step.load > 0.0
     wet = setting.grid.x[t.P > 0.0] * p.length_unit
     central_film = t.H[setting.grid.n // 2] * p.film_unit
-    shares = tuple(sense * part / total for part in (boundary, shear.total, shear.rolling))  # along the sliding
     sq = float(model.prepared.surface.sq)
-    model_error = moment_model_error(scene, central_film / sq if sq else math.inf, contact_step.load / total, *shares)
+    model_error = moment_model_error(
+        scene,
+        film_to_roughness_ratio=central_film / sq if sq else math.inf,
+        share=contact_step.load / total,
+        boundary=sense * boundary / total,  # along the sliding
+        shear=sense * shear.total / total,
+        rolling=sense * shear.rolling / total,
+    )
     row = {
         "time": time,
         "entrainment_speed": speed,
@@ -153,7 +159,9 @@ def _violated(
     yield from prepared.violations
     yield from violations_by_ends(row["edge_load"], prepared.surface.size[0])
     yield from violations_by_motion(scene, speed, film)
-    yield from violations_by_film(scene, film, row["max_pressure"], shear, row["film_load"], force, heat)
+    yield from violations_by_film(
+        scene, thickness=film, peak=row["max_pressure"], shear=shear, film_load=row["film_load"], force=force, heat=heat
+    )
     smallest_force = SMALL_FRICTION * scene.bodies.boundary_friction_coefficient * row["load"]
     shear_error = shear.quadrature / max(force, smallest_force, TINY_FORCE)
     if shear_error > scene.numerics.tolerance:
@@ -230,11 +238,14 @@ def film_shear(
         entrainment_speed=speed,
         rupture=float(x[-1] if speed > 0 else x[0]),
     )
-    of_point = film, contact_step.state, contact_step.load, abs(boundary + isothermal.total), isothermal
-    point = point_heat(scene, *of_point)
+    force = abs(boundary + isothermal.total)
+    point = point_heat(scene, film, contact_step.state, contact_load=contact_step.load, force=force, shear=isothermal)
     heated = point.stress
     if heated is None:
-        return isothermal, replace(point.heat, typical=typical_heat(scene, *of_point))
+        typical = typical_heat(
+            scene, film, contact_step.state, contact_load=contact_step.load, force=force, shear=isothermal
+        )
+        return isothermal, replace(point.heat, typical=typical)
     along = math.copysign(1.0, speed)
 
     def hot(x: FloatArray, pressure: FloatArray, thickness: FloatArray) -> FloatArray:

@@ -52,7 +52,7 @@ def test_the_contact_that_a_line_misses(count):
     heights, spacing = summits(tops)
     length = 8 * spacing[1] / 1.75  # so that a block of 1.75 correlation lengths is one summit
     film = np.full(heights.shape[0], 1.5e-7)
-    result = undetected_load(heights, spacing, film, E_PRIME, WIDTH, length)
+    result = undetected_load(heights, spacing, thickness=film, e_prime=E_PRIME, width=WIDTH, correlation_length=length)
     scale = tops.std(ddof=1) * math.sqrt(6) / math.pi * (2 if count < 14 else 1)
     place = tops.mean() - 1.5e-7 - 0.5772 * scale
     touching = 1 - math.exp(-math.exp(place / scale))
@@ -64,22 +64,30 @@ def test_the_error_of_load_sharing_itself_is_that_of_its_rule():
     """docs/uncertainty.md, by hand: a film of λ = 2, 4, 8 by .3, .2, .05 of its shear; half of the load on asperities
     with f_b .12 beside a film of .04: .35 of .08 exchanged, .3 of the film's .02, and .25 sqrt(.5) of f = .08; a tenth
     of the load: no more than that tenth can go to the film."""
-    films = [load_sharing_error(ratio, 0.0, 0.0, 0.03) for ratio in (2.0, 4.0, 8.0)]
+    films = [load_sharing_error(ratio, share=0.0, boundary=0.0, shear=0.03) for ratio in (2.0, 4.0, 8.0)]
     assert np.array(films) == pytest.approx(np.array([[0.3, 0.3], [0.2, 0.2], [0.05, 0.05]]))
-    down, up = load_sharing_error(1.0, 0.5, 0.06, 0.02)
+    down, up = load_sharing_error(1.0, share=0.5, boundary=0.06, shear=0.02)
     others = (0.35 * 0.08 + 0.3 * 0.02) / 0.08
     of_all = 0.25 * math.sqrt(0.5)
     assert (down, up) == pytest.approx((1 - (1 - others) * (1 - of_all), others + of_all))
-    down, up = load_sharing_error(8.0, 0.1, 0.012, 0.0)
+    down, up = load_sharing_error(8.0, share=0.1, boundary=0.012, shear=0.0)
     of_all = 0.25 * math.sqrt(0.9)
     assert (down, up) == pytest.approx((1.0, 0.7 * 0.3 * 0.12 / 0.012 + of_all))
-    down, up = load_sharing_error(8.0, 0.9, 0.009, 0.03)  # the film rubs more: its tenth may go to the asperities
+    down, up = load_sharing_error(
+        8.0, share=0.9, boundary=0.009, shear=0.03
+    )  # the film rubs more: its tenth may go to the asperities
     assert down == pytest.approx(1 - (1 - (0.1 * 0.29 + 0.05 * 0.03) / 0.039) * (1 - 0.25 * math.sqrt(0.1)))
-    assert load_sharing_error(1.0, 0.0, 0.0, 4e-4, 4e-4) == pytest.approx((8.3, 8.3))  # pure rolling
-    assert load_sharing_error(30.0, 0.0, 0.0, 4e-4, 4e-4) == pytest.approx(((3.2 + 18) / 900,) * 2)
-    assert load_sharing_error(1.0, 1e-9, 0.0, 4e-4, 4e-4)[0] == pytest.approx(8.3, rel=1e-3)  # no less for a touch
-    assert load_sharing_error(math.inf, 0.0, 0.0, 0.03) == (0.0, 0.0)
-    assert max(load_sharing_error(0.1, 0.99999, 0.0899991, 1e-7)) < 3e-3
+    assert load_sharing_error(1.0, share=0.0, boundary=0.0, shear=4e-4, rolling=4e-4) == pytest.approx(
+        (8.3, 8.3)
+    )  # pure rolling
+    assert load_sharing_error(30.0, share=0.0, boundary=0.0, shear=4e-4, rolling=4e-4) == pytest.approx(
+        ((3.2 + 18) / 900,) * 2
+    )
+    assert load_sharing_error(1.0, share=1e-9, boundary=0.0, shear=4e-4, rolling=4e-4)[0] == pytest.approx(
+        8.3, rel=1e-3
+    )  # no less for a touch
+    assert load_sharing_error(math.inf, share=0.0, boundary=0.0, shear=0.03) == (0.0, 0.0)
+    assert max(load_sharing_error(0.1, share=0.99999, boundary=0.0899991, shear=1e-7)) < 3e-3
 
 
 def test_an_interval_has_two_sides_and_the_farther_one_lies_away_from_0():

@@ -135,13 +135,13 @@ def estimated_work(
     is_smooth = smooth_over_cells(surface.heights)
     return WorkEstimate(
         strips=count,
-        seconds=AT_REST * _work_at_rest(scene, sample, sq, speed, count, ends, is_smooth=is_smooth),
+        seconds=AT_REST * _work_at_rest(scene, sample, sq=sq, speed=speed, count=count, ends=ends, is_smooth=is_smooth),
         fine_fields_seconds=work_of_fine_fields(scene, sample, sq, speed),
     )
 
 
 def _work_at_rest(
-    scene: Scene, sample: Sample, sq: float, speed: float, count: int, ends: int, *, is_smooth: bool
+    scene: Scene, sample: Sample, *, sq: float, speed: float, count: int, ends: int, is_smooth: bool
 ) -> float:
     """Return the counted work [s] of ``count`` strips whose roughness rests, of shorter cells, and of so many ``ends``
     of input ranges; ``is_smooth``: whether the heights are smooth over a cell."""
@@ -209,7 +209,7 @@ def pictured_length(scene: Scene, sample: Sample) -> float:
 
 
 def work_on_strips(
-    scene: Scene, sample: Sample, sq: float, speed: float, sample_coarsening: tuple[float, float], count: int
+    scene: Scene, sample: Sample, *, sq: float, speed: float, sample_coarsening: tuple[float, float], count: int
 ) -> float:
     """Return the counted work [s] of ``count`` strips on cells ``sample_coarsening`` times as long as those of ``sample``, and of the
     ends of input ranges; ``sq`` [m]: of the surface."""

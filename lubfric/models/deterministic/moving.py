@@ -149,7 +149,7 @@ def moments(
             if result.residual <= tolerance:
                 break
         else:
-            nearby = _in_parts(problem_at, at, (count - 1) * step, step, work, how)
+            nearby = _in_parts(problem_at, at, time=(count - 1) * step, step=step, work=work, how=how)
             for order in STEP_ORDERS if history.follows_lubricant else STEP_ORDERS[:1]:
                 history = _history(problem, (at, before, earlier), step, imbalance, order=order)
                 result = newton(problem, nearby, work, history=history, **how)
@@ -215,7 +215,7 @@ def _history(
 
 
 def _in_parts(
-    problem_at: Callable[[float], Problem], at: Iterate, time: float, step: float, work: Work, how: dict[str, Any]
+    problem_at: Callable[[float], Problem], at: Iterate, *, time: float, step: float, work: Work, how: dict[str, Any]
 ) -> State:
     """Return the state after the step after ``time`` in `EULER_STEPS` Euler steps, as far as they are solved: a start only,
     because they do not keep the mass that the steps of second order keep."""

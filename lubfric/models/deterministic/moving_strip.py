@@ -247,7 +247,7 @@ def solve_moving_strip(
     step, discarded, count = _steps_of(scene, bodies, speed, rest.problem.spacing[0], effort)
     count = count if most_steps is None else min(count, most_steps)
     travelled = _travelled(bodies, speed, step, half_width(rest.problem.line))
-    passing = _passing(rest.problem, bodies, speed, step, effort, rest.result.state, 0.0)
+    passing = _passing(rest.problem, bodies, speed, step=step, effort=effort, state=rest.result.state, begun=0.0)
     summits_at = _summits(rest.problem, bodies, speed, target)
     oils = oils_at_ends(scene)
     ends_of_hardness = [value_of(end, name) for name, *ends in scene.at_ends() if name == HARDNESS_KEY for end in ends]
@@ -334,11 +334,13 @@ def continued_strip(scene: Scene, speed: float, strip: MovingStripSolution) -> t
     (dx, dy) = bodies[0].surface.spacing
     map_coarsening = (round(cell / dx), round(rest.problem.spacing[1] / dy))
     surface, upper = _combined(bodies)
-    problem = problem_of(scene, surface, speed, map_coarsening, upper, strip.ends)
+    problem = problem_of(scene, surface, speed, map_coarsening=map_coarsening, upper=upper, ends=strip.ends)
     step = float(strip.times[0])
     (discarded, counted) = continued_moments(rest.problem.line, cell, abs(speed) * step, strip.effort)
     begun = float(strip.times[strip.discarded - 1])
-    passing = _passing(problem, bodies, speed, step, strip.effort, strip.state_after_discard, begun)
+    passing = _passing(
+        problem, bodies, speed, step=step, effort=strip.effort, state=strip.state_after_discard, begun=begun
+    )
     rows = []
     for number, moment in enumerate(islice(passing, 1, 1 + discarded + counted), 1):
         rows.append(_row(moment))
@@ -444,6 +446,7 @@ def _passing(
     problem: Problem,
     bodies: Sequence[RoughBody],
     speed: float,
+    *,
     step: float,
     effort: MovingEffort,
     state: State,
@@ -555,7 +558,7 @@ def _steps(
 
 
 def moving_work(
-    line: LineContact, sq: float, cell: float, fastest: float, length: float, cells: float, continuations: int = 0
+    line: LineContact, sq: float, *, cell: float, fastest: float, length: float, cells: float, continuations: int = 0
 ) -> float:
     """Estimate the counted work [s of a usual core] of `solve_moving_strip` on so many ``cells``, and of so many
     `continued_strip`; on cells [m] along x, for a ``fastest`` body [m/s] whose map has this ``length`` [m]."""

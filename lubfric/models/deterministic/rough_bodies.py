@@ -99,7 +99,15 @@ def moving_point_work(
     continuations = (
         solved_ends + 1 if solved_ends else 0
     )  # with the one at the prepared inputs, which they are compared with
-    return moving_work(line, sq, fx * dx, fastest, sample.cells.columns * dx, cells, continuations)
+    return moving_work(
+        line,
+        sq,
+        cell=fx * dx,
+        fastest=fastest,
+        length=sample.cells.columns * dx,
+        cells=cells,
+        continuations=continuations,
+    )
 
 
 def why_too_costly(prepared: Prepared, speed: float, sample_coarsening: tuple[float, float]) -> str:

@@ -147,7 +147,7 @@ def solve_strip(
     Raises `InputError` and `ConvergenceError`.
     """
     check_resolved_gap(scene)
-    problem = problem_of(scene, surface, speed, map_coarsening, upper, ends)
+    problem = problem_of(scene, surface, speed, map_coarsening=map_coarsening, upper=upper, ends=ends)
     work = 0.0
     rise = math.nan
     longer = (2 * map_coarsening[0], 2 * map_coarsening[1])
@@ -196,6 +196,7 @@ def problem_of(
     scene: Scene,
     surface: Surface,
     speed: float,
+    *,
     map_coarsening: tuple[int, int] = (1, 1),
     upper: Surface | None = None,
     ends: tuple[float, float] | None = None,

@@ -148,7 +148,7 @@ def _dry(scene: Scene, rough_contact: RoughContact, why: str) -> Balance:
     load = scene.bodies.load
     shape = rough_contact.x**2 / (2 * scene.bodies.radius)
     state = rough_contact.close(shape, load)
-    report = _report(scene, CONVERGED, (0.0,), state, None, (f"{why}: all contact",))
+    report = _report(scene, CONVERGED, history=(0.0,), contact_state=state, film=None, notes=(f"{why}: all contact",))
     friction = forces(scene, None, state, load)
     return Balance(
         film_load=0.0,
@@ -157,7 +157,7 @@ def _dry(scene: Scene, rough_contact: RoughContact, why: str) -> Balance:
         contact_state=state,
         forces=friction,
         report=report,
-        response=respond(scene, rough_contact, state, load, shape),
+        response=respond(scene, rough_contact, state, load=load, thickness=shape),
         why_no_film=why,
     )
 
@@ -175,7 +175,9 @@ def _film_alone(point: Point) -> Balance:
         point = replace(point, settings=replace(point.settings, film_cells=cells))
         trial = point.trial(load, 0.0, trial)
     notes = ("separated: the film is thicker than the highest summits",)
-    report = _report(point.scene, CONVERGED, (0.0,), trial.contact_state, trial.film, notes)
+    report = _report(
+        point.scene, CONVERGED, history=(0.0,), contact_state=trial.contact_state, film=trial.film, notes=notes
+    )
     return Balance(
         film_load=load,
         contact_load=0.0,
@@ -234,9 +236,15 @@ def _response(point: Point, trial: Trial) -> Response:
     def film_of(load: float) -> EHLResult:
         return point.film(load, trial.film, trial.film.cells)
 
-    shape = point.on(point.rough_contact, trial.film)
+    thickness, shape = point.on(point.rough_contact, trial.film)
     return respond(
-        point.scene, point.tight(point.rough_contact), trial.contact_state, trial.contact_load, *shape, film_of
+        point.scene,
+        point.tight(point.rough_contact),
+        trial.contact_state,
+        load=trial.contact_load,
+        thickness=thickness,
+        shape=shape,
+        film_of=film_of,
     )
 
 
@@ -363,7 +371,13 @@ def _balance(point: Point, root: Root, response: Response) -> Balance:
     trial = root.payload
     scene = point.scene
     report = _report(
-        scene, root.status, root.history, trial.contact_state, trial.film, (), point.settings.balance_tolerance
+        scene,
+        root.status,
+        history=root.history,
+        contact_state=trial.contact_state,
+        film=trial.film,
+        notes=(),
+        tolerance=point.settings.balance_tolerance,
     )
     friction = forces(scene, trial.film, trial.contact_state, trial.contact_load)
     return Balance(
@@ -437,6 +451,7 @@ def _cells(point: Point, film: EHLResult, friction: Forces) -> int:
 def _report(
     scene: Scene,
     status: str,
+    *,
     history: tuple[float, ...],
     contact_state: ContactState,
     film: EHLResult | None,

@@ -132,7 +132,7 @@ def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, sample: 
     scatter = response.gap_for("coefficient", PIECE_SHARE * numerics.sampling_tolerance)
     steps: list[CellStep] = []
     while not _settled(steps, min(MOST_COMPARED_PIECES, sample.available_pieces), scatter):
-        steps.append(_step(prepared, point, balance, sample, len(steps), enough))
+        steps.append(_step(prepared, point, balance, sample, index=len(steps), enough=enough))
     error = mean_error(steps) if sample.represents_more else StandardError(0.0, 1)
 
     def mean(name: str) -> float:
@@ -173,7 +173,7 @@ def _settled(steps: Sequence[CellStep], most: float, scatter: float) -> bool:
     return len(steps) > 0 and (short or len(steps) >= most or mean_error(steps).error <= scatter)
 
 
-def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, index: int, enough: float) -> CellStep:
+def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, *, index: int, enough: float) -> CellStep:
     """Solve piece number ``index`` on finer and finer cells. Where that takes more than `MOST_PIECE_CELLS` cells, it
     ends when the rest is within ``enough`` [m]. The change is averaged over blocks along y, each with its influence on
     the mean gap."""

@@ -33,7 +33,7 @@ FLANKS = 1.5
 
 
 def load_sharing_error(
-    film_to_roughness_ratio: float, share: float, boundary: float, shear: float, rolling: float = 0.0
+    film_to_roughness_ratio: float, *, share: float, boundary: float, shear: float, rolling: float = 0.0
 ) -> tuple[float, float]:
     """Return the relative error of f by Eq. (8), at 95 % (docs/uncertainty.md): by how much f may be lower, and higher.
 

@@ -249,9 +249,14 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
     share = balance.contact_load / scene.bodies.load
     forces = balance.forces
     load = scene.bodies.load
-    parts = forces.boundary, forces.shear.total, forces.shear.rolling if has_moving_roughness(scene) else 0.0
     ratio = film / sq if sq else math.inf
-    down, up = load_sharing_error(ratio, share, *(part / load for part in parts))
+    down, up = load_sharing_error(
+        ratio,
+        share=share,
+        boundary=forces.boundary / load,
+        shear=forces.shear.total / load,
+        rolling=forces.shear.rolling / load if has_moving_roughness(scene) else 0.0,
+    )
     if share > 0 and sq:
         least = least_error(ratio)
         down = max(down, least)
@@ -264,7 +269,7 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
 
 
 def moment_model_error(
-    scene: Scene, film_to_roughness_ratio: float, share: float, boundary: float, shear: float, rolling: float
+    scene: Scene, *, film_to_roughness_ratio: float, share: float, boundary: float, shear: float, rolling: float
 ) -> tuple[float, float]:
     """Return the relative model-form error of f at a moment of a run in time, at 95 %, below and above f.
 
@@ -274,7 +279,7 @@ def moment_model_error(
     if why_moment_unknown(scene):
         return UNKNOWN
     moving = rolling if has_moving_roughness(scene) else 0.0
-    down, up = load_sharing_error(film_to_roughness_ratio, share, boundary, shear, moving)
+    down, up = load_sharing_error(film_to_roughness_ratio, share=share, boundary=boundary, shear=shear, rolling=moving)
     least = least_error(film_to_roughness_ratio) if 0 < share < 1 and math.isfinite(film_to_roughness_ratio) else 0.0
     return min(max(down, least), 1.0), max(up, least)
 

@@ -57,11 +57,13 @@ def forces(scene: Scene, film: EHLResult | None, contact_state: ContactState, co
     if film is None:
         return Forces(coefficient=boundary / bodies.load, boundary=boundary, shear=ShearForce(couette=0.0, rolling=0.0))
     elastic = _elastic(scene, film, contact_state, contact_load)
-    shear = _shear(scene, film, contact_state, elastic)
+    shear = _shear(scene, film, contact_state, elastic=elastic)
     boundary *= shear.asperity_share
-    point = point_heat(scene, film, contact_state, contact_load, abs(boundary + shear.total), shear)
+    point = point_heat(
+        scene, film, contact_state, contact_load=contact_load, force=abs(boundary + shear.total), shear=shear
+    )
     if point.inlet_viscosity is not None or point.stress is not None:
-        shear = _shear(scene, film, contact_state, elastic, point.inlet_viscosity, point.stress)
+        shear = _shear(scene, film, contact_state, elastic=elastic, warm=point.inlet_viscosity, stress=point.stress)
     total = abs(boundary + shear.total)
     quadrature = shear.quadrature / total if 0 < total < np.inf else 0.0
     return Forces(
@@ -103,6 +105,7 @@ def _shear(
     scene: Scene,
     film: EHLResult,
     contact_state: ContactState,
+    *,
     elastic: ElasticContact | None,
     warm: float | None = None,
     stress: Callable[..., Any] | None = None,

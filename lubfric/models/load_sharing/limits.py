@@ -37,9 +37,17 @@ def limits_exceeded(prepared: Prepared, speed: float, balance: Balance, ends: fl
         force = abs(friction.coefficient) * scene.bodies.load
         violations += violations_by_inlet(scene, film.line, film.flow_film, force)
         violations += violations_by_film(
-            scene, thickness, peak, friction.shear, balance.film_load, force, friction.heat
+            scene,
+            thickness=thickness,
+            peak=peak,
+            shear=friction.shear,
+            film_load=balance.film_load,
+            force=force,
+            heat=friction.heat,
         )
-        typical = typical_heat(scene, film, balance.contact_state, balance.contact_load, force, friction.shear)
+        typical = typical_heat(
+            scene, film, balance.contact_state, contact_load=balance.contact_load, force=force, shear=friction.shear
+        )
         violations += violations_by_typical_heat(scene, typical)
         if scene.numerics.film_deflection == "hydrodynamic" and balance.contact_load > 0:
             violations += violations_by_deflection(scene, balance.contact_state.mean_gap)

@@ -111,6 +111,7 @@ def respond(
     scene: Scene,
     rough_contact: RoughContact,
     contact_state: ContactState,
+    *,
     load: float,
     thickness: np.ndarray,
     shape: np.ndarray | None = None,

@@ -157,6 +157,7 @@ def film_stress(scene: Scene, rough_contact: HalfSpaceContact, film: EHLResult) 
 def moment_error(
     rough_contact: HalfSpaceContact,
     contact_state: ContactState,
+    *,
     loads: tuple[float, float],
     softness: float,
     width: float,

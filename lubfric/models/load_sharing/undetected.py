@@ -42,7 +42,12 @@ def undetected_contact(
     under = film.film_at(rough_contact.x)
     bodies = scene.bodies
     load = undetected_load(
-        rough_contact.heights, rough_contact.spacing, under, bodies.e_prime, bodies.width, correlation_length
+        rough_contact.heights,
+        rough_contact.spacing,
+        thickness=under,
+        e_prime=bodies.e_prime,
+        width=bodies.width,
+        correlation_length=correlation_length,
     )
     return _share(scene, load, forces)
 
@@ -50,6 +55,7 @@ def undetected_contact(
 def undetected_load(
     heights: FloatArray,
     spacing: tuple[float, float],
+    *,
     thickness: FloatArray,
     e_prime: float,
     width: float,

@@ -218,7 +218,12 @@ class QuickModel(Model):
         if speed and surface.sq and sample.is_resolved and scene.transient is None:
             count = 1 if has_moving_roughness(scene) else EXPECTED_STRIPS
             seconds += work_on_strips(
-                scene, sample, surface.sq, speed, sample_coarsening_of_long_cells(scene, sample), count
+                scene,
+                sample,
+                sq=surface.sq,
+                speed=speed,
+                sample_coarsening=sample_coarsening_of_long_cells(scene, sample),
+                count=count,
             )
         if has_moving_roughness(scene):
             return replace(alone, strips=1, length=sample.line_length(1), seconds=seconds, shared=())

@@ -121,7 +121,7 @@ def violations_by_motion(scene: Scene, speed: float, thickness: float) -> Iterat
 
 
 def violations_by_film(
-    scene: Scene, thickness: float, peak: float, shear: ShearForce, film_load: float, force: float, heat: Heat
+    scene: Scene, *, thickness: float, peak: float, shear: ShearForce, film_load: float, force: float, heat: Heat
 ) -> Iterator[Violation]:
     """Yield the violations by a film of central ``thickness`` [m] and ``peak`` pressure [Pa], by its ``shear`` and its
     ``heat``."""

@@ -194,7 +194,7 @@ class PointHeat:
 
 
 def point_heat(
-    scene: Scene, film: Any, contact_state: ContactState, contact_load: float, force: float, shear: ShearForce
+    scene: Scene, film: Any, contact_state: ContactState, *, contact_load: float, force: float, shear: ShearForce
 ) -> PointHeat:
     """Return the heat of ``film`` with a ``contact_state`` that carries ``contact_load`` [N].
 
@@ -295,7 +295,7 @@ def surroundings(scene: Scene, speed: float, wet: FloatArray, boundary_stress: F
 
 
 def typical_heat(
-    scene: Scene, film: Any, contact_state: ContactState, contact_load: float, force: float, shear: ShearForce
+    scene: Scene, film: Any, contact_state: ContactState, *, contact_load: float, force: float, shear: ShearForce
 ) -> float:
     """Return the share of ``force`` = |f F_T| [N] that the heat of film and surfaces would take away, at most, if the
     viscosity fell with the temperature as that of a typical oil (`TYPICAL`), from the stress of the isothermal film. 0

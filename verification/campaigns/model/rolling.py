@@ -131,7 +131,9 @@ def rolling(level: str, run: Run = Run()) -> Iterator[Item]:
 
 def stated(fast: PlainRow) -> tuple[float, float]:
     """Return the error that load sharing states where roughness moves, below and above f."""
-    return load_sharing_error(*(fast[name] for name in ("ratio", "share", "boundary", "shear", "rolling")))
+    return load_sharing_error(
+        fast["ratio"], share=fast["share"], boundary=fast["boundary"], shear=fast["shear"], rolling=fast["rolling"]
+    )
 
 
 def summary(result: list[tuple[RollingCase, PlainRow]]) -> Iterator[list[str]]:
