@@ -21,7 +21,6 @@ from lubfric.models.deterministic import (
 from lubfric.models.deterministic.answer import REDISTRIBUTED
 from lubfric.models.load_sharing import least_error, starved_error
 from lubfric.models.quick import (
-    QuickModel,
     error_models,
     features,
     long_cells_in_motion,
@@ -30,6 +29,7 @@ from lubfric.models.quick import (
     on_cells_along_x,
     solve_at_rest,
     solve_moving,
+    solve_on_long_cells,
     widening,
 )
 from lubfric.models.shared import speed_of
@@ -115,7 +115,7 @@ def test_a_strip_on_long_cells_is_the_strip_of_the_heights_that_they_take():
 def test_the_strips_of_a_line_have_one_slope_and_show_their_scatter_by_blocks():
     scene = HEAVIER.with_(numerics={"sampling_tolerance": 0.03})
     prepared = lubfric.prepare(scene)
-    pairs = QuickModel().solve(prepared, prepared.sample, prepared.sample.first_strips, 0.1).strips.levels.pairs
+    pairs = solve_on_long_cells(prepared, 0.1).levels.pairs
     slopes = {pair.resolved.slope for pair in pairs}
     assert len(slopes) == 1 and math.isfinite(slopes.pop())
     first, second = (solve_at_rest(scene, patch(seed=seed), 0.1, (2, 2), slope=0.07).resolved for seed in (3, 4))
@@ -555,7 +555,7 @@ def test_outside_the_campaign_the_half_width_grows_with_the_distance():
     sq = PAPER.surface.sq
     largest = error_models()["rest"].range["lambda"][1]
     speeds = [speed_of(PAPER, sq * largest * factor) for factor in (0.99, 1.5)]
-    strips = [QuickModel().solve(prepared, prepared.sample, prepared.sample.first_strips, u).strips for u in speeds]
+    strips = [solve_on_long_cells(prepared, speed) for speed in speeds]
     assert strips[0].outside == () and strips[0].widening == 1.0
     assert len(strips[1].outside) == 1
     assert strips[1].widening == pytest.approx(1 + math.log(1.5), rel=0.02)
@@ -563,7 +563,7 @@ def test_outside_the_campaign_the_half_width_grows_with_the_distance():
 
 def test_the_bias_is_taken_from_the_sliding_part_of_f_alone():
     prepared = lubfric.prepare(HEAVIER, patch())
-    strips = QuickModel().solve(prepared, prepared.sample, 1, 0.1).strips
+    strips = solve_on_long_cells(prepared, 0.1)
     biased = replace(strips, bias=-0.1)
     load = HEAVIER.bodies.load
     before = strips.levels.numbers

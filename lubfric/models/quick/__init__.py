@@ -1,8 +1,9 @@
 """The quick answer: a few strips by the deterministic model on long cells, with the error that solved cases give them.
 
-- `long_cells`: the cells, the solves, and the features of a strip on which its error depends.
+- `long_cells`: the cells, a strip on them, and its features, on which its error depends.
 - `calibrated_error`: the bias and the 95 % bounds of f by these features; calibration.toml has their numbers.
-- `quick_model`: ``"quick"``, the model that answers by them, beside the balance of ``"paper"``.
+- `strips_on_long_cells`: how many strips, their f without its bias, and its bounds.
+- `quick_model`: ``"quick"``, the model that answers by them, or by the balance of ``"paper"``.
 """
 
 from .calibrated_error import error_models, widening
@@ -21,3 +22,4 @@ from .long_cells import (
     solve_moving,
 )
 from .quick_model import QuickModel
+from .strips_on_long_cells import solve_on_long_cells
