@@ -51,10 +51,10 @@ class TestSample:
 
     def test_a_longer_sample_contains_a_shorter_one(self, sample):
         if sample.available_strips > 1:
-            stack = sample.stack(2).heights
+            stack = sample.first_joined(2).heights
             middle = slice(sample.rows // 2, sample.rows - sample.rows // 4)  # away from where strips are joined
             assert np.allclose(stack[:, middle], sample.strip(0).heights[:, middle], atol=1e-15)
-        assert sample.stack(1).shape[1] == sample.rows_of(1)
+        assert sample.first_joined(1).shape[1] == sample.rows_of(1)
 
     def test_native_cells_are_those_of_the_scene(self, sample):
         native = sample.native()
@@ -85,7 +85,7 @@ class TestSample:
         contact = sample.contact(prepared.scene, sample.first_strips, operator)
         assert type(contact) is type(prepared.rough_contact) and np.array_equal(contact.x, prepared.rough_contact.x)
         if requested:
-            first = sample.stack(sample.first_strips)
+            first = sample.first_joined(sample.first_strips)
             assert requested == [(first.shape, first.spacing)]
             assert np.array_equal(contact.heights, first.heights - first.heights.mean())
 

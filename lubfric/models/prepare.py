@@ -11,7 +11,7 @@ from ..samples import Sample, check_map, combined_maps, sample_of
 from ..scene import Bodies, Scene, hint_unusual_values
 from ..surface import Surface
 from .registry import check_by_model
-from .shared import Memo, Prepared, StackKey, beforehand, cells_of_contact, operator_on, scene_of
+from .shared import JoinedKey, Memo, Prepared, beforehand, cells_of_contact, operator_on, scene_of
 
 
 @with_default_errors
@@ -75,7 +75,7 @@ def _on_sample(scene: Scene, sample: Sample, *, is_given: bool) -> Prepared:
     check_map(scene, surface)
     memo = Memo()
     rough_contact = sample.contact(scene, sample.first_strips, partial(operator_on, memo, scene))
-    memo.put(StackKey(sample.cells.coarsening, sample.first_strips), rough_contact, cells_of_contact(rough_contact))
+    memo.put(JoinedKey(sample.cells.coarsening, sample.first_strips), rough_contact, cells_of_contact(rough_contact))
     prepared = Prepared(
         scene=scene,
         surface=surface,

@@ -199,8 +199,8 @@ def _two_pressures(contact: DrawnContact, options: PictureOptions) -> Figure:
         axes[0].axhline(fields.y[row] * 1e6, color=figures.GREEN, lw=0.8, ls=":")
         title += "" if options.is_narrow else part_in_words(fields.y, part)
     elif panels[0]:
-        said = {"ha": "center", "va": "center", "transform": axes[0].transAxes}
-        axes[0].text(0.5, 0.5, "no field of the dry contact\n(separated, or read from a contact curve)", **said)
+        no_field = "no field of the dry contact\n(separated, or read from a contact curve)"
+        axes[0].text(0.5, 0.5, no_field, ha="center", va="center", transform=axes[0].transAxes)
         axes[0].set_axis_off()
     title += "; dashed: Hertz strip" if panels[0] else ": no contact"
     _title(figure, title, options)

@@ -204,18 +204,20 @@ def _power_of_two(ratio: float) -> int:
     return factor
 
 
-def stacked(strips: list[np.ndarray], blend: int) -> np.ndarray:
-    """Return arrays (nx, ny) joined one after the other along y, and the last to the first.
+def joined_maps(maps: list[np.ndarray], blend: int) -> np.ndarray:
+    """Return ``maps`` of heights (nx, ny) joined one after the other along y, and the last to the first.
 
     The last ``blend`` cells of each are laid over the first of the next. Their weights are cos and sin, whose squares
     add to 1, about the mean of all.
     """
-    mean = float(np.mean([strip.mean() for strip in strips]))
+    mean = float(np.mean([heights.mean() for heights in maps]))
     angle = 0.5 * np.pi * (np.arange(blend) + 0.5) / blend
     out = []
-    for before, strip in zip([strips[-1], *strips[:-1]], strips):
-        part = strip[:, : strip.shape[1] - blend].copy()
-        part[:, :blend] = mean + np.sin(angle) * (strip[:, :blend] - mean) + np.cos(angle) * (before[:, -blend:] - mean)
+    for before, heights in zip([maps[-1], *maps[:-1]], maps):
+        part = heights[:, : heights.shape[1] - blend].copy()
+        part[:, :blend] = (
+            mean + np.sin(angle) * (heights[:, :blend] - mean) + np.cos(angle) * (before[:, -blend:] - mean)
+        )
         out.append(part)
     return np.concatenate(out, axis=1)
 

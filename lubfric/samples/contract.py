@@ -94,7 +94,7 @@ class Sample(ABC):
 
         ``operator``: makes the half-space operator of a grid, or finds it, from its shape and its spacing [m].
         """
-        surface = self.stack(count)
+        surface = self.first_joined(count)
         heights = surface.heights - surface.heights.mean()
         made = operator(surface.shape, surface.spacing)
         return half_space_contact_of(scene, heights, surface.spacing, operator=made, x=self.cells.axis())
@@ -157,7 +157,7 @@ class Sample(ABC):
         """The number of cells along y of one strip."""
         return self.rows_of(1)
 
-    def stack(self, count: int) -> Surface:
+    def first_joined(self, count: int) -> Surface:
         """Join the first ``count`` strips."""
         return self.joined(range(count))
 
@@ -172,7 +172,7 @@ class Sample(ABC):
 
     def first_map(self) -> Surface:
         """Return the map that is solved first; of a single patch on native cells."""
-        return self.stack(self.first_strips)
+        return self.first_joined(self.first_strips)
 
     def halved(self) -> Self:
         """Return the same sample on cells half as long."""

@@ -1,7 +1,7 @@
 """Samples of strips, each some 90 correlation lengths long across the motion: of an endless generated surface, or
 windows of a measured map.
 
-`Sample.stack` joins the first strips to one line, which is solved as one contact with one film and one approach.
+`Sample.first_joined` joins the first strips to one line, which is solved as one contact with one film and one approach.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ from .cells import (
     cells_of_a_box,
     choose_cells,
     correlation_lengths,
+    joined_maps,
     length_or_half,
     no_cells,
     reach_of,
     spread_order,
-    stacked,
     starts_of,
 )
 from .contract import PIECE, Sample
@@ -105,7 +105,7 @@ class GeneratedStrips(FieldsOnly, Sample):
         strip = self._generator(STRIPS, self.cells.spacing, shape)
         strips = [known.get(index) or strip(index) for index in indices]
         known.update((i, s) for i, s in zip(indices, strips) if i < KEPT_CELLS // math.prod(shape))
-        return replace(strips[0], heights=stacked([strip.heights for strip in strips], blend))
+        return replace(strips[0], heights=joined_maps([strip.heights for strip in strips], blend))
 
     def piece(self, index: int, length: float = PIECE) -> Surface:
         fx, fy = self.cells.coarsening
@@ -179,10 +179,10 @@ class MeasuredStrips(Sample):
     def joined(self, indices: Sequence[int]) -> Surface:
         fx, fy = self.cells.coarsening
         pieces = [self._columns(self.starts[index])[fx // 2 :: fx] for index in indices]
-        heights = stacked(pieces, self._blend)
+        heights = joined_maps(pieces, self._blend)
         rows = self._rows(heights.shape[1]) * fy
         shape = f"{self.cells.columns * fx} x {self.surface.shape[1]} cells"
-        note = f"{counted(len(pieces), 'windows')} of {shape}, stacked along y"
+        note = f"{counted(len(pieces), 'windows')} of {shape}, joined along y"
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.spacing, note)
 
     def piece(self, index: int, length: float = PIECE) -> Surface:
@@ -192,7 +192,7 @@ class MeasuredStrips(Sample):
         wanted = round(length * self.correlation_lengths[1] / self.surface.spacing[1])
         rows = min(window.shape[1] - blend, wanted) // unit * unit
         first = (window.shape[1] - rows - blend) // 2
-        piece = stacked([window[:, first : first + rows + blend]], blend)[:, :rows]
+        piece = joined_maps([window[:, first : first + rows + blend]], blend)[:, :rows]
         return self._made(piece, self.surface.spacing, "a piece on the map's own cells")
 
     def _rows(self, native_rows: int) -> int:
@@ -217,9 +217,9 @@ class MeasuredStrips(Sample):
 def strips_of(scene: Scene, read: tuple[Surface, ...] = ()) -> Sample:
     """Return strips of the scene's surface, generated or measured; on native cells if ``numerics.grid`` is given.
     ``read``: the measured maps, if `whole_maps` read them before."""
-    strips: Sample
-    strips = measured_strips(scene, *(read or whole_maps(scene))) if is_measured(scene) else generated_strips(scene)
-    return strips.native() if scene.numerics.grid == "given" else strips
+    sample: Sample
+    sample = measured_strips(scene, *(read or whole_maps(scene))) if is_measured(scene) else generated_strips(scene)
+    return sample.native() if scene.numerics.grid == "given" else sample
 
 
 def generated_strips(scene: Scene) -> GeneratedStrips:

@@ -177,14 +177,9 @@ def fine_fields_of(prepared: Prepared, speed: float) -> ContactFields:
     """Return the fields of a piece of the surface on cells fine enough to look at, solved by itself."""
     sample = prepared.sample
     half_width = prepared.scene.bodies.half_width
-    cells = sample.coarsening_to_look_at(half_width)
-    rough_contact = contact_on_piece(
-        prepared,
-        sample,
-        0,
-        cells,
-        pictured_length(prepared.scene, sample),
-    )
+    coarsening = sample.coarsening_to_look_at(half_width)
+    length = pictured_length(prepared.scene, sample)
+    rough_contact = contact_on_piece(prepared, sample, 0, coarsening, length=length)
     strip = solve_strip(prepared.scene, map_of(prepared, rough_contact), speed)
     where = sample.piece_in_words()
     return fields_of(

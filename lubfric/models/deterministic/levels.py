@@ -41,7 +41,7 @@ from .result import DeterministicResult
 from .rough_bodies import summit_control
 from .shorter_cells import (
     NO_SHORTER_CELLS,
-    changed,
+    changed_by_pieces,
     on_shorter_cells,
 )
 from .strip import (
@@ -182,13 +182,14 @@ class TwoLevelEstimate:
         )
 
 
-def solve_strips(
-    prepared: Prepared, speed: float, count: int, strips: Sequence[StripOnTwoGrids] = ()
+def solve_pairs(
+    prepared: Prepared, speed: float, count: int, *, solved: Sequence[StripOnTwoGrids] = ()
 ) -> tuple[StripOnTwoGrids, ...]:
-    """Solve the first ``count`` strips at ``speed`` [m/s], not 0; ``strips``: the first of them, if they are solved."""
-    solved = list(strips) or [solve_pair(prepared, speed, None, 0)]
-    slope = solved[0].resolved.slope
-    return (*solved, *map_parts(solve_pair, range(len(solved), count), prepared, speed, slope))
+    """Solve the first ``count`` strips at ``speed`` [m/s], not 0, each on two grids; ``solved``: the first of them, if they
+    are."""
+    first = tuple(solved) or (solve_pair(prepared, speed, None, 0),)
+    slope = first[0].resolved.slope
+    return (*first, *map_parts(solve_pair, range(len(first), count), prepared, speed, slope))
 
 
 def two_levels(
@@ -237,12 +238,11 @@ def levels_of(
     change of f from longer ones is not within ``numerics.tolerance``; without ``with_shorter_cells`` the error by the cells
     is for others to state. Raises `ConvergenceError`."""
     shorter = on_shorter_cells(prepared, speed, pairs) if with_shorter_cells else NO_SHORTER_CELLS
-    numbers = changed_as_expected(estimate.numbers, shorter.change)
-    expected_change = numbers["coefficient"] / estimate.numbers["coefficient"] - 1 if shorter.change else 0.0
-    numbers = changed(prepared, numbers, [(piece[1], piece[-1]) for piece in shorter.pieces])
-    numbers = changed(prepared, numbers, [shorter.shortest[-2:]] if shorter.shortest else [])
+    as_expected = changed_as_expected(estimate.numbers, shorter.change)
+    third = changed_by_pieces(prepared, as_expected, [(piece[1], piece[-1]) for piece in shorter.pieces])
+    fourth = changed_by_pieces(prepared, third, [shorter.shortest[-2:]] if shorter.shortest else [])
     results = [pair.resolved.result for pair in pairs]
-    numbers = with_divided_contact_load(prepared.scene, numbers, results)
+    numbers = with_divided_contact_load(prepared.scene, fourth, results)
     f = abs(numbers["coefficient"])
     of_strips = add_errors(estimate.error, replace(shorter.sampling_error, error=shorter.sampling_error.error * f))
     difference = StandardError(min(estimate.difference.error, of_strips.error) / f, estimate.difference.freedom)
@@ -253,30 +253,29 @@ def levels_of(
     errors["coefficient"] = math.hypot(
         *(e for e in (sampling_error.error, difference.error, shorter.error) if math.isfinite(e))
     )
-    length = prepared.sample.line_length(max(estimate.control_strips, len(pairs)))
     first = pairs[0].resolved
     at_rest = first.at_rest
-    oil = prepared.scene.lubricant
-    flow, inlet = (change_by_flow(at_rest, other) for other in (thinned_less(at_rest.problem.lubricant), oil))
+    notes = [estimate.note] if estimate.note else []
+    if shorter.change:
+        change = as_expected["coefficient"] / estimate.numbers["coefficient"] - 1
+        notes += [CORRECTED_BY_CELLS.format(100 * change)] if change else []
     return Levels(
         numbers=numbers,
         errors=errors,
         by_film=films,
-        by_flow=flow,
-        by_inlet=inlet,
+        by_flow=change_by_flow(at_rest, thinned_less(at_rest.problem.lubricant)),
+        by_inlet=change_by_flow(at_rest, prepared.scene.lubricant),
         control_strips=estimate.control_strips,
         pairs=tuple(pairs),
         pieces=shorter.pieces,
         has_unsolved_cells=shorter.has_unsolved,
         shortest=shorter.shortest,
-        finest=shorter.strip or pairs[0].resolved,
+        finest=shorter.strip or first,
         sampling_error=sampling_error,
         difference=difference,
         numerical=shorter.error,
-        length=length,
-        note="; ".join(
-            filter(None, (estimate.note, CORRECTED_BY_CELLS.format(100 * expected_change) if expected_change else ""))
-        ),
+        length=prepared.sample.line_length(max(estimate.control_strips, len(pairs))),
+        note="; ".join(notes),
     )
 
 

@@ -20,7 +20,7 @@ from ..shared import (
 from .answer import answer_of
 from .estimated_work import estimated_work
 from .heat import why_too_hot
-from .levels import Levels, TwoLevelEstimate, levels_of, solve_strips, two_levels
+from .levels import Levels, TwoLevelEstimate, levels_of, solve_pairs, two_levels
 from .rough_bodies import why_too_costly
 from .strip_on_two_grids import StripOnTwoGrids, sample_coarsening_of
 
@@ -123,10 +123,10 @@ class DeterministicModel(Model):
         (`sample_coarsening_of`).
         """
         solved = start.pairs if isinstance(start, DeterministicSolution) else ()
-        strips = solve_strips(prepared, speed, count, solved)
-        estimate, wanted = two_levels(prepared, strips, control)
+        pairs = solve_pairs(prepared, speed, count, solved=solved)
+        estimate, wanted = two_levels(prepared, pairs, control)
         return DeterministicSolution(
-            prepared=prepared, sample=sample, speed=speed, pairs=strips, estimate=estimate, wanted=wanted
+            prepared=prepared, sample=sample, speed=speed, pairs=pairs, estimate=estimate, wanted=wanted
         )
 
     def why_unable(self, prepared: Prepared, speed: float) -> str:

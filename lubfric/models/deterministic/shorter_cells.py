@@ -234,7 +234,7 @@ def _by_boundary_film(strips: Sequence[StripSolution]) -> float:
     return sum(abs(result.at_twice_film / result.coefficient - 1) for result in results) / len(results)
 
 
-def changed(
+def changed_by_pieces(
     prepared: Prepared, numbers: dict[str, float], pieces: Sequence[Sequence[StripSolution]]
 ) -> dict[str, float]:
     """Return ``numbers`` of a point as shorter cells change them: each by its ratio on ``pieces``, each on the longer

@@ -31,7 +31,7 @@ class Key(Generic[T]):
 
 
 @dataclass(frozen=True)
-class StackKey(Key[RoughContact]):
+class JoinedKey(Key[RoughContact]):
     """The contact on the first ``count`` strips, on cells of this ``coarsening``."""
 
     coarsening: tuple[int, int]

@@ -15,7 +15,7 @@ from ...samples import (
 )
 from ...scene import Scene
 from ...surface import Surface
-from .memo import Memo, OperatorKey, PieceKey, PieceMapKey, StackKey, StripKey
+from .memo import JoinedKey, Memo, OperatorKey, PieceKey, PieceMapKey, StripKey
 from .violation import Violation
 
 OWN_CONTACTS = HalfSpaceContact, FlatContact, AsperityContact
@@ -82,7 +82,7 @@ def contact_on_strips(prepared: Prepared, sample: Sample, count: int) -> RoughCo
     def make() -> RoughContact:
         return contact_at_inputs(prepared, sample, count, prepared.scene)
 
-    return prepared.memo.get(StackKey(sample.cells.coarsening, count), make, cells_of_contact)
+    return prepared.memo.get(JoinedKey(sample.cells.coarsening, count), make, cells_of_contact)
 
 
 def contact_at_inputs(prepared: Prepared, sample: Sample, count: int, scene: Scene) -> RoughContact:
