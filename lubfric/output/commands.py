@@ -16,7 +16,7 @@ import tomllib
 from argparse import Namespace
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_type_hints
@@ -202,13 +202,26 @@ def read_record(folder: Path) -> dict[str, Any]:
     if not os.path.lexists(path):
         raise InputError(f"{folder} holds no {RESULT}; {again}")
     record = read_json(path, again)
+    for violation in _violations_of(record):
+        violation.setdefault("recommendation", violation.pop("remedy", None))  # as records of version 1.0.0 have it
     hints = get_type_hints(Violation)
-    hints.pop("is_note")  # records of version 1.0.0 have none
-    numbers = {name: kind | None if kind is float else kind for name, kind in hints.items()}
+    kinds = {field.name: hints[field.name] for field in fields(Violation)}
+    kinds.pop("is_note")  # records of version 1.0.0 have none
+    numbers = {name: kind | None if kind is float else kind for name, kind in kinds.items()}
     kind = {"scene": {"name": str}, "points": [{"validity": [numbers]}]}
     if not isinstance(record, dict) or not fits({"points": []} | record, kind):
         raise InputError(f"{path} is damaged, or no record of a run; {again}")
     return record
+
+
+def _violations_of(record: Any) -> Iterator[dict[str, Any]]:
+    """Yield the records of violations in a ``record`` of a run, whatever else it holds."""
+    points = record.get("points") if isinstance(record, dict) else None
+    for point in points if isinstance(points, list) else []:
+        violations = point.get("validity") if isinstance(point, dict) else None
+        for violation in violations if isinstance(violations, list) else []:
+            if isinstance(violation, dict):
+                yield violation
 
 
 def files_read(paths: Iterable[Any]) -> list[Path]:

@@ -227,3 +227,11 @@ def test_a_study_goes_on_beside_what_is_damaged(stores, tmp_path, kind):
     with pytest.warns(UserWarning, match="solved again"):
         again = lubfric.study(SCENE, {"bodies.load": [5.5]}, SPEEDS, store=tmp_path / "s")
     np.testing.assert_array_equal(again["coefficient"], stores[0][1]["coefficient"])
+
+
+def test_a_record_of_the_first_version_is_read(tmp_path):
+    """Its violations have a remedy, and do not say whether they are notes."""
+    known = {"what": "w", "value": 2.0, "limit": 1.0, "unit": "", "consequence": "c", "remedy": "r", "severe": False}
+    record = {"scene": {"name": "n"}, "points": [{"validity": [known]}]}
+    (tmp_path / "result.json").write_text(json.dumps(record))
+    assert read_record(tmp_path)["points"][0]["validity"][0]["recommendation"] == "r"
