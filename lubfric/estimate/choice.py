@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from .._base import limited_work, work_left
 from ..errors import ConvergenceError, WorkLimitError
-from ..models import AUTO, Model, SampleSolution, models_up_to
+from ..models import AUTO, Model, SampleSolution, model_named, models_up_to
 from ..models.shared import Prepared
 from .solve_to_tolerance import solve_to_tolerance
 
@@ -45,20 +45,10 @@ def choose(prepared: Prepared, speed: float, requested: str | Model, *, for_fiel
     """
     if isinstance(requested, Model):
         return Choice(model=requested, solution=solve_to_tolerance(prepared, speed, requested, for_fields=for_fields))
-    up_to_requested = models_up_to(requested)
-    able = [model for model in up_to_requested if not model.why_unable(prepared, speed)]
+    able = [model for model in models_up_to(requested) if not model.why_unable(prepared, speed)]
     if requested == AUTO:
         return _completed(_cheapest(prepared, speed, able, for_fields=for_fields))
-    *cheaper, model = able
-    why = ""
-    if model is not up_to_requested[-1]:
-        why = f"the {model.name} model in place of the {requested} model: {up_to_requested[-1].why_unable(prepared, speed)}"
-    if not cheaper or not model.takes_control(prepared.scene, prepared.sample):
-        return Choice(model=model, solution=solve_to_tolerance(prepared, speed, model, for_fields=for_fields), why=why)
-    compared = (cheaper[0], solve_to_tolerance(prepared, speed, cheaper[0], for_fields=for_fields))
-    control = compared[1].control()
-    solution = solve_to_tolerance(prepared, speed, model, for_fields=for_fields, control=control)
-    return Choice(model=model, solution=solution, why=why, compared=None if control is None else compared)
+    return _most_expensive(prepared, speed, able, model_named(requested), for_fields=for_fields)
 
 
 def work_for_an_answer() -> float:
@@ -66,12 +56,35 @@ def work_for_an_answer() -> float:
     return max(work_left(), LEAST_WORK_OF_CHEAPEST)
 
 
-def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fields: bool) -> Choice:
-    """Return the solution of the cheapest of ``models`` that is good enough.
+def _most_expensive(prepared: Prepared, speed: float, models: list[Model], named: Model, *, for_fields: bool) -> Choice:
+    """Return the solution of the most expensive of ``models``, from the cheapest on: of the ``named`` model, or of the one that
+    answers in its place.
 
-    From the cheapest on, a solution answers if it suffices (`SampleSolution.why_sufficient`), if f means nothing anyway
-    (a severe warning), or if the next model declines (`Model.why_declined`) or does not converge. The strips of the first
-    are the control of those that take one.
+    Where it takes the strips of the cheapest as a control, these are solved before.
+    """
+    model = models[-1]
+    why = ""
+    if model is not named:
+        why = f"the {model.name} model in place of the {named.name} model: {named.why_unable(prepared, speed)}"
+    if model is models[0] or not model.takes_control(prepared.scene, prepared.sample):
+        return Choice(model=model, solution=solve_to_tolerance(prepared, speed, model, for_fields=for_fields), why=why)
+    first = solve_to_tolerance(prepared, speed, models[0], for_fields=for_fields)
+    control = first.control()
+    solution = solve_to_tolerance(prepared, speed, model, for_fields=for_fields, control=control)
+    return Choice(model=model, solution=solution, why=why, compared=None if control is None else (models[0], first))
+
+
+def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fields: bool) -> Choice:
+    """Return the solution of the cheapest of ``models`` that is good enough; they are sorted, the cheapest first.
+
+    Each model in turn is tried after the solution of the one before. That solution answers, and no further model is tried,
+
+    - if it suffices (`SampleSolution.why_sufficient`), once it is completed;
+    - if it has a severe violation, so that f means nothing by any model;
+    - if the next model declines (`Model.why_declined`), or does not converge.
+
+    A model may adopt what the one before has solved (`Model.adopt`). The strips of the first model are the control of those
+    that take one.
     """
     with limited_work(work_for_an_answer()):
         first = solve_to_tolerance(prepared, speed, models[0], for_fields=for_fields)
@@ -80,13 +93,13 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
     for model in models[1:]:
         if choice.solution.may_suffice():
             choice = replace(choice, solution=choice.solution.completed())
-        solution = choice.solution
-        why = solution.why_sufficient()
-        if why or any(violation.severe for violation in solution.violations()):
-            return Choice(model=choice.model, solution=solution, why=why)
-        if why := model.why_declined(prepared, speed, solution):
-            return Choice(model=choice.model, solution=solution, why=why)
-        if (adopted := model.adopt(solution)) is not None:
+        why = choice.solution.why_sufficient()
+        means_nothing = not why and any(violation.severe for violation in choice.solution.violations())
+        if not why and not means_nothing:
+            why = model.why_declined(prepared, speed, choice.solution)
+        if why or means_nothing:
+            return replace(choice, why=why)
+        if (adopted := model.adopt(choice.solution)) is not None:
             choice = Choice(model=model, solution=adopted)
             continue
         try:
@@ -98,8 +111,11 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
 
 
 def _completed(choice: Choice) -> Choice:
-    """Return ``choice`` with its solution completed; after a more expensive model was tried in vain, within what is left of
-    the work, or within `LEAST_WORK_OF_CHEAPEST`."""
+    """Return ``choice`` with its solution completed.
+
+    After a more expensive model was tried in vain, that may take what is left of the work, or `LEAST_WORK_OF_CHEAPEST`; where
+    it is not enough, the solution stays as it is.
+    """
     if not choice.gave_up:
         return replace(choice, solution=choice.solution.completed())
     with suppress(WorkLimitError), limited_work(work_for_an_answer()):

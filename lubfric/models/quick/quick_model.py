@@ -1,9 +1,9 @@
 """The quick answer as a `lubfric.models.Model`: a few strips of the deterministic model on long cells, with the bias and
 the error that solved cases give them.
 
-It answers for ``numerics.model = "quick"``. The balance of Eq. (8) on the line answers in its place, with the friction
-of Eq. (9), where the campaign has no such contacts. It is no control of the strips: on eight random contacts at rest it
-took 70 % of the time, and the interval with it was as wide as that of the strips alone.
+It answers for ``numerics.model = "quick"``. The joined strips of the model "paper" answer in its place, with the friction
+of Eq. (9), where the campaign has no such contacts. They are no control of the strips on long cells: on eight random
+contacts at rest they took 70 % of the time, and the interval with them was as wide as without.
 """
 
 from __future__ import annotations
@@ -48,11 +48,12 @@ STRIPS_NOT_SOLVED = "f of Eq. (9) with the error of load sharing: the strips on 
 
 @dataclass(frozen=True, kw_only=True)
 class QuickSolution(SampleSolution):
-    """A few strips by the deterministic model on long cells, which `completed` solves, or the line by load sharing.
+    """A few strips by the deterministic model on long cells, or the joined strips by load sharing in their place: `completed`
+    solves what is missing.
 
     Attributes
     ----------
-    paper_solution : the line by load sharing; None: it is not solved
+    paper_solution : the joined strips by load sharing; None: they are not solved
     on_long_cells : the strips on long cells, which answer; None: they are not solved
     why_by_equation : why load sharing answers in their place, with f of Eq. (9), as text; "": it does not
     """
@@ -91,7 +92,8 @@ class QuickSolution(SampleSolution):
         return self.prepared.scene.numerics.model_tolerance >= LEAST_TOLERANCE
 
     def completed(self) -> QuickSolution:
-        """Solve the strips on long cells; where they cannot answer, the line by load sharing, if it is not solved."""
+        """Solve the strips on long cells; where they cannot answer, the joined strips by load sharing, if these are not
+        solved."""
         if self.on_long_cells is not None or self.why_by_equation:
             return self
         solution = self
@@ -107,7 +109,7 @@ class QuickSolution(SampleSolution):
         return replace(solution._with_paper_solution(), why_by_equation=why)
 
     def _with_paper_solution(self) -> QuickSolution:
-        """Solve the line by load sharing, if it is not solved."""
+        """Solve the joined strips by load sharing, if they are not solved."""
         if self.paper_solution is not None:
             return self
         solution = PaperModel().solve(self.prepared, self.sample, self.count, self.speed)
@@ -194,16 +196,9 @@ class QuickModel(Model):
         expected: list[tuple[float | None, Violation]] = [(None, part.violation) for part in reported(at_all)]
         for speed in speeds:
             sq = _stated_sq(scene)
-            if (
-                sq
-                and speed
-                and 0
-                < expected_model_error(scene, scene.line_contact(abs(speed)).expected_film, sq, abs(speed))
-                <= _error_of_thick_films(scene, sq, speed)
-            ):
-                continue  # load sharing answers, without long cells
-            outside = out_of_range(scene, sq, speed, known)
-            expected += [(speed, part.violation) for part in reported(outside) if part not in at_all]
+            if not _is_thick_film_expected(scene, sq, speed):  # else load sharing answers, without long cells
+                outside = out_of_range(scene, sq, speed, known)
+                expected += [(speed, part.violation) for part in reported(outside) if part not in at_all]
         return (*expected_on_hertz(scene), *expected)
 
     def estimate_work(
@@ -213,8 +208,8 @@ class QuickModel(Model):
         is_named = scene.numerics.model == self.name
         if alone.touching == "none" and alone.expected_model_error <= _error_of_thick_films(scene, surface.sq, speed):
             return replace(alone, seconds=alone.seconds if is_named else 0.0)
-        has_line = is_named and _may_answer_by_equation(scene, surface.sq, speed)
-        seconds = alone.seconds if has_line else 0.0
+        is_shared = is_named and _may_answer_by_equation(scene, surface.sq, speed)
+        seconds = alone.seconds if is_shared else 0.0
         if speed and surface.sq and sample.is_resolved and scene.transient is None:
             count = 1 if has_moving_roughness(scene) else EXPECTED_STRIPS
             seconds += work_on_strips(
@@ -228,7 +223,7 @@ class QuickModel(Model):
         if has_moving_roughness(scene):
             return replace(alone, strips=1, length=sample.line_length(1), seconds=seconds, shared=())
         fine_fields = work_of_fine_fields(scene, sample, surface.sq, speed) if seconds else 0.0
-        shared = alone.shared if has_line else ()
+        shared = alone.shared if is_shared else ()
         return replace(alone, seconds=seconds, fine_fields_seconds=fine_fields, shared=shared)
 
     def methods(self, prepared: Prepared, *, has_contact: bool, has_film: bool) -> tuple[str, ...]:
@@ -241,7 +236,7 @@ class QuickModel(Model):
         return why_no_rough_film(prepared, speed) or why_gap_not_resolved(prepared.scene, is_joint=prepared.is_joint)
 
     def adopt(self, cheaper: SampleSolution) -> QuickSolution | None:
-        return _beside(cheaper) if isinstance(cheaper, PaperSolution) else None
+        return _with_known(cheaper) if isinstance(cheaper, PaperSolution) else None
 
     def solve(
         self,
@@ -253,11 +248,11 @@ class QuickModel(Model):
         start: SampleSolution | None = None,
         control: ControlVariate | None = None,
     ) -> QuickSolution:
-        """Solve the line by load sharing where it may answer; the strips follow when they are needed."""
+        """Solve the joined strips by load sharing where that may answer; `QuickSolution.completed` does the rest."""
         if not _may_answer_by_equation(prepared.scene, prepared.surface.sq, speed):
             return QuickSolution(prepared=prepared, sample=sample, count=count, speed=speed)
-        line = start.paper_solution if isinstance(start, QuickSolution) else None
-        return _beside(PaperModel().solve(prepared, sample, count, speed, start=line))
+        begin = start.paper_solution if isinstance(start, QuickSolution) else None
+        return _with_known(PaperModel().solve(prepared, sample, count, speed, start=begin))
 
 
 def _why_not_calibrated(scene: Scene) -> str:
@@ -268,11 +263,20 @@ def _why_not_calibrated(scene: Scene) -> str:
 
 
 def _may_answer_by_equation(scene: Scene, sq: float, speed: float) -> bool:
-    """Return whether the line by load sharing may answer at ``speed`` [m/s], because the campaign has no such contacts or
-    because the film over ``sq`` [m] is thick; of moving roughness it is solved only when it has to."""
+    """Return whether the joined strips by load sharing may answer at ``speed`` [m/s], because the campaign has no such contacts or
+    because the film over ``sq`` [m] is thick; where roughness moves they are solved only when they have to."""
     if has_moving_roughness(scene):
         return False
     return bool(_why_not_calibrated(scene)) or _error_of_thick_films(scene, sq, speed) > 0
+
+
+def _is_thick_film_expected(scene: Scene, sq: float | None, speed: float) -> bool:
+    """Return whether the film that is expected at ``speed`` [m/s] over ``sq`` [m] (None: not known) is so thick that load
+    sharing answers."""
+    if not (sq and speed):
+        return False
+    film = scene.line_contact(abs(speed)).expected_film
+    return 0 < expected_model_error(scene, film, sq, abs(speed)) <= _error_of_thick_films(scene, sq, speed)
 
 
 def _stated_sq(scene: Scene) -> float | None:
@@ -281,8 +285,8 @@ def _stated_sq(scene: Scene) -> float | None:
     return None if None in parts else math.hypot(*(part for part in parts if part is not None))
 
 
-def _beside(paper_solution: PaperSolution) -> QuickSolution:
-    """Return the strips beside a ``paper_solution`` that is solved."""
+def _with_known(paper_solution: PaperSolution) -> QuickSolution:
+    """Return the solution of the quick model where a ``paper_solution`` is known, and nothing else is solved."""
     return QuickSolution(
         prepared=paper_solution.prepared,
         sample=paper_solution.sample,
