@@ -137,6 +137,7 @@ def choose_cells(spacing: tuple[float, float], lengths: tuple[float, float], hal
 
 def cells_of_a_box(
     spacing: tuple[float, float],
+    *,
     lengths: tuple[float, float],
     half_width: float,
     shape: tuple[int, int],

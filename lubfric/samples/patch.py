@@ -132,6 +132,8 @@ def single_patch(
     ``bodies``: the part of each of two rough bodies.
     """
     first = float(centred_axis(surface.shape[0], surface.spacing[0])[0])
-    cells = cells_of_a_box(surface.spacing, lengths, scene.bodies.half_width, surface.shape, first)
+    cells = cells_of_a_box(
+        surface.spacing, lengths=lengths, half_width=scene.bodies.half_width, shape=surface.shape, first=first
+    )
     patch = SinglePatch(cells=cells, correlation_lengths=lengths, surface=surface, bodies=bodies)
     return patch.native() if scene.numerics.grid == "given" else patch

@@ -236,7 +236,7 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
     shortest = (min(along_x), min(along_y))
     lengths = (max(along_x), max(along_y))
     if patch.region == "box":
-        cells = cells_of_a_box(spacing, shortest, half_width, patch.shape)
+        cells = cells_of_a_box(spacing, lengths=shortest, half_width=half_width, shape=patch.shape)
     else:
         cells = choose_cells(spacing, shortest, half_width, max(patch.shape[0] * spacing[0], reach_of(scene, sq)))
     narrow = WIDE_HALF_WIDTH * lengths[0] / half_width

@@ -56,7 +56,9 @@ def patch(shape=(96, 64), spacing=(0.9e-6, 1.2e-6), seed=3):
 def test_long_cells_divide_the_map_and_resolve_roughness_and_contact(dx, dy, rows, length):
     """On a map that resolves both; the cells of another are its own. Cells one longer would be too long."""
     half_width = PAPER.bodies.half_width
-    (fx, fy) = map_coarsening_at_rest(PAPER, (dx * 1e-6, dy * 1e-6), rows, (length * 1e-6, length * 1e-6))
+    (fx, fy) = map_coarsening_at_rest(
+        PAPER, spacing=(dx * 1e-6, dy * 1e-6), rows=rows, lengths=(length * 1e-6, length * 1e-6)
+    )
     assert fx >= 1 <= fy and rows % fy == 0
     longest = min(length * 1e-6 / 2.5, half_width / 2)
     assert fx == 1 or fx * dx * 1e-6 <= longest * (1 + 1e-6)
@@ -103,7 +105,7 @@ def test_a_map_on_other_cells_has_the_heights_of_its_waves(count, periodic, wave
 def test_a_strip_on_long_cells_is_the_strip_of_the_heights_that_they_take():
     surface = patch()
     taken = replace(surface, heights=surface.heights[1::2, 1::2], spacing=(1.8e-6, 2.4e-6), mask=None)
-    pair = solve_at_rest(HEAVIER, surface, 0.1, (2, 2))
+    pair = solve_at_rest(HEAVIER, surface, 0.1, map_coarsening=(2, 2))
     alone = solve_strip(HEAVIER, taken, 0.1)
     assert pair.resolved.result.coefficient == pytest.approx(alone.result.coefficient, rel=0.03)
     change = numbers_of_strip(pair, 8e-6, is_smooth=True)["by_cells"]
@@ -118,7 +120,9 @@ def test_the_strips_of_a_line_have_one_slope_and_show_their_scatter_by_blocks():
     pairs = solve_on_long_cells(prepared, 0.1).levels.pairs
     slopes = {pair.resolved.slope for pair in pairs}
     assert len(slopes) == 1 and math.isfinite(slopes.pop())
-    first, second = (solve_at_rest(scene, patch(seed=seed), 0.1, (2, 2), slope=0.07).resolved for seed in (3, 4))
+    first, second = (
+        solve_at_rest(scene, patch(seed=seed), 0.1, map_coarsening=(2, 2), slope=0.07).resolved for seed in (3, 4)
+    )
     for strip in (first, second):
         assert strip.slope == 0.07
         assert np.isfinite(strip.deviations).all() and strip.deviations.mean() == pytest.approx(0.0, abs=1e-6)

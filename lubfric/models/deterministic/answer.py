@@ -179,7 +179,7 @@ def fine_fields_of(prepared: Prepared, speed: float) -> ContactFields:
     half_width = prepared.scene.bodies.half_width
     coarsening = sample.coarsening_to_look_at(half_width)
     length = pictured_length(prepared.scene, sample)
-    rough_contact = contact_on_piece(prepared, sample, 0, coarsening, length=length)
+    rough_contact = contact_on_piece(prepared, sample, 0, coarsening=coarsening, length=length)
     strip = solve_strip(prepared.scene, map_of(prepared, rough_contact), speed)
     where = sample.piece_in_words()
     return fields_of(

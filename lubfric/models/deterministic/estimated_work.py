@@ -106,9 +106,13 @@ def estimated_work(
     if speed == 0 or sq == 0 or not sample.is_resolved:
         return NO_WORK
     sample_coarsening = sample_coarsening_of(scene, sample)
-    one_strip = moving_point_work(scene, sample, sq, speed, sample_coarsening) if has_moving_roughness(scene) else 0.0
+    one_strip = (
+        moving_point_work(scene, sample, sq=sq, speed=speed, sample_coarsening=sample_coarsening)
+        if has_moving_roughness(scene)
+        else 0.0
+    )
     if scene.transient is not None or why_gap_not_resolved(scene):
-        strip_seconds = _seconds_in_motion(scene, sample, sq, speed, one_strip) if one_strip else 0.0
+        strip_seconds = _seconds_in_motion(scene, sample, sq=sq, speed=speed, work=one_strip) if one_strip else 0.0
         return WorkEstimate(strips=0, seconds=0.0, strip_seconds=strip_seconds)
     scatter = 0.0
     if numerics.model == "auto" and cheaper is not None and cheaper.expected_model_error <= numerics.model_tolerance:
@@ -121,7 +125,7 @@ def estimated_work(
     unlike = UNLIKE_IN_MOTION if has_moving_roughness(scene) else UNLIKE
     count = min(max(1, math.ceil(STRIPS_SAFETY * (unlike * scatter / allowed) ** 2)), sample.available_strips)
     if has_moving_roughness(scene):
-        strip_seconds = _seconds_in_motion(scene, sample, sq, speed, one_strip)
+        strip_seconds = _seconds_in_motion(scene, sample, sq=sq, speed=speed, work=one_strip)
         if one_strip > MOST_WORK_IN_AUTO and numerics.model == "auto":
             return WorkEstimate(strips=0, seconds=0.0, strip_seconds=strip_seconds)
         count = min(count, max(1, int(MOST_WORK_IN_AUTO / one_strip)))  # no more are solved
@@ -182,7 +186,7 @@ def _finer_steps(scene: Scene, sq: float, speed: float) -> int:
     return next(steps for least, steps in FINER_STEPS_HEAVY if ratio >= least)
 
 
-def _seconds_in_motion(scene: Scene, sample: Sample, sq: float, speed: float, work: float) -> float:
+def _seconds_in_motion(scene: Scene, sample: Sample, *, sq: float, speed: float, work: float) -> float:
     """Return the processor time [s] of so much counted ``work`` [s] on moving roughness of ``sq`` [m] at ``speed`` [m/s]."""
     (least, slope, most) = NEWTON_STEPS
     steps = min(least + slope * sample.correlation_lengths[0] / scene.bodies.half_width, most)
@@ -215,8 +219,10 @@ def work_on_strips(
     ends of input ranges; ``sq`` [m]: of the surface."""
     if has_moving_roughness(scene):
         continued = tuple(ends for ends in scene.ranges if ends[0] not in OF_SHEAR)  # the others are not solved again
-        work = moving_point_work(replace(scene, ranges=continued), sample, sq, speed, sample_coarsening)
-        return count * _seconds_in_motion(scene, sample, sq, speed, work)
+        work = moving_point_work(
+            replace(scene, ranges=continued), sample, sq=sq, speed=speed, sample_coarsening=sample_coarsening
+        )
+        return count * _seconds_in_motion(scene, sample, sq=sq, speed=speed, work=work)
     (fx, fy) = sample_coarsening
     (dx, dy) = sample.cells.spacing
     (ux, uy) = sample.refinement

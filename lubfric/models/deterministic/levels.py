@@ -398,7 +398,7 @@ def _scatter(
     if control is not None:
         places = [values - share * control.deviations(k, values.size) for k, values in enumerate(places)]
         f -= share * control.numbers["coefficient"][:count]
-    within = _block_error(places, sample, pairs[0])
+    within = _error_by_blocks(places, sample, pairs[0])
     by_blocks = count * (within.error * (DIFFERENCE_OVER_BLOCKS if control else STRIP_OVER_BLOCKS)) ** 2
     if count == 1:
         return StandardError(math.sqrt(by_blocks), min(within.freedom, FREEDOM))
@@ -411,7 +411,7 @@ def _scatter(
     return StandardError(math.sqrt(pooled / count), FREEDOM + count - 1)
 
 
-def _block_error(values: Sequence[np.ndarray], sample: Sample, pair: StripOnTwoGrids) -> StandardError:
+def _error_by_blocks(values: Sequence[np.ndarray], sample: Sample, pair: StripOnTwoGrids) -> StandardError:
     """Return the standard error of the mean of ``values`` along strips such as ``pair``; of a mirrored map only half
     counts."""
     kept = values[0].size // (2 if pair.mirrored else 1)

@@ -81,7 +81,7 @@ def summit_control(prepared: Prepared) -> SummitControl | None:
 
 
 def moving_point_work(
-    scene: Scene, sample: Sample, sq: float, speed: float, sample_coarsening: tuple[float, float]
+    scene: Scene, sample: Sample, *, sq: float, speed: float, sample_coarsening: tuple[float, float]
 ) -> float:
     """Estimate the counted work [s] of a point on one strip of moving roughness, ends of input ranges included.
 
@@ -115,7 +115,7 @@ def why_too_costly(prepared: Prepared, speed: float, sample_coarsening: tuple[fl
     scene = prepared.scene
     sample = prepared.sample
     work = (
-        moving_point_work(scene, sample, prepared.surface.sq, speed, sample_coarsening)
+        moving_point_work(scene, sample, sq=prepared.surface.sq, speed=speed, sample_coarsening=sample_coarsening)
         if has_moving_roughness(scene)
         else 0.0
     )

@@ -109,7 +109,7 @@ def fine_fields_of(balanced: BalancedSample) -> ContactFields:
     scene = prepared.scene
     sample = balanced.sample
     coarsening = sample.coarsening_to_look_at(scene.bodies.half_width)
-    rough_contact = contact_on_piece(prepared, sample, 0, coarsening)
+    rough_contact = contact_on_piece(prepared, sample, 0, coarsening=coarsening)
     balance = balanced.corrected_balance
     if balance.film is None:
         state = rough_contact.close(rough_contact.x**2 / (2 * scene.bodies.radius), balance.contact_load)

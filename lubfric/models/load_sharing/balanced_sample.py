@@ -245,7 +245,7 @@ class BalancedSample:
         if self.count > sample.first_strips or clearance > LARGE_CLEARANCE * self.prepared.surface.sq:
             return False
         depth = lost_summits(self.prepared, self.point, raw_balance, sample) - clearance
-        native = contact_on_piece(self.prepared, sample, 0, (1, 1))
+        native = contact_on_piece(self.prepared, sample, 0, coarsening=(1, 1))
         return depth > 0 and hidden_contact(scene, native, raw_balance.forces, depth) > allowed
 
     def corrected(self) -> BalancedSample:
@@ -305,7 +305,11 @@ def solve_sample(
     if raw_balance.response is None:
         assert raw_balance.film is not None
         undetected = undetected_contact(
-            scene, on_cells, raw_balance.film, raw_balance.forces, sample.correlation_lengths[1]
+            scene,
+            on_cells,
+            film=raw_balance.film,
+            forces=raw_balance.forces,
+            correlation_length=sample.correlation_lengths[1],
         )
         return replace(solution, undetected=undetected)
     effect = solution.first_effect

@@ -186,7 +186,7 @@ def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, *,
     states: list[ContactState] = []
     remaining_change = math.inf
     for coarsening in ladder:
-        rough_contact = contact_on_piece(prepared, sample, index, coarsening)
+        rough_contact = contact_on_piece(prepared, sample, index, coarsening=coarsening)
         if remaining_change <= enough and rough_contact.heights.size > MOST_PIECE_CELLS:
             break
         start = states[-1] if states else None
@@ -281,7 +281,7 @@ def lost_summits(prepared: Prepared, point: Point, balance: Balance, sample: Sam
     its distance to the film above it."""
     assert balance.film is not None
     native, coarse = (
-        point.pressed(contact_on_piece(prepared, sample, 0, coarsening), balance.film, 0.0, None).mean_gap
+        point.pressed(contact_on_piece(prepared, sample, 0, coarsening=coarsening), balance.film, 0.0, None).mean_gap
         for coarsening in ((1, 1), sample.cells.coarsening)
     )
     return native - coarse

@@ -34,7 +34,7 @@ EULER = 0.5772156649
 
 
 def undetected_contact(
-    scene: Scene, rough_contact: HalfSpaceContact, film: EHLResult, forces: Forces, correlation_length: float
+    scene: Scene, rough_contact: HalfSpaceContact, *, film: EHLResult, forces: Forces, correlation_length: float
 ) -> float:
     """Return the relative effect of `undetected_load` on f; NaN if ``rough_contact`` has too few cells along y."""
     if not forces.coefficient:

@@ -98,7 +98,7 @@ MOST_ROLLING = 1.5
 
 
 def map_coarsening_at_rest(
-    scene: Scene, spacing: Sequence[float], rows: int, lengths: Sequence[float]
+    scene: Scene, *, spacing: Sequence[float], rows: int, lengths: Sequence[float]
 ) -> tuple[int, int]:
     """Return the length of the long cells in those of a map of roughness at rest, of this ``spacing`` [m] and with so many
     ``rows`` along y, along both axes; ``lengths`` [m]: the correlation lengths. Along y it divides the map."""
@@ -147,19 +147,21 @@ def long_cells_in_motion(
 ) -> LongCellsInMotion:
     """Return rough ``bodies`` on the long cells for ``speed`` [m/s]: on those of `CELLS_IN_MOTION`, or, where f hangs on the
     boundary film, on those of `CELLS_OF_THIN_FILM`. ``lengths`` [m]: the correlation lengths. Raises `ConvergenceError`."""
-    cells = long_cells_of(scene, bodies, speed, lengths, CELLS_IN_MOTION[0])
+    cells = long_cells_of(scene, bodies, speed, lengths=lengths, per_length=CELLS_IN_MOTION[0])
     if cells.by_film <= THIN_BY_FILM:
         return cells
-    return long_cells_of(scene, bodies, speed, lengths, CELLS_OF_THIN_FILM)
+    return long_cells_of(scene, bodies, speed, lengths=lengths, per_length=CELLS_OF_THIN_FILM)
 
 
 def long_cells_of(
-    scene: Scene, bodies: Sequence[RoughBody], speed: float, lengths: Sequence[float], per_length: float
+    scene: Scene, bodies: Sequence[RoughBody], speed: float, *, lengths: Sequence[float], per_length: float
 ) -> LongCellsInMotion:
     """Return rough ``bodies`` on cells of which ``per_length`` along x are in a correlation length, and in the Hertz
     half-width; other arguments as of `long_cells_in_motion`."""
     (nx, ny) = bodies[0].surface.shape
-    (along, across) = map_coarsening_in_motion(scene, bodies[0].surface.spacing, ny, lengths, per_length)
+    (along, across) = map_coarsening_in_motion(
+        scene, spacing=bodies[0].surface.spacing, rows=ny, lengths=lengths, per_length=per_length
+    )
     count = math.ceil(nx / along * (1 - ROUNDING))
     bodies = tuple(body._replace(surface=on_cells_along_x(body.surface, count)) for body in bodies)
     map_coarsening = (1, across)
@@ -172,7 +174,7 @@ def long_cells_of(
 
 
 def map_coarsening_in_motion(
-    scene: Scene, spacing: Sequence[float], rows: int, lengths: Sequence[float], per_length: float
+    scene: Scene, *, spacing: Sequence[float], rows: int, lengths: Sequence[float], per_length: float
 ) -> tuple[float, int]:
     """Return the same as `map_coarsening_at_rest` where roughness moves: along x as long as they may be, because the maps are
     laid out anew there; ``per_length`` as of `long_cells_of`."""
@@ -199,7 +201,7 @@ def on_cells_along_x(surface: Surface, count: int) -> Surface:
 
 
 def solve_at_rest(
-    scene: Scene, surface: Surface, speed: float, map_coarsening: tuple[int, int], slope: float | None = math.nan
+    scene: Scene, surface: Surface, speed: float, *, map_coarsening: tuple[int, int], slope: float | None = math.nan
 ) -> StripOnTwoGrids:
     """Solve the strip ``surface`` at ``speed`` [m/s], not 0, on cells ``map_coarsening`` times as long as its own, and before on
     cells twice as long, where it has those and they have a solution (else both are the same). ``slope``: of friction over

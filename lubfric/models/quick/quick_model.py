@@ -157,9 +157,13 @@ def sample_coarsening_of_long_cells(scene: Scene, sample: Sample) -> tuple[float
     moves those of a thin film, which are the shorter ones."""
     (dx, dy) = sample.cells.spacing
     if has_moving_roughness(scene):
-        return map_coarsening_in_motion(scene, (dx, dy), sample.rows, sample.correlation_lengths, CELLS_OF_THIN_FILM)
+        return map_coarsening_in_motion(
+            scene, spacing=(dx, dy), rows=sample.rows, lengths=sample.correlation_lengths, per_length=CELLS_OF_THIN_FILM
+        )
     (fx, fy) = sample.refinement
-    return map_coarsening_at_rest(scene, (dx / fx, dy / fy), sample.rows * fy, sample.correlation_lengths)
+    return map_coarsening_at_rest(
+        scene, spacing=(dx / fx, dy / fy), rows=sample.rows * fy, lengths=sample.correlation_lengths
+    )
 
 
 def _error_of_thick_films(scene: Scene, sq: float, speed: float) -> float:

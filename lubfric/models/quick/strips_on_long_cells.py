@@ -139,7 +139,7 @@ class StripsOnLongCells:
 def solve_on_long_cells(prepared: Prepared, speed: float) -> StripsOnLongCells:
     """Return the strips of ``prepared`` at ``speed`` [m/s], not 0, on long cells. Raises `ConvergenceError`."""
     scene = prepared.scene
-    pairs = [_solve_strip(prepared, speed, 0, None)]
+    pairs = [_solve_pair(prepared, speed, 0, None)]
     numerics = replace(
         scene.numerics,
         sampling_tolerance=_sampling_error(prepared, pairs[0]),
@@ -150,8 +150,8 @@ def solve_on_long_cells(prepared: Prepared, speed: float) -> StripsOnLongCells:
         estimate, wanted = two_levels(prepared, pairs, None, numerics)
         if len(pairs) >= min(wanted, most) or pairs[0].resolved.work > PART_OF_WORK * work_left():
             break
-        pairs.append(_solve_strip(prepared, speed, len(pairs), pairs[0].resolved.slope))
-    rows = [_features(prepared, pair) for pair in pairs]
+        pairs.append(_solve_pair(prepared, speed, len(pairs), pairs[0].resolved.slope))
+    rows = [_features_of(prepared, pair) for pair in pairs]
     x = {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
     error_model = error_model_of(scene)
     outside = out_of_range(scene, prepared.surface.sq, speed, error_model.range)
@@ -189,7 +189,7 @@ def _error_of_references(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -
     ).error
 
 
-def _features(prepared: Prepared, pair: StripOnTwoGrids) -> dict[str, float]:
+def _features_of(prepared: Prepared, pair: StripOnTwoGrids) -> dict[str, float]:
     """Return the `features` of a ``pair``."""
     length = prepared.sample.correlation_lengths[0]
     numbers = numbers_of_strip(pair, length, is_smooth=smooth_over_cells(prepared.surface.heights))
@@ -199,11 +199,11 @@ def _features(prepared: Prepared, pair: StripOnTwoGrids) -> dict[str, float]:
 def _sampling_error(prepared: Prepared, pair: StripOnTwoGrids, part: float = OF_BOUNDS) -> float:
     """Return the relative standard error of f by the sample that strips are solved for: this ``part`` of the bounds at the
     features of the first ``pair``."""
-    bounds = min(error_model_of(prepared.scene).log_half_width(_features(prepared, pair)), 1.0)
+    bounds = min(error_model_of(prepared.scene).log_half_width(_features_of(prepared, pair)), 1.0)
     return max(prepared.scene.numerics.sampling_tolerance, LEAST_SAMPLING_ERROR, part * bounds)
 
 
-def _solve_strip(prepared: Prepared, speed: float, index: int, slope: float | None) -> StripOnTwoGrids:
+def _solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None) -> StripOnTwoGrids:
     """Return strip ``index`` on long cells."""
     scene = prepared.scene
     sample = prepared.sample
@@ -211,8 +211,10 @@ def _solve_strip(prepared: Prepared, speed: float, index: int, slope: float | No
     lengths = sample.correlation_lengths
     is_mirrored = sample.distinct_rows(surface.heights) < surface.shape[1]
     if not has_moving_roughness(scene):
-        map_coarsening = map_coarsening_at_rest(scene, surface.spacing, surface.shape[1], lengths)
-        return replace(solve_at_rest(scene, surface, speed, map_coarsening, slope), mirrored=is_mirrored)
+        map_coarsening = map_coarsening_at_rest(scene, spacing=surface.spacing, rows=surface.shape[1], lengths=lengths)
+        return replace(
+            solve_at_rest(scene, surface, speed, map_coarsening=map_coarsening, slope=slope), mirrored=is_mirrored
+        )
     cells = long_cells_in_motion(scene, bodies_of(prepared, index, speed), speed, lengths)
     part = OF_NARROW_BOUNDS if cells.per_length == CELLS_OF_THIN_FILM else OF_BOUNDS
     target = sample_target(prepared, _sampling_error(prepared, StripOnTwoGrids(cells.rest, cells.rest), part))

@@ -102,7 +102,7 @@ def contact_on_strip(prepared: Prepared, sample: Sample, index: int) -> HalfSpac
 
 
 def contact_on_piece(
-    prepared: Prepared, sample: Sample, index: int, coarsening: tuple[int, int], length: float = PIECE
+    prepared: Prepared, sample: Sample, index: int, *, coarsening: tuple[int, int], length: float = PIECE
 ) -> HalfSpaceContact:
     """Return the contact on piece ``index`` of ``sample`` (`Sample.piece`), on cells of this ``coarsening``."""
     coarsening_of_sample = sample.cells.coarsening

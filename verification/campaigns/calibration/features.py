@@ -26,12 +26,14 @@ def quick(case: Case, per_length: float) -> dict[str, float]:
     facts = case.facts
     lengths = (facts["length_x"], facts["length_y"])
     if facts["motion"] == "rolling":
-        cells = long_cells_of(case.scene, case.bodies, case.speed, lengths, per_length)
+        cells = long_cells_of(case.scene, case.bodies, case.speed, lengths=lengths, per_length=per_length)
         pair = solve_moving(case.scene, cells, case.speed)
         film_at_rest = cells.by_film
     else:
-        map_coarsening = map_coarsening_at_rest(case.scene, case.surface.spacing, case.surface.shape[1], lengths)
-        pair = solve_at_rest(case.scene, case.surface, case.speed, map_coarsening)
+        map_coarsening = map_coarsening_at_rest(
+            case.scene, spacing=case.surface.spacing, rows=case.surface.shape[1], lengths=lengths
+        )
+        pair = solve_at_rest(case.scene, case.surface, case.speed, map_coarsening=map_coarsening)
         film_at_rest = 0.0
     numbers = numbers_of_strip(pair, lengths[0], is_smooth=facts["acf"] == "gaussian")
     return numbers | {"film_at_rest": film_at_rest, "seconds": time.process_time() - begun}
