@@ -103,7 +103,6 @@ def test_the_estimate_knows_the_contract_of_a_model_and_no_model():
         "WorkEstimate",
         "with_friction_at",
         "prepared_with",
-        "candidates",
         "models_up_to",
     }
     names = set()

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from .._base import limited_work, work_left
 from ..errors import ConvergenceError, WorkLimitError
-from ..models import AUTO, Model, SampleSolution, model_named, models_up_to
+from ..models import AUTO, Model, SampleSolution, models_up_to
 from ..models.shared import Prepared
 from .solve_to_tolerance import solve_to_tolerance
 
@@ -45,10 +45,11 @@ def choose(prepared: Prepared, speed: float, requested: str | Model, *, for_fiel
     """
     if isinstance(requested, Model):
         return Choice(model=requested, solution=solve_to_tolerance(prepared, speed, requested, for_fields=for_fields))
-    able = [model for model in models_up_to(requested) if not model.why_unable(prepared, speed)]
+    models = models_up_to(requested)
+    able = [model for model in models if not model.why_unable(prepared, speed)]
     if requested == AUTO:
         return _completed(_cheapest(prepared, speed, able, for_fields=for_fields))
-    return _most_expensive(prepared, speed, able, model_named(requested), for_fields=for_fields)
+    return _most_expensive(prepared, speed, able, models[-1], for_fields=for_fields)
 
 
 def work_for_an_answer() -> float:
