@@ -100,10 +100,9 @@ class GeneratedStrips(FieldsOnly, Sample):
 
     def joined(self, indices: Sequence[int]) -> Surface:
         blend = blend_of(self.correlation_lengths[1], self.cells.spacing[1])
-        shape = self.cells.columns, self.rows + blend
+        shape = self._shape_of_strip
         known = self._known
-        strip = self._generator(STRIPS, self.cells.spacing, shape)
-        strips = [known.get(index) or strip(index) for index in indices]
+        strips = [known.get(index) or self._made_strip(index) for index in indices]
         known.update((i, s) for i, s in zip(indices, strips) if i < KEPT_CELLS // math.prod(shape))
         return replace(strips[0], heights=joined_maps([strip.heights for strip in strips], blend))
 
@@ -116,6 +115,16 @@ class GeneratedStrips(FieldsOnly, Sample):
     def _known(self) -> dict[int, Surface]:
         """The first strips that were made so far, by their number, on which alone they depend."""
         return {}
+
+    @property
+    def _shape_of_strip(self) -> tuple[int, int]:
+        """Cells of a strip along x and y, with those that blend into the next strip."""
+        return self.cells.columns, self.rows + blend_of(self.correlation_lengths[1], self.cells.spacing[1])
+
+    @cached_property
+    def _made_strip(self) -> Callable[[int], Surface]:
+        """The function that makes a strip from its number. All have one spectrum, which takes as long as a strip."""
+        return self._generator(STRIPS, self.cells.spacing, self._shape_of_strip)
 
     def _generator(self, stream: int, spacing: tuple[float, float], shape: tuple[int, int]) -> Callable[[int], Surface]:
         """Return the function that makes a map of the ``stream`` from its number."""

@@ -9,6 +9,7 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.samples import measured_strips
+from lubfric.samples import strips as strips_room
 
 PAPER = paper_scene()
 
@@ -28,6 +29,17 @@ def test_a_strip_is_always_the_same_and_like_no_other():
     assert both.sq == pytest.approx(PAPER.surface.sq, rel=0.03)
     other = lubfric.prepare(PAPER.with_(surface={"seed": 2})).sample.first_joined(1)
     assert abs(np.corrcoef(one.heights.ravel(), other.heights.ravel())[0, 1]) < 0.1
+
+
+def test_all_strips_of_a_body_are_made_from_one_spectrum(monkeypatch):
+    made = []
+    real = strips_room.surface_generator
+    monkeypatch.setattr(
+        strips_room, "surface_generator", lambda *given, **how: made.append(given) or real(*given, **how)
+    )
+    sample = strips_room.generated_strips(PAPER)
+    maps = [sample.strip(index).heights for index in range(3)]
+    assert len(made) == 1 and not np.array_equal(maps[1], maps[2])
 
 
 def test_a_measured_map_gives_its_own_columns_no_more_than_it_holds():

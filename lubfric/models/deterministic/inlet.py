@@ -80,9 +80,12 @@ def inlet(problem: Problem, pressure: FloatArray, thickness: FloatArray) -> Inle
     gap = thickness[:, None] + shape
     thin = _ambient_thinning(problem, gap)
     viscous = 12 * lubricant.viscosity
-    powers = (2, speed), (3, 1.0), (3, -2 * speed), (4, -3.0)
-    a, b, a_h, b_h = (viscous * stretch / (gap**n * thin) * c for n, c in powers)
-    A, B, A_h, B_h = (f @ weight for f in (a, b, a_h, b_h))
+    by_square = viscous * stretch / (gap * gap * thin)  # viscous/(h³ Φ) times h, along t
+    b = by_square / gap
+    A = speed * (by_square @ weight)
+    B = b @ weight
+    A_h = -2 * speed * B
+    B_h = -3 * ((b / gap) @ weight)
     reduced, reduced_slope = _reduced(lubricant, np.maximum(pressure, 0.0))
     T = 2 * thickness**3 * _ambient_thinning(problem, thickness) / (viscous * dx)
     T_h = 3 * T / thickness
@@ -95,7 +98,7 @@ def inlet(problem: Problem, pressure: FloatArray, thickness: FloatArray) -> Inle
     fed = flow > most
     flow, by_film, by_pressure = np.where(fed, [[most], [0.0], [0.0]], [flow, by_film, by_pressure])
     up_to = b @ integral.T
-    Q = a @ integral.T - flow[:, None] * up_to
+    Q = speed * (by_square @ integral.T) - flow[:, None] * up_to
     if fed.any():  # from the pressure at the face upstream
         Q += np.where(fed, reduced - (speed * thickness - flow) / T - (A - flow * B), 0.0)[:, None]
     wet = ~fed[:, None] | (Q > 0)
@@ -103,7 +106,7 @@ def inlet(problem: Problem, pressure: FloatArray, thickness: FloatArray) -> Inle
     slope = np.exp(cell_fluid(lubricant, p).log_viscosity)
     by_flow = -(slope * up_to) @ (weight * stretch)
     at_given_flow = np.where(fed, (slope * wet) @ (weight * stretch) * reduced_slope, by_flow * by_pressure)
-    by_gap = (slope * (a_h @ integral.T - flow[:, None] * (b_h @ integral.T))) @ (weight * stretch)
+    by_gap = (slope * (-2 * speed * up_to + 3 * flow[:, None] * ((b / gap) @ integral.T))) @ (weight * stretch)
     return Inlet(
         flow=flow,
         by_pressure=by_pressure,
@@ -112,7 +115,7 @@ def inlet(problem: Problem, pressure: FloatArray, thickness: FloatArray) -> Inle
         load_by_pressure=at_given_flow / thickness.size,
         load_by_film=np.where(fed, 0.0, by_gap + by_flow * by_film) / thickness.size,
         shearing=(wet * slope * stretch / gap) @ weight,
-        rolling=0.5 * (wet * gap * slope * (a - flow[:, None] * b)) @ weight,
+        rolling=0.5 * (wet * gap * slope * (speed * by_square - flow[:, None] * b)) @ weight,
     )
 
 
