@@ -7,7 +7,7 @@ the table below, are an `InputError`.
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from .._base import validate
@@ -43,6 +43,12 @@ STEP_WORDS = {
     "interval",
     "dx",
     "dy",
+    "schrittweite",
+    "schritt",
+    "abstand",
+    "punktabstand",
+    "pixelabstand",
+    "pixelgröße",
 }
 SCALE = "scale "  # begins the name of a step that only Nova calls so
 CALIBRATION = {"calibration", "justierung", "캘리브레이션"}  # "XY calibration" of Keyence: the step of x and y
@@ -64,10 +70,22 @@ COUNT_WORDS = {
     "resolution",
     "count",
     "res",
+    "anzahl",
+    "punkte",
+    "messpunkte",
+    "punktzahl",
 }
-COLUMN_WORDS = {"columns", "cols", "ncols", "ncolumns", "column", "numcols"}
-LINE_WORDS = {"rows", "nrows", "lines", "profiles", "numrows", "nlines"}
+POINT_WORDS = {"points", "pixels", "punkte", "messpunkte", "punktzahl"}
+VALUE_WORDS = {"samples", "values", "werte"}  # points, where they are so many per line
+COLUMN_WORDS = {"columns", "cols", "ncols", "ncolumns", "column", "numcols", "spalten", "spaltenzahl"}
+LINE_WORDS = {"rows", "nrows", "lines", "profiles", "numrows", "nlines", "zeilen", "zeilenzahl", "profilzahl"}
+PER_WORDS = {"per", "pro", "je"}
+ONE_LINE_WORDS = {"line", "profile", "row", "zeile", "profil"}
 EXTENT_WORDS = {"length", "range", "extent", "size", "scan", "width", "field"}
+EXTENT_WORDS |= {"länge", "messlänge", "ausdehnung", "bereich", "breite", "höhe"}
+# Words of lines that do not state the lateral grid: a step of time, a place of the stage.
+NO_GRID_WORDS = {"time", "speed", "date", "zeit", "geschwindigkeit", "datum"}
+NO_GRID_WORDS |= {"position", "stage", "offset", "origin", "center", "centre", "start", "shift", "mitte", "ort"}
 MISSING_WORDS = {"nodata", "missing", "invalid", "void", "undefined", "bad"}
 AXES = {"x": "x", "y": "y", "z": "z", "dx": "x", "dy": "y", "nx": "x", "ny": "y", "xres": "x", "yres": "y"}
 AXES |= {"horizontal": "x", "vertical": "y", "xscale": "x", "yscale": "y", "zscale": "z"}
@@ -130,6 +148,7 @@ class Header:
     program: str = ""
     stated: dict[str, Stated] = field(default_factory=dict)
     unitless: dict[str, Statement] = field(default_factory=dict)
+    sizes: dict[str, Statement] = field(default_factory=dict)  # "width", "height": counts, or lengths without a unit
     lines_read: set[int] = field(default_factory=set)
 
     def state_lateral(self, quantity: str, statement: Statement, value: float, length: float | None) -> None:
@@ -285,9 +304,9 @@ def _file(header: Header, statement: Statement) -> None:
         header.state("z factor", statement, value)
         if length is not None:
             header.state("z unit", statement, length, statement.unit)
-    elif len(numbers) == 1 and _whole(value) and length is None and words & COLUMN_WORDS:
+    elif len(numbers) == 1 and _whole(value) and length is None and (words & COLUMN_WORDS or _is_per_line(words)):
         header.state("columns", statement, value)
-    elif len(numbers) == 1 and _whole(value) and length is None and words & LINE_WORDS:
+    elif len(numbers) == 1 and _whole(value) and length is None and _is_of_lines(words):
         header.state("lines", statement, value)
     elif len(numbers) == 1 and _whole(value) and length is None and axis in ("x", "y") and _counts(words):
         header.state("n" + axis, statement, value)
@@ -305,6 +324,8 @@ def _file(header: Header, statement: Statement) -> None:
         header.state_lateral("width" if axis == "x" else "height", statement, value, length)
     elif length is not None and not axis and len(numbers) == 1 and words & (WIDTH_WORDS | HEIGHT) and len(words) == 1:
         header.state("width" if words & WIDTH_WORDS else "height", statement, value * length)
+    elif length is None and not axis and len(numbers) == 1 and words & (WIDTH_WORDS | HEIGHT) and len(words) == 1:
+        header.sizes.setdefault("width" if words & WIDTH_WORDS else "height", statement)
     elif length is not None and not axis and len(numbers) == 2 and words & {"size", "range", "area", "field"}:
         header.state("width", statement, value * length)
         header.state("height", statement, numbers[1] * length)
@@ -340,6 +361,64 @@ def _unit_alone(header: Header, statement: Statement, words: set[str], axis: str
 
 def _counts(words: set[str]) -> bool:
     return bool(words & COUNT_WORDS or words & {"nx", "ny", "xres", "yres"})
+
+
+def _is_per_line(words: set[str]) -> bool:
+    """Return whether the words name the points in a line: 'points per profile', 'Punkte je Zeile'."""
+    return bool(words & PER_WORDS and words & ONE_LINE_WORDS and words & (POINT_WORDS | VALUE_WORDS))
+
+
+def _is_of_lines(words: set[str]) -> bool:
+    """Return whether the words name the number of lines: 'rows', 'Zeilen', 'Anzahl Profile'."""
+    return bool(words & LINE_WORDS or {"anzahl", "profile"} <= words)
+
+
+def names_size(statement: Statement) -> bool:
+    """Return whether a statement names a number of points, a step or an extent of the lateral grid, and a number."""
+    words = set(statement.words)
+    axes = {AXES[word] for word in words if word in AXES}
+    if not statement.numbers or words & NO_GRID_WORDS or "z" in axes:
+        return False
+    if axes:
+        return bool(words & (COUNT_WORDS | STEP_WORDS | EXTENT_WORDS) or statement.unit in LENGTHS)
+    if words & HEIGHT and len(words) > 1:  # 'step height'
+        return False
+    is_count = words & (POINT_WORDS | COLUMN_WORDS) or _is_of_lines(words) or _is_per_line(words)
+    return bool(is_count or words & STEP_WORDS or len(words) == 1 and words & (WIDTH_WORDS | HEIGHT))
+
+
+def directions_by_sizes(
+    header: Header, lines: int, columns: int, spacing: tuple[float, float] | None
+) -> tuple[set[bool], list[Statement]]:
+    """Return which directions of x (True: along a line of the file) agree with the width and the height that lines state
+    without a unit, and these lines. Both are counts; or lengths in any unit, where the ``spacing`` [m] is known."""
+    stated = {name: header.sizes.get(name) or header.unitless.get(name) for name in ("width", "height")}
+    sizes = {name: statement for name, statement in stated.items() if statement is not None}
+    if not sizes:
+        return {True, False}, []
+    shapes = {True: (columns, lines), False: (lines, columns)}
+    numbers = [None if (statement := stated[name]) is None else statement.numbers[0] for name in ("width", "height")]
+    units = [LENGTHS[name] for name in ("m", "mm", "um", "nm")]
+    fitting = {across for across, shape in shapes.items() if _all_equal(numbers, shape)}
+    if not fitting and spacing is not None:
+        fitting = {
+            across
+            for across, shape in shapes.items()
+            if any(_are_extents(numbers, shape, [step / unit for step in spacing]) for unit in units)
+        }
+    return fitting, list(sizes.values())
+
+
+def _all_equal(numbers: Sequence[float | None], counts: tuple[int, int]) -> bool:
+    return all(number is None or number == count for number, count in zip(numbers, counts))
+
+
+def _are_extents(numbers: Sequence[float | None], counts: tuple[int, int], steps: Sequence[float]) -> bool:
+    """Return whether numbers are so many steps, or one less."""
+    return all(
+        number is None or any(math.isclose(number, n * step, rel_tol=SAME_LENGTH) for n in (count, count - 1))
+        for number, count, step in zip(numbers, counts, steps)
+    )
 
 
 def column_units(titles: Iterable[tuple[int, str]]) -> tuple[tuple[str, str, str], str] | None:
@@ -381,11 +460,19 @@ class TablePlacement:
     notes: tuple[str, ...]
 
 
-def grid_of(header: Header, lines: int, columns: int) -> TablePlacement:
-    """Return how a table lies in the plane, by its ``header``. Raise `InputError` where they contradict each other."""
+def grid_of(
+    header: Header, lines: int, columns: int, *, directions: frozenset[bool] = frozenset((True, False))
+) -> TablePlacement:
+    """Return how a table lies in the plane, by its ``header``. Raise `InputError` where they contradict each other.
+
+    directions : of x that the sizes without a unit leave (`directions_by_sizes`); one alone decides what nothing else does
+    """
     _agree(header, "columns", columns, "numbers in a line")
     _agree(header, "lines", lines, "lines")
     across, known = _direction(header, lines, columns)
+    if not known and len(directions) == 1:
+        across = True in directions
+        known = True
     counts = (columns, lines) if across else (lines, columns)
     steps: list[float | None] = []
     for axis, extent, count in zip("xy", ("width", "height"), counts):
@@ -401,12 +488,12 @@ def grid_of(header: Header, lines: int, columns: int) -> TablePlacement:
                 raise InputError(said, recommendation="remove the wrong line")
         steps.append(step)
     dx, dy = steps
-    if dx is None or dy is None:
-        return TablePlacement(across=across and known, steps=None, either=False, notes=())
-    either = not known and not math.isclose(dx, dy, rel_tol=1e-9)
     notes = []
     if across and known:
         notes.append("x runs along the lines of the file")
+    if dx is None or dy is None:
+        return TablePlacement(across=across and known, steps=None, either=False, notes=tuple(notes))
+    either = not known and not math.isclose(dx, dy, rel_tol=1e-9)
     if header.program:
         notes.append(f"header of {header.program}")
     pair = validate.spacing("spacing in the header", (dx, dy))
@@ -428,9 +515,22 @@ def _direction(header: Header, lines: int, columns: int) -> tuple[bool, bool]:
             return along, True
         if header.program:
             return True, True
-    if header.program or {"width", "height"} <= set(header.stated) or {"columns", "lines"} & set(header.stated):
+    if not header.program and {"width", "height"} <= set(header.stated):
+        return not _only_down(header, lines, columns), True
+    if header.program or {"columns", "lines"} & set(header.stated):
         return True, True
     return False, False
+
+
+def _only_down(header: Header, lines: int, columns: int) -> bool:
+    """Return whether the stated steps and extents agree only where each line of the file is one x."""
+    steps = [header.value("dx"), header.value("dy")]
+    if steps[0] is None or steps[1] is None:
+        return False
+    extents = [header.value("width"), header.value("height")]
+    known = [steps[0], steps[1]]
+    along = _are_extents(extents, (columns, lines), known)
+    return not along and _are_extents(extents, (lines, columns), known)
 
 
 def _agree(header: Header, quantity: str, count: int, what: str) -> None:

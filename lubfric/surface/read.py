@@ -65,7 +65,7 @@ def read_surface(
 
     docs/inputs.md has a table of what is read of each format and what is checked. What a header states is used, and an
     argument that contradicts it is refused. Lines above the table that state nothing are skipped; ``surface.notes``
-    lists them all. An empty cell, "nan", "Bad", "No Data", "---" and the like are unmeasured. A comma between digits is
+    lists them all. One that states a size which the table has not is refused. An empty cell, "nan", "Bad", "No Data", "---" and the like are unmeasured. A comma between digits is
     the decimal mark where semicolons, tabs or blanks separate. A profile is refused.
     Look at ``surface.describe()`` (size, Sq, max |z|/Sq, missing share) before you trust a file.
 
@@ -174,10 +174,18 @@ def _plain(path: Path, suffix: str, spacing: Any, unit: Any, decimal: str | None
         if missing_value is not None and heights.dtype.kind == "f":
             missing_value = float(heights.dtype.type(missing_value))  # in the precision of the file
         scale = LENGTH_UNITS["m" if units is None else units[2]]
-        return _masked(path, heights.astype(float), scale, (missing_value,), spacing, ())
+        return _masked(path, heights.astype(float), scale, (missing_value,), spacing)
     table = read_text(path, points=suffix == ".xyz", decimal=decimal, units=units, spacing=spacing)
     missing = (missing_value, table.missing_value)
-    surface = _masked(path, table.heights, table.height_scale, missing, table.spacing, table.notes)
+    surface = _masked(
+        path,
+        table.heights,
+        table.height_scale,
+        missing,
+        table.spacing,
+        notes=table.notes,
+        unread_sizes=table.unread_sizes,
+    )
     if spacing is None and units is None:  # nobody but the file says what its numbers are
         check_scale(surface)
     return surface
@@ -196,12 +204,16 @@ def _masked(
     scale: float,
     missing_values: tuple[float | None, ...],
     spacing: Any,
-    notes: tuple[str, ...],
+    *,
+    notes: tuple[str, ...] = (),
+    unread_sizes: tuple[str, ...] = (),
 ) -> Surface:
     """Return the heights with their mask: NaN and the ``missing_values`` are unmeasured. `Surface` refuses infinite
-    heights."""
+    heights. ``unread_sizes``: lines that may state a missing spacing."""
     if spacing is None:
-        why = next((note for note in notes if note.startswith("steps of")), "the file does not carry it")
+        unread = f"{' and '.join(unread_sizes)} may state it, without a name and a unit that are known"
+        why = unread if unread_sizes else "the file does not carry it"
+        why = next((note for note in notes if note.startswith("steps of")), why)
         said = f"spacing of {path.name} is missing: {why}"
         raise InputError(said, allowed="one length or (dx, dy) in m (surface.spacing), dx from line to line")
     measured = ~np.isnan(heights)

@@ -1,5 +1,6 @@
 """Height maps as text: a matrix of heights, or a list of points x y z; their separators, decimal marks and headers."""
 
+import math
 import re
 from collections.abc import Callable, Sequence
 from contextlib import suppress
@@ -16,8 +17,11 @@ from .header import (
     LENGTHS,
     UNIT_WORDS,
     Header,
+    Statement,
     column_units,
+    directions_by_sizes,
     grid_of,
+    names_size,
     read_header,
     statements,
     steps_in_unit,
@@ -97,6 +101,7 @@ class TextMap:
     spacing: tuple[float, float] | None
     missing_value: float | None = None
     notes: tuple[str, ...] = field(default=())
+    unread_sizes: tuple[str, ...] = ()  # lines that may state the spacing, where there is none
 
 
 def read_text(
@@ -177,7 +182,12 @@ def _matrix(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
     header = table.header
     scale, notes = _height_scale(path, table, units)
     border, numbers = border_of(table.numbers)
-    grid = grid_of(header, *numbers.shape)
+    line_count, column_count = numbers.shape
+    stated = header.value("dx"), header.value("dy")
+    in_header = None if stated[0] is None or stated[1] is None else (stated[0], stated[1])
+    own = table.own_spacing or in_header or spacing
+    directions, sizes = directions_by_sizes(header, line_count, column_count, own)
+    grid = grid_of(header, line_count, column_count, directions=frozenset(directions))
     steps = table.own_spacing if table.own_spacing is not None else grid.steps
     if steps is None and border is None:
         notes += _unitless_steps(path, header, spacing)
@@ -200,13 +210,44 @@ def _matrix(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
     elif grid.either and table.own_spacing is None and border is None and steps is not None:
         notes += (f"steps of {steps[0]:g} m along X and {steps[1]:g} m along Y: lines may run along either",)
         steps = None
+    steps = steps if spacing is None else spacing
+    unread = _unread_sizes(table)
+    if own is not None and grid.across not in directions:
+        unread += [statement for statement in sizes if statement.line in {number for number, _ in table.titles}]
+    counts = (column_count, line_count) if grid.across else (line_count, column_count)
+    _refuse_unreconciled(path, unread, counts, steps)
     return TextMap(
         heights=numbers.T if grid.across else numbers,
         height_scale=scale,
-        spacing=steps if spacing is None else spacing,
+        spacing=steps,
         missing_value=header.value("missing"),
         notes=notes,
+        unread_sizes=tuple(dict.fromkeys(statement.worded() for statement in [*unread, *sizes])),
     )
+
+
+def _unread_sizes(table: NumberTable) -> list[Statement]:
+    """Return what titles that were not read say of a number of points, a step or an extent of the table."""
+    skipped = [title for title in table.titles if title[0] not in table.header.lines_read]
+    return [statement for title in skipped for statement in statements(*title) if names_size(statement)]
+
+
+def _refuse_unreconciled(path: Path, unread: list[Statement], counts: tuple[int, int], steps: Pair) -> None:
+    """Raise `InputError` for a size that a skipped line states and that a table of ``counts`` points with these
+    ``steps`` [m] has not; where the steps are not known, their absence is refused."""
+    if steps is None:
+        return
+    (nx, ny) = counts
+    lengths = [*steps, *((n - less) * step for n, step in zip(counts, steps) for less in (0, 1))]
+    for statement in unread:
+        units = LATERAL if statement.unit is None else (LENGTHS.get(statement.unit, math.nan),)
+        for number in statement.numbers:
+            is_count = statement.unit is None and number in (nx, ny, nx * ny)
+            is_length = any(abs(number * u / length - 1) < SAME_SPACING for u in units for length in lengths)
+            if not (is_count or is_length):
+                said = f"does not agree with a map of {nx} x {ny} points, {steps[0]:.4g} x {steps[1]:.4g} m each"
+                advice = "correct the line or the spacing; or write '#' before it if it says nothing of the map"
+                raise _wrong(path, statement.line, statement.text, f"{said}; {advice}")
 
 
 def _unitless_steps(path: Path, header: Header, spacing: Pair) -> tuple[str, ...]:

@@ -1,6 +1,8 @@
 """What a file of heights says of itself: empty cells, steps in headings, the form that is left in it, and units that
 cannot be meant."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -45,7 +47,7 @@ def test_an_empty_cell_is_unmeasured(tmp_path, text, found):
 def test_steps_in_headings_are_read(tmp_path, heading):
     (tmp_path / "a.csv").write_text(heading + "\n1;2;3\n4;5;7\n", encoding="utf-8")
     surface = read_surface(tmp_path / "a.csv", unit="nm", **RAW)
-    stated = *surface.spacing, surface.heights[1, 2]
+    stated = *surface.spacing, surface.heights.max()
     assert stated == pytest.approx((1.5e-6, 1.5e-6, 7e-9), rel=1e-6)
     assert surface.notes[0].startswith("line 1") and heading.split("\n")[0] in surface.notes[0]
     with pytest.raises(InputError, match="spacing = 1e-06, 1e-06 m is given, and file a.csv states 1.5e-06"):
@@ -64,6 +66,58 @@ def test_steps_that_do_not_tell_the_grid_leave_it_to_the_user(tmp_path, heading)
     if "um" not in heading:
         with pytest.raises(InputError, match="is given, and file a.csv states line 1 'Step X;1.5'; allowed: that in m"):
             read_surface(path, unit="nm", spacing=(2.5e-6, 1.5e-6))
+
+
+HEADERS = {  # name: (lines above 4 lines of 6 heights, whether x runs along a line of the file)
+    "German": (
+        "Ger\u00e4t;A\nAnzahl Punkte X;6\nAnzahl Punkte Y;4\nSchrittweite X;0,8 \u00b5m\nSchrittweite Y;0,8 \u00b5m",
+        True,
+    ),
+    "German, turned": (
+        "Anzahl Punkte X;4\nAnzahl Punkte Y;6\nSchrittweite X;0,8 \u00b5m\nSchrittweite Y;0,8 \u00b5m",
+        False,
+    ),
+    "German widths": ("Breite;4,8 \u00b5m\nH\u00f6he;3,2 \u00b5m", True),
+    "lengths without a unit": ("width,4.8\nheight,3.2", True),
+    "lengths, turned": ("width,3.2\nheight,4.8", False),
+    "lengths along axes": ("X range;4.8\nY range;3.2", True),
+    "one length": ("width,0.0048", True),
+    "counts": ("Width;6\nHeight;4", True),
+    "counts, turned": ("Width;4\nHeight;6", False),
+    "points per profile": ("points per profile;6\nprofiles;4", True),
+    "German profiles": ("Punkte je Profil;6\nAnzahl Profile;4", True),
+    "nothing of the grid": ("Stage X;12 mm\nStep height;12 nm\n# width: 7", False),
+}
+
+
+@pytest.mark.parametrize("name", HEADERS)
+def test_sizes_in_headings_decide_the_direction_of_x(tmp_path, name):
+    """x runs along a line of the file, as the counts do, or the lengths, by the steps of 0.8 um that the caller gives."""
+    heading, is_along = HEADERS[name]
+    heights = np.sin(np.arange(24.0)).reshape(4, 6).round(4)
+    rows = "\n".join(";".join(map(str, row)) for row in heights)
+    (tmp_path / "a.csv").write_text(f"{heading}\n{rows}\n", encoding="latin-1")
+    surface = read_surface(tmp_path / "a.csv", unit="nm", spacing=0.8e-6, decimal=".", **RAW)
+    np.testing.assert_allclose(surface.heights, 1e-9 * (heights.T if is_along else heights), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "heading",
+    ["width,5.6\nheight,3.2", "Width;7", "Abstand;0,9 \u00b5m", "Rasterweite X;0,9 \u00b5m", "Step X;0.9", "Pixels;25"],
+)
+def test_a_size_that_the_table_has_not_is_refused(tmp_path, heading):
+    (tmp_path / "a.csv").write_text(f"{heading}\n" + 4 * "1;2;3;4;6;5\n", encoding="latin-1")
+    with pytest.raises(InputError, match=re.escape(f"line 1 {heading.splitlines()[0]!r}")):
+        read_surface(tmp_path / "a.csv", unit="nm", spacing=0.8e-6, **RAW)
+
+
+def test_a_spacing_that_a_line_may_state_is_not_called_absent(tmp_path):
+    (tmp_path / "a.csv").write_text("Rasterweite X;0,8 \u00b5m\n" + 4 * "1;2;3;4;6;5\n", encoding="latin-1")
+    with pytest.raises(InputError, match="is missing: line 1 'Rasterweite X;0,8 µm' may state it"):
+        read_surface(tmp_path / "a.csv", unit="nm", **RAW)
+    (tmp_path / "a.csv").write_text("Probe A\n" + 4 * "1;2;3;4;6;5\n")
+    with pytest.raises(InputError, match="is missing: the file does not carry it"):
+        read_surface(tmp_path / "a.csv", unit="nm", **RAW)
 
 
 def barrel(step=2e-6):
