@@ -323,7 +323,7 @@ def test_standard_error_of_the_sum_by_monte_carlo(prepared, monkeypatch, n, betw
     alone = []
     for _ in range(200):
         pairs, of_line = synthetic(rng, 24, between=between)
-        with_line, without = (levels._of_pairs(model, pairs[:n], one) for one in (of_line, None))
+        with_line, without = (levels._estimate_at_rest(model, pairs[:n], one) for one in (of_line, None))
         sums.append(with_line.numbers["coefficient"])
         stated.append(with_line.error.error)
         means.append(without.numbers["coefficient"])

@@ -103,7 +103,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     sampling_error = levels.sampling_error
     if not math.isfinite(sampling_error.error):
         sampling_error = replace(sampling_error, error=math.nan)
-    by_scatter = student(levels.difference.freedom) * levels.difference.error
+    by_scatter = student(levels.difference_error.freedom) * levels.difference_error.error
     with_thinner, with_thicker = levels.by_film
     parts_of_model = {
         "the difference of the models from place to place: a smaller numerics.model_tolerance narrows it": by_scatter,

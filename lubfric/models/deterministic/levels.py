@@ -54,7 +54,7 @@ from .strip_on_two_grids import (
     numbers_of,
     solve_pair,
 )
-from .time_and_place import TimeAndPlace, mean_over_blocks
+from .time_and_place import mean_over_blocks
 
 # The effects named here are those of half and twice a constant on three points of the scene "paper" (`python -m
 # verification.campaigns.constants lubfric.models.deterministic.levels`). Where f moves, more or fewer strips are
@@ -121,11 +121,11 @@ class Levels:
     shortest : the piece of the fourth; (): none
     finest : the first strip, on the shortest cells that it is solved on
     sampling_error : relative, of f, by the number of strips
-    difference : relative standard error of f, by the difference between the models
+    difference_error : relative standard error of f, by the difference between the models
     numerical : relative error of f, by the cells of the last level
     length : of all strips [m]
     has_unsolved_cells : whether shorter cells were needed and did not converge
-    note : what the control of moving roughness changed, as text; "": nothing
+    note : how f was corrected by the summits and the cells of moving roughness, as text; "": not at all
     """
 
     numbers: dict[str, float]
@@ -139,7 +139,7 @@ class Levels:
     shortest: tuple[StripSolution, ...]
     finest: StripSolution
     sampling_error: StandardError
-    difference: StandardError
+    difference_error: StandardError
     numerical: float
     length: float
     has_unsolved_cells: bool = False
@@ -154,14 +154,14 @@ class TwoLevelEstimate:
     ----------
     control_strips, numbers, note : as in `Levels`
     error : standard error of f [-]
-    difference : the part of it that is the difference between the models [-]
+    difference_error : the part of it that is the difference between the models [-]
     between : standard deviation of f between strips [-]
     """
 
     control_strips: int
     numbers: dict[str, float]
     error: StandardError
-    difference: StandardError
+    difference_error: StandardError
     between: float
     note: str = ""
 
@@ -172,8 +172,8 @@ class TwoLevelEstimate:
         of_sampling = f * numerics.sampling_tolerance
         targets = [(self.error, of_sampling)]
         if self.control_strips:
-            of_difference = f * DIFFERENCE_SHARE * numerics.model_tolerance / student(self.difference.freedom)
-            targets = [(self.error, math.hypot(of_sampling, of_difference)), (self.difference, of_difference)]
+            of_difference = f * DIFFERENCE_SHARE * numerics.model_tolerance / student(self.difference_error.freedom)
+            targets = [(self.error, math.hypot(of_sampling, of_difference)), (self.difference_error, of_difference)]
         return max(
             strips_for_error(
                 error, target, count=count, first=1, available=most, growth=STRIPS_GROWTH, spare=STRIPS_SPARE
@@ -206,24 +206,23 @@ def two_levels(
     more are wanted than `MOST_WORK_OF_STRIPS` allows. ``numerics``: whose tolerances count (None: those of the scene).
     """
     numerics = prepared.scene.numerics if numerics is None else numerics
-    load = prepared.scene.bodies.load
+    count = len(pairs)
     most = max(1, min(prepared.sample.available_strips, int(MOST_WORK_OF_STRIPS / pairs[0].resolved.work)))
-    places = [pair.resolved.places_over_time for pair in pairs]
-    moving = [each for each in places if each is not None]
-    if moving:
-        estimate = _of_moving(prepared, pairs, moving)
-        return estimate, max(estimate.strips_for_tolerances(numerics, count=len(pairs), most=most), len(pairs))
-    estimates = [
-        _of_pairs(prepared, pairs, each) for each in (control, None) if each is None or len(pairs) <= each.count
-    ]
-    estimates = [each for each in estimates if not each.control_strips or 0 <= each.numbers["contact_load"] <= load]
-    counts = [each.strips_for_tolerances(numerics, count=len(pairs), most=most) for each in estimates]
-    chosen = next(
-        k
-        for k, each in enumerate(estimates)
-        if not each.control_strips or counts[k] <= min(counts[-1], each.control_strips)
-    )
-    return estimates[chosen], max(counts[chosen], len(pairs))
+
+    def required(estimate: TwoLevelEstimate) -> int:
+        return estimate.strips_for_tolerances(numerics, count=count, most=most)
+
+    if pairs[0].resolved.moves:
+        estimate = _estimate_in_motion(prepared, pairs)
+        return estimate, max(required(estimate), count)
+    alone = _estimate_at_rest(prepared, pairs, None)
+    required_alone = required(alone)
+    if control is not None and count <= control.count:
+        estimate = _estimate_at_rest(prepared, pairs, control)
+        has_possible_load = 0 <= estimate.numbers["contact_load"] <= prepared.scene.bodies.load
+        if has_possible_load and (required_with_control := required(estimate)) <= min(required_alone, control.count):
+            return estimate, max(required_with_control, count)
+    return alone, max(required_alone, count)
 
 
 def levels_of(
@@ -245,13 +244,15 @@ def levels_of(
     numbers = with_divided_contact_load(prepared.scene, fourth, results)
     f = abs(numbers["coefficient"])
     of_strips = add_errors(estimate.error, replace(shorter.sampling_error, error=shorter.sampling_error.error * f))
-    difference = StandardError(min(estimate.difference.error, of_strips.error) / f, estimate.difference.freedom)
-    by_chance = math.sqrt((of_strips.error / f) ** 2 - difference.error**2)
+    difference_error = StandardError(
+        min(estimate.difference_error.error, of_strips.error) / f, estimate.difference_error.freedom
+    )
+    by_chance = math.sqrt((of_strips.error / f) ** 2 - difference_error.error**2)
     sampling_error = replace(of_strips, error=math.hypot(by_chance, BALANCED * (estimate.between / f) ** 2))
     films = tuple(mean(getattr(result, name) - result.coefficient for result in results) / f for name in OTHER_FILMS)
     errors = _errors(prepared, pairs, numbers)
     errors["coefficient"] = math.hypot(
-        *(e for e in (sampling_error.error, difference.error, shorter.error) if math.isfinite(e))
+        *(e for e in (sampling_error.error, difference_error.error, shorter.error) if math.isfinite(e))
     )
     first = pairs[0].resolved
     at_rest = first.at_rest
@@ -272,7 +273,7 @@ def levels_of(
         shortest=shorter.shortest,
         finest=shorter.strip or first,
         sampling_error=sampling_error,
-        difference=difference,
+        difference_error=difference_error,
         numerical=shorter.error,
         length=prepared.sample.line_length(max(estimate.control_strips, len(pairs))),
         note="; ".join(notes),
@@ -301,7 +302,9 @@ def with_divided_contact_load(
     return numbers | parts
 
 
-def _of_pairs(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], control: ControlVariate | None) -> TwoLevelEstimate:
+def _estimate_at_rest(
+    prepared: Prepared, pairs: Sequence[StripOnTwoGrids], control: ControlVariate | None
+) -> TwoLevelEstimate:
     """Return the estimate from strips whose roughness rests; ``control``: the first level (None: without it)."""
     rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
     count = len(pairs)
@@ -312,7 +315,7 @@ def _of_pairs(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], control: Con
             control_strips=0,
             numbers=numbers,
             error=error,
-            difference=StandardError(0.0, 1),
+            difference_error=StandardError(0.0, 1),
             between=error.error * math.sqrt(count),
         )
     for name, differences in control.numbers.items():
@@ -327,19 +330,20 @@ def _of_pairs(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], control: Con
         control_strips=control.count,
         numbers=numbers,
         error=error,
-        difference=_scatter(pairs, prepared.sample, control, 1.0),
+        difference_error=_scatter(pairs, prepared.sample, control, 1.0),
         between=between,
     )
 
 
-def _of_moving(
-    prepared: Prepared, pairs: Sequence[StripOnTwoGrids], places: Sequence[TimeAndPlace]
-) -> TwoLevelEstimate:
-    """Return the mean over strips whose roughness moves, with the control of their summits (`summits`); ``places``: of each
-    strip."""
+def _estimate_in_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -> TwoLevelEstimate:
+    """Return the mean over strips whose roughness moves, with the control of their summits (`summits`)."""
     rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
-    samples = [each.half() if pair.mirrored else each for pair, each in zip(pairs, places)]
+    samples = []
+    for pair in pairs:
+        places = pair.resolved.places_over_time
+        if places is not None:
+            samples.append(places.half() if pair.mirrored else places)
     control = summit_control(prepared)
     width = prepared.sample.correlation_lengths[1]
     friction = mean_over_blocks(samples, "friction", width, control)
@@ -361,7 +365,7 @@ def _of_moving(
         control_strips=0,
         numbers=numbers,
         error=friction.error,
-        difference=StandardError(0.0, 1),
+        difference_error=StandardError(0.0, 1),
         between=between,
         note=note,
     )
