@@ -1,7 +1,7 @@
 """Load sharing, Eq. (8) of the paper: film and contact carry one load.
 
-- The balance: `point` solves film and contact, each at its share of the load; `balance` finds the division at which they
-  agree; `balanced_sample` solves it on the first strips of a sample; `cell_effect` corrects it for their cells,
+- The balance: `point` solves film and contact, each at its share of the load; `balance` finds the division at which the
+  `closure`, Eq. (8), holds; `balanced_sample` solves it on the first strips of a sample; `cell_effect` corrects it for their cells,
   `scatter` and `undetected` give its sampling error, and `response` shows how strongly all that depends on an error of
   the gap.
 - `paper_model`, ``"paper"``: `forces` gives the friction by Eq. (9), `error_of_eq8` its error, `limits` the assumptions

@@ -10,6 +10,7 @@ from ...film import EHLResult
 from ...scene import Scene, budget
 from ..contract import ModelDetails
 from ..shared import exponents, meaningless
+from .closure import residual, residual_slope
 from .forces import Forces, forces
 from .point import (
     Point,
@@ -98,9 +99,9 @@ class Balance(Renamed, ModelDetails):
 
     @property
     def slope(self) -> float:
-        """Slope of the volume residual (G - h)/(G + h) over ``log_load_ratio``; infinite where no film shares the load."""
+        """Slope of the residual of the closure over ``log_load_ratio``; infinite where no film shares the load."""
         per_gap = 0.0 if self.response is None else self.response.log_load_ratio_per_gap
-        return -0.5 / (per_gap * self.contact_state.mean_film) if per_gap else math.inf
+        return residual_slope(per_gap, self.contact_state.mean_film)
 
 
 def solve_balance(
@@ -134,7 +135,7 @@ def solve_balance(
         except ConvergenceError as error:  # then a balance in contact, one of a kind, is what excludes separation
             notes = (f"the full-load film was not solved ({error})",)
         else:
-            if separated.contact_state.volume_residual <= 0:
+            if residual(separated.contact_state) <= 0:
                 return separated
             alone = separated.film
     settings = replace(_first_settings(scene), correctable=correctable)
@@ -193,7 +194,7 @@ def _certainly_touching(scene: Scene, speed: float, rough_contact: RoughContact)
     """Return whether the summits would even reach through twice Moes' film over an undeformed cylinder, which is
     thicker than any film."""
     film = SAFE_FILM * scene.line_contact(speed).moes_film
-    return rough_contact.close(film + rough_contact.x**2 / (2 * scene.bodies.radius), 0.0).volume_residual > 0
+    return residual(rough_contact.close(film + rough_contact.x**2 / (2 * scene.bodies.radius), 0.0)) > 0
 
 
 def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult | None) -> Balance:
@@ -344,19 +345,19 @@ def _contact_tolerance(point: Point, contact_state: ContactState, volume: float)
 
 
 def _root(point: Point, near: RootStart) -> Root:
-    """Return the root of the volume residual over ln(F_H/F_C); its payload is the `Trial` there, None where a given film
+    """Return the root of the closure's residual over ln(F_H/F_C); its payload is the `Trial` there, None where a given film
     does not fill the gap."""
     load = point.scene.bodies.load
     most = point.rough_contact.capacity
     lowest = max(math.log((load - most) / most), BOUNDS[0]) if most < load else BOUNDS[0]
 
-    def residual(x: float, last: Trial | None) -> tuple[float, Trial]:
+    def residual_at(x: float, last: Trial | None) -> tuple[float, Trial]:
         trial = point.trial(*loads_at(load, x), last)
-        return trial.contact_state.volume_residual, trial
+        return residual(trial.contact_state), trial
 
     is_fed = point.scene.lubricant.inlet_film is not None
     root = increasing_root(
-        residual,
+        residual_at,
         near.log_load_ratio,
         step=near.step,
         tolerance=point.settings.balance_tolerance,

@@ -39,6 +39,7 @@ from .cell_effect import (
     effect_of_cells,
     lost_summits,
 )
+from .closure import closed, open_gap
 from .forces import (
     forces,
 )
@@ -158,8 +159,8 @@ class BalancedSample:
 
     @property
     def left_by_root(self) -> float:
-        """Mean gap less mean film [m], of the raw balance."""
-        return self.raw_balance.contact_state.mean_gap - self.raw_balance.contact_state.mean_film
+        """The gap [m] that the raw balance leaves open."""
+        return open_gap(self.raw_balance.contact_state)
 
     @property
     def second_order(self) -> float:
@@ -266,7 +267,7 @@ class BalancedSample:
         plastic = max(state.plastic_area_fraction + effect.plastic_change, 0.0)
         state = with_contact_area_scaled(replace(state, plastic_area_fraction=plastic), effect.area_factor * by_load)
         mean = weighted_mean(film.film_at(self.rough_contact.x), self.rough_contact.weight) + effect.film_change
-        state = replace(state, mean_gap=mean, mean_film=mean)
+        state = closed(state, mean)
         corrected_balance = replace(
             raw_balance,
             film_load=loads[0],

@@ -9,6 +9,7 @@ import numpy as np
 from ...contact import ContactState, RoughContact, weighted_mean
 from ...film import EHLResult
 from ...scene import Scene
+from .closure import log_load_ratio_per_gap
 from .forces import Forces, forces
 
 # Step of ln(F_H/F_C), each way, for the rates of the film. Half and twice as much change f by less than 0.01 %
@@ -122,8 +123,7 @@ def respond(
 
     Slopes are secants to a load 5 % larger (smaller where the contact carries no more). ``film_of``: the film that
     carries a load [N], where one shares the load. Its rates come from films at two other divisions of the load; no
-    contact is solved for them. The gap obeys G(P(s)) = h(s), so ds/dG = -1/(dG/dP dP/ds - dh/ds), with dP/ds = -P
-    F_H/F_T.
+    contact is solved for them. The rate of the gap is dG/ds = dG/dP dP/ds, with dP/ds = -P F_H/F_T.
     """
     width = scene.bodies.width
     step = LOAD_STEP * load * (1 if rough_contact.capacity > (1 + LOAD_STEP) * load else -1)
@@ -151,8 +151,9 @@ def respond(
     low = at(log_load_ratio - LOG_RATIO_STEP)
     high = at(log_load_ratio + LOG_RATIO_STEP)
     film_rate = (high["mean_gap"] - low["mean_gap"]) / (2 * LOG_RATIO_STEP)
-    ds_dgap = -1.0 / (-slopes.gap * load * film_load / (total * width) - film_rate)
-    return Response(slopes, ds_dgap, {name: _log_rate(low[name], high[name]) for name in low}, film_load / load)
+    gap_rate = -slopes.gap * load * film_load / (total * width)
+    per_gap = log_load_ratio_per_gap(gap_rate, film_rate)
+    return Response(slopes, per_gap, {name: _log_rate(low[name], high[name]) for name in low}, film_load / load)
 
 
 def quantities(
