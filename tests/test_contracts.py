@@ -158,7 +158,9 @@ class TestModel:
         solution = model.solve(prepared, prepared.sample, count, 0.03)
         assert isinstance(solution, SampleSolution) and solution.count == count
         assert solution.required_strips() >= count and solution.sampling_error.error >= 0
-        answer = solution.corrected().answer()
+        completed = solution.corrected().completed()
+        assert completed.completed() is completed and (completed.may_suffice() or not completed.why_sufficient())
+        answer = completed.answer()
         assert 0 < answer.numbers["coefficient"] < 0.1 and answer.numerical > 0 and answer.sampling_error.error > 0
         assert answer.report.converged
         assert answer.fields.heights.shape == answer.fields.shear.shape == answer.fields.pressure.shape

@@ -214,11 +214,14 @@ class BalancedSample:
             and self.scatter.effective_contacts < FEW_CONTACTS
         )
 
-    @cached_property
     def is_too_coarse(self) -> bool:
-        """Whether the cells change the division of the load or the gap by more than can be corrected, or f by more
-        than is allowed beyond first order; where the film separates the surfaces, whether they cut off a summit
-        that would touch."""
+        """Return whether the cells change the division of the load or the gap by more than can be corrected, or f by
+        more than is allowed beyond first order; where the film separates the surfaces, whether they cut off a summit
+        that would touch, which takes a solve on native cells."""
+        return self._is_too_coarse
+
+    @cached_property
+    def _is_too_coarse(self) -> bool:
         response = self.response
         sample = self.sample
         scene = self.prepared.scene

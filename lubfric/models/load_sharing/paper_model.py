@@ -60,7 +60,7 @@ class PaperSolution(SampleSolution):
         return self.balanced.required_strips()
 
     def is_too_coarse(self) -> bool:
-        return self.balanced.is_too_coarse
+        return self.balanced.is_too_coarse()
 
     def takes_more_strips_first(self) -> bool:
         return self.balanced.takes_more_strips_first()

@@ -127,7 +127,7 @@ class QuickSolution(SampleSolution):
         return answer.numbers["contact_load"] == 0 and max(answer.model_error) <= self._error_of_thick_films
 
     def why_sufficient(self) -> str:
-        if self.on_long_cells is None:
+        if self.on_long_cells is None or not self.may_suffice():
             return ""
         tolerance = self.prepared.scene.numerics.model_tolerance
         answer = self.answer()
