@@ -35,6 +35,9 @@ AT_MOST = (
 SMALLER_SAMPLING_TOLERANCE = "a smaller numerics.sampling_tolerance narrows it"
 LARGER_MAP = "a larger map narrows it"
 
+# Sampling error of f over its target, up to which the length of the sample is no matter [-]: a convention.
+SAMPLED_WELL = 0.1
+
 # Parts of the friction force that resist the sliding.
 SLIDING_FORCES = ("boundary_force", "couette_force")
 
@@ -59,7 +62,9 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
     loss = _power_loss(scene, speed, model=choice.model, answer=answer, numbers=numbers, uncertainty=uncertainty)
     numbers["power_loss"] = loss.value
     errors = answer.errors | {"power_loss": loss.error}
-    of_answer = [each for each in answer.violations if each.what != MAP_WIDTH or answer.sampling_error.error != 0]
+    sampling = answer.sampling_error.error
+    is_sampled_well = sampling <= SAMPLED_WELL * scene.numerics.sampling_tolerance
+    of_answer = [each for each in answer.violations if each.what != MAP_WIDTH or not is_sampled_well]
     violations = (
         *of_answer,
         *violations_by_numerical_error(answer.numerical, scene.numerics.tolerance, answer.recommendation),

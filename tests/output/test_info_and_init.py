@@ -55,7 +55,9 @@ def test_info_looks_at_what_is_solved():
         scene = small.with_(numerics={"sampling": sampling})
         known = [entry.what for entry in lubfric.prepare(scene).violations]
         assert (
-            ("Few asperities" in describe_scene(scene)) == stated == any("width of the map" in what for what in known)
+            ("Few asperities" in describe_scene(scene))
+            == stated
+            == any("length of the sample" in what for what in known)
         )
     patch = small.with_(numerics={"sampling": "patch", "model": "auto"})
     assert lubfric.friction(patch).decision.model == "deterministic" and "deterministic model" in describe_scene(patch)

@@ -17,6 +17,7 @@ from ..shared import (
     Decision,
     Heat,
     Prepared,
+    StandardError,
     Violation,
     contact_on_piece,
     error_by_heat,
@@ -24,6 +25,7 @@ from ..shared import (
     limit_bounds,
     limit_in_words,
     peak_hertz_pressure,
+    percent,
     percent_beside,
     smooth_rolling_resistance,
     student,
@@ -45,6 +47,9 @@ from .strip import StripSolution, change_by_flow, solve_strip
 from .strip_on_two_grids import sample_coarsening_of
 
 LARGEST_PART = "its largest part is {}"
+
+# Sampling error over its target, above which a note states it [-]: a standard error of a few strips is itself not known to 5 %.
+WORTH_A_NOTE = 1.05
 FEW_STRIPS = "not known from fewer than three strips"
 UNSOLVED_CELLS = (
     "shorter cells did not converge within the work of a point: the numerical error is twice the estimate from longer "
@@ -111,7 +116,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         "heat, of whose effect half is counted as error": error_by_heat(heat, levels.by_inlet),
     }
     model = math.hypot(*parts_of_model.values())
-    cause = LARGEST_PART.format(max(parts_of_model, key=lambda part: parts_of_model[part]).partition(":")[0])
+    (cause, _, advice) = max(parts_of_model, key=lambda part: parts_of_model[part]).partition(": ")
     by_limit = _by_limit(scene, results)
     parts_of_model[OF_LIMIT] = max(by_limit)
     reasons = dict.fromkeys(depending_on("heat"), heat.reason(scene) or ONE_HEAT)
@@ -130,13 +135,19 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         reasons=reasons,
         length=levels.length,
         notes=(
-            *_sample_notes(prepared, sampling_error.error, levels.length),
+            *_sample_notes(prepared, sampling_error, levels.length),
             *filter(None, [limit_in_words(by_limit)]),
             *([UNSOLVED_CELLS] if levels.has_unsolved_cells else []),
         ),
         violations=(
             *_violations(prepared, numbers, results, heat),
-            *violations_by_model_error(prepared, model, numbers["coefficient"], consequence=cause),
+            *violations_by_model_error(
+                prepared,
+                model,
+                numbers["coefficient"],
+                consequence=LARGEST_PART.format(cause),
+                recommendation=advice,
+            ),
         ),
         recommendation=_recommendation(prepared),
         narrows_numerical=_narrows_numerical(prepared),
@@ -303,16 +314,18 @@ def _narrows_numerical(prepared: Prepared) -> str:
     return f"{_shorter_cells_in_motion(prepared) if is_moving else SMALLER_SOLVE_TOLERANCE} narrows it"
 
 
-def _sample_notes(prepared: Prepared, error: float, length: float) -> tuple[str, ...]:
-    """Return what a reader should know of the ``sampling`` error of strips of this ``length`` [m]."""
+def _sample_notes(prepared: Prepared, error: StandardError, length: float) -> tuple[str, ...]:
+    """Return what a reader should know of the sampling ``error`` of strips of this ``length`` [m]."""
     sample = prepared.sample
     tolerance = prepared.scene.numerics.sampling_tolerance
-    if math.isnan(error):
+    if math.isnan(error.error):
         return why_sample_too_short(prepared.scene, length / sample.correlation_lengths[1]), BIASED
-    if error <= tolerance:
+    if error.error <= WORTH_A_NOTE * tolerance:
         return ()
-    (stated, target) = percent_beside(error, tolerance)
-    return (f"sampling: its standard error, {stated}, is above the target of {target} (numerics.sampling_tolerance)",)
+    (stated, target) = percent_beside(error.error, tolerance)
+    both_sides = percent(student(error.freedom) * error.error)
+    of_target = f"is above the target of {target} (numerics.sampling_tolerance)"
+    return (f"sampling: its standard error, {stated} ({both_sides} at 95 %), {of_target}",)
 
 
 def _words_of_levels(levels: Levels) -> str:

@@ -105,7 +105,7 @@ class Outside:
             limit=factor * self.limit,
             unit="GPa" if self.unit == "Pa" else self.unit,
             consequence=OUTSIDE,
-            recommendation="set numerics.model = 'auto', which takes a model without calibration there",
+            recommendation="take numerics.model = 'deterministic', which is not calibrated",
         )
 
 

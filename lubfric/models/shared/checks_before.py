@@ -38,8 +38,8 @@ FILTERED = "lines in the right order, or surface.s_filter"
 # Correlation lengths that a patch should be wide: the fewest for two blocks (statistics.py).
 LEAST_PATCH_LENGTHS = 10
 
-# Name of the width of the map where it is small: it matters where f has a sampling error.
-MAP_WIDTH = "width of the map over its correlation length"
+# Name of the length of the sample where it is small: it matters where f has a sampling error.
+MAP_WIDTH = "length of the sample along the line over its correlation length"
 
 # Peak Hertz pressure [Pa] that hard steel does not carry elastically: static ratings of bearings allow 4.0 to 4.6 GPa
 # (ISO 76).

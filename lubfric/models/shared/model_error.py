@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 
-from ...samples import is_measured
 from .prepared import Prepared
 from .statistics import is_near_zero
 from .violation import Violation
@@ -16,11 +15,10 @@ def violations_by_model_error(
 ) -> Iterator[Violation]:
     """Yield a violation where the model-form ``error`` of ``f``, relative, is above ``numerics.model_tolerance``.
 
-    ``consequence``: where it comes from; ``recommendation``: what narrows it ("": a longer map, where the surface is measured).
+    ``consequence``: where it comes from; ``recommendation``: what narrows it ("": nothing that a user may give).
     Where f is near 0, the warning states the error in f itself.
     """
     tolerance = prepared.scene.numerics.model_tolerance
-    has_map = prepared.is_given or is_measured(prepared.scene)
     if not error > tolerance:
         return
     is_relative = not is_near_zero(f, error)
@@ -31,5 +29,5 @@ def violations_by_model_error(
         limit=unit * tolerance,
         unit="%" if is_relative else "",
         consequence=consequence,
-        recommendation=recommendation or f"read f with its interval{', or give a longer map' if has_map else ''}",
+        recommendation=recommendation or "read f with its interval",
     )
