@@ -11,7 +11,7 @@ ROUGHNESS = lubfric.generate_surface((64, 256), 2e-6, sq=3e-8, correlation_lengt
 
 @pytest.mark.parametrize(("speed", "matters"), [(0.001, True), (3.0, False)])
 def test_a_short_sample_is_a_warning_where_asperities_carry_load(tmp_path, speed, matters):
-    np.save(tmp_path / "map.npy", ROUGHNESS.heights[:, :200])
+    np.save(tmp_path / "map.npy", ROUGHNESS.heights[:, :100])
     scene = lubfric.load_scene("paper").with_(
         surface={
             "file": str(tmp_path / "map.npy"),
