@@ -81,7 +81,7 @@ def test_the_effect_of_shorter_cells_is_that_on_other_strips():
         changes.append(own / coarse - 1)
     shift = result.numbers["coefficient"] / alone - 1
     assert len(result.pieces) >= 1 and prepared.sample.cells.coarsening == (4, 4)
-    assert shift == pytest.approx(np.mean(changes), abs=2 * np.std(changes, ddof=1) + 2 * result.sampling.error)
+    assert shift == pytest.approx(np.mean(changes), abs=2 * np.std(changes, ddof=1) + 2 * result.sampling_error.error)
     assert result.numerical < FINE.numerics.tolerance
 
 
