@@ -10,7 +10,7 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 import lubfric
 from lubfric.errors import CONVERGED, Report
 from lubfric.models import MODELS, DeterministicModel, Model, ModelAnswer, PaperModel, QuickModel, SampleSolution
-from lubfric.models.shared import Decision, StandardError
+from lubfric.models.shared import MAP_WIDTH, Decision, StandardError, Violation
 from lubfric.output import describe_scene, main
 from lubfric.quantities import CHOICES
 from lubfric.samples import Cells, Sample
@@ -249,6 +249,33 @@ def test_a_third_model_answers_through_the_same_contract():
         assert high - low >= result.coefficient and math.isnan(result.min_film)
         assert "highest summit" in result.decision.text or result.decision.model == "highest summit"
     assert len(values) > prepared.sample.first_strips
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scattered(Highest):
+    """The same, with a given standard error, of a sample that is short."""
+
+    scatter: float
+
+    @property
+    def sampling_error(self) -> StandardError:
+        return StandardError(self.scatter, self.count - 1)
+
+    def answer(self) -> ModelAnswer:
+        known = dict(
+            what=MAP_WIDTH, value=5.0, limit=10.0, unit="", consequence="few asperities", recommendation="more"
+        )
+        return replace(super().answer(), violations=(Violation(**known),))
+
+
+@pytest.mark.parametrize(("scatter", "matters"), [(0.01, True), (1e-6, False), (math.nan, True)])
+def test_a_short_sample_is_a_warning_where_f_depends_on_it(monkeypatch, scatter, matters):
+    def solve(self, prepared, sample, count, speed, **_):
+        return Scattered(prepared=prepared, sample=sample, count=count, speed=speed, scatter=scatter)
+
+    monkeypatch.setattr(HighestSummit, "solve", solve)
+    result = lubfric.friction(PAPER, 0.03, model=HighestSummit())
+    assert (MAP_WIDTH in [violation.what for violation in result.validity]) == matters
 
 
 @pytest.fixture
