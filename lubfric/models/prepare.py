@@ -11,7 +11,17 @@ from ..samples import Sample, check_map, combined_maps, sample_of
 from ..scene import Bodies, Scene, hint_unusual_values
 from ..surface import Surface
 from .registry import check_by_model
-from .shared import JoinedKey, Memo, Prepared, beforehand, cells_of_contact, operator_on, scene_of
+from .shared import (
+    JoinedKey,
+    Memo,
+    Prepared,
+    beforehand,
+    cells_of_contact,
+    is_by_form,
+    operator_on,
+    scene_of,
+    violations_by_form,
+)
 
 
 @with_default_errors
@@ -51,14 +61,17 @@ def prepare(
         validate.instance("like", like, Prepared, "what lubfric.prepare returned")
         _check_likeness(scene, like.scene, maps, contact)
         if _same_contact(scene, like.scene):
-            prepared = replace(like, scene=scene, violations=beforehand(scene, like.surface))
+            by_form = filter(is_by_form, like.violations)
+            prepared = replace(like, scene=scene, violations=(*beforehand(scene, like.surface), *by_form))
             prepared.memo.keep_surface_of(like.memo)
             return prepared
         maps = (like.surface, *like.sample.bodies) if like.is_given else ()
         contact = None if like.has_own_contact else like.rough_contact
     with hint_unusual_values(scene):
         sample = sample_of(scene, maps, contact=contact)
-        return _on_sample(scene, sample, is_given=bool(maps) or contact is not None)
+        has_given_maps = bool(maps)
+        is_given = has_given_maps or contact is not None
+        return _on_sample(scene, sample, is_given=is_given, has_given_maps=has_given_maps)
 
 
 def prepare_on_maps(scene: Scene, read: tuple[Surface, ...]) -> Prepared:
@@ -66,22 +79,23 @@ def prepare_on_maps(scene: Scene, read: tuple[Surface, ...]) -> Prepared:
     again."""
     check_by_model(scene, is_joint=False)
     with hint_unusual_values(scene):
-        return _on_sample(scene, sample_of(scene, read=read), is_given=False)
+        return _on_sample(scene, sample_of(scene, read=read), is_given=False, has_given_maps=False)
 
 
-def _on_sample(scene: Scene, sample: Sample, *, is_given: bool) -> Prepared:
+def _on_sample(scene: Scene, sample: Sample, *, is_given: bool, has_given_maps: bool) -> Prepared:
     """Return ``scene`` made ready on ``sample``, with the contact on its first strips."""
     surface = sample.first_map()
     check_map(scene, surface)
     memo = Memo()
     rough_contact = sample.contact(scene, sample.first_strips, partial(operator_on, memo, scene))
     memo.put(JoinedKey(sample.cells.coarsening, sample.first_strips), rough_contact, cells_of_contact(rough_contact))
+    by_form = violations_by_form(scene, sample.own_maps, is_given=has_given_maps)
     prepared = Prepared(
         scene=scene,
         surface=surface,
         rough_contact=rough_contact,
         sample=sample,
-        violations=beforehand(scene, surface),
+        violations=(*beforehand(scene, surface), *by_form),
         is_given=is_given,
     )
     prepared.memo.keep_surface_of(memo)

@@ -18,6 +18,7 @@ from ..models.shared import (
     effect_in_words,
     expected_effects,
     gathered,
+    violations_by_form,
     violations_by_unusual_inputs,
 )
 from ..quantities import counted
@@ -128,6 +129,7 @@ def estimate_scene(
     first_model = models_that_may_answer(scene.numerics.model)[0]
     at = [
         *((None, violation) for violation in beforehand(scene, surface)),
+        *((None, violation) for violation in violations_by_form(scene, sample.own_maps, is_given=False)),
         *first_model.expected_violations(scene, sorted(set(speeds))),
     ]
     refusals = _doubts([(speed, violation) for speed, violation in at if violation.severe])

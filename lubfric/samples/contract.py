@@ -170,6 +170,11 @@ class Sample(ABC):
         """The map that the scene has: of a measured one the whole, else what is solved first."""
         return self.first_map()
 
+    @property
+    def own_maps(self) -> tuple[Surface, ...]:
+        """The map of each rough body, or of all, as it is before it is continued by its mirror image."""
+        return self.bodies or (self.map,)
+
     def first_map(self) -> Surface:
         """Return the map that is solved first; of a single patch on native cells."""
         return self.first_joined(self.first_strips)

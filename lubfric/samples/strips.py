@@ -155,7 +155,8 @@ class MeasuredStrips(Sample):
     """Windows of a measured ``surface``, on its own cells or on every second, fourth, ... of them.
 
     ``starts``: first columns of the windows that the map holds independently. They are used in this order, so that any
-    number of them is spread over the map. Beyond its ends the map is continued by its mirror image.
+    number of them is spread over the map. Beyond its ends the map is continued by its mirror image. ``maps_alone``: of
+    each body, or of all, before that.
     """
 
     cells: Cells
@@ -167,6 +168,7 @@ class MeasuredStrips(Sample):
     surface: Surface
     starts: tuple[int, ...]
     bodies: tuple[Surface, ...] = ()
+    maps_alone: tuple[Surface, ...] = ()
     is_homogeneous: bool = False
 
     def rows_of(self, count: int) -> int:
@@ -178,6 +180,10 @@ class MeasuredStrips(Sample):
     @property
     def map(self) -> Surface:
         return self.surface
+
+    @property
+    def own_maps(self) -> tuple[Surface, ...]:
+        return self.maps_alone
 
     def map_in_words(self, surface: Surface) -> str:
         return self.surface.describe()
@@ -303,6 +309,7 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
         surface=surface,
         starts=tuple(starts),
         bodies=tuple(parts),
+        maps_alone=tuple(maps[1:] or maps),
     )
 
 

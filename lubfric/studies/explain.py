@@ -13,7 +13,7 @@ from typing import Any
 from ..errors import InputError
 from ..estimate import estimated_work_of_point, seconds_of_points
 from ..models import models_that_may_answer, prepare
-from ..models.shared import Prepared, Violation, beforehand, sentence, violations_by_unusual_inputs
+from ..models.shared import Prepared, Violation, sentence, violations_by_unusual_inputs
 from ..quantities import counted, worded_value
 from ..scene import SLIDE_ROLL_RATIO_KEY
 from .choose import EXPECTED_SPEEDS, first_speeds
@@ -115,7 +115,7 @@ def _expected(prepared: Prepared, speeds: Sequence[float]) -> tuple[Violation, .
     at = list(speeds) or list(first_speeds(scene, prepared.surface.sq))
     expected = models_that_may_answer(scene.numerics.model)[0].expected_violations(scene, at)
     unusual = {violation.what for violation in violations_by_unusual_inputs(scene)}
-    known = (*beforehand(scene, prepared.surface), *(violation for _, violation in expected))
+    known = (*prepared.violations, *(violation for _, violation in expected))
     return tuple(violation for violation in known if violation.what not in unusual)
 
 

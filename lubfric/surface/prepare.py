@@ -13,6 +13,7 @@ FORM_POWERS = {  # the powers of each; of several sets the one that leaves least
     "cylinder": ((*_PLANE, (2, 0)), (*_PLANE, (0, 2))),
     "quadratic": ((*_PLANE, (2, 0), (1, 1), (0, 2)),),
 }
+BETTER = 0.9  # of Sq: a form that leaves less than that of another is worth its terms. A convention.
 MOST_MISSING = 0.5
 LEFT_BY_FORM = 1e-13  # of the largest height: what a fitted form leaves of a map that has it exactly
 DEPENDENT = 1e-13  # least eigenvalue of the normal equations, of the largest
@@ -57,6 +58,13 @@ def fitted_form(
     slopes = terms.get((1, 0), 0.0) / length[0], terms.get((0, 1), 0.0) / length[1]
     curvatures = 2 * terms.get((2, 0), 0.0) / length[0] ** 2, 2 * terms.get((0, 2), 0.0) / length[1] ** 2
     return fitted, slopes, curvatures
+
+
+def advised_form(left: dict[str, float]) -> str:
+    """Return the form of the fewest terms that leaves about as little Sq as any with more. ``left``: Sq [m] that each
+    form leaves (`Surface.left_by`)."""
+    forms = [form for form in FORM_POWERS if form in left]
+    return next(form for form in forms if BETTER * left[form] <= min(left[f] for f in forms[forms.index(form) :]))
 
 
 def _normal_solution(

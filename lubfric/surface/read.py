@@ -13,7 +13,7 @@ from ..errors import InputError
 from .header import LENGTH_UNITS
 from .height_map import Surface
 from .layout import kind_of_table, refuse_profile
-from .prepare import FORM_POWERS, outliers
+from .prepare import BETTER, FORM_POWERS, advised_form, outliers
 from .regrid import points
 from .sdf import SDF_FIRST_WORDS as SDF
 from .statistics import check_scale, check_slopes
@@ -26,7 +26,6 @@ TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz", ".prf", ".smd", ".grd")
 OWN_GRID = {".x3p": read_x3p}  # formats that carry their grid and their units, and their readers
 SUFFIXES = (".npy", *TEXT, *OWN_GRID)
 ISO_TEXT = tuple(magic.encode("ascii") for magic in SDF)  # first bytes of an .sdf or .bcr file that is text
-BETTER = 0.9  # of Sq: a form that leaves less than that is worth a word
 # of the formats that SurfaceTopography 1.27 knows; those that lubfric reads itself (.x3p, .xyz, text, .npy) are left
 # out
 INSTRUMENTS = (
@@ -240,9 +239,9 @@ def _prepared(surface: Surface, *, level: bool, fill: bool, form: str) -> Surfac
         words = ", ".join(
             f"{sq * 1e9:.4g} nm {f'without {name}' if name else 'as measured'}" for name, sq in left.items()
         )
-        least = min(left, key=lambda name: left[name])
-        if left[least] < BETTER * left[form]:
-            words += f"; a form is left in it? give form = {least!r}"
+        advised = advised_form(left)
+        if left[advised] < BETTER * left[form]:
+            words += f"; a form is left in it? give form = {advised!r}"
         surface = replace(surface, notes=(*surface.notes, f"Sq {words}"))
     surface = surface.fill() if fill else surface
     return _with_outliers_noted(surface) if fill and level else surface

@@ -224,3 +224,51 @@ def test_scenes_and_results_keep_no_hold_of_the_callers_lists():
     curve = lubfric.stribeck(scene.with_(numerics={"accept": True}), requested)
     requested[0] = 7.0
     assert curve.speed.tolist() == [0.05, 0.1]
+
+
+@pytest.mark.parametrize(
+    "curved, key, advised",
+    [
+        ("y", "", "cylinder"),
+        ("xy", "", "quadratic"),
+        ("xy", "form = 'cylinder'", "quadratic"),
+        ("y", "form = 'cylinder'", ""),
+    ],
+)
+def test_a_form_that_is_most_of_a_map_is_a_warning(maps, curved, key, advised):
+    """A barrel or a dome of ten times Sq: its share of Sq² is 1 - 1/(1 + ratio²); each form is advised where it is enough."""
+    heights = np.load(maps / "long.npy")
+    x, y = np.meshgrid(*(np.linspace(-1, 1, n) for n in heights.shape), indexing="ij")
+    heights = heights - 4e-6 * ((y**2 if curved == "y" else x**2 + y**2) - x / 9)
+    np.save(maps / "formed.npy", heights)
+    text = f"[surface]\nfile = 'formed.npy'\nspacing = {GRID}\n{key}\n"
+    result = lubfric.prepare(loaded(maps, text)).violations
+    found = [violation for violation in result if violation.what.startswith("share of the form")]
+    assert len(found) == bool(advised)
+    for violation in found:
+        assert f"{advised!r} in Sq² of [surface] (formed.npy)" in violation.what and not violation.severe
+        assert violation.recommendation == f"give surface.form = {advised!r}"
+        levelled = lubfric.read_surface(maps / "formed.npy", spacing=GRID, form="cylinder" if key else "plane").sq
+        without = lubfric.read_surface(maps / "formed.npy", spacing=GRID, form=advised).sq
+        assert violation.value == pytest.approx(100 * (1 - (without / levelled) ** 2), rel=1e-3)
+
+
+def test_a_form_of_the_second_body_is_named_and_one_of_a_given_map_too(maps):
+    """Also under a map that is continued by its mirror image; a new load keeps the warning."""
+    heights = np.load(maps / "short.npy")
+    np.save(maps / "formed.npy", heights - 4e-6 * np.linspace(-1, 1, heights.shape[1]) ** 2)
+    pair = [
+        f"[{name}]\nfile = '{file}.npy'\nspacing = {GRID}\nextension = 'mirror'\n"
+        for name, file in (("surface", "long"), ("counterface", "formed"))
+    ]
+    prepared = lubfric.prepare(loaded(maps, "".join(pair)))
+    heavier = lubfric.prepare(prepared.scene.with_(motion={"entrainment_speed": 1.0}), like=prepared)
+    for violations in (prepared.violations, heavier.violations):
+        (found,) = [violation for violation in violations if violation.what.startswith("share of the form")]
+        assert "[counterface] (formed.npy)" in found.what and "counterface.form = 'cylinder'" in found.recommendation
+    given = lubfric.Surface(np.load(maps / "formed.npy"), GRID).continued(40 * GRID)
+    given = lubfric.Surface(given.heights, GRID, periodic_axes=(False, True))
+    (found,) = [
+        v for v in lubfric.prepare(prepared.scene.with_(counterface=None), given).violations if "form" in v.what
+    ]
+    assert found.recommendation == "take the form off the map: level('cylinder')"

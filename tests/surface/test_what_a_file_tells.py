@@ -141,7 +141,7 @@ def test_a_reader_tells_what_each_form_would_leave(tmp_path):
     sq = {"as measured": z.std()} | {f"without {name}": value for name, value in left.items()}
     note = next(note for note in surface.notes if note.startswith("Sq"))
     assert note.split(";")[0] == "Sq " + ", ".join(f"{value * 1e9:.4g} nm {name}" for name, value in sq.items())
-    assert left["plane"] > 1.3 * left["cylinder"] and note.endswith("give form = 'quadratic'")
+    assert left["plane"] > 1.3 * left["cylinder"] and note.endswith("give form = 'cylinder'")
     for form, value in left.items():
         assert read_surface(tmp_path / "a.npy", spacing=2e-6, form=form).sq == pytest.approx(value, rel=1e-9)
     for form in ("cylinder", "quadratic"):

@@ -1,8 +1,9 @@
 """Checks of a scene and its map before anything is solved: half-space, small slopes, enough asperities."""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from ...errors import InputError
 from ...film import ShearForce, hertz
 from ...oil import carried_stress, shear_stress
 from ...scene import Bodies, Scene, unusual_values
-from ...surface import Surface, correlation_length, rms_slope
+from ...surface import Surface, advised_form, correlation_length, rms_slope
 from .checks import peak_hertz_pressure, violations_by_motion, violations_by_pressure, violations_by_shear
 from .violation import Violation
 
@@ -41,6 +42,13 @@ LEAST_PATCH_LENGTHS = 10
 # Name of the length of the sample where it is small: it matters where f has a sampling error.
 MAP_WIDTH = "length of the sample along the line over its correlation length"
 
+# Share [%] of Sq² that a form explains from which the map shows the form and not the roughness. Not measured: a
+# convention.
+MOST_OF_FORM = 90.0
+
+# Begin of the name of that share.
+FORM_SHARE = "share of the form"
+
 # Peak Hertz pressure [Pa] that hard steel does not carry elastically: static ratings of bearings allow 4.0 to 4.6 GPa
 # (ISO 76).
 YIELDED = 4.5e9
@@ -60,6 +68,42 @@ def beforehand(scene: Scene, surface: Surface) -> tuple[Violation, ...]:
     cells = [_cells_of_length(surface, axis) for axis in (0, 1)]
     of_map = violations_by_map(rms_slope(surface)[2], surface.shape[1] / cells[1], cells)
     return (*violations_by_unusual_inputs(scene), *violations_by_bodies(scene.bodies), *of_map)
+
+
+def violations_by_form(scene: Scene, maps: Sequence[Surface], *, is_given: bool) -> Iterator[Violation]:
+    """Yield the violations by a form that is left in the ``maps``, of each rough body or of all: measured ones, or those
+    that were given to `lubfric.prepare`."""
+    sections = ("surface", "counterface")
+    for section, rough, surface in zip(sections, (scene.surface, scene.counterface), maps):
+        file = None if is_given or rough is None else rough.file
+        if not (is_given or file) or surface.sq == 0:
+            continue
+        left = surface.left_by()
+        form = advised_form(left)
+        source = surface.source
+        if rough is not None and file is not None:
+            source = Path(file).name
+            form = "quadratic" if form == rough.form == "cylinder" else form  # it is curved along the other axis too
+        share = 100 * (1 - (left[form] / left[""]) ** 2)
+        if form == "plane" or share <= MOST_OF_FORM:
+            continue
+        name = f" ({source})" if source else ""
+        sq = [f"{1e9 * left[key]:.4g} nm" for key in ("", form)]
+        why = f"Sq is {sq[0]} with it, {sq[1]} without it; film, contact and f are then those of the form, not of the roughness"
+        file_advice = f"give {section}.form = {form!r}"
+        yield Violation(
+            what=f"{FORM_SHARE} {form!r} in Sq² of [{section}]{name}",
+            value=share,
+            limit=MOST_OF_FORM,
+            unit="%",
+            consequence=why,
+            recommendation=f"take the form off the map: level({form!r})" if is_given else file_advice,
+        )
+
+
+def is_by_form(violation: Violation) -> bool:
+    """Return whether a violation is one of `violations_by_form`, which depends on the map alone."""
+    return violation.what.startswith(FORM_SHARE)
 
 
 def violations_by_unusual_inputs(scene: Scene) -> tuple[Violation, ...]:
