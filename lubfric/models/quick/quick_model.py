@@ -97,10 +97,12 @@ class QuickSolution(SampleSolution):
         if self.on_long_cells is not None or self.why_by_equation:
             return self
         solution = self
-        why = _why_not_calibrated(self.prepared.scene)
-        if not why and self._error_of_thick_films:
+        scene = self.prepared.scene
+        why = _why_not_calibrated(scene)
+        of_thick_films = _error_of_thick_films(scene, self.prepared.surface.sq, self.speed)
+        if not why and of_thick_films > 0:
             solution = solution._with_paper_solution()
-            why = THICK_FILM_NOTE if solution._is_thick() else ""
+            why = THICK_FILM_NOTE if solution._is_separated_within(of_thick_films) else ""
         if not why:
             try:
                 return replace(solution, on_long_cells=solve_on_long_cells(self.prepared, self.speed))
@@ -115,16 +117,11 @@ class QuickSolution(SampleSolution):
         solution = PaperModel().solve(self.prepared, self.sample, self.count, self.speed)
         return replace(self, paper_solution=solution.corrected())
 
-    @property
-    def _error_of_thick_films(self) -> float:
-        return _error_of_thick_films(self.prepared.scene, self.prepared.surface.sq, self.speed)
-
-    def _is_thick(self) -> bool:
-        """Return whether the film is thicker than those of the solved cases and touches no asperity, so that the error of
-        load sharing is small."""
+    def _is_separated_within(self, most: float) -> bool:
+        """Return whether no asperity carries load by load sharing, with a relative model-form error of at most ``most``."""
         assert self.paper_solution is not None
         answer = self.paper_solution.answer()
-        return answer.numbers["contact_load"] == 0 and max(answer.model_error) <= self._error_of_thick_films
+        return answer.numbers["contact_load"] == 0 and max(answer.model_error) <= most
 
     def why_sufficient(self) -> str:
         if self.on_long_cells is None or not self.may_suffice():
