@@ -1,6 +1,7 @@
 """The sample of moving roughness: its control, blocks of time and place, and when a march ends."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from scipy.ndimage import gaussian_filter
 from scipy.stats import norm
 
 import lubfric
+from lubfric.errors import ITERATION_LIMIT, Report
 from lubfric.models.deterministic import (
     CellsInMotion,
     RoughBody,
@@ -17,6 +19,7 @@ from lubfric.models.deterministic import (
     attenuated,
     cells_in_a_step,
     control_of,
+    levels,
     mean_over_blocks,
     sample_coarsening_of,
     solve_moving_strip,
@@ -170,6 +173,42 @@ def test_errors_of_cells_grow_where_less_is_known():
         cells_in_motion(1.3, by_longer=0.1),
     ]
     assert all(other.error > error for other in (*others, cells_in_motion(1.6)))
+
+
+@pytest.mark.parametrize(
+    ("film_ratio", "wanted", "work", "fails", "halves"),
+    [
+        (2.0, 1, 15.0, False, True),
+        (1.0, 1, 15.0, False, False),  # no effect of the boundary film: the error is within the tolerance
+        (2.0, 4, 15.0, False, False),  # all strips that the sample needs would take 150 s
+        (2.0, 1, 50.0, False, False),
+        (2.0, 1, 15.0, True, False),  # the error stays that of the longer cells
+    ],
+)
+def test_cells_along_y_are_halved_where_their_error_is_large_and_the_work_is_not(
+    monkeypatch, film_ratio, wanted, work, fails, halves
+):
+    scene = lubfric.load_scene("paper").with_(motion={"slide_roll_ratio": 0.1})
+    pair = SimpleNamespace(resolved=SimpleNamespace(work=work, slope=0.0), change_by_cells=0.0, has_halved_cells=False)
+    halved = SimpleNamespace(resolved=pair.resolved, change_by_cells=0.0, has_halved_cells=True)
+    asked = []
+
+    def solve_pair(*_, has_halved_cells=False):
+        asked.append(has_halved_cells)
+        return pair
+
+    def on_halved_cells(*_):
+        if fails:
+            Report("film", ITERATION_LIMIT, iterations=1, residual=1.0, tolerance=0.1).raise_if_failed()
+        return halved
+
+    monkeypatch.setattr(levels, "solve_pair", solve_pair)
+    monkeypatch.setattr(levels, "on_halved_cells", on_halved_cells)
+    monkeypatch.setattr(levels, "surface_and_map_coarsening", lambda *_: (None, (1, 2)))
+    monkeypatch.setattr(levels, "cells_in_motion", lambda *_: cells_in_motion(film_ratio))
+    monkeypatch.setattr(levels, "two_levels", lambda *_: (None, wanted))
+    pairs = levels.solve_pairs(SimpleNamespace(scene=scene), 1.0, 2)
+    assert pairs[0].has_halved_cells == halves and asked == [False, halves]
 
 
 def test_a_given_grid_takes_the_cells_of_the_scene_where_roughness_moves():

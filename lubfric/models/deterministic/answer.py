@@ -44,7 +44,7 @@ from .problem import BOUNDARY_FILM
 from .result import DeterministicResult, stress_with_oil
 from .rough_bodies import map_of, strip_surface
 from .strip import StripSolution, change_by_flow, solve_strip
-from .strip_on_two_grids import sample_coarsening_of
+from .strip_on_two_grids import StripOnTwoGrids, halved_along_y, sample_coarsening_of
 
 LARGEST_PART = "its largest part is {}"
 
@@ -149,8 +149,8 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
                 recommendation=advice,
             ),
         ),
-        recommendation=_recommendation(prepared),
-        narrows_numerical=_narrows_numerical(prepared),
+        recommendation=_recommendation(prepared, levels.pairs[0]),
+        narrows_numerical=_narrows_numerical(prepared, levels.pairs[0]),
         fields=fields_of(levels.finest, sample.in_words(1)),
         fine_fields=None if has_moving_roughness(scene) else partial(fine_fields_of, prepared, speed),
         details=levels.finest.result,
@@ -285,12 +285,12 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     )
 
 
-def _recommendation(prepared: Prepared) -> str:
+def _recommendation(prepared: Prepared, pair: StripOnTwoGrids) -> str:
     """Return what makes the error by the cells smaller: shorter ones, if the map has them."""
     scene = prepared.scene
     sample = prepared.sample
     if has_moving_roughness(scene):
-        return f"{_shorter_cells_in_motion(prepared)}, or {LARGER_TOLERANCE}"
+        return f"{_shorter_cells_in_motion(prepared, pair)}, or {LARGER_TOLERANCE}"
     if not sample.cells.is_native and not sample.refines_in_place:
         return f"numerics.grid = 'given' for shorter cells, or {LARGER_TOLERANCE}"
     if prepared.is_given or is_measured(scene):
@@ -298,20 +298,23 @@ def _recommendation(prepared: Prepared) -> str:
     return f"a finer contact.spacing with numerics.grid = 'given', or {LARGER_TOLERANCE}"
 
 
-def _shorter_cells_in_motion(prepared: Prepared) -> str:
-    """Return how a scene whose roughness moves takes shorter cells, as text."""
+def _shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
+    """Return how a scene whose roughness moves takes shorter cells than those of ``pair``, as text."""
     scene = prepared.scene
-    if not prepared.sample.cells.is_native or sample_coarsening_of(scene, prepared.sample) != (1, 1):
+    sample_coarsening = sample_coarsening_of(scene, prepared.sample)
+    if pair.has_halved_cells:
+        sample_coarsening = halved_along_y(sample_coarsening)
+    if not prepared.sample.cells.is_native or sample_coarsening != (1, 1):
         return "numerics.grid = 'given' for shorter cells"
     if prepared.is_given or is_measured(scene):
         return "a map with shorter cells and numerics.grid = 'given'"
     return "a finer contact.spacing with numerics.grid = 'given'"
 
 
-def _narrows_numerical(prepared: Prepared) -> str:
+def _narrows_numerical(prepared: Prepared, pair: StripOnTwoGrids) -> str:
     """Return what narrows the numerical error, as text: where roughness moves no tolerance does."""
     is_moving = has_moving_roughness(prepared.scene)
-    return f"{_shorter_cells_in_motion(prepared) if is_moving else SMALLER_SOLVE_TOLERANCE} narrows it"
+    return f"{_shorter_cells_in_motion(prepared, pair) if is_moving else SMALLER_SOLVE_TOLERANCE} narrows it"
 
 
 def _sample_notes(prepared: Prepared, error: StandardError, length: float) -> tuple[str, ...]:

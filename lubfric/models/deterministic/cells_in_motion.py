@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ..shared import Prepared, smooth_over_cells
 from .result import DeterministicResult
 from .strip import StripSolution
-from .strip_on_two_grids import sample_coarsening_of, surface_and_map_coarsening
+from .strip_on_two_grids import surface_and_map_coarsening
 
 # The constants of the effect of the cells where roughness moves are fitted to `verification.campaigns.moving_cells`: f of
 # narrow strips of random contacts on cells half as long along both axes, extrapolated by second order. They are judged by
@@ -115,18 +115,13 @@ def cells_in_motion(prepared: Prepared, strips: Sequence[StripSolution], by_long
     """Return what is known of the cells of ``strips`` whose roughness moves; ``by_longer``: the change of their f from cells
     twice as long along y."""
     results = [strip.result for strip in strips]
-    sample = prepared.sample
-    (coarse_x, coarse_y) = (
-        factor * cell / length
-        for factor, cell, length in zip(
-            sample_coarsening_of(prepared.scene, sample), sample.cells.spacing, sample.correlation_lengths, strict=True
-        )
-    )
+    (dx, dy) = strips[0].problem.spacing
+    (lx, ly) = prepared.sample.correlation_lengths
     return CellsInMotion(
         film_ratio=film_ratio_of(results),
-        coarse_x=coarse_x,
-        coarse_y=coarse_y,
-        coarse_b=strips[0].problem.spacing[0] / prepared.scene.bodies.half_width,
+        coarse_x=dx / lx,
+        coarse_y=dy / ly,
+        coarse_b=dx / prepared.scene.bodies.half_width,
         by_longer=by_longer,
         follows_lubricant=all(strip.follows_lubricant for strip in strips),
         is_smooth=smooth_over_cells(surface_and_map_coarsening(prepared, 0)[0].heights),

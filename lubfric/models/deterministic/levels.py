@@ -21,12 +21,15 @@ Where roughness moves there is level 2 alone, with the control of its summits (`
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
+from ..._base import work_left
 from ..._base.jobs import map_parts
+from ...errors import ConvergenceError
 from ...samples import Sample
-from ...scene import Numerics, Scene
+from ...scene import Numerics, Scene, has_moving_roughness
 from ..shared import (
     ControlVariate,
     Prepared,
@@ -36,7 +39,7 @@ from ..shared import (
     strips_for_error,
     student,
 )
-from .cells_in_motion import changed_as_expected
+from .cells_in_motion import cells_in_motion, changed_as_expected
 from .result import DeterministicResult
 from .rough_bodies import summit_control
 from .shorter_cells import (
@@ -52,7 +55,9 @@ from .strip import (
 from .strip_on_two_grids import (
     StripOnTwoGrids,
     numbers_of,
+    on_halved_cells,
     solve_pair,
+    surface_and_map_coarsening,
 )
 from .time_and_place import mean_over_blocks
 
@@ -93,6 +98,16 @@ STRIPS_SPARE = (1.1, 1.2)
 
 # Counted work of the strips of one point [s], at most: `rough_bodies.MOST_WORK_IN_AUTO`, from which "auto" declines.
 MOST_WORK_OF_STRIPS = 120.0
+
+# Error by the cells on cells half as long along y, over that on the others, up to which these are solved [-]. A convention: the
+# work is more than twice as much.
+HALVED_ERROR = 0.8
+
+# Work of a strip on these cells over that on both lengths before [-]: 2.3 on a needle roller at 2 m/s, after those.
+HALVED_WORK = 2.5
+
+# Part of the work that a point has left, which they may take [-]: the rest is for the ends of input ranges.
+PART_OF_WORK_LEFT = 0.5
 
 # Strips whose scatter tells an error [-]: two degrees of freedom. A convention.
 STRIPS_FOR_SCATTER = 3
@@ -187,9 +202,35 @@ def solve_pairs(
 ) -> tuple[StripOnTwoGrids, ...]:
     """Solve the first ``count`` strips at ``speed`` [m/s], not 0, each on two grids; ``solved``: the first of them, if they
     are."""
-    first = tuple(solved) or (solve_pair(prepared, speed, None, 0),)
+    first = tuple(solved) or (_first_pair(prepared, speed),)
     slope = first[0].resolved.slope
-    return (*first, *map_parts(solve_pair, range(len(first), count), prepared, speed, slope))
+    solve = partial(solve_pair, has_halved_cells=True) if first[0].has_halved_cells else solve_pair
+    return (*first, *map_parts(solve, range(len(first), count), prepared, speed, slope))
+
+
+def _first_pair(prepared: Prepared, speed: float) -> StripOnTwoGrids:
+    """Solve the first strip; where roughness moves, once more on cells half as long along y if the error by the cells is
+    above ``numerics.model_tolerance`` and the shorter ones reduce it (`HALVED_ERROR`), where as many strips as the sample needs
+    stay within `MOST_WORK_OF_STRIPS`."""
+    pair = solve_pair(prepared, speed, None, 0)
+    if not has_moving_roughness(prepared.scene) or surface_and_map_coarsening(prepared, 0)[1][1] % 2:
+        return pair
+    cells = cells_in_motion(prepared, [pair.resolved], pair.change_by_cells)
+    halved = replace(cells, coarse_y=cells.coarse_y / 2, by_longer=cells.by_longer / 4)
+    is_needed = (
+        cells.is_smooth  # else shorter cells show new summits, along x too
+        and cells.error > prepared.scene.numerics.model_tolerance
+        and halved.error <= HALVED_ERROR * cells.error
+    )
+    if not is_needed:
+        return pair
+    (_, wanted) = two_levels(prepared, (pair,), None)
+    if wanted * HALVED_WORK * pair.resolved.work > min(MOST_WORK_OF_STRIPS, PART_OF_WORK_LEFT * work_left()):
+        return pair
+    try:
+        return on_halved_cells(prepared, speed, pair)
+    except ConvergenceError:  # the error by the cells is that of the longer ones
+        return pair
 
 
 def two_levels(

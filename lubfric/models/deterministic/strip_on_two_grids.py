@@ -37,11 +37,13 @@ class StripOnTwoGrids:
     longer : on longer cells (`longer_than`), from which it started; of moving roughness, followed there from rest over the
         first moments, or only at rest, where that had no solution
     mirrored : whether the second half along y is the mirror image of the first
+    has_halved_cells : whether its cells along y are half as long as by `sample_coarsening_of`
     """
 
     resolved: StripSolution
     longer: StripSolution
     mirrored: bool = False
+    has_halved_cells: bool = False
 
     @property
     def change_by_cells(self) -> float:
@@ -52,7 +54,7 @@ class StripOnTwoGrids:
 def sample_coarsening_of(scene: Scene, sample: Sample) -> tuple[int, int]:
     """Return the length of the cells of the deterministic model in those of the ``sample``, along x and y: 2, or 1
     where 2 would leave less than `PER_LENGTH` (or `PER_LENGTH_IN_MOTION`) in a correlation length or `PER_HALF_WIDTH`
-    in half the Hertz strip, or does not divide the rows of a strip. Where roughness moves, whose cells are not refined,
+    in half the Hertz strip, or does not divide the rows of a strip. Where roughness moves,
     ``numerics.grid = "given"`` takes those of the scene."""
     if has_moving_roughness(scene) and scene.numerics.grid == "given":
         return 1, 1
@@ -83,14 +85,18 @@ def longer_than(surface: Surface, map_coarsening: tuple[int, int], *, moving: bo
     return along, map_coarsening[1] if surface.shape[1] % (2 * map_coarsening[1]) else 2 * map_coarsening[1]
 
 
-def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int) -> StripOnTwoGrids:
+def solve_pair(
+    prepared: Prepared, speed: float, slope: float | None, index: int, *, has_halved_cells: bool = False
+) -> StripOnTwoGrids:
     """Solve strip ``index`` by the deterministic model at ``speed`` [m/s], not 0, first on longer cells.
 
     ``slope``: of friction over load [-] (None: found by a second solve; where the roughness moves, blocks of time and
-    place show it). Raises `ConvergenceError`.
+    place show it). ``has_halved_cells``: as of `StripOnTwoGrids`, of moving roughness. Raises `ConvergenceError`.
     """
     scene = prepared.scene
     surface, map_coarsening = surface_and_map_coarsening(prepared, index)
+    if has_halved_cells:
+        map_coarsening = halved_along_y(map_coarsening)
     find_slope = slope is None
     longer_cells = longer_than(surface, map_coarsening, moving=has_moving_roughness(scene))
     longer: StripSolution
@@ -118,7 +124,29 @@ def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int
         strip = solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + longer.work)
     is_mirrored = prepared.sample.distinct_rows(surface.heights) < surface.shape[1]
-    return StripOnTwoGrids(strip, longer, is_mirrored)
+    return StripOnTwoGrids(strip, longer, is_mirrored, has_halved_cells)
+
+
+def halved_along_y(coarsening: tuple[int, int]) -> tuple[int, int]:
+    """Return ``coarsening``, which is even along y, for cells half as long there."""
+    return coarsening[0], coarsening[1] // 2
+
+
+def on_halved_cells(prepared: Prepared, speed: float, pair: StripOnTwoGrids) -> StripOnTwoGrids:
+    """Return the first strip, whose roughness moves, on cells half as long along y as those of ``pair``, with that as the one
+    on longer cells. Raises `ConvergenceError`."""
+    scene = prepared.scene
+    longer = pair.resolved
+    strip = solve_moving_strip(
+        scene,
+        bodies_of(prepared, 0, speed),
+        speed,
+        map_coarsening=halved_along_y(surface_and_map_coarsening(prepared, 0)[1]),
+        start=longer,
+        target=sample_target(prepared, MOVING_SAMPLE * scene.numerics.sampling_tolerance),
+    )
+    strip = replace(strip, slope=longer.slope, work=strip.work + longer.work)
+    return replace(pair, resolved=strip, longer=longer, has_halved_cells=True)
 
 
 def sample_target(prepared: Prepared, error: float) -> SampleTarget | None:
