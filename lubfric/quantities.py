@@ -259,6 +259,10 @@ OF_SURFACES = {  # speeds of both surfaces in a table of operating points
     "u2": Quantity("m/s", "speed of surface 2"),
     "sliding_speed": OF_MOMENT["sliding_speed"],
 }
+RADII_OF_SURFACES = {  # of the same table
+    "R1": Quantity("m", "radius of surface 1"),
+    "R2": Quantity("m", "radius of surface 2"),
+}
 _ROWS = tomllib.loads((files(__package__) / "keys.toml").read_text(encoding="utf-8")).items()
 _ROW = {f"{section}.{key}": row for section, rows in _ROWS for key, row in rows.items()}
 CHOICES = {key: row["one_of"] for key, row in _ROW.items() if "one_of" in row}  # keys of a scene that are words
@@ -279,6 +283,7 @@ COLUMNS = (
     OF_MOMENT
     | OF_CYCLE
     | OF_SURFACES
+    | RADII_OF_SURFACES
     | KEYS
     | QUANTITIES
     | INTERVAL

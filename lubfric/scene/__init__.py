@@ -26,5 +26,5 @@ from .plausible import (
 from .roughness import Roughness, named
 from .scene import Scene, check_resolved_gap, has_moving_roughness, moving_bodies, value_of, why_gap_not_resolved
 from .sections import ROUGH_SECTIONS, SECTIONS
-from .short_forms import MOST_SPEEDS, SOURCES, short_keys, speeds_of_range
+from .short_forms import MOST_SPEEDS, SOURCES, reduced_radius, short_keys, speeds_of_range
 from .transient import HISTORIES, UNITS_OF_HISTORIES, Transient, checked_history, read_history

@@ -87,7 +87,7 @@ def is_of_oil(given: dict[str, Any], old: Lubricant | None) -> bool:
     return getattr(old, "oil", None) is not None and not is_changed
 
 
-def _of_radii(radii: Any, *_: Any) -> dict[str, Any]:
+def reduced_radius(radii: Any) -> float:
     """Return R [m], 1/R = 1/R1 + 1/R2; a plane is inf, a hollow (the outer ring around a roller) negative."""
     first, second = pair("bodies.radii", radii, "m")
     for radius in (first, second):
@@ -98,7 +98,11 @@ def _of_radii(radii: Any, *_: Any) -> dict[str, Any]:
     if curvature <= 0:
         allowed = "1/R1 + 1/R2 > 0 (inf for a plane, negative for a hollow that is wider than the other body)"
         raise InputError(f" = [{first:g}, {second:g}] m do not touch along one line", "bodies.radii", allowed)
-    return {"radius": 1 / curvature}
+    return 1 / curvature
+
+
+def _of_radii(radii: Any, *_: Any) -> dict[str, Any]:
+    return {"radius": reduced_radius(radii)}
 
 
 def _of_materials(names: Any, *_: Any) -> dict[str, Any]:

@@ -11,8 +11,8 @@ import numpy as np
 
 from .._base import name_and_unit, read_columns, table_headings, validate
 from ..errors import InputError
-from ..quantities import KEYS, OF_CYCLE, OF_SURFACES, Quantity
-from ..scene import SLIDE_ROLL_RATIO_KEY, SLIP_KEY, Scene, likely_unit, other_convention
+from ..quantities import KEYS, OF_CYCLE, OF_SURFACES, RADII_OF_SURFACES, Quantity
+from ..scene import SLIDE_ROLL_RATIO_KEY, SLIP_KEY, Scene, likely_unit, other_convention, reduced_radius
 from ..units import UNITS, check_all_have_units, converted, in_si, kind_of, printed, spelled
 from .vary import MOST_COMBINATIONS, VARIED_SECTIONS, Axis, check_key
 
@@ -44,7 +44,13 @@ SPEEDS_OF_SURFACES = OF_SURFACES
 # Columns that say where a point lies. They change no number; means over a cycle weigh by the duration.
 COORDINATES = OF_CYCLE | {"time": Quantity("s", "time")}
 
+# Columns that are no keys of a scene, by their names.
+NAMED_COLUMNS = COORDINATES | SPEEDS_OF_SURFACES | RADII_OF_SURFACES
+
 ENTRAINMENT = "motion.entrainment_speed"
+RADIUS = "bodies.radius"
+RADII = "bodies.radii"
+BOTH_RADII = "give both R1 and R2, the radii of surface 1 and 2"
 TEMPERATURE = "temperature"
 CELSIUS_KEY = "lubricant.temperature_celsius"
 KELVIN = "lubricant.temperature"
@@ -53,8 +59,8 @@ KELVIN = "lubricant.temperature"
 @dataclass(frozen=True, kw_only=True)
 class OperatingPoints:
     """A table of operating points: ``axis`` with a row of values [SI] for each point, by the keys of a scene;
-    ``speeds`` [m/s] of entrainment; ``coordinates`` (n,) [SI] by name, which change no number, among them u1, u2 and
-    sliding_speed as they were given; ``notes``: how columns without a unit were read, in sentences."""
+    ``speeds`` [m/s] of entrainment; ``coordinates`` (n,) [SI] by name, which change no number, among them R1, R2, u1, u2
+    and sliding_speed as they were given; ``notes``: how columns without a unit were read, in sentences."""
 
     axis: Axis
     speeds: tuple[float, ...]
@@ -69,7 +75,7 @@ def operating_points(scene: Scene, table: Any) -> OperatingPoints:
     ----------
     scene : gives what the table does not
     table : a path of a text file with headings, a list of rows (dicts), a dict of columns, or a pandas DataFrame. A
-        column is a key of a scene ("bodies.load"), or one of radius, width, load, hertz_pressure, speed, u1, u2,
+        column is a key of a scene ("bodies.load"), or one of radius, R1, R2, width, load, hertz_pressure, speed, u1, u2,
         sliding_speed, slide_roll_ratio, slip_percent, temperature, viscosity; or position, angle, time, duration, which change no
         number. A unit may be in the heading, "load [kN]", or with a value, "2 kN"; that of a temperature has to
 
@@ -87,8 +93,9 @@ def operating_points(scene: Scene, table: Any) -> OperatingPoints:
     coordinates = {name: tuple(columns.pop(name)) for name in COORDINATES if name in columns}
     if any(value < 0 for value in coordinates.get(DURATION, ())):
         raise InputError("points: duration holds a negative value; give durations in s")
-    coordinates |= {name: tuple(columns[name]) for name in SPEEDS_OF_SURFACES if name in columns}
-    columns = _with_speeds(columns)
+    of_surfaces = SPEEDS_OF_SURFACES | RADII_OF_SURFACES
+    coordinates |= {name: tuple(columns[name]) for name in of_surfaces if name in columns}
+    columns = _with_radius(_with_speeds(columns))
     seen: set[str] = set()
     for key in columns:
         if key != ENTRAINMENT:
@@ -109,17 +116,21 @@ def operating_points(scene: Scene, table: Any) -> OperatingPoints:
 
 
 def _columns(table: Any) -> tuple[dict[str, list[Any]], tuple[str, ...]]:
-    """Return the columns of ``table`` in SI units, by the keys of a scene or the names of `COORDINATES`, `SPEEDS_OF_SURFACES`; and how
-    those without a unit were read, in sentences."""
+    """Return the columns of ``table`` in SI units, by the keys of a scene or the names of `NAMED_COLUMNS`; and how those
+    without a unit were read, in sentences."""
     if isinstance(table, (str, Path)):
         path = validate.folder("points", table)
-        headings = table_headings(path, (*COLUMN_NAMES, TEMPERATURE, *COORDINATES, *SPEEDS_OF_SURFACES, *KEYS))
+        headings = table_headings(path, (*COLUMN_NAMES, TEMPERATURE, *NAMED_COLUMNS, *KEYS))
+        if any(_is_of_radii(heading) for heading in headings):
+            raise InputError(
+                "points: a file has one number in a column", recommendation=f"{BOTH_RADII} in place of radii"
+            )
         quantities = [_quantity(*name_and_unit(heading))[1] for heading in headings]
         units = [quantity.unit for quantity in quantities]
         given: dict[str, list[Any]] = dict(zip(headings, read_columns(path, headings, units)))
         in_file = True
     else:
-        given = _as_columns(table)
+        given = _with_both_radii(_as_columns(table))
         in_file = False
     columns: dict[str, list[Any]] = {}
     notes: list[str] = []
@@ -145,7 +156,9 @@ def _check_without_unit(name: str, key: str, quantity: Quantity, values: Any) ->
     """Raise `InputError` where a plain number of the column ``name`` is outside the range of machines, and is inside it
     in another unit."""
     for value in _plain_numbers(values):
-        likely = printed(likely_unit(ENTRAINMENT if key in SPEEDS_OF_SURFACES else key, value))
+        likely = printed(
+            likely_unit(ENTRAINMENT if key in SPEEDS_OF_SURFACES else RADII if key in RADII_OF_SURFACES else key, value)
+        )
         if likely:
             unit = printed(quantity.unit)
             read_as = f"{value:.4g} {unit}".rstrip()
@@ -200,10 +213,12 @@ def _as_columns(table: Any) -> dict[str, list[Any]]:
 
 
 def _quantity(name: str, unit: str | None) -> tuple[str, Quantity]:
-    """Return the key of the column ``name``, or its name in `COORDINATES` or `SPEEDS_OF_SURFACES`, and its quantity."""
+    """Return the key of the column ``name``, or its name in `NAMED_COLUMNS`, and its quantity."""
     plain = name.strip()
-    if plain in COORDINATES or plain in SPEEDS_OF_SURFACES:
-        return plain, (COORDINATES | SPEEDS_OF_SURFACES)[plain]
+    if plain.upper() in RADII_OF_SURFACES:
+        plain = plain.upper()
+    if plain in NAMED_COLUMNS:
+        return plain, NAMED_COLUMNS[plain]
     if plain == TEMPERATURE:
         word = spelled(unit or "")
         if word not in ("K", "°C"):
@@ -213,8 +228,8 @@ def _quantity(name: str, unit: str | None) -> tuple[str, Quantity]:
         plain = CELSIUS_KEY if word == "°C" else KELVIN
     key = COLUMN_NAMES.get(plain.lower(), plain)
     if key not in KEYS and "." not in key:
-        near = validate.nearest(plain, [*COLUMN_NAMES, TEMPERATURE, *COORDINATES, *SPEEDS_OF_SURFACES])
-        known = ", ".join([*COLUMN_NAMES, TEMPERATURE, *SPEEDS_OF_SURFACES, *COORDINATES])
+        near = validate.nearest(plain, [*COLUMN_NAMES, TEMPERATURE, *NAMED_COLUMNS])
+        known = ", ".join([*COLUMN_NAMES, *RADII_OF_SURFACES, TEMPERATURE, *SPEEDS_OF_SURFACES, *COORDINATES])
         raise InputError(
             f"points: {plain!r} is no column of operating points{near}", allowed=f"{known}, or section.key"
         )
@@ -224,7 +239,7 @@ def _quantity(name: str, unit: str | None) -> tuple[str, Quantity]:
 def _value(heading: str, key: str, value: Any, unit: str | None, quantity: Quantity) -> Any:
     """Return one value in the unit of its ``key``; ``unit``: of its heading."""
     value = validate.python_value(value)
-    if isinstance(value, str) and key in {*KEYS, *COORDINATES, *SPEEDS_OF_SURFACES}:
+    if isinstance(value, str) and key in {*KEYS, *NAMED_COLUMNS}:
         value, given = in_si(f"points: {heading}", value)
         if given != _row(quantity.unit):
             raise InputError(f"points: {heading} = {value!r} is in {given}", allowed=f"a number in {quantity.unit}")
@@ -232,7 +247,8 @@ def _value(heading: str, key: str, value: Any, unit: str | None, quantity: Quant
     if not unit or isinstance(value, str):
         return value
     word = spelled(unit)
-    number = validate.number(f"points: {heading}", value, unit)
+    is_plane = key in RADII_OF_SURFACES and isinstance(value, float) and math.isinf(value)
+    number = value if is_plane else validate.number(f"points: {heading}", value, unit)
     try:
         row = kind_of(word)
     except KeyError:
@@ -245,6 +261,52 @@ def _value(heading: str, key: str, value: Any, unit: str | None, quantity: Quant
 def _row(unit: str) -> str:
     """Return the SI unit of the row that holds ``unit``; ``unit`` itself where it names several or none."""
     return next((si for si, units in UNITS.items() if unit in units), unit)
+
+
+def _is_of_radii(heading: str) -> bool:
+    """Return whether a column holds the radii of both surfaces, as the key of a scene."""
+    return name_and_unit(heading)[0] in (RADII, "radii")
+
+
+def _with_both_radii(given: dict[str, list[Any]]) -> dict[str, list[Any]]:
+    """Return the columns of a table with R1 and R2 in place of pairs of radii."""
+    columns: dict[str, list[Any]] = {}
+    for heading, values in given.items():
+        if not _is_of_radii(heading):
+            columns[heading] = values
+            continue
+        unit = name_and_unit(heading)[1]
+        pairs = [validate.python_value(value) for value in values]
+        wrong = next((row for row in pairs if not isinstance(row, (list, tuple)) or len(row) != 2), None)
+        if wrong is not None:
+            shown = validate.shown(wrong)
+            raise InputError(f"points: {heading} = {shown}", allowed="a pair of radii in each row, [R1, R2]")
+        for place, name in enumerate(RADII_OF_SURFACES):
+            name = name if unit is None else f"{name} [{unit}]"
+            if name in given:
+                raise InputError(f"points: {heading} and {name} both give the radii; leave one of them out")
+            columns[name] = [pair[place] for pair in pairs]
+    return columns
+
+
+def _with_radius(columns: dict[str, list[Any]]) -> dict[str, list[Any]]:
+    """Return the columns with the reduced radius in place of the radii of both surfaces, 1/R = 1/R1 + 1/R2."""
+    columns = dict(columns)
+    both = [columns.pop(name, None) for name in RADII_OF_SURFACES]
+    first, second = both
+    if first is None and second is None:
+        return columns
+    if first is None or second is None:
+        raise InputError(f"points: {BOTH_RADII}, or radius, the reduced radius R1 R2/(R1 + R2)")
+    if RADIUS in columns:
+        raise InputError("points: R1 and R2 give the radius; leave radius out")
+    columns[RADIUS] = []
+    for row, radii in enumerate(zip(first, second), 1):
+        try:
+            columns[RADIUS].append(reduced_radius(radii))
+        except InputError as error:
+            raise InputError(f"points, row {row}: {error}") from None
+    return columns
 
 
 def _with_speeds(columns: dict[str, list[Any]]) -> dict[str, list[Any]]:

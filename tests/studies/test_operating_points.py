@@ -91,6 +91,29 @@ def test_all_forms_of_a_table_are_the_same_points(result, tmp_path):
     np.testing.assert_allclose(durations, [row[-1] for row in ROWS], rtol=1e-12)
 
 
+def test_the_radii_of_both_flanks_give_the_reduced_radius(tmp_path):
+    flanks = [(5.0, 33.0), (20.0, 20.0), (8.0, -24.0)]  # mm; the last is a pinion in a ring gear
+    expected = [1e-3 * a * b / (a + b) for a, b in flanks]
+    first, second = ([pair[side] for pair in flanks] for side in (0, 1))
+    (tmp_path / "gear.csv").write_text("R1 [mm];R2 [mm]\n" + "\n".join(f"{a};{b}" for a, b in flanks))
+    tables = [
+        tmp_path / "gear.csv",
+        {"R1 [mm]": first, "R2 [mm]": second},
+        {"r1": [f"{radius} mm" for radius in first], "r2": [1e-3 * radius for radius in second]},
+        {"radii [mm]": flanks},
+        {"bodies.radii": [[1e-3 * radius for radius in pair] for pair in flanks]},
+    ]
+    for table in tables:
+        plan = lubfric.plan_study(SCENE, points=table)
+        np.testing.assert_allclose([scene.bodies.radius for scene in plan.scenes], expected, rtol=1e-12)
+        np.testing.assert_allclose(plan.coordinates["R1"], 1e-3 * np.array(first), rtol=1e-12)
+    plane = lubfric.plan_study(SCENE, points={"R1 [mm]": [5.0], "R2 [mm]": [float("inf")]})
+    assert plane.scenes[0].bodies.radius == 5e-3
+    (tmp_path / "pairs.csv").write_text('radii [mm],load [N]\n"[5, 33]",3\n')
+    with pytest.raises(lubfric.InputError, match="give both R1 and R2.* in place of radii"):
+        lubfric.plan_study(SCENE, points=tmp_path / "pairs.csv")
+
+
 def test_temperatures_of_rows_move_the_viscosity(tmp_path):
     oil = {"lubricant.nu40": 68e-6, "lubricant.nu100": 8.6e-6, "lubricant.temperature": 313.15}
     scene = SCENE.with_keys(oil)
@@ -132,6 +155,11 @@ def test_rows_that_repeat_are_solved_once_and_a_cut_study_goes_on(tmp_path, monk
         ([{"speed": 0.1}, {"load": 1.0}], "row 1: load is missing"),
         ({"sped": [0.1]}, "'sped' is no column of operating points .did you mean 'speed'"),
         ({"u1": [0.1]}, "both u1 and u2"),
+        ({"R1": [0.01]}, "both R1 and R2.*or radius"),
+        ({"R1": [0.01], "R2": [0.02], "radius": [0.01]}, "leave radius out"),
+        ({"R1": [0.01, 0.01], "R2": [0.02, -0.005]}, "row 2: .*do not touch"),
+        ({"R1": [10.0], "R2": [20.0]}, r"heading R1 \[mm\]"),
+        ({"radii": [0.01]}, "a pair of radii in each row"),
         ({"u1": [0.1], "u2": [0.1], "speed": [0.1]}, "leave motion.entrainment_speed out"),
         ({"u1": [0.1], "u2": [-0.1]}, "row 1: .*no entrainment|row 1: no entrainment"),
         ({"sliding_speed": [0.1]}, "goes with speed"),
