@@ -139,7 +139,8 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         axes = figures.axes_or_new(ax)
         pressure, unit = figures.in_unit_for(self.pressure[:, rows], "Pa")
         figures.field_image(axes, self.x, self.y[rows], pressure, "magma_r", f"contact pressure ({unit})", vmin=0)
-        axes.set_title(f"U = {self.speed:g} m/s, $F_C$ = {self.contact_load:.4g} N, $F_H$ = {self.film_load:.4g} N")
+        share = self.contact_load / (self.contact_load + self.film_load)
+        axes.set_title(f"U = {self.speed:.4g} m/s, $F_C/F_T$ = {share:.3g}", fontsize=10, wrap=True)
         return axes
 
     def _field(self, name: str) -> np.ndarray:

@@ -26,6 +26,10 @@ RENAMED = {"spots": "effective_contacts", "fluid": "by_limit", "few_spots": "has
 # Part of the budget, relative, below which nothing is recommended that narrows it. A convention.
 SMALL_PART = 0.005
 
+# Model-form error, relative, that is stated as smaller than this: effects that it does not include may be larger. A
+# convention.
+LEAST_STATED_MODEL_ERROR = 1e-3
+
 
 @described_in_doc
 @dataclass(frozen=True, kw_only=True)
@@ -92,7 +96,10 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
                 name: sides_in_f(*sides.get(name, unknown), value, self.coefficient)
                 for name, value in self.budget.items()
             }
-        return {name: percent_of_sides(*sides.get(name, unknown), value) for name, value in self.budget.items()}
+        words = {name: percent_of_sides(*sides.get(name, unknown), value) for name, value in self.budget.items()}
+        if self.model < LEAST_STATED_MODEL_ERROR:
+            words["model-form"] = f"< {100 * LEAST_STATED_MODEL_ERROR:g} %"
+        return words
 
     @property
     def is_near_zero(self) -> bool:

@@ -192,6 +192,11 @@ def run_begun(
     saying = keeping(kept) if kept else nullcontext()
     with saying, run_folder(arguments.out, begun, fingerprint_without_files(prepared, *key)) as folder:
         begin_beside(figures.make_ready)  # while it is solved
+        if folder.has_other_states and not folder.unfinished.is_dir():
+            say(
+                f"{folder.unfinished.parent} holds saved states of an interrupted run of another scene or version of "
+                "lubfric; they are not used, and this run starts from its beginning"
+            )
         yield folder, prepared, estimate
 
 
@@ -284,6 +289,12 @@ class RunFolder:
         self.contents: dict[str, bytes] = {}
         self.failures: list[str] = []
 
+    @property
+    def has_other_states(self) -> bool:
+        """Whether there is what interrupted runs of other inputs or other versions saved."""
+        states = self.unfinished.parent
+        return states.is_dir() and any(path != self.unfinished for path in states.iterdir())
+
     def draw(self, name: str, plot: Callable[..., Any], *arguments: Any) -> None:
         """Add the picture that ``plot(path, *arguments)`` saves. One that cannot be drawn is reported at the end."""
         with self.reporting(f"{name} was not drawn"):
@@ -368,10 +379,9 @@ class RunFolder:
         if not self.failures:  # else what was saved is all that has everything
             Store(self.unfinished).clear()
             clear_checked(self.unfinished.parent)
-        others = self.unfinished.parent
-        if others.is_dir() and any(path != self.unfinished for path in others.iterdir()):
+        if self.has_other_states:
             say(
-                f"{others} keeps the points of an interrupted run of other inputs; the command of that run continues it"
+                f"{self.unfinished.parent} keeps the points of an interrupted run of other inputs; the command of that run continues it"
             )
 
     def put(self, patterns: Iterable[str] = (), said: Iterable[str] = ()) -> None:

@@ -108,7 +108,7 @@ def _deterministic_picture(contact: DrawnContact, options: PictureOptions) -> Fi
         )
         _hertz_strip(axes, contact.half_width, options)
         axes.label_outer()
-    solve = "" if options.is_narrow else f"; {fields.solve}{part_in_words(y, part)}"
+    solve = "" if options.is_narrow else f"; {fields.solve}{part_in_words(y, part, 'this strip')}"
     _title(figure, f"U = {contact.speed:g} m/s{solve}; dashed: Hertz strip", options)
     return figure
 
@@ -161,10 +161,10 @@ def drawn_part(x: np.ndarray, y: np.ndarray, row: int) -> slice:
     return slice(int(np.searchsorted(y, first)), int(np.searchsorted(y, first + 2 * across)) + 1)
 
 
-def part_in_words(y: np.ndarray, part: slice) -> str:
-    """Return which part of the line is drawn, as text; "" for all of it."""
+def part_in_words(y: np.ndarray, part: slice, whole: str) -> str:
+    """Return which part of the ``whole`` along the line is drawn, as text; "" for all of it."""
     step = 1e6 * (y[1] - y[0])
-    return "" if part == slice(None) else f"; {step * y[part].size:.0f} of {step * y.size:.0f} µm of the line"
+    return "" if part == slice(None) else f"; {step * y[part].size:.0f} of {step * y.size:.0f} µm of {whole}"
 
 
 def _two_pressures(contact: DrawnContact, options: PictureOptions) -> Figure:
@@ -197,7 +197,7 @@ def _two_pressures(contact: DrawnContact, options: PictureOptions) -> Figure:
         )
         _hertz_strip(axes[0], contact.half_width, options)
         axes[0].axhline(fields.y[row] * 1e6, color=figures.GREEN, lw=0.8, ls=":")
-        title += "" if options.is_narrow else part_in_words(fields.y, part)
+        title += "" if options.is_narrow else part_in_words(fields.y, part, "its line")
     elif panels[0]:
         no_field = "no field of the dry contact\n(separated, or read from a contact curve)"
         axes[0].text(0.5, 0.5, no_field, ha="center", va="center", transform=axes[0].transAxes)

@@ -47,6 +47,11 @@ DETERMINISTIC_IN_WORDS = (
     "load-sharing model, corrected by the deterministic model on some strips,",
     "deterministic model with moving roughness",
 )
+# What answers at the other speeds.
+ELSEWHERE = (
+    "; elsewhere the load-sharing model, and the quick answer where heat changes f by more than 20 % or the film by more "
+    "than 30 %"
+)
 # Processor seconds of ``lubfric run`` beside its solves: 1.0 to start, the others for pictures and files.
 COMMAND_SECONDS = 2.4
 # Whether asperities touch, by the estimate.
@@ -223,8 +228,8 @@ def _model(
         ends = dict.fromkeys(f"{speed:.3g}" for speed in (resolved[0], resolved[-1]))
         to = f"with a target of {100 * scene.numerics.model_tolerance:g} % for the model-form error"
         rows = [
-            f"{DETERMINISTIC_IN_WORDS[bool(strip)]} at {' to '.join(ends)} m/s, {to}; elsewhere the load-sharing model, and "
-            "the quick answer where heat changes f by more than 20 % or the film by more than 30 %"
+            f"{DETERMINISTIC_IN_WORDS[bool(strip)]} at {' to '.join(ends)} m/s, {to}"
+            + ELSEWHERE * (len(resolved) < len(points))
         ]
     if strip:
         takes = f"one strip of moving roughness takes about {in_words(strip)} by the deterministic model"

@@ -145,17 +145,15 @@ def _mark(
     violations: list[Sequence[Any]],
     options: PictureOptions,
 ) -> None:
-    """Ring the points at which an assumption is violated, unless it is at all of them, and cross out those at which f
-    is meaningless. The text below says which. Then the key of all lines."""
+    """Ring the points at which an assumption is violated, and cross out those at which f is meaningless. The text below says which. Then the key of all lines."""
     violations = [
         [violation for violation in violated if violation.severe or (options.has_warnings and not violation.is_note)]
         for violated in violations
     ]
     severe = np.array([any(violation.severe for violation in violated) for violated in violations], dtype=bool)
     minor = np.array([len(violated) > 0 for violated in violations], dtype=bool) & ~severe
-    everywhere = minor.all()
     for chosen, marker, color, label in (
-        (minor & (not everywhere), "o", figures.GREY, "with warnings"),
+        (minor, "o", figures.GREY, "with warnings"),
         (severe, "x", figures.RED, "outside the model (accepted)"),
     ):
         if chosen.any():
@@ -184,7 +182,7 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
     figure = figures.new_figure(figsize=(width + BEARING_WIDTH, 4.5), layout=engine)
     above, bearing = figure.subplots(1, 2, width_ratios=(width, BEARING_WIDTH))
     surface.cropped((x.size, y[part].size), (0, 0)).plot(above)
-    above.set_title(above.get_title() + part_in_words(y, part), fontsize=10)
+    above.set_title(above.get_title() + part_in_words(y, part, "the map"), fontsize=10)
     heights = 1e9 * (np.quantile(surface.measured, 1 - higher) - surface.measured.mean())
     bearing.plot(100 * higher, heights, color=figures.BLUE)
     bearing.set(xlim=(0, 100), xlabel="bearing area (%)", ylabel="height (nm)")

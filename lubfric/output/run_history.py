@@ -19,6 +19,10 @@ from .report import history_answer
 # Part of the expected steps of a run between two lines of its progress.
 PART_OF_LINE = 0.04
 
+# Part of the expected steps that is done before the time left is stated; before it, the first steps, which are many and
+# short, decide it. In the run of a piston ring it is within a factor of 2 from there on.
+PART_OF_TIME_LEFT = 0.08
+
 
 def run_history(scene: Scene, arguments: Namespace) -> None:
     """Compute and write history.csv, history.png, fields.npz, surface.png, report.html, resolved.toml (with
@@ -42,18 +46,15 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
         assert estimate.run is not None
         part = estimate.run.part(now)
         if first is None:
-            first = part
+            first = part if continues else 0.0
             begun_at = time.monotonic()
         shown.update(100.0 * part, 100.0)
         is_end = now >= duration
         if row is not None and (is_end or part >= reported + PART_OF_LINE) and due(end=is_end):
             reported = part
-            left = ""
-            if not is_end and part > first:
-                seconds = (time.monotonic() - begun_at) * (1.0 - part) / (part - first)
-                left = f", about {in_words(seconds)} left"
+            left = "" if is_end else _time_left(part, first, time.monotonic() - begun_at)
             commands.say(
-                f"{100 * part:.0f} %{left}: t = {now:.5g} of {duration:g} s, U = {row['entrainment_speed']:.4g} m/s, f = "
+                f"{100 * part:.0f} % of the estimated steps{left}: t = {now:.5g} of {duration:g} s, U = {row['entrainment_speed']:.4g} m/s, f = "
                 f"{row['coefficient']:z.5f}, F_C = {row['contact_load']:.4g} N, F_H = {row['film_load']:.4g} N, "
                 f"h_min = {row['min_film'] * 1e9:.4g} nm (step {row['steps']:.0f})"
             )
@@ -63,8 +64,11 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
 
     begun = commands.run_begun(scene, arguments, names, kept)
     with ProgressLine("%") as shown, begun as (folder, prepared, estimate):
-        if folder.unfinished.is_dir():
+        continues = folder.unfinished.is_dir()
+        if continues:
             commands.say(f"the run continues from {folder.unfinished}")
+        else:
+            shown.update(0.0, 100.0)
         result, _ = run_in_time(prepared, checkpoint=folder.unfinished, on_step=on_step)
         try:
             raise_if_failed(result, accept=scene.numerics.accept)
@@ -76,6 +80,13 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
         commands.say(line)
     if failure:
         raise failure
+
+
+def _time_left(part: float, first: float, seconds: float) -> str:
+    """Return the time left of a run, as text, when the ``part`` [-] of its expected steps is done, and all after ``first``
+    took so many ``seconds``; "" where that is too little to know it."""
+    done = part - first
+    return f", about {in_words(seconds * (1.0 - part) / done)} left" if done >= PART_OF_TIME_LEFT else ""
 
 
 def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, *, animation: bool) -> None:

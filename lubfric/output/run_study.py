@@ -191,8 +191,10 @@ def _kept(folder: Path) -> str:
         return ""
     if not study.solved:
         return ""
-    left = f"{study.missing} {'curves' if study.chosen else 'points'} are left"
-    return f"{study.solved} points are kept in {folder}, {left}"
+    kind = "curve" if study.chosen else "point"
+    left = f"1 {kind} is left" if study.missing == 1 else f"{study.missing} {kind}s are left"
+    kept = "1 point is kept" if study.solved == 1 else f"{study.solved} points are kept"
+    return f"{kept} in {folder}, {left}"
 
 
 def _point_reports(plan: studies.StudyPlan, begun: float) -> Callable[..., None]:

@@ -89,7 +89,10 @@ class Scene(Shown):
         if self.transient is not None and self.lubricant.inlet_film is not None:
             said = " does not go with lubricant.inlet_film"
             raise InputError(
-                said, "transient", recommendation="give inlet_length, or a flooded inlet, for a run in time"
+                said,
+                "transient",
+                recommendation="give a flooded inlet or lubricant.inlet_length: the one with which the scene without "
+                "[transient] has the film that arrives as its full_load_film, or half the height of a piston ring",
             )
         if length is not None and length <= half_width:
             said = f" = {length:g} m lies inside the dry contact, where no film begins"

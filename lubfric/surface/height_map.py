@@ -101,7 +101,7 @@ class Surface(FrozenArrays, Shown):
         text = (
             f"{nx} x {ny} points, {lx * 1e6:.4g} x {ly * 1e6:.4g} µm, Sq {self.sq * 1e9:.4g} nm, "
             f"Ra {self.sa * 1e9:.4g} nm, Rz {rz * 1e9:.4g} nm (mean over lengths of {length * 1e3:.3g} mm), "
-            f"Sk {curve.sk * 1e9:.4g}, Spk {curve.spk * 1e9:.4g}, Svk {curve.svk * 1e9:.4g} nm, "
+            f"Sk {curve.sk * 1e9:.4g} nm, Spk {curve.spk * 1e9:.4g} nm, Svk {curve.svk * 1e9:.4g} nm, "
             f"max |z|/Sq {self.largest_ratio:.3g}, {100 * self.missing_fraction:.3g} % missing"
         )
         return f"{self.source}: {text}" if self.source else text

@@ -12,6 +12,7 @@ from lubfric.output import ProgressLine, main
 from lubfric.output import progress as module
 from lubfric.output.commands import say
 from lubfric.output.progress import CLEAR_LINE
+from lubfric.output.run_history import _time_left
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
@@ -77,3 +78,10 @@ def test_a_bar_of_tqdm_takes_its_place_where_it_is_installed(monkeypatch):
         say("a finished line")
     text = stream.getvalue()
     assert "1/4" in text and "a finished line\n" in text and "1 of 4 points" not in text
+
+
+def test_the_time_left_of_a_run_in_time_is_stated_when_it_is_known():
+    assert _time_left(0.05, 0.0, 60.0) == ""
+    assert _time_left(0.55, 0.5, 60.0) == ""  # a run that continues
+    assert _time_left(0.25, 0.0, 60.0) == ", about 3 min left"
+    assert _time_left(0.75, 0.5, 60.0) == ", about 60 s left"

@@ -59,8 +59,8 @@ def test_a_named_model_has_no_column_of_another():
 
 def test_picture_of_a_part_counts_whole_cells():
     y = 8e-6 * np.arange(60)
-    assert part_in_words(y, slice(10, 48)) == "; 304 of 480 µm of the line"
-    assert part_in_words(y, slice(None)) == ""
+    assert part_in_words(y, slice(10, 48), "the map") == "; 304 of 480 µm of the map"
+    assert part_in_words(y, slice(None), "the map") == ""
 
 
 def test_warnings_recommend_nothing_that_the_scene_has():

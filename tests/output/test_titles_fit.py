@@ -1,9 +1,13 @@
 """Titles and labels of the pictures of a run lie inside the picture."""
 
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
 import lubfric
+from lubfric.estimate import FrictionResult
 from lubfric.output.pictures import plot_surface
 
 PAPER = lubfric.load_scene("paper")
@@ -32,3 +36,11 @@ def test_titles_of_the_surface_are_complete(tmp_path, monkeypatch, shape):
     scene = PAPER.with_(contact=shape, surface={"sq": 433.6e-9}, numerics={"sampling": "patch"})
     plot_surface(tmp_path / "surface.png", lubfric.prepare(scene))
     assert [cut_texts(figure) for figure in figures] == [[]]
+
+
+def test_the_title_of_a_contact_lies_in_a_figure_of_one_column():
+    x = np.linspace(-50e-6, 50e-6, 8)
+    point = SimpleNamespace(x=x, y=x, pressure=np.ones((8, 8)), speed=0.0123456, contact_load=381.0, film_load=419.0)
+    figure = Figure(figsize=(85 / 25.4, 70 / 25.4))
+    axes = FrictionResult.plot_contact(point, figure.subplots())
+    assert axes.title.get_text() not in cut_texts(figure) and "0.476" in axes.title.get_text()

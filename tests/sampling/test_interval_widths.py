@@ -139,6 +139,9 @@ CASES = [
         (0.035, 0.071),
         "numerical 0.1 %, sampling 2 %, model-form -29 to +41 %, input 30 %",
     ),
+    (KNOWN | {"model": 1e-7}, (0.049, 0.051), "model-form < 0.1 %"),
+    (KNOWN | {"model": 4e-3, "model_sides": (0.0, 4e-3)}, (0.049, 0.051), "model-form 0 to +0.4 %"),
+    (KNOWN | {"model": 4e-3, "model_sides": (4e-3, 1e-7)}, (0.049, 0.051), "model-form -0.4 to 0 %"),
     (KNOWN | {"inputs": math.nan}, (0.045, 0.055), "model-form 5 %, input not known"),
     (
         KNOWN | {"model": math.nan},

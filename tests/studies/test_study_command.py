@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from small_study import SCENE as SMALL
 
 import lubfric
 from lubfric.output import main
-from lubfric.output.run_study import _picture
+from lubfric.output.run_study import _kept, _picture
 from lubfric.output.study_report import answer_lines
 
 ROOT = Path(__file__).parents[2]
@@ -85,6 +86,16 @@ def test_bad_study_files_are_one_line(tmp_path, capsys, change, words):
     assert words in error and error.count("\n") == 1 and not (tmp_path / "out").exists()
 
 
+@pytest.mark.parametrize(
+    "solved, missing, words",
+    [(1, 8, "1 point is kept in out, 8 points are left"), (8, 1, "8 points are kept in out, 1 point is left")],
+)
+def test_the_points_that_are_kept_are_counted_in_words(monkeypatch, solved, missing, words):
+    study = SimpleNamespace(solved=solved, missing=missing, chosen=False)
+    monkeypatch.setattr("lubfric.studies.open_study", lambda folder: study)
+    assert _kept(Path("out")) == words
+
+
 @pytest.mark.parametrize("sent, code", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interrupt_is_one_line_and_the_command_goes_on(tmp_path, sent, code):
     many = STUDY.replace("[3.0, 5.5]", str([3.0 + 0.001 * i for i in range(1500)]))
@@ -95,7 +106,7 @@ def test_an_interrupt_is_one_line_and_the_command_goes_on(tmp_path, sent, code):
         time.sleep(0.05)
     process.send_signal(sent)
     said = process.communicate()[1].splitlines()
-    assert process.returncode == code and "are kept in" in said[-1] and "goes on from there" in said[-1], said
+    assert process.returncode == code and "kept in" in said[-1] and "goes on from there" in said[-1], said
     assert not any("Traceback" in line for line in said)
     result = lubfric.open_study(out)
     assert 0 < result.missing < result.status.size

@@ -116,7 +116,7 @@ def test_without_contact_the_full_load_film_is_the_solved_film():
 
 
 def test_what_a_run_does_not_take():
-    with pytest.raises(InputError, match="inlet_film"):
+    with pytest.raises(InputError, match="inlet_film.*the one with which .* full_load_film"):
         SCENE.with_(lubricant={"inlet_length": None, "inlet_film": 1e-7}, transient=lubfric.Transient(1e-4))
     in_time = SCENE.with_(transient=lubfric.Transient(1e-4), numerics={"model": "deterministic"})
     with pytest.raises(InputError, match="inlet_length"):

@@ -64,7 +64,7 @@ RUBS = {
     False: "gaps below the boundary film",
 }
 BY_FILM = "change of f with half the boundary film {:+.2g} %, with twice {:+.2g} %"
-BY_INLET = "change of f without the heat of the inlet {:+.2g} %"
+BY_INLET = "without the heat of the inlet f would change by {:+.2g} %"
 BY_FLOW = "change of f with half the thinning of the flow at the limiting stress {:+.2g} %"
 # The input that a scene may leave out, whose range is half to twice lubfric's own value.
 BOUNDARY_FILM_KEY = "bodies.boundary_film"
@@ -277,7 +277,7 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
         model="deterministic",
         contact_load_in_words=f"Boundary friction acts on {{part}} of the load ({RUBS[scene.lubricant.newtonian]})",
         film_in_words=words,
-        contact_in_words="boundary film",
+        contact_in_words="boundary friction where the gap is below the boundary film",
         tolerance=tolerance,
         strips=len(results),
         heat_in_words=known,

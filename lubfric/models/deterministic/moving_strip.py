@@ -280,7 +280,7 @@ def solve_moving_strip(
     lower = sum(row["order"] < STEP_ORDERS[0] for row in rows)
     note = (
         f"the roughness moves at {speeds} m/s: mean over {count} steps of {worded(step, 's')}, after {discarded} discarded ones; "
-        f"at rest f = {rest.result.coefficient:.4g}{f'; {lower} steps by lower order' if lower else ''}"
+        f"the same surfaces at rest, for comparison: f = {rest.result.coefficient:.4g}{f'; {lower} steps by lower order' if lower else ''}"
     )
     result = _mean(rows[discarded : discarded + count], counted.result)
     return MovingStripSolution(

@@ -120,14 +120,19 @@ class Heat:
         if self.inlet is None:
             return ""
         limit = f"{100 * budget.HEAT * tolerance:.2g} %"
-        inlet = f"inlet not included, film -{100 * (1 - self.inlet.factor):.2g} %"
+        inlet = f"not included, it makes the film {100 * (1 - self.inlet.factor):.2g} % thinner"
         if self.is_used:
-            inlet = f"inlet, film x {self.inlet.factor:.3g} ({self.inlet.other:.3g} by another factor)"
-        if self.heated is None:
-            return (
-                f"heat: {inlet}; film and flash not included, at most {100 * self.change:.2g} % of f ({limit} allowed)"
+            inlet = (
+                f"it multiplies the film by {self.inlet.factor:.3g} (Gupta et al.; by Wilson and Sheu "
+                f"{self.inlet.other:.3g})"
             )
-        return f"heat: {inlet}; flash {self.flash:.2g} K and film {self.film_rise:.2g} K, f {-100 * self.change:+.2g} %"
+        inside = f"not included, it changes f by at most {100 * self.change:.2g} % ({limit} allowed)"
+        if self.heated is not None:
+            inside = (
+                f"it changes f by {-100 * self.change:+.2g} % (surfaces up to {self.flash:.2g} K and film up to "
+                f"{self.film_rise:.2g} K warmer)"
+            )
+        return f"heat of the inlet: {inlet}; heat within the contact: {inside}"
 
 
 def inlet_at(scene: Scene, speed: float) -> tuple[InletHeat | None, bool]:

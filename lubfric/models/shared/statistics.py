@@ -11,6 +11,9 @@ from ..._base import FloatArray
 # Digits of a number compared with another, at most. A convention.
 MOST_DIGITS = 6
 
+# Relative error that nobody can see. A convention.
+INVISIBLE = 1e-5
+
 # Error of f over f above which it is stated in f itself [-], where f is near 0: there a ratio to it says nothing. A convention.
 MOST_RELATIVE = 1.0
 
@@ -181,7 +184,7 @@ def percent(value: float, digits: int = 2) -> str:
         return "not known"
     if value >= 0.995:
         return f"{100 * value:.{digits - 2}f} %"
-    return "< 0.001 %" if 0 < value < 1e-5 else f"{100 * value:.{digits}g} %"
+    return "< 0.001 %" if 0 < value < INVISIBLE else f"{100 * value:.{digits}g} %"
 
 
 def percent_beside(value: float, target: float) -> tuple[str, str]:
@@ -204,7 +207,10 @@ def percent_of_sides(below: float, above: float, largest: float) -> str:
     sides, which is alone known where ``below`` and ``above`` are NaN."""
     if not (math.isfinite(below) and math.isfinite(above)) or percent(below) == percent(above):
         return percent(largest)
-    return f"-{percent(below).removesuffix(' %')} to +{percent(above)}"
+    low, high = (
+        f"{sign}{percent(side)}" if side >= INVISIBLE else "0 %" for sign, side in (("-", below), ("+", above))
+    )
+    return f"{low.removesuffix(' %')} to {high}"
 
 
 def is_near_zero(f: float, error: float) -> bool:
@@ -220,7 +226,8 @@ def sides_in_f(below: float, above: float, largest: float, f: float) -> str:
     if not (math.isfinite(below) and math.isfinite(above)) or f"{below:.2g}" == f"{above:.2g}":
         return f"{largest * size:.2g}"
     (down, up) = (below, above) if f >= 0 else (above, below)
-    return f"-{down * size:.2g} to +{up * size:.2g}"
+    low, high = (f"{sign}{side * size:.2g}" if side > 0 else "0" for sign, side in (("-", down), ("+", up)))
+    return f"{low} to {high}"
 
 
 def smooth_over_cells(heights: FloatArray) -> bool:
