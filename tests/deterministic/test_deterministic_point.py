@@ -8,7 +8,9 @@ import pytest
 import lubfric
 from lubfric.film import LineContact
 from lubfric.models.deterministic import Work, dry_contact, evaluated, lay_out, march, reach, residuals, solve_point
-from lubfric.models.deterministic.solve import refined_start
+from lubfric.models.deterministic.linear import CYCLES, MOST_KRYLOV
+from lubfric.models.deterministic.newton import newton
+from lubfric.models.deterministic.solve import dry_start, refined_start
 from lubfric.oil import Lubricant, shear_stress
 from lubfric.surface import Surface
 from verification.campaigns.stability.whole_map import bearing, check
@@ -300,3 +302,24 @@ def test_another_lift_of_the_dry_contact_is_the_last_way():
     result = solve_point(problem)
     assert result.report.residual <= 1e-5
     assert max(check(problem, result).values()) < 1
+
+
+def test_an_attempt_between_soft_bodies_ends_at_a_system_that_is_not_solved():
+    """A seal of 21 MPa in water, on 800 nm of roughness whose summits are sharp: from the dry contact a system of Newton's method
+    takes all iterations of GMRES. The state is the one before its step, and the steps beyond it lead away."""
+    water = Lubricant(1e-3, 0.0, viscosity_law="constant")
+    surface = lubfric.generate_surface((64, 24), 24e-6, sq=800e-9, correlation_length=80e-6, acf="exponential", seed=3)
+    line = LineContact(load_per_width=1e3, radius=RADIUS, e_prime=2.1e7, entrainment_speed=0.5, lubricant=water)
+    problem = lay_out(surface, line, sliding=1.0, boundary_friction=0.3)
+    cold = dry_start(problem, dry_contact(problem))
+
+    def attempt(**how):
+        work = Work(50)
+        return newton(problem, cold, work, tolerance=3e-3, **how), work
+
+    ended, work = attempt(most=50, ends_unsolved=True)
+    before, solved = attempt(most=work.factorisations - 1)
+    beyond, more = attempt(most=work.factorisations + 3)
+    assert work.krylov - solved.krylov == MOST_KRYLOV * CYCLES
+    assert ended.residual == before.residual and np.array_equal(ended.at.gap, before.at.gap)
+    assert more.factorisations > work.factorisations and beyond.residual > 10 * ended.residual

@@ -165,7 +165,14 @@ def _attempts(
     patience = SOFT_PATIENCE if is_soft else NEWTON_PATIENCE
     if start is not None:
         near = newton(
-            problem, start, work, tolerance=tolerance, most=FACTORISATIONS_FROM_NEARBY, least=least, patience=patience
+            problem,
+            start,
+            work,
+            tolerance=tolerance,
+            most=FACTORISATIONS_FROM_NEARBY,
+            least=least,
+            patience=patience,
+            ends_unsolved=is_soft,
         )
         yield "from a neighbouring state", near
     dry = dry_contact(problem)
@@ -175,7 +182,9 @@ def _attempts(
     def lifted(parts: tuple[float, ...], most: int) -> Iterator[tuple[str, NewtonResult]]:
         for part in parts:
             begin = dry_start(problem, dry, part)
-            result = newton(problem, begin, work, tolerance=tolerance, most=most, patience=patience)
+            result = newton(
+                problem, begin, work, tolerance=tolerance, most=most, patience=patience, ends_unsolved=is_soft
+            )
             yield "from the dry contact", result
 
     yield from lifted(lifts, DIRECT // 2 if is_starved(problem) else DIRECT)
