@@ -16,6 +16,7 @@ import lubfric
 from lubfric._base import limited_work
 
 from ...check import Table
+from ...pace import paced
 from ...types import PlainRow
 from .. import table_file
 from ..extending import solved_in_processes
@@ -59,15 +60,19 @@ def timed(seed: int) -> PlainRow:
         row["estimate"] = job.estimate()
     except lubfric.LubfricError as error:
         return row | {"failure": f"estimate: {error}"[:120]}
-    begun = seconds()
-    with limited_work(math.inf) as meter:
-        try:
-            job.run()
-        except lubfric.LubfricError as error:
-            row["failure"] = f"{type(error).__name__}: {error}".replace("\n", " ")[:120]
-    if meter.spent > MOST_WORK and not row["failure"]:
+
+    def run() -> float:
+        with limited_work(math.inf) as meter:
+            try:
+                job.run()
+            except lubfric.LubfricError as error:
+                row["failure"] = f"{type(error).__name__}: {error}".replace("\n", " ")[:120]
+        return meter.spent
+
+    (work, taken) = paced(run, clock=seconds)
+    if work > MOST_WORK and not row["failure"]:
         row["failure"] = "max_work"  # a point by a cheaper model
-    return row | {"work": meter.spent, "seconds": seconds() - begun}
+    return row | {"work": work, "seconds": taken}
 
 
 def rows(file: Path = TABLE) -> list[dict[str, str]]:
