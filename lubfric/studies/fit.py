@@ -1,6 +1,7 @@
 """`fit`: bounded least squares of a scene to a measured curve, and how well the data determine its parameters."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import partial
 from itertools import product
 from pathlib import Path
@@ -17,8 +18,9 @@ from .explain import WITHIN_WORDS, in_words
 from .fit_checks import residual_tests, root_mean_square
 from .fit_curves import FitCurves, coarse_measured, coarse_scene, fit_tolerance
 from .fit_input import SLIDE_ROLL_RATIO_COLUMN, Measured, parameters_of, values_at
+from .fit_profile import Profile, flat_parameters, follow
 from .fit_result import FitResult
-from .fit_search import INSIDE, Candidate, estimated_curves, search_minima, sobol_count
+from .fit_search import INSIDE, Candidate, estimated_curves, search_minima, sobol_count, with_minimum
 from .store import opened
 from .vary import Between, unit_of
 
@@ -70,7 +72,8 @@ def fit(
     (`lubfric.studies.fit_search`): from the start and from the points of a Sobol sequence. From the lowest minimum, a
     trust region within the bounds (`scipy.optimize.least_squares`, "trf") continues with all points and the scene's
     own model; from the next ones too that larger residuals part from it, while the fit does not describe the data. Derivatives are differences over 4 %
-    of the bounds, which stay above the tolerance on f. The search stops when a step moves the parameters by <= 0.2 %
+    of the bounds, which stay above the tolerance on f. A parameter that f does not change with at the fit is followed to
+    its bounds (`lubfric.studies.fit_profile`); the fit continues from smaller residuals on the way. The search stops when a step moves the parameters by <= 0.2 %
     of their bounds, or changes the sum by <= 1e-4 of it.
 
     `FitResult` has the uncertainty of the values, and says whether the fit describes the data at all.
@@ -118,7 +121,8 @@ def fit(
             results.append(_fitted(fine, minimum.unit, starts=starts, minima=minima))
             if results[-1].describes_data and results[-1].report.converged:
                 break
-        return returned(min(results, key=lambda result: result.report.residuals["sum of squares"]))
+        lowest = min(results, key=_sum_of_squares)
+        return returned(_followed(coarse, fine, lowest))
 
 
 @with_default_errors
@@ -155,9 +159,11 @@ def explain_fit(scene: Scene, measured: Measured, parameters: Mapping[str, Any],
         lines.append(f"  the measured coefficients {held} rolling friction (a mean over both signs of slip has none)")
     coarse, fine = _curves(scene, measured, bounds)
     searched, fitted, seconds = _estimated(coarse, fine, _start(scene, bounds, {}), starts)
-    lines.append(f"  search: about {counted(searched, 'curves')} of {counted(coarse.measured.x.size, 'points')} ")
-    lines[-1] += "by the load-sharing model, over the complete bounds" if starts else "by the load-sharing model"
-    lines.append(f"  fit: about {counted(fitted, 'curves')} of {counted(measured.x.size, 'points')}")
+    if starts:
+        size = counted(coarse.measured.x.size, "points")
+        lines.append(f"  search: about {searched} curves of {size} by the load-sharing model, over the complete bounds")
+    both = f"; {searched + fitted} with those of the search" if starts else ""
+    lines.append(f"  fit: about {counted(fitted, 'curves')} of {counted(measured.x.size, 'points')}{both}")
     return "\n".join([*lines, f"  time: about {in_words(seconds)} on one core ({WITHIN_WORDS})"])
 
 
@@ -244,7 +250,7 @@ class _Progress:
     ):
         self.expected_of_fit = 2 * begin.size + USUAL_CURVES
         self.expected = {
-            id(coarse): estimated_curves(begin.size, starts) if starts else 0,
+            id(coarse): estimated_curves(begin.size, starts),
             id(fine): self.expected_of_fit,
         }
         self.curves = {id(kind): (kind, _usual_seconds(kind, begin)) for kind in (coarse, fine)}
@@ -275,6 +281,36 @@ class _Progress:
         least, position = self.least[id(self.fine if self.fine.count else curves)]
         misfit = least if self.fine.count else np.nan
         self.on_progress(done, total, left, misfit, values_at(curves.parameters, position))
+
+
+def _sum_of_squares(result: FitResult) -> float:
+    """Return the sum of squares of the residuals of a fit."""
+    return result.report.residuals["sum of squares"]
+
+
+def _followed(coarse: FitCurves, fine: FitCurves, result: FitResult) -> FitResult:
+    """Return ``result`` with the profiles of the parameters that f does not change with there; where one of them leads to
+    a smaller sum of squares, the result of a trust region that begins there."""
+    followed: set[int] = set()  # beside an edge of f the differences say no more than on the flat
+    for _ in range(result.unit.size + 1):
+        jacobian = result.slopes / result.measured.scale[:, None]
+        profiles: dict[str, Profile] = {}
+        followed.update(flat_parameters(jacobian, result.variance, result.student))
+        for place in sorted(followed):
+            profile = follow(fine, result.unit, jacobian, place=place, variance=result.variance, student=result.student)
+            profiles[list(result.parameters)[place]] = profile
+            if profile.better is not None:
+                break
+        better = [profile.better for profile in profiles.values() if profile.better is not None]
+        if not better:
+            return replace(result, profiles=profiles)
+        fine.forget_slopes()
+        other = _fitted(fine, better[0], starts=result.starts, minima=[])
+        minima = with_minimum(coarse, result.minima, other.unit) if result.starts else list(result.minima)
+        if _sum_of_squares(other) >= _sum_of_squares(result):
+            return replace(result, profiles=profiles)
+        result = replace(other, minima=tuple(minima))
+    return result
 
 
 def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[Candidate]) -> FitResult:
@@ -339,4 +375,5 @@ def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[C
         model_error=model_error,
         starts=starts,
         minima=tuple(minima),
+        variance=variance,
     )

@@ -132,6 +132,10 @@ class FitCurves:
         self._slopes = np.stack(columns, axis=1)
         return self._slopes
 
+    def forget_slopes(self) -> None:
+        """Compute the slopes anew, also near a position where they are known: beside an edge of f they differ."""
+        self._slopes_at = np.full(len(self.parameters), np.inf)
+
     def prepared(self, unit: np.ndarray) -> Prepared:
         """Return the scene at ``unit``, made ready, with the map of the last one where that is the same."""
         scene = self.scene.with_keys(values_at(self.parameters, np.clip(unit, 0.0, 1.0)))

@@ -1,5 +1,6 @@
 """The result of a fit, and how sure it is."""
 
+import math
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -17,6 +18,7 @@ from ..quantities import counted, worded_value
 from ..scene import Scene
 from .fit_checks import ResidualTests
 from .fit_input import SPEED, Measured, values_at
+from .fit_profile import Profile
 from .fit_search import SAME_MINIMUM, Candidate
 from .vary import Between
 
@@ -67,6 +69,9 @@ class FitResult(Renamed, Shown):
         where it is not known. It is not in the covariance; ``moved_by_surface`` is its effect
     model_error : relative model-form error of f at the points at 95 %, (n,); NaN where it is not known. It is not in the
         covariance
+    variance : s², of the residuals over the scale of the measured points
+    profiles : by key, the curves over the bounds of parameters that f does not change with at the fit
+        (`lubfric.studies.fit_profile.Profile`). Their intervals come from these, and not from the covariance
     """
 
     base: Scene
@@ -84,6 +89,8 @@ class FitResult(Renamed, Shown):
     tests: ResidualTests | None = None
     starts: int = 0
     minima: tuple[Candidate, ...] = ()
+    variance: float = math.nan
+    profiles: dict[str, Profile] = field(default_factory=dict)
 
     @property
     def values(self) -> dict[str, float]:
@@ -110,13 +117,17 @@ class FitResult(Renamed, Shown):
     @property
     def intervals(self) -> dict[str, tuple[float, float]]:
         """95 % intervals of the parameters, cut at their bounds."""
-        low, high = (values_at(self.parameters, np.clip(self.unit + s * self._reach, 0.0, 1.0)) for s in (-1, 1))
+        low, high = (values_at(self.parameters, end) for end in self._ends)
         return {key: (low[key], high[key]) for key in self.parameters}
 
     @property
     def undetermined(self) -> tuple[str, ...]:
         """Parameters that the data cannot determine: their 95 % interval is as wide as their bounds."""
-        return tuple(key for key, reach in zip(self.parameters, self._reach) if not 2 * reach < 1.0)
+        wide = [not 2 * reach < 1.0 for reach in self._reach]
+        for place, key in enumerate(self.parameters):
+            if key in self.profiles:
+                wide[place] = self._limits_of(key) == ()
+        return tuple(key for key, is_wide in zip(self.parameters, wide) if is_wide)
 
     @property
     def validity(self) -> tuple[str, ...]:
@@ -138,7 +149,7 @@ class FitResult(Renamed, Shown):
     @property
     def band(self) -> tuple[np.ndarray, np.ndarray]:
         """(low, high): the 95 % band of the computed curve at the measured points."""
-        reach = self._student * np.sqrt(np.einsum("ni,ij,nj->n", self.slopes, self.unit_covariance, self.slopes))
+        reach = self.student * np.sqrt(np.einsum("ni,ij,nj->n", self.slopes, self.unit_covariance, self.slopes))
         return self.predicted - reach, self.predicted + reach
 
     @property
@@ -166,22 +177,36 @@ class FitResult(Renamed, Shown):
 
     @property
     def _other_candidates(self) -> list[Candidate]:
+        low, high = self._ends
         return [
-            each for each in self.minima if each.is_separate and np.abs(each.unit - self.unit).max() >= SAME_MINIMUM
+            each
+            for each in self.minima
+            if each.is_separate and np.abs(each.unit - self.unit).max() >= SAME_MINIMUM
+            if np.any((each.unit < low) | (each.unit > high))
         ]
 
     @property
     def effects(self) -> dict[str, float]:
-        """Largest relative change of f at the measured points by each parameter over its bounds, to first order."""
+        """Largest relative change of f at the measured points by each parameter: over its bounds, to first order; of those
+        with profiles, between the fit and the bounds within the interval, computed there (NaN: not solved)."""
         relative = np.abs(self.slopes / self.predicted[:, None]).max(axis=0)
-        return dict(zip(self.parameters, relative.tolist()))
+        effects = dict(zip(self.parameters, relative.tolist()))
+        return effects | {key: profile.change for key, profile in self.profiles.items()}
 
     def _identifiability(self) -> list[str]:
         """Return what the data do not show of the parameters, one sentence each."""
         lines = []
         for key in self.undetermined:
-            change = 100 * self.effects[key]
-            lines.append(f"the data do not determine {key}: over its bounds it changes f by {change:.2g} %, linearised")
+            change = self.effects[key]
+            where = "over its bounds it changes f by"
+            said = f"{where} {100 * change:.2g} %{'' if key in self.profiles else ', linearised'}"
+            if math.isnan(change):
+                said = "f could not be solved at one of its bounds"
+            lines.append(f"the data do not determine {key}: {said}")
+        for key in self.profiles:
+            for side in self._limits_of(key) if len(self._limits_of(key)) == 1 else ():
+                other = {"lower": "upper", "upper": "lower"}[side]
+                lines.append(f"the data set {key} no {other} limit: f does not change with it at the fit")
         keys = [*self.parameters]
         correlation = self.correlation
         for i in range(len(keys)):
@@ -193,10 +218,11 @@ class FitResult(Renamed, Shown):
         for candidate in minima[:MOST_NAMED_MINIMA]:
             values = values_at(self.parameters, candidate.unit)
             at = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
-            times = candidate.misfit / self.minima[0].misfit
+            times = f"{candidate.misfit / self.minima[0].misfit:.2g}"
+            large = "as large as" if times == "1" else f"{times} times as large as"
             lines.append(
-                f"the search, by the load-sharing model, has another minimum at {at}, with residuals {times:.2g} times as "
-                "large as at the lowest; the interval does not include it"
+                f"the search, by the load-sharing model, has another minimum at {at}, with residuals {large} at the "
+                "lowest; the intervals do not include it"
             )
         if len(minima) > MOST_NAMED_MINIMA:
             more = counted(len(minima) - MOST_NAMED_MINIMA, "more minima")
@@ -223,6 +249,7 @@ class FitResult(Renamed, Shown):
             return "not in the intervals: what another sample of the surface would give, which is not known"
         moves = self.moved_by_surface
         reaches = dict(zip(self.parameters, self._reach * np.abs(self._slopes)))
+        moves = {key: move for key, move in moves.items() if key not in self.profiles}
         if all(move <= UNREPORTED_MOVE * reaches[key] for key, move in moves.items()):
             return ""
         moved = ", ".join(f"{key} by {worded_value(key, float(f'{move:.2g}'))}" for key, move in moves.items())
@@ -286,12 +313,28 @@ class FitResult(Renamed, Shown):
         return np.array([bounds.slope(share) for bounds, share in zip(self.parameters.values(), self.unit)])
 
     @property
-    def _reach(self) -> np.ndarray:
-        """Half of the 95 % intervals of ``unit``."""
-        return self._student * np.sqrt(np.diag(self.unit_covariance))
+    def _ends(self) -> tuple[np.ndarray, np.ndarray]:
+        """The ends of the 95 % intervals of ``unit``, cut at the bounds."""
+        low, high = (np.clip(self.unit + side * self._reach, 0.0, 1.0) for side in (-1, 1))
+        for place, key in enumerate(self.parameters):
+            if key in self.profiles:
+                low[place] = self.profiles[key].low
+                high[place] = self.profiles[key].high
+        return low, high
+
+    def _limits_of(self, key: str) -> tuple[str, ...]:
+        """Return which ends of the interval of a parameter with a profile lie within its bounds: "lower", "upper"."""
+        profile = self.profiles[key]
+        return tuple(side for side, known in (("lower", profile.low > 0.0), ("upper", profile.high < 1.0)) if known)
 
     @property
-    def _student(self) -> float:
+    def _reach(self) -> np.ndarray:
+        """Half of the 95 % intervals of ``unit``, to first order."""
+        return self.student * np.sqrt(np.diag(self.unit_covariance))
+
+    @property
+    def student(self) -> float:
+        """Student's t of the intervals, with n - p degrees of freedom."""
         from scipy.stats import t
 
         return float(t.ppf(0.5 + LEVEL / 2, self.predicted.size - self.unit.size))

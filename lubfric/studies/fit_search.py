@@ -8,6 +8,7 @@ interpolated instead of their sum of squares, which keeps the Gauss-Newton struc
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -63,7 +64,7 @@ def sobol_count(parameters: int) -> int:
 
 def estimated_curves(parameters: int, starts: int) -> int:
     """Return about how many coarse curves `search_minima` computes, from so many ``starts`` of a Sobol sequence."""
-    return 1 + starts + (USUAL_REFINEMENTS * parameters if starts else 0)
+    return 1 + starts + USUAL_REFINEMENTS * parameters if starts else 0
 
 
 def search_minima(curves: FitCurves, start: np.ndarray, starts: int) -> list[Candidate]:
@@ -105,13 +106,34 @@ def search_minima(curves: FitCurves, start: np.ndarray, starts: int) -> list[Can
         add(new)
     misfits = [float(np.sqrt(np.mean(row**2))) for row in residuals]
     lowest, *others = distinct([Candidate(unit, misfit) for unit, misfit in zip(units, misfits)])
-    parted = [replace(each, is_separate=_are_parted(units, residuals, lowest, each)) for each in others]
+    parted = [
+        replace(each, is_separate=_are_parted(curves, lowest, each, units=units, residuals=residuals))
+        for each in others
+    ]
     return [lowest, *parted]
 
 
-def _are_parted(units: list[np.ndarray], residuals: list[np.ndarray], lowest: Candidate, other: Candidate) -> bool:
-    """Return whether the interpolated residuals are larger somewhere on the line between two candidates than at the
-    higher one: else both lie in one valley."""
+def with_minimum(curves: FitCurves, minima: Sequence[Candidate], unit: np.ndarray) -> list[Candidate]:
+    """Return ``minima`` of the coarse ``curves`` with a lower one at ``unit`` that their search missed, as the first. It was
+    reached from the former first one: what larger residuals part from that, they part from the new one."""
+    try:
+        misfit = float(np.sqrt(np.mean(curves.residuals(unit) ** 2)))
+    except LubfricError:
+        return list(minima)
+    lowest = Candidate(unit, misfit)
+    return [lowest, *(each for each in minima if each.misfit <= COMPARABLE * misfit and not _is_near(each, lowest))]
+
+
+def _are_parted(
+    curves: FitCurves,
+    lowest: Candidate,
+    other: Candidate,
+    *,
+    units: Sequence[np.ndarray],
+    residuals: Sequence[np.ndarray],
+) -> bool:
+    """Return whether the residuals are larger somewhere on the line between two candidates than at the higher one: else
+    both lie in one valley. Where the interpolated ones are, a curve decides: beside an edge of f they have humps."""
     from scipy.interpolate import RBFInterpolator
 
     if len(units) <= lowest.unit.size + 1:
@@ -119,7 +141,19 @@ def _are_parted(units: list[np.ndarray], residuals: list[np.ndarray], lowest: Ca
     surrogate = RBFInterpolator(np.array(units), np.array(residuals), kernel="cubic", degree=1)
     line = lowest.unit + BETWEEN[:, None] * (other.unit - lowest.unit)
     between = np.sqrt(np.mean(surrogate(line) ** 2, axis=1))
-    return bool(between.max() > LEAST_BARRIER * other.misfit)
+    if between.max() <= LEAST_BARRIER * other.misfit:
+        return False
+    share = float(BETWEEN[int(np.argmax(between))])
+    try:
+        barrier = curves.residuals(lowest.unit + share * (other.unit - lowest.unit))
+    except LubfricError:
+        return True  # a model that does not answer there parts them
+    return bool(np.sqrt(np.mean(barrier**2)) > LEAST_BARRIER * other.misfit)
+
+
+def _is_near(one: Candidate, other: Candidate) -> bool:
+    """Return whether two candidates are one minimum."""
+    return bool(np.abs(one.unit - other.unit).max() < SAME_MINIMUM)
 
 
 def distinct(candidates: list[Candidate]) -> list[Candidate]:
@@ -127,7 +161,7 @@ def distinct(candidates: list[Candidate]) -> list[Candidate]:
     compare with the least."""
     kept: list[Candidate] = []
     for candidate in sorted(candidates, key=lambda one: one.misfit):
-        near = any(np.abs(candidate.unit - other.unit).max() < SAME_MINIMUM for other in kept)
+        near = any(_is_near(candidate, other) for other in kept)
         if not near and (not kept or candidate.misfit <= COMPARABLE * kept[0].misfit):
             kept.append(candidate)
     return kept

@@ -1,0 +1,188 @@
+"""Parameters that f does not change with at a fit: followed to their bounds, as differences there say nothing of them.
+
+A limiting stress that is nowhere reached is one: f is constant over a part of its bounds, and falls below it. Curves
+between the fit and the bounds say where the residuals exceed those of the fit by what the interval allows, and whether
+they are smaller somewhere. The other parameters move along, to first order (a profile of the sum of squares: D. M.
+Bates and D. G. Watts, Nonlinear Regression Analysis and Its Applications, Wiley 1988, section 6.1).
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from .._base import FloatArray
+from ..errors import LubfricError
+from .fit_curves import PARAMETER_STEP, FitCurves
+
+# Curves of one parameter beside those at its bounds, at most: the end of an interval takes five.
+MOST_FOLLOWED = 12
+
+# Decrease of the sum of squares, as a share of it, from which a fit continues elsewhere. A convention.
+LEAST_DECREASE = 0.01
+
+# Distance of two curves, as a share of the bounds, up to which residuals between them are interpolated to look for smaller
+# ones. A convention.
+INTERPOLATED = 0.25
+
+# Positions between two curves at which interpolated residuals are compared, as a share of their distance.
+BETWEEN_CURVES = np.linspace(0.0, 1.0, 201)
+
+# Where a curve between two others may lie, as a share of their distance: nearer ones would hardly narrow it.
+WITHIN_CURVES = (0.3, 0.7)
+
+
+# Move of a parameter, as a share of its bounds, that is always allowed: a range of no width has no least sum.
+SMALLEST_STEP = 1e-9
+
+
+@dataclass(frozen=True, kw_only=True)
+class Profile:
+    """What curves at other values of one parameter show, where f does not change with it at the fit.
+
+    Attributes
+    ----------
+    low, high : ends of the 95 % interval, as positions between the bounds; 0 and 1 where the data set no limit
+    change : largest relative change of f at the measured points between the fit and the bounds within the interval;
+        0 where it holds no bound, NaN where a curve at one could not be solved
+    better : a position between the bounds, (p,), with a smaller sum of squares than the fit; None: there is none
+    """
+
+    low: float
+    high: float
+    change: float
+    better: FloatArray | None = None
+
+
+def flat_parameters(jacobian: FloatArray, variance: float, student: float) -> list[int]:
+    """Return the places of the parameters that change the residuals by less, over the complete bounds and to first order,
+    than their intervals allow. ``jacobian`` (n, p): of the residuals; ``variance`` of these."""
+    lengths = np.sqrt(np.sum(jacobian**2, axis=0))
+    return [int(place) for place in np.flatnonzero(lengths <= 2.0 * student * np.sqrt(variance))]
+
+
+def follow(
+    curves: FitCurves, unit: FloatArray, jacobian: FloatArray, *, place: int, variance: float, student: float
+) -> Profile:
+    """Follow the parameter at ``place`` from ``unit`` (p,) to its bounds.
+
+    ``jacobian`` (n, p): of the residuals at ``unit``; ``variance`` of these; ``student``: t of the intervals. A curve that
+    cannot be solved ends the way: the data then set no limit on that side, and ``change`` is NaN.
+    """
+    others = _Others(np.delete(jacobian, place, axis=1), np.delete(unit, place), student * math.sqrt(variance))
+    start = float(unit[place])
+    known: dict[float, FloatArray] = {}
+
+    def projected(share: float) -> FloatArray:
+        """Return the residuals at ``share``, with the other parameters moved to the least sum, to first order."""
+        if share not in known:
+            moved = unit.copy()
+            moved[place] = share
+            known[share] = others.fitted(curves.residuals(moved))
+        return known[share]
+
+    most = float(np.sum(projected(start) ** 2)) + student**2 * variance
+    least = float(np.sum(known[start] ** 2)) * (1.0 - LEAST_DECREASE)
+    failed = False
+    for end in (0.0, 1.0):
+        try:
+            projected(end)
+        except LubfricError:
+            failed = True
+    for _ in range(MOST_FOLLOWED):
+        share = _promising(known, least)
+        if share is None:
+            share = _between(_crossing(known, start, most, 0.0)) or _between(_crossing(known, start, most, 1.0))
+        if share is None:
+            break
+        try:
+            found = projected(share)
+        except LubfricError:
+            failed = True
+            break
+        if float(np.sum(found**2)) < least:
+            break
+    lowest = min(known, key=lambda share: float(np.sum(known[share] ** 2)))
+    better = None
+    if float(np.sum(known[lowest] ** 2)) < least:
+        moved = unit.copy()
+        moved[place] = lowest
+        better = np.clip(moved + np.insert(others.step(curves.residuals(moved)), place, 0.0), 0.0, 1.0)
+    f = curves.coefficient(unit)
+    changes = []
+    for end in (0.0, 1.0):
+        if end in known and float(np.sum(known[end] ** 2)) <= most:
+            moved = unit.copy()
+            moved[place] = end
+            changes.append(float(np.max(np.abs(curves.coefficient(moved) / f - 1.0))))
+    return Profile(
+        low=_limit(known, start, most, 0.0),
+        high=_limit(known, start, most, 1.0),
+        change=np.nan if failed else max(changes, default=0.0),
+        better=better,
+    )
+
+
+class _Others:
+    """The other parameters of a fit, which move along to first order: within their own intervals, as the profile of the sum
+    of squares does until it exceeds what the interval allows, and within their bounds."""
+
+    def __init__(self, jacobian: FloatArray, unit: FloatArray, allowed: float):
+        self.jacobian = jacobian
+        inverse = np.linalg.pinv(jacobian, rcond=1e-8)
+        reach = allowed * np.sqrt(np.sum(inverse**2, axis=1))
+        self.low = np.maximum(-reach, -unit) - SMALLEST_STEP
+        self.high = np.minimum(reach, 1.0 - unit) + SMALLEST_STEP
+
+    def step(self, residuals: FloatArray) -> FloatArray:
+        """Return the move of the parameters, (p - 1,), that makes the sum of the squared ``residuals`` (n,) least."""
+        from scipy.optimize import lsq_linear
+
+        if not self.low.size:
+            return np.zeros(0)
+        return np.asarray(lsq_linear(self.jacobian, -residuals, bounds=(self.low, self.high)).x)
+
+    def fitted(self, residuals: FloatArray) -> FloatArray:
+        """Return the ``residuals`` (n,) after that move."""
+        return residuals + self.jacobian @ self.step(residuals)
+
+
+def _promising(known: dict[float, FloatArray], least: float) -> float | None:
+    """Return where between two near curves the interpolated sum of squares is below ``least``; None: nowhere."""
+    shares = sorted(known)
+    found = []
+    for low, high in zip(shares, shares[1:]):
+        if PARAMETER_STEP / 4 < high - low <= INTERPOLATED:
+            sums = _sums(known[low], known[high])
+            best = float(np.clip(BETWEEN_CURVES[int(np.argmin(sums))], *WITHIN_CURVES))
+            found.append((float(sums.min()), low + best * (high - low)))
+    return min(found)[1] if found and min(found)[0] < least else None
+
+
+def _crossing(known: dict[float, FloatArray], start: float, most: float, end: float) -> tuple[float, float] | None:
+    """Return the nearest two curves from ``start`` towards ``end`` between which the sum of squares exceeds ``most``;
+    None: it does not."""
+    shares = sorted((share for share in known if (share - start) * (end - start) >= 0.0), key=lambda s: abs(s - start))
+    for inner, outer in zip(shares, shares[1:]):
+        if float(np.sum(known[outer] ** 2)) > most:
+            return inner, outer
+    return None
+
+
+def _between(pair: tuple[float, float] | None) -> float | None:
+    """Return the middle of two positions, if they are farther apart than the steps of the differences."""
+    return None if pair is None or abs(pair[1] - pair[0]) <= PARAMETER_STEP else 0.5 * (pair[0] + pair[1])
+
+
+def _limit(known: dict[float, FloatArray], start: float, most: float, end: float) -> float:
+    """Return where the sum of squares exceeds ``most`` on the way to ``end``; ``end`` where it does not."""
+    pair = _crossing(known, start, most, end)
+    if pair is None:
+        return end
+    within = np.flatnonzero(_sums(known[pair[0]], known[pair[1]]) <= most)
+    return pair[0] + float(BETWEEN_CURVES[within.max(initial=0)]) * (pair[1] - pair[0])
+
+
+def _sums(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Return the sums of squares of the residuals interpolated between two curves, at `BETWEEN_CURVES`."""
+    return np.sum((first + BETWEEN_CURVES[:, None] * (second - first)) ** 2, axis=1)

@@ -1,0 +1,97 @@
+"""Parameters that f does not change with at a fit are followed to their bounds: limits of the interval on one side, and
+smaller residuals beyond an edge of f."""
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.studies.fit_profile import flat_parameters, follow
+from lubfric.studies.fit_search import Candidate, _are_parted, with_minimum
+
+# Slip of the points: f rises with its logarithm, up to a limit.
+LOGARITHM = np.linspace(0.0, 1.0, 12)
+
+# Student's t at 97.5 % with 10 degrees of freedom.
+STUDENT = 2.2281
+
+
+class Limited:
+    """Curves f = min(a (1 + slip), b), a and b between 0 and 1, with the residuals relative to ``measured``."""
+
+    def __init__(self, measured, unsolved_below=-1.0):
+        self.measured = measured
+        self.unsolved_below = unsolved_below
+        self.count = 0
+
+    def coefficient(self, unit):
+        if unit[1] < self.unsolved_below:
+            raise lubfric.ConvergenceError("no film", None, None)
+        self.count += 1
+        return np.minimum(unit[0] * (1 + LOGARITHM), unit[1])
+
+    def residuals(self, unit):
+        return (self.coefficient(unit) - self.measured) / self.measured
+
+
+def followed(curves, a, b, scatter):
+    """Return the profile of the limit from a fit at (a, b), where no point reaches it."""
+    unit = np.array([a, b])
+    jacobian = np.stack([(1 + LOGARITHM) / curves.measured, np.zeros(12)], axis=1)
+    assert flat_parameters(jacobian, scatter**2, STUDENT) == [1]
+    return follow(curves, unit, jacobian, place=1, variance=scatter**2, student=STUDENT)
+
+
+def test_an_edge_beyond_which_the_residuals_are_smaller_is_found():
+    """The limit of the data lowers the last points by 4 %; from above it the fit sees a flat parameter."""
+    curves = Limited(np.minimum(0.25 * (1 + LOGARITHM), 0.48) * (1 + 0.005 * np.cos(40 * LOGARITHM)))
+    a = 0.248
+    profile = followed(curves, a, 0.85, 0.01)
+    assert profile.better is not None and curves.count < 24
+    sums = [np.sum(curves.residuals(unit) ** 2) for unit in (profile.better, np.array([a, 0.85]))]
+    assert sums[0] < 0.6 * sums[1] and 0.45 < profile.better[1] < 0.5
+
+
+@pytest.mark.parametrize("scatter", [0.01, 0.03])
+def test_the_interval_of_a_limit_that_is_not_reached_has_one_end(scatter):
+    """The end is that of the exact profile: the least sum over a at each b, on a dense grid."""
+    curves = Limited(0.25 * (1 + LOGARITHM) * (1 - 0.01 * np.cos(40 * LOGARITHM)))
+    weights = (1 + LOGARITHM) / curves.measured
+    a = float(np.sum(weights) / np.sum(weights**2))
+    profile = followed(curves, a, 0.85, scatter)
+    assert profile.better is None and profile.high == 1.0 and profile.change == 0.0
+    least = np.sum(curves.residuals(np.array([a, 0.85])) ** 2)
+    trials = np.linspace(0.9, 1.3, 401)[:, None, None] * a
+    ends = np.linspace(0.3, 0.55, 251)
+    f = np.minimum(trials * (1 + LOGARITHM), ends[:, None])
+    sums = np.sum((f / curves.measured - 1.0) ** 2, axis=2).min(axis=0)
+    exact = ends[np.flatnonzero(sums <= least + STUDENT**2 * scatter**2)[0]]
+    assert profile.low == pytest.approx(exact, abs=0.02)
+
+
+def test_what_changes_f_less_than_its_scatter_is_not_determined():
+    curves = Limited(np.full(12, 0.1) * (1 + LOGARITHM) * (1 + 0.3 * np.cos(40 * LOGARITHM)))
+    profile = followed(curves, 0.1, 0.6, 3.0)
+    assert (profile.low, profile.high, profile.better) == (0.0, 1.0, None)
+    assert profile.change == 1.0  # a limit of 0 leaves no f
+
+
+def test_a_bound_that_cannot_be_solved_is_not_taken_for_a_limit():
+    curves = Limited(0.25 * (1 + LOGARITHM), unsolved_below=0.7)
+    profile = followed(curves, 0.25, 0.85, 0.01)
+    assert profile.low == 0.0 and np.isnan(profile.change) and profile.better is None
+
+
+def test_a_minimum_on_the_same_flat_is_not_another_one():
+    """The interpolation of a curve with an edge has humps where the curve has none."""
+    curves = Limited(np.minimum(0.25 * (1 + LOGARITHM), 0.48) * (1 + 0.04 * np.cos(40 * LOGARITHM)))
+    places = [np.array([a, b]) for a in (0.05, 0.25, 0.5, 0.75, 0.95) for b in (0.05, 0.3, 0.47, 0.7, 0.95)]
+    residuals = [curves.residuals(unit) for unit in places]
+    flat = [Candidate(np.array([0.25, b]), 0.035) for b in (0.6, 0.95)]
+    assert not _are_parted(curves, flat[0], flat[1], units=places, residuals=residuals)
+    parted = Candidate(np.array([0.1, 0.9]), 0.036, is_separate=True)
+    lowest, *others = with_minimum(curves, [*flat, parted], np.array([0.25, 0.48]))
+    assert (
+        lowest.unit[1] == 0.48
+        and lowest.misfit < 0.035
+        and [each.is_separate for each in others] == [False, False, True]
+    )
