@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._base import FloatArray, figures
-from ..studies import friction_over_speed, interval_band
+from ..studies import friction_over_speed, gaps_of, interval_band
 from ..time import band_label, friction_over_time, in_motion, time_scale
 from ..units import converted, printed, unit_for, worded
 from .contact_pictures import PANEL_GAP, drawn_part, part_in_words, size_of_maps
@@ -117,9 +117,14 @@ def plot_traction(
     warm = bool((c["flash_temperature_rise"] > 0).any() or (c["film_temperature_rise"] > 0).any())
     figure = figures.new_figure(figsize=options.size([6.5 if warm else 4.5]))
     top, *others = figure.subplots(1 + warm, 1, sharex=True, squeeze=False, height_ratios=[3, 2][: 1 + warm]).flat
-    interval_band(top, ratio, c, has_parts=options.has_parts)
-    parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
-    figures.friction_lines(top, ratio, parts, marker="o", ms=4)
+    gaps = _draw_gaps(top, c)
+    numbers = {name: column for name, column in c.items() if np.asarray(column).dtype.kind in "fiu"}
+    broken = type(columns)((name, np.insert(column.astype(float), gaps, np.nan)) for name, column in numbers.items())
+    along = broken["ratio"]
+    interval_band(top, along, broken, has_parts=options.has_parts)
+    shown = (c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load)
+    parts = [np.insert(part, gaps, np.nan) for part in shown]
+    figures.friction_lines(top, along, parts, marker="o", ms=4)
     _mark(figure, top, ratio, c["coefficient"], [violations[i] for i in order], options)
     figures.head(figure, title)
     top.set_ylabel(figures.FRICTION_LABEL)
@@ -135,6 +140,29 @@ def plot_traction(
     figures.plain_ticks(last.xaxis)
     options.thin(figure)
     figure.savefig(path)
+
+
+def _draw_gaps(axes: Axes, columns: dict[str, np.ndarray]) -> list[int]:
+    """Dot the line of f where its points do not show it between them, and bar the intervals of points that no line
+    joins. ``columns``: of a traction curve, by ascending ratio. Returns the places before which lines and bands end."""
+    ratio = columns["ratio"]
+    f = columns["coefficient"]
+    unknown = np.full(ratio.shape, np.nan)
+    low, high = (columns.get(f"interval_{end}", unknown) for end in ("low", "high"))
+    ends = []
+    slips = np.abs(ratio)
+    label: str | None = "not known between the points"
+    for gap in gaps_of(ratio, f, 0.5 * (high - low)):
+        place = int(np.argmin(np.abs(slips - gap.low)))
+        other = int(np.argmin(np.abs(slips - gap.high)))
+        pair = sorted((place, other))
+        axes.plot(ratio[pair], f[pair], ":", color=figures.BLUE, lw=1.0, label=label)
+        ends.append(pair[1])
+        label = None
+    pieces = np.split(np.arange(ratio.size), sorted(ends))
+    lone = [int(piece[0]) for piece in pieces if piece.size == 1 and ratio.size > 1]
+    axes.vlines(ratio[lone], low[lone], high[lone], color=figures.BLUE, alpha=0.4, lw=3)
+    return sorted(ends)
 
 
 def _mark(

@@ -50,6 +50,7 @@ NARROWEST = 0.05  # m: width of a picture
 WIDEST_PICTURE = 0.6  # m: width of a picture
 TABLES = {"history": "a run in time", "traction": "a traction curve", "stribeck": "a Stribeck curve"}
 WORTH = 8  # speeds from which a second process gains more than it costs
+MOST_GAPS = 3  # gaps of a traction curve that are named
 PROGRESS_SECONDS = 5.0  # s between two lines on how far a point is
 
 
@@ -135,6 +136,8 @@ def run_traction(scene: Scene, arguments: Namespace) -> None:
 
         curve = studies.traction(prepared, ratios, on_point=on_point, raise_on_failure=False)
         _write(folder, prepared, curve, arguments, estimate, [])
+        for gap in curve.gaps[:MOST_GAPS]:
+            say(f"note: {gap.text}")
     _raise_if_failed(curve)
 
 

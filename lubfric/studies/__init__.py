@@ -12,7 +12,7 @@ from .fit_result import FitResult
 from .interpolate import Interpolant, Samples, knee_of
 from .law import Law, law_of
 from .operating_points import DURATION, INTERVAL_COLUMNS, mean_over_cycle
-from .plan import StudyPlan, load_study, plan_study
+from .plan import StudyPlan, load_study, plan_study, scenes_of
 from .result import StudyResult, open_study, study
 from .store import Store, digest, fingerprint, fingerprint_without_files, opened, point_key
 from .sweep import StribeckResult, TractionResult, stribeck, traction
@@ -27,4 +27,5 @@ from .tables import (
     plot_map,
     plot_points,
 )
+from .traction_gaps import Gap, gaps_of
 from .vary import Between, sample

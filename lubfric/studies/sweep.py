@@ -25,6 +25,7 @@ from .law import MORE_SPEEDS, Law, conditions_of, law_of
 from .points import Outcome, at_ratios, key_of, outcome_of, solved
 from .store import opened
 from .tables import DRAWN_ERROR, curve_axes
+from .traction_gaps import Gap, gaps_of
 
 
 @described_in_doc
@@ -266,6 +267,13 @@ class TractionResult(CurveResult):
         """Friction coefficient [-]. It holds the rolling part of the film's force, which does not vanish with the slip;
         ``without_rolling`` is f without it."""
         return self["coefficient"]
+
+    @property
+    def gaps(self) -> list[Gap]:
+        """Neighbouring points between which f is not known (`lubfric.studies.Gap`): more ratios there show it."""
+        ends = [(np.nan, np.nan) if point is None else point.uncertainty.interval for point in self.points]
+        low, high = np.array(ends).reshape(-1, 2).T
+        return gaps_of(self.ratio, self.coefficient, 0.5 * (high - low))
 
 
 @with_default_errors

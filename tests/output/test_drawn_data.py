@@ -174,6 +174,20 @@ def test_a_traction_curve_is_drawn_by_its_table(figures):
     assert "(K)" in bottom.get_ylabel() and "slide-roll ratio (-)" == bottom.get_xlabel()
 
 
+def test_a_band_ends_where_the_points_of_a_traction_curve_do_not_show_f(figures):
+    """Equal steps from 0 jump over the knee: a dotted line, and no band from the first point to the second."""
+    ratio = np.linspace(0.0, 0.1, 4)
+    f = 0.01 * np.arcsinh(ratio / 1e-3)
+    columns = {name: np.resize(column, 4) for name, column in COLUMNS.items()}
+    columns |= {"ratio": ratio, "coefficient": f, "interval_low": 0.9 * f, "interval_high": 1.1 * f}
+    plot_traction("x.png", columns, "title", [()] * 4)
+    top = figures[0].axes[0]
+    np.testing.assert_array_equal(data(top, "not known between the points"), [ratio[:2], f[:2]])
+    assert np.isnan(data(top, "friction coefficient")).sum(axis=1).tolist() == [1, 1]
+    (band,) = (area for area in top.collections if "95 % interval" in str(area.get_label()))
+    assert min(path.vertices[:, 0].min() for path in band.get_paths() if len(path.vertices)) > 0.03
+
+
 def test_a_history_is_drawn_by_its_table(figures):
     t = np.array([0.0, 0.01, 0.02])
     columns = {"time": t, "entrainment_speed": np.array([0.1, -0.2, 0.3]), "load": np.array([5.0, 6.0, 8.0])}

@@ -1,0 +1,81 @@
+"""Where the points of a traction curve do not show f between them: beside the knee from the linear part to that of the
+Eyring or the limiting stress.
+
+Over the slide-roll ratio f is concave before heat lets it fall. Between two points it lies above the line between them,
+and below the lines through the points on either side. Where the middle of both is farther from the line drawn than the
+interval of f, the interval says nothing of f there.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .._base import FloatArray
+
+# Relative half-width of the interval of f where it is not known. A convention.
+UNKNOWN_HALF_WIDTH = 0.05
+
+# Positions between two points at which the lines are compared, as shares of their distance.
+PLACES = np.linspace(0.005, 0.995, 199)
+
+# Ratio of two slide-roll ratios, from which on more are recommended between 0 and the first point.
+DECADES_FROM_ZERO = 100.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gap:
+    """Two neighbouring points of a traction curve between which f is not known.
+
+    Attributes
+    ----------
+    low, high : their slide-roll ratios [-], without sign
+    at : where the lines differ most [-]
+    change : by how much f may be above the line between the points there [-]
+    """
+
+    low: float
+    high: float
+    at: float
+    change: float
+
+    @property
+    def text(self) -> str:
+        """The gap in a sentence."""
+        more = f"{self.high / DECADES_FROM_ZERO:.2g}:{self.high:.3g}:6" if self.low == 0.0 else f"{self.at:.2g}"
+        return (
+            f"between the slide-roll ratios {self.low:.4g} and {self.high:.4g} the points do not show f: near "
+            f"{self.at:.2g} it may be {self.change:.2g} above the line between them. More ratios there show it: {more}"
+        )
+
+
+def gaps_of(ratio: Sequence[float] | FloatArray, coefficient: FloatArray, half_width: FloatArray) -> list[Gap]:
+    """Return the neighbouring points between which f is not known, by ascending ratio.
+
+    ``ratio`` (n,) in any order, of one sign or 0, else none are returned: f then changes its sign. ``coefficient`` (n,), NaN
+    where it is not known; ``half_width`` (n,) of its intervals, NaN where these are not known.
+    """
+    slip = np.abs(np.asarray(ratio, float))
+    if np.min(ratio, initial=0.0) < 0.0 < np.max(ratio, initial=0.0):
+        return []
+    known = np.isfinite(coefficient)
+    order = np.flatnonzero(known)[np.argsort(slip[known])]
+    s = slip[order]
+    f = np.abs(coefficient[order])
+    width = np.where(np.isfinite(half_width[order]), half_width[order], UNKNOWN_HALF_WIDTH * f)
+    slopes = np.diff(f) / np.where(np.diff(s) > 0, np.diff(s), np.nan)
+    gaps = []
+    for i in range(s.size - 1):
+        at = s[i] + PLACES * (s[i + 1] - s[i])
+        after = slopes[i + 1] if i + 2 < s.size else 0.0
+        above = f[i + 1] - after * (s[i + 1] - at)
+        if i > 0:
+            above = np.minimum(above, f[i] + slopes[i - 1] * (at - s[i]))
+        share = PLACES if s[i] == 0.0 else np.log(at / s[i]) / np.log(s[i + 1] / s[i])
+        drawn = f[i] + share * (f[i + 1] - f[i])
+        excess = 0.5 * (above - drawn) - (width[i] + share * (width[i + 1] - width[i]))
+        if np.isfinite(excess).all() and excess.max() > 0.0:
+            worst = int(np.argmax(excess))
+            change = float(above[worst] - drawn[worst])
+            gaps.append(Gap(low=float(s[i]), high=float(s[i + 1]), at=float(at[worst]), change=change))
+    return gaps
