@@ -2,6 +2,7 @@
 
 import time
 from collections import Counter
+from dataclasses import replace
 from html import escape
 from importlib.resources import files
 from string import Template
@@ -9,9 +10,9 @@ from string import Template
 import numpy as np
 
 from .._base import __version__
-from ..models.shared import NUMERICAL_ERROR, gathered_texts, is_note_text, percent, sentence, student
+from ..models.shared import MODEL_ERROR, NUMERICAL_ERROR, gathered_texts, is_note_text, percent, sentence, student
 from ..quantities import CHOICES, COLUMNS, counted, worded_value
-from ..scene import SLIDE_ROLL_RATIO_KEY
+from ..scene import SLIDE_ROLL_RATIO_KEY, Scene
 from ..studies import (
     DURATION,
     INTERVAL_COLUMNS,
@@ -21,6 +22,7 @@ from ..studies import (
     label,
     mean_over_cycle,
     place_in_words,
+    scenes_of,
 )
 from ..units import ZERO_CELSIUS, converted, plain_number, printed, unit_of_largest, with_interval
 from .inputs import INPUT_SECTIONS, inputs
@@ -65,6 +67,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     gathered = gathered_texts(cells)
     warnings = [sentence(note) for note in result.plan.notes]
     warnings += [text for text in gathered if not is_note_text(text)]
+    warnings += _model_error_above_target(result)
     notes = [text.replace(": note: ", ": ", 1) for text in gathered if is_note_text(text)]
     rows = min(MOST_ROWS, result.status.size)
     size = result.status.size
@@ -97,17 +100,37 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     return page.encode()
 
 
+def _model_error_above_target(result: StudyResult) -> list[str]:
+    """Return that the model-form error of f is above its target at points whose warnings do not say so: those of a model
+    that was chosen by its name."""
+    target = result.plan.scene.numerics.model_tolerance
+    error = np.where(
+        [MODEL_ERROR in str(cell) for cell in result.validity.flat], np.nan, result["uncertainty_model"].flat
+    )
+    above = error[error > target]
+    if not above.size:
+        return []
+    ends = " to ".join(dict.fromkeys(percent(float(end)) for end in (above.min(), above.max())))
+    where = f"At {above.size} of {counted(result.solved, 'points')}" if above.size < result.solved else "At all points"
+    advice = "numerics.model = 'auto' takes the cheapest model within it"
+    return [
+        f"{where} the model-form error of f is {ends}, above numerics.model_tolerance, {percent(target)}: {advice}."
+    ]
+
+
 def _common_inputs(result: StudyResult) -> str:
     """Return the tables of the inputs that are the same at all points: all but those that are varied."""
     varied = {*result.coords, "motion.entrainment_speed", "motion.speeds"}
     whole_sections = {key for key in varied if "." not in key}
     parts = []
-    scene = result.plan.scene
+    scene, *others = _scenes_at_ends(result.plan)
     for section in INPUT_SECTIONS:
+        everywhere = [{(key, text, note) for _, text, key, note in inputs(other, section)} for other in others]
         rows = [
             f'<td>{escape(label_)}</td><td>{escape(text)}{escape(note)}</td><td class="key">{escape(key)}</td>'
-            for label_, text, key, note in inputs(result.plan.scene, section)
+            for label_, text, key, note in inputs(scene, section)
             if key not in varied and section not in whole_sections
+            if all((key, text, note) in alike for alike in everywhere)
         ]
         if section not in whole_sections:
             rows += [
@@ -120,6 +143,24 @@ def _common_inputs(result: StudyResult) -> str:
             rows.append(f"<td>oil</td><td>{escape(scene.lubricant.oil.name)}</td><td></td>")
         parts.append(f"<h3>{section}</h3>{table(['quantity', 'value', 'key'], rows)}" if rows else "")
     return "".join(parts)
+
+
+def _scenes_at_ends(plan: StudyPlan) -> list[Scene]:
+    """Return the scene of the first point of a ``plan``, and those at the ends of the range of each number that is varied:
+    what follows from it, as the viscosity from a temperature, differs there."""
+    first = {axis.name: axis.values[0] for axis in plan.axes}
+    corners = [first]
+    for axis in plan.axes:
+        for column in zip(*axis.values):
+            is_number = all(isinstance(value, (int, float)) for value in column)
+            ends = (min, max) if is_number else ()
+            corners += [first | {axis.name: axis.values[column.index(end(column))]} for end in ends]
+        corners.append(first | {axis.name: axis.values[-1]})
+    scenes = []
+    for corner in corners:
+        axes = tuple(replace(axis, values=(corner[axis.name],)) for axis in plan.axes)
+        scenes += list(scenes_of(plan.scene, axes))
+    return scenes
 
 
 def study_status(result: StudyResult) -> str:

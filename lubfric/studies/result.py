@@ -25,7 +25,7 @@ from .interpolate import Interpolant, through
 from .law import law_of_study
 from .operating_points import DURATION, INTERVAL_COLUMNS, mean_over_cycle
 from .plan import StudyPlan, plan_study, scenes_of
-from .points import CONVERGED_COLUMN, MISSING, SPEED, UNUSED, MapError, solved_together
+from .points import CONVERGED_COLUMN, MISSING, SPEED, STATUS, UNUSED, VALIDITY, MapError, solved_together
 from .store import PLAN, PLANNED, Store, digest, opened, point_key
 from .study_table import StudyTable
 from .tables import place_in_words, plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
@@ -113,6 +113,8 @@ class StudyResult(Shown):
         return int(np.count_nonzero(self.status == MISSING))
 
     def __getitem__(self, name: str) -> np.ndarray:
+        if name in (STATUS, VALIDITY):
+            return self.status if name == STATUS else self.validity
         if name not in self.columns:
             raise InputError(f"a study has no column {name!r}{validate.nearest(name, self.columns)}; see .columns")
         return self.columns[name]

@@ -169,7 +169,7 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
     axes = figures.axes_or_new(ax)
     coordinate = next((name for name in ("position", "angle", "time") if name in result.coords), None)
     count = result.status.shape[-1]
-    over = np.arange(1, count + 1) if coordinate is None else result.coords[coordinate][1]
+    over = np.arange(1.0, count + 1.0) if coordinate is None else result.coords[coordinate][1]
     over, label_over = _in_people_units(over, coordinate) if coordinate else (over, "operating point")
     order = np.argsort(over, kind="stable")
     unit = unit_of_largest(result[quantity].ravel().tolist(), COLUMNS[quantity].unit)

@@ -212,6 +212,12 @@ def test_warnings_of_a_table_name_their_points(places, words):
     assert text.startswith(f"{words}, above 5 %. It slides.")
 
 
+def test_warnings_at_many_scattered_points_name_the_first_and_how_many_there_are():
+    cells = [in_a_cell([entry(6.0)] if n % 2 else []) for n in range(41)]
+    (text,) = gathered_texts(cells)
+    assert text.startswith("At 20 of 41 points (2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, ...): slip is 6 %")
+
+
 def test_a_local_film_peak_is_distinguished_from_the_hertz_pressure():
     heavy = PAPER.with_(bodies={"hertz_pressure": 1.2e9, "hardness": None})
     (at_hertz,) = violations_by_pressure(heavy, 1.2e9)

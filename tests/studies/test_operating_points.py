@@ -9,8 +9,8 @@ from small_study import SCENE, same
 
 import lubfric
 from lubfric.output import main
-from lubfric.output.study_report import answer_lines
-from lubfric.studies import load_study, plot_points
+from lubfric.output.study_report import _common_inputs, _model_error_above_target, answer_lines
+from lubfric.studies import StudyResult, load_study, plot_points
 from lubfric.units import with_interval
 
 ROWS = [  # radius m, load N, u1, u2 m/s, duration s
@@ -302,3 +302,44 @@ def test_a_ratio_that_follows_from_given_speeds_is_not_asked_for_its_unit():
     text = lubfric.plan_study(scene, points=table).explain()
     assert "slide" in text and "percent" not in text.replace("slip_percent", "percent") and "Did you mean" not in text
     assert "check the speeds of the surfaces" in text
+
+
+# Points of a table that slide in one direction and have no position, with a temperature in each row.
+HOT = lubfric.plan_study(
+    lubfric.load_scene("paper").with_(
+        lubricant={"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70.0},
+        numerics={"sampling": "patch", "model": "paper"},
+    ),
+    points={"temperature [°C]": [70, 45, 90], "speed [m/s]": [0.1, 0.2, 0.3], "slide_roll_ratio": [0.2, 0.3, 0.4]},
+)
+
+
+def stand_in(model_error=0.4):
+    """A result of these points with made-up numbers: nothing is solved."""
+    f = np.array([0.1, 0.2, 0.3])
+    columns = {name: np.full(3, model_error) for name in ("uncertainty_low", "uncertainty_high", "uncertainty_model")}
+    status = np.array(["converged"] * 3, dtype=object)
+    columns |= {"coefficient": f, "power_loss": f}
+    return StudyResult(HOT, columns, status, np.array([""] * 3, dtype=object))
+
+
+def test_a_table_without_positions_is_drawn_over_the_number_of_its_points():
+    lines = plot_points(stand_in(), "coefficient").lines[0]
+    np.testing.assert_array_equal(lines.get_xdata(), [1, 2, 3])
+    np.testing.assert_array_equal(lines.get_ydata(), [0.1, 0.2, 0.3])
+
+
+def test_what_follows_from_a_varied_temperature_is_no_common_input():
+    common = _common_inputs(stand_in())
+    assert "length of the line contact" in common and "mPa s" not in common
+    assert "lubricant.temperature" not in common and "pressure_viscosity_coefficient" not in common
+
+
+@pytest.mark.parametrize("error, said", [(0.4, ["At all points the model-form error of f is 40 %, above"]), (0.04, [])])
+def test_a_model_form_error_above_its_target_is_said_of_a_model_that_was_named(error, said):
+    texts = _model_error_above_target(stand_in(error))
+    assert [text[: len(words)] for text, words in zip(texts, said)] == said and len(texts) == len(said)
+
+
+def test_the_status_of_a_study_is_read_as_its_columns_are():
+    assert list(stand_in()["status"]) == ["converged"] * 3 and list(stand_in()["validity"]) == [""] * 3

@@ -197,7 +197,8 @@ def _numbers_in_words(numbers: list[int], count: int) -> str:
             runs.append([number])
     shown = [f"{run[0]} to {run[-1]}" if len(run) > 2 else ", ".join(map(str, run)) for run in runs]
     if len(shown) > MOST_PLACES:
-        return f"At {len(numbers)} points from {numbers[0]} to {numbers[-1]}"
+        first = ", ".join(map(str, numbers[:MOST_PLACES]))
+        return f"At {len(numbers)} of {count} points ({first}, ...)"
     *before, last = ", ".join(shown).rsplit(", ", 1)
     return f"At points {' and '.join((*before, last))}"
 
