@@ -11,15 +11,12 @@ from .._base import validate
 from ..errors import InputError
 from ..scene import ContactDomain, Roughness, Scene, named
 from ..surface import Surface, check_slopes, generate_surface, outliers, read_surface
+from ..units import worded
 from .cells import no_cells
 
 # Hertz half-widths on each side to which a measured patch is cut. Not measured: at the lightest loads of rough
 # contacts the contact is wider than the Hertz strip by a factor of this order.
 PATCH_HALF_WIDTHS = 6.0
-MAP_TOO_SHORT = (
-    "surface.extension = 'mirror' (continues the map by its mirror image) or contact.geometry = 'flat' (its roughness "
-    "spread over the strip)"
-)
 
 
 def contact_maps(
@@ -124,13 +121,33 @@ def check_map(scene: Scene, surface: Surface) -> None:
             f"its half-width {half_width:.3g} m"
         )
     if length < 2 * half_width:
-        generated = scene.surface.file is None
-        what = "the patch (contact.shape x contact.spacing)" if generated else "the map"
-        ways = "a larger contact.shape" if generated else f"a longer map, {MAP_TOO_SHORT}"
+        shorter = _shortest_map(scene)
+        what = "the patch (contact.shape x contact.spacing)"
+        ways = "a larger contact.shape"
+        if shorter is not None:
+            rough, name = shorter
+            what = f"the map of the {name} ({rough.file})"
+            ways = f"a longer map, {_ways_with_short_map(name)}"
         raise InputError(
-            f"{what} is {length:.3g} m long in x, the direction of motion; allowed: at least the Hertz strip, "
-            f"{2 * half_width:.3g} m: {ways}"
+            f"{what} is {worded(length, 'm')} long in x, the direction of motion; allowed: at least the Hertz strip, "
+            f"{worded(2 * half_width, 'm')}: {ways}"
         )
+
+
+def _ways_with_short_map(name: str) -> str:
+    """Return what a scene may state if the map of its section ``name`` is too short."""
+    return (
+        f"{name}.extension = 'mirror' (continues the map by its mirror image) or contact.geometry = 'flat' (its roughness "
+        "spread over the strip)"
+    )
+
+
+def _shortest_map(scene: Scene) -> tuple[Roughness, str] | None:
+    """Return the measured roughness of ``scene`` whose map is shortest along x, and its section; None if no map is measured."""
+    measured = [(rough, name) for rough, name in rough_bodies(scene) if rough.file is not None]
+    if len(measured) < 2:
+        return measured[0] if measured else None
+    return min(measured, key=lambda body: measured_map(*body).size[0])
 
 
 def generated_map(rough: Roughness, domain: ContactDomain, name: str = "surface") -> Surface:
@@ -212,10 +229,11 @@ def _cut_to_contact(scene: Scene, surface: Surface) -> Surface:
     if domain.shape is None and cylinder:
         nx = min(nx, 2 * int(reach / surface.spacing[0]) + 1)
     if nx > surface.shape[0] or ny > surface.shape[1]:
+        shortest = _shortest_map(scene) or (scene.surface, "surface")
         raise InputError(
             f"contact.shape = {nx} x {ny} cells of {surface.spacing[0]:.3g} x {surface.spacing[1]:.3g} m is larger "
             f"than the map; allowed: up to {surface.shape[0]} x {surface.shape[1]}, or leave contact.shape out"
-            f"{'' if mirrored or nx <= surface.shape[0] else '; ' + MAP_TOO_SHORT}"
+            f"{'' if mirrored or nx <= surface.shape[0] else '; ' + _ways_with_short_map(shortest[1])}"
         )
     cut = surface.cropped((nx, ny))
     if not cylinder:

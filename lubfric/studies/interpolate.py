@@ -18,6 +18,7 @@ import numpy as np
 
 from .._base import FloatArray
 from ..errors import InputError
+from ..quantities import counted
 
 # Fewest solved speeds of a curve.
 FEWEST_SPEEDS = 3
@@ -248,7 +249,9 @@ def through(numbers: dict[str, np.ndarray]) -> Interpolant:
     good = np.flatnonzero(np.isfinite(numbers["coefficient"]) & (speed != 0))
     good = good[np.argsort(np.abs(speed[good]))]
     if good.size < FEWEST_SPEEDS or np.unique(speed[good]).size < good.size:
-        raise InputError(f"{good.size} speeds are solved; a curve between them needs {FEWEST_SPEEDS} different ones")
+        raise InputError(
+            f"{counted(good.size, 'speeds')} {'is' if good.size == 1 else 'are'} solved; a curve between them needs {FEWEST_SPEEDS} different ones"
+        )
     at = {name: values[good] for name, values in numbers.items()}
     total = at["contact_load"] + at["film_load"]
     boundary = at["boundary_force"] / total

@@ -296,6 +296,7 @@ class Surface(FrozenArrays, Shown):
     sa = property(statistics.sa)
     ssk = property(statistics.ssk)
     sku = property(statistics.sku)
+    correlation_length = statistics.correlation_length
 
     def bearing(self) -> Bearing:
         """Return Sk, Spk, Svk, Smr1 and Smr2 of the measured points (ISO 25178-2, `lubfric.surface.bearing`)."""

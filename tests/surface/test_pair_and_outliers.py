@@ -7,7 +7,7 @@ import pickle
 import numpy as np
 import pytest
 
-from lubfric import InputError, Surface, generate_surface
+from lubfric import InputError, Surface, generate_surface, load_scene, prepare
 from lubfric.contact import half_space
 
 
@@ -130,3 +130,23 @@ def test_masked_arrays_keep_their_mask():
             Surface(z.data, 1e-6, periodic_axes=axes)
     with pytest.raises(InputError, match="1000"):
         Surface(np.full((2, 2), 1e5), 1e-6)
+
+
+def test_the_shorter_of_two_maps_is_named(tmp_path):
+    np.save(tmp_path / "long.npy", rough(1, shape=(256, 64)).heights)
+    np.save(tmp_path / "short.npy", rough(2, shape=(40, 64)).heights)
+    scene = load_scene("paper").with_(
+        bodies={"radius": 5e-3, "load": 600.0, "width": 14e-3},
+        surface={
+            "file": str(tmp_path / "long.npy"),
+            "spacing": 1e-6,
+            "sq": None,
+            "correlation_length": None,
+            "acf": None,
+        },
+        counterface={"file": str(tmp_path / "short.npy"), "spacing": 1e-6},
+        contact={"shape": None, "spacing": None},
+        numerics={"model": "paper", "sampling": "patch"},
+    )
+    with pytest.raises(InputError, match=r"map of the counterface \(.*short.npy\) is 40 µm.*counterface.extension"):
+        prepare(scene)
