@@ -67,7 +67,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     gathered = gathered_texts(cells)
     warnings = [sentence(note) for note in result.plan.notes]
     warnings += [text for text in gathered if not is_note_text(text)]
-    warnings += _model_error_above_target(result)
+    warnings += model_error_above_target(result)
     notes = [text.replace(": note: ", ": ", 1) for text in gathered if is_note_text(text)]
     rows = min(MOST_ROWS, result.status.size)
     size = result.status.size
@@ -94,13 +94,13 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         about=about,
         table=_table(result, rows),
         varied=_list([_range(key, values) for key, (_, values) in result.coords.items()]),
-        inputs=_common_inputs(result),
+        inputs=common_inputs(result),
         sources=_list(result.cite().splitlines()),
     )
     return page.encode()
 
 
-def _model_error_above_target(result: StudyResult) -> list[str]:
+def model_error_above_target(result: StudyResult) -> list[str]:
     """Return that the model-form error of f is above its target at points whose warnings do not say so: those of a model
     that was chosen by its name."""
     target = result.plan.scene.numerics.model_tolerance
@@ -118,7 +118,7 @@ def _model_error_above_target(result: StudyResult) -> list[str]:
     ]
 
 
-def _common_inputs(result: StudyResult) -> str:
+def common_inputs(result: StudyResult) -> str:
     """Return the tables of the inputs that are the same at all points: all but those that are varied."""
     varied = {*result.coords, "motion.entrainment_speed", "motion.speeds"}
     whole_sections = {key for key in varied if "." not in key}

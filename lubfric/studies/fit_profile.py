@@ -96,11 +96,11 @@ def follow(
         if share is None:
             break
         try:
-            found = projected(share)
+            trial = projected(share)
         except LubfricError:
             failed = True
             break
-        if float(np.sum(found**2)) < least:
+        if float(np.sum(trial**2)) < least:
             break
     lowest = min(known, key=lambda share: float(np.sum(known[share] ** 2)))
     better = None
@@ -150,13 +150,13 @@ class _Others:
 def _promising(known: dict[float, FloatArray], least: float) -> float | None:
     """Return where between two near curves the interpolated sum of squares is below ``least``; None: nowhere."""
     shares = sorted(known)
-    found = []
+    candidates = []
     for low, high in zip(shares, shares[1:]):
         if PARAMETER_STEP / 4 < high - low <= INTERPOLATED:
             sums = _sums(known[low], known[high])
             best = float(np.clip(BETWEEN_CURVES[int(np.argmin(sums))], *WITHIN_CURVES))
-            found.append((float(sums.min()), low + best * (high - low)))
-    return min(found)[1] if found and min(found)[0] < least else None
+            candidates.append((float(sums.min()), low + best * (high - low)))
+    return min(candidates)[1] if candidates and min(candidates)[0] < least else None
 
 
 def _crossing(known: dict[float, FloatArray], start: float, most: float, end: float) -> tuple[float, float] | None:

@@ -107,8 +107,7 @@ def search_minima(curves: FitCurves, start: np.ndarray, starts: int) -> list[Can
     misfits = [float(np.sqrt(np.mean(row**2))) for row in residuals]
     lowest, *others = distinct([Candidate(unit, misfit) for unit, misfit in zip(units, misfits)])
     parted = [
-        replace(each, is_separate=_are_parted(curves, lowest, each, units=units, residuals=residuals))
-        for each in others
+        replace(each, is_separate=are_parted(curves, lowest, each, units=units, residuals=residuals)) for each in others
     ]
     return [lowest, *parted]
 
@@ -124,7 +123,7 @@ def with_minimum(curves: FitCurves, minima: Sequence[Candidate], unit: np.ndarra
     return [lowest, *(each for each in minima if each.misfit <= COMPARABLE * misfit and not _is_near(each, lowest))]
 
 
-def _are_parted(
+def are_parted(
     curves: FitCurves,
     lowest: Candidate,
     other: Candidate,

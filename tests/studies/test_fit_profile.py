@@ -6,7 +6,7 @@ import pytest
 
 import lubfric
 from lubfric.studies.fit_profile import flat_parameters, follow
-from lubfric.studies.fit_search import Candidate, _are_parted, with_minimum
+from lubfric.studies.fit_search import Candidate, are_parted, with_minimum
 
 # Slip of the points: f rises with its logarithm, up to a limit.
 LOGARITHM = np.linspace(0.0, 1.0, 12)
@@ -87,7 +87,7 @@ def test_a_minimum_on_the_same_flat_is_not_another_one():
     places = [np.array([a, b]) for a in (0.05, 0.25, 0.5, 0.75, 0.95) for b in (0.05, 0.3, 0.47, 0.7, 0.95)]
     residuals = [curves.residuals(unit) for unit in places]
     flat = [Candidate(np.array([0.25, b]), 0.035) for b in (0.6, 0.95)]
-    assert not _are_parted(curves, flat[0], flat[1], units=places, residuals=residuals)
+    assert not are_parted(curves, flat[0], flat[1], units=places, residuals=residuals)
     parted = Candidate(np.array([0.1, 0.9]), 0.036, is_separate=True)
     lowest, *others = with_minimum(curves, [*flat, parted], np.array([0.25, 0.48]))
     assert (

@@ -9,7 +9,7 @@ from small_study import SCENE, same
 
 import lubfric
 from lubfric.output import main
-from lubfric.output.study_report import _common_inputs, _model_error_above_target, answer_lines
+from lubfric.output.study_report import answer_lines, common_inputs, model_error_above_target
 from lubfric.studies import StudyResult, load_study, plot_points
 from lubfric.units import with_interval
 
@@ -330,14 +330,14 @@ def test_a_table_without_positions_is_drawn_over_the_number_of_its_points():
 
 
 def test_what_follows_from_a_varied_temperature_is_no_common_input():
-    common = _common_inputs(stand_in())
+    common = common_inputs(stand_in())
     assert "length of the line contact" in common and "mPa s" not in common
     assert "lubricant.temperature" not in common and "pressure_viscosity_coefficient" not in common
 
 
 @pytest.mark.parametrize("error, said", [(0.4, ["At all points the model-form error of f is 40 %, above"]), (0.04, [])])
 def test_a_model_form_error_above_its_target_is_said_of_a_model_that_was_named(error, said):
-    texts = _model_error_above_target(stand_in(error))
+    texts = model_error_above_target(stand_in(error))
     assert [text[: len(words)] for text, words in zip(texts, said)] == said and len(texts) == len(said)
 
 
