@@ -33,6 +33,7 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
     raises `ConvergenceError`.
     """
     reached = 0.0
+    continues = False
     begun_at = time.monotonic()
     first: float | None = None
     reported = 0.0
@@ -60,6 +61,8 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
             )
 
     def kept() -> str:
+        if reached == 0.0:
+            return f"the state that an earlier run saved is kept in {arguments.out}" if continues else ""
         return f"the state at t = {reached:.5g} s is kept in {arguments.out}"
 
     begun = commands.run_begun(scene, arguments, names, kept)
