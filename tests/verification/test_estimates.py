@@ -14,6 +14,7 @@ from lubfric.scene import Harmonic, Transient
 from lubfric.studies import estimated_fit, estimated_study
 from verification.campaigns.estimates.jobs import KINDS, drawn
 from verification.campaigns.estimates.table import ratios, table
+from verification.pace import PAIR, paced
 
 PAPER = lubfric.load_scene("paper").with_(numerics={"model": "paper"})
 # A run takes 1 to 3 times its counted work in processor time: maps, fields and Python are not counted.
@@ -107,3 +108,11 @@ def test_a_heavy_roller_at_rest_is_estimated_within_two(speed):
     with limited_work(math.inf) as meter:
         lubfric.friction(scene, speed)
     assert meter.spent / 2 <= of_scene(scene, [speed]) <= 2 * meter.spent
+
+
+def test_seconds_on_a_slower_core_are_those_on_the_stated_one(monkeypatch):
+    """A core that takes three times as long before the run and five times after it: a quarter of its seconds by the clock."""
+    pairs = iter([3 * PAIR, 5 * PAIR])
+    moments = iter([100.0, 108.0])
+    monkeypatch.setattr("verification.pace._pair", lambda: next(pairs))
+    assert paced(lambda: "answer", clock=lambda: next(moments)) == ("answer", pytest.approx(2.0))

@@ -1,7 +1,9 @@
 """The table of runs: what each was estimated to take, the counted work, and the processor time that it took.
 
-The runs below number 38 by the quick and the deterministic model and with moving roughness were done on another machine;
-their processor time was divided by 1.87, the median ratio of 15 runs that took the same counted work on both.
+The processor seconds of a run are those on the stated core (`pace.paced`). Runs done on other machines are scaled by runs
+that took the same counted work on both. The runs below number 38 by the quick and the deterministic model and with moving
+roughness: divided by 1.87, the median ratio of 15 runs. The last twelve: after `paced` by 1.69, that of 13 runs, 1.25 to
+2.35; the machine was shared, and Python slows more there than the transform that `paced` times.
 """
 
 import math
