@@ -224,7 +224,8 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
     allowed += f", or a range [low, high], or a name: {', '.join(named)}" if named else ""
     if parts is None or not parts[1]:
         none = " is no number with a unit, and no name that is known" if named else " is no number with a unit"
-        none += ": write a point in decimals, 1.5" if re.match(r"\s*[+-]?\d{1,40},\d", value) else ""
+        comma = re.match(r"\s*[+-]?\d{1,40},\d{1,40}", value)
+        none += f": write a point in decimals, {shown.replace(',', '.', 1).strip()}" if comma else ""
         said = " has no unit: leave the quotes out, or add one" if parts else none
         raise InputError(f" = {shown!r}{said}", name, allowed)
     (digits, written) = parts

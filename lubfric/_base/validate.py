@@ -20,6 +20,19 @@ from ..quantities import CHOICES, KEYS
 from ..units import SANE, UNITS, spelled, without_unit
 
 T = TypeVar("T")
+OTHER_VALUES = {  # other words for values of keys that are words, in small letters
+    "fast": "quick",
+    "calibrated": "quick",
+    "load-sharing": "paper",
+    "load sharing": "paper",
+    "full": "deterministic",
+    "exact": "deterministic",
+    "barrel": "cylinder",
+    "parabola": "quadratic",
+    "tilt": "plane",
+    "remove": "mask",
+}
+LONG_NUMBER = 31  # bits of a number that is shown as a power of two
 LONGEST_SHOWN = 80  # characters of a value in a message
 DEEPEST = 3  # nested lists that are looked into
 # of any number: beyond it powers of it overflow
@@ -164,9 +177,15 @@ def integer(name: str, value: Any, *, minimum: int, maximum: int | None = None) 
     """Return ``value`` as an integer >= ``minimum`` and <= ``maximum``."""
     is_integer = isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
     if not is_integer or value < minimum or maximum is not None and value > maximum:
-        most = "" if maximum is None else f" and <= {maximum}"
-        raise InputError(f" = {shown(value)} must be a whole number >= {minimum}{most}", name)
+        allowed = f">= {minimum}" if maximum is None else f"from {minimum} to {_power_of_two(maximum)}"
+        raise InputError(f" = {shown(value)} must be a whole number {allowed}", name)
     return int(value)
+
+
+def _power_of_two(number: int) -> str:
+    """Return a whole number as text, a long one below a power of two as "2^128 - 1"."""
+    power = (number + 1).bit_length() - 1
+    return f"2^{power} - 1" if power > LONG_NUMBER and number + 1 == 2**power else f"{number}"
 
 
 def boolean(name: str, value: Any) -> bool:
@@ -279,7 +298,9 @@ def choice(name: str, value: Any, options: Iterable[Any]) -> Any:
     options = tuple(options)
     if isinstance(value, (str, int, np.integer)) and not isinstance(value, bool) and value in options:
         return options[options.index(value)]
-    raise InputError(f" = {shown(value)} is not known{nearest(value, options)}", name, ", ".join(map(repr, options)))
+    meant = OTHER_VALUES.get(value.lower()) if isinstance(value, str) else None
+    near = f" (did you mean {meant!r}?)" if meant in options else nearest(value, options)
+    raise InputError(f" = {shown(value)} is not known{near}", name, ", ".join(map(repr, options)))
 
 
 def nearest(word: Any, options: Iterable[Any], cutoff: float = 0.4) -> str:

@@ -277,9 +277,15 @@ def _budget(values: dict[str, float], words: dict[str, str], subject: str, notes
         for name, label in shown.items()
     )
     lines = _list([sentence(note) for note in notes if note])
+    unknown = {name for name in shown if not math.isfinite(values[name])}
+    combined = "the interval of f combines them"
+    if unknown:
+        combined = "the interval of f combines those that are known"
+    if unknown - {"model-form"}:
+        combined = "one of them is not known, so that f has no interval"
     return (
-        f"<h2>Uncertainty budget</h2><p>Relative errors of {escape(subject)}, each at 95 %; the interval of f combines "
-        f'them.</p><div class="budget">{rows}</div>{lines}'
+        f"<h2>Uncertainty budget</h2><p>Relative errors of {escape(subject)}, each at 95 %; {combined}.</p>"
+        f'<div class="budget">{rows}</div>{lines}'
     )
 
 

@@ -10,6 +10,6 @@ from .cells import Cells
 from .choose import sample_of, takes_strips
 from .contacts import cylinder_of, flat_contact_of, half_space_contact_of
 from .contract import PIECE, Sample
-from .maps import check_map, combined_maps, contact_maps, is_measured, whole_maps
+from .maps import check_map, combined_maps, contact_maps, is_measured, limiting_map, rough_bodies, whole_maps
 from .patch import SinglePatch, UnresolvedSample
 from .strips import GeneratedStrips, MeasuredStrips, measured_strips

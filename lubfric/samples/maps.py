@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from scipy.fft import next_fast_len
 from .._base import validate
 from ..errors import InputError
 from ..scene import ContactDomain, Roughness, Scene, named
-from ..surface import Surface, check_slopes, generate_surface, outliers, read_surface
+from ..surface import Surface, check_slopes, generate_surface, outliers, read_surface, shorter_in_words
 from ..units import worded
 from .cells import no_cells
 
@@ -49,6 +50,16 @@ def rough_bodies(scene: Scene) -> list[tuple[Roughness, str]]:
 def is_measured(scene: Scene) -> bool:
     """Return whether any of its maps comes from a file."""
     return any(rough.file is not None for rough, _ in rough_bodies(scene))
+
+
+def limiting_map(scene: Scene, surface: Surface, axis: int) -> tuple[str, str]:
+    """Return the section and the file of the measured map that limits ``surface``, made of all maps of the ``scene``,
+    along ``axis``."""
+    measured = [(name, rough.file) for rough, name in rough_bodies(scene) if rough.file is not None]
+    begin = shorter_in_words(axis, "")
+    noted = [note.removeprefix(begin) for note in surface.notes if note.startswith(begin)]
+    name, file = next((each for each in measured if each[0] in noted), measured[0] if measured else ("surface", ""))
+    return name, Path(file).name
 
 
 def is_extended(scene: Scene) -> bool:
@@ -208,10 +219,11 @@ def refuse_outliers(surface: Surface, name: str) -> None:
         z = (surface.heights[worst] - surface.measured.mean()) / surface.sq
         count = np.count_nonzero(off > 0)
         alone = "1 isolated point is above its" if count == 1 else f"{count} isolated points are above their"
+        masked = surface.without_outliers()
         raise InputError(
             f"surface {surface.source}: {alone} neighbours and would carry the load, the worst at (ix, iy) = {worst}, "
-            f"{z:.3g} Sq high; give {name}.outliers = "
-            "'mask' to take them for unmeasured, 'keep' if they are real (docs/inputs.md has the rule)"
+            f"{z:.3g} Sq high; give {name}.outliers = 'mask' to take all outliers for unmeasured "
+            f"({masked.notes[-1]}), 'keep' if they are real (docs/inputs.md has the rule)"
         )
 
 

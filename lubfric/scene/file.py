@@ -1,6 +1,7 @@
 """Scenes as TOML: strict reading; a commented one to begin with."""
 
 import os
+import re
 import tomllib
 from collections.abc import Mapping
 from difflib import get_close_matches
@@ -15,12 +16,32 @@ from ..surface import PER_SQ
 from .plausible import doubtful_values
 from .roughness import GENERATED, check_fields, named
 from .scene import Scene, as_ranges
-from .sections import ROUGH_SECTIONS, SECTIONS, check_complete, check_keys, made_section, meant, ranges_of
+from .sections import (
+    ROUGH_SECTIONS,
+    SECTIONS,
+    check_complete,
+    check_keys,
+    keys_elsewhere,
+    made_section,
+    meant,
+    ranges_of,
+)
 from .transient import HISTORIES, UNITS_OF_HISTORIES, Transient, history
 
 MOST_SCENE_BYTES = 2**24  # of a scene
 LONGEST_PATH = 300  # characters of a path that is compared with the files there
 NEAR_FILE = 0.6  # likeness of two file names, 0 to 1, from which one may be meant by the other
+TOML_NUMBERS = "numbers have a decimal point; one with a unit is in quotes: '12 mm'"
+TOML_TWICE = "this section or key is there for the second time; put the keys of both into one, and remove the other"
+TOML_FAULTS = {  # begin of what Python's reader of TOML says: what it means, and what to do
+    "Illegal character '\\n'": "a text has no closing quotation mark; add it",
+    "Cannot declare": TOML_TWICE,
+    "Cannot overwrite": TOML_TWICE,
+    "Unclosed array": "a list has no closing bracket; add ]",
+    "Unclosed inline table": "a table has no closing brace; add }",
+    "Invalid hex value": "a backslash is a mark in double quotes; write a path with / or in single quotes",
+    "Unescaped '\\'": "a backslash is a mark in double quotes; write a path with / or in single quotes",
+}
 SCENES = resources.files(__package__) / "scenes"
 
 
@@ -83,7 +104,14 @@ def read_toml(path: Path | Traversable, what: str) -> dict[str, Any]:
         raise
     except (ValueError, RecursionError) as error:  # tomllib's own, integers too long, tables too deep
         said = f"{what} {path} is not valid TOML: {validate.shown(str(error))}"
-        raise InputError(f"{said} (numbers have a decimal point; one with a unit is in quotes: '12 mm')") from None
+        raise InputError(f"{said} ({_fault_in_words(str(error))})") from None
+
+
+def _fault_in_words(message: str) -> str:
+    """Return what is wrong with a file of TOML, and what to do, by the ``message`` of its reader."""
+    line = re.search(r"at line (\d+)", message)
+    where = f"line {line[1]}: " if line else ""
+    return where + next((words for begin, words in TOML_FAULTS.items() if message.startswith(begin)), TOML_NUMBERS)
 
 
 def _put_map(table: dict[str, Any], section: str, path: str | Path) -> None:
@@ -124,7 +152,7 @@ def builtin_scenes() -> tuple[str, ...]:
 
 def scene_from_table(table: dict[str, Any], folder: Path, name: str) -> Scene:
     """Return a validated `Scene` from the tables of a TOML file."""
-    validate.keys("scene", table, ("name", *SECTIONS), lambda: meant("scene"))
+    validate.keys("scene", table, ("name", *SECTIONS), lambda: keys_elsewhere() | meant("scene"))
     for section in SECTIONS:
         if not isinstance(table.get(section, {}), dict):
             raise InputError(f"scene entry {section!r} must be a table [{section}]")

@@ -5,7 +5,7 @@ usual.
 """
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
@@ -44,6 +44,10 @@ MOST_RATIO = 2.0  # simple sliding, which is usual
 # Sq [m] that follows from Ra or Rz, above which these were written without a unit: rough castings have some 5e-5 m. A
 # smaller one may have been written with a unit, which must not be questioned.
 NO_ROUGHNESS = 1e-3
+# Times the usual range above it, and below it, from which a plain number that is usual in another unit is refused, since
+# it was meant in that. Not measured: a convention. Light loads of microscopic contacts are further below than others.
+FAR_ABOVE = 10.0
+FAR_BELOW = 1000.0
 # Numbers from here on are refused where they are read, and are no slip of a unit.
 MOST_READ = 1e300
 
@@ -60,6 +64,7 @@ class UnusualValue:
     written : the value as the user wrote it, "10 mm" or "10 is read as 10 m"; of one that follows from others, its size
     question : what may have been meant, as a question; "" if nothing fits
     advice : what to write
+    is_refused : whether the result is refused: a plain number so far out that its unit was certainly another
     """
 
     key: str
@@ -69,6 +74,7 @@ class UnusualValue:
     written: str
     question: str
     advice: str
+    is_refused: bool = False
 
 
 def slip(name: str, value: Any) -> str | None:
@@ -177,7 +183,17 @@ def _unusual(key: str, written: Any) -> UnusualValue | None:
         written=_read_as(written, q.unit),
         question=question,
         advice="check the value and its unit",
+        is_refused=_is_far(value, q.usual)
+        and bool(question)
+        and not isinstance(written, str)
+        and _is_as_written(value),
     )
+
+
+def _is_far(value: float, usual: Sequence[float]) -> bool:
+    """Return whether a ``value`` is outside its ``usual`` range by orders of magnitude."""
+    (low, high) = usual
+    return not low / FAR_BELOW * (1 + 1e-9) < abs(value) < FAR_ABOVE * high * (1 - 1e-9)
 
 
 def other_convention(key: str, values: Iterable[Any]) -> str:

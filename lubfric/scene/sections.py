@@ -36,8 +36,24 @@ def check_keys(section: str, given: dict[str, Any], others: tuple[str, ...] = ()
     """Raise `InputError` for a key of [``section``] that is not known; ``others`` are known in addition to its own."""
     if section == "numerics":
         refuse_dropped(given)
-    allowed = (*SECTIONS[section].__dataclass_fields__, *short_keys(section), *others)
-    validate.keys(f"[{section}]", given, allowed, lambda: meant("surface" if section in ROUGH_SECTIONS else section))
+    allowed = (*_keys_of(section), *others)
+    words = "surface" if section in ROUGH_SECTIONS else section
+    validate.keys(f"[{section}]", given, allowed, lambda: keys_elsewhere(section) | meant(words))
+
+
+def _keys_of(section: str) -> tuple[str, ...]:
+    """Return the keys that a section may have."""
+    return (*SECTIONS[section].__dataclass_fields__, *short_keys(section))
+
+
+def keys_elsewhere(section: str = "") -> dict[str, str]:
+    """Return the keys of all sections but ``section``, each with the sections that have it, as text."""
+    places: dict[str, list[str]] = {}
+    for other in SECTIONS:
+        if other not in (section, "counterface"):  # whose keys are those of [surface]
+            for key in _keys_of(other):
+                places.setdefault(key, []).append(f"[{other}]")
+    return {key: f"{key!r} in {' or '.join(at)}" for key, at in places.items()}
 
 
 def made_section(section: str, given: dict[str, Any], old: Any = None) -> Any:
@@ -81,6 +97,9 @@ def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[float, fl
     if len(given) not in (2, 3) or not all(type(v) in (int, float) for v in given):
         raise InputError(f" = {validate.shown(value)}", name, "a number, [low, high], or [value, low, high]")
     low, high = given[-2:]
+    if low > high:
+        said = f" = {validate.shown(value)}: low and high are exchanged"
+        raise InputError(said, name, recommendation="write [low, high] or [value, low, high]")
     return (given[0] if len(given) == 3 else 0.5 * (low + high)), (float(low), float(high))
 
 

@@ -165,9 +165,12 @@ class Surface(FrozenArrays, Shown):
             filled = prepare.harmonic_fill(self.heights, mask, self.spacing)
             outlying = prepare.outliers(filled, mask, self.periodic_axes) != 0
             mask, more = mask & ~outlying, outlying.any()
-        count = np.count_nonzero(np.isfinite(self.heights) & ~mask)
+        lost = self.heights[np.isfinite(self.heights) & ~mask]
+        count = lost.size
+        above = np.count_nonzero(lost > np.median(self.measured))
         around = f"{prepare.WINDOW} x {prepare.WINDOW} points around"
-        note = f"{count or 'no'} outliers masked (over {prepare.OUTLIER_LIMIT:g} deviations off {around})"
+        sides = f", {above} above and {count - above} below them" if count else ""
+        note = f"outliers masked: {count or 'none'} (over {prepare.OUTLIER_LIMIT:g} deviations off {around}{sides})"
         masked = self._with(np.where(mask, self.heights, np.nan), note, mask=mask)
         if not count:
             return masked

@@ -132,6 +132,7 @@ def combined(first: Surface, second: Surface) -> Surface:
     spacing = tuple(min(a, b) for a, b in zip(first.spacing, second.spacing))
     parts = [surface.resampled(spacing=spacing) for surface in (first, second)]
     shape, closed = zip(*(_common(axis, *parts) for axis in range(2)))
+    shorter = [_shorter(axis, *parts) for axis in range(2)]
     parts = [part.patch(shape) for part in parts]
     heights = sum(part.heights - part.heights.mean() for part in parts)
     mask = np.logical_and(*(np.ones(shape, bool) if part.mask is None else part.mask for part in parts))
@@ -140,7 +141,23 @@ def combined(first: Surface, second: Surface) -> Surface:
     notes = [f"{name}: {note}" for name, part in zip(("surface", "counterface"), parts) for note in part.notes]
     both = f"Sq {worded(first.sq, 'm')} and {worded(second.sq, 'm')}"
     notes.append(f"sum of surface and counterface, {both}, the counterface turned over about x")
+    notes += [shorter_in_words(axis, name) for axis, name in enumerate(shorter) if name]
     return replace(parts[0], heights=heights, mask=mask, periodic_axes=closed, source=source, notes=tuple(notes))
+
+
+def _shorter(axis: int, first: Surface, second: Surface) -> str:
+    """Return which body has the map that limits the sum along ``axis``; "" where none does."""
+    lengths = {
+        name: s.size[axis] for name, s in (("surface", first), ("counterface", second)) if not s.periodic_axes[axis]
+    }
+    names = sorted(lengths, key=lambda name: lengths[name])
+    equal = len(names) == 2 and lengths[names[1]] <= lengths[names[0]] * (1 + EQUAL_LENGTHS)
+    return "" if equal or not names else names[0]
+
+
+def shorter_in_words(axis: int, name: str) -> str:
+    """Return the note that the map of the body ``name`` limits the sum of both along ``axis``."""
+    return f"the length along {'xy'[axis]} is that of the {name}"
 
 
 def _common(axis: int, first: Surface, second: Surface) -> tuple[int, bool]:

@@ -1,11 +1,14 @@
 """Measured maps in scenes: two bodies, short maps, spikes, keys that do not apply; what a scene keeps is its own."""
 
+import re
+
 import numpy as np
 import pytest
 from instrument_files import write_sdf, write_sur
 from scene_text import BODIES_AND_OIL, paper_scene
 
 import lubfric
+from lubfric.models.shared import why_sample_too_short
 from lubfric.output import main
 from lubfric.samples import (
     contact_maps,
@@ -272,3 +275,34 @@ def test_a_form_of_the_second_body_is_named_and_one_of_a_given_map_too(maps):
         v for v in lubfric.prepare(prepared.scene.with_(counterface=None), given).violations if "form" in v.what
     ]
     assert found.recommendation == "take the form off the map: level('cylinder')"
+
+
+def test_the_shorter_of_two_maps_is_named(maps):
+    """By section and file: in the refusal of one shorter than the strip, and where its width leaves no interval."""
+    pair = [
+        f"[{name}]\nfile = '{file}.npy'\nspacing = {GRID}\n"
+        for name, file in (("surface", "long"), ("counterface", "short"))
+    ]
+    scene = loaded(maps, "".join(pair))
+    with pytest.raises(lubfric.InputError) as caught:
+        lubfric.prepare(scene)
+    assert re.match(r"the map of the counterface \(.*short.npy\) is 7.2 µm long in x", str(caught.value))
+    assert "counterface.extension = 'mirror'" in str(caught.value)
+    mirrored = scene.with_(counterface={"extension": "mirror"})
+    words = why_sample_too_short(mirrored, 5.0, lubfric.prepare(mirrored).sample.map)
+    assert "omit counterface.extension" in words and "for [counterface], in place of short.npy" in words
+
+
+def test_the_refusal_of_outliers_counts_what_their_mask_takes(tmp_path):
+    """Two spikes and three pits, 40 Sq each."""
+    rough = lubfric.generate_surface((96, 80), GRID, sq=1e-7, correlation_length=4e-6, acf="gaussian", seed=1)
+    heights = rough.heights.copy()
+    heights[[10, 60], [20, 40]] = 4e-6
+    heights[[30, 50, 80], [10, 30, 60]] = -4e-6
+    np.save(tmp_path / "a.npy", heights)
+    text = f"[surface]\nfile = 'a.npy'\nspacing = {GRID}\noutliers = "
+    with pytest.raises(lubfric.InputError) as caught:
+        whole_maps(loaded(tmp_path, f"{text}'refuse'\n"))
+    (note,) = (n for n in whole_maps(loaded(tmp_path, f"{text}'mask'\n"))[0].notes if "outliers masked" in n)
+    assert "2 isolated points are above their neighbours" in str(caught.value)
+    assert note.startswith("outliers masked: 5 ") and "2 above and 3 below" in note and note in str(caught.value)

@@ -138,4 +138,23 @@ def test_a_grade_that_is_none_is_refused_before_its_index_is_missed():
 def test_what_is_unusual_begins_the_description_of_a_scene():
     scene = lubfric.load_scene("paper").with_(lubricant={"eyring_stress": 5})
     first = describe_scene(scene).splitlines()[0]
-    assert first.startswith("warning: lubricant.eyring_stress") and "5 MPa" in first
+    assert first.startswith("not valid: lubricant.eyring_stress") and "5 MPa" in first
+
+
+@pytest.mark.parametrize(
+    "section, given, is_refused",
+    [
+        ("lubricant", {"eyring_stress": 5}, True),
+        ("lubricant", {"eyring_stress": "5 Pa"}, False),  # the unit was written
+        ("bodies", {"radii": [6, 30]}, True),
+        ("bodies", {"radius": 2.0}, False),  # twice the usual one
+        ("bodies", {"radius": 900.0}, True),
+        ("lubricant", {"limiting_stress_coefficient": 0.6}, False),  # no unit explains it
+    ],
+)
+def test_a_plain_number_in_another_unit_by_orders_is_refused_unless_accepted(section, given, is_refused):
+    scene = lubfric.load_scene("paper").with_(**{section: given})
+    assert unusual_values(scene)
+    violations = [each for each in lubfric.prepare(scene).violations if each.what.startswith(section)]
+    assert any(each.severe for each in violations) == is_refused
+    assert all("Did you mean" in each.text for each in violations if each.severe)

@@ -157,5 +157,5 @@ def test_a_zero_needs_no_unit_and_a_decimal_comma_is_named():
         lambda: lubfric.study(PATCH, points=[{"load": "2,5 N", "speed": 0.1}]),
         lambda: lubfric.traction(PATCH, ["10,5 %"], speed=0.03),
     ):
-        with pytest.raises(lubfric.InputError, match="write a point in decimals, 1.5"):
+        with pytest.raises(lubfric.InputError, match=r"write a point in decimals, \d+\.5"):
             call()

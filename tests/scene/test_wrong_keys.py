@@ -115,3 +115,52 @@ def test_a_forgotten_key_beside_values_with_units_is_named(key):
     del bodies[key]
     with pytest.raises(lubfric.InputError, match=f"needs '{key}'"):
         lubfric.load_scene(tables)
+
+
+BROKEN = {  # text of a scene: what the message says of it
+    '[bodies]\nload = "2 kN\n': "line 2: a text has no closing quotation mark; add it",
+    "[bodies]\nload = 2\n[bodies]\nwidth = 1\n": "line 3: this section or key is there for the second time",
+    "bodies = {load = 2}\nbodies = {width = 1}\n": "line 2: this section or key is there for the second time",
+    "[bodies]\nload = [2\n": "a list has no closing bracket; add ]",
+    "[bodies]\nload = 0,06\n": "line 2: numbers have a decimal point",
+}
+
+
+@pytest.mark.parametrize("text", BROKEN)
+def test_a_file_that_is_no_toml_is_explained_by_its_line(tmp_path, text):
+    (tmp_path / "scene.toml").write_text(text)
+    with pytest.raises(lubfric.InputError) as caught:
+        lubfric.load_scene(tmp_path / "scene.toml")
+    assert f"({BROKEN[text]}" in str(caught.value) and "is not valid TOML: " in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "section, key, place",
+    [
+        ("bodies", "temperature", "[lubricant]"),
+        ("lubricant", "hardness_hv", "[bodies]"),
+        ("motion", "tolerance", "[numerics] or [transient]"),
+        ("numerics", "spacing", "[surface] or [contact]"),
+        ("bodies", "file", "[surface]"),
+    ],
+)
+def test_a_key_of_another_section_is_named_with_that_section(section, key, place):
+    with pytest.raises(lubfric.InputError) as caught:
+        lubfric.load_scene("paper").with_(**{section: {key: 1.0}})
+    assert f"unknown key {key!r} in [{section}] (did you mean {key!r} in {place}?)" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "section, key, value, words",
+    [
+        ("numerics", "model", "fast", "did you mean 'quick'?"),
+        ("bodies", "load", "2,5 kN", "write a point in decimals, 2.5 kN;"),
+        ("lubricant", "eyring_stress", ["10 MPa", "2 MPa"], "= ['10 MPa', '2 MPa']: low and high are exchanged"),
+        ("surface", "seed", "a", "a whole number from 0 to 2^128 - 1"),
+        ("numerics", "workers", 0, "a whole number from 1 to "),
+    ],
+)
+def test_a_wrong_value_is_shown_as_it_was_written_with_what_to_write(section, key, value, words):
+    with pytest.raises(lubfric.InputError) as caught:
+        lubfric.load_scene("paper").with_(**{section: {key: value}})
+    assert words in str(caught.value)

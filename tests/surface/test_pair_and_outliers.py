@@ -68,7 +68,7 @@ def test_spikes_are_found_and_filled_and_resolved_features_stay():
     heights[70:72, 80:82] -= 2e-6
     result = Surface(heights, 1e-6).without_outliers()
     assert sorted(map(tuple, np.argwhere(~result.mask))) == [(20, 30), (70, 80), (70, 81), (71, 80), (71, 81)]
-    assert np.isnan(result.heights[20, 30]) and "5 outliers" in result.notes[-1]
+    assert np.isnan(result.heights[20, 30]) and "outliers masked: 5 " in result.notes[-1]
     assert np.abs(result.fill().heights[20, 30] - clean.heights[20, 30]) < 2e-7
 
 

@@ -322,7 +322,7 @@ def _sample_notes(prepared: Prepared, error: StandardError, length: float) -> tu
     sample = prepared.sample
     tolerance = prepared.scene.numerics.sampling_tolerance
     if math.isnan(error.error):
-        return why_sample_too_short(prepared.scene, length / sample.correlation_lengths[1]), BIASED
+        return why_sample_too_short(prepared.scene, length / sample.correlation_lengths[1], sample.map), BIASED
     if error.error <= WORTH_A_NOTE * tolerance:
         return ()
     (stated, target) = percent_beside(error.error, tolerance)

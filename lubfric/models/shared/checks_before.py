@@ -10,6 +10,7 @@ import numpy as np
 from ...errors import InputError
 from ...film import ShearForce, hertz
 from ...oil import carried_stress, shear_stress
+from ...samples import is_measured, limiting_map, rough_bodies
 from ...scene import Bodies, Scene, unusual_values
 from ...surface import Surface, advised_form, correlation_length, rms_slope
 from .checks import peak_hertz_pressure, violations_by_motion, violations_by_pressure, violations_by_shear
@@ -54,12 +55,14 @@ FORM_SHARE = "share of the form"
 YIELDED = 4.5e9
 
 
-def why_sample_too_short(scene: Scene, lengths: float) -> str:
-    """Return that so few correlation ``lengths`` of the solved surface along y give no interval, and what to change."""
+def why_sample_too_short(scene: Scene, lengths: float, surface: Surface) -> str:
+    """Return that so few correlation ``lengths`` of the solved ``surface`` along y give no interval, and what to change."""
     keys = ["numerics.sampling"] * (scene.numerics.sampling == "patch")
-    keys += ["surface.extension"] * (scene.surface.extension != "none")
+    keys += [f"{name}.extension" for rough, name in rough_bodies(scene) if rough.extension != "none"]
     omit = f"omit {' and '.join(keys)}, or " if keys else ""
     longer = "give a map that is longer along y"
+    if is_measured(scene):
+        longer += " for [{}], in place of {}".format(*limiting_map(scene, surface, 1))
     return f"not known: {lengths:.3g} correlation lengths of the solved surface along y are too few for an interval; {omit}{longer}"
 
 
@@ -116,6 +119,7 @@ def violations_by_unusual_inputs(scene: Scene) -> tuple[Violation, ...]:
             unit=value.unit,
             consequence=value.question or "the value is unusual",
             recommendation=value.advice,
+            severe=value.is_refused,
         )
         for value in unusual_values(scene)
     )
