@@ -65,7 +65,7 @@ def test_the_interval_of_a_limit_that_is_not_reached_has_one_end(scatter):
     f = np.minimum(trials * (1 + LOGARITHM), ends[:, None])
     sums = np.sum((f / curves.measured - 1.0) ** 2, axis=2).min(axis=0)
     exact = ends[np.flatnonzero(sums <= least + STUDENT**2 * scatter**2)[0]]
-    assert profile.low == pytest.approx(exact, abs=0.02)
+    assert profile.low == pytest.approx(exact, abs=0.01)
 
 
 def test_what_changes_f_less_than_its_scatter_is_not_determined():
