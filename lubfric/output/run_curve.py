@@ -79,7 +79,8 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
         progress(*point)
 
     def kept() -> str:
-        return f"{len(ended)} of {total} points are kept in {arguments.out}" if ended else ""
+        verb = "is" if len(ended) == 1 else "are"
+        return f"{len(ended)} of {total} points {verb} kept in {arguments.out}" if ended else ""
 
     if arguments.workers is not None:
         workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)

@@ -237,7 +237,7 @@ def report_of(
         tolerance=1.0,
         residuals={name: residual.value for name, residual in residuals.items()},
         evaluations=now.steps + now.rejected,
-        notes=(f"{cells}, {now.rejected} steps rejected",),
+        notes=(f"{cells}, {now.rejected} step{'' if now.rejected == 1 else 's'} rejected",),
         summary=summary,
         advice=advice,
     )

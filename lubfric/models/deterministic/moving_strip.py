@@ -278,9 +278,10 @@ def solve_moving_strip(
     count = required
     speeds = " and ".join(f"{body.speed:.4g}" for body in bodies)
     lower = sum(row["order"] < STEP_ORDERS[0] for row in rows)
+    by_lower = f"; {lower} step{'s' * (lower > 1)} by lower order" if lower else ""
     note = (
         f"the roughness moves at {speeds} m/s: mean over {count} steps of {worded(step, 's')}, after {discarded} discarded ones; "
-        f"the same surfaces at rest, for comparison: f = {rest.result.coefficient:.4g}{f'; {lower} steps by lower order' if lower else ''}"
+        f"the same surfaces at rest, for comparison: f = {rest.result.coefficient:.4g}{by_lower}"
     )
     result = _mean(rows[discarded : discarded + count], counted.result)
     return MovingStripSolution(

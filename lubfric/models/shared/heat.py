@@ -129,7 +129,7 @@ class Heat:
         inside = f"not included, it changes f by at most {100 * self.change:.2g} % ({limit} allowed)"
         if self.heated is not None:
             inside = (
-                f"it changes f by {-100 * self.change:+.2g} % (surfaces up to {self.flash:.2g} K and film up to "
+                f"it changes f by {-100 * self.change:+z.2g} % (surfaces up to {self.flash:.2g} K and film up to "
                 f"{self.film_rise:.2g} K warmer)"
             )
         return f"heat of the inlet: {inlet}; heat within the contact: {inside}"
