@@ -11,18 +11,20 @@ class LubfricError(Exception):
     """Base class: catch this to catch everything that lubfric raises on purpose.
 
     ``hints`` say what the likely cause is, each in a sentence. They are added on the way up, and begin the message.
+    ``asks``: whether one of them is a question, after which the message says what holds if the answer is no.
     """
 
     hints: tuple[str, ...] = ()
+    asks: bool = False
 
-    def hint(self, text: str) -> None:
-        """Add a likely cause, a sentence, once; nothing if the text is empty."""
+    def hint(self, text: str, *, asks: bool = False) -> None:
+        """Add a likely cause, a sentence, once; nothing if the text is empty. ``asks``: whether it is a question."""
         if text and text not in self.hints:
             self.hints += (text,)
+            self.asks = self.asks or asks
 
     def __str__(self) -> str:
-        is_question = any("did you mean" in hint for hint in self.hints)
-        return " ".join((*self.hints, *(["If not:"] if is_question else []), self.worded()))
+        return " ".join((*self.hints, *(["If not:"] if self.asks else []), self.worded()))
 
     def worded(self) -> str:
         """Return the message without the hints."""

@@ -103,7 +103,9 @@ def _viscosity(name: str, value: float) -> float:
     nu = validate.positive(name, value, "m²/s")
     if nu > 0.5:
         error = InputError(f" = {nu:g} m²/s is out of range", name, "up to 0.5 m²/s")
-        error.hint(f"{name} = {nu:g} is read as {nu:g} m²/s; did you mean {nu:g} mm²/s ({nu * 1e-6:g} m²/s)?")
+        error.hint(
+            f"{name} = {nu:g} is read as {nu:g} m²/s; did you mean {nu:g} mm²/s ({nu * 1e-6:g} m²/s)?", asks=True
+        )
         raise error
     return nu
 

@@ -32,7 +32,8 @@ def checked_temperature(temperature: float, name: str = "temperature") -> float:
     except InputError as error:
         if isinstance(temperature, (int, float)) and -60 <= temperature < RANGE[0]:
             error.hint(
-                f"{name} = {temperature:g} is read as {temperature:g} K; did you mean {temperature:g} °C ({temperature + CELSIUS:g} K)?"
+                f"{name} = {temperature:g} is read as {temperature:g} K; did you mean {temperature:g} °C ({temperature + CELSIUS:g} K)?",
+                asks=True,
             )
         raise
 
@@ -140,7 +141,7 @@ def viscosity_index(nu40: float, nu100: float) -> float:
         raise InputError(said, "nu40", "nu40 > nu100 (swapped?)", also=("nu100",))
     if nu100 > 1e-2:
         error = InputError(f" = {nu100:g} m²/s is out of range", "nu100", "up to 0.01 m²/s")
-        error.hint(_millimetres(nu40, nu100))
+        error.hint(_millimetres(nu40, nu100), asks=True)
         raise error
     return _index(nu40 * 1e6, nu100 * 1e6)
 

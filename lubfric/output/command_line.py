@@ -24,8 +24,25 @@ OF_RUNS_IN_TIME = "a scene with [transient]"
 FOR = {"ratios": OF_TRACTION, "animation": OF_RUNS_IN_TIME} | dict.fromkeys(
     ("speeds", "fields", "workers", "vtk"), OF_CURVES
 )
+
+
+def _path(text: str) -> Path:
+    """Return the path that an argument names, with the home directory for a "~". An empty name is refused: it would be the
+    current folder."""
+    if not text.strip():
+        raise argparse.ArgumentTypeError(
+            "the name is empty; give the name of a file or folder ('.': the current folder)"
+        )
+    try:
+        return Path(text).expanduser()
+    except RuntimeError:  # no such user
+        raise argparse.ArgumentTypeError(
+            f"{text!r} names the home directory of an unknown user; write it out"
+        ) from None
+
+
 ARGUMENT_KINDS: dict[str, dict[str, Any]] = {
-    "path": {"type": Path},
+    "path": {"type": _path},
     "count": {"type": int},
     "switch": {"action": "store_true"},
 }

@@ -245,7 +245,7 @@ def naming_slips(section: str, values: dict[str, Any]) -> Iterator[None]:
             name = f"{section}.{key}"
             question = None if error.hints or key not in values else slip(name, values[key])
             if question:
-                error.hint(f"{name} = {_read_as(values[key], KEYS[name].unit)}; {question}")
+                error.hint(f"{name} = {_read_as(values[key], KEYS[name].unit)}; {question}", asks=True)
         raise
 
 
@@ -257,7 +257,7 @@ def hint_unusual_values(scene: Any) -> Iterator[None]:
     except (InputError, ConvergenceError) as error:
         for unusual in unusual_values(scene):
             ending = f"; {unusual.question}" if unusual.question else " is unusual."
-            error.hint(f"{unusual.key} = {unusual.written}{ending}")
+            error.hint(f"{unusual.key} = {unusual.written}{ending}", asks=bool(unusual.question))
         raise
 
 

@@ -238,7 +238,8 @@ def of_celsius(celsius: float, *_: Any) -> dict[str, Any]:
     if degrees > 250:
         error = InputError(f" = {degrees:g} °C", "lubricant.temperature_celsius", "up to 250 °C")
         error.hint(
-            f"lubricant.temperature_celsius = {degrees:g} is read as {degrees:g} °C; did you mean temperature = {degrees:g} K?"
+            f"lubricant.temperature_celsius = {degrees:g} is read as {degrees:g} °C; did you mean temperature = {degrees:g} K?",
+            asks=True,
         )
         raise error
     return {"temperature": degrees + CELSIUS}

@@ -12,6 +12,7 @@ from scene_text import BODIES_AND_OIL
 import lubfric
 from lubfric._base import read_table
 from lubfric.output import main
+from lubfric.output.command_line import parser
 
 SCENE = BODIES_AND_OIL.replace("[lubricant]", "hardness = 6e9\n[lubricant]")
 SCENE += "[motion]\nentrainment_speed = 0.001\nspeeds = [0.001, 0.01, 0.3]\n"
@@ -158,3 +159,19 @@ def test_how_far_a_long_point_is_is_reported_with_the_time_left(capsys, monkeypa
         "moving roughness: step 3 of 10, 21 s left",
         "moving roughness: step 5 of 10, 15 s left",
     ]
+
+
+@pytest.mark.parametrize("name", ["", "  ", "~nobody-of-that-name/out"])
+def test_a_path_that_names_no_place_is_refused_before_any_work(name, tmp_path, monkeypatch, capsys):
+    """An empty name was the current folder, and its files lay among the user's."""
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit) as ended:
+        main(["run", "paper", "--speeds", "0.03", "--out", name])
+    assert ended.value.code == 2 and list(tmp_path.iterdir()) == []
+    assert ("empty" if not name.strip() else "unknown user") in capsys.readouterr().err
+
+
+def test_a_tilde_in_a_path_is_the_home_directory(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOME", str(tmp_path))
+    for command in (["run", "paper"], ["study", "plan.toml"], ["run-in", "paper"]):
+        assert parser().parse_args([*command, "--out", "~/results"]).out == tmp_path / "results"

@@ -51,6 +51,11 @@ def test_an_error_carries_what_it_says():
     error.hint("another")
     worded = f"{error.quantity}{error.said}; allowed: {error.allowed}"
     assert str(error) == f"{error.hints[0]} another If not: {worded}"
+    plain = lubfric.InputError(" = 5 m", "x")
+    plain.hint("the file says 'did you mean'.")
+    assert str(plain) == "the file says 'did you mean'. x = 5 m"
+    plain.hint("is x in millimetres?", asks=True)
+    assert str(plain) == "the file says 'did you mean'. is x in millimetres? If not: x = 5 m"
 
 
 @pytest.mark.parametrize(
