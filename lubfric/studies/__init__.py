@@ -8,7 +8,9 @@ from .explain import WITHIN_WORDS, estimated_study, in_words
 from .fit import estimated_fit, explain_fit, fit
 from .fit_checks import ResidualTests, probability_of_order, probability_of_runs, residual_tests
 from .fit_input import Measured, read_measured
+from .fit_profile import Profile, flat_parameters, follow
 from .fit_result import FitResult
+from .fit_search import Candidate, are_parted, search_minima, with_minimum
 from .interpolate import Interpolant, Samples, knee_of
 from .law import Law, law_of
 from .operating_points import DURATION, INTERVAL_COLUMNS, mean_over_cycle

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.studies import ResidualTests, probability_of_order, probability_of_runs, residual_tests
-from lubfric.studies.fit_search import search_minima
+from lubfric.studies import ResidualTests, probability_of_order, probability_of_runs, residual_tests, search_minima
 
 STRESS = "lubricant.eyring_stress"
 LIMIT = "lubricant.limiting_stress_coefficient"

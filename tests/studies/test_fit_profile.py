@@ -5,8 +5,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.studies.fit_profile import flat_parameters, follow
-from lubfric.studies.fit_search import Candidate, are_parted, with_minimum
+from lubfric.studies import Candidate, are_parted, flat_parameters, follow, with_minimum
 
 # Slip of the points: f rises with its logarithm, up to a limit.
 LOGARITHM = np.linspace(0.0, 1.0, 12)
