@@ -252,10 +252,12 @@ def listed(values: Any) -> Any:
 
 
 def folder(name: str, value: Any) -> Path:
-    """Return a path as words or a `pathlib.Path` that the file system takes, whether or not there is anything."""
+    """Return a path as words or a `pathlib.Path` that the file system takes, whether or not there is anything. A "~" is
+    the home directory."""
     if isinstance(value, (str, os.PathLike)) and value != "" and "\0" not in str(value):
-        with suppress(OSError, TypeError):  # a TypeError of a path that is not of words
-            path = Path(value)
+        # a TypeError of a path that is not of words, a RuntimeError of the home of an unknown user
+        with suppress(OSError, TypeError, RuntimeError):
+            path = Path(value).expanduser()
             path.exists()
             return path
     raise InputError(f" = {shown(value)} is no path", name, "a string or a pathlib.Path that the file system takes")

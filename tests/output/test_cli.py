@@ -10,7 +10,7 @@ import pytest
 from scene_text import BODIES_AND_OIL
 
 import lubfric
-from lubfric._base import read_table
+from lubfric._base import read_table, validate
 from lubfric.output import main
 from lubfric.output.command_line import parser
 
@@ -175,3 +175,6 @@ def test_a_tilde_in_a_path_is_the_home_directory(tmp_path, monkeypatch):
     monkeypatch.setenv("HOME", str(tmp_path))
     for command in (["run", "paper"], ["study", "plan.toml"], ["run-in", "paper"]):
         assert parser().parse_args([*command, "--out", "~/results"]).out == tmp_path / "results"
+    assert validate.folder("store", "~/points") == validate.folder("store", Path("~/points")) == tmp_path / "points"
+    with pytest.raises(lubfric.InputError, match="store"):
+        validate.folder("store", "~nobody-of-that-name/points")
