@@ -14,8 +14,7 @@ import pytest
 from pages import PAGES, ROOT, blocks, files
 
 import lubfric
-from lubfric.output import main
-from lubfric.output.command_line import parser
+from lubfric.output import main, parser
 from verification.__main__ import main as verification
 
 PYTHON = [page for page in PAGES if any(b.language == "python" for b in blocks(page))]

@@ -11,8 +11,7 @@ from scene_text import BODIES_AND_OIL
 
 import lubfric
 from lubfric._base import read_table, validate
-from lubfric.output import main
-from lubfric.output.command_line import parser
+from lubfric.output import main, parser
 
 SCENE = BODIES_AND_OIL.replace("[lubricant]", "hardness = 6e9\n[lubricant]")
 SCENE += "[motion]\nentrainment_speed = 0.001\nspeeds = [0.001, 0.01, 0.3]\n"

@@ -13,6 +13,7 @@ from scene_text import paper_scene
 import lubfric
 from lubfric._base.figures import field_image, new_figure
 from lubfric.output import (
+    PictureOptions,
     drawn_contact,
     fields_bytes,
     grid_bytes,
@@ -23,7 +24,6 @@ from lubfric.output import (
     plot_surface,
     plot_traction,
 )
-from lubfric.output.picture_options import PictureOptions
 from lubfric.studies import csv_bytes, interval_band, plot_map
 
 UNITS = {  # of the columns of results, typed by hand

@@ -5,7 +5,7 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.output.describe import estimate_scene
+from lubfric.output import estimate_scene
 from lubfric.scene import Harmonic, Table, Transient
 
 PATCH = paper_scene(numerics={"sampling": "patch"})

@@ -9,8 +9,7 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.output import main
-from lubfric.output.describe import describe_scene
+from lubfric.output import describe_scene, main
 from lubfric.scene import Harmonic, Transient
 
 STRIPS = paper_scene(motion={"entrainment_speed": 0.02}, bodies={"boundary_friction_coefficient": 0.09})

@@ -8,7 +8,7 @@ import pytest
 
 import lubfric
 from lubfric._base import limited_work
-from lubfric.output.describe import estimate_scene
+from lubfric.output import estimate_scene
 from lubfric.running_in import estimated_run_in
 from lubfric.scene import Harmonic, Transient
 from lubfric.studies import estimated_fit, estimated_study

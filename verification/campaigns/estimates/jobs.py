@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.output.describe import estimate_scene
+from lubfric.output import estimate_scene
 from lubfric.running_in import estimated_run_in
 from lubfric.scene import Harmonic, History, Table, Transient
 from lubfric.studies import estimated_fit, estimated_study
