@@ -56,7 +56,7 @@ def test_the_parts_of_a_law_agree(key):
 
 def everywhere(scene):
     """f of a smooth film by load sharing, by the deterministic model and in time."""
-    strip = solve_strip(scene, Surface(np.zeros((64, 4)), (1.2e-6, 1.2e-6)), 0.3, factors=(1, 1)).result
+    strip = solve_strip(scene, Surface(np.zeros((64, 4)), (1.2e-6, 1.2e-6)), 0.3, map_coarsening=(1, 1)).result
     run = lubfric.transient(scene.with_(transient=lubfric.Transient(1e-4, outputs=1)))
     return np.array([lubfric.friction(scene).coefficient, strip.coefficient, run.coefficient[-1]])
 
