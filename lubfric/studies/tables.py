@@ -164,7 +164,7 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
     """Draw a number of the operating points of a study with its 95 % interval over their position, angle or time, or
     over their number; one line for each combination of what else is varied. Returns the axes.
 
-    The line of f is broken where the direction of sliding changes, as at the pitch point of a gear: f jumps there.
+    Points without a position are not joined: rows of a table have no order. The line of f is broken where the direction of sliding changes, as at the pitch point of a gear: f jumps there.
     """
     axes = figures.axes_or_new(ax)
     coordinate = next((name for name in ("position", "angle", "time") if name in result.coords), None)
@@ -179,8 +179,9 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
     for index in indices:
         values = times * result[quantity][index][order]
         breaks = _changes_of_direction(result, index)[order] if quantity == "coefficient" else np.zeros(0)
-        ends = np.flatnonzero(np.diff(breaks)) + 1  # before these points a line ends
-        for end in ends if index == indices[0] else ():
+        turns = np.flatnonzero(np.diff(breaks)) + 1  # before these points the direction changes
+        ends = turns if coordinate else np.arange(1, count)  # before these a line ends
+        for end in turns if coordinate and index == indices[0] else ():
             axes.axvspan(over[order][end - 1], over[order][end], **gaps)
             gaps.pop("label", None)
         named = figures.plain_words(label(result.plan, (*index, slice(None)))) if len(indices) > 1 else None

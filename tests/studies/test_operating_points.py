@@ -324,9 +324,13 @@ def stand_in(model_error=0.4):
 
 
 def test_a_table_without_positions_is_drawn_over_the_number_of_its_points():
-    lines = plot_points(stand_in(), "coefficient").lines[0]
-    np.testing.assert_array_equal(lines.get_xdata(), [1, 2, 3])
-    np.testing.assert_array_equal(lines.get_ydata(), [0.1, 0.2, 0.3])
+    """No line joins them, because the rows have no order; each has a bar of its interval."""
+    axes = plot_points(stand_in(), "coefficient")
+    (line,) = axes.lines
+    np.testing.assert_array_equal(line.get_xdata(), [1, np.nan, 2, np.nan, 3])
+    np.testing.assert_array_equal(line.get_ydata(), [0.1, np.nan, 0.2, np.nan, 0.3])
+    bars = [each.get_segments()[0][0][0] for each in axes.collections if hasattr(each, "get_segments")]
+    assert bars == [1, 2, 3]
 
 
 def test_what_follows_from_a_varied_temperature_is_no_common_input():
