@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -54,12 +53,11 @@ def is_measured(scene: Scene) -> bool:
 
 def limiting_map(scene: Scene, surface: Surface, axis: int) -> tuple[str, str]:
     """Return the section and the file of the measured map that limits ``surface``, made of all maps of the ``scene``,
-    along ``axis``."""
-    measured = [(name, rough.file) for rough, name in rough_bodies(scene) if rough.file is not None]
+    along ``axis``; "surface" and no file where none is measured."""
+    measured = [(name, str(rough.file)) for rough, name in rough_bodies(scene) if rough.file is not None]
     begin = shorter_in_words(axis, "")
     noted = [note.removeprefix(begin) for note in surface.notes if note.startswith(begin)]
-    name, file = next((each for each in measured if each[0] in noted), measured[0] if measured else ("surface", ""))
-    return name, Path(file).name
+    return next((each for each in measured if each[0] in noted), measured[0] if measured else ("surface", ""))
 
 
 def is_extended(scene: Scene) -> bool:
@@ -132,12 +130,11 @@ def check_map(scene: Scene, surface: Surface) -> None:
             f"its half-width {half_width:.3g} m"
         )
     if length < 2 * half_width:
-        shorter = _shortest_map(scene)
+        (name, file) = limiting_map(scene, surface, 0)
         what = "the patch (contact.shape x contact.spacing)"
         ways = "a larger contact.shape"
-        if shorter is not None:
-            rough, name = shorter
-            what = f"the map of the {name} ({rough.file})"
+        if file:
+            what = f"the map of the {name} ({file})"
             ways = f"a longer map, {_ways_with_short_map(name)}"
         raise InputError(
             f"{what} is {worded(length, 'm')} long in x, the direction of motion; allowed: at least the Hertz strip, "
@@ -151,14 +148,6 @@ def _ways_with_short_map(name: str) -> str:
         f"{name}.extension = 'mirror' (continues the map by its mirror image) or contact.geometry = 'flat' (its roughness "
         "spread over the strip)"
     )
-
-
-def _shortest_map(scene: Scene) -> tuple[Roughness, str] | None:
-    """Return the measured roughness of ``scene`` whose map is shortest along x, and its section; None if no map is measured."""
-    measured = [(rough, name) for rough, name in rough_bodies(scene) if rough.file is not None]
-    if len(measured) < 2:
-        return measured[0] if measured else None
-    return min(measured, key=lambda body: measured_map(*body).size[0])
 
 
 def generated_map(rough: Roughness, domain: ContactDomain, name: str = "surface") -> Surface:
@@ -241,11 +230,11 @@ def _cut_to_contact(scene: Scene, surface: Surface) -> Surface:
     if domain.shape is None and cylinder:
         nx = min(nx, 2 * int(reach / surface.spacing[0]) + 1)
     if nx > surface.shape[0] or ny > surface.shape[1]:
-        shortest = _shortest_map(scene) or (scene.surface, "surface")
+        (name, _) = limiting_map(scene, surface, 0)
         raise InputError(
             f"contact.shape = {nx} x {ny} cells of {surface.spacing[0]:.3g} x {surface.spacing[1]:.3g} m is larger "
             f"than the map; allowed: up to {surface.shape[0]} x {surface.shape[1]}, or leave contact.shape out"
-            f"{'' if mirrored or nx <= surface.shape[0] else '; ' + _ways_with_short_map(shortest[1])}"
+            f"{'' if mirrored or nx <= surface.shape[0] else '; ' + _ways_with_short_map(name)}"
         )
     cut = surface.cropped((nx, ny))
     if not cylinder:

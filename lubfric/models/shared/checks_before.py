@@ -62,7 +62,8 @@ def why_sample_too_short(scene: Scene, lengths: float, surface: Surface) -> str:
     omit = f"omit {' and '.join(keys)}, or " if keys else ""
     longer = "give a map that is longer along y"
     if is_measured(scene):
-        longer += " for [{}], in place of {}".format(*limiting_map(scene, surface, 1))
+        (section, file) = limiting_map(scene, surface, 1)
+        longer += f" for [{section}], in place of {Path(file).name}"
     return f"not known: {lengths:.3g} correlation lengths of the solved surface along y are too few for an interval; {omit}{longer}"
 
 
