@@ -73,16 +73,20 @@ def follow(
     start = float(unit[place])
     known: dict[float, FloatArray] = {}
 
+    def at(share: float) -> FloatArray:
+        """Return ``unit`` with the parameter at ``share``."""
+        moved = unit.copy()
+        moved[place] = share
+        return moved
+
     def projected(share: float) -> FloatArray:
         """Return the residuals at ``share``, with the other parameters moved to the least sum, to first order."""
         if share not in known:
-            moved = unit.copy()
-            moved[place] = share
-            known[share] = others.fitted(curves.residuals(moved))
+            known[share] = others.fitted(curves.residuals(at(share)))
         return known[share]
 
-    most = float(np.sum(projected(start) ** 2)) + student**2 * variance
-    least = float(np.sum(known[start] ** 2)) * (1.0 - LEAST_DECREASE)
+    most = _sum(projected(start)) + student**2 * variance
+    least = _sum(known[start]) * (1.0 - LEAST_DECREASE)
     failed = False
     for end in (0.0, 1.0):
         try:
@@ -100,21 +104,18 @@ def follow(
         except LubfricError:
             failed = True
             break
-        if float(np.sum(trial**2)) < least:
+        if _sum(trial) < least:
             break
-    lowest = min(known, key=lambda share: float(np.sum(known[share] ** 2)))
+    lowest = min(known, key=lambda share: _sum(known[share]))
     better = None
-    if float(np.sum(known[lowest] ** 2)) < least:
-        moved = unit.copy()
-        moved[place] = lowest
+    if _sum(known[lowest]) < least:
+        moved = at(lowest)
         better = np.clip(moved + np.insert(others.step(curves.residuals(moved)), place, 0.0), 0.0, 1.0)
     f = curves.coefficient(unit)
     changes = []
     for end in (0.0, 1.0):
-        if end in known and float(np.sum(known[end] ** 2)) <= most:
-            moved = unit.copy()
-            moved[place] = end
-            changes.append(float(np.max(np.abs(curves.coefficient(moved) / f - 1.0))))
+        if end in known and _sum(known[end]) <= most:
+            changes.append(float(np.max(np.abs(curves.coefficient(at(end)) / f - 1.0))))
     return Profile(
         low=_limit(known, start, most, 0.0),
         high=_limit(known, start, most, 1.0),
@@ -164,7 +165,7 @@ def _crossing(known: dict[float, FloatArray], start: float, most: float, end: fl
     None: it does not."""
     shares = sorted((share for share in known if (share - start) * (end - start) >= 0.0), key=lambda s: abs(s - start))
     for inner, outer in zip(shares, shares[1:]):
-        if float(np.sum(known[outer] ** 2)) > most:
+        if _sum(known[outer]) > most:
             return inner, outer
     return None
 
@@ -181,6 +182,11 @@ def _limit(known: dict[float, FloatArray], start: float, most: float, end: float
         return end
     within = np.flatnonzero(_sums(known[pair[0]], known[pair[1]]) <= most)
     return pair[0] + float(BETWEEN_CURVES[within.max(initial=0)]) * (pair[1] - pair[0])
+
+
+def _sum(residuals: FloatArray) -> float:
+    """Return the sum of the squared ``residuals``."""
+    return float(np.sum(residuals**2))
 
 
 def _sums(first: FloatArray, second: FloatArray) -> FloatArray:
