@@ -32,6 +32,8 @@ MAP_ABOVE = 1.0  # inch above and below a map: title and labels
 PICTURED_HALF_WIDTHS = 4.0  # half-widths of the Hertz strip around which a gap is drawn
 SECTION_SIZE = (5.5, 5.0)  # inch: of a map of the contact pressure, and of the section beside it
 ASIDE = 0.6  # inch beside the maps of a picture whose width is chosen: labels of y
+CLOSE_GAP = 0.2  # of `PANEL_GAP`, between the panels of a picture whose width is chosen
+PANEL_RATIO = 0.9  # height over width of a panel of a narrow picture
 ABOVE_BAR = 1.3  # inch above and below such maps: title, bar of colours, labels
 
 
@@ -117,7 +119,7 @@ def _layout(options: PictureOptions, *, compress: bool = False) -> LayoutEngine:
     """Return the engine that lays out panels with room between them."""
     from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-    gap = PANEL_GAP if options.width is None else 0.2 * PANEL_GAP
+    gap = PANEL_GAP if options.width is None else CLOSE_GAP * PANEL_GAP
     return ConstrainedLayoutEngine(compress=compress, w_pad=gap)
 
 
@@ -219,7 +221,7 @@ def _panels(count: int, options: PictureOptions, *, slender: bool) -> tuple[Figu
     size = (width * sum(ratios), height)
     if options.width is not None:
         whole = options.width / INCH
-        size = (whole, whole * (0.9 * count if options.is_narrow else height / size[0]))
+        size = (whole, whole * (PANEL_RATIO * count if options.is_narrow else height / size[0]))
     figure = figures.new_figure(figsize=size, layout=_layout(options))
     if options.is_narrow:
         shown = figure.subplots(count, 1, squeeze=False)

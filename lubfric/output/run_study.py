@@ -191,10 +191,13 @@ def _kept(folder: Path) -> str:
         return ""
     if not study.solved:
         return ""
-    kind = "curve" if study.chosen else "point"
-    left = f"1 {kind} is left" if study.missing == 1 else f"{study.missing} {kind}s are left"
-    kept = "1 point is kept" if study.solved == 1 else f"{study.solved} points are kept"
-    return f"{kept} in {folder}, {left}"
+    kept = f"{counted(study.solved, 'points')} {_verb(study.solved)} kept in {folder}"
+    kind = "curves" if study.chosen else "points"
+    return f"{kept}, {counted(study.missing, kind)} {_verb(study.missing)} left"
+
+
+def _verb(count: int) -> str:
+    return "is" if count == 1 else "are"
 
 
 def _point_reports(plan: studies.StudyPlan, begun: float) -> Callable[..., None]:

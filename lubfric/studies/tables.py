@@ -164,7 +164,8 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
     """Draw a number of the operating points of a study with its 95 % interval over their position, angle or time, or
     over their number; one line for each combination of what else is varied. Returns the axes.
 
-    Points without a position are not joined: rows of a table have no order. The line of f is broken where the direction of sliding changes, as at the pitch point of a gear: f jumps there.
+    Points without a position are not joined: rows of a table have no order. The line of f is broken where the direction
+    of sliding changes, as at the pitch point of a gear: f jumps there.
     """
     axes = figures.axes_or_new(ax)
     coordinate = next((name for name in ("position", "angle", "time") if name in result.coords), None)

@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike
 
 from .._base import validate
 from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, WORK_LIMIT, InputError, Report
+from ..quantities import counted
 from ..scene import History
 from ..units import plain_number, worded
 
@@ -237,7 +238,7 @@ def report_of(
         tolerance=1.0,
         residuals={name: residual.value for name, residual in residuals.items()},
         evaluations=now.steps + now.rejected,
-        notes=(f"{cells}, {now.rejected} step{'' if now.rejected == 1 else 's'} rejected",),
+        notes=(f"{cells}, {counted(now.rejected, 'steps')} rejected",),
         summary=summary,
         advice=advice,
     )
