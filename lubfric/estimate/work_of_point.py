@@ -29,6 +29,7 @@ class PointWorkEstimate:
     fine_fields_seconds : processor time [s] of fields on fine cells, if they are requested
     slow_strip_seconds : processor time [s] of one strip by that model if its roughness moves; 0 where it does not, or has little
         effect
+    longest_strip_seconds : the same if that strip has to be solved again on shorter cells
     """
 
     speed: float
@@ -41,6 +42,7 @@ class PointWorkEstimate:
     shared: tuple[SharedWork, ...] = ()
     fine_fields_seconds: float = 0.0
     slow_strip_seconds: float = 0.0
+    longest_strip_seconds: float = 0.0
 
 
 def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, speed: float) -> PointWorkEstimate:
@@ -73,6 +75,7 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
         fine_fields_seconds=max(estimates[k].fine_fields_seconds for k in solved),
         shared=tuple(part for k in solved for part in estimates[k].shared),
         slow_strip_seconds=max((estimates[k].strip_seconds for k in with_slow_strips), default=0.0),
+        longest_strip_seconds=max((estimates[k].longest_strip_seconds for k in with_slow_strips), default=0.0),
     )
 
 

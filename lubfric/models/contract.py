@@ -183,6 +183,7 @@ class WorkEstimate:
     fine_fields_seconds : processor time [s] of fields on cells fine enough to look at, if they are requested
     strip_seconds : processor time [s] of one strip, where its roughness moves; 0 where it does not, or has little
         effect
+    longest_strip_seconds : the same if that strip has to be solved again on shorter cells
     length : of the strips [m]; NaN: there is one patch
     expected_sampling_error : relative standard error of f after the first strips; NaN: there is one patch
     expected_model_error : relative model-form error of f
@@ -194,6 +195,7 @@ class WorkEstimate:
     shared: tuple[SharedWork, ...] = ()
     fine_fields_seconds: float = 0.0
     strip_seconds: float = 0.0
+    longest_strip_seconds: float = 0.0
     length: float = math.nan
     expected_sampling_error: float = math.nan
     expected_model_error: float = math.nan

@@ -233,6 +233,9 @@ def _model(
         ]
     if strip:
         takes = f"one strip of moving roughness takes about {in_words(strip)} by the deterministic model"
+        longest = max(one.longest_strip_seconds for one in forecasts)
+        if longest > strip:
+            takes += f", and {in_words(longest)} if the error by its cells requires shorter ones"
         if not any(model.includes_motion for model in models_that_may_answer(name)):
             takes = f"moving roughness is treated as stationary; {takes}"
         if name == AUTO:

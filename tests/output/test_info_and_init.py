@@ -204,6 +204,24 @@ def test_info_of_a_model_that_takes_too_long_says_what_answers():
     assert result.model > 0.05 and np.isfinite(result.interval).all()
 
 
+def test_info_says_what_a_strip_takes_if_its_cells_have_to_be_shorter():
+    """On cells half a correlation length long along y a strip may be solved again; on the shorter cells of the scene, and with
+    a wider target of the error, it is not."""
+    rough = {"sq": 2e-7, "correlation_length": 20e-6, "acf": "gaussian"}
+    scene = lubfric.load_scene("paper").with_(
+        bodies={"radius": 3e-3, "width": 10e-3, "load": 800.0},
+        lubricant={"viscosity": 0.0105, "pressure_viscosity_coefficient": 17e-9},
+        motion={"slide_roll_ratio": 0.01, "entrainment_speed": 2.0, "speeds": [2.0]},
+        surface=rough,
+        contact={"shape": (96, 96), "spacing": 5e-6},
+    )
+    may_be = describe_scene(scene)
+    assert "if the error by its cells requires shorter ones" in may_be
+    for numerics in {"grid": "given"}, {"model_tolerance": 0.3}:
+        other = describe_scene(scene.with_(numerics=numerics))
+        assert "strip of moving roughness" in other and "requires shorter" not in other
+
+
 def test_the_peak_pressure_of_a_run_in_time_is_that_of_its_cycle():
     """Not that of the largest load on the mean radius: sqrt(F E'/(2 pi R L)) of a cam whose nose is sharp."""
     load = Harmonic(mean=3.0, amplitude=2.0, frequency=50.0)

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ..shared import Prepared, smooth_over_cells
 from .result import DeterministicResult
@@ -45,6 +45,10 @@ BY_LONGER = 1 / 3
 
 # Change of ln f with ln of the boundary film, at most [-]: boundary friction in proportion to it has 1.
 STEEPEST = 1.0
+
+# Error by the cells on cells half as long along y, over that on the others, up to which these are solved [-]. A convention: the
+# work is more than twice as much.
+HALVED_ERROR = 0.8
 
 # Numbers of a point that change with the sliding part of f where the change is only expected.
 CHANGED_WITH_SLIDING = (
@@ -109,6 +113,13 @@ class CellsInMotion:
             (SCATTER_BY_CELLS if self.is_smooth else UNSMOOTH_NARROWED) * self.sliding_share * self.of_narrow_gaps,
             BY_LONGER * self.by_longer,
         )
+
+    def shorter_ones_pay(self, tolerance: float) -> bool:
+        """Return whether the error is above ``tolerance``, and on cells half as long along y smaller by the part that pays
+        (`HALVED_ERROR`)."""
+        halved = replace(self, coarse_y=self.coarse_y / 2, by_longer=self.by_longer / 4)
+        reduces = halved.error <= HALVED_ERROR * self.error
+        return self.is_smooth and self.error > tolerance and reduces  # else shorter cells show new summits, along x too
 
 
 def cells_in_motion(prepared: Prepared, strips: Sequence[StripSolution], by_longer: float) -> CellsInMotion:

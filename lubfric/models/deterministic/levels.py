@@ -99,10 +99,6 @@ STRIPS_SPARE = (1.1, 1.2)
 # Counted work of the strips of one point [s], at most: `rough_bodies.MOST_WORK_IN_AUTO`, from which "auto" declines.
 MOST_WORK_OF_STRIPS = 120.0
 
-# Error by the cells on cells half as long along y, over that on the others, up to which these are solved [-]. A convention: the
-# work is more than twice as much.
-HALVED_ERROR = 0.8
-
 # Work of a strip on these cells over that on both lengths before [-]: 2.3 on a needle roller at 2 m/s, after those.
 HALVED_WORK = 2.5
 
@@ -210,19 +206,13 @@ def solve_pairs(
 
 def _first_pair(prepared: Prepared, speed: float) -> StripOnTwoGrids:
     """Solve the first strip; where roughness moves, once more on cells half as long along y if the error by the cells is
-    above ``numerics.model_tolerance`` and the shorter ones reduce it (`HALVED_ERROR`), where as many strips as the sample needs
+    above ``numerics.model_tolerance`` and the shorter ones reduce it (`CellsInMotion.shorter_ones_pay`), where as many strips as the sample needs
     stay within `MOST_WORK_OF_STRIPS`."""
     pair = solve_pair(prepared, speed, None, 0)
     if not has_moving_roughness(prepared.scene) or surface_and_map_coarsening(prepared, 0)[1][1] % 2:
         return pair
     cells = cells_in_motion(prepared, [pair.resolved], pair.change_by_cells)
-    halved = replace(cells, coarse_y=cells.coarse_y / 2, by_longer=cells.by_longer / 4)
-    is_needed = (
-        cells.is_smooth  # else shorter cells show new summits, along x too
-        and cells.error > prepared.scene.numerics.model_tolerance
-        and halved.error <= HALVED_ERROR * cells.error
-    )
-    if not is_needed:
+    if not cells.shorter_ones_pay(prepared.scene.numerics.model_tolerance):
         return pair
     (_, wanted) = two_levels(prepared, (pair,), None)
     if wanted * HALVED_WORK * pair.resolved.work > min(MOST_WORK_OF_STRIPS, PART_OF_WORK_LEFT * work_left()):
