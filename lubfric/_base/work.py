@@ -5,12 +5,15 @@ that passes it raises `WorkLimitError`. So the same point ends at the same step 
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from typing import TypeVar
 
 from ..errors import WorkLimitError
+
+T = TypeVar("T")
 
 
 @dataclass
@@ -62,3 +65,13 @@ def count_work(seconds: float) -> None:
     meter.spent += seconds
     if meter.spent > meter.limit:
         raise WorkLimitError(meter.limit)
+
+
+def with_its_work(make: Callable[[], T]) -> tuple[T, float]:
+    """Return what ``make`` gives, and the work [s] that it counted, within the limit of the caller."""
+    meter = _METER.get()
+    if meter is None:
+        with limited_work(math.inf) as meter:
+            return make(), meter.spent
+    before = meter.spent
+    return make(), meter.spent - before

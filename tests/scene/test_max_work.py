@@ -9,8 +9,10 @@ import pytest
 import lubfric
 from lubfric._base import limited_work
 from lubfric.errors import ConvergenceError, WorkLimitError
+from lubfric.models.load_sharing import PaperModel
 
 PAPER = lubfric.load_scene("paper")
+CHEAP = PAPER.with_(numerics={"model": "paper", "tolerance": 0.2, "sampling_tolerance": 0.5})
 SPEED = 0.03
 
 
@@ -135,3 +137,33 @@ def test_what_answers_after_a_model_gave_up_has_a_limit_as_well(monkeypatch: pyt
     assert "was not solved" in result.decision.text and "max_work" in result.decision.text
     low, high = result.uncertainty.interval
     assert 0 <= low < result.coefficient < high
+
+
+def test_what_a_prepared_scene_remembers_is_counted_as_if_it_were_solved_again():
+    """So no result depends on the points that were solved before."""
+    prepared = lubfric.prepare(CHEAP)
+    works, results = [], []
+    for _ in range(2):
+        with limited_work(math.inf) as meter:
+            results.append(solved(prepared).numbers["coefficient"])
+        works.append(meter.spent)
+    assert works[1] == pytest.approx(works[0], rel=1e-9) and works[0] > 0
+    assert results[0] == results[1]
+
+
+def test_a_point_that_ran_out_of_work_leaves_nothing_to_the_next():
+    """The reference point from which a point starts is solved within the limit of that point, and kept for others."""
+    with limited_work(math.inf) as meter:
+        fresh = solved(lubfric.prepare(CHEAP))
+    prepared = lubfric.prepare(CHEAP)
+    for _ in range(2):  # the second time what took that work is remembered
+        with pytest.raises(WorkLimitError), limited_work(0.1 * meter.spent):
+            solved(prepared)
+        after = solved(prepared)
+        assert after.numbers["coefficient"] == fresh.numbers["coefficient"]
+        assert after.numbers["mean_gap"] == fresh.numbers["mean_gap"] and after.numerical == fresh.numerical
+
+
+def solved(prepared):
+    sample = prepared.sample
+    return PaperModel().solve(prepared, sample, sample.first_strips, SPEED).answer()

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..._base import limited_work, work_left
-from ...errors import ConvergenceError, LubfricError
+from ...errors import ConvergenceError, LubfricError, WorkLimitError
 from ...samples import PIECE, Sample
 from ...scene import has_moving_roughness
 from ..shared import (
@@ -273,6 +273,8 @@ def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...]
         there = math.copysign(speed_of(scene, sq * FIXED**step), speed)
         try:
             return _pieces(prepared, there, None)
+        except WorkLimitError:  # not of that speed: a point with more work left solves it
+            raise
         except LubfricError:  # at that speed: heat may leave no film there
             return None
 

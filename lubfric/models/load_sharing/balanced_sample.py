@@ -14,7 +14,7 @@ from ...contact import (
     RoughContact,
     weighted_mean,
 )
-from ...errors import LubfricError
+from ...errors import LubfricError, WorkLimitError
 from ...samples import Sample
 from ...scene import budget
 from ..shared import (
@@ -343,6 +343,8 @@ def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | No
         there = speed_of(scene, nearest * sq) * math.copysign(1.0, speed)
         try:
             return solve_balance(scene, there, contact_on_strips(prepared, sample, sample.first_strips), sq)
+        except WorkLimitError:  # not of that speed: a point with more work left solves it
+            raise
         except LubfricError:
             return None
 

@@ -1,7 +1,7 @@
 """What a prepared scene remembers between speeds: contacts, operators and reference points, by typed keys.
 
-What is remembered depends on the prepared scene and its key alone. So it changes the time that a point takes, never its
-result.
+What is remembered depends on the prepared scene and its key alone, and its work is counted at each use, as if it were made
+again: what a point has left to spend decides what it solves. So it changes the time that a point takes, never its result.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, TypeVar
 
+from ..._base import count_work, with_its_work, work_left
 from ...contact import HalfSpace, HalfSpaceContact, RoughContact
 from ...surface import Surface
 
@@ -88,25 +89,41 @@ class ReferenceKey(Key[Any]):
     forward: bool
 
 
+@dataclass(frozen=True, kw_only=True)
+class MemoEntry:
+    """What was made: ``value``, its number of ``cells``, and the ``work`` [s] that was counted for it."""
+
+    value: Any
+    cells: int
+    work: float
+
+
 class Memo:
     """What was made so far, by `Key`; the oldest goes first."""
 
     def __init__(self) -> None:
-        self._kept: dict[Key[Any], tuple[Any, int]] = {}
+        self._kept: dict[Key[Any], MemoEntry] = {}
 
     def get(self, key: Key[T], make: Callable[[], T], cells: Callable[[T], int] = lambda value: 0) -> T:
-        """Return what ``make`` gives, made once for ``key``, and kept as long as there is room for its ``cells``."""
-        if key in self._kept:
-            return self._kept[key][0]
-        value = make()
-        self.put(key, value, cells(value))
+        """Return what ``make`` gives, made once for ``key``, and kept as long as there is room for its ``cells``.
+
+        Its work is counted at each use. Where the caller has less left, it is made again, so that the limit ends it at the
+        same step (`WorkLimitError`), which is not remembered.
+        """
+        entry = self._kept.get(key)
+        if entry is not None and entry.work <= work_left():
+            count_work(entry.work)
+            value: T = entry.value
+            return value
+        value, work = with_its_work(make)
+        self.put(key, value, cells(value), work)
         return value
 
-    def put(self, key: Key[T], value: T, cells: int = 0) -> None:
-        """Keep ``value``, which has so many ``cells``."""
-        self._kept[key] = (value, cells)
+    def put(self, key: Key[T], value: T, cells: int = 0, work: float = 0.0) -> None:
+        """Keep ``value``, which has so many ``cells`` and took so much counted ``work`` [s]."""
+        self._kept[key] = MemoEntry(value=value, cells=cells, work=work)
         entries = list(self._kept.items())
-        while len(entries) > MOST_ENTRIES or sum(size for _, (_, size) in entries[:-1]) > MOST_MEMO_CELLS:
+        while len(entries) > MOST_ENTRIES or sum(entry.cells for _, entry in entries[:-1]) > MOST_MEMO_CELLS:
             self._kept.pop(entries.pop(0)[0], None)
 
     def keep_surface_of(self, other: Memo) -> None:
