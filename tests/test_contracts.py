@@ -11,7 +11,7 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 import lubfric
 from lubfric.errors import CONVERGED, Report
 from lubfric.models import MODELS, DeterministicModel, Model, ModelAnswer, PaperModel, QuickModel, SampleSolution
-from lubfric.models.shared import MAP_WIDTH, Decision, StandardError, Violation
+from lubfric.models.shared import MAP_WIDTH, Decision, StandardError, Violation, contact_on_strips
 from lubfric.output import describe_scene, main
 from lubfric.quantities import CHOICES
 from lubfric.samples import Cells, Sample
@@ -73,6 +73,16 @@ class TestSample:
         if sample.bodies or getattr(sample, "roughness", ())[1:]:
             parts = sum(sample.of_body(k).strip(0).heights for k in (0, 1))
             assert np.allclose(parts, sample.strip(0).heights, atol=1e-12)
+
+    def test_it_is_on_its_surface_on_any_cells_and_its_bodies_are_not(self, prepared, sample):
+        """So the contact on a body is its own, and not the remembered one of both."""
+        assert sample.is_on_surface_of(sample.native()) and sample.native().is_on_surface_of(sample)
+        if sample.bodies or getattr(sample, "roughness", ())[1:]:
+            body = sample.of_body(0)
+            assert not body.is_on_surface_of(sample)
+            on_both, on_body = (contact_on_strips(prepared, each, 1).heights for each in (sample, body))
+            assert np.allclose(on_body, body.strip(0).heights - body.strip(0).heights.mean(), atol=1e-15)
+            assert not np.allclose(on_both, on_body, atol=1e-9)
 
     def test_it_makes_the_contact_that_is_solved_first(self, prepared):
         """On its cells, about their mean; the operator comes from whoever remembers it."""

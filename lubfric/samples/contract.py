@@ -20,7 +20,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Self
 
 import numpy as np
@@ -178,6 +178,11 @@ class Sample(ABC):
     def first_map(self) -> Surface:
         """Return the map that is solved first; of a single patch on native cells."""
         return self.first_joined(self.first_strips)
+
+    def is_on_surface_of(self, other: Sample) -> bool:
+        """Return whether this sample is the ``other`` one, on the same cells or on others: `halved`, `native`."""
+        names = [part.name for part in fields(self) if part.name != "cells"]  # type: ignore[arg-type]  # a dataclass
+        return type(self) is type(other) and all(getattr(self, name) is getattr(other, name) for name in names)
 
     def halved(self) -> Self:
         """Return the same sample on cells half as long."""

@@ -27,6 +27,7 @@ from ..shared import (
     contact_on_piece,
     contact_on_strips,
     has_too_few_contacts,
+    remembered,
     speed_of,
     strips_for_error,
 )
@@ -348,7 +349,8 @@ def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | No
         except LubfricError:
             return None
 
-    balance = prepared.memo.get(ReferenceKey(sample.cells.coarsening, "balance", nearest, speed > 0), make)
+    key = ReferenceKey(sample.cells.coarsening, "balance", nearest, speed > 0)
+    balance = remembered(prepared, sample, key, make)
     return balance if balance is not None and balance.response is not None else None
 
 
@@ -372,9 +374,8 @@ def _effect(prepared: Prepared, point: Point, balance: Balance, sample: Sample) 
         def make() -> CellEffect:
             return effect_of_cells(prepared, there, reference, sample)
 
-        effect = prepared.memo.get(
-            ReferenceKey(sample.cells.coarsening, "effect of cells", there.speed, there.speed > 0), make
-        )
+        key = ReferenceKey(sample.cells.coarsening, "effect of cells", there.speed, there.speed > 0)
+        effect = remembered(prepared, sample, key, make)
         more = effect.at_load(balance.contact_load).remaining_change - effect.remaining_change
         if response.relative("coefficient", more) <= REFERENCED * prepared.scene.numerics.tolerance:
             return effect

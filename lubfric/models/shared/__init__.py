@@ -51,6 +51,7 @@ from .prepared import (
     contact_on_strip,
     contact_on_strips,
     operator_on,
+    remembered,
     scene_of,
     why_no_rough_film,
 )

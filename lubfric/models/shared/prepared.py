@@ -1,8 +1,10 @@
 """A scene made ready: all that its speeds share."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial
+from typing import TypeVar
 
 import numpy as np
 
@@ -15,9 +17,12 @@ from ...samples import (
 )
 from ...scene import Scene
 from ...surface import Surface
-from .memo import JoinedKey, Memo, OperatorKey, PieceKey, PieceMapKey, StripKey
+from .memo import JoinedKey, Key, Memo, OperatorKey, PieceKey, PieceMapKey, StripKey
 from .violation import Violation
 
+T = TypeVar("T")
+
+# Classes of the rough contacts that lubfric makes itself.
 OWN_CONTACTS = HalfSpaceContact, FlatContact, AsperityContact
 
 
@@ -73,16 +78,31 @@ def why_no_rough_film(prepared: Prepared, speed: float) -> str:
     return "the surfaces are smooth" if prepared.surface.sq == 0 else ""
 
 
+def remembered(
+    prepared: Prepared,
+    sample: Sample,
+    key: Key[T],
+    make: Callable[[], T],
+    cells: Callable[[T], int] = lambda value: 0,
+) -> T:
+    """Return what ``make`` gives on ``sample``, made once for ``key`` (`Memo.get`).
+
+    A `Key` knows the cells of the sample and not its surface. So what is made on another surface than that of
+    ``prepared``, as on one of its bodies (`Sample.of_body`), is not remembered.
+    """
+    return prepared.memo.get(key, make, cells) if sample.is_on_surface_of(prepared.sample) else make()
+
+
 def contact_on_strips(prepared: Prepared, sample: Sample, count: int) -> RoughContact:
     """Return the contact on the first ``count`` strips of ``sample``; of an unresolved one the only contact.
 
-    ``sample``: that of ``prepared``, on any cells; the memo knows its cells and the number of strips, and no more.
+    ``sample``: that of ``prepared``, on any cells, or one of its bodies (`Sample.of_body`).
     """
 
     def make() -> RoughContact:
         return contact_at_inputs(prepared, sample, count, prepared.scene)
 
-    return prepared.memo.get(JoinedKey(sample.cells.coarsening, count), make, cells_of_contact)
+    return remembered(prepared, sample, JoinedKey(sample.cells.coarsening, count), make, cells_of_contact)
 
 
 def contact_at_inputs(prepared: Prepared, sample: Sample, count: int, scene: Scene) -> RoughContact:
@@ -98,7 +118,8 @@ def contact_on_strip(prepared: Prepared, sample: Sample, index: int) -> HalfSpac
         surface = sample.strip(index)
         return _contact(prepared, surface.heights, surface.spacing, sample.cells.axis())
 
-    return prepared.memo.get(StripKey(sample.cells.coarsening, index), make, lambda contact: contact.heights.size)
+    key = StripKey(sample.cells.coarsening, index)
+    return remembered(prepared, sample, key, make, lambda contact: contact.heights.size)
 
 
 def contact_on_piece(
@@ -108,16 +129,15 @@ def contact_on_piece(
     coarsening_of_sample = sample.cells.coarsening
 
     def make() -> HalfSpaceContact:
-        surface = prepared.memo.get(
-            PieceMapKey(coarsening_of_sample, index, length), lambda: sample.piece(index, length)
+        surface = remembered(
+            prepared, sample, PieceMapKey(coarsening_of_sample, index, length), lambda: sample.piece(index, length)
         )
         heights = sample.cells.thinned(surface.heights, coarsening)
         spacing = surface.spacing[0] * coarsening[0], surface.spacing[1] * coarsening[1]
         return _contact(prepared, heights, spacing, sample.cells.axis(coarsening))
 
-    return prepared.memo.get(
-        PieceKey(coarsening_of_sample, index, length, coarsening), make, lambda contact: contact.heights.size
-    )
+    key = PieceKey(coarsening_of_sample, index, length, coarsening)
+    return remembered(prepared, sample, key, make, lambda contact: contact.heights.size)
 
 
 def _contact(prepared: Prepared, heights: np.ndarray, spacing: tuple[float, float], x: np.ndarray) -> HalfSpaceContact:
