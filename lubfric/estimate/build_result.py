@@ -12,34 +12,21 @@ from ..models import ContactFields, Model, ModelAnswer
 from ..models.shared import (
     MAP_WIDTH,
     Prepared,
-    largest_sliding_friction,
     unmodelled_effects,
     violations_by_numerical_error,
 )
 from ..quantities import NUMBERS
-from ..scene import SLIDE_ROLL_RATIO_KEY, Scene
+from ..scene import Scene
 from .choice import Choice
 from .full_load import full_load_numbers
 from .methods import MethodUse, methods_of
 from .power import PowerLoss, power_loss_of
-from .ranges import changes_by_ranges, widened, with_missing_inputs
 from .result import FrictionResult
-from .uncertainty import Uncertainty, interval, number_errors_of
-
-AT_MOST = (
-    "the interval ends at the largest f that the limits of the shear stress allow, {} by sliding: f_b, or the stress of the oil "
-    "in the thinnest film"
-)
-
-# What narrows the sampling error, by whether the sample has more strips.
-SMALLER_SAMPLING_TOLERANCE = "a smaller numerics.sampling_tolerance narrows it"
-LARGER_MAP = "a larger map narrows it"
+from .uncertainty import Uncertainty, number_errors_of
+from .uncertainty_of_f import uncertainty_of
 
 # Sampling error of f over its target, up to which the length of the sample is no matter [-]: a convention.
 SAMPLED_WELL = 0.1
-
-# Parts of the friction force that resist the sliding.
-SLIDING_FORCES = ("boundary_force", "couette_force")
 
 
 def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *, fine: bool = False) -> FrictionResult:
@@ -103,75 +90,6 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
         compared_fields=compared_fields,
         details=details,
     )
-
-
-def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
-    """Return the uncertainty budget of f of an ``answer``, the ranges of inputs included."""
-    scene = prepared.scene
-    f = answer.numbers["coefficient"]
-    sampling_error = answer.sampling_error
-    of_solve = Uncertainty(
-        coefficient=f,
-        numerical=answer.numerical,
-        sampling=sampling_error.error,
-        interval=interval(f, numerical=answer.numerical, sampling_error=sampling_error, model_error=answer.model_error),
-        line_scatter=sampling_error.error * math.sqrt(answer.length / scene.bodies.width),
-        effective_contacts=answer.effective_contacts,
-        length=answer.length,
-        freedom=float(sampling_error.freedom),
-        tolerance=scene.numerics.sampling_tolerance,
-        area_needed=answer.area_needed,
-        model=max(answer.model_error),
-        model_sides=answer.model_error,
-        by_limit=answer.by_limit,
-        largest_in_model=answer.largest_in_model,
-        narrows_numerical=answer.narrows_numerical,
-        narrows_sampling=LARGER_MAP
-        if prepared.sample.available_strips <= answer.decision.strips
-        else SMALLER_SAMPLING_TOLERANCE,
-        notes=answer.notes,
-    )
-    known = with_missing_inputs(of_solve, f, answer.not_given)
-    with_inputs = widened(known, f, changes_by_ranges(prepared, answer)) if scene.ranges else known
-    return _not_driving(scene, answer, within_stress_limits(scene, answer, with_inputs))
-
-
-def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Uncertainty:
-    """Return ``uncertainty`` with an interval no part of which is beyond the largest f that the limits of the shear stress
-    allow (`lubfric.models.shared.largest_friction`), unless f itself is."""
-    f = answer.numbers["coefficient"]
-    rolling = abs(answer.numbers.get("rolling_force", 0.0)) / scene.bodies.load
-    sliding = largest_sliding_friction(scene, answer.numbers["speed"])
-    most = max(sliding + answer.most_rolling_ratio * (0.0 if math.isnan(rolling) else rolling), abs(f))
-    low, high = uncertainty.interval
-    if not (high > most or low < -most):
-        return uncertainty
-    ends = max(low, -most), min(high, most)
-    return replace(uncertainty, interval=ends, notes=(*uncertainty.notes, AT_MOST.format(f"{sliding:.3g}")))
-
-
-def _not_driving(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Uncertainty:
-    """Return ``uncertainty`` with an interval of f that is not below what the rolling part of the force leaves, where the
-    surfaces slide.
-
-    The sliding part of f resists the sliding, because it dissipates power; f is below 0 only by the rolling part of the
-    film's force, where that points the other way.
-    """
-    f = answer.numbers["coefficient"]
-    sliding = sum(answer.numbers.get(force, math.nan) for force in SLIDING_FORCES) / scene.bodies.load
-    rolling = answer.most_rolling_ratio * (f - sliding)
-    least = min(0.0, 0.0 if math.isnan(rolling) else rolling, f)
-    low, high = uncertainty.interval
-    if not (_always_slides(scene) and low < least):
-        return uncertainty
-    return replace(uncertainty, interval=(least, high))
-
-
-def _always_slides(scene: Scene) -> bool:
-    """Return whether the surfaces slide, and one way, at all values in the ranges of the inputs."""
-    ratios = [scene.motion.slide_roll_ratio]
-    ratios += [end for name, *ends in scene.ranges if name == SLIDE_ROLL_RATIO_KEY for end in ends]
-    return min(ratios) > 0 or max(ratios) < 0
 
 
 def _power_loss(

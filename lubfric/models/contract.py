@@ -203,14 +203,15 @@ class WorkEstimate:
 
 
 class SampleSolution(ABC):
-    """The first ``count`` strips of a sample, solved by a model. Means over them are the answer.
+    """What a model has solved of the first ``count`` strips of a sample. A model whose strips are of its own, as "quick",
+    solves nothing before `completed`.
 
-    `lubfric.estimate` requests more strips or shorter cells until there are enough, then `corrected`, then `completed`, and
-    at last the `answer`.
+    `lubfric.estimate` requests more strips or shorter cells until there are enough, then `corrected`, then, under "auto",
+    `completed`, and at last the `answer`.
 
     Attributes
     ----------
-    prepared, sample, count, speed : what was solved, at an entrainment speed [m/s]
+    prepared, sample, count, speed : what `Model.solve` was called with, at an entrainment speed [m/s]
     sampling_error : the error that decides on more strips
     """
 
@@ -253,8 +254,11 @@ class SampleSolution(ABC):
         return self
 
     def completed(self) -> SampleSolution:
-        """Solve what the answer needs and was left out so far, because a more expensive model might answer; itself where
-        nothing was. `answer` does so itself, at the cost of a solve at each call."""
+        """Solve what the answer needs and `Model.solve` left out; itself where that is nothing.
+
+        "auto" calls it where the solution `may_suffice`, and on the one that answers. Elsewhere `answer` does so itself, at
+        the cost of a solve at each call.
+        """
         return self
 
     def may_suffice(self) -> bool:
@@ -266,7 +270,10 @@ class SampleSolution(ABC):
         return None
 
     def why_sufficient(self) -> str:
-        """Return why numerics.model = "auto" needs no more expensive model, as text; "" if it does. Nothing is solved."""
+        """Return why numerics.model = "auto" needs no more expensive model, as text; "" if it does.
+
+        No strip is solved. It may make the `answer`, and a smooth film with it.
+        """
         return ""
 
     def heat(self) -> Heat | None:
