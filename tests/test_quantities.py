@@ -7,6 +7,7 @@ import pytest
 import lubfric
 from lubfric import quantities as q
 from lubfric.estimate import Uncertainty
+from lubfric.models.load_sharing import PaperModel
 from lubfric.scene import SECTIONS, short_keys
 from lubfric.units import worded
 
@@ -50,3 +51,13 @@ def test_words_for_columns_axes_tables_and_lines():
 )
 def test_numbers_are_reported_in_units_of_people(value, unit, text):
     assert worded(value, unit) == text
+
+
+def test_another_quantity_that_depends_on_the_area_has_its_error(monkeypatch):
+    """The error of a column is by what it depends on, not by its place among the others."""
+    home = "lubfric.models.load_sharing.errors_of.depending_on"
+    monkeypatch.setattr(home, lambda error: (*q.depending_on(error), *["another area"] * (error == "area")))
+    prepared = lubfric.prepare(lubfric.load_scene("paper"))
+    errors = PaperModel().solve(prepared, prepared.sample, 2, 0.0).answer().errors
+    assert errors["another area"] == errors["real_contact_area_fraction"] > 0
+    assert errors["real_contact_area"] > 0

@@ -18,6 +18,7 @@ from .balance import Balance
 from .balanced_sample import BalancedSample
 from .error_of_eq8 import least_error, load_sharing_error, starved_error
 from .forces import Forces
+from .response import contact_length
 from .scatter import Scatter
 
 # Relative change of the plastic part over that of the load or the area, at most about. Not measured: it enters
@@ -92,7 +93,7 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
     why = "there was none, or too little to estimate it"
     if balance.film is None:
         # only areas scatter
-        errors = _area_errors(scene, balance, scatter)
+        errors = _area_errors(balance, scatter)
         why = f"{balance.why_no_film}: there is no film"
         errors |= dict.fromkeys((*depending_on("split"), *depending_on("shear")), 0.0)
     elif response is None:
@@ -177,7 +178,7 @@ def _contact_errors(scene: Scene, balanced: BalancedSample, solver: SolverErrors
     for name, at_given_load in _given_load(balance.forces, solver.film_error).items():
         errors[name] = errors.get(name, 0.0) + at_given_load
     by_load = errors.get("contact_load", 0.0)
-    for name, error in _area_errors(scene, balance, balanced.scatter).items():
+    for name, error in _area_errors(balance, balanced.scatter).items():
         errors[name] = math.hypot(by_load, error, solver.area_error)
     if balance.contact_state.plastic_area_fraction > 0:
         change = balanced.effect.plastic_change / balance.contact_state.plastic_area_fraction
@@ -190,16 +191,20 @@ def _contact_errors(scene: Scene, balanced: BalancedSample, solver: SolverErrors
     return errors
 
 
-def _area_errors(scene: Scene, balance: Balance, scatter: Scatter) -> dict[str, float]:
-    """Return the relative standard errors of the areas at given load."""
-    fraction = balance.contact_state.real_contact_area_fraction
-    length = float(
-        balance.contact_state.contact_fraction.sum() * (balance.contact_state.x[1] - balance.contact_state.x[0])
-    )
-    pairs = (fraction, scatter.area.error), (length, scatter.contact_length.error)
-    finite = [(value, error if math.isfinite(error) else 0.0) for value, error in pairs]
-    names = depending_on("area")
-    return {name: error / value if value > 0 else math.nan for name, (value, error) in zip(names, finite, strict=True)}
+def _area_errors(balance: Balance, scatter: Scatter) -> dict[str, float]:
+    """Return the relative standard errors at given load of all that depends on an area: of the area of the complete line
+    its own, of the rest that of the fraction of A."""
+    contact_state = balance.contact_state
+    of_fraction = _relative(scatter.area, contact_state.real_contact_area_fraction)
+    of_line = _relative(scatter.contact_length, contact_length(contact_state))
+    return dict.fromkeys(depending_on("area"), of_fraction) | {"real_contact_area": of_line}
+
+
+def _relative(error: StandardError, value: float) -> float:
+    """Return the ``error`` of a ``value`` over it: 0 where it is not known, NaN where the value is not above 0."""
+    if not value > 0:
+        return math.nan
+    return error.error / value if math.isfinite(error.error) else 0.0
 
 
 def _given_load(forces: Forces, film_error: float) -> dict[str, float]:
