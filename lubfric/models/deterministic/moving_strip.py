@@ -5,7 +5,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from itertools import islice
-from typing import Any
+from typing import Any, get_type_hints
 
 import numpy as np
 
@@ -91,7 +91,10 @@ MOMENTS_SPARE = 1.1
 SERIES = "coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film"
 # Inputs that change the shear stress of a film, but hardly its pressure and gap (`MovingStripSolution.with_oils`).
 OF_SHEAR = "lubricant.eyring_stress", "lubricant.limiting_stress_coefficient"
-AVERAGED = tuple(f.name for f in fields(DeterministicResult) if f.type is float) + ("load_at", "friction_at")
+
+# Fields of a `DeterministicResult` of which a strip has the means over time: all numbers, and two of every place along y.
+_TYPES = get_type_hints(DeterministicResult)
+AVERAGED = (*(f.name for f in fields(DeterministicResult) if _TYPES[f.name] is float), "load_at", "friction_at")
 
 
 @dataclass(frozen=True, kw_only=True)
