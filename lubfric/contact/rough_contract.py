@@ -40,11 +40,6 @@ class ContactState:
     gap_error: float = 0.0
     area_error: float = 0.0
 
-    @property
-    def volume_residual(self) -> float:
-        """Return (gap - film)/(gap + film): zero in balance, increasing with the film's share of the load."""
-        return (self.mean_gap - self.mean_film) / (abs(self.mean_gap) + self.mean_film)
-
     def touching(self, x: np.ndarray) -> np.ndarray:
         """Return the share of the width in contact (n - 1,), averaged over each cell between neighbouring ``x`` (n,)
         [m], either way. (The columns of the contact are finer than the cells of a film, and vary from one to the

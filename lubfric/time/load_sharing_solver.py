@@ -8,6 +8,7 @@ import numpy as np
 
 from ..contact import ContactState, RoughContact
 from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError
+from ..models.load_sharing import volume_residual
 from ..models.shared import Prepared
 from ..scene import Scene
 from .film_equations import Spring
@@ -95,7 +96,7 @@ class LoadSharingSolver:
             if closed is None:
                 break
             if load == 0.0:
-                if closed.volume_residual <= 0.0:
+                if volume_residual(closed) <= 0.0:
                     if spring is None:
                         return replace(solution, payload=ContactStep(0.0, closed, softness))
                     touch = 0.0
@@ -109,7 +110,7 @@ class LoadSharingSolver:
                 if closed is None:
                     break
                 softness = max(touching - closed.mean_gap, 1e-3 * touching)
-            elif abs(closed.volume_residual) <= self.tolerance:
+            elif abs(volume_residual(closed)) <= self.tolerance:
                 return replace(solution, payload=ContactStep(load, closed, _softness(softness, seen, load, closed)))
             softness = _softness(softness, seen, load, closed)
             seen = (load, closed.mean_gap)

@@ -15,7 +15,7 @@ from ..estimate import (
     power_of_forces,
 )
 from ..film import ShearForce, above_carried, rolling_error, smallest, spike_error
-from ..models.load_sharing import moment_error, moment_model_error
+from ..models.load_sharing import moment_error, moment_model_error, volume_residual
 from ..models.shared import (
     Heat,
     Violation,
@@ -138,7 +138,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         "plastic_area_fraction": state.plastic_area_fraction and state.plastic_area_fraction * model.plastic,
         "edge_load": model.patch.on_the_ends(state) if touches else math.nan,
         "load_residual": (film_load + contact_step.load) / total - 1.0,
-        "volume_residual": state.volume_residual if touches else math.nan,
+        "volume_residual": volume_residual(state) if touches else math.nan,
         **_full_load_in_time(scene, speed, sq, film_factor, central_film, touches=touches),
         **_mass(model, solution),
         "steps": now.steps,

@@ -12,7 +12,7 @@ from ..contact import HalfSpaceContact
 from ..errors import CONVERGED, ConvergenceError, InputError, LubfricError, WorkLimitError
 from ..estimate import solve_to_tolerance
 from ..models import prepare
-from ..models.load_sharing import BalancedSample, PaperModel, PaperSolution, solve_balance
+from ..models.load_sharing import BalancedSample, PaperModel, PaperSolution, solve_balance, volume_residual
 from ..models.shared import Prepared, contact_on_strips, scene_of
 from ..samples import (
     Sample,
@@ -129,7 +129,7 @@ def _flying(model: TransientLoadSharing, film: float) -> Step:
     """Return the state without pressure anywhere under a parabola at the height ``film`` [m]."""
     step = _untouched(model, model.setting.undeformed(film))
     state = step.payload.state
-    if state.volume_residual > 0.0:
+    if volume_residual(state) > 0.0:
         said = f": the surfaces touch at {state.mean_film:g} m of mean film"
         raise InputError(said, "transient.initial_film", f"above {state.mean_gap:g} m, or initial = 'rest'")
     return step

@@ -20,6 +20,7 @@ from ..shared import (
 )
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
+from .closure import volume_residual
 from .decision import decision_of
 from .error_of_eq8 import OF_ROLLING
 from .errors_of import errors_of
@@ -210,7 +211,7 @@ def _numbers(balanced: BalancedSample) -> dict[str, float]:
         "plastic_area_fraction": contact_state.plastic_area_fraction,
         "film_to_roughness_ratio": numbers["central_film"] / sq if sq > 0 else math.inf,
         "load_residual": (sum(loads) - scene.bodies.load) / scene.bodies.load,
-        "volume_residual": 0.0 if film is None or separated else balanced.raw_balance.contact_state.volume_residual,
+        "volume_residual": 0.0 if film is None or separated else volume_residual(balanced.raw_balance.contact_state),
         "clearance": (contact_state.mean_film - contact_state.mean_gap) / max(sq, 1e-12) if separated else math.nan,
         "steepness": _steepness(balanced),
     }

@@ -10,7 +10,7 @@ from ...film import EHLResult
 from ...scene import Scene, budget
 from ..contract import ModelDetails
 from ..shared import exponents, meaningless
-from .closure import residual, residual_slope
+from .closure import residual_slope, volume_residual
 from .forces import Forces, forces
 from .point import (
     Point,
@@ -135,7 +135,7 @@ def solve_balance(
         except ConvergenceError as error:  # then a balance in contact, one of a kind, is what excludes separation
             notes = (f"the full-load film was not solved ({error})",)
         else:
-            if residual(separated.contact_state) <= 0:
+            if volume_residual(separated.contact_state) <= 0:
                 return separated
             alone = separated.film
     settings = replace(_first_settings(scene), correctable=correctable)
@@ -194,7 +194,7 @@ def _certainly_touching(scene: Scene, speed: float, rough_contact: RoughContact)
     """Return whether the summits would even reach through twice Moes' film over an undeformed cylinder, which is
     thicker than any film."""
     film = SAFE_FILM * scene.line_contact(speed).moes_film
-    return residual(rough_contact.close(film + rough_contact.x**2 / (2 * scene.bodies.radius), 0.0)) > 0
+    return volume_residual(rough_contact.close(film + rough_contact.x**2 / (2 * scene.bodies.radius), 0.0)) > 0
 
 
 def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult | None) -> Balance:
@@ -353,7 +353,7 @@ def _root(point: Point, near: RootStart) -> Root:
 
     def residual_at(x: float, last: Trial | None) -> tuple[float, Trial]:
         trial = point.trial(*loads_at(load, x), last)
-        return residual(trial.contact_state), trial
+        return volume_residual(trial.contact_state), trial
 
     is_fed = point.scene.lubricant.inlet_film is not None
     root = increasing_root(

@@ -28,6 +28,7 @@ from ..shared import (
 from .balance import (
     Balance,
 )
+from .closure import gap_under
 from .point import (
     Point,
 )
@@ -224,10 +225,9 @@ def _along_y(
     """Return the influence on the mean gap beyond the mean film [m], and share of A in contact, means over ``rows``
     cells along y."""
     assert contact_state.fields is not None
-    gap = (
-        gap_influence(hertz_mean_gap(rough_contact, contact_state), line_load(rough_contact, contact_state), slope)
-        - contact_state.mean_film
-    )
+    gap = gap_influence(
+        hertz_mean_gap(rough_contact, contact_state), line_load(rough_contact, contact_state), slope
+    ) - gap_under(contact_state.mean_film)
     touching = rough_contact.weight @ (contact_state.fields.pressure > 0) / rough_contact.weight.sum()
     return gap.reshape(-1, rows).mean(axis=1), touching.reshape(-1, rows).mean(axis=1)
 

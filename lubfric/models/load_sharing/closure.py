@@ -5,8 +5,9 @@ carries more, it is thinner, and the gap is wider. So the residual of the closur
 `balance` finds. Everything else meets the closure through an error of the gap at given load: cells (`CellEffect`), places
 (`Scatter`) and solvers state that error, and `log_load_ratio_per_gap` is how the division of the load reacts to it.
 
-Another closure of gap and film is another body of these five functions. Runs in time step along s by their own rule
-(`lubfric.time.load_sharing_solver`).
+Another closure of gap and film is another body of these six functions, and another first guess
+(`balance.predict_log_load_ratio` has the slope of this residual from powers of the loads). Runs in time take the residual
+from here, and step along s by their own rule, with this closure in their `Spring` (`lubfric.time.load_sharing_solver`).
 """
 
 import math
@@ -15,19 +16,26 @@ from dataclasses import replace
 from ...contact import ContactState
 
 
-def residual(contact_state: ContactState) -> float:
-    """Return (G - h)/(G + h) of ``contact_state``: 0 where the closure holds, increasing with s."""
-    return contact_state.volume_residual
+def volume_residual(contact_state: ContactState) -> float:
+    """Return (G - h)/(|G| + h) of ``contact_state``: 0 where the closure holds, increasing with s."""
+    gap = contact_state.mean_gap
+    film = contact_state.mean_film
+    return (gap - film) / (abs(gap) + film)
+
+
+def gap_under(mean_film: float) -> float:
+    """Return the mean gap [m] that the closure demands under ``mean_film`` [m]: the film fills the gap."""
+    return mean_film
 
 
 def open_gap(contact_state: ContactState) -> float:
     """Return the gap [m] that the closure leaves open at ``contact_state``: G - h."""
-    return contact_state.mean_gap - contact_state.mean_film
+    return contact_state.mean_gap - gap_under(contact_state.mean_film)
 
 
 def closed(contact_state: ContactState, mean_film: float) -> ContactState:
     """Return ``contact_state`` with the gap that the closure demands under ``mean_film`` [m]."""
-    return replace(contact_state, mean_gap=mean_film, mean_film=mean_film)
+    return replace(contact_state, mean_gap=gap_under(mean_film), mean_film=mean_film)
 
 
 def log_load_ratio_per_gap(gap_rate: float, film_rate: float) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 from ...contact import ContactState, RoughContact, weighted_mean
 from ...film import EHLResult
 from ...scene import Scene
-from .closure import log_load_ratio_per_gap
+from .closure import gap_under, log_load_ratio_per_gap
 from .forces import Forces, forces
 
 # Step of ln(F_H/F_C), each way, for the rates of the film. Half and twice as much change f by less than 0.01 %
@@ -143,9 +143,9 @@ def respond(
         loads = loads_at(total, s)
         shared = film_of(loads[0])
         factor = slopes.area_factor(loads[1] - load, width, contact_state.real_contact_area_fraction)
-        mean_film = weighted_mean(shared.film_at(rough_contact.x), rough_contact.weight)  # the film fills the gap
+        mean_gap = gap_under(weighted_mean(shared.film_at(rough_contact.x), rough_contact.weight))
         return quantities(
-            forces(scene, shared, with_contact_area_scaled(contact_state, factor), loads[1]), shared, loads, mean_film
+            forces(scene, shared, with_contact_area_scaled(contact_state, factor), loads[1]), shared, loads, mean_gap
         )
 
     low = at(log_load_ratio - LOG_RATIO_STEP)
