@@ -42,18 +42,18 @@ class Study:
 
 
 def study(name: str, title: str, levels: tuple[str, ...] = LEVELS, grade: str = "C") -> Study:
-    """The study of this name, in the module of its name."""
+    """Return the study of this name, in the module of its name."""
     return Study(name, f"verification.fem.studies.{name}:{name}", title=title, levels=levels, grade=grade)
 
 
 def wiring(part: str, title: str) -> Study:
-    """A study of whether the options of a scene arrive."""
+    """Return a study of whether the options of a scene arrive."""
     target = f"verification.campaigns.wiring.{part}:wiring_{part}"
     return Study(f"wiring_{part}", target, title=f"Every option reaches the number: {title}")
 
 
 def published(name: str, title: str) -> Study:
-    """A part of ``python -m verification published``."""
+    """Return a part of ``python -m verification published``."""
     return Study(
         name, f"verification.fem.published.{name}:{name}", title=f"{title}, compared with publications", grade="A"
     )

@@ -157,7 +157,7 @@ class Check:
         return self.decisive and not self.passed and not self.deviates_as_listed
 
     def as_dict(self) -> PlainRow:
-        """Plain types only, with the verdict."""
+        """Return plain types only, with the verdict."""
         return asdict(self) | {
             "deviation": self.deviation,
             "passed": self.passed,
@@ -166,7 +166,7 @@ class Check:
 
     @classmethod
     def from_dict(cls, values: PlainRow) -> Check:
-        """The check whose values `as_dict` gave. What JSON has no word for comes back as NaN."""
+        """Return the check whose values `as_dict` gave. What JSON has no word for comes back as NaN."""
         known = {f.name: values[f.name] for f in fields(cls) if f.name in values}
         for name in ("measured", "expected", "tolerance"):
             known[name] = math.nan if known[name] is None else known[name]
@@ -239,7 +239,7 @@ ComparedRow = tuple[str, str, float, float, float]
 
 
 def bound(name: str, error: float, limit: float, source: str, note: str = "") -> Check:
-    """The check that an error, or what is left over, is at most ``limit``."""
+    """Return the check that an error, or what is left over, is at most ``limit``."""
     return Check(name, error, expected=0.0, tolerance=limit, source=source, kind=AT_MOST, note=note)
 
 
@@ -286,7 +286,7 @@ def beside(
 
 
 def file_name(name: str) -> str:
-    """``name`` if it can be part of a file name, else ValueError."""
+    """Return ``name`` if it can be part of a file name, else ValueError."""
     if not re.fullmatch(r"[A-Za-z0-9_-]+", name):
         raise ValueError(f"name {name!r} becomes a file name; allowed: letters, digits, _ and -")
     return name

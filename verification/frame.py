@@ -79,7 +79,7 @@ def campaign(
     add_options: Callable[[argparse.ArgumentParser], None] = lambda parser: None,
     more_keywords: Callable[[str, argparse.Namespace], Keywords] = lambda part, options: {},
 ) -> Command:
-    """A command whose ``parts`` are (name, "module:function" in `verification.campaigns`, title, keywords).
+    """Return a command whose ``parts`` are (name, "module:function" in `verification.campaigns`, title, keywords).
 
     Each is ``function(level, run=..., **keywords)`` with a `kept.Run`, and yields what a study does.
     ``more_keywords(name, options)`` are those that the parsed options give a part.
@@ -102,7 +102,7 @@ def campaign(
 
 
 def _prepared(command: Command, study: Study, options: argparse.Namespace) -> Study:
-    """The study as the options want it. Those of a campaign keep their rows in one folder for each level."""
+    """Return the study as the options want it. Those of a campaign keep their rows in one folder for each level."""
     if not command.campaign:
         return study
     run = kept.Run(options.out / f"kept-{options.level}", options.workers, study.name)
@@ -110,7 +110,7 @@ def _prepared(command: Command, study: Study, options: argparse.Namespace) -> St
 
 
 def parser(command: Command) -> argparse.ArgumentParser:
-    """The parser of the command line."""
+    """Return the parser of the command line."""
     p = argparse.ArgumentParser(command.program, description=command.summary)
     if len(command.levels) > 1:
         level = p.add_mutually_exclusive_group()
@@ -147,7 +147,7 @@ def choose(command: Command, p: argparse.ArgumentParser, options: argparse.Names
 
 
 def did_you_mean(word: str, options: dict[str, str] | list[str]) -> str:
-    """' (did you mean ...?)' or an empty string."""
+    """Return ' (did you mean ...?)' or an empty string."""
     matches = difflib.get_close_matches(word, list(options), n=1, cutoff=0.4)
     return f" (did you mean {matches[0]!r}?)" if matches else ""
 

@@ -48,7 +48,7 @@ class Run:
 
 
 def row_of(solve: Callable[[Case], PlainValue], file: Path | None, key: str, case: Case) -> PlainValue:
-    """``solve(case)`` in plain types, a line of ``file`` now. It is written at once, so that others may write too."""
+    """Return ``solve(case)`` in plain types, a line of ``file`` now. It is written at once, so that others may write too."""
     row = finite(solve(case))
     if file is not None:
         with file.open("ab", buffering=0) as stream:
@@ -57,7 +57,7 @@ def row_of(solve: Callable[[Case], PlainValue], file: Path | None, key: str, cas
 
 
 def code() -> str:
-    """lubfric's version, and a hash of its source files."""
+    """Return lubfric's version, and a hash of its source files."""
     import lubfric  # only now: the studies can be listed without it
 
     digest = hashlib.sha256()
@@ -68,7 +68,7 @@ def code() -> str:
 
 
 def rows_of(file: Path) -> PlainRow:
-    """The rows of ``file`` by case. It is made if it is missing; an unfinished last line is cut off."""
+    """Return the rows of ``file`` by case. It is made if it is missing; an unfinished last line is cut off."""
     file.parent.mkdir(parents=True, exist_ok=True)
     content = file.read_bytes() if file.is_file() else b""
     content = content[: content.rfind(b"\n") + 1]

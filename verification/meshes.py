@@ -40,7 +40,7 @@ def write_vtu(path: Path, field: Field) -> Path:
 
 
 def in_space(points: np.ndarray) -> np.ndarray:
-    """Coordinates padded with zeros to three columns."""
+    """Return coordinates padded with zeros to three columns."""
     points = np.atleast_2d(np.asarray(points, dtype=float))
     if points.shape[1] > 3:
         raise ValueError(f"points have {points.shape[1]} columns; allowed: 1 to 3")
@@ -54,7 +54,7 @@ def mesh_field(
     point_data: dict[str, FloatArray] | None = None,
     cell_data: dict[str, FloatArray] | None = None,
 ) -> Field:
-    """A `Field` on the vertices of a scikit-fem mesh.
+    """Return a `Field` on the vertices of a scikit-fem mesh.
 
     ``point_data`` has values at the vertices, shape (n,) or (n, components); ``cell_data`` (m,) each.
     """

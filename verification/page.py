@@ -46,7 +46,7 @@ def render(report: Report) -> str:
 
 
 def overview(report: Report) -> str:
-    """A line for each study, with a link to its section."""
+    """Return a line for each study, with a link to its section."""
     done = {o.study.name: o for o in report.outcomes}
     rows = []
     for name in report.selected:
@@ -70,7 +70,7 @@ def overview(report: Report) -> str:
 
 
 def section(outcome: Outcome) -> str:
-    """Everything one study handed over."""
+    """Return everything one study handed over."""
     parts = [
         f'<h2 id="{escape(outcome.study.name)}">{escape(outcome.study.title)}</h2>',
         *(f'<p class="text">{escape(" ".join(p.split()))}</p>' for p in outcome.description.split("\n\n")),
@@ -92,7 +92,7 @@ def section(outcome: Outcome) -> str:
 
 
 def checks_table(checks: list[Check] | tuple[Check, ...]) -> str:
-    """The checks of a study, or the failed ones of all. Of very many only the failed ones are shown."""
+    """Return the checks of a study, or the failed ones of all. Of very many only the failed ones are shown."""
     chosen = listed(tuple(checks))
     note = "" if len(chosen) == len(checks) else f"<p>{len(checks)} checks, all of them in report.json.</p>"
     published = [c for c in chosen if c.errors]
@@ -148,7 +148,7 @@ def beside_table(checks: list[Check]) -> str:
 
 
 def data_table(table: Table) -> str:
-    """A table of a study. A wide one scrolls inside its own box."""
+    """Return a table of a study. A wide one scrolls inside its own box."""
     rows = ([escape(number(v)) for v in row] for row in table.rows)
     body = html_table([escape(str(c)) for c in table.columns], rows, "wide", table.caption)
     return f'<div class="scroll">{body}</div>'
@@ -160,7 +160,7 @@ def html_table(
     kind: str = "cards",
     caption: str = "",
 ) -> str:
-    """A table of ready HTML cells; one of cards turns into them on a narrow screen."""
+    """Return a table of ready HTML cells; one of cards turns into them on a narrow screen."""
     head = "".join(f"<th>{c}</th>" for c in columns)
     body = []
     for row in rows:
@@ -172,7 +172,7 @@ def html_table(
 
 
 def figure(item: Figure) -> str:
-    """A figure with its bytes inside the page."""
+    """Return a figure with its bytes inside the page."""
     kind = {"svg": "image/svg+xml", "png": "image/png"}[item.format]
     data = base64.b64encode(item.data).decode("ascii")
     return (
@@ -182,10 +182,10 @@ def figure(item: Figure) -> str:
 
 
 def verdict_of(check: Check) -> str:
-    """The verdict of a check as a word."""
+    """Return the verdict of a check as a word."""
     return "listed" if check.deviates_as_listed else mark(passed=check.passed)
 
 
 def mark(*, passed: bool) -> str:
-    """The verdict as a word, not by colour alone."""
+    """Return the verdict as a word, not by colour alone."""
     return '<strong class="good">pass</strong>' if passed else '<strong class="bad">FAIL</strong>'

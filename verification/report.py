@@ -65,14 +65,14 @@ class Report:
         return f"{text}; by grade: {by_grade(self.checks)}" if decisive else text
 
     def as_dict(self) -> PlainRow:
-        """Plain types for report.json; a number that is not finite becomes null."""
+        """Return plain types for report.json; a number that is not finite becomes null."""
         shown = ("passed", "complete", "verdict", "level", "selected", "started", "seconds", "environment")
         values = {"format": FORMAT} | {name: getattr(self, name) for name in shown}
         return finite(values | {"studies": [outcome_dict(o) for o in self.outcomes]})
 
 
 def outcome_dict(outcome: Outcome) -> PlainRow:
-    """One study for report.json."""
+    """Return one study for report.json."""
     name = outcome.study.name
     return {
         "name": name,
@@ -90,7 +90,7 @@ def outcome_dict(outcome: Outcome) -> PlainRow:
 
 
 def finite(value: object) -> PlainValue:
-    """``value`` in plain types, with NaN and infinities as None: JSON has no word for them."""
+    """Return ``value`` in plain types, with NaN and infinities as None: JSON has no word for them."""
     if isinstance(value, dict):
         return {str(k): finite(v) for k, v in value.items()}
     if isinstance(value, (list, tuple)):
@@ -100,7 +100,7 @@ def finite(value: object) -> PlainValue:
 
 
 def environment() -> dict[str, str]:
-    """Versions of the packages and the machine, for a reader who wants to repeat the numbers."""
+    """Return versions of the packages and the machine, for a reader who wants to repeat the numbers."""
     results = {"python": platform.python_version()}
     for package in PACKAGES:
         try:
@@ -130,7 +130,7 @@ def save_files(outcome: Outcome, out: Path) -> Outcome:
 
 
 def file_of(study: str, name: str, ending: str) -> str:
-    """The file of what a study calls ``name``. It is named after the study, unless it bears that name already."""
+    """Return the file of what a study calls ``name``. It is named after the study, unless it bears that name already."""
     return f"{name}.{ending}" if name.startswith(study) else f"{study}_{name}.{ending}"
 
 
@@ -151,7 +151,7 @@ def save(report: Report, out: Path) -> Path:
 
 
 def terminal_table(report: Report) -> str:
-    """The checks as text, one line each, with the reason below those that failed or deviate. Of very many only these.
+    """Return the checks as text, one line each, with the reason below those that failed or deviate. Of very many only these.
 
     Those that failed or deviate stand once more at the end, where a person looks first."""
     lines = []

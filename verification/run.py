@@ -141,13 +141,13 @@ def run_one(
 
 
 def load(study: Study) -> Callable[..., Iterable[Item]]:
-    """The function behind ``study.target``."""
+    """Return the function behind ``study.target``."""
     module, _, function = study.target.partition(":")
     return getattr(importlib.import_module(module), function)
 
 
 def explain(exc: BaseException) -> str:
-    """The last line of the traceback; for a missing extra also how to install it."""
+    """Return the last line of the traceback; for a missing extra also how to install it."""
     missing = (exc.name or "").partition(".")[0] if isinstance(exc, ModuleNotFoundError) else ""
     if missing in EXTRAS:
         package = EXTRAS[missing]

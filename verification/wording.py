@@ -16,7 +16,7 @@ ALLOWED = {
 
 
 def mark(check: Check) -> str:
-    """The verdict in four letters: what decides nothing, or has nothing to be, is neither right nor wrong."""
+    """Return the verdict in four letters: what decides nothing, or has nothing to be, is neither right nor wrong."""
     if check.failed:
         return "FAIL"
     if check.deviates_as_listed:
@@ -64,23 +64,23 @@ def by_grade(checks: Iterable[Check]) -> str:
 
 
 def fraction(value: float) -> str:
-    """A relative tolerance: in per cent, or in powers of ten where that would be mostly zeros."""
+    """Return a relative tolerance: in per cent, or in powers of ten where that would be mostly zeros."""
     return f"{100 * value:.2g} %" if value >= 1e-5 or value == 0 else f"{value:.1e} relative"
 
 
 def number(value: float) -> str:
-    """A number for a person: six digits; "none" for one that is not finite."""
+    """Return a number for a person: six digits; "none" for one that is not finite."""
     if isinstance(value, float):
         return f"{value:.6g}" if math.isfinite(value) else "none"
     return str(value)
 
 
 def seconds(value: float | None) -> str:
-    """A time for a person."""
+    """Return a time for a person."""
     return "" if value is None else f"{value:.2f} s" if value < 100 else f"{value / 60:.1f} min"
 
 
 def markdown(columns: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
-    """A table in Markdown, without a line's end after the last row."""
+    """Return a table in Markdown, without a line's end after the last row."""
     lines = [columns, ["---"] * len(columns), *rows]
     return "\n".join("| " + " | ".join(str(cell).replace("|", r"\|") for cell in line) + " |" for line in lines)

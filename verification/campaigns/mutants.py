@@ -188,7 +188,7 @@ def pattern_of(text: str) -> re.Pattern[str]:
 
 
 def table(text: str | None = None) -> list[Mutant]:
-    """The mutants of ``text`` (None: of `mutants.txt`)."""
+    """Return the mutants of ``text`` (None: of `mutants.txt`)."""
     lines = (TABLE.read_text(encoding="utf-8") if text is None else text).splitlines()
     parts = [line.split(" | ") for line in lines if line.strip() and not line.startswith("#")]
     return [Mutant(place, right, wrong, tuple(by.split())) for place, right, wrong, by in parts]
@@ -268,7 +268,7 @@ def tried(trial: Mutant | Control, deadline: float) -> tuple[int, float] | None:
 
 
 def is_test(name: str) -> bool:
-    """Whether ``name`` is a test, not a study."""
+    """Return whether ``name`` is a test, not a study."""
     return ".py" in name
 
 

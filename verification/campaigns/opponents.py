@@ -25,7 +25,7 @@ Solver = Callable[[float, float], np.ndarray]
 
 
 def version(package: str) -> str:
-    """Installed version, or ""."""
+    """Return installed version, or ""."""
     try:
         return importlib.metadata.version(package)
     except importlib.metadata.PackageNotFoundError:
@@ -40,7 +40,7 @@ def peers() -> str:
 def tamaas_solver(
     heights: np.ndarray, spacing: float, e_prime: float, threads: int = 1, max_iterations: int = 20000
 ) -> Solver | None:
-    """Polonsky-Keer-Rey of `tamaas`, pressure as its primal variable; its wheel always runs on one thread.
+    """Return Polonsky-Keer-Rey of `tamaas`, pressure as its primal variable; its wheel always runs on one thread.
 
     The pressure is what it has after ``max_iterations``, converged or not.
     """
@@ -75,7 +75,7 @@ def aspher_solver(
     precision: str = "float_then_double",
     engine: str = "fft",
 ) -> Solver | None:
-    """Nested grids of `aspher`, periodic: its fastest setting is float to double with the transform as preconditioner.
+    """Return nested grids of `aspher`, periodic: its fastest setting is float to double with the transform as preconditioner.
 
     Set OMP_NUM_THREADS before the process starts: OpenMP reads it once. ``heights`` must be square with an even side.
     """
@@ -99,7 +99,7 @@ def aspher_solver(
 
 
 def lubfric_solver(heights: np.ndarray, spacing: float, e_prime: float, threads: int = 1) -> Solver:
-    """The default of the library, its operator made once."""
+    """Return the default of the library, its operator made once."""
     operator = half_space(heights.shape, spacing, e_prime, workers=threads)
 
     def solve(load: float, tolerance: float) -> np.ndarray:
@@ -115,7 +115,7 @@ def lubfric_solver(heights: np.ndarray, spacing: float, e_prime: float, threads:
 
 
 def polonsky_keer_solver(heights: np.ndarray, spacing: float, e_prime: float, threads: int = 1) -> Solver:
-    """Plain Polonsky-Keer with the library's operator."""
+    """Return plain Polonsky-Keer with the library's operator."""
     operator = half_space(heights.shape, spacing, e_prime, workers=threads)
 
     def solve(load: float, tolerance: float) -> np.ndarray:

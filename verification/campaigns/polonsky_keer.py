@@ -18,7 +18,7 @@ def polonsky_keer(
     tolerance: float = 1e-6,
     max_iterations: int = 5000,
 ) -> tuple[np.ndarray, bool]:
-    """(pressure [Pa], converged) for any ``operator`` with ``apply``.
+    """Return (pressure [Pa], converged) for any ``operator`` with ``apply``.
 
     It has converged when sum(p |g|)/sum(p) and the deepest overlap are <= tolerance times the load-weighted deflection
     sum(p u)/sum(p), or times the rms of gap0 if that is larger. The overlap is looked at as well, because a single

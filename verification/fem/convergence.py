@@ -13,7 +13,7 @@ from ..types import FloatArray
 
 
 def fitted_order(sizes: Sequence[float] | FloatArray, errors: Sequence[float] | FloatArray) -> float:
-    """Slope of the least-squares line through ``(log h, log e)``.
+    """Return slope of the least-squares line through ``(log h, log e)``.
 
     Raises ValueError unless there are at least two finite values > 0: an order fitted to others means nothing.
     """
@@ -92,7 +92,7 @@ def convergence(name: str, caption: str, series: Sequence[Series], size: str, er
 
 
 def picture(name: str, caption: str, series: Sequence[Series], size: str, error: str) -> Figure:
-    """Errors against mesh size, log-log, each with its fitted order and a dotted line of the expected one."""
+    """Return errors against mesh size, log-log, each with its fitted order and a dotted line of the expected one."""
     canvas, ax = panel(6.4, 3.6 + 0.2 * ((len(series) + 1) // 2))
     for each in series:
         sizes = np.asarray(each.sizes, dtype=float)

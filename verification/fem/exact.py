@@ -34,11 +34,11 @@ class Slider:
     outlet: float
 
     def film(self, x: FloatArray) -> FloatArray:
-        """Film thickness at x = x[0] in m."""
+        """Return film thickness at x = x[0] in m."""
         return self.inlet + (self.outlet - self.inlet) * x[0] / self.length
 
     def pressure(self, x: FloatArray) -> FloatArray:
-        """``12 eta U L/(a^2 - b^2) (a - h)(h - b)/h^2`` with a the inlet and b the outlet film."""
+        """Return ``12 eta U L/(a^2 - b^2) (a - h)(h - b)/h^2`` with a the inlet and b the outlet film."""
         a = self.inlet
         b = self.outlet
         h = self.film(x)
@@ -88,11 +88,11 @@ class Parabola:
         return float(brentq(lambda xe: antiderivative(xe, xe) - antiderivative(self.inlet, xe), 0.1, 2, xtol=1e-15))
 
     def film(self, x: FloatArray) -> FloatArray:
-        """Film thickness at x[0] in m."""
+        """Return film thickness at x[0] in m."""
         return self.film_thickness + x[0] ** 2 / (2 * self.radius)
 
     def pressure(self, x: FloatArray) -> FloatArray:
-        """Pressure at x[0] in m, 0 beyond the exit."""
+        """Return pressure at x[0] in m, 0 beyond the exit."""
         xe = self.exit
         big = np.minimum(x[0] / self.scale, xe)
         return self.pressure_scale * (antiderivative(big, xe) - antiderivative(xe, xe))
@@ -122,12 +122,12 @@ class Parabola:
         return self.pressure_scale * self.film_thickness / 2 * lift
 
     def _integral(self, f: Callable[[float], float]) -> float:
-        """Integral over t from inlet to exit, with X = tan t."""
+        """Return integral over t from inlet to exit, with X = tan t."""
         return float(quad(f, np.arctan(self.inlet), np.arctan(self.exit), epsabs=1e-13, epsrel=1e-13)[0])
 
 
 def antiderivative(big_x: FloatArray | float, xe: float) -> FloatArray:
-    """``integral (X^2 - Xe^2)/(1 + X^2)^3 dX``, with X = tan t."""
+    """Return ``integral (X^2 - Xe^2)/(1 + X^2)^3 dX``, with X = tan t."""
     t = np.arctan(big_x)
     second = t / 2 + np.sin(2 * t) / 4
     fourth = 3 * t / 8 + np.sin(2 * t) / 4 + np.sin(4 * t) / 32
@@ -157,11 +157,11 @@ class ExponentialPad:
         return float(np.log(self.inlet / self.outlet) / self.length)
 
     def film(self, x: FloatArray) -> FloatArray:
-        """Film thickness at x[0] in m."""
+        """Return film thickness at x[0] in m."""
         return self.inlet * np.exp(-self.decay * x[0])
 
     def modes(self) -> tuple[FloatArray, ...]:
-        """For each n: k, particular amplitude, coefficients and exponents of the two homogeneous parts.
+        """Return for each n: k, particular amplitude, coefficients and exponents of the two homogeneous parts.
 
         The rising exponential is written about the outlet, so that neither overflows.
         """
@@ -183,7 +183,7 @@ class ExponentialPad:
         return k, special, first, second, up, down
 
     def pressure(self, x: FloatArray) -> FloatArray:
-        """Pressure at (x[0], x[1]) in m."""
+        """Return pressure at (x[0], x[1]) in m."""
         p = np.zeros(np.shape(x[0]))
         for k, special, first, second, up, down in zip(*self.modes(), strict=True):
             homogeneous = first * np.exp(down * x[0]) + second * np.exp(up * (x[0] - self.length))
@@ -220,12 +220,12 @@ class ExponentialPad:
 
 
 def reduced_to_true(reduced: FloatArray, alpha: float) -> FloatArray:
-    """Barus pressure from the isoviscous one q of the same film: ``p = -ln(1 - alpha q)/alpha`` (Blok)."""
+    """Return Barus pressure from the isoviscous one q of the same film: ``p = -ln(1 - alpha q)/alpha`` (Blok)."""
     return -np.log1p(-alpha * reduced) / alpha
 
 
 def roelands_to_true(reduced: FloatArray, exponent: float, index: float, pressure: float = 1.96e8) -> FloatArray:
-    """Roelands pressures from isoviscous ones, inverting ``q = integral_0^p eta(0)/eta(s) ds``.
+    """Return Roelands pressures from isoviscous ones, inverting ``q = integral_0^p eta(0)/eta(s) ds``.
 
     ``eta/eta0 = exp(exponent ((1 + s/pressure)^index - 1))``; solved point by point to rounding.
     """
@@ -249,7 +249,7 @@ def roelands_to_true(reduced: FloatArray, exponent: float, index: float, pressur
 
 
 def gas_slider(slider: Slider, ambient: float, points: np.ndarray) -> np.ndarray:
-    """Gauge pressure [Pa] of an isothermal ideal gas under a plane slider (Harrison 1913) at ``points`` in m.
+    """Return gauge pressure [Pa] of an isothermal ideal gas under a plane slider (Harrison 1913) at ``points`` in m.
 
     ``(p h^3/(12 eta)) dp/dx = p U h - q``, with absolute p, is integrated from the outlet upstream, which is the stable
     direction. The flow q is found such that the inlet is at ambient pressure. The relative error is below 1e-9.

@@ -33,12 +33,12 @@ class Line:
         return self.e_prime / 2 * self.half_width / (2 * self.radius)
 
     def gap(self, x: FloatArray | float) -> FloatArray:
-        """Gap in m at x: twice the integral of the slope ``sqrt(x^2 - b^2)/(2R)`` beyond the edge."""
+        """Return gap in m at x: twice the integral of the slope ``sqrt(x^2 - b^2)/(2R)`` beyond the edge."""
         t = np.maximum(np.abs(x) / self.half_width, 1.0)
         return self.half_width**2 / (2 * self.radius) * (t * np.sqrt(t**2 - 1) - np.log(t + np.sqrt(t**2 - 1)))
 
     def mean_gap(self, half: float) -> float:
-        """Mean of the gap [m] over |x| < half."""
+        """Return mean of the gap [m] over |x| < half."""
         return float(quad(self.gap, self.half_width, half)[0] / half)
 
 
@@ -66,7 +66,7 @@ class Sphere:
         return self.contact_radius**2 / self.radius
 
     def gap(self, r: FloatArray | float) -> FloatArray:
-        """Gap in m at a distance r from the axis."""
+        """Return gap in m at a distance r from the axis."""
         a, r = self.contact_radius, np.maximum(r, self.contact_radius)
         inside = (2 * a**2 - r**2) * np.arcsin(a / r) + a * np.sqrt(r**2 - a**2)
         return r**2 / (2 * self.radius) - self.approach + inside / (math.pi * self.radius)
@@ -97,7 +97,7 @@ class Wave:
         return self.amplitude * (1 - self.share + self.share * math.log(self.share))
 
     def pressure(self, x: FloatArray | float) -> FloatArray:
-        """Pressure [Pa] at x, with the crest at 0."""
+        """Return pressure [Pa] at x, with the crest at 0."""
         phase = math.pi * np.asarray(x) / self.length
         inside = np.sqrt(np.maximum(self.share - np.sin(phase) ** 2, 0))
         return 2 * self.mean_pressure / self.share * np.abs(np.cos(phase)) * inside

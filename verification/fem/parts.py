@@ -25,36 +25,36 @@ E_PRIME = 2.2e11  # Pa, E' of two steel bodies
 
 
 def the(part: T | None, name: str) -> T:
-    """``part``; raises ValueError where there is none."""
+    """Return ``part``; raises ValueError where there is none."""
     if part is None:
         raise ValueError(f"this study needs a {name}, and there is none")
     return part
 
 
 def film(result: FrictionResult) -> EHLResult:
-    """The smooth film of a point with entrainment."""
+    """Return the smooth film of a point with entrainment."""
     return the(the(result.balance, "balance").film, "film")
 
 
 def contact(result: FrictionResult) -> ContactState:
-    """The rough contact of a point."""
+    """Return the rough contact of a point."""
     return the(result.balance, "balance").contact_state
 
 
 def contact_fields(result: FrictionResult) -> ContactResult:
-    """Pressure and gap on the contact grid, of a point in contact."""
+    """Return pressure and gap on the contact grid, of a point in contact."""
     return the(contact(result).fields, "contact with fields")
 
 
 def half_space(model: Prepared) -> HalfSpaceContact:
-    """The rough contact of a scene under a cylinder, on a height map."""
+    """Return the rough contact of a scene under a cylinder, on a height map."""
     if not isinstance(model.rough_contact, HalfSpaceContact):
         raise TypeError(f"this study needs a contact of half-spaces, not {type(model.rough_contact).__name__}")
     return model.rough_contact
 
 
 def line_contact(case: Keywords) -> LineContact:
-    """The contact of arguments of `solve_ehl`, which may have an ``eyring_stress`` as well."""
+    """Return the contact of arguments of `solve_ehl`, which may have an ``eyring_stress`` as well."""
     laws = ("viscosity", "pressure_viscosity_coefficient", "viscosity_law", "density_law", "eyring_stress")
     oil = Lubricant(**{name: case[name] for name in laws if name in case})
     return LineContact(
@@ -67,12 +67,12 @@ def line_contact(case: Keywords) -> LineContact:
 
 
 def moes_unit(speed: float) -> float:
-    """The film [m] that is 1 in Moes' units at this entrainment ``speed``, in the cases of `case_of`."""
+    """Return the film [m] that is 1 in Moes' units at this entrainment ``speed``, in the cases of `case_of`."""
     return math.sqrt(2 * VISCOSITY * speed / (E_PRIME * RADIUS)) * RADIUS
 
 
 def halved(low: float, high: float, below: Callable[[float], bool], times: int = 60) -> float:
-    """The value between two positive ones up to which ``below`` holds, by bisection of its logarithm."""
+    """Return the value between two positive ones up to which ``below`` holds, by bisection of its logarithm."""
     for _ in range(times):
         middle = math.sqrt(low * high)
         low, high = (middle, high) if below(middle) else (low, middle)
@@ -82,7 +82,7 @@ def halved(low: float, high: float, below: Callable[[float], bool], times: int =
 def pressed_cylinder(
     line: exact_contact.Line, across: float, hardness: float | None = None
 ) -> tuple[np.ndarray, ContactResult]:
-    """x [m], and a cylinder pressed dry by `solve_contact` in a box four half-widths wide, with ``across`` cells in
+    """Return x [m], and a cylinder pressed dry by `solve_contact` in a box four half-widths wide, with ``across`` cells in
     one."""
     dx = line.half_width / across
     n = 2 * int(2 * across)
@@ -93,7 +93,7 @@ def pressed_cylinder(
 
 
 def case_of_scene(scene: Scene, load: float, speed: float) -> PlainRow:
-    """The smooth film of a scene under a load [N] at an entrainment speed [m/s]."""
+    """Return the smooth film of a scene under a load [N] at an entrainment speed [m/s]."""
     bodies = scene.bodies
     oil = scene.lubricant
     laws = ("viscosity", "pressure_viscosity_coefficient", "viscosity_law", "density_law")
@@ -102,7 +102,7 @@ def case_of_scene(scene: Scene, load: float, speed: float) -> PlainRow:
 
 
 def case_of(M: float, L: float, law: str = "roelands", density: str = "constant") -> PlainRow:
-    """Arguments of the film solvers, in SI units, with the Moes numbers M and L. L = 0 is a constant viscosity."""
+    """Return arguments of the film solvers, in SI units, with the Moes numbers M and L. L = 0 is a constant viscosity."""
     law, effective = ("constant", 5.0) if L == 0 else (law, L)
     u1 = (effective / (ALPHA * E_PRIME)) ** 4
     return {

@@ -62,19 +62,19 @@ SOURCES = _sources()
 
 
 def hertz_line(load: float, radius: float, e_prime: float) -> tuple[float, float]:
-    """Half-width [m] and peak pressure [Pa] of a line contact; load [N/m]."""
+    """Return half-width [m] and peak pressure [Pa] of a line contact; load [N/m]."""
     half_width = math.sqrt(8 * load * radius / (math.pi * e_prime))
     return half_width, 2 * load / (math.pi * half_width)
 
 
 def westergaard_area(share: float) -> float:
-    """Share of the length in contact at a ``share`` p/p* of the pressure that closes a sinusoid; p* =
+    """Return share of the length in contact at a ``share`` p/p* of the pressure that closes a sinusoid; p* =
     pi E* amplitude/wavelength."""
     return 2 / math.pi * math.asin(math.sqrt(share))
 
 
 def bisinusoid_area(share: float) -> float:
-    """Contact area fraction of ``amplitude cos cos`` near either end of the share p/p*; p* = sqrt(2) pi E*
+    """Return contact area fraction of ``amplitude cos cos`` near either end of the share p/p*; p* = sqrt(2) pi E*
     amplitude/wavelength."""
     return math.pi * (3 * share / (8 * math.pi)) ** (2 / 3) if share < 0.5 else 1 - 3 / (2 * math.pi) * (1 - share)
 
@@ -134,7 +134,7 @@ EDGE = (
 
 
 def summit_density(length: float) -> float:
-    """Maxima per area [1/m²] of a Gaussian surface with the autocorrelation exp(-(r/length)²): m4/(6 pi sqrt(3) m2),
+    """Return maxima per area [1/m²] of a Gaussian surface with the autocorrelation exp(-(r/length)²): m4/(6 pi sqrt(3) m2),
     with m2 = 2 Sq²/length² and m4 = 12 Sq²/length⁴ of a profile."""
     return 1 / (math.pi * math.sqrt(3) * length**2)
 
@@ -149,7 +149,7 @@ ELASTIC_PIEZOVISCOUS = 1.311  # film of that limit over M^(-1/8) L^(3/4); likewi
 
 
 def moes(m: float, l: float) -> float:
-    """Film where dp/dx = 0, incompressible."""
+    """Return film where dp/dx = 0, incompressible."""
     ri = 3 / m
     ei = ISOVISCOUS_ELASTIC * m**-0.2
     rp = RIGID_PIEZOVISCOUS * l ** (2 / 3)
@@ -161,17 +161,17 @@ def moes(m: float, l: float) -> float:
 
 
 def grubin(u: float, g: float, w: float) -> float:
-    """h/R."""
+    """Return h/R."""
     return float(1.95 * (g * u) ** (8 / 11) * w ** (-1 / 11))
 
 
 def dowson_higginson(u: float, g: float, w: float) -> float:
-    """Smallest h/R."""
+    """Return smallest h/R."""
     return float(2.65 * u**0.70 * g**0.54 * w**-0.13)
 
 
 def dowson_toyoda(u: float, g: float, w: float) -> float:
-    """Central h/R."""
+    """Return central h/R."""
     return float(3.06 * u**0.69 * g**0.56 * w**-0.10)
 
 
@@ -196,11 +196,11 @@ class Pocket:
     speed: float = 0.5
 
     def wedge(self, x: FloatArray | float) -> FloatArray:
-        """Gap of the pad without its pocket."""
+        """Return gap of the pad without its pocket."""
         return self.start + (self.end - self.start) * np.asarray(x) / self.length
 
     def inside(self, x: np.ndarray) -> np.ndarray:
-        """Where the pocket is along the motion."""
+        """Return where the pocket is along the motion."""
         return (x >= self.begins) & (x < self.ends)
 
 
@@ -226,7 +226,7 @@ BERTOCCHI = {"narrow": _NARROW, "wide": _WIDE}
 
 
 def refilled(pad: Pocket) -> tuple[float, float, float]:
-    """Load [N/m], place of refilling [m] and highest pressure [Pa] of a pocket as wide as the pad, where the film
+    """Return load [N/m], place of refilling [m] and highest pressure [Pa] of a pocket as wide as the pad, where the film
     ruptures at the edge of the pocket, at constant viscosity and density, with the pressure of rupture outside."""
     scale = 12 * pad.speed * pad.viscosity * pad.length / (pad.start - pad.end)
     first = pad.wedge(pad.begins)
@@ -267,7 +267,7 @@ WITHIN = 0.01  # of the roughness: how closely Hooke's formulas follow his solut
 
 
 def amplitude_fit(m: float, l: float, wavelength: float) -> float:
-    """A_d/A_i in pure rolling; ``wavelength`` in half-widths."""
+    """Return A_d/A_i in pure rolling; ``wavelength`` in half-widths."""
     n = wavelength * m**0.75 / l**0.5
     return float(1 / (1 + 0.17 * n + 0.03 * n**2))
 
@@ -275,7 +275,7 @@ def amplitude_fit(m: float, l: float, wavelength: float) -> float:
 def hooke(
     k: float, speed: float, film: float, drag: float, stiffness: float, e_prime: float
 ) -> tuple[complex, complex]:
-    """What an even ``film`` [m] keeps of a wave exp(i k x) of its surface, and the complex wavenumber of the wave from
+    """Return what an even ``film`` [m] keeps of a wave exp(i k x) of its surface, and the complex wavenumber of the wave from
     the inlet. ``drag``: effective viscosity times entrainment speed [N/m]; ``stiffness``: bulk modulus [Pa]."""
     q = 48 * drag * (speed - 1) / (e_prime * film**3 * k**2)
     c = film * e_prime * k / (4 * stiffness)
@@ -293,13 +293,13 @@ ELASTIC_TORQUE = 1.45  # of p_h b²/M^1.5 per length, on a roller; the same, eq.
 
 
 def rolling_torque(m: float) -> float:
-    """Torque on a roller over p_h b²/M^1.5, per length: sqrt(M) times the rigid one, then constant."""
+    """Return torque on a roller over p_h b²/M^1.5, per length: sqrt(M) times the rigid one, then constant."""
     rigid = RIGID_TORQUE * math.sqrt(m)
     return float(rigid / (1 + (rigid / ELASTIC_TORQUE) ** 10) ** 0.1)
 
 
 def starved_torque(s: float) -> float:
-    """What of that torque is left where the inlet begins at a gap of ``s`` times the smallest flooded film."""
+    """Return what of that torque is left where the inlet begins at a gap of ``s`` times the smallest flooded film."""
     return (s**2 + 162.8 * s) / (s**2 + 193.1 * s + 1257)
 
 
@@ -308,19 +308,19 @@ FLASH_UNIFORM = 1.128  # the same under a uniform band; Jaeger 1942
 
 
 def eyring_force(stress: float, viscosity: float, alpha: float, rate: float, width: float, peak: float) -> float:
-    """Traction [N/m] of a film of even thickness under Hertz pressure (``peak`` [Pa], half-``width`` [m]), Barus and
+    """Return traction [N/m] of a film of even thickness under Hertz pressure (``peak`` [Pa], half-``width`` [m]), Barus and
     Eyring, for large arguments of asinh: 2 b tau_E (ln(2 eta rate/tau_E) + alpha p_mean)."""
     return 2 * width * stress * (math.log(2 * viscosity * rate / stress) + alpha * peak * math.pi / 4)
 
 
 def nahme(number: float) -> float:
-    """Stress over the isothermal one of a film that heats itself; ``number`` = beta eta du²/k."""
+    """Return stress over the isothermal one of a film that heats itself; ``number`` = beta eta du²/k."""
     a = number / 8
     return math.asinh(math.sqrt(a)) / math.sqrt(a * (1 + a))
 
 
 def gupta(number: float, slide_roll: float, pressure_ratio: float) -> float:
-    """Film over the isothermal one; ``number`` = eta beta U²/k."""
+    """Return film over the isothermal one; ``number`` = eta beta U²/k."""
     over = 1 + 0.213 * (1 + 2.23 * slide_roll**0.83) * number**0.64
     return float((1 - 13.2 * pressure_ratio * number**0.42) / over)
 
@@ -361,13 +361,13 @@ MACHINE_OILS: dict[str, dict[int, tuple[float, float]]] = {  # dynamic viscosity
 
 
 def roelands(viscosity: float, alpha: float, pressure: float) -> float:
-    """Viscosity [Pa s] under pressure [Pa]."""
+    """Return viscosity [Pa s] under pressure [Pa]."""
     pole = math.log(viscosity) + 9.67
     return math.exp(pole * (1 + pressure / 1.96e8) ** (alpha * 1.96e8 / pole) - 9.67)
 
 
 def density(pressure: float) -> float:
-    """Density under pressure [Pa] over that without; printed as 1 + .6 p/(1 + 1.7 p) with p in GPa, and as (5.9e8 +
+    """Return density under pressure [Pa] over that without; printed as 1 + .6 p/(1 + 1.7 p) with p in GPa, and as (5.9e8 +
     1.34 p)/(5.9e8 + p): this is the second."""
     return (5.9e8 + 1.34 * pressure) / (5.9e8 + pressure)
 
@@ -397,7 +397,7 @@ BEARING_NU = 60e-6  # m²/s, of FVA 3 at 50 °C, by ASTM D341 from 96 and 10.6 m
 
 
 def skf_boundary_weight(rpm: float, nu: float, mean_diameter: float) -> float:
-    """SKF's weight of boundary friction in a bearing, 1/exp(2.6e-8 (n ν)^1.4 d_m) with n in rpm, ν in mm²/s, d_m in mm.
+    """Return SKF's weight of boundary friction in a bearing, 1/exp(2.6e-8 (n ν)^1.4 d_m) with n in rpm, ν in mm²/s, d_m in mm.
     ``nu`` [m²/s], ``mean_diameter`` [m]."""
     return math.exp(-2.6e-8 * (rpm * nu * 1e6) ** 1.4 * mean_diameter * 1e3)
 
@@ -432,7 +432,7 @@ class GearC14:
         return math.sin(self.angle) / sum(1 / radius for radius in self.pitch)
 
     def sum_speed(self, rpm: float) -> float:
-        """Sum of the surface speeds [m/s] at the pitch point, the pinion at ``rpm``."""
+        """Return sum of the surface speeds [m/s] at the pitch point, the pinion at ``rpm``."""
         return 2 * rpm * 2 * math.pi / 60 * self.pitch[0] * math.sin(self.angle)
 
 
@@ -442,7 +442,7 @@ LUBRICANT_FACTOR = (0.923, 0.077)
 
 
 def schlenk(torque: float, rpm: float, viscosity: float) -> float:
-    """Schlenk's mean friction of the gear `C14`: 0.048 (w/(v_Σ ρ))^0.2 η^-0.05 Ra^0.25 X_L, in N/mm, m/s, mm, mPa s, µm.
+    """Return Schlenk's mean friction of the gear `C14`: 0.048 (w/(v_Σ ρ))^0.2 η^-0.05 Ra^0.25 X_L, in N/mm, m/s, mm, mPa s, µm.
     ``torque`` on the pinion [N m], ``viscosity`` [Pa s]."""
     load = torque / C14.base[0] / C14.width
     film = (load * 1e-3 / (C14.sum_speed(rpm) * C14.radius * 1e3)) ** 0.2 * (viscosity * 1e3) ** -0.05
@@ -450,7 +450,7 @@ def schlenk(torque: float, rpm: float, viscosity: float) -> float:
 
 
 def fernandes(torque: float, rpm: float, viscosity: float, alpha: float) -> float:
-    """Fernandes' mean friction of the gear `C14` by a modified Hersey number: 0.014 S_p^-0.25 S_g^0.25 X_L."""
+    """Return fernandes' mean friction of the gear `C14` by a modified Hersey number: 0.014 S_p^-0.25 S_g^0.25 X_L."""
     hersey = C14.sum_speed(rpm) * viscosity * math.sqrt(alpha * C14.base[0] / torque)
     roughness = C14.ra / math.sqrt(C14.width * C14.radius)
     return float(0.014 * (roughness / hersey) ** 0.25 * LUBRICANT_FACTOR[0])
@@ -460,6 +460,6 @@ PAPER = {"mean Hertz pressure": 102e6, "half-width": 4.5e-6}  # Pa, m
 
 
 def load_share_band(ratios: Sequence[float] | FloatArray) -> tuple[np.ndarray, np.ndarray]:
-    """The lowest and the highest of the `LOAD_SHARES` at each of the ``ratios``."""
+    """Return the lowest and the highest of the `LOAD_SHARES` at each of the ``ratios``."""
     laws = np.array([law(np.asarray(ratios, dtype=float)) for law in LOAD_SHARES.values()])
     return laws.min(axis=0), laws.max(axis=0)

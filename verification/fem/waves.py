@@ -39,7 +39,7 @@ class Smooth:
 
 
 def laid_out(line: LineContact, speed: float, cells: float, ends: tuple[float, float] = (2.5, 1.5)) -> Smooth:
-    """The contact with so many ``cells`` in a half-width, between its ``ends`` [half-widths]."""
+    """Return the contact with so many ``cells`` in a half-width, between its ``ends`` [half-widths]."""
     step = line.half_width / cells
     b = line.half_width
     flat = Surface(np.zeros((64, 1)), (step, step), periodic_axes=(True, True))
@@ -56,13 +56,13 @@ def smooth_film(line: LineContact, sliding: float) -> DeterministicResult:
 
 
 def at_rest(smooth: Smooth, k: float, height: float, phase: float = 0.0) -> DeterministicResult:
-    """The film over waves ``height cos(k x - phase)`` [m] that rest."""
+    """Return the film over waves ``height cos(k x - phase)`` [m] that rest."""
     wavy = replace(smooth.problem, heights=height * np.cos(k * smooth.film.x - phase)[:, None])
     return solve_point(wavy, start=smooth.film.state, tolerance=PRECISION)
 
 
 def history(smooth: Smooth, k: float, height: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Times [s] of one period of moving waves of ``height`` [m], when their start is forgotten; gap [m] and pressure
+    """Return times [s] of one period of moving waves of ``height`` [m], when their start is forgotten; gap [m] and pressure
     [Pa] then (time, x). In a step the lubricant moves by a cell, or nearly."""
     x = smooth.film.x
     pace = smooth.speed * smooth.problem.speed
@@ -80,7 +80,7 @@ def history(smooth: Smooth, k: float, height: float) -> tuple[np.ndarray, np.nda
 
 
 def response(smooth: Smooth, k: float, height: float) -> tuple[np.ndarray, np.ndarray]:
-    """Change of gap [m/m] and pressure [Pa/m] per height of exp(i k x) at one moment, complex (nx,). ``height`` [m] is
+    """Return change of gap [m/m] and pressure [Pa/m] per height of exp(i k x) at one moment, complex (nx,). ``height`` [m] is
     small."""
     if not smooth.speed:
         two = [at_rest(smooth, k, height, phase) for phase in (0.0, math.pi / 2)]

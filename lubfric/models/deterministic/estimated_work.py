@@ -83,10 +83,10 @@ LEAST_THICKENING = 0.56
 SOLVED_ENDS_SLIDING = 0.3
 
 # Change of ln f with ln of the boundary film that is expected of moving roughness [-], where the full-load film over Sq is within
-# `MIXED`: the larger of the values between which it lies in most of the 301 contacts of verification.campaigns.calibration, 0 and
+# `MIXED_FILMS`: the larger of the values between which it lies in most of the 301 contacts of verification.campaigns.calibration, 0 and
 # 0.6. A fifth of them have more than 0.4, with which a strip may be solved again on cells half as long along y.
 EXPECTED_STEEPNESS = 0.6
-MIXED = (0.3, 1.7)
+MIXED_FILMS = (0.3, 1.7)
 
 # Factor on the work where that may happen (`shorter_ones_pay`) [-]: between 1, where it does not, and 1 plus `HALVED_WORK`, with
 # the weight of a fourth. It did in 2 of 31 contacts of verification.campaigns.moving_coverage.
@@ -215,7 +215,7 @@ def _may_be_halved(scene: Scene, sample: Sample, surface: Surface, speed: float)
     """Return whether strips of moving roughness may be solved again at ``speed`` [m/s] on cells half as long along y: where the
     error by the cells is expected to be above ``numerics.model_tolerance``."""
     (along, across) = sample_coarsening_of(scene, sample)
-    (least, most) = MIXED
+    (least, most) = MIXED_FILMS
     if across % 2 or not least <= scene.line_contact(abs(speed)).moes_film / surface.sq <= most:
         return False
     (dx, dy) = sample.cells.spacing

@@ -48,13 +48,13 @@ def scenes(count: int, *, strips: bool, sequence: int) -> Iterator[lubfric.Scene
 
 
 def timed(work: Callable[[], T]) -> tuple[T, float]:
-    """(result, processor seconds)."""
+    """Return (result, processor seconds)."""
     begun = time.process_time()
     return work(), time.process_time() - begun
 
 
 def summary(rows: list[list[str]]) -> list[list[str]]:
-    """The least, the median and the largest of every column but the first, in the words of the rows."""
+    """Return the least, the median and the largest of every column but the first, in the words of the rows."""
     lines = []
     for name, *texts in list(zip(COLUMNS, *rows))[1:]:
         texts.sort(key=lambda text: float(text.rstrip("%")))

@@ -64,7 +64,7 @@ COLUMNS = ("constant", "value", "halved: convolutions, mean and worst", "doubled
 
 
 def solvers(n: int) -> list[CountedSolve]:
-    """Functions that solve one case each and return (convolutions, converged)."""
+    """Return functions that solve one case each and return (convolutions, converged)."""
     cases: list[ConstantCase] = [(kind, load, "periodic", None, 0.0) for kind in KINDS for load in (50e6, 200e6, 1e9)]
     cases += [("exponential", 200e6, "periodic", 3e9, 0.0), ("exponential", 200e6, ("free", "periodic"), None, 0.0)]
     warm: list[ConstantCase] = [("gaussian", 200e6, "periodic", None, share) for share in (1 / 3, 2 / 3)]
@@ -95,7 +95,7 @@ def scaled(value: Constant, factor: float) -> Constant:
 
 
 def solved_with(module: ModuleType, name: str, factor: float, solves: list[CountedSolve]) -> np.ndarray:
-    """Rows of the solves with a constant scaled wherever it was imported."""
+    """Return rows of the solves with a constant scaled wherever it was imported."""
     value = getattr(module, name)
     homes = [m for m in MODULES if getattr(m, name, None) is value]
     try:
@@ -108,7 +108,7 @@ def solved_with(module: ModuleType, name: str, factor: float, solves: list[Count
 
 
 def words(rows: np.ndarray, usual: np.ndarray) -> str:
-    """Ratios to the usual rows."""
+    """Return ratios to the usual rows."""
     ratio = rows[:, 0] / usual[:, 0]
     failed = int(np.count_nonzero(rows[:, 1] == 0))
     text = f"{np.exp(np.log(ratio).mean()):.2f}, {ratio.max():.2f}"

@@ -49,7 +49,7 @@ MeasuredRow = tuple[str, float, float, float, float, float]
 def loosest(
     solve: Solver, load: float, reference: np.ndarray, target: float, first: float
 ) -> tuple[float, float, float]:
-    """(tolerance, error, seconds): loosest of the ladder, from ``first`` on, that meets the target, or the best of
+    """Return (tolerance, error, seconds): loosest of the ladder, from ``first`` on, that meets the target, or the best of
     it."""
     closest = (np.nan, np.inf, np.nan)
     for tolerance in LADDER:
@@ -64,7 +64,7 @@ def loosest(
 
 
 def measured(solve: Solver, load: float, tolerance: float, reference: np.ndarray) -> tuple[float, float]:
-    """(error, processor seconds) of one solve."""
+    """Return (error, processor seconds) of one solve."""
     begun = time.process_time()
     pressure = solve(load, tolerance)
     seconds = time.process_time() - begun
@@ -74,7 +74,7 @@ def measured(solve: Solver, load: float, tolerance: float, reference: np.ndarray
 def compare(
     solvers: dict[str, Solver], load: float, reference: np.ndarray, target: float, repeats: int, first: dict[str, float]
 ) -> list[MeasuredRow]:
-    """Rows (name, tolerance, error, median and quartiles of seconds), repeats interleaved; ``first``: the tolerances
+    """Return rows (name, tolerance, error, median and quartiles of seconds), repeats interleaved; ``first``: the tolerances
     that the search begins with."""
     results = {name: loosest(solve, load, reference, target, first[name]) for name, solve in solvers.items()}
     seconds = {name: [f[2]] for name, f in results.items()}
@@ -86,7 +86,7 @@ def compare(
 
 
 def stopped(heights: np.ndarray, load: float, reference: np.ndarray, seconds: float) -> list[MeasuredRow]:
-    """Row of tamaas after about ``seconds``: its iterations are counted from the time of twenty."""
+    """Return row of tamaas after about ``seconds``: its iterations are counted from the time of twenty."""
     few = tamaas_solver(heights, SPACING, E_PRIME, max_iterations=20)
     if few is None:
         return []
@@ -98,7 +98,7 @@ def stopped(heights: np.ndarray, load: float, reference: np.ndarray, seconds: fl
 
 
 def of_page(rows: list[PlainRow]) -> tuple[list[str], list[list[str]]]:
-    """The table of the page: a row for each surface and grid, a column for each load."""
+    """Return the table of the page: a row for each surface and grid, a column for each load."""
     loads = sorted({r["load"] for r in rows})
     lines = []
     for surface_and_cells in dict.fromkeys((r["surface"], r["cells"]) for r in rows):
@@ -120,7 +120,7 @@ def case_rows(
     options: argparse.Namespace,
     kept: dict[str, dict[str, float]],
 ) -> list[PlainRow]:
-    """The rows of one case, printed as they come."""
+    """Return the rows of one case, printed as they come."""
     reference = solvers["lubfric"](1e6 * load, 1e-10)
     label = f"{kind} {cells} {load:g}"
     table = compare(solvers, 1e6 * load, reference, options.target, options.repeats, FIRST | kept.get(label, {}))

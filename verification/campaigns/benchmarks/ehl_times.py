@@ -43,7 +43,7 @@ OF_PAGE = [0, 3, 4]  # columns: the page has those of the default tolerance
 
 
 def arguments(M: float, L: float) -> Keywords:
-    """SI inputs with the Moes numbers M, L."""
+    """Return SI inputs with the Moes numbers M, L."""
     u1 = (L / (ALPHA * E_PRIME)) ** 4
     return {
         "load_per_width": M * u1**0.5 * E_PRIME * RADIUS,
@@ -56,7 +56,7 @@ def arguments(M: float, L: float) -> Keywords:
 
 
 def shortest_ms(call: Callable[[], T], repeats: int) -> tuple[float, T]:
-    """Shortest processor time of ``call()`` [ms], the one that other jobs lengthen least, and its last value."""
+    """Return shortest processor time of ``call()`` [ms], the one that other jobs lengthen least, and its last value."""
     times = []
     for _ in range(repeats):
         begun = time.process_time()
@@ -66,12 +66,12 @@ def shortest_ms(call: Callable[[], T], repeats: int) -> tuple[float, T]:
 
 
 def error(result: EHLResult, reference: EHLResult) -> float:
-    """Largest relative error of smallest and flow film."""
+    """Return largest relative error of smallest and flow film."""
     return max(abs(result.min_film / reference.min_film - 1), abs(result.flow_film / reference.flow_film - 1))
 
 
 def row(M: float, L: float, repeats: int) -> list[str]:
-    """One contact at every tolerance."""
+    """Return one contact at every tolerance."""
     case = arguments(M, L)
     cells = [f"{M:g}, {L:g}"]
     lighter = case | {"load_per_width": 0.97 * case["load_per_width"]}
@@ -86,7 +86,7 @@ def row(M: float, L: float, repeats: int) -> list[str]:
 
 
 def main() -> None:
-    """Measure and print."""
+    """Measure, and print what was measured."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--repeats", type=int, default=11)
     page.add_option(parser)

@@ -26,7 +26,7 @@ def write(
 
 
 def command(name: str, parser: ArgumentParser, options: Namespace) -> str:
-    """The command as it was typed, without files and folders but those of the documents. An argument without a dash
+    """Return the command as it was typed, without files and folders but those of the documents. An argument without a dash
     is named."""
     words = ["python", "-m", f"verification.campaigns.benchmarks.{BENCHMARKS[name]}"]
     named = [action.dest for action in parser._get_positional_actions()]

@@ -202,7 +202,7 @@ def rows(names: list[str]) -> Iterator[list[str]]:
 
 
 def main() -> None:
-    """Measure and print."""
+    """Measure, and print what was measured."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--jobs", nargs="+", default=[""], metavar="NAME", help="how the names of the jobs begin")
     page.add_option(parser)

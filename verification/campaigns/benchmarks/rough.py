@@ -10,7 +10,7 @@ E_PRIME = 231e9  # Pa
 def surface(
     kind: str, shape: tuple[int, int], spacing: float, length: float, sigma: float, seed: int = 0
 ) -> np.ndarray:
-    """Periodic Gaussian heights [m]: exponential or Gaussian autocorrelation, or self-affine with H = 0.8."""
+    """Return periodic Gaussian heights [m]: exponential or Gaussian autocorrelation, or self-affine with H = 0.8."""
     kx, ky = (2 * np.pi * np.fft.fftfreq(n, spacing) for n in shape)
     k = np.hypot(kx[:, None], ky[: shape[1] // 2 + 1])
     power = {

@@ -71,7 +71,7 @@ class Failed(Exception):
 
 
 def seconds(checkout: Path, name: str) -> float:
-    """Processor time of one job with the package of ``checkout``."""
+    """Return processor time of one job with the package of ``checkout``."""
     ready, job, repeat = JOBS[name]
     environment = {**os.environ, "PYTHONPATH": str(checkout), "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     code = f"{BEGIN}\n{ready}\ntimed(lambda: {job}, {repeat})\n"
@@ -84,7 +84,7 @@ def seconds(checkout: Path, name: str) -> float:
 
 
 def ratios(earlier: Path, name: str, pairs: int) -> tuple[list[float], float]:
-    """Time now over time before of each pair, and the median time now [s]."""
+    """Return time now over time before of each pair, and the median time now [s]."""
     values = []
     now = []
     for pair in range(pairs):
@@ -96,7 +96,7 @@ def ratios(earlier: Path, name: str, pairs: int) -> tuple[list[float], float]:
 
 
 def main() -> int:
-    """Exit code 0: no job above the limit."""
+    """Return exit code 0: no job above the limit."""
     p = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     p.add_argument("commit", help="an earlier commit, tag or branch")
     p.add_argument("--pairs", type=int, default=5, help="of runs a job (default: %(default)s)")

@@ -30,7 +30,7 @@ FEW = 10  # every so many curves are run here too
 
 
 def plan(points: int) -> lubfric.StudyPlan:
-    """5 loads x 5 viscosities x 4 maps x speeds."""
+    """Return 5 loads x 5 viscosities x 4 maps x speeds."""
     scene = lubfric.load_scene("paper").with_(
         contact={"shape": (64, 64), "spacing": 0.9e-6}, numerics={"model": "paper", "sampling": "patch"}
     )

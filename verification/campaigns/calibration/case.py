@@ -52,7 +52,7 @@ class Case:
         return Surface(heights, self.bodies[0].surface.spacing, periodic_axes=(True, True))
 
     def widened(self, shift: int = 0) -> Surface:
-        """The sum of the maps, moved by ``shift`` cells along x and repeated until it covers the contact."""
+        """Return the sum of the maps, moved by ``shift`` cells along x and repeated until it covers the contact."""
         surface = self.surface
         wanted = contact_reach(self.scene, surface.sq) / surface.spacing[0]
         times = max(1, math.ceil(wanted / surface.shape[0]))
@@ -196,7 +196,7 @@ def _drawn(
 
 
 def _oil(rng: np.random.Generator, fluid: str, friction: float) -> Keywords:
-    """Keys of a lubricant of that kind: Newtonian up to f_b p; Eyring; a limit near f_b; Eyring with a limit below."""
+    """Return keys of a lubricant of that kind: Newtonian up to f_b p; Eyring; a limit near f_b; Eyring with a limit below."""
     eyring = math.exp(rng.uniform(math.log(3e6), math.log(15e6)))
     near = friction * rng.uniform(0.8, 1.25)
     low = friction * rng.uniform(0.3, 0.8)
@@ -218,7 +218,7 @@ def _map(
     acf: str,
     seed: int,
 ) -> Surface:
-    """A periodic map of that lay with exactly this ``sq`` [m]."""
+    """Return a periodic map of that lay with exactly this ``sq`` [m]."""
     keys: Keywords = {"sq": 1.0, "correlation_length": lengths, "acf": acf}
     made = lubfric.generate_surface(shape, spacing, seed=seed, **keys)
     if lay == "plateau":

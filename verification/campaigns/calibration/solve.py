@@ -40,7 +40,7 @@ def limited(seconds: float) -> Iterator[None]:
 
 
 def solved(case: Case, seconds: float) -> PlainRow:
-    """The row of ``case``; where a model has no answer within so many ``seconds`` of processor time, ``failure`` says
+    """Return the row of ``case``; where a model has no answer within so many ``seconds`` of processor time, ``failure`` says
     why."""
     row = case.facts | {f"map_{name}": value for name, value in map_facts(case).items()}
     begun = time.process_time()
@@ -56,7 +56,7 @@ def solved(case: Case, seconds: float) -> PlainRow:
 
 
 def map_facts(case: Case) -> dict[str, float]:
-    """Statistics of the sum of the maps: skewness, kurtosis, and root-mean-square slopes along x and y."""
+    """Return statistics of the sum of the maps: skewness, kurtosis, and root-mean-square slopes along x and y."""
     surface = case.surface
     z = surface.heights - surface.heights.mean()
     sq = z.std()
@@ -67,7 +67,7 @@ def map_facts(case: Case) -> dict[str, float]:
 
 
 def load_sharing(case: Case) -> dict[str, float]:
-    """Means of the numbers of load sharing, of a moving map over its places."""
+    """Return means of the numbers of load sharing, of a moving map over its places."""
     scene = case.scene.with_(numerics={"model": "paper"})
     nx = case.surface.shape[0]
     shifts = range(0, nx, nx // SHIFTS) if case.facts["motion"] == "rolling" else (0,)
@@ -99,7 +99,7 @@ def load_sharing(case: Case) -> dict[str, float]:
 
 
 def deterministic(case: Case) -> dict[str, float]:
-    """The numbers of the deterministic model on the same map."""
+    """Return the numbers of the deterministic model on the same map."""
     scene = case.scene
     if case.facts["motion"] == "rolling":
         moving = solve_moving_strip(scene, case.bodies, case.speed)
@@ -115,7 +115,7 @@ def deterministic(case: Case) -> dict[str, float]:
 
 
 def numbers(result: DeterministicResult) -> dict[str, float]:
-    """The numbers of one solution that the table keeps."""
+    """Return the numbers of one solution that the table keeps."""
     load = result.load
     return {
         "f": result.coefficient,

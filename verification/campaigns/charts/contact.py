@@ -26,7 +26,7 @@ BOUNDARIES = {"periodic": ("periodic", "periodic"), "periodic along y": ("free",
 
 
 def heights(n: int, acf: str) -> np.ndarray:
-    """Periodic Gaussian heights [m]; a smaller grid is every other point of the next larger one."""
+    """Return periodic Gaussian heights [m]; a smaller grid is every other point of the next larger one."""
     z = _finest(acf)
     step = len(z) // n
     return np.ascontiguousarray(z[::step, ::step])
@@ -42,7 +42,7 @@ def _finest(acf: str, finest: int = 2048) -> np.ndarray:
 
 
 def cases(*, quick: bool) -> dict[str, MeasuredCase]:
-    """Panels for surfaces and loads of a periodic contact, for the other boundaries at one load, and for grids."""
+    """Return panels for surfaces and loads of a periodic contact, for the other boundaries at one load, and for grids."""
     n, loads = (64, (200e6,)) if quick else (256, (50e6, 200e6, 1000e6))
     tolerances = (1e-2, 1e-4, 1e-6) if quick else (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10)
     surfaces, repeats = (("gaussian",), 1) if quick else (("exponential", "gaussian"), 3)
@@ -59,12 +59,12 @@ def cases(*, quick: bool) -> dict[str, MeasuredCase]:
 
 
 def measured(case: MeasuredCase) -> list[PlainRow]:
-    """The points of one case."""
+    """Return the points of one case."""
     return case()
 
 
 def methods(z: np.ndarray, pressure: float, boundary: str, mean_gap: float) -> dict[str, Callable[[float], np.ndarray]]:
-    """{name: solve(tolerance) -> pressure}. The paper's methods are given the mean gap instead of the load."""
+    """Return {name: solve(tolerance) -> pressure}. The paper's methods are given the mean gap instead of the load."""
     kind = BOUNDARIES[boundary]
     spacing = 512 * SPACING / len(z)
     operator = half_space(z.shape, spacing, E_PRIME, kind)
@@ -100,7 +100,7 @@ def methods(z: np.ndarray, pressure: float, boundary: str, mean_gap: float) -> d
 def panel(
     label: str, acf: str, n: int, load: float, boundary: str, tolerances: Sequence[float], repeats: int
 ) -> list[PlainRow]:
-    """Every method at every tolerance against one tight solution."""
+    """Return every method at every tolerance against one tight solution."""
     z = heights(n, acf)
     values = []
     settings: Keywords = {"mean_pressure": load, "boundary": BOUNDARIES[boundary]}
@@ -120,7 +120,7 @@ def panel(
 
 
 def attempt(solve: Callable[[float], np.ndarray], tolerance: float) -> np.ndarray | None:
-    """The pressure, or None where the method gives up."""
+    """Return the pressure, or None where the method gives up."""
     try:
         return solve(tolerance)
     except (ConvergenceError, RuntimeError):
@@ -128,7 +128,7 @@ def attempt(solve: Callable[[float], np.ndarray], tolerance: float) -> np.ndarra
 
 
 def grids(acf: str, sizes: Sequence[int]) -> list[PlainRow]:
-    """Contact area and mean gap of one surface on coarser grids against the finest, with a solver error of 1e-6."""
+    """Return contact area and mean gap of one surface on coarser grids against the finest, with a solver error of 1e-6."""
     solved = {}
     values = []
     for n in sizes:

@@ -14,7 +14,7 @@ EQUAL = 1e-5  # error of the pressure at which methods are compared
 
 
 def work_precision(name: str, points: list[Check], machine: str) -> Figure:
-    """Draw error over time, one panel for each case. A ring marks the default, and bars extend from quartile to
+    """Return draw error over time, one panel for each case. A ring marks the default, and bars extend from quartile to
     quartile.
 
         A solver with an error of 100 % has failed; its points are not drawn.
@@ -40,7 +40,7 @@ def work_precision(name: str, points: list[Check], machine: str) -> Figure:
 
 
 def palette(points: list[Check]) -> dict[str, str]:
-    """A colour for each method, our default first."""
+    """Return a colour for each method, our default first."""
     results = dict.fromkeys(p.at["method"] for p in points)
     methods = [m for m in ORDER if m in results] + [m for m in results if m not in ORDER]
     return {m: COLOURS[i % len(COLOURS)] for i, m in enumerate(methods)}
@@ -58,7 +58,7 @@ def curve(ax: Axes, points: list[Check], colour: str) -> None:
 
 
 def methods_table(points: list[Check]) -> Table:
-    """Contacts solved to a measured error of `EQUAL`: time of every method over that of the library."""
+    """Return contacts solved to a measured error of `EQUAL`: time of every method over that of the library."""
     good = [p for p in points if not p.at.get("apart") and p.measured <= EQUAL]
     names = [name for name in dict.fromkeys(p.at["method"] for p in good) if name != "lubfric"]
     rows = []

@@ -25,12 +25,12 @@ SHEARED = (20, 5)  # below 1 GPa, where a Newtonian shear force still means some
 
 
 def cases(*, quick: bool) -> dict[str, tuple[float, float, bool]]:
-    """One panel for each (M, L)."""
+    """Return one panel for each (M, L)."""
     return {f"M = {M:g}, L = {L:g}": (M, L, quick) for M, L in (POINTS[1:2] if quick else POINTS)}
 
 
 def measured(case: tuple[float, float, bool]) -> list[PlainRow]:
-    """Every method at every setting against a tight solution."""
+    """Return every method at every setting against a tight solution."""
     M, L, quick = case
     arguments = case_of(M, L)
     panel = f"M = {M:g}, L = {L:g}"
@@ -46,7 +46,7 @@ def measured(case: tuple[float, float, bool]) -> list[PlainRow]:
 
 
 def quantities(film: EHLResult) -> np.ndarray:
-    """Smallest film and flow film [m], and ∫ eta/h dx, which is the Newtonian shear force per sliding speed."""
+    """Return smallest film and flow film [m], and ∫ eta/h dx, which is the Newtonian shear force per sliding speed."""
     x = film.x
     h = film.film_thickness
     eta = film.viscosity

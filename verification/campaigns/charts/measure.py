@@ -22,7 +22,7 @@ Quartiles = tuple[float, float, float]  # median, lower, upper, of processor sec
 def point(
     panel: str, method: str, setting: str, error: float, seconds: Sequence[float], **at: str | float | bool | None
 ) -> PlainRow:
-    """One setting of one method, as a check in plain types: its error against a tight solution, its time, and where it
+    """Return one setting of one method, as a check in plain types: its error against a tight solution, its time, and where it
     is drawn.
 
     ``at`` may say more: default (the setting that users get), apart (the error is that of the grid against a finer one,
@@ -37,7 +37,7 @@ def point(
 
 
 def interleaved(calls: Mapping[K, Callable[[], V]], repeats: int) -> dict[K, tuple[V, Quartiles]]:
-    """{name: (value, (median, lower, upper quartile) of processor seconds)}. The calls take turns in every repeat."""
+    """Return {name: (value, (median, lower, upper quartile) of processor seconds)}. The calls take turns in every repeat."""
     seconds: dict[K, list[float]] = {name: [] for name in calls}
     values: dict[K, V] = {}
     for _ in range(repeats):
@@ -49,13 +49,13 @@ def interleaved(calls: Mapping[K, Callable[[], V]], repeats: int) -> dict[K, tup
 
 
 def quartiles(seconds: list[float]) -> Quartiles:
-    """Median, lower and upper quartile."""
+    """Return median, lower and upper quartile."""
     low, median, high = np.quantile(seconds, (0.25, 0.5, 0.75))
     return float(median), float(low), float(high)
 
 
 def machine(_: None = None) -> str:
-    """One line for the head of a chart: processor, threads, how busy the machine is, versions, date."""
+    """Return one line for the head of a chart: processor, threads, how busy the machine is, versions, date."""
     values = environment()
     parts = [f"{name} {values[name]}" for name in ("python", "numpy", "scipy", "lubfric")]
     parts.append(peers())

@@ -28,7 +28,7 @@ reference_once = cache(reference)
 
 
 def cases(*, quick: bool) -> dict[str, tuple[AnswerCase, str, bool]]:
-    """A panel for each surface, under the light load at a smooth film of 0.8 Sq, with a curve for each way."""
+    """Return a panel for each surface, under the light load at a smooth film of 0.8 Sq, with a curve for each way."""
     surfaces = [
         AnswerCase(surface=name, contact="5.5 N", over=2.0, ratio=0.8) for name in SURFACES[: 1 if quick else None]
     ]
@@ -36,7 +36,7 @@ def cases(*, quick: bool) -> dict[str, tuple[AnswerCase, str, bool]]:
 
 
 def measured(chosen: tuple[AnswerCase, str, bool]) -> list[PlainRow]:
-    """One way at every setting, against the deterministic model on another surface, or on all of the map."""
+    """Return one way at every setting, against the deterministic model on another surface, or on all of the map."""
     (case, way, quick) = chosen
     values = []
     truth = reference_once(case)["f"]

@@ -27,7 +27,7 @@ MODELS = {"quick": "quick answer", "paper": 'load sharing ("paper")'}
 
 
 def cases(*, quick: bool) -> dict[str, tuple[RollingContact, float, bool]]:
-    """The contacts of the campaign that have a reference so far, with it."""
+    """Return the contacts of the campaign that have a reference so far, with it."""
     known = {answer.contact.name: answer.reference.coefficient for answer in judged_answers()}
     chosen = [contact for contact in contacts() if contact.name in known]
     return {contact.name: (contact, known[contact.name], quick) for contact in chosen}

@@ -38,20 +38,20 @@ REAL = "ground-77nm.x3p"
 
 
 def scene_of(acf: str = "gaussian", length: float = 8e-6, seed: int = 1) -> lubfric.Scene:
-    """The paper's cylinder on a generated surface. Lengths that do not fit 90 µm are cut from a longer map."""
+    """Return the paper's cylinder on a generated surface. Lengths that do not fit 90 µm are cut from a longer map."""
     fits = length <= (16e-6 if acf == "gaussian" else 8e-6)
     return PAPER.with_(surface={"acf": acf, "correlation_length": length, "seed": seed, "oversize": 1 if fits else 5})
 
 
 def real_surface() -> Path | None:
-    """The measured ground surface, from LUBFRIC_SURFACES or ../shared/surfaces; None where it is not there."""
+    """Return the measured ground surface, from LUBFRIC_SURFACES or ../shared/surfaces; None where it is not there."""
     folders = [os.environ.get("LUBFRIC_SURFACES"), Path(__file__).resolve().parents[4] / "shared" / "surfaces"]
     values = [Path(f) / REAL for f in folders if f and (Path(f) / REAL).is_file()]
     return values[0] if values else None
 
 
 def friction_by_model(case: tuple[tuple[str, float, int], FloatArray, str]) -> list[list[float]]:
-    """Friction over ``speeds`` with each of `MODELS`, on a generated surface (acf, length, seed), or, with an ``axis``
+    """Return friction over ``speeds`` with each of `MODELS`, on a generated surface (acf, length, seed), or, with an ``axis``
     of its file along the motion, on the ground surface scaled to 100 nm with all but the flat strip."""
     (acf, length, seed), speeds, axis = case
     scene = scene_of(acf, length, seed)
@@ -63,7 +63,7 @@ def friction_by_model(case: tuple[tuple[str, float, int], FloatArray, str]) -> l
 
 
 def film_load(case: tuple[str, float, int]) -> float:
-    """F_H [N] at 0.001 m/s on one generated surface."""
+    """Return F_H [N] at 0.001 m/s on one generated surface."""
     return lubfric.friction(scene_of(*case), 0.001).film_load
 
 

@@ -48,21 +48,21 @@ SCENE = lubfric.load_scene("flat").with_(bodies={"hardness": None}, numerics={"m
 def pressed(
     pressure: float, acf: str, level: float, length: float, seed: int, count: int, model: tuple[str, str]
 ) -> Prepared:
-    """A surface with one of the models, prepared for a mean Hertz pressure [Pa]."""
+    """Return a surface with one of the models, prepared for a mean Hertz pressure [Pa]."""
     contact = {"model": model[0], "asperity_separation": model[1]}
     scene = SCENE.with_(bodies={"hertz_pressure": 4 / math.pi * pressure}, contact=contact)
     return prepare(scene, rough(length, acf, seed, count, level))
 
 
 def friction_over_speed(ready: Prepared, law: str, speeds: FloatArray) -> np.ndarray:
-    """f under a law of the film; NaN where the model cannot carry its share."""
+    """Return f under a law of the film; NaN where the model cannot carry its share."""
     oil, deflection = LAWS[law]
     scene = ready.scene.with_(lubricant=oil, numerics={"film_deflection": deflection})
     return lubfric.stribeck(prepare(scene, like=ready), speeds, raise_on_failure=False).coefficient
 
 
 def both_models(case: tuple[str, float, int, Sequence[float], FloatArray, int]) -> list[list[list[float]]]:
-    """f over ``speeds`` by the asperities of one assumption and by the half-space, at every load."""
+    """Return f over ``speeds`` by the asperities of one assumption and by the half-space, at every load."""
     label, length, seed, loads, speeds, count = case
     r = BASE | ASSUMPTIONS[label]
     surface = (r["acf"], r["level"], length, seed, count)
@@ -71,7 +71,7 @@ def both_models(case: tuple[str, float, int, Sequence[float], FloatArray, int]) 
 
 
 def signed_deviation(asperity: np.ndarray, half_space: np.ndarray) -> tuple[float, int]:
-    """d [-] of Eq. (13), the largest difference over the f of the asperities, positive where they give more friction,
+    """Return d [-] of Eq. (13), the largest difference over the f of the asperities, positive where they give more friction,
     and the index of its speed; (NaN, -1) without points."""
     difference = np.abs(asperity - half_space)
     if not np.isfinite(difference).any():

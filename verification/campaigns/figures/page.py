@@ -15,7 +15,7 @@ SECTION = re.compile(r"(?<=<!-- figures -->\n).*(?=<!-- end of figures -->)", re
 
 
 def picture(name: str, title: str, agrees: str, differs: str, canvas: Canvas) -> Figure:
-    """The drawn figure, small enough for the documents, with its section of the page as caption: what agrees with the
+    """Return the drawn figure, small enough for the documents, with its section of the page as caption: what agrees with the
     paper, and what does not, and why."""
     section = (
         f"### {title}\n\n![{name}](images/{name}.png)\n\n"
@@ -38,7 +38,7 @@ def write(folder: Path, figures: Iterable[Figure]) -> None:
 
 
 def wrapped(text: str) -> str:
-    """Every paragraph and item of a list in lines of at most 118 characters."""
+    """Return every paragraph and item of a list in lines of at most 118 characters."""
     lines = []
     for part in text.split("\n"):
         indent = "  " if part.startswith("- ") else ""

@@ -24,7 +24,7 @@ MEAN_OF_BOX = 8 / math.pi * math.asinh(1.0)  # u E'/(p a) at the centre of a squ
 
 
 def unit_cell(distance: float, cell: float = CELL) -> tuple[np.ndarray, float]:
-    """Heights [m] of one period around a sphere, on an even number of cells, and their length [m]."""
+    """Return heights [m] of one period around a sphere, on an even number of cells, and their length [m]."""
     count = 2 * round(distance / cell / 2)
     step = distance / count
     x = (np.arange(count) - count // 2) * step
@@ -34,7 +34,7 @@ def unit_cell(distance: float, cell: float = CELL) -> tuple[np.ndarray, float]:
 
 
 def approaches(distance: float, loads: FloatArray, cell: float = CELL) -> tuple[np.ndarray, np.ndarray]:
-    """Approach [m] below first touch at each load per asperity [N], without and with the mean deflection of the
+    """Return approach [m] below first touch at each load per asperity [N], without and with the mean deflection of the
     paper's box.
     """
     heights, step = unit_cell(distance, cell)
@@ -48,7 +48,7 @@ def approaches(distance: float, loads: FloatArray, cell: float = CELL) -> tuple[
 
 
 def hertz_load(approach: FloatArray) -> FloatArray:
-    """Load [N] of one isolated sphere."""
+    """Return load [N] of one isolated sphere."""
     return 2 / 3 * E_PRIME * np.sqrt(RADIUS) * np.asarray(approach) ** 1.5
 
 

@@ -20,7 +20,7 @@ COUNT = 816  # cells in a side
 def rough(
     length: float, acf: str = "exponential", seed: int = 1, count: int = COUNT, decay_level: float = math.exp(-1)
 ) -> lubfric.Surface:
-    """A surface of Sec. 3.1: 816 x 816 points at 2 um, Sq 240 nm."""
+    """Return a surface of Sec. 3.1: 816 x 816 points at 2 um, Sq 240 nm."""
     return lubfric.generate_surface(
         (count, count), SPACING, sq=SQ, correlation_length=length, acf=acf, decay_level=decay_level, seed=seed
     )

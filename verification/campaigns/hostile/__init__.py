@@ -39,7 +39,7 @@ def cases(group: str, seed: int, share: float = 1.0) -> Iterator[HostileCase]:
 
 
 def outcomes(group_and_share: tuple[str, float]) -> list[tuple[str, str]]:
-    """(verdict, words) of each case of a group, run in a folder of its own."""
+    """Return (verdict, words) of each case of a group, run in a folder of its own."""
     from .case import judge
 
     values = []

@@ -47,13 +47,13 @@ class Target:
 
 @cache
 def scene() -> lubfric.Scene:
-    """A scene that is solved in no time."""
+    """Return a scene that is solved in no time."""
     return lubfric.load_scene("flat").with_(contact={"shape": (64, 64)}, surface={"correlation_length": 8e-6})
 
 
 @cache
 def targets() -> tuple[Target, ...]:
-    """The public functions and classes."""
+    """Return the public functions and classes."""
     film = dict.fromkeys(FILM, NUMBER) | {"entrainment_speed": SIGNED_NUMBER}
     moving = scene().with_(transient=lubfric.Transient(1e-3, outputs=1))
     unmasked = tuple(v for v in FIELD if not np.ma.isMaskedArray(v) or v is np.ma.masked)
@@ -123,7 +123,7 @@ MAY_BE_LARGE |= {("Harmonic", "amplitude"), ("Harmonic", "phase")}
 
 
 def singles() -> list[tuple[Target, str, object]]:
-    """Every (function, argument, bad value)."""
+    """Return every (function, argument, bad value)."""
     return [
         (target, name, value)
         for target in targets()

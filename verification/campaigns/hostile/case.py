@@ -38,12 +38,12 @@ class HostileCase:
 
 
 def peak_memory() -> int:
-    """Largest resident size of this process so far [bytes]."""
+    """Return largest resident size of this process so far [bytes]."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
 
 
 def resident_memory() -> int:
-    """Resident size of this process [bytes] after a garbage collection; the largest so far where the system reports
+    """Return resident size of this process [bytes] after a garbage collection; the largest so far where the system reports
     only this."""
     gc.collect()
     try:
@@ -54,7 +54,7 @@ def resident_memory() -> int:
 
 
 def judge(case: HostileCase, folder: Path) -> tuple[str, str]:
-    """(verdict, words) of one case. Only `lubfric.LubfricError` is a refusal, and its words must be one paragraph."""
+    """Return (verdict, words) of one case. Only `lubfric.LubfricError` is a refusal, and its words must be one paragraph."""
     before = peak_memory()
     begun = time.process_time()
     try:

@@ -19,14 +19,14 @@ LONG = "9" * 5000 + " 1\n2 3\n"
 
 
 def npy(array: np.ndarray) -> bytes:
-    """The bytes of a .npy file."""
+    """Return the bytes of a .npy file."""
     stream = io.BytesIO()
     np.save(stream, array)
     return stream.getvalue()
 
 
 def archive(members: dict[str, str | bytes]) -> bytes:
-    """The bytes of a zip file."""
+    """Return the bytes of a zip file."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w") as file:
         for name, content in members.items():
@@ -35,7 +35,7 @@ def archive(members: dict[str, str | bytes]) -> bytes:
 
 
 def x3p(points: bytes = MAP.T.tobytes(), old: str = "", new: str = "") -> bytes:
-    """The bytes of an X3P file, with ``new`` for ``old`` in its main.xml."""
+    """Return the bytes of an X3P file, with ``new`` for ``old`` in its main.xml."""
     axis = "<{0}><AxisType>I</AxisType><DataType>D</DataType><Increment>1e-6</Increment></{0}>"
     document = (
         "<p:ISO5436_2 xmlns:p='http://www.opengps.eu/2008/ISO5436_2'><Record1><FeatureType>SUR</FeatureType><Axes>"
@@ -49,7 +49,7 @@ def x3p(points: bytes = MAP.T.tobytes(), old: str = "", new: str = "") -> bytes:
 
 
 def damaged(rng: np.random.Generator, content: bytes) -> tuple[bytes, str]:
-    """``content`` cut, or with some bytes overwritten, or with a piece taken out."""
+    """Return ``content`` cut, or with some bytes overwritten, or with a piece taken out."""
     kind = int(rng.integers(3))
     size = len(content)
     if kind == 0:

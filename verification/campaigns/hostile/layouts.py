@@ -65,7 +65,7 @@ def read_map(path: Path, heights: np.ndarray | None, **given: Option) -> str:
 
 
 def plain_matrix(draw: Draw, folder: Path) -> str:
-    """A matrix with any separator, decimal mark and encoding."""
+    """Return a matrix with any separator, decimal mark and encoding."""
     z = rough_map(draw)
     unit = str(draw.choice(list(UNITS)))
     separator = str(draw.choice(["\t", ";", " ", "   ", "; "]))
@@ -94,7 +94,7 @@ def header_of(draw: Draw, z: np.ndarray, unit: str) -> str:
 
 
 def header(draw: Draw, folder: Path) -> str:
-    """A header in any order above a matrix whose lines run along x or along y; a square table is not decided by it."""
+    """Return a header in any order above a matrix whose lines run along x or along y; a square table is not decided by it."""
     z = rough_map(draw)[:, :7]
     unit = str(draw.choice(list(UNITS)))
     table = z.T if draw.random() < 0.5 else z
@@ -104,7 +104,7 @@ def header(draw: Draw, folder: Path) -> str:
 
 
 def contradiction(draw: Draw, folder: Path) -> str:
-    """A spacing or a unit that the header contradicts, two lines that do, or a header of another table."""
+    """Return a spacing or a unit that the header contradicts, two lines that do, or a header of another table."""
     z = rough_map(draw)
     unit = str(draw.choice(["m", "mm", "nm"]))
     text = header_of(draw, z, unit)
@@ -124,7 +124,7 @@ def contradiction(draw: Draw, folder: Path) -> str:
 
 
 def points(draw: Draw, folder: Path) -> str:
-    """Points x y z in any order, with a unit for each column, from the file or the caller."""
+    """Return points x y z in any order, with a unit for each column, from the file or the caller."""
     z = rough_map(draw)
     i, j = np.indices(z.shape).reshape(2, -1)
     lateral, unit = (str(draw.choice(list(UNITS))) for _ in range(2))
@@ -141,7 +141,7 @@ def points(draw: Draw, folder: Path) -> str:
 
 
 def profile(draw: Draw, folder: Path) -> str:
-    """A stylus trace: one column, a row, x and z, with an index, two traces; it is no map."""
+    """Return a stylus trace: one column, a row, x and z, with an index, two traces; it is no map."""
     z = np.resize(rough_map(draw).ravel(), int(draw.integers(50, 400))) * 1e6
     x = np.arange(z.size) * STEPS[0] * 1e3
     tables = [z[:, None], z[None], np.stack([x, z], 1), np.stack([x, z, z], 1), np.stack([np.arange(z.size), x, z], 1)]
@@ -156,7 +156,7 @@ def profile(draw: Draw, folder: Path) -> str:
 
 
 def coordinates(draw: Draw, folder: Path) -> str:
-    """Coordinates in the first row, the first column, or both."""
+    """Return coordinates in the first row, the first column, or both."""
     z = rough_map(draw)
     lateral, unit = (str(draw.choice(list(UNITS))) for _ in range(2))
     table = np.zeros((z.shape[0] + 1, z.shape[1] + 1))
@@ -170,7 +170,7 @@ def coordinates(draw: Draw, folder: Path) -> str:
 
 
 def missing(draw: Draw, folder: Path) -> str:
-    """Points that were not measured, marked in one of many ways."""
+    """Return points that were not measured, marked in one of many ways."""
     z = rough_map(draw)
     z[draw.random(z.shape) < 0.08] = np.nan
     mark = str(draw.choice(MARKS))
@@ -180,7 +180,7 @@ def missing(draw: Draw, folder: Path) -> str:
 
 
 def odd_rows(draw: Draw, folder: Path) -> str:
-    """A line that is too short or too long, a word, a footer, a second heading."""
+    """Return a line that is too short or too long, a word, a footer, a second heading."""
     lines = lines_of(rough_map(draw) * 1e6, ";").splitlines()
     place = int(draw.integers(1, len(lines)))
     kind = int(draw.integers(5))
@@ -198,7 +198,7 @@ def odd_rows(draw: Draw, folder: Path) -> str:
 
 
 def rig_curve(draw: Draw, folder: Path) -> str:
-    """A curve of a rig: preamble, units in the headings or below them, ramps, decimal commas, any encoding."""
+    """Return a curve of a rig: preamble, units in the headings or below them, ramps, decimal commas, any encoding."""
     count = int(draw.integers(3, 9))
     unit = str(draw.choice(list(SPEED_UNITS)))
     speed = np.sort(10 ** draw.uniform(-3, 0, count))
@@ -225,7 +225,7 @@ def rig_curve(draw: Draw, folder: Path) -> str:
 
 
 def iso_text(draw: Draw, folder: Path) -> str:
-    """ISO 25178-71 or BCR as text: any number of heights in a line, any scale."""
+    """Return ISO 25178-71 or BCR as text: any number of heights in a line, any scale."""
     z = rough_map(draw)
     z[draw.random(z.shape) < 0.05] = np.nan
     scale = 10.0 ** -int(draw.integers(0, 10))
@@ -243,7 +243,7 @@ def iso_text(draw: Draw, folder: Path) -> str:
 
 
 def surfer_grid(draw: Draw, folder: Path) -> str:
-    """A text grid of Surfer with its origin anywhere, in any units."""
+    """Return a text grid of Surfer with its origin anywhere, in any units."""
     z = rough_map(draw)
     z[draw.random(z.shape) < 0.05] = np.nan
     lateral, unit = (str(draw.choice(list(UNITS))) for _ in range(2))
@@ -261,7 +261,7 @@ def surfer_grid(draw: Draw, folder: Path) -> str:
 
 
 def unit_elsewhere(draw: Draw, folder: Path) -> str:
-    """Lengths whose unit another line states, in any order of the lines."""
+    """Return lengths whose unit another line states, in any order of the lines."""
     kind = int(draw.integers(3))
     z = rough_map(draw)
     if kind == 1:
@@ -285,7 +285,7 @@ def unit_elsewhere(draw: Draw, folder: Path) -> str:
 
 
 def sign(draw: Draw, folder: Path) -> str:
-    """A header that says that the heights are inverted."""
+    """Return a header that says that the heights are inverted."""
     z = rough_map(draw)
     words = ["Inverted: Yes", "inverted = 1", "Replica: true", "Z axis positive down", "Inversion; on", "Depth (um)"]
     head = header_of(draw, z, "um") + f"{draw.choice(words)}\n"
@@ -295,7 +295,7 @@ def sign(draw: Draw, folder: Path) -> str:
 
 
 def thousands(draw: Draw, folder: Path) -> str:
-    """Numbers with a mark for thousands."""
+    """Return numbers with a mark for thousands."""
     z = np.rint(rough_map(draw) * 1e9) + 10 ** int(draw.integers(4, 6))
     mark = str(draw.choice([",", "'", " ", "\u00a0", "\u2009", "_"]))
     path = folder / "map.csv"

@@ -31,7 +31,7 @@ LONG = (  # documents that are broken by their size
 
 
 def text_of(tables: Tables) -> str:
-    """TOML of the tables."""
+    """Return TOML of the tables."""
     return "\n".join(f"[{name}]\n" + "\n".join(f"{k} = {v}" for k, v in keys.items()) for name, keys in tables.items())
 
 
@@ -48,7 +48,7 @@ def changed(tables: Tables, section: str, key: str, value: str | None) -> Tables
 
 
 def keys_of_scene() -> list[tuple[str, str, str]]:
-    """(section, key, "word", "whole", "number" or "truth") of every key of a scene, from the annotations of its
+    """Return (section, key, "word", "whole", "number" or "truth") of every key of a scene, from the annotations of its
     classes."""
     values = []
     for section, hint in typing.get_type_hints(lubfric.Scene).items():
@@ -76,7 +76,7 @@ def bad_values(key: str, kind: str) -> Iterator[str]:
 
 
 def mutations() -> list[tuple[str, str, str | None]]:
-    """Every (section, key, value) that makes the good scene a bad one."""
+    """Return every (section, key, value) that makes the good scene a bad one."""
     values: list[tuple[str, str, str | None]] = [
         (section, key, value)
         for section, key, kind in keys_of_scene()
@@ -92,7 +92,7 @@ def _needed(section: str, key: str) -> bool:
 
 
 def misspelt(rng: np.random.Generator, word: str, known: set[str]) -> str:
-    """``word`` with one letter dropped, doubled or exchanged, such that it is no known word."""
+    """Return ``word`` with one letter dropped, doubled or exchanged, such that it is no known word."""
     while True:
         i = int(rng.integers(len(word)))
         new = (word[:i] + word[i + 1 :], word[:i] + word[i] + word[i:], word[:i] + "q" + word[i + 1 :])[rng.integers(3)]

@@ -82,7 +82,7 @@ def summarized(chunks: list[PlainRow]) -> Iterator[Item]:
 
 
 def chunk(seed: int, numbers: range) -> PlainRow:
-    """What became of the scenes of ``numbers``, and the resident memory [MiB] of the process at their end."""
+    """Return what became of the scenes of ``numbers``, and the resident memory [MiB] of the process at their end."""
     scenes = [scene_row(seed, number) for number in numbers]
     return {"first": numbers[0], "scenes": scenes, "process": os.getpid(), "memory": resident_memory() / 2**20}
 
@@ -133,7 +133,7 @@ def _features(prepared: Prepared, result: lubfric.FrictionResult) -> Iterator[st
 
 
 def growth(chunks: list[PlainRow]) -> float:
-    """Largest rise of the memory of a process [MiB], from the mean of its second quarter to that of its last."""
+    """Return largest rise of the memory of a process [MiB], from the mean of its second quarter to that of its last."""
     rises = [0.0]
     for process in {row["process"] for row in chunks}:
         sizes = [row["memory"] for row in chunks if row["process"] == process]

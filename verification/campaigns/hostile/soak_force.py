@@ -23,7 +23,7 @@ HEATED = 1400  # nodes at most on which the heat of the film is found
 
 
 def friction_force(scene: Scene, sides: Sides, contact_load: float, speed: float) -> tuple[float, float, float]:
-    """The friction force f_b F_C + F_sh [N] along the sliding, and how well it is known.
+    """Return the friction force f_b F_C + F_sh [N] along the sliding, and how well it is known.
 
     ``sides`` has the film, x and the share in contact. The far inlet is in closed form. Returned are the force, the
     size [N] of the parts of the film's share (of which f may be a small difference), and how much less [N] its stress
@@ -58,13 +58,13 @@ def friction_force(scene: Scene, sides: Sides, contact_load: float, speed: float
 
 
 def _upstream(x0: float, h0: float, radius: float) -> float:
-    """∫dx/h before the first node [-], where h is a parabola."""
+    """Return ∫dx/h before the first node [-], where h is a parabola."""
     share = np.linspace(0, 1, 4001)[1:]  # x0/x
     return float(np.trapezoid(abs(x0) / share**2 / (h0 + x0**2 * (share**-2.0 - 1) / (2 * radius)), share))
 
 
 def _rolling_upstream(film: EHLResult, x0: float, h0: float, radius: float, viscosity_speed: float) -> float:
-    """½∫h dp before the first node [N/m].
+    """Return ½∫h dp before the first node [N/m].
 
     Reynolds' equation has dp = 12 eta U (h - h*)/h³ dx there, and h is a parabola.
     """
@@ -75,14 +75,14 @@ def _rolling_upstream(film: EHLResult, x0: float, h0: float, radius: float, visc
 
 
 def _touched(x: FloatArray, sides: Sides) -> np.ndarray:
-    """Share of the width in contact over each cell between neighbouring ``x``; columns are even inside."""
+    """Return share of the width in contact over each cell between neighbouring ``x``; columns are even inside."""
     step = sides.x[1] - sides.x[0]
     edges = np.concatenate([sides.x - step / 2, sides.x[-1:] + step / 2])
     return np.diff(np.interp(x, edges, np.concatenate([[0.0], step * np.cumsum(sides.touching)]))) / np.diff(x)
 
 
 def _inside(x: np.ndarray, half: float) -> np.ndarray:
-    """Part of each cell that lies within ``half`` of the middle."""
+    """Return part of each cell that lies within ``half`` of the middle."""
     return np.diff(np.clip(x, -half, half)) / np.diff(x)
 
 
@@ -97,7 +97,7 @@ def _couette(
     *,
     hot: bool = True,
 ) -> float:
-    """Couette force over the film per width [N/m], and upstream of it, where a film is as much thinned by its own heat
+    """Return couette force over the film per width [N/m], and upstream of it, where a film is as much thinned by its own heat
     as at its first node. That of a film that heats itself is taken from fewer nodes."""
     oil = scene.lubricant
     slide = abs(scene.motion.slide_roll_ratio * speed)
@@ -123,13 +123,13 @@ def _couette(
 
 
 def _where_it_varies(tau: FloatArray) -> np.ndarray:
-    """Indices of at most `HEATED` nodes, half of them spread evenly and half where the stress changes."""
+    """Return indices of at most `HEATED` nodes, half of them spread evenly and half where the stress changes."""
     steps = np.abs(np.diff(np.log(np.maximum(tau, 1e-300))))
     measure = np.concatenate([[0.0], np.cumsum(1 / steps.size + steps / max(steps.sum(), 1e-300))])
     return np.unique(np.searchsorted(measure, np.linspace(0, measure[-1], HEATED)).clip(0, tau.size - 1))
 
 
 def _log_mean(eta: FloatArray) -> np.ndarray:
-    """Mean of a viscosity that is exponential between the nodes."""
+    """Return mean of a viscosity that is exponential between the nodes."""
     d = np.diff(np.log(eta))
     return eta[:-1] * np.where(np.abs(d) < 1e-6, 1.0, np.expm1(d) / np.where(d == 0, 1.0, d))

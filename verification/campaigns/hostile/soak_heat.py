@@ -20,7 +20,7 @@ SETTLED = 1e-5  # of the largest stress: what a step still moves
 
 
 def heats(scene: Scene) -> bool:
-    """Whether the lubricant says how its viscosity falls with the temperature, and something is to be heated."""
+    """Return whether the lubricant says how its viscosity falls with the temperature, and something is to be heated."""
     return scene.numerics.heat != "off" and bool(scene.lubricant.temperature_coefficient)
 
 
@@ -40,7 +40,7 @@ def moes(w: float, radius: float, e_prime: float, speed: float, viscosity: float
 
 
 def inlet_viscosity(scene: Scene, speed: float) -> float:
-    """Viscosity [Pa s] at which Moes' film is as thin as the heat of the inlet makes it (Gupta et al. 1992)."""
+    """Return viscosity [Pa s] at which Moes' film is as thin as the heat of the inlet makes it (Gupta et al. 1992)."""
     oil = scene.lubricant
     bodies = scene.bodies
     u = abs(speed)
@@ -70,7 +70,7 @@ def heated_stress(
     contact_load: float,
     speed: float,
 ) -> np.ndarray:
-    """Shear stress [Pa], without sign, at nodes running downstream, of film and surfaces that heat one another.
+    """Return shear stress [Pa], without sign, at nodes running downstream, of film and surfaces that heat one another.
 
     ``log_ratio`` is ln(eta/eta0) at the nodes, at the temperature of the oil. ``free`` is the share of the width on
     which they have film.
@@ -117,7 +117,7 @@ def heated_stress(
 
 
 def _twice_integrated(source: np.ndarray, z: np.ndarray) -> np.ndarray:
-    """Temperature of -T'' = source by the trapezoidal rule: it is 0 at the wall, its slope in the middle."""
+    """Return temperature of -T'' = source by the trapezoidal rule: it is 0 at the wall, its slope in the middle."""
     step = z[1] - z[0]
     cells = 0.5 * (source[:, 1:] + source[:, :-1]) * step
     slope = np.concatenate([np.cumsum(cells[:, ::-1], axis=1)[:, ::-1], np.zeros((source.shape[0], 1))], axis=1)
@@ -126,7 +126,7 @@ def _twice_integrated(source: np.ndarray, z: np.ndarray) -> np.ndarray:
 
 
 def _viscosity(oil: Lubricant, log_ratio: np.ndarray, temperature: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """ln eta and -d ln(eta)/dT at temperatures [K], by Roelands' law if the scene requests it, otherwise exponential."""
+    """Return ln eta and -d ln(eta)/dT at temperatures [K], by Roelands' law if the scene requests it, otherwise exponential."""
     t0 = the(oil.temperature, "temperature")
     beta = the(oil.temperature_coefficient, "temperature coefficient")
     cold = math.log(oil.viscosity) + log_ratio

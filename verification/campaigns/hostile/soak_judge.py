@@ -76,7 +76,7 @@ class Judge:
     film_tolerance: float = LOOSE
 
     def sides(self, split: float) -> Sides:
-        """Film and contacts at ln(F_H/F_C)."""
+        """Return film and contacts at ln(F_H/F_C)."""
         load = self.prepared.scene.bodies.load
         film_load = load / (1 + math.exp(-split))
         film = self.film(film_load, film_load / load if self.scaled else 1.0)
@@ -96,7 +96,7 @@ class Judge:
         )
 
     def film(self, film_load: float, modulus: float) -> EHLResult:
-        """The film by differential deflection, or by the tightest Newton solution where that does not converge or where
+        """Return the film by differential deflection, or by the tightest Newton solution where that does not converge or where
         shear thins the flow."""
         scene = self.prepared.scene
         case = case_of_scene(scene, film_load, self.speed)
@@ -111,7 +111,7 @@ class Judge:
         return solve_ehl(**case, sliding=sliding, eyring_stress=stress, tolerance=1e-4)
 
     def pressed(self, strip: MappedStrip, film: EHLResult, load: float) -> tuple[float, float, np.ndarray]:
-        """Mean gap and mean film over A [m], and share in contact at each x, of a dry contact at ``load`` [N]."""
+        """Return mean gap and mean film over A [m], and share in contact at each x, of a dry contact at ``load`` [N]."""
         scene = self.prepared.scene
         x = strip.x
         smooth = film.film_at(x)
@@ -150,7 +150,7 @@ class Judge:
         return np.clip(inside / dx, 0, 1)
 
     def coefficient(self, split: float, sides: Sides) -> tuple[float, float]:
-        """f at a division of the load, and what the tolerance and the nodes of the film leave open of it."""
+        """Return f at a division of the load, and what the tolerance and the nodes of the film leave open of it."""
         scene = self.prepared.scene
         contact_load = scene.bodies.load / (1 + math.exp(split))
         force, parts, spike = friction_force(scene, sides, contact_load, self.speed)
@@ -158,7 +158,7 @@ class Judge:
 
 
 def judge_of(prepared: Prepared, result: FrictionResult) -> Judge:
-    """What closes ``result`` of ``prepared`` anew: a patch on its own cells, or the strips of the result."""
+    """Return what closes ``result`` of ``prepared`` anew: a patch on its own cells, or the strips of the result."""
     scene = prepared.scene
     parts = abs(result.couette_force) + abs(result.rolling_force) + result.boundary_force
     cancels = abs(result.coefficient) * scene.bodies.load < CANCELS * parts
@@ -188,7 +188,7 @@ def _strip(surface: Surface, x: np.ndarray) -> MappedStrip:
 
 
 def _pair(sample: Sample, index: int) -> tuple[MappedStrip, MappedStrip]:
-    """A piece on its own cells and on those of the strips."""
+    """Return a piece on its own cells and on those of the strips."""
     cells = sample.cells
     piece = sample.piece(index)
     kept = replace(piece, heights=cells.thinned(piece.heights, cells.coarsening), spacing=cells.spacing)
@@ -196,7 +196,7 @@ def _pair(sample: Sample, index: int) -> tuple[MappedStrip, MappedStrip]:
 
 
 def verdict(prepared: Prepared, result: FrictionResult) -> dict[str, float]:
-    """Deviations of ``result`` by name, over what is allowed. At rest the contact carries all."""
+    """Return deviations of ``result`` by name, over what is allowed. At rest the contact carries all."""
     scene = prepared.scene
     load = prepared.scene.bodies.load
     share = result.contact_load / load
@@ -228,7 +228,7 @@ def verdict(prepared: Prepared, result: FrictionResult) -> dict[str, float]:
 
 
 def closed_again(judge: Judge, share: float, *, closely: bool = False) -> tuple[tuple[float, float], float]:
-    """((f, its error), F_C/F_T) of the balance nearest to a contact that carries ``share`` of the load: from two
+    """Return ((f, its error), F_C/F_T) of the balance nearest to a contact that carries ``share`` of the load: from two
     divisions of the load or, ``closely``, by a bracketed root."""
     if share == 0:
         sides = judge.sides(40.0)

@@ -32,7 +32,7 @@ WARM = {"temperature": 350.0, "temperature_coefficient": 0.035}
 
 
 def random_scene(rng: np.random.Generator, *, any_material: bool = False) -> lubfric.Scene:
-    """A random scene; of steel bodies of one width or, with ``any_material``, of soft to hard ones, with steeper
+    """Return a random scene; of steel bodies of one width or, with ``any_material``, of soft to hard ones, with steeper
     roughness and other tolerances.
 
     It is flat, or under a cylinder on strips or a patch; elastic or with a plastic limit; a height map or asperities;
@@ -93,7 +93,7 @@ def _lubricant(rng: np.random.Generator, v: dict[str, float]) -> PlainRow:
 
 
 def _rough(rng: np.random.Generator, scene: lubfric.Scene, sq: float, steepest: float, *, flat: bool) -> lubfric.Scene:
-    """``scene`` with a random map of ``sq`` [m], but at most ``steepest`` cells."""
+    """Return ``scene`` with a random map of ``sq`` [m], but at most ``steepest`` cells."""
     half_width = scene.bodies.half_width
     nx = int(rng.choice((28, 36, 48)))
     spacing = (6 * half_width if not flat else 2e-4) / nx

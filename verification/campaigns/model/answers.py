@@ -69,7 +69,7 @@ class AnswerCase:
     ratio: float
 
     def scene(self, seed: int, folder: str, **numerics: Option) -> Scene:
-        """The scene with a surface of its own ``seed``; maps are written to ``folder``."""
+        """Return the scene with a surface of its own ``seed``; maps are written to ``folder``."""
         changes, times = CONTACTS[self.contact]
         scene = lubfric.load_scene("paper").with_(**changes)
         limit = scene.bodies.boundary_friction_coefficient / self.over
@@ -97,7 +97,7 @@ class AnswerCase:
 
 
 def heights(kind: str, seed: int) -> np.ndarray:
-    """A map of this ``kind``, with a standard deviation of 1, from its spectrum."""
+    """Return a map of this ``kind``, with a standard deviation of 1, from its spectrum."""
     qx, qy = np.meshgrid(*(2 * np.pi * np.fft.fftfreq(n, CELL) for n in CELLS), indexing="ij")
     rng = np.random.default_rng(seed)
 
@@ -131,18 +131,18 @@ def cases(level: str, *, rollers: bool) -> dict[str, AnswerCase]:
 
 
 def reference(case: AnswerCase) -> PlainRow:
-    """f of the endless line, and its error."""
+    """Return f of the endless line, and its error."""
     return solved(case, 1 if case.surface in MEASURED else REFERENCE, {"model": "deterministic"} | ASKED)
 
 
 def answer(case_and_seed: tuple[AnswerCase, int]) -> dict[str, PlainRow]:
-    """f and its interval on one surface, both ways."""
+    """Return f and its interval on one surface, both ways."""
     case, seed = case_and_seed
     return {way: solved(case, seed, numerics) for way, numerics in WAYS.items()}
 
 
 def solved(case: AnswerCase, seed: int, numerics: Keywords) -> PlainRow:
-    """One point: f, half of its interval and its standard error, all relative; or why there is none."""
+    """Return one point: f, half of its interval and its standard error, all relative; or why there is none."""
     begun = time.process_time()
     with tempfile.TemporaryDirectory() as folder:
         scene = case.scene(seed, folder, **numerics)
@@ -207,7 +207,7 @@ def compared(
 
 
 def interval_error(row: PlainRow, truth: PlainRow) -> tuple[float, float, float]:
-    """Half of the interval; by how much f is off; and how much of that its interval on this side and twice the error of
+    """Return half of the interval; by how much f is off; and how much of that its interval on this side and twice the error of
     the reference allow; all relative to the reference."""
     f = row["f"]
     t = truth["f"]
@@ -216,14 +216,14 @@ def interval_error(row: PlainRow, truth: PlainRow) -> tuple[float, float, float]
 
 
 def summary(values: np.ndarray) -> list[str]:
-    """The root mean square error, the mean half of the interval, and the share of intervals that hold f."""
+    """Return the root mean square error, the mean half of the interval, and the share of intervals that hold f."""
     half, off, allowed = values.T
     errors = math.sqrt(np.mean(off**2)), half.mean()
     return [*(f"{100 * error:.1f} %" for error in errors), f"{100 * (off <= allowed).mean():.0f} %"]
 
 
 def drawn(name: str, every: dict[str, np.ndarray]) -> Figure:
-    """The error of f over what its interval allows, for both ways."""
+    """Return the error of f over what its interval allows, for both ways."""
     curves: list[Curve] = [([1, 100], [1, 100], "k-", "allowed")]
     for way, label in (("load sharing", "load sharing alone"), ("default", "default answer")):
         curves.append((*100 * np.maximum(every[way][:, [2, 1]].T, 1e-4), "o", label))

@@ -67,7 +67,7 @@ def boundary_film(level: str, run: Run = Run()) -> Iterator[Item]:
 
 
 def drawn(names: list[str], values: np.ndarray) -> Figure:
-    """The shares (cases, ratios, films) of three films over the ratio, in the band of the laws."""
+    """Return the shares (cases, ratios, films) of three films over the ratio, in the band of the laws."""
     chosen = (10e-9, 20e-9, 40e-9)
     canvas, grid = plotting.axes(1, len(chosen), 9.5, 3.6, sharey=True)
     dense = np.geomspace(min(RATIOS), max(RATIOS), 100)
@@ -83,7 +83,7 @@ def drawn(names: list[str], values: np.ndarray) -> Figure:
 
 
 def shares(case: tuple[str, float]) -> list[list[float]]:
-    """Share of the load on gaps below each of `FILMS`, at each of `RATIOS`; NaN where it is not solved."""
+    """Return share of the load on gaps below each of `FILMS`, at each of `RATIOS`; NaN where it is not solved."""
     kind, pressure = case
     scene = roller(pressure)
     surface = rough(kind)
@@ -103,7 +103,7 @@ def shares(case: tuple[str, float]) -> list[list[float]]:
 
 
 def roller(pressure: float) -> lubfric.Scene:
-    """A steel roller of 6 mm with a thin oil at a Hertz ``pressure`` [Pa]."""
+    """Return a steel roller of 6 mm with a thin oil at a Hertz ``pressure`` [Pa]."""
     return lubfric.load_scene("paper").with_(
         bodies={"radius": 6e-3, "width": 5e-3, "hertz_pressure": pressure, "boundary_friction_coefficient": 0.12},
         lubricant={
@@ -117,7 +117,7 @@ def roller(pressure: float) -> lubfric.Scene:
 
 
 def rough(kind: str) -> lubfric.Surface:
-    """A surface of that kind; a plateau has its summits cut at 0.3 Sq."""
+    """Return a surface of that kind; a plateau has its summits cut at 0.3 Sq."""
     acf = "exponential" if kind == "exponential" else "gaussian"
     made = lubfric.generate_surface(PATCH, CELL, sq=SURFACES[kind], correlation_length=LENGTH, acf=acf, seed=7)
     if kind == "plateau":
@@ -128,7 +128,7 @@ def rough(kind: str) -> lubfric.Surface:
 
 
 def speed_of(scene: Scene, film: float) -> float:
-    """U [m/s] at which the smooth central film is ``film`` [m] thick, by two films and a power law between them."""
+    """Return U [m/s] at which the smooth central film is ``film`` [m] thick, by two films and a power law between them."""
     slow = 0.1
     fast = 1.0
     cases = (case_of_scene(scene, scene.bodies.load, speed) for speed in (slow, fast))

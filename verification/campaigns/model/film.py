@@ -55,7 +55,7 @@ def grids(level: str, run: Run = Run()) -> Iterator[Item]:
 
 
 def patch(seed: int, cells: int) -> lubfric.Prepared:
-    """One patch of the built-in surface made ready for the deterministic model, on so many cells each way."""
+    """Return one patch of the built-in surface made ready for the deterministic model, on so many cells each way."""
     fine = lubfric.generate_surface(
         (256, 256), WIDTH / 256, sq=1e-7, correlation_length=8e-6, acf="gaussian", seed=seed
     )
@@ -64,7 +64,7 @@ def patch(seed: int, cells: int) -> lubfric.Prepared:
 
 
 def on_cells(case: tuple[float, int, int]) -> list[float]:
-    """f, processor seconds and peak memory [GB] of a speed on so many cells of a surface."""
+    """Return f, processor seconds and peak memory [GB] of a speed on so many cells of a surface."""
     speed, seed, cells = case
     model = patch(seed, cells)
     begun = time.process_time()

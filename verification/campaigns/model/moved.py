@@ -35,7 +35,7 @@ BALANCES = "mass", "load", "gap", "bounds"
 
 
 def passed(scene: Scene, bodies: Sequence[RoughBody], speed: float) -> PlainRow:
-    """Means over one pass of the fastest of ``bodies`` (at rest: of the steady film): ``f``, ``central`` and ``mean``
+    """Return means over one pass of the fastest of ``bodies`` (at rest: of the steady film): ``f``, ``central`` and ``mean``
     gap [m], ``shares`` of the load on gaps below each of `FILMS`, and ``drawn``, the share of the lubricant that
     touching cells give off; the same at rest, from which it starts; ``off``: how far the `BALANCES` are from 0."""
     heights = np.sum([body.surface.heights for body in bodies], axis=0)
@@ -71,7 +71,7 @@ def passed(scene: Scene, bodies: Sequence[RoughBody], speed: float) -> PlainRow:
 
 
 def row(problem: Problem, result: DeterministicResult, out: float) -> PlainRow:
-    """The numbers of one moment, in which touching cells give off ``out`` [m²/s]."""
+    """Return the numbers of one moment, in which touching cells give off ``out`` [m²/s]."""
     p = result.pressure
     h = result.gap
     enters = result.flow_film * result.speed
@@ -86,7 +86,7 @@ def share(out: float, enters: float) -> float:
 
 
 def given(at: Iterate) -> float:
-    """What touching cells give off [m²/s]: their outflow less their inflow, and what they gain."""
+    """Return what touching cells give off [m²/s]: their outflow less their inflow, and what they gain."""
     source = np.where(at.state.kind == TOUCHING, at.residual, 0.0)
     return float(source.sum() * at.problem.spacing[0] / source.shape[1])
 
@@ -94,7 +94,7 @@ def given(at: Iterate) -> float:
 def balances(
     problem: Problem, result: DeterministicResult, passing: Sequence[DeterministicResult], step: float, out: float = 0.0
 ) -> dict[str, float]:
-    """How far fields are from what they must obey.
+    """Return how far fields are from what they must obey.
 
     - mass: what enters and what touching cells give off (``out`` [m²/s], mean over all but two), less what leaves
       behind the rupture (U times what is there, at the end of the grid) and what is gained, in the steps of ``step``
@@ -155,6 +155,6 @@ def _kept_along(masses: Sequence[np.ndarray], rises: tuple[float, float]) -> lis
 
 
 def held(line: LineContact, result: DeterministicResult, gap: FloatArray) -> np.ndarray:
-    """rho h [m] of the lubricant in this ``gap``, over the density at ambient pressure (nx, ny)."""
+    """Return rho h [m] of the lubricant in this ``gap``, over the density at ambient pressure (nx, ny)."""
     law = Fluid(1.0, density_law=line.lubricant.density_law).rho
     return result.fill * law(result.pressure) * gap

@@ -33,7 +33,7 @@ OILS: tuple[Keywords, ...] = ({}, {"eyring_stress": 5e6}, {"eyring_stress": 5e6,
 
 
 def drawn(seed: int) -> tuple[lubfric.Scene, list[RoughBody], float, PlainRow]:
-    """Scene, rough bodies and speed [m/s] of one random contact, and what it is in numbers."""
+    """Return scene, rough bodies and speed [m/s] of one random contact, and what it is in numbers."""
     rng = np.random.default_rng([33, seed])
 
     def between(low: float, high: float) -> float:
@@ -79,7 +79,7 @@ def drawn(seed: int) -> tuple[lubfric.Scene, list[RoughBody], float, PlainRow]:
 
 
 def solved(seed: int) -> PlainRow:
-    """One point: f and its balances; or how it was said not to be solved."""
+    """Return one point: f and its balances; or how it was said not to be solved."""
     begun = time.process_time()
     inputs: Keywords = {}
     try:

@@ -58,7 +58,7 @@ def cases(level: str) -> dict[str, RollingCase]:
 
 
 def solved(case: RollingCase) -> PlainRow:
-    """Both models at one case; or why there is no answer."""
+    """Return both models at one case; or why there is no answer."""
     contact, kind, ratio, slip = case
     pressure, bodies, sq, length = CONTACTS[contact]
     scene = roller(pressure).with_(bodies=bodies, motion={"slide_roll_ratio": slip}, numerics={"accept": True})
@@ -76,7 +76,7 @@ def solved(case: RollingCase) -> PlainRow:
 
 
 def rough(kind: str, sq: float, length: float) -> lubfric.Surface:
-    """The map of one of `KINDS`, with this Sq and correlation length [m], of ridges across them."""
+    """Return the map of one of `KINDS`, with this Sq and correlation length [m], of ridges across them."""
     lengths = {"ridges across": (length, RIDGE * length), "ridges along": (RIDGE * length, length)}.get(kind, length)
     acf = "exponential" if kind == "exponential" else "gaussian"
     (along, across) = (length / n for n in PER_LENGTH)
@@ -165,7 +165,7 @@ def shares(result: list[tuple[RollingCase, PlainRow]]) -> Iterator[Item]:
 
 
 def drawn(rows: list[tuple[RollingCase, PlainRow]]) -> Figure:
-    """f and the share of the load over film/Sq at every slide-roll ratio, of the first two contacts."""
+    """Return f and the share of the load over film/Sq at every slide-roll ratio, of the first two contacts."""
     names = list(CONTACTS)[:2]
     film = FILMS.index(BOUNDARY_FILM)
     canvas, grid = plotting.axes(2, 2, 8.5, 6.0, sharex=True)

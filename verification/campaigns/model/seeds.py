@@ -32,7 +32,7 @@ COLUMNS += ("CPU time", "plain, to that scatter", "times cheaper")
 
 
 def answer(speed_and_seed: tuple[float, int]) -> PlainRow:
-    """f, half of its interval, and processor seconds."""
+    """Return f, half of its interval, and processor seconds."""
     speed, seed = speed_and_seed
     begun = time.process_time()
     point = lubfric.friction(lubfric.load_scene("paper").with_(surface={"seed": seed}), speed)
@@ -41,7 +41,7 @@ def answer(speed_and_seed: tuple[float, int]) -> PlainRow:
 
 
 def plain(speed_and_seed: tuple[float, int]) -> PlainRow:
-    """f of one strip, and processor seconds."""
+    """Return f of one strip, and processor seconds."""
     speed, seed = speed_and_seed
     scene = lubfric.load_scene("paper").with_(surface={"seed": seed})
     strips = lubfric.prepare(scene).sample

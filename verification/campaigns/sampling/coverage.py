@@ -52,7 +52,7 @@ class CoverageCase:
     changes: Keywords = field(default_factory=dict)
 
     def scene(self, seed: int) -> Scene:
-        """The scene with a surface of its own ``seed``."""
+        """Return the scene with a surface of its own ``seed``."""
         rough = self.changes.get("surface", {}) | {"seed": seed}
         return SHARED.with_(**self.changes | {"surface": rough})
 
@@ -88,7 +88,7 @@ class Result:
     error: float
 
     def column(self, name: str) -> np.ndarray:
-        """One number of all trials."""
+        """Return one number of all trials."""
         return np.array([row[name] for row in self.rows])
 
     @property
@@ -133,19 +133,19 @@ def coverage(level: str, run: Run = Run(), seed: int = SEED) -> Iterator[Item]:
 
 
 def truths(cases: Iterable[CoverageCase], seed: int, run: Run) -> dict[str, tuple[float, float]]:
-    """f of an endless line and its relative standard error, by the name of the case."""
+    """Return f of an endless line and its relative standard error, by the name of the case."""
     wanted = {f"{case.name}, {seed}": (case, seed + REPORTED) for case in cases}
     return {case.name: (f, error) for (case, _), (f, error) in run.solved(wanted, endless, "truths")}
 
 
 def trial(case_and_seed: tuple[CoverageCase, int]) -> PlainRow:
-    """One trial of a case."""
+    """Return one trial of a case."""
     case, seed = case_and_seed
     return solve(case.scene(seed), case.speed, case.target)
 
 
 def solve(scene: Scene, speed: float, target: float) -> PlainRow:
-    """One point with its interval and its processor seconds."""
+    """Return one point with its interval and its processor seconds."""
     begun = time.process_time()
     point = lubfric.friction(scene.with_(numerics={"sampling_tolerance": target}), speed)
     u = point.uncertainty
@@ -163,7 +163,7 @@ def solve(scene: Scene, speed: float, target: float) -> PlainRow:
 
 
 def endless(case_and_seed: tuple[CoverageCase, int]) -> tuple[float, float]:
-    """f of an endless line by the mean of patches with seeds from ``seed`` on, and its relative standard error."""
+    """Return f of an endless line by the mean of patches with seeds from ``seed`` on, and its relative standard error."""
     case, seed = case_and_seed
     scene = case.scene(seed)
     spacing, factors, along = cells_of(scene)
@@ -180,7 +180,7 @@ def endless(case_and_seed: tuple[CoverageCase, int]) -> tuple[float, float]:
 
 
 def cells_of(scene: Scene) -> tuple[tuple[float, float], tuple[int, int], float]:
-    """The scene's own spacing [m]; how many of its cells (a power of two) make a quarter of the correlation length
+    """Return the scene's own spacing [m]; how many of its cells (a power of two) make a quarter of the correlation length
     along x and y, and half the Hertz strip; the correlation length along y [m]."""
     spacing = np.broadcast_to(np.asarray(scene.contact.spacing), 2).tolist()
     length = np.broadcast_to(np.asarray(scene.surface.correlation_length), 2).tolist()
@@ -190,7 +190,7 @@ def cells_of(scene: Scene) -> tuple[tuple[float, float], tuple[int, int], float]
 
 
 def _change(scene: Scene, speed: float, seed: int, across: int) -> tuple[float, float]:
-    """Relative change of f from the cells of the long patches to the scene's own, and its standard error."""
+    """Return relative change of f from the cells of the long patches to the scene's own, and its standard error."""
     spacing, (fx, fy), along = cells_of(scene)
     if (fx, fy) == (1, 1):
         return 0.0, 0.0
@@ -215,7 +215,7 @@ def _surface(scene: Scene, shape: tuple[int, int], spacing: tuple[float, float],
 
 
 def _plain(scene: Scene, surface: Surface, speed: float) -> float:
-    """f of one patch on its own cells."""
+    """Return f of one patch on its own cells."""
     contact = {"shape": surface.shape, "spacing": surface.spacing}
     patch = scene.with_(contact=contact, numerics={"sampling": "patch", "grid": "given", "tolerance": 2e-3})
     return lubfric.friction(lubfric.prepare(patch, surface), speed).coefficient
@@ -246,7 +246,7 @@ def checks(result: Result) -> Iterator[Item]:
 def within(
     name: str, measured: float, trials: int, bounds: tuple[float, float], source: str, *, decides: bool = True
 ) -> Check:
-    """A check of a share of trials between two bounds, with what chance does to it."""
+    """Return a check of a share of trials between two bounds, with what chance does to it."""
     low, high = bounds
     return Check(
         name,
@@ -260,12 +260,12 @@ def within(
 
 
 def chance(trials: int) -> float:
-    """How much less than 95 % is granted to a share of few trials."""
+    """Return how much less than 95 % is granted to a share of few trials."""
     return CHANCE * math.sqrt(0.05 * 0.95 / trials)
 
 
 def row(result: Result) -> tuple[str, ...]:
-    """The numbers of a case as cells of a table (`COLUMNS`)."""
+    """Return the numbers of a case as cells of a table (`COLUMNS`)."""
     return (
         result.case.name
         + (f", target {100 * result.case.target:g} %" if result.case.target != CoverageCase.target else ""),
@@ -276,7 +276,7 @@ def row(result: Result) -> tuple[str, ...]:
 
 
 def picture(results: list[Result]) -> Figure:
-    """Every interval of every case over the truth. Those that miss it are orange."""
+    """Return every interval of every case over the truth. Those that miss it are orange."""
     canvas, grid = panels(len(results), 2, 11, 2.6)
     for axis, result in zip(grid, results):
         order = np.argsort(result.column("f"))

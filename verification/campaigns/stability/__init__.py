@@ -44,7 +44,7 @@ def stability_map(level: str, name: str, run: Run = Run()) -> Iterator[Item]:
 
 
 def check_cell(name: str, cell: Cell[PlainValue]) -> PlainRow:
-    """The check of one cell of the map ``name``, in plain types."""
+    """Return the check of one cell of the map ``name``, in plain types."""
     from . import cell as cells
 
     return cells.check_cell(cell, _map(name).solve, _map(name).deviations).as_dict()

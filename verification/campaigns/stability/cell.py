@@ -42,7 +42,7 @@ class Cell(Generic[Problem]):
 
 
 def verdict(check: Check) -> str:
-    """One of `VERDICTS`."""
+    """Return one of `VERDICTS`."""
     return RIGHT if check.passed else FAILED if check.refused else WRONG
 
 

@@ -14,7 +14,7 @@ from ...types import FloatArray
 def deflection(
     pressure: np.ndarray, spacing: tuple[float, float], e_prime: float, boundary: tuple[str, str]
 ) -> np.ndarray:
-    """u = K p [m].
+    """Return u = K p [m].
 
     Where the contact is periodic it comes from the full complex transform, where it is free from sums of Love's cells
     over all pairs. Where it is mixed it comes from the library's operator, which its own tests hold against quadrature
@@ -31,7 +31,7 @@ def deflection(
 
 
 def _love_sum(pressure: FloatArray, spacing: tuple[float, float], e_prime: float) -> np.ndarray:
-    """Love's solution, summed row by row without a transform."""
+    """Return Love's solution, summed row by row without a transform."""
     nx, ny = pressure.shape
     i = np.arange(1 - nx, nx)
     j = np.arange(1 - ny, ny)
@@ -62,7 +62,7 @@ def contact_deviations(
     mean_pressure: float | None = None,
     mean_gap: float | None = None,
 ) -> dict[str, float]:
-    """Deviations of a `ContactResult`, without dimension.
+    """Return deviations of a `ContactResult`, without dimension.
 
     Lengths are measured by sum(p u')/sum(p), with u' = u less its least value under the contact, plus the mean gap.
     That is what is indented, and what is left open.

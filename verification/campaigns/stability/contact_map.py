@@ -70,7 +70,7 @@ class Pressed:
 
 @lru_cache(maxsize=64)
 def surface(kind: str, nx: int, ny: int, sigma: float = 0.2e-6) -> np.ndarray:
-    """Heights [m] of rms ``sigma``: fields of a given spectrum in a box of nx x ny cells of 1 µm, or a simple shape."""
+    """Return heights [m] of rms ``sigma``: fields of a given spectrum in a box of nx x ny cells of 1 µm, or a simple shape."""
     x, y = (np.arange(n) * 1e-6 for n in (nx, ny))
     if kind == "sine":
         z = np.cos(2 * np.pi * np.arange(nx) / nx)[:, None] * np.cos(2 * np.pi * np.arange(ny) / ny)
@@ -85,18 +85,18 @@ def surface(kind: str, nx: int, ny: int, sigma: float = 0.2e-6) -> np.ndarray:
 
 
 def wave_numbers(shape: tuple[int, int]) -> np.ndarray:
-    """|k| [rad/m] on cells of 1 µm."""
+    """Return |k| [rad/m] on cells of 1 µm."""
     kx, ky = (2 * np.pi * fft.fftfreq(n, 1e-6) for n in shape)
     return np.hypot(kx[:, None], ky)
 
 
 def full_contact(heights: np.ndarray) -> float:
-    """Pressure [Pa] that would flatten the heights if it could pull as well. It is the largest tension needed."""
+    """Return pressure [Pa] that would flatten the heights if it could pull as well. It is the largest tension needed."""
     return float(-(fft.ifft2(fft.fft2(heights) * E_PRIME * wave_numbers(heights.shape) / 4).real).min())
 
 
 def solve(cell: Cell[Pressed]) -> ContactResult:
-    """The cell by the default solver."""
+    """Return the cell by the default solver."""
     p: Pressed = cell.problem
     absurd = np.zeros(p.shape)
     absurd.flat[-1] = 1e14
@@ -106,7 +106,7 @@ def solve(cell: Cell[Pressed]) -> ContactResult:
 
 
 def deviations(cell: Cell[Pressed], result: ContactResult) -> dict[str, float]:
-    """Complementarity, signs, fields and load of the result, and the second opinion, over what is allowed."""
+    """Return complementarity, signs, fields and load of the result, and the second opinion, over what is allowed."""
     p: Pressed = cell.problem
     physical = {"hardness": p.hardness, "mean_pressure": p.mean_pressure, "mean_gap": p.mean_gap}
     solved = contact_deviations(result, p.gap0, p.spacing, E_PRIME, p.boundary, **physical)

@@ -42,7 +42,7 @@ NAMED = {
 
 
 def counts(cells: list[Check]) -> dict[tuple[str, str, bool], Counter[str]]:
-    """Verdicts by (map, method, default)."""
+    """Return verdicts by (map, method, default)."""
     results: dict[tuple[str, str, bool], Counter[str]] = {}
     for cell in cells:
         key = (cell.at["map"], cell.at["method"], bool(cell.at["default"]))
@@ -51,7 +51,7 @@ def counts(cells: list[Check]) -> dict[tuple[str, str, bool], Counter[str]]:
 
 
 def table(kind: str, cells: list[Check]) -> Table:
-    """Verdicts of the methods that users get unasked: of every map in which not all is right, and of all together."""
+    """Return verdicts of the methods that users get unasked: of every map in which not all is right, and of all together."""
     rows = [
         (name, sum(result.values()), *(result[v] for v in VERDICTS))
         for (name, _, default), result in counts(cells).items()
@@ -66,7 +66,7 @@ def table(kind: str, cells: list[Check]) -> Table:
 
 
 def draw(kind: str, cells: list[Check]) -> Figure:
-    """One panel for each map and method. Cells that share a place show the worst verdict."""
+    """Return one panel for each map and method. Cells that share a place show the worst verdict."""
     panels = list(dict.fromkeys((c.at["map"], c.at["method"]) for c in cells))
     canvas, axes = plotting.panels(len(panels), 3, width=11, height=2.9)
     for ax, place in zip(axes, panels):

@@ -18,7 +18,7 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(12)
 
 
 def deflection(points: np.ndarray, x: np.ndarray, p: np.ndarray, e_prime: float, reference: float) -> np.ndarray:
-    """-(4/(pi E')) ∫ p ln(|points - x|/reference) dx of a piecewise linear pressure."""
+    """Return -(4/(pi E')) ∫ p ln(|points - x|/reference) dx of a piecewise linear pressure."""
 
     def log(t: FloatArray) -> FloatArray:
         return np.log(np.where(t == 0, 1.0, np.abs(t)) / reference)
@@ -33,7 +33,7 @@ def deflection(points: np.ndarray, x: np.ndarray, p: np.ndarray, e_prime: float,
 
 
 def film_deviations(result: EHLResult, case: Keywords) -> dict[str, float]:
-    """Deviations, all relative, of an `EHLResult` for the SI arguments ``case`` of its solver.
+    """Return deviations, all relative, of an `EHLResult` for the SI arguments ``case`` of its solver.
 
     - elastic: film at the nodes
     - load: relative
@@ -67,7 +67,7 @@ def film_deviations(result: EHLResult, case: Keywords) -> dict[str, float]:
 
 
 def cell_flow(x: FloatArray, p: FloatArray, result: EHLResult, case: Keywords) -> np.ndarray:
-    """Mass flow through the middle of each cell over rho0 |U| [m]."""
+    """Return mass flow through the middle of each cell over rho0 |U| [m]."""
     centre = 0.5 * (x[1:] + x[:-1])
     dx = np.diff(x)
     inside = 0.5 * (p[1:] + p[:-1])

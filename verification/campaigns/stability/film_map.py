@@ -36,7 +36,7 @@ class FilmCell:
 
 
 def solve(cell: Cell[FilmCell]) -> EHLResult | float:
-    """The film of the cell by its method; of the formula, the flow film [m] alone."""
+    """Return the film of the cell by its method; of the formula, the flow film [m] alone."""
     film = cell.problem
     if cell.method == DIFFERENTIAL:
         return solve_differential_deflection(**film.case, most_nodes=NODES)
@@ -67,7 +67,7 @@ def deviations(cell: Cell[FilmCell], result: EHLResult | float) -> dict[str, flo
 
 @lru_cache(maxsize=64)
 def reference(items: tuple[tuple[str, object], ...], tolerance: float) -> tuple[float, float]:
-    """Smallest and flow film [m] by another discretisation, or else by the tightest Newton solution that there is."""
+    """Return smallest and flow film [m] by another discretisation, or else by the tightest Newton solution that there is."""
     ways: tuple[tuple[Callable[..., EHLResult], Keywords], ...] = (
         (solve_differential_deflection, {"tolerance": max(tolerance / 3, 1e-4), "most_nodes": NODES}),
         (solve_ehl, {"tolerance": 0.1 * tolerance}),
@@ -83,7 +83,7 @@ def reference(items: tuple[tuple[str, object], ...], tolerance: float) -> tuple[
 
 
 def promised(M: float, L: float) -> bool:
-    """Whether M and L lie within the range that the default answers for."""
+    """Return whether M and L lie within the range that the default answers for."""
     return 0.99e-3 <= M <= 1001 and L <= 20.01
 
 

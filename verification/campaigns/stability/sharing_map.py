@@ -35,7 +35,7 @@ class SharingCell:
 
 @lru_cache(maxsize=4)
 def model_of(name: str, sq: float, shape: int) -> Prepared:
-    """The prepared scene. Any slope is accepted, because the solver is what is tried."""
+    """Return the prepared scene. Any slope is accepted, because the solver is what is tried."""
     if name == "flat":
         roughness = {"sq": sq, "correlation_length": 0.08e-6 * shape}
         grid = {"shape": (shape, shape), "spacing": 1e-6}
@@ -47,7 +47,7 @@ def model_of(name: str, sq: float, shape: int) -> Prepared:
 
 
 def solve(cell: Cell[SharingCell]) -> tuple[Prepared, lubfric.FrictionResult]:
-    """The prepared scene, and the result of `lubfric.friction` at the speed of the cell."""
+    """Return the prepared scene, and the result of `lubfric.friction` at the speed of the cell."""
     p = cell.problem
     model = model_of(p.scene, p.sq, p.shape)
     speed = p.speed

@@ -55,17 +55,17 @@ def cells(*, quick: bool) -> Iterator[Cell[tuple[float, float, float]]]:
 
 
 def solve(cell: Cell[tuple[float, float, float]]) -> DeterministicResult:
-    """The film of the bearing of the cell."""
+    """Return the film of the bearing of the cell."""
     return solve_point(bearing(*cell.problem))
 
 
 def deviations(cell: Cell[tuple[float, float, float]], result: DeterministicResult) -> dict[str, float]:
-    """`check` of the bearing of the cell."""
+    """Return `check` of the bearing of the cell."""
     return check(bearing(*cell.problem), result)
 
 
 def bearing(sq: float, load: float, speed: float, seed: int = 1, across: int = ACROSS) -> Problem:
-    """The bearing on ``across`` cells, with the surface of that ``seed``."""
+    """Return the bearing on ``across`` cells, with the surface of that ``seed``."""
     surface = lubfric.generate_surface(
         (128 * across // ACROSS, across), WIDTH / across, sq=sq, correlation_length=10e-6, acf="gaussian", seed=seed
     )
@@ -74,7 +74,7 @@ def bearing(sq: float, load: float, speed: float, seed: int = 1, across: int = A
 
 
 def check(problem: Problem, result: DeterministicResult) -> dict[str, float]:
-    """Deviations over what is allowed, from the fields."""
+    """Return deviations over what is allowed, from the fields."""
     dx, _ = result.spacing
     p = result.pressure
     h = result.gap
@@ -90,7 +90,7 @@ def check(problem: Problem, result: DeterministicResult) -> dict[str, float]:
 
 
 def flow_error(result: DeterministicResult) -> float:
-    """Largest relative difference of the flow through sections before the first touching cell, as a part of what is
+    """Return largest relative difference of the flow through sections before the first touching cell, as a part of what is
     allowed there: 3 %, and the error of the check's own quadrature (`_pressure_flow`)."""
     speed = result.speed
     dx = result.spacing[0]
@@ -112,7 +112,7 @@ def flow_error(result: DeterministicResult) -> float:
 
 
 def _pressure_flow(p: np.ndarray, h: np.ndarray, speed: float, dx: float) -> tuple[np.ndarray, np.ndarray]:
-    """Pressure flow along x between cells [m²/s], by the mean of the laws between their pressures, and its error: the
+    """Return pressure flow along x between cells [m²/s], by the mean of the laws between their pressures, and its error: the
     difference from the mean by Simpson's rule on three points. Where the pressure jumps within one cell, as at the
     edge of an asperity contact, the law is not close to a parabola between two cells, which do not resolve the film
     there."""
@@ -124,7 +124,7 @@ def _pressure_flow(p: np.ndarray, h: np.ndarray, speed: float, dx: float) -> tup
 
 
 def _mean_fluidity(p: np.ndarray, film: np.ndarray, speed: float, points: int) -> np.ndarray:
-    """Mean of rho/eta_eff between neighbours along x, p linear between them, by Simpson's rule."""
+    """Return mean of rho/eta_eff between neighbours along x, p linear between them, by Simpson's rule."""
     between = p[:-1, :, None] + (p[1:] - p[:-1])[:, :, None] * np.linspace(0.0, 1.0, points)
     fluidity = 1 / FLUID.eta(between) + 2 * speed / (film[..., None] * (OFFSET + COEFFICIENT * between))
     weights = np.ones(points)

@@ -30,7 +30,7 @@ def wiring_contact(level: str) -> Iterator[Item]:
 
 
 def heights(nx: int, ny: int, seed: int = 4) -> np.ndarray:
-    """Heights [m] of a few waves, Sq 240 nm."""
+    """Return heights [m] of a few waves, Sq 240 nm."""
     z = np.random.default_rng(seed).standard_normal((nx, ny))
     k = np.hypot(np.fft.fftfreq(nx)[:, None] * nx, np.fft.fftfreq(ny) * ny)
     z = np.fft.ifft2(np.fft.fft2(z) * ((k > 0.5) & (k < 9))).real

@@ -52,7 +52,7 @@ def wiring_film(level: str) -> Iterator[Item]:
 
 
 def smooth(oil: Keywords, load: float = 300.0, shape: tuple[int, int] = (160, 12)) -> lubfric.Scene:
-    """The paper's cylinder nearly without contact; 300 N is a Hertz pressure of 960 MPa."""
+    """Return the paper's cylinder nearly without contact; 300 N is a Hertz pressure of 960 MPa."""
     return lubfric.load_scene("paper").with_(
         bodies={"load": load, "hardness": None},
         lubricant=oil,
@@ -77,7 +77,7 @@ def film(name: str, oil: Keywords) -> Iterator[Item]:
 
 
 def mixed(oil: Keywords, motion: Keywords) -> lubfric.Scene:
-    """A rough cylinder of 350 MPa, between boundary and full film."""
+    """Return a rough cylinder of 350 MPa, between boundary and full film."""
     return lubfric.load_scene("paper").with_(
         bodies={"load": 20.0, "radius": 1e-3, "hardness": None},
         lubricant=oil,
@@ -120,7 +120,7 @@ def shear(name: str, oil: Keywords, motion: Keywords) -> Iterator[Item]:
 
 
 def upstream(line: EHLResult, radius: float) -> float:
-    """∫ dx/h before the first node of a parabola."""
+    """Return ∫ dx/h before the first node of a parabola."""
     a = -line.x[0]
     h = line.film_thickness[0]
     x = a * np.geomspace(1.0, 1e4, 4001)

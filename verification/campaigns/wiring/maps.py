@@ -34,7 +34,7 @@ def wiring_maps(level: str) -> Iterator[Item]:
 
 
 def ground() -> np.ndarray:
-    """Heights (56, 40) m, grooved along the first axis."""
+    """Return heights (56, 40) m, grooved along the first axis."""
     rng = np.random.default_rng(8)
     x = np.arange(SIZE[0])[:, None] / SIZE[0]
     y = np.arange(SIZE[1]) / SIZE[1]
@@ -45,7 +45,7 @@ def ground() -> np.ndarray:
 
 
 def planed(z: np.ndarray, order: int = 1) -> np.ndarray:
-    """The map less its polynomial of least squares, of first or second order."""
+    """Return the map less its polynomial of least squares, of first or second order."""
     i, j = (a.ravel() / a.max() for a in np.indices(z.shape))
     terms = np.stack([i**p * j**q for p in range(order + 1) for q in range(order + 1 - p)], axis=1)
     return z - (terms @ np.linalg.lstsq(terms, z.ravel(), rcond=None)[0]).reshape(z.shape)
@@ -97,7 +97,7 @@ def measured(folder: Path) -> Iterator[Item]:
 
 
 def made(rough: Roughness, contact: Keywords) -> HalfSpaceContact:
-    """The rough contact that a scene with this surface gets."""
+    """Return the rough contact that a scene with this surface gets."""
     s = PATCH.with_(surface=rough, contact={"shape": None, "spacing": None} | contact)
     return half_space(prepare(s))
 

@@ -67,7 +67,7 @@ class Pad:
         )
 
     def solved(self, load: float) -> tuple[float, Profile]:
-        """Gap at the end of the pad [m], and the pressure, from an even one."""
+        """Return gap at the end of the pad [m], and the pressure, from an even one."""
         problem = self.problem(load)
         on = problem.rigid_gap < DEEP / 2
         p = np.where(on, load / self.pocket.length, 0.0)
@@ -85,7 +85,7 @@ class Pad:
         return solution.state.approach, (problem.x[:-1] / self.pocket.length, middle / 1e6)
 
     def at_its_gap(self, load: float) -> Profile:
-        """The pressure at the given gap; ``load`` is a guess."""
+        """Return the pressure at the given gap; ``load`` is a guess."""
         load = newton(lambda w: self.solved(w)[0] / self.pocket.end - 1, load, x1=1.1 * load, tol=1e-4 * load)
         return self.solved(load)[1]
 
@@ -129,7 +129,7 @@ def band(pocket: references.Pocket) -> Iterator[Item]:
 
 
 def drawn(name: str, pocket: references.Pocket, results: dict[tuple[str, int], Profile]) -> Figure:
-    """Pressures on the middle line."""
+    """Return pressures on the middle line."""
     curves: list[Curve] = [(*results[law, 1], "-", f"lubfric, density: {law}") for law in LAWS]
     curves.append((PLACES, pocket.pressures, "ko", "Bertocchi", [0.02 * p + AMBIENT for p in pocket.pressures]))
     caption = f"Pressure over a pad with a pocket in which the film ruptures ({name})"

@@ -65,7 +65,7 @@ def dry(level: str) -> Iterator[Item]:
 
 
 def halved(solve: Callable[[int], float], cells: int) -> tuple[float, float]:
-    """The value with ``cells`` cells, and its relative change from half as many."""
+    """Return the value with ``cells`` cells, and its relative change from half as many."""
     fine = solve(cells)
     coarse = solve(cells // 2)
     return fine, abs(fine / coarse - 1)
@@ -89,25 +89,25 @@ def cylinder() -> Iterator[Item]:
 
 
 def line_wave(share: float, n: int) -> float:
-    """Contact area of a sinusoidal wave."""
+    """Return contact area of a sinusoidal wave."""
     return wavy(np.cos(2 * np.pi * (np.arange(n) + 0.5) / n)[:, None] * np.ones(4), share * math.pi, n)
 
 
 def bisinusoid(share: float, n: int) -> float:
-    """Contact area of the product of two waves."""
+    """Return contact area of the product of two waves."""
     wave = np.cos(2 * np.pi * (np.arange(n) + 0.5) / n)
     return wavy(wave[:, None] * wave, share * math.sqrt(2) * math.pi, n)
 
 
 def wavy(shape: np.ndarray, pressure: float, n: int) -> float:
-    """Contact area under ``pressure`` in units of E* amplitude/wavelength."""
+    """Return contact area under ``pressure`` in units of E* amplitude/wavelength."""
     mean = pressure * E_PRIME / 2 * AMPLITUDE / WAVELENGTH
     solve = lubfric.solve_contact(-AMPLITUDE * shape, WAVELENGTH / n, E_PRIME, mean_pressure=mean, tolerance=1e-8)
     return solve.contact_area_fraction
 
 
 def summits() -> Check:
-    """Summits of generated Gaussian surfaces."""
+    """Return summits of generated Gaussian surfaces."""
     keys: Keywords = {"sq": SQ, "correlation_length": LENGTH, "acf": "gaussian"}
     maps = [lubfric.generate_surface((CELLS, CELLS), CELL, seed=seed, **keys).heights for seed in SEEDS]
     counts = [find_asperities(z, CELL, E_PRIME)(z.min() - SQ).contacts / (CELLS * CELL) ** 2 for z in maps]
@@ -148,7 +148,7 @@ def self_affine() -> Iterator[Item]:
 
 
 def waves(seed: int, numbers: tuple[int, int, int], cells: int) -> np.ndarray:
-    """Heights of rms slope 1 on a periodic patch 2 pi long, self-affine with H = 0.8 and random phases. Its wave
+    """Return heights of rms slope 1 on a periodic patch 2 pi long, self-affine with H = 0.8 and random phases. Its wave
     ``numbers``: the first, that from which the spectrum falls, and the last."""
     first, bend, last = numbers
     k = np.fft.fftfreq(cells, 1 / cells)
@@ -159,7 +159,7 @@ def waves(seed: int, numbers: tuple[int, int, int], cells: int) -> np.ndarray:
 
 
 def pressed(heights: np.ndarray, load: float) -> tuple[float, float, float, float]:
-    """Mean gap over Sq, area on the cells, what its edges make it too large, and mean square pressure; E* = 1."""
+    """Return mean gap over Sq, area on the cells, what its edges make it too large, and mean square pressure; E* = 1."""
     solution = lubfric.solve_contact(-heights, 2 * math.pi / len(heights), 2.0, mean_pressure=load, tolerance=1e-5)
     on = solution.pressure > 0
     edges = sum(float((on != np.roll(on, 1, axis)).mean()) for axis in (0, 1))
@@ -168,13 +168,13 @@ def pressed(heights: np.ndarray, load: float) -> tuple[float, float, float, floa
 
 
 def mean(values: Sequence[float], theirs: float) -> tuple[float, float, float]:
-    """Mean, their value, and twice the standard error of the mean, relative."""
+    """Return mean, their value, and twice the standard error of the mean, relative."""
     average = float(np.mean(values))
     return average, theirs, 2 * float(np.std(values, ddof=1)) / math.sqrt(len(values)) / average
 
 
 def drawn(rows: list[tuple[float, float]]) -> Figure:
-    """Contact of the wave over the load."""
+    """Return contact of the wave over the load."""
     dense = np.linspace(0, 1, 200)
     (ours, errors) = np.array(rows).T
     theirs = (dense, [references.westergaard_area(s) for s in dense], "-", "Westergaard 1939")

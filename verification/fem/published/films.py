@@ -68,23 +68,23 @@ def films(level: str) -> Iterator[Item]:
 
 
 def film(m: float, l: float, density: str = "constant", law: str = "roelands", **options: Option) -> lubfric.EHLResult:
-    """A film with Moes' numbers."""
+    """Return a film with Moes' numbers."""
     case = case_of(m, l, law, density)
     return lubfric.solve_ehl(**{**case, "tolerance": TOLERANCE, **options})
 
 
 def own(solution: lubfric.EHLResult) -> float:
-    """What the solver leaves open."""
+    """Return what the solver leaves open."""
     return solution.report.residuals["discretisation"] + solution.report.residuals["domain"]
 
 
 def unit(solution: lubfric.EHLResult) -> float:
-    """The film that is 1 in Moes' units, m."""
+    """Return the film that is 1 in Moes' units, m."""
     return moes_unit(solution.entrainment_speed)
 
 
 def numbers(solution: lubfric.EHLResult) -> tuple[float, float, float]:
-    """eta U/(E' R), alpha E' and w/(E' R)."""
+    """Return eta U/(E' R), alpha E' and w/(E' R)."""
     scale = E_PRIME * RADIUS
     return VISCOSITY * solution.entrainment_speed / scale, ALPHA * E_PRIME, solution.line.load_per_width / scale
 
@@ -122,14 +122,14 @@ def limits() -> Iterator[Item]:
 
 
 def one_gap() -> Check:
-    """The deterministic model on a surface without roughness."""
+    """Return the deterministic model on a surface without roughness."""
     flow = smooth_film(film(20, 5).line, 0.0).flow_film
     theirs = references.moes(20, 5) * unit(film(20, 5))
     return against("moes", "one gap, one pressure: flow film, M = 20, L = 5", flow, theirs, 1e-3, "m")
 
 
 def drawn() -> Figure:
-    """Flow films over M."""
+    """Return flow films over M."""
     canvas, ax = plotting.panel(6.0, 4.0)
     dense = np.geomspace(2, 250, 60)
     for l, mark in ((5, "o"), (10, "s"), (16, "D")):

@@ -49,14 +49,14 @@ def heat(level: str) -> Iterator[Item]:
 
 
 def nahme(number: float) -> float:
-    """Stress over the isothermal one in a film of 1 µm."""
+    """Return stress over the isothermal one in a film of 1 µm."""
     sliding = math.sqrt(number * 0.13 / (0.04 * 0.1))
     stress, _ = heated_stress(OIL, np.zeros(1), np.full(1, 1e-6), sliding, np.full(1, 313.15))
     return float(stress[0]) * 1e-6 / (0.1 * sliding)
 
 
 def flash(shape: Law, step: float) -> float:
-    """Largest rise of a fast band of heat over q_mean sqrt(2 b)/(e1 sqrt(u1) + e2 sqrt(u2)), by steps of half-widths.
+    """Return largest rise of a fast band of heat over q_mean sqrt(2 b)/(e1 sqrt(u1) + e2 sqrt(u2)), by steps of half-widths.
     lubfric uses at most 257 nodes."""
     t = np.arange(-1.0, 1.2, step)
     heat = PEAK * shape(t)
@@ -67,7 +67,7 @@ def flash(shape: Law, step: float) -> float:
 
 
 def drawn(rows: list[float]) -> Figure:
-    """Stress over the Nahme number."""
+    """Return stress over the Nahme number."""
     dense = np.geomspace(0.03, 300, 100)
     curves = [(dense, [references.nahme(n) for n in dense], "-", "Nahme 1940"), (NUMBERS, rows, "o", "lubfric")]
     scales: Keywords = {

@@ -214,7 +214,7 @@ def gears() -> Iterator[Item]:
 
 
 def mean_friction(rpm: float, oil: tuple[float, float], f_b: float, length: float) -> tuple[float, float]:
-    """Mean friction of the gear `references.C14`, and the mean of the relative model-form errors along the path. ``oil``:
+    """Return mean friction of the gear `references.C14`, and the mean of the relative model-form errors along the path. ``oil``:
     viscosity [Pa s] and pressure-viscosity coefficient [1/Pa]."""
     gear = references.C14
     turn = rpm * 2 * math.pi / 60
@@ -260,7 +260,7 @@ def mean_friction(rpm: float, oil: tuple[float, float], f_b: float, length: floa
 
 
 def drawn(ours: np.ndarray, own_errors: np.ndarray) -> Figure:
-    """Shares over the ratio, in the band of the laws."""
+    """Return shares over the ratio, in the band of the laws."""
     dense = np.geomspace(min(RATIOS), max(RATIOS), 100)
     curves: list[Curve] = [(dense, law(dense), "-", name) for name, law in references.LOAD_SHARES.items()]
     curves.append((RATIOS, ours, "ko", "lubfric, three kinds of roughness", own_errors))

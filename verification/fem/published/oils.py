@@ -88,7 +88,7 @@ def estimated(key: str, name: str, estimate: Estimate, theirs: float) -> Check:
 
 
 def drawn(pairs: list[Pair]) -> Figure:
-    """Estimates over measured coefficients."""
+    """Return estimates over measured coefficients."""
     canvas, ax = plotting.panel(5.4, 4.6)
     for method, mark in (("gold", "o"), ("so-klaus", "s")):
         rows = [

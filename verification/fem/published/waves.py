@@ -70,7 +70,7 @@ def waves(level: str) -> Iterator[Item]:
 
 
 def reduced(m: float, l: float, length: float, height: float, cells: float) -> tuple[float, float]:
-    """Half the range of the gap at x = 0 over a period, over the height of the waves, and its relative error."""
+    """Return half the range of the gap at x = 0 over a period, over the height of the waves, and its relative error."""
     values = []
     for n in (cells, cells / 2):
         at = laid_out(line_contact(case_of(m, l, density=DENSE)), 1.0, n)
@@ -93,7 +93,7 @@ def steady(name: str) -> Iterator[Item]:
 
 
 def ripples(alpha: float, film: float, lengths: float) -> tuple[float, float]:
-    """Amplitudes of film [m] and pressure [Pa], in a contact whose width is so many wavelengths."""
+    """Return amplitudes of film [m] and pressure [Pa], in a contact whose width is so many wavelengths."""
     w = references.STEADY_WAVE
     b = lengths / 2 * w["wavelength"]
     k = 2 * math.pi / w["wavelength"]
@@ -124,7 +124,7 @@ def ripples(alpha: float, film: float, lengths: float) -> tuple[float, float]:
 
 
 def sliding(speed: float, length: float) -> Check:
-    """What the film keeps of waves on one of two bodies that slide."""
+    """Return what the film keeps of waves on one of two bodies that slide."""
     g = GREENWOOD
     alpha = g["P"] / g["pressure"]
     u1 = (g["S"] * 8**0.25 / (alpha * g["e_prime"])) ** 4  # L = 8^(1/4) S
@@ -158,7 +158,7 @@ def sliding(speed: float, length: float) -> Check:
 
 
 def drawn(table: dict[tuple[float, int], tuple[float, float]]) -> Figure:
-    """Amplitude kept in pure rolling over the wavelength."""
+    """Return amplitude kept in pure rolling over the wavelength."""
     dense = np.geomspace(0.1, 5, 100)
     curves: list[Curve] = [(dense, [references.amplitude_fit(100, 11, n) for n in dense], "k-", "their fit")]
     for column, height in enumerate(HEIGHTS):

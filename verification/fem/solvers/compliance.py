@@ -31,7 +31,7 @@ class Elastic:
 
     @classmethod
     def from_e_prime(cls, e_prime: float, poisson: float) -> Elastic:
-        """The body whose half-space has ``2/E' = (1 - nu^2)/E``."""
+        """Return the body whose half-space has ``2/E' = (1 - nu^2)/E``."""
         return cls(e_prime * (1 - poisson**2) / 2, poisson)
 
     @property
@@ -46,12 +46,12 @@ class Elastic:
 
 
 def half_space_compliance(k: FloatArray | float, body: Elastic) -> FloatArray:
-    """``4/(E' |k|)`` in m/Pa for wavenumbers k > 0 in rad/m (Johnson 1985, Contact Mechanics, ch. 13)."""
+    """Return ``4/(E' |k|)`` in m/Pa for wavenumbers k > 0 in rad/m (Johnson 1985, Contact Mechanics, ch. 13)."""
     return 4 / (body.e_prime * np.asarray(k, dtype=float))
 
 
 def layer_compliance(k: FloatArray | float, thickness: float, body: Elastic) -> FloatArray:
-    """Downward surface displacement of a bonded layer per pressure, m/Pa, at wavenumbers k >= 0 in rad/m.
+    """Return downward surface displacement of a bonded layer per pressure, m/Pa, at wavenumbers k >= 0 in rad/m.
 
     With s = k d and a Papkovich-Neuber (or Airy) solution whose four constants in each wave follow from no
     displacement at the base, no shear and the given pressure at the surface::
@@ -76,13 +76,13 @@ def layer_compliance(k: FloatArray | float, thickness: float, body: Elastic) -> 
 
 
 def sinh_excess(x: float | FloatArray) -> FloatArray:
-    """``sinh(x) - x`` for x up to 1, without cancellation, by five terms. The relative error is below 1e-11."""
+    """Return ``sinh(x) - x`` for x up to 1, without cancellation, by five terms. The relative error is below 1e-11."""
     y = np.asarray(x) ** 2
     return x * y / 6 * (1 + y / 20 * (1 + y / 42 * (1 + y / 72 * (1 + y / 110))))
 
 
 def missing(s: float, poisson: float) -> float:
-    """``1 - C_layer/C_half-space`` at s = k d, which is how much stiffer the layer is.
+    """Return ``1 - C_layer/C_half-space`` at s = k d, which is how much stiffer the layer is.
 
     For large s it is near ``q(s) exp(-2 s)`` with ``q = (4 s^2 + 4 s + 2 (5 - 12 nu + 8 nu^2))/(3 - 4 nu)``.
     """
@@ -93,7 +93,7 @@ def missing(s: float, poisson: float) -> float:
 
 
 def curvature_number(poisson: float) -> float:
-    """``J = integral of s missing(s) ds`` over s > 0, which bends the surface of a layer next to a narrow load.
+    """Return ``J = integral of s missing(s) ds`` over s > 0, which bends the surface of a layer next to a narrow load.
 
     Under a line load w the displacement differences of layer and half-space differ by ``(w/pi) integral (C_half-space -
     C_layer)(1 - cos k x) dk``. For x << d this is ``(2 w J/(pi E')) (x/d)^2``. So a Hertz contact of half-width b sees

@@ -63,7 +63,7 @@ def solve_contact(
     tolerance: float = 1e-8,
     max_iterations: int = 300,
 ) -> Contact:
-    """Pressure of a rigid counterface on an elastic surface under a given load, optionally capped.
+    """Return pressure of a rigid counterface on an elastic surface under a given load, optionally capped.
 
     Each step solves the equations of the touching nodes exactly (conjugate gradients on the forces of the given total)
     and then moves nodes: touching nodes that pull go off, those above the limit saturate, nodes off that penetrate
@@ -116,7 +116,7 @@ def checked(
     limit: float | None,
     tolerance: float,
 ) -> ContactProblem:
-    """The problem, or `InputError`."""
+    """Return the problem, or `InputError`."""
     weights, gap0 = np.array(weights, dtype=float), np.array(gap0, dtype=float)
     fits = gap0.ndim == 1 and gap0.size > 0 and bool(np.all(np.isfinite(gap0)))
     require(fits, f"gap0 has shape {gap0.shape} or is not finite", "one finite length in m per node")
@@ -139,7 +139,7 @@ def checked(
 def active_set(
     problem: ContactProblem, force: FloatArray, touching: BoolArray, saturated: BoolArray, max_iterations: int
 ) -> tuple[FloatArray, tuple[int, list[float], str]]:
-    """(force, (iterations, history, status)). Forces may pull or exceed the limit slightly."""
+    """Return (force, (iterations, history, status)). Forces may pull or exceed the limit slightly."""
     history = []
     fewest = force.size + 1
     patience = PATIENCE
@@ -172,7 +172,7 @@ def active_set(
 
 
 def limited(problem: ContactProblem, force: FloatArray, saturated: BoolArray) -> BoolArray:
-    """``saturated``, and the nodes above the limit, hardest pressed first, while others have load enough left."""
+    """Return ``saturated``, and the nodes above the limit, hardest pressed first, while others have load enough left."""
     over = np.flatnonzero((force > problem.limit) & ~saturated)
     over = over[np.argsort(-force[over] / problem.limit[over])]
     spare = problem.load - problem.limit[saturated].sum()
@@ -186,7 +186,7 @@ def limited(problem: ContactProblem, force: FloatArray, saturated: BoolArray) ->
 
 
 def enough(problem: ContactProblem, gap: FloatArray, touching: BoolArray, saturated: BoolArray) -> BoolArray:
-    """``touching``, and nodes that are off, nearest first, until these can carry what the saturated ones do not."""
+    """Return ``touching``, and nodes that are off, nearest first, until these can carry what the saturated ones do not."""
     spare = problem.load - problem.limit[saturated].sum() - problem.limit[touching].sum()
     if spare <= 0 and touching.any():
         return touching
@@ -201,7 +201,7 @@ def enough(problem: ContactProblem, gap: FloatArray, touching: BoolArray, satura
 def equilibrium(
     problem: ContactProblem, force: FloatArray, touching: BoolArray, saturated: BoolArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Forces with gap zero at the touching nodes, and the gap everywhere.
+    """Return forces with gap zero at the touching nodes, and the gap everywhere.
 
     The unknown is y = f/sqrt(w), so that nodes of unequal weight are alike. Steps stay orthogonal to sqrt(w), which
     keeps the load. The part of the misfit along sqrt(w) is the approach.
@@ -234,12 +234,12 @@ def equilibrium(
 
 
 def shift(vector: FloatArray, root: FloatArray, root2: float) -> FloatArray:
-    """The part of ``vector`` orthogonal to ``root``."""
+    """Return the part of ``vector`` orthogonal to ``root``."""
     return vector - root * ((root @ vector) / root2)
 
 
 def finish(problem: ContactProblem, force: FloatArray, steps: tuple[int, list[float], str]) -> Contact:
-    """Fields and residuals from the forces alone."""
+    """Return fields and residuals from the forces alone."""
     iterations, history, status = steps
     force = np.clip(force, 0, problem.limit)
     displacement = problem.displacement(force)

@@ -50,7 +50,7 @@ class LineContact:
 
     @classmethod
     def of(cls, case: Keywords, sliding_speed: float = 0.0) -> "LineContact":
-        """The contact and its fluid (`Fluid.of`) from the arguments of ``lubfric.solve_ehl``."""
+        """Return the contact and its fluid (`Fluid.of`) from the arguments of ``lubfric.solve_ehl``."""
         sizes = {name: case[name] for name in ("load_per_width", "radius", "e_prime", "entrainment_speed")}
         return cls(**sizes, fluid=Fluid.of(case), sliding_speed=sliding_speed)
 
@@ -148,7 +148,7 @@ class EHLSolution:
         return float(within + upstream) / 2 * c.hertz_pressure * c.film_unit
 
     def at(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Pressure (Pa) and film (m) at positions x (m) between inlet and outlet."""
+        """Return pressure (Pa) and film (m) at positions x (m) between inlet and outlet."""
         probe = self.body.line.probes(np.atleast_2d(np.asarray(x) / self.contact.half_width))
         return probe @ self.P * self.contact.hertz_pressure, probe @ self.H * self.contact.film_unit
 
@@ -226,7 +226,7 @@ def solution_of(
 
 
 def film_of(contact: LineContact, line: Basis, penalty: float = PENALTY) -> FilmEquations:
-    """The flow of a contact on a line."""
+    """Return the flow of a contact on a line."""
     return FilmEquations(
         line=line,
         fluid=contact.fluid,
@@ -238,7 +238,7 @@ def film_of(contact: LineContact, line: Basis, penalty: float = PENALTY) -> Film
 
 
 def make_layout(contact: LineContact, fineness: float, side: float) -> Layout:
-    """The layout of the mesh.
+    """Return the layout of the mesh.
 
     Everything scales with b and with l = sqrt(2 R h), h the film expected: at light load l is many times b.
     """
@@ -256,7 +256,7 @@ def make_layout(contact: LineContact, fineness: float, side: float) -> Layout:
 
 
 def film_estimate(M: float, L: float) -> float:
-    """Flow film in Moes' units by the regression of H. Moes, Wear 159 (1992) 57-66 (within some 10 %).
+    """Return flow film in Moes' units by the regression of H. Moes, Wear 159 (1992) 57-66 (within some 10 %).
 
     Only the mesh and the first guess are made from it.
     """
@@ -272,7 +272,7 @@ def film_estimate(M: float, L: float) -> float:
 
 
 def first_guess(contact: LineContact, body: Body, film: FilmEquations, max_iterations: int) -> Iterate:
-    """A first-order upwind solution. Where Newton's method does not find it from a Hertz pressure, the viscosity is
+    """Return a first-order upwind solution. Where Newton's method does not find it from a Hertz pressure, the viscosity is
     raised in steps.
 
     It need not have converged. What counts is whether the solution that starts from it has.
@@ -287,7 +287,7 @@ def first_guess(contact: LineContact, body: Body, film: FilmEquations, max_itera
 
 
 def hertz_start(contact: LineContact, body: Body, piezo: float) -> Iterate:
-    """Hertz pressure, spread to the width of the film where that is wider, and the film expected at X = 0."""
+    """Return Hertz pressure, spread to the width of the film where that is wider, and the film expected at X = 0."""
     film = film_estimate(contact.load_number, piezo * contact.material_number) * contact.moes_film / contact.film_unit
     width = math.sqrt(1 + 2 * film)
     P = np.sqrt(np.maximum(1 - (body.x / width) ** 2, 0)) / width
@@ -297,6 +297,6 @@ def hertz_start(contact: LineContact, body: Body, piezo: float) -> Iterate:
 
 
 def refined(coarse: EHLSolution, body: Body) -> Iterate:
-    """A solution taken to the next finer mesh, film included (that of the interpolated pressure is rougher)."""
+    """Return a solution taken to the next finer mesh, film included (that of the interpolated pressure is rougher)."""
     P = coarse.body.line.probes(body.x[None]) @ coarse.P
     return Iterate(refined_displacement(coarse.body, body, coarse.displacement), P, coarse.approach, P <= 0)

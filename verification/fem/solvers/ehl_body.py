@@ -51,7 +51,7 @@ class Layout:
 
 
 def graded_mesh(layout: Layout) -> tuple[MeshTri, Layout]:
-    """Triangles on ``[-D/2, D/2] x [-D, 0]``, split until none is longer than ``hypot(fine, growth * distance)``, nor
+    """Return triangles on ``[-D/2, D/2] x [-D, 0]``, split until none is longer than ``hypot(fine, growth * distance)``, nor
     than ``hypot(between, growth * distance)`` from the surface between the edges.
 
     The layout that is returned has the ends of the film moved outwards to vertices.
@@ -111,22 +111,22 @@ class Body:
         return self.trace @ self.factors.solve(self.traction.toarray())
 
     def displacement(self, pressure: np.ndarray) -> np.ndarray:
-        """Displacement at the free degrees of freedom of the body under a pressure on the line."""
+        """Return displacement at the free degrees of freedom of the body under a pressure on the line."""
         return -self.factors.solve(self.traction @ pressure)
 
     def everywhere(self, displacement: np.ndarray) -> np.ndarray:
-        """Displacement at all degrees of freedom of ``basis``."""
+        """Return displacement at all degrees of freedom of ``basis``."""
         full = np.zeros(self.basis.N)
         full[self.free] = displacement
         return full
 
     def stress(self, displacement: np.ndarray) -> np.ndarray:
-        """(3, vertices): sigma_xx, sigma_zz, sigma_xz, projected on continuous linear functions."""
+        """Return (3, vertices): sigma_xx, sigma_zz, sigma_xz, projected on continuous linear functions."""
         return section_stress(self.basis, self.everywhere(displacement), YOUNG, POISSON)
 
 
 def make_body(mesh: MeshTri, layout: Layout) -> Body:
-    """The body on a `graded_mesh` or a uniform refinement of it."""
+    """Return the body on a `graded_mesh` or a uniform refinement of it."""
     basis = Basis(mesh, ElementVector(ElementTriP2()), intorder=2)
     near = NEAR * layout.side
     free = np.setdiff1d(np.arange(basis.N), basis.get_dofs(lambda x: x[1] < near - layout.side).all())
@@ -147,7 +147,7 @@ def make_body(mesh: MeshTri, layout: Layout) -> Body:
 
 
 def trace_matrix(basis: Basis, line: Basis) -> sp.csr_matrix:
-    """(line, body): picks the vertical displacement at every degree of freedom of the line."""
+    """Return (line, body): picks the vertical displacement at every degree of freedom of the line."""
     near = NEAR * np.ptp(basis.mesh.p[1])
     vertical = basis.get_dofs(lambda x: np.abs(x[1]) < near).all("u^2")
     at = basis.doflocs[0, vertical]

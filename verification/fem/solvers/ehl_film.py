@@ -61,30 +61,30 @@ class FilmEquations:
     shear: float = 0.0
 
     def log_viscosity(self, P: complex | ComplexArray | FloatArray) -> complex | ComplexArray | FloatArray:
-        """ln(eta/eta0). Below zero, where only iterates are, it goes on by its tangent at zero."""
+        """Return ln(eta/eta0). Below zero, where only iterates are, it goes on by its tangent at zero."""
         return self.piezo * extended(self.fluid.log_viscosity, P * self.hertz_pressure)
 
     def density(self, P: Numbers) -> np.ndarray:
-        """rho/rho0, which also goes on by its tangent below zero."""
+        """Return rho/rho0, which also goes on by its tangent below zero."""
         return extended(self.fluid.rho, P * self.hertz_pressure)
 
     def mobility(
         self, P: complex | ComplexArray | FloatArray, H: complex | ComplexArray | FloatArray
     ) -> complex | ComplexArray | FloatArray:
-        """The mobility m."""
+        """Return the mobility m."""
         fluidity = np.exp(-self.log_viscosity(P))
         if self.shear:
             fluidity = np.sqrt(fluidity**2 + (self.shear / H) ** 2)
         return self.density(P) * H**3 * fluidity / self.speed_parameter
 
     def wave(self, P: ComplexArray | FloatArray, H: ComplexArray | FloatArray) -> ComplexArray | FloatArray:
-        """d(rho H)/dP at constant H."""
+        """Return d(rho H)/dP at constant H."""
         return (self.density(P + NEAR) - self.density(P - NEAR)) / (2 * NEAR) * H
 
     def carried(
         self, P: ComplexArray | FloatArray, H: ComplexArray | FloatArray, size: FloatArray
     ) -> ComplexArray | FloatArray:
-        """1 where pressure goes with the flow, falling to 0 where it diffuses in less than a cell."""
+        """Return 1 where pressure goes with the flow, falling to 0 where it diffuses in less than a cell."""
         return 1 / np.sqrt(1 + (6 * self.mobility(P, H) / size / (1 + self.wave(P, H))) ** 2)
 
     def flux(
@@ -95,7 +95,7 @@ class FilmEquations:
         H1: ComplexArray | FloatArray,
         size: FloatArray,
     ) -> ComplexArray | FloatArray:
-        """The flux q, with upwinding, real or complex.
+        """Return the flux q, with upwinding, real or complex.
 
         P and H have the slopes P1 and H1 in a cell of length ``size``.
         """
@@ -113,23 +113,23 @@ class FilmEquations:
         H_jump: ComplexArray | FloatArray,
         size: FloatArray,
     ) -> ComplexArray | FloatArray:
-        """What a jump of v' is multiplied with at a vertex where P' and H' jump."""
+        """Return what a jump of v' is multiplied with at a vertex where P' and H' jump."""
         return self.penalty * size**2 * self.carried(P, H, size) * (self.density(P) * H_jump + self.wave(P, H) * P_jump)
 
     def inflow(self, P: Numbers, H: Numbers, inlet: float) -> np.ndarray:
-        """The flux q at the inlet."""
+        """Return the flux q at the inlet."""
         return self.density(P) * H - self.mobility(P, H) * 3 * P / abs(inlet)
 
 
 def extended(law: Callable[[Numbers], np.ndarray], p: Numbers) -> np.ndarray:
-    """``law`` continued below p = 0 by its tangent."""
+    """Return ``law`` continued below p = 0 by its tangent."""
     p = np.asarray(p)
     above = p.real > 0
     return np.where(above, law(np.where(above, p, 0.0)), law(0.0) + slope(law, 0.0) * p)
 
 
 def partials(function: Callable[..., np.ndarray], *values: float | FloatArray) -> tuple[np.ndarray, list[np.ndarray]]:
-    """A function and its derivatives by each of its arguments, by complex steps."""
+    """Return a function and its derivatives by each of its arguments, by complex steps."""
     slopes = [
         np.imag(function(*(v + 1j * STEP * (i == k) for i, v in enumerate(values)))) / STEP for k in range(len(values))
     ]
@@ -138,7 +138,7 @@ def partials(function: Callable[..., np.ndarray], *values: float | FloatArray) -
 
 @lru_cache(maxsize=4)
 def slope_jumps(line: Basis) -> tuple[np.ndarray, np.ndarray, sp.csr_matrix]:
-    """Degrees of freedom at inner vertices, mean length of the cells there, the matrix of the slope's jumps: once
+    """Return degrees of freedom at inner vertices, mean length of the cells there, the matrix of the slope's jumps: once
     for a line."""
     mesh = line.mesh
     size = np.abs(np.diff(mesh.p[0][mesh.t], axis=0)[0])
@@ -157,13 +157,13 @@ def slope_jumps(line: Basis) -> tuple[np.ndarray, np.ndarray, sp.csr_matrix]:
 
 @LinearForm
 def flux_form(v: DiscreteField, w: FormExtraParams) -> FloatArray:
-    """``-(q, v')``."""
+    """Return ``-(q, v')``."""
     return -w.q * v.grad[0]
 
 
 @BilinearForm
 def flux_tangent(u: DiscreteField, v: DiscreteField, w: FormExtraParams) -> FloatArray:
-    """The derivative of `flux_form`."""
+    """Return the derivative of `flux_form`."""
     return -(w.by_value * u + w.by_slope * u.grad[0]) * v.grad[0]
 
 
@@ -178,7 +178,7 @@ class Flow:
 
 
 def assemble(film: FilmEquations, P: np.ndarray, H: np.ndarray) -> Flow:
-    """The flow for pressure and film at the degrees of freedom of the line."""
+    """Return the flow for pressure and film at the degrees of freedom of the line."""
     parts = [inside(film, P, H)] + ([penalty(film, P, H)] if film.penalty else [])
     r, by_P, by_H = (sum(terms[1:], terms[0]) for terms in zip(*parts, strict=True))
     first = int(np.argmin(film.line.doflocs[0]))
@@ -189,7 +189,7 @@ def assemble(film: FilmEquations, P: np.ndarray, H: np.ndarray) -> Flow:
 
 
 def inside(film: FilmEquations, P: FloatArray, H: FloatArray) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
-    """``-(q, v')`` and its derivatives by P and H."""
+    """Return ``-(q, v')`` and its derivatives by P and H."""
     line = film.line
     p = line.interpolate(P)
     h = line.interpolate(H)
@@ -205,7 +205,7 @@ def inside(film: FilmEquations, P: FloatArray, H: FloatArray) -> tuple[np.ndarra
 
 
 def penalty(film: FilmEquations, P: FloatArray, H: FloatArray) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
-    """``sum gamma size^2 [(rho H)'][v']`` and its derivatives by P and H."""
+    """Return ``sum gamma size^2 [(rho H)'][v']`` and its derivatives by P and H."""
     at, size, jump = slope_jumps(film.line)
     c, (p0, p1, h0, h1) = partials(
         lambda P, P1, H, H1: film.charge(P, P1, H, H1, size), P[at], jump @ P, H[at], jump @ H

@@ -54,12 +54,12 @@ class Imbalance:
 
 
 def film_thickness(body: Body, it: Iterate) -> np.ndarray:
-    """H at the degrees of freedom of the line."""
+    """Return H at the degrees of freedom of the line."""
     return it.H0 + body.x**2 / 2 - body.trace @ it.u
 
 
 def load_weights(body: Body) -> np.ndarray:
-    """Weights of P in the load."""
+    """Return weights of P in the load."""
     weights = LinearForm(lambda v, w: 1.0 * v).assemble(body.line)
     first = int(np.argmin(body.x))
     weights[first] += abs(body.x[first]) / 2
@@ -69,7 +69,7 @@ def load_weights(body: Body) -> np.ndarray:
 def newton(
     body: Body, film: FilmEquations, start: Iterate, tolerance: float, max_iterations: int
 ) -> tuple[Iterate, float, SolveReport]:
-    """The last iterate, the flow q and a report whose residuals are those of `measure`."""
+    """Return the last iterate, the flow q and a report whose residuals are those of `measure`."""
     weights = load_weights(body)
     it = start
     history = []
@@ -102,14 +102,14 @@ def newton(
 
 
 def imbalance(body: Body, film: FilmEquations, it: Iterate, weights: np.ndarray) -> Imbalance:
-    """Residuals of all equations."""
+    """Return residuals of all equations."""
     H = film_thickness(body, it)
     force = body.stiffness @ it.u + body.traction @ it.P
     return Imbalance(H, force, assemble(film, it.P, H), float(weights @ it.P / HERTZ_LOAD - 1))
 
 
 def measure(body: Body, it: Iterate, at: Imbalance) -> dict[str, float]:
-    """What the stopping test looks at, each without dimension.
+    """Return what the stopping test looks at, each without dimension.
 
     - elasticity: largest force out of balance at a node, in loads
     - load: relative
@@ -164,7 +164,7 @@ def tangent(body: Body, by_P: csr_matrix, by_H: csr_matrix, free: np.ndarray, we
 
 
 def solve(matrix: sp.csc_matrix, rhs: np.ndarray, order: np.ndarray) -> np.ndarray:
-    """Sparse LU that eliminates the first unknowns in ``order`` and the others after them."""
+    """Return sparse LU that eliminates the first unknowns in ``order`` and the others after them."""
     order = np.concatenate([order, np.arange(order.size, len(rhs))])
     factors = splu(matrix[order][:, order].tocsc(), permc_spec="NATURAL", diag_pivot_thresh=0.1)
     change = np.empty_like(rhs)
@@ -173,7 +173,7 @@ def solve(matrix: sp.csc_matrix, rhs: np.ndarray, order: np.ndarray) -> np.ndarr
 
 
 def step_length(film: FilmEquations, P: FloatArray, dP: FloatArray, H: FloatArray, dH: FloatArray) -> float:
-    """The share of a step after which no viscosity has changed, and no film has shrunk, by more than the limits say."""
+    """Return the share of a step after which no viscosity has changed, and no film has shrunk, by more than the limits say."""
     growth = np.abs(film.log_viscosity(np.maximum(P + dP, 0)) - film.log_viscosity(np.maximum(P, 0))).max()
     shrinking = float(np.max(-dH[H > 0] / H[H > 0], initial=0.0))
     most = 1 - SMALLEST_SHARE

@@ -80,7 +80,7 @@ class Fluid:
         return self.pressure_viscosity_coefficient * ROELANDS_PRESSURE / (math.log(self.viscosity) + 9.67)
 
     def log_viscosity(self, p: Numbers) -> np.ndarray:
-        """``ln(eta/eta0)`` at pressure p."""
+        """Return ``ln(eta/eta0)`` at pressure p."""
         p = np.asarray(p)
         if self.viscosity_law == "constant":
             return 0 * p
@@ -90,11 +90,11 @@ class Fluid:
         return self.pressure_viscosity_coefficient * ROELANDS_PRESSURE / z * ((1 + p / ROELANDS_PRESSURE) ** z - 1)
 
     def eta(self, p: Numbers) -> np.ndarray:
-        """Viscosity in Pa s."""
+        """Return viscosity in Pa s."""
         return self.viscosity * np.exp(self.log_viscosity(p))
 
     def stress(self, p: Numbers, rate: Numbers) -> np.ndarray:
-        """Shear stress in Pa at the shear rate, 1/s, of either sign."""
+        """Return shear stress in Pa at the shear rate, 1/s, of either sign."""
         size: np.ndarray = self.eta(p) * np.abs(rate)
         if math.isfinite(self.eyring_stress):
             ratio = size / self.eyring_stress
@@ -104,7 +104,7 @@ class Fluid:
         return np.sign(rate) * size
 
     def rho(self, p: Numbers) -> np.ndarray:
-        """Density relative to that at p = 0."""
+        """Return density relative to that at p = 0."""
         p = np.asarray(p)
         if self.density_law == "constant":
             return 1 + 0 * p
@@ -114,6 +114,6 @@ class Fluid:
 
 
 def slope(law: Callable[[Numbers], np.ndarray], p: Numbers) -> np.ndarray:
-    """The derivative of one of the laws by a complex step. It can itself be differentiated only on the real axis."""
+    """Return the derivative of one of the laws by a complex step. It can itself be differentiated only on the real axis."""
     slopes: np.ndarray = np.imag(law(np.asarray(p).real + 1j * STEP)) / STEP
     return slopes

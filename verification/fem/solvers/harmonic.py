@@ -73,7 +73,7 @@ class Compliance:
     unknowns: int
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
-        """Displacement (nx, ny) under a pressure (nx, ny)."""
+        """Return displacement (nx, ny) under a pressure (nx, ny)."""
         waves = fft.rfft(pressure, axis=1)
         return fft.irfft(np.einsum("mij,jm->im", self.harmonics, waves), n=self.strip.shape[1], axis=1)
 
@@ -86,7 +86,7 @@ def press(
     hardness: float = math.inf,
     **options: Option,
 ) -> Contact:
-    """`contact.solve_contact` of the strip: ``gap0`` and the fields of the result are (nx, ny), the load is in N/m."""
+    """Return `contact.solve_contact` of the strip: ``gap0`` and the fields of the result are (nx, ny), the load is in N/m."""
     (nx, ny) = compliance.strip.shape
     (dx, dy) = compliance.strip.spacing
     most = hardness * nx * dx
@@ -104,7 +104,7 @@ def press(
 
 
 def compliance(strip: HarmonicStrip) -> Compliance:
-    """Factorise and solve once for every wave along y."""
+    """Return factorise and solve once for every wave along y."""
     mesh = graded_mesh(strip)
     basis = Basis(mesh, ElementVector(ElementTriP2(), 3), intorder=4)
     depth = -mesh.p[1].min()
@@ -119,7 +119,7 @@ def compliance(strip: HarmonicStrip) -> Compliance:
 
 
 def graded_mesh(strip: HarmonicStrip) -> MeshTri:
-    """Triangles, none longer than ``hypot(diagonal of the finest, growth * distance from the patch)``."""
+    """Return triangles, none longer than ``hypot(diagonal of the finest, growth * distance from the patch)``."""
     dx = strip.spacing[0]
     side = dx * 2**SIDE
     mesh = MeshTri.init_tensor(np.linspace(-side / 2, side / 2, 9), np.linspace(-side, 0, 9))
@@ -133,7 +133,7 @@ def graded_mesh(strip: HarmonicStrip) -> MeshTri:
 
 
 def stiffness(basis: Basis, body: Elastic, unit: float) -> tuple[sp.csr_matrix, sp.csr_matrix, sp.csr_matrix]:
-    """(A, B, C) of the stiffness ``A + k B + k^2 C`` at the wavenumber ``k unit``."""
+    """Return (A, B, C) of the stiffness ``A + k B + k^2 C`` at the wavenumber ``k unit``."""
     lame = body.young * body.poisson / ((1 + body.poisson) * (1 - 2 * body.poisson))
     shear = body.young / (2 * (1 + body.poisson))
 
@@ -149,13 +149,13 @@ def stiffness(basis: Basis, body: Elastic, unit: float) -> tuple[sp.csr_matrix, 
 
 
 def strains(u: DiscreteField, k: float) -> tuple[FloatArray, ...]:
-    """Amplitudes of e_xx, e_zz, e_yy, and of the shears xz, xy, zy; components of u are x, z, y."""
+    """Return amplitudes of e_xx, e_zz, e_yy, and of the shears xz, xy, zy; components of u are x, z, y."""
     g = u.grad
     return g[0, 0], g[1, 1], k * u[2], g[0, 1] + g[1, 0], g[2, 0] - k * u[0], g[2, 1] - k * u[1]
 
 
 def cell_loads(strip: HarmonicStrip, mesh: MeshTri, basis: Basis) -> sp.csr_matrix:
-    """(degrees of freedom, nx): forces of 1 Pa, downwards, on each cell of the patch."""
+    """Return (degrees of freedom, nx): forces of 1 Pa, downwards, on each cell of the patch."""
     top = mesh.facets_satisfying(lambda x: np.abs(x[1]) < 1e-9 * np.abs(mesh.p[1]).max(), boundaries_only=True)
     ends = mesh.p[0, mesh.facets[:, top]]
     inside = np.abs(ends.mean(axis=0)) < strip.half

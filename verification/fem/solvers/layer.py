@@ -54,7 +54,7 @@ class Layer:
         return factorised(self.stiffness)
 
     def response(self, force: FloatArray) -> np.ndarray:
-        """All unknowns under nodal forces (n,) or (n, m), N per metre of depth; checked to 1e-9."""
+        """Return all unknowns under nodal forces (n,) or (n, m), N per metre of depth; checked to 1e-9."""
         force = np.asarray(force, dtype=float)
         load = np.zeros((self.stiffness.shape[0], *force.shape[1:]))
         load[self.unknowns] = -force
@@ -67,7 +67,7 @@ class Layer:
         return result
 
     def displacement(self, force: FloatArray) -> np.ndarray:
-        """Downward displacement in m of the n surface nodes under forces there, N per metre of depth."""
+        """Return downward displacement in m of the n surface nodes under forces there, N per metre of depth."""
         return -self.response(force)[self.unknowns]
 
     @cached_property
@@ -78,12 +78,12 @@ class Layer:
         return np.hstack([self.displacement(columns[:, i : i + BLOCK]) for i in range(0, n, BLOCK)])
 
     def stress(self, force: FloatArray) -> np.ndarray:
-        """(3, vertices) sigma_xx, sigma_zz, sigma_xz in Pa, projected on continuous linear functions."""
+        """Return (3, vertices) sigma_xx, sigma_zz, sigma_xz in Pa, projected on continuous linear functions."""
         return section_stress(self.basis, self.spread @ self.response(force), self.body.young, self.body.poisson)
 
 
 def graded_mesh(width: float, thickness: float, strip: float, fine: float, growth: float = 0.4) -> MeshTri:
-    """Triangles, split until none is longer than ``fine + growth * distance`` from the surface strip ``|x| <= strip``.
+    """Return triangles, split until none is longer than ``fine + growth * distance`` from the surface strip ``|x| <= strip``.
 
     The mesh is mirrored about x = 0, so that the nodes on the two sides lie at the same depths.
     """
@@ -106,7 +106,7 @@ def graded_mesh(width: float, thickness: float, strip: float, fine: float, growt
 def make_layer(
     mesh: MeshTri, body: Elastic, *, degree: int = 2, strip: float | None = None, sides: str = "periodic"
 ) -> Layer:
-    """The layer on a mesh of a rectangle whose upper side is z = 0 (x = mesh.p[0], z = mesh.p[1]).
+    """Return the layer on a mesh of a rectangle whose upper side is z = 0 (x = mesh.p[0], z = mesh.p[1]).
 
     Parameters
     ----------
@@ -142,7 +142,7 @@ def make_layer(
 
 
 def spread_matrix(basis: Basis, *, periodic: bool) -> sp.csc_matrix:
-    """(dofs, unknowns) with a 1 where a degree of freedom follows an unknown; rows of the base are empty."""
+    """Return (dofs, unknowns) with a 1 where a degree of freedom follows an unknown; rows of the base are empty."""
     x, z = basis.doflocs
     near = NEAR * np.ptp(z)
     follows = np.arange(basis.N)

@@ -110,7 +110,7 @@ class Layer3D:
 
 
 def graded_levels(thickness: float, layers: int, ratio: float) -> np.ndarray:
-    """Levels from -thickness to 0, with ``layers`` heights that grow geometrically downwards.
+    """Return levels from -thickness to 0, with ``layers`` heights that grow geometrically downwards.
 
     The last height is about ``ratio`` times the first. Twice the layers at the same ratio halve every height.
     """
@@ -121,7 +121,7 @@ def graded_levels(thickness: float, layers: int, ratio: float) -> np.ndarray:
 
 
 def stiffness(layer: Layer3D) -> sp.bsr_matrix:
-    """(unknowns, unknowns) in N/m, numbered by plane from the base up, then ix, iy and component."""
+    """Return (unknowns, unknowns) in N/m, numbered by plane from the base up, then ix, iy and component."""
     nx, ny = layer.shape
     corner = [layer.degree * np.arange(c)[:, None, None] for c in layer.cells]
     total = sp.csr_matrix((layer.unknowns, layer.unknowns))
@@ -139,7 +139,7 @@ def stiffness(layer: Layer3D) -> sp.bsr_matrix:
 
 
 def rigid_body_modes(layer: Layer3D) -> np.ndarray:
-    """(unknowns, 6): three translations and three rotations about the middle of the layer, each of unit length.
+    """Return (unknowns, 6): three translations and three rotations about the middle of the layer, each of unit length.
 
     A rotation does not fit together across the period. But each aggregate of nodes needs it only locally.
     """
@@ -184,7 +184,7 @@ class Multigrid:
 
 
 def multigrid(layer: Layer3D, modes: np.ndarray | None = None) -> Multigrid:
-    """Smoothed aggregation on the rigid-body modes (P. Vanek, J. Mandel & M. Brezina, Computing 56 (1996)
+    """Return smoothed aggregation on the rigid-body modes (P. Vanek, J. Mandel & M. Brezina, Computing 56 (1996)
     179-196, doi:10.1007/BF02238511).
 
     ``modes`` replaces the near-null space, to see what becomes of the solve without it.
@@ -198,7 +198,7 @@ def multigrid(layer: Layer3D, modes: np.ndarray | None = None) -> Multigrid:
 
 
 def solve(grid: Multigrid, force: FloatArray, *, tolerance: float = 1e-8, max_iterations: int = 100) -> LayerSolution:
-    """Displacement of the assembled layer under nodal surface forces (nx, ny) in N, downwards.
+    """Return displacement of the assembled layer under nodal surface forces (nx, ny) in N, downwards.
 
     The stopping test, made here on the returned displacement and not taken from the iteration: ``|f - K u|/|f|`` in the
     2-norm <= tolerance. Raises `SolveError` with report and result otherwise.

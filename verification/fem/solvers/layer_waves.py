@@ -26,7 +26,7 @@ class FourierCompliance:
     symbol: np.ndarray
 
     def displacement(self, force: FloatArray) -> np.ndarray:
-        """Displacement [m] of nodal forces [N], (nx, ny) or flattened, in the shape of the forces."""
+        """Return displacement [m] of nodal forces [N], (nx, ny) or flattened, in the shape of the forces."""
         force = np.asarray(force, dtype=float)
         (cx, cy) = self.layer.cells
         q = self.layer.degree
@@ -36,7 +36,7 @@ class FourierCompliance:
 
 
 def fourier_compliance(layer: Layer3D) -> FourierCompliance:
-    """The compliance of the discrete layer, exactly, from one column of elements.
+    """Return the compliance of the discrete layer, exactly, from one column of elements.
 
     Forces ``f exp(i k.x)`` over the cells make displacements of the same form (Bloch): the right and rear
     faces of an element carry the values of the left and front ones times ``exp(i kx hx)``, ``exp(i ky hy)``.
@@ -55,7 +55,7 @@ def fourier_compliance(layer: Layer3D) -> FourierCompliance:
 
 
 def column_compliance(layer: Layer3D, phases: np.ndarray) -> np.ndarray:
-    """(waves, m, m) for (waves, 2) phase factors across one cell."""
+    """Return (waves, m, m) for (waves, 2) phase factors across one cell."""
     face = 3 * layer.degree**2
     shifts, parts = bloch_parts(layer)
     twist = np.prod(phases[:, None] ** shifts, axis=-1)
@@ -76,7 +76,7 @@ def column_compliance(layer: Layer3D, phases: np.ndarray) -> np.ndarray:
 
 
 def bloch_parts(layer: Layer3D) -> tuple[np.ndarray, np.ndarray]:
-    """(shifts (9, 2), parts (layers, 9, n, n)): an element's stiffness between nodes of one column of cells.
+    """Return (shifts (9, 2), parts (layers, 9, n, n)): an element's stiffness between nodes of one column of cells.
 
     The wave with phase factors (a, b) sees ``sum over shifts (i, j) of a^i b^j part``; n runs over the planes
     of the element, each with the degree^2 nodes that belong to the cell.

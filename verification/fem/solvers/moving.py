@@ -34,7 +34,7 @@ EULER = (1.0, -1.0, 0.0)
 
 @LinearForm
 def gained(v: DiscreteField, w: FormExtraParams) -> FloatArray:
-    """``(c, v)``."""
+    """Return ``(c, v)``."""
     return w.c * v
 
 
@@ -104,7 +104,7 @@ def march(
 
 
 def content(at: EHLSolution, P: FloatArray, H: FloatArray) -> FloatArray:
-    """rho H at the points of quadrature."""
+    """Return rho H at the points of quadrature."""
     line = at.body.line
     return at.film.density(np.asarray(line.interpolate(P))) * np.asarray(line.interpolate(H))
 
@@ -112,7 +112,7 @@ def content(at: EHLSolution, P: FloatArray, H: FloatArray) -> FloatArray:
 def newton_change(
     body: Body, P: FloatArray, held: BoolArray, lost: FloatArray, load: float, by_P: csr_matrix, by_H: csr_matrix
 ) -> tuple[np.ndarray, float]:
-    """Change of pressure and approach by one step of Newton's method: ``lost`` and ``load`` to 0, ``held`` P to 0."""
+    """Return change of pressure and approach by one step of Newton's method: ``lost`` and ``load`` to 0, ``held`` P to 0."""
     free = np.flatnonzero(~held)
     weights = load_weights(body)
     dP = np.where(held, -P, 0.0)

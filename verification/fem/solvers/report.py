@@ -71,7 +71,7 @@ class SolveReport:
         )
 
     def checked(self, result: T) -> T:
-        """``result``, if the solve converged; else `SolveError` with this report and the ``result``."""
+        """Return ``result``, if the solve converged; else `SolveError` with this report and the ``result``."""
         if not self.converged:
             raise SolveError(self.message, self, result)
         return result

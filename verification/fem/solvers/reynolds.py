@@ -119,11 +119,11 @@ class ReynoldsSolution:
         return float(Functional(lambda w: w.p).assemble(self.basis, p=self.pressure))
 
     def inflow(self, x: float) -> float:
-        """Flow that enters through the boundary at this x, m^2/s or m^3/s (volume at p = 0)."""
+        """Return flow that enters through the boundary at this x, m^2/s or m^3/s (volume at p = 0)."""
         return float(self.reaction[np.abs(self.basis.doflocs[0] - x) < 1e-9 * np.ptp(self.basis.doflocs[0])].sum())
 
     def friction(self, sliding_speed: float) -> tuple[float, float]:
-        """``(integral eta Du/h, integral (h/2) dp/dx)`` over the part under pressure, N/m or N."""
+        """Return ``(integral eta Du/h, integral (h/2) dp/dx)`` over the part under pressure, N/m or N."""
         film = self.problem.film
         fluid = self.problem.fluid
         couette = Functional(lambda w: np.where(w.p > 0, fluid.eta(w.p) * sliding_speed / film(w.x), 0.0))
@@ -132,7 +132,7 @@ class ReynoldsSolution:
         return float(couette.assemble(self.basis, p=p)), float(rolling.assemble(self.basis, p=p))
 
     def error(self, exact: Callable[[np.ndarray], np.ndarray]) -> float:
-        """L2 norm of ``p - exact(x)`` relative to that of ``exact``."""
+        """Return L2 norm of ``p - exact(x)`` relative to that of ``exact``."""
         p = self.basis.interpolate(self.pressure)
         off = Functional(lambda w: (w.p - exact(w.x)) ** 2).assemble(self.basis, p=p)
         return float(np.sqrt(off / Functional(lambda w: exact(w.x) ** 2).assemble(self.basis)))
@@ -144,7 +144,7 @@ def weak_form(
     gradient: ComplexArray | FloatArray,
     w: dict[str, FloatArray],
 ) -> tuple[np.ndarray, np.ndarray]:
-    """``(a, b)`` of the weak form ``integral a v + b . grad v`` at the quadrature points.
+    """Return ``(a, b)`` of the weak form ``integral a v + b . grad v`` at the quadrature points.
 
     ``p`` and its ``gradient`` may be real or complex; ``w`` are the fields of `given_fields`.
     """
@@ -166,7 +166,7 @@ def upwind_flow(
     mobility: ComplexArray | FloatArray,
     w: dict[str, FloatArray],
 ) -> np.ndarray:
-    """What the streamline-upwind form adds to the flow: ``tau`` times wave speed times strong residual.
+    """Return what the streamline-upwind form adds to the flow: ``tau`` times wave speed times strong residual.
 
     Brooks & Hughes 1982, doi:10.1016/0045-7825(82)90071-8; tau of Shakib, Hughes & Johan 1991,
     doi:10.1016/0045-7825(91)90041-4. It vanishes where the pressure solves the equation, so the order stays.
@@ -189,13 +189,13 @@ def upwind_flow(
 
 @LinearForm
 def residual(v: DiscreteField, w: FormExtraParams) -> FloatArray:
-    """The weak form itself."""
+    """Return the weak form itself."""
     return w.a * v + dot(w.b, grad(v))
 
 
 @BilinearForm
 def tangent(u: DiscreteField, v: DiscreteField, w: FormExtraParams) -> FloatArray:
-    """The derivative of `residual`, from the derivatives of (a, b) by p and by each component of its gradient."""
+    """Return the derivative of `residual`, from the derivatives of (a, b) by p and by each component of its gradient."""
     a = w.a_p * u + dot(w.a_g, grad(u))
     b = w.b_p * u + sum(slope * du for slope, du in zip(w.b_g, grad(u), strict=True))
     return a * v + dot(b, grad(v))
@@ -204,7 +204,7 @@ def tangent(u: DiscreteField, v: DiscreteField, w: FormExtraParams) -> FloatArra
 def linearised(
     problem: ReynoldsProblem, p: FloatArray, gradient: FloatArray, w: dict[str, FloatArray]
 ) -> dict[str, np.ndarray]:
-    """Derivatives of `weak_form` by a complex step, one for p and one for each component of its gradient."""
+    """Return derivatives of `weak_form` by a complex step, one for p and one for each component of its gradient."""
 
     def along(dp: float, dg: FloatArray) -> tuple[FloatArray, FloatArray]:
         a, b = weak_form(problem, p + 1j * STEP * dp, gradient + 1j * STEP * dg[:, None, None], w)
@@ -301,7 +301,7 @@ def solve_refined(problem: ReynoldsProblem, refinements: int, **options: Option)
 
 
 def prolonged(coarse: ReynoldsSolution, problem: ReynoldsProblem) -> np.ndarray:
-    """The vertex values of ``coarse``, linear in each cell, at the degrees of freedom on the refined mesh."""
+    """Return the vertex values of ``coarse``, linear in each cell, at the degrees of freedom on the refined mesh."""
     old = coarse.problem.mesh
     new = problem.mesh
     values = np.concatenate(vertices_and_middles(old, coarse.at_vertices), axis=-1)
@@ -319,7 +319,7 @@ def prolonged(coarse: ReynoldsSolution, problem: ReynoldsProblem) -> np.ndarray:
 
 
 def vertices_and_middles(mesh: skfem.Mesh, values: np.ndarray) -> list[np.ndarray]:
-    """Values at vertices, at the middles of edges (on surfaces), and of lines or quadrilaterals.
+    """Return values at vertices, at the middles of edges (on surfaces), and of lines or quadrilaterals.
 
     In this order scikit-fem numbers the vertices of a refined mesh.
     """
@@ -332,7 +332,7 @@ def vertices_and_middles(mesh: skfem.Mesh, values: np.ndarray) -> list[np.ndarra
 
 
 def boundary_dofs(problem: ReynoldsProblem, basis: Basis) -> np.ndarray:
-    """True at the degrees of freedom where p = 0 is prescribed."""
+    """Return true at the degrees of freedom where p = 0 is prescribed."""
     mesh = problem.mesh
     held = np.zeros(basis.N, dtype=bool)
     facets = mesh.boundary_facets()
@@ -344,7 +344,7 @@ def boundary_dofs(problem: ReynoldsProblem, basis: Basis) -> np.ndarray:
 
 
 def given_fields(problem: ReynoldsProblem, basis: Basis) -> dict[str, np.ndarray]:
-    """Film, its gradient and the source at the quadrature points."""
+    """Return film, its gradient and the source at the quadrature points."""
     x = basis.global_coordinates()
     fields = {"film": problem.film(np.asarray(x)), "f": 0.0 * x[0], "size": np.asarray(basis.mesh_parameters())}
     if problem.source is not None:
@@ -356,7 +356,7 @@ def given_fields(problem: ReynoldsProblem, basis: Basis) -> dict[str, np.ndarray
 
 
 def flow_scale(problem: ReynoldsProblem, basis: Basis, fields: dict[str, np.ndarray]) -> np.ndarray:
-    """What a residual is measured against at each degree of freedom, m^2/s or m^3/s; 1 when nothing moves."""
+    """Return what a residual is measured against at each degree of freedom, m^2/s or m^3/s; 1 when nothing moves."""
     width = float(np.ptp(problem.mesh.p[1])) if problem.mesh.dim() > 1 else 1.0
     made = np.abs(LinearForm(lambda v, w: w.f * v).assemble(basis, f=fields["f"])).sum()
     flow = np.maximum(problem.speed * problem.film(basis.doflocs) * width, made)
@@ -366,7 +366,7 @@ def flow_scale(problem: ReynoldsProblem, basis: Basis, fields: dict[str, np.ndar
 def measure(
     problem: ReynoldsProblem, p: FloatArray, r: FloatArray, held: BoolArray, cavitated: BoolArray, flow: FloatArray
 ) -> dict[str, float]:
-    """The residuals the stopping test of `solve_reynolds` names."""
+    """Return the residuals the stopping test of `solve_reynolds` names."""
     free = ~(held | cavitated)
     results = {"mass": float(np.abs(r / flow)[free].sum())}
     if problem.cavitation:
@@ -380,7 +380,7 @@ def measure(
 def newton_step(
     problem: ReynoldsProblem, matrix: csc_matrix, r: FloatArray, p: FloatArray, held: BoolArray, cavitated: BoolArray
 ) -> np.ndarray:
-    """The step to ``r = 0`` on free and ``p = 0`` on cavitated nodes, shortened where viscosity would run away."""
+    """Return the step to ``r = 0`` on free and ``p = 0`` on cavitated nodes, shortened where viscosity would run away."""
     step = np.where(cavitated & ~held, -p, 0.0)
     free = np.flatnonzero(~(held | cavitated))
     rhs = -(r + matrix @ step)[free]

@@ -29,12 +29,12 @@ if TYPE_CHECKING:
 
 @BilinearForm
 def mass(u: DiscreteField, v: DiscreteField, w: FormExtraParams) -> FloatArray:
-    """``(c u, v)``."""
+    """Return ``(c u, v)``."""
     return w.c * u * v
 
 
 def stored(film: FilmEquations, P: FloatArray, H: FloatArray) -> tuple[csr_matrix, csr_matrix]:
-    """Derivatives of ``(rho H, v)`` by P and by H."""
+    """Return derivatives of ``(rho H, v)`` by P and by H."""
     line = film.line
     p = np.asarray(line.interpolate(P))
     h = np.asarray(line.interpolate(H))
@@ -42,7 +42,7 @@ def stored(film: FilmEquations, P: FloatArray, H: FloatArray) -> tuple[csr_matri
 
 
 def ripple(at: EHLSolution, wavelength: float, speed: float = 0.0) -> np.ndarray:
-    """Change of the smooth film per height of a wave exp(i k x) of ``wavelength`` [m] at one moment, complex, at the
+    """Return change of the smooth film per height of a wave exp(i k x) of ``wavelength`` [m] at one moment, complex, at the
     dofs of the line. ``speed``: of the waves, over the entrainment speed."""
     body = at.body
     contact = at.contact

@@ -188,7 +188,7 @@ class Discretisation:
         return matrix[np.ix_(self.place, self.place)]
 
     def shape(self, time: float) -> tuple[np.ndarray, np.ndarray]:
-        """x²/(2R) - z [m] at the points of quadrature and at the degrees of freedom."""
+        """Return x²/(2R) - z [m] at the points of quadrature and at the degrees of freedom."""
         values = []
         for x, y in (self.quadrature, self.basis.doflocs):
             values.append(x**2 / (2 * self.problem.contact.radius) - self.problem.heights(x, y, time))
@@ -202,7 +202,7 @@ class Discretisation:
         return self.load_weights * (self.problem.period / 2)
 
     def field(self, values: np.ndarray) -> np.ndarray:
-        """Values at the degrees of freedom as an array (nx, ny/2 + 1)."""
+        """Return values at the degrees of freedom as an array (nx, ny/2 + 1)."""
         result = np.empty_like(values)
         result[self.place] = values
         return result.reshape(self.problem.cells[0], -1)
@@ -210,13 +210,13 @@ class Discretisation:
 
 @LinearForm
 def residual_form(v: DiscreteField, w: FormExtraParams) -> FloatArray:
-    """``(c, v) - (q, grad v)``: what is gained, and the flow."""
+    """Return ``(c, v) - (q, grad v)``: what is gained, and the flow."""
     return w.c * v - w.qx * grad(v)[0] - w.qy * grad(v)[1]
 
 
 @BilinearForm
 def tangent_form(u: DiscreteField, v: DiscreteField, w: FormExtraParams) -> FloatArray:
-    """The derivative of `residual_form` by a field: by its value in c and q, and by its gradient in q."""
+    """Return the derivative of `residual_form` by a field: by its value in c and q, and by its gradient in q."""
     flow = (w.x_value * u - w.mobility * grad(u)[0]) * grad(v)[0]
     flow = flow + (w.y_value * u - w.mobility * grad(u)[1]) * grad(v)[1]
     return w.c_value * u * v - flow
@@ -235,7 +235,7 @@ class Balance:
 def balance(
     grid: Discretisation, p: np.ndarray, moved: np.ndarray, shape: np.ndarray, nodal: np.ndarray, step: "Step"
 ) -> Balance:
-    """The balance of mass for pressures ``p`` and displacements with the approach ``moved`` at the dofs, over the rigid
+    """Return the balance of mass for pressures ``p`` and displacements with the approach ``moved`` at the dofs, over the rigid
     gaps ``shape`` at the points of quadrature and ``nodal`` at the dofs."""
     basis = grid.basis
     contact = grid.problem.contact
@@ -285,7 +285,7 @@ def balance(
 
 
 def compliant(grid: Discretisation) -> float:
-    """The gap that a Hertz pressure changes [m/Pa]: b²/R over p_h."""
+    """Return the gap that a Hertz pressure changes [m/Pa]: b²/R over p_h."""
     contact = grid.problem.contact
     return contact.film_unit / contact.hertz_pressure
 
@@ -312,7 +312,7 @@ def newton(
     max_iterations: int = 60,
     touching: np.ndarray | None = None,
 ) -> tuple[np.ndarray, float, Balance, SolveReport, np.ndarray]:
-    """Pressure [Pa] and approach [m] of a moment, with the balance, the report and the nodes that touch. ``touching``:
+    """Return pressure [Pa] and approach [m] of a moment, with the balance, the report and the nodes that touch. ``touching``:
     those that touch at first.
 
     The residuals are the mass lost on the way to the rupture over the inflow, the load, the largest tension over the
@@ -412,7 +412,7 @@ def film_of(
     report: SolveReport,
     touching: np.ndarray,
 ) -> RoughStripFilm:
-    """The result of a converged solve; `SolveError` for another."""
+    """Return the result of a converged solve; `SolveError` for another."""
     nodal = grid.shape(time)[1]
     gap = nodal + approach + grid.stiff @ p
     flow = float(at.lost[grid.first].sum()) / (grid.problem.period / 2)
@@ -433,7 +433,7 @@ def film_of(
 def solve_rough(
     grid: Discretisation, start: RoughStripFilm | None = None, *, time: float = 0.0, tolerance: float = 1e-7
 ) -> RoughStripFilm:
-    """The film with the roughness as it lies at ``time``, at rest. Without a ``start`` it is raised in steps, from
+    """Return the film with the roughness as it lies at ``time``, at rest. Without a ``start`` it is raised in steps, from
     the smooth film of `ehl` on."""
     problem = grid.problem
     contact = problem.contact
@@ -460,7 +460,7 @@ def solve_rough(
 
 
 def scaled(heights: Heights, share: float) -> Heights:
-    """The ``heights`` times a ``share``."""
+    """Return the ``heights`` times a ``share``."""
     return lambda x, y, time: share * heights(x, y, time)
 
 
@@ -473,19 +473,19 @@ def solved(
     step: Step = Step(),
     touching: np.ndarray | None = None,
 ) -> tuple[np.ndarray, float, Balance, float, SolveReport, np.ndarray]:
-    """`newton`, in the order of the arguments of `film_of`."""
+    """Return `newton`, in the order of the arguments of `film_of`."""
     p, approach, at, report, touching = newton(grid, p, approach, time, step, tolerance=tolerance, touching=touching)
     return p, approach, at, time, report, touching
 
 
 def interpolated(coarse: RoughStripFilm, grid: Discretisation) -> np.ndarray:
-    """The pressure of another grid at the degrees of freedom of this one."""
+    """Return the pressure of another grid at the degrees of freedom of this one."""
     known = RegularGridInterpolator((coarse.problem.x, coarse.problem.y), coarse.pressure)
     return np.maximum(at_nodes(known, coarse.problem, grid), 0.0)
 
 
 def at_nodes(known: RegularGridInterpolator, coarse: RoughLine, grid: Discretisation) -> np.ndarray:
-    """A field that is ``known`` on the nodes of a ``coarse`` problem at the degrees of freedom of ``grid``."""
+    """Return a field that is ``known`` on the nodes of a ``coarse`` problem at the degrees of freedom of ``grid``."""
     x, y = grid.basis.doflocs
     return known(np.column_stack([np.clip(x, coarse.x[0], coarse.x[-1]), np.clip(y, 0, coarse.y[-1])]))
 

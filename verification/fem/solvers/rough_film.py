@@ -49,7 +49,7 @@ class GivenGap:
         return float(0.5 * self.gap.shape[1] * self.dy)
 
     def film(self, points: FloatArray) -> np.ndarray:
-        """h [m] at points (2, ...)."""
+        """Return h [m] at points (2, ...)."""
         x = points[0]
         first = self.x[0]
         inside = self._linear(self.gap, np.maximum(x, first), points[1])
@@ -57,7 +57,7 @@ class GivenGap:
         return inside + (away**2 - first**2) / (2 * self.radius) - self.log * np.log(away / first)
 
     def guess(self, points: FloatArray) -> np.ndarray:
-        """The pressure that came with the gap [Pa]; zero upstream."""
+        """Return the pressure that came with the gap [Pa]; zero upstream."""
         return np.where(
             points[0] >= self.x[0], self._linear(self.pressure, np.maximum(points[0], self.x[0]), points[1]), 0
         )
@@ -82,7 +82,7 @@ class GivenGap:
 
 
 def mesh_of(given: GivenGap, cells: int) -> skfem.MeshTri:
-    """Triangles with about ``cells`` of them across the period."""
+    """Return triangles with about ``cells`` of them across the period."""
     step = 2 * given.width / cells
     first = given.x[0]
     last = given.x[-1]

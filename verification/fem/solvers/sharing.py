@@ -61,7 +61,7 @@ class Bodies:
         return np.diff(inside) / np.diff(self.edges)
 
     def under(self, shape: np.ndarray, load: float) -> Under:
-        """The strip pressed with ``load`` (N) under the film's ``shape`` (nx,)."""
+        """Return the strip pressed with ``load`` (N) under the film's ``shape`` (nx,)."""
         solution = press(self.compliance, shape[:, None] - self.heights, load / self.width, hardness=self.hardness)
         return Under(np.maximum(solution.gap, 0).mean(axis=1), (solution.pressure > 0).mean(axis=1), solution)
 
@@ -96,7 +96,7 @@ class FlatBodies:
         return np.ones(self.cells)
 
     def under(self, shape: np.ndarray, load: float) -> Under:
-        """The strip pressed with ``load`` (N), whatever the shape of the film."""
+        """Return the strip pressed with ``load`` (N), whatever the shape of the film."""
         gap, touching = self.pressed(load / (2 * self.contact.half_width * self.width))
         return Under(np.full(self.cells, gap), np.full(self.cells, touching), None)
 
@@ -154,7 +154,7 @@ def share_load(
     tolerance: float = 1e-5,
     max_evaluations: int = 40,
 ) -> SharedLoad:
-    """The division of the load at which |residual| <= ``tolerance``.
+    """Return the division of the load at which |residual| <= ``tolerance``.
 
     ``guess`` is that of ln(F_H/F_C), ``step`` the first step from it, ``refinements`` those of the film's mesh. Raises
     `SolveError` with report and last division when the root is not found, and whatever film and contact raise.
@@ -184,7 +184,7 @@ def share_load(
 
 
 def best(tried: dict[float, SharedLoad]) -> SharedLoad:
-    """The division with the smallest residual."""
+    """Return the division with the smallest residual."""
     return min(tried.values(), key=lambda s: abs(s.residual))
 
 
@@ -216,7 +216,7 @@ def root(f: Callable[[float], float], done: Callable[[], bool], guess: float, st
 
 
 def loads_at(bodies: Bodies | FlatBodies, split: float, refinements: int) -> SharedLoad:
-    """Film, contact and friction at ln(F_H/F_C) = ``split``."""
+    """Return film, contact and friction at ln(F_H/F_C) = ``split``."""
     film_load = bodies.load / (1 + math.exp(-split))
     contact_load = bodies.load - film_load
     contact = replace(bodies.contact, load_per_width=film_load / bodies.width)
@@ -248,13 +248,13 @@ def loads_at(bodies: Bodies | FlatBodies, split: float, refinements: int) -> Sha
 
 
 def cell_means(film: ehl.EHLSolution, edges: np.ndarray) -> np.ndarray:
-    """Mean film [m] in each cell."""
+    """Return mean film [m] in each cell."""
     points = edges[:-1, None] + np.diff(edges)[:, None] * (np.arange(POINTS) + 0.5) / POINTS
     return film.at(points.ravel())[1].reshape(points.shape).mean(axis=1)
 
 
 def shear(film: ehl.EHLSolution, sliding: float, edges: np.ndarray, wet: np.ndarray) -> tuple[float, float]:
-    """(Couette, rolling) force on the upper surface in N/m: the integrals of eta sliding/h and of (h/2) dp/dx.
+    """Return (Couette, rolling) force on the upper surface in N/m: the integrals of eta sliding/h and of (h/2) dp/dx.
 
     Each is taken times the lubricated share ``wet`` of the cells between ``edges`` (1 outside). The first goes up to
     the rupture, where the film is that of the flow. Both come from far upstream, where the gap is a parabola.
@@ -279,12 +279,12 @@ def shear(film: ehl.EHLSolution, sliding: float, edges: np.ndarray, wet: np.ndar
 
 
 def upstream(t: float, n: int, floor: float, radius: float) -> float:
-    """Integrand of 1/h^n over x to -infinity, in t = -1/x, with h = floor + x^2/2R."""
+    """Return integrand of 1/h^n over x to -infinity, in t = -1/x, with h = floor + x^2/2R."""
     return t ** (2 * n - 2) / (floor * t**2 + 1 / (2 * radius)) ** n
 
 
 def rupture(film: ehl.EHLSolution) -> float:
-    """Where the film behind its minimum is that of the flow (rho h = q/U at p = 0), m."""
+    """Return where the film behind its minimum is that of the flow (rho h = q/U at p = 0), m."""
     c = film.contact
     order = np.argsort(film.body.x)
     x = film.body.x[order] * c.half_width

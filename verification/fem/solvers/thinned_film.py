@@ -33,7 +33,7 @@ class Law:
     exponent: float | None = None
 
     def rate(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The rate at the stress x and its derivative, real or complex."""
+        """Return the rate at the stress x and its derivative, real or complex."""
         if self.exponent is None:
             return np.sinh(x), np.cosh(x)
         n = self.exponent
@@ -58,7 +58,7 @@ class ThinnedFilm(FilmEquations):
     def factor(
         self, P: ComplexArray | FloatArray, P1: ComplexArray | FloatArray, H: ComplexArray | FloatArray
     ) -> ComplexArray | FloatArray:
-        """By which the pressure flow is larger than a Newtonian one."""
+        """Return by which the pressure flow is larger than a Newtonian one."""
         s = self.stress_per_film * np.exp(self.log_viscosity(P)) / H / self.law.critical
         b = self.pull * np.where(np.real(P1) < 0, -P1, P1) * H / self.law.critical + SMALLEST
         s, b = np.broadcast_arrays(s[..., None], b[..., None])
@@ -78,14 +78,14 @@ class ThinnedFilm(FilmEquations):
         H1: ComplexArray | FloatArray,
         size: FloatArray,
     ) -> ComplexArray | FloatArray:
-        """The flux with the thinned pressure flow."""
+        """Return the flux with the thinned pressure flow."""
         return super().flux(P, P1, H, H1, size) + (1 - self.factor(P, P1, H)) * self.mobility(P, H) * P1
 
 
 def solve_thinned(
     contact: LineContact, law: Law, sliding: float, *, refinements: int = 1
 ) -> tuple[EHLSolution, EHLSolution]:
-    """The Newtonian solution on the finest mesh, and from it that of the fluid with a ``law`` between surfaces that
+    """Return the Newtonian solution on the finest mesh, and from it that of the fluid with a ``law`` between surfaces that
     slide at ``sliding`` [m/s]."""
     newtonian = solve_ehl(contact, refinements=refinements)[-1]
     body = newtonian.body

@@ -123,11 +123,11 @@ def balanced(
     tolerance: float,
     max_evaluations: int,
 ) -> tuple[TransientFilmState, SharedMoment, float]:
-    """The film at the end of a step, the division of the load, and ln(F_H/F_C) at which the volumes agree."""
+    """Return the film at the end of a step, the division of the load, and ln(F_H/F_C) at which the volumes agree."""
     tried: dict[float, tuple[TransientFilmState, SharedMoment]] = {}
 
     def mismatch(split: float) -> float:
-        """(gap - film)/(gap + film) at ln(F_H/F_C) = ``split``."""
+        """Return (gap - film)/(gap + film) at ln(F_H/F_C) = ``split``."""
         film_load = moving.load / (1 + np.exp(-split))
         state = stepped(moving, start, film_load / bodies.load)
         tried[split] = state, moment_of(bodies, moving, state, film_load, time)
@@ -165,7 +165,7 @@ def started(at: ehl.EHLSolution, film: ehl.EHLSolution) -> TransientFilmState:
 
 
 def film_of(at: ehl.EHLSolution, state: TransientFilmState) -> np.ndarray:
-    """H [b²/R] at the degrees of freedom of the line."""
+    """Return H [b²/R] at the degrees of freedom of the line."""
     return state.H0 + at.body.x**2 / 2 + at.body.compliance @ state.P
 
 
@@ -208,7 +208,7 @@ def stepped(
 
 
 def moment_of(bodies: Bodies, moving: Moving, state: TransientFilmState, film_load: float, time: float) -> SharedMoment:
-    """The contact under the film of the moment, and the volumes of both."""
+    """Return the contact under the film of the moment, and the volumes of both."""
     film = replace(moving.at, P=state.P, H=film_of(moving.at, state))
     shape = cell_means(film, bodies.edges)
     contact_load = moving.load - film_load

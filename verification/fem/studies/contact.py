@@ -42,13 +42,13 @@ def contact(level: str) -> Iterator[Item]:
 
 
 def hertz_layer(depth: float, fine: float, degree: int) -> Layer:
-    """A layer that is ``depth`` half-widths thick, with cells of ``fine`` half-widths below the contact."""
+    """Return a layer that is ``depth`` half-widths thick, with cells of ``fine`` half-widths below the contact."""
     mesh = graded_mesh(8 * depth * B, depth * B, 1.5 * B, fine * B, growth=4 * fine)
     return make_layer(mesh, BODY, degree=degree, strip=1.5 * B)
 
 
 def press(layer: Layer, load: float = LINE_LOAD, limit: float | None = None) -> Contact:
-    """A cylinder of RADIUS on the layer."""
+    """Return a cylinder of RADIUS on the layer."""
     compliance = layer.compliance
     return solve_contact(
         lambda f: compliance @ f, layer.weights, layer.x**2 / (2 * RADIUS), load, limit=limit, tolerance=1e-9
@@ -56,18 +56,18 @@ def press(layer: Layer, load: float = LINE_LOAD, limit: float | None = None) -> 
 
 
 def difference(layer: Layer, values: FloatArray, expected: FloatArray) -> float:
-    """Relative difference of two pressures in the L2 norm over the surface."""
+    """Return relative difference of two pressures in the L2 norm over the surface."""
     return float(np.sqrt(layer.weights @ np.square(values - expected) / (layer.weights @ np.square(expected))))
 
 
 def hertz_pressure(x: FloatArray, load: float) -> FloatArray:
-    """Hertz pressure [Pa] of the cylinder on the half-space."""
+    """Return Hertz pressure [Pa] of the cylinder on the half-space."""
     b = B * np.sqrt(load / LINE_LOAD)
     return 2 * load / (np.pi * b) * np.sqrt(np.maximum(1 - (x / b) ** 2, 0))
 
 
 def half_width(x: FloatArray, pressure: FloatArray) -> float:
-    """Half-width where p² would vanish, from its slope against x² at more than 0.3 of the peak."""
+    """Return half-width where p² would vanish, from its slope against x² at more than 0.3 of the peak."""
     high = pressure > 0.3 * pressure.max()
     slope, top = np.polyfit(x[high] ** 2, pressure[high] ** 2, 1)
     return float(np.sqrt(-top / slope))
@@ -113,7 +113,7 @@ def hertz(level: str) -> Iterator[Item]:
 
 
 def edge_mean_error(layer: Layer, fine: float) -> float:
-    """Relative L2 error of the pressure, rms over loads that move the edge of the contact through a cell."""
+    """Return relative L2 error of the pressure, rms over loads that move the edge of the contact through a cell."""
     errors = []
     for shift in np.arange(5) / 5:
         load = LINE_LOAD * (1 + fine * shift) ** 2 / (1 + fine) ** 2

@@ -94,12 +94,12 @@ def family(
 
 
 def centred(count: int, step: float) -> np.ndarray:
-    """Centres of ``count`` cells about 0."""
+    """Return centres of ``count`` cells about 0."""
     return (np.arange(count) - (count - 1) / 2) * step
 
 
 def cylinder(cells: int, place: float) -> tuple[float, ...]:
-    """Errors with ``cells + place`` cells in the half-width. The patch is four half-widths wide and four cells long."""
+    """Return errors with ``cells + place`` cells in the half-width. The patch is four half-widths wide and four cells long."""
     exact = Line(E_PRIME, RADIUS, SIZE)
     x, c = pressed_cylinder(exact, cells + place)
     dx = x[1] - x[0]
@@ -113,7 +113,7 @@ def cylinder(cells: int, place: float) -> tuple[float, ...]:
 
 
 def sphere(cells: int, place: float) -> tuple[float, ...]:
-    """Errors with ``cells + place`` cells in the contact radius, on a square of four radii."""
+    """Return errors with ``cells + place`` cells in the contact radius, on a square of four radii."""
     across = cells + place
     exact = Sphere(E_PRIME, RADIUS, SIZE)
     dx = SIZE / across
@@ -137,7 +137,7 @@ def sphere(cells: int, place: float) -> tuple[float, ...]:
 
 
 def wave(cells: int, place: float) -> tuple[float, ...]:
-    """Errors with four times ``cells`` cells in the wave. ``place`` shifts the crest and changes the load."""
+    """Return errors with four times ``cells`` cells in the wave. ``place`` shifts the crest and changes the load."""
     n = 4 * cells
     exact = Wave(E_PRIME, 100e-9, 45e-6, 0.2 + 0.3 * place)
     x = (np.arange(n) + 0.5 + place) * exact.length / n

@@ -43,7 +43,7 @@ def contact_rough(level: str) -> Iterator[Item]:
 
 
 def roughness(x: FloatArray, y: FloatArray, seed: int = 2, waves: int = 4, slope: float = -1.8) -> FloatArray:
-    """Heights [m] of rms SQ: waves of random phase, 1 to ``waves`` in the box, of amplitude |n|^slope."""
+    """Return heights [m] of rms SQ: waves of random phase, 1 to ``waves`` in the box, of amplitude |n|^slope."""
     phases = np.random.default_rng(seed).uniform(0, 2 * np.pi, (waves + 1, 2 * waves + 1))
     total = np.zeros(np.broadcast_shapes(x.shape, y.shape))
     power = 0.0
@@ -88,19 +88,19 @@ class Patch:
 
 
 def corrected_area(mask: BoolArray) -> float:
-    """Share of the grid, less ``(pi - 1 + ln 2)/24`` spacings for every length of edge."""
+    """Return share of the grid, less ``(pi - 1 + ln 2)/24`` spacings for every length of edge."""
     edges = sum(np.count_nonzero(mask != np.roll(mask, 1, axis)) for axis in (0, 1))
     return float(np.count_nonzero(mask) - (np.pi - 1 + np.log(2)) / 24 * edges) / mask.size
 
 
 def layer_of(nodes: int, degree: int, depth: float = THICKNESS, layers: int | None = None) -> Layer3D:
-    """The periodic layer under the box, ``depth`` boxes thick."""
+    """Return the periodic layer under the box, ``depth`` boxes thick."""
     levels = graded_levels(depth * BOX, layers or nodes // (2 * degree), 6.0)
     return Layer3D(body=BODY, size=(BOX, BOX), levels=levels, shape=(nodes, nodes), degree=degree)
 
 
 def press_patch(grid: Layer3D, limit: float | None = None) -> Patch:
-    """The rough patch pressed on the layer."""
+    """Return the rough patch pressed on the layer."""
     weights = grid.weights
     solution = solve_contact(
         fourier_compliance(grid).displacement,
@@ -148,13 +148,13 @@ def rough(level: str) -> Iterator[Item]:
 
 
 def at_nodes(values: FloatArray, nodes: int) -> np.ndarray:
-    """The values on a finer grid at the nodes of a coarser one."""
+    """Return the values on a finer grid at the nodes of a coarser one."""
     every = values.shape[0] // nodes
     return values[::every, ::every]
 
 
 def patch_difference(p: Patch, reference: Patch) -> float:
-    """Relative L2 difference of the pressures at the nodes of the coarser grid."""
+    """Return relative L2 difference of the pressures at the nodes of the coarser grid."""
     other = at_nodes(reference.pressure, p.pressure.shape[0])
     return float(np.sqrt(np.sum(p.weights * (p.pressure - other) ** 2) / np.sum(p.weights * other**2)))
 

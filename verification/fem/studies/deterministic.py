@@ -58,7 +58,7 @@ def deterministic(level: str) -> Iterator[Item]:
 
 
 def contact(speed: float) -> LineContact:
-    """The paper's cylinder."""
+    """Return the paper's cylinder."""
     return LineContact(
         load_per_width=LOAD,
         radius=RADIUS,
@@ -69,7 +69,7 @@ def contact(speed: float) -> LineContact:
 
 
 def surface(cells: int, seed: int = 1) -> Surface:
-    """A Gaussian surface of 100 nm and 8 µm, over 90 by 70 µm, which is its own mirror image along y."""
+    """Return a Gaussian surface of 100 nm and 8 µm, over 90 by 70 µm, which is its own mirror image along y."""
     fine = lubfric.generate_surface(
         (256, 128), WIDTH / 256, sq=100e-9, correlation_length=8e-6, acf="gaussian", seed=seed
     )
@@ -78,7 +78,7 @@ def surface(cells: int, seed: int = 1) -> Surface:
 
 
 def problem(cells: int, speed: float, seed: int = 1) -> Problem:
-    """The deterministic problem on that surface."""
+    """Return the deterministic problem on that surface."""
     return lay_out(surface(cells, seed), contact(speed), sliding=2 * speed, boundary_friction=0.09, hardness=6e9)
 
 

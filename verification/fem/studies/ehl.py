@@ -90,7 +90,7 @@ class Pair:
         return f"M = {M:g}, L = {L:g}" + ("" if density == CONSTANT else ", compressible")
 
     def differences(self, s: EHLSolution) -> tuple[float, float, float]:
-        """Relative differences of flow film and smallest film, and the root mean square of that of the film over the
+        """Return relative differences of flow film and smallest film, and the root mean square of that of the film over the
         contact, in flow films.
 
         The contact reaches here to 1.2 times the place where the film is expected to rupture.
@@ -119,7 +119,7 @@ def thinned() -> Iterator[Item]:
 
 
 def solved(point: tuple[float, float, str], refinements: int) -> Pair:
-    """Both solvers on one contact."""
+    """Return both solvers on one contact."""
     M, L, density = point
     case = case_of(M, L, density=density)
     start = time.perf_counter()
@@ -150,7 +150,7 @@ def point_checks(pair: Pair, level: str) -> Iterator[Item]:
 
 
 def summary(pairs: list[Pair]) -> Table:
-    """The table of every contact on every mesh."""
+    """Return the table of every contact on every mesh."""
     rows: list[TableRow] = []
     for pair in pairs:
         k = pair.finest.contact.moes_film
@@ -171,7 +171,7 @@ def summary(pairs: list[Pair]) -> Table:
 
 
 def body_field(pair: Pair) -> Field:
-    """Displacement and stress of the body."""
+    """Return displacement and stress of the body."""
     s = pair.finest
     c = pair.finest.contact
     stress = s.body.stress(s.displacement) * c.hertz_pressure

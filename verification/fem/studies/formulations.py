@@ -55,13 +55,13 @@ class FormulationCase:
         self.options: Keywords = self.load | {"weight": area, "tolerance": TOLERANCE, "raise_on_failure": False}
 
     def by_load(self) -> ContactResult:
-        """The load-controlled default."""
+        """Return the load-controlled default."""
         options: Keywords = {"mean_pressure": self.pressure, "tolerance": TOLERANCE}
         return solve_contact(self.shape, SPACING, E_PRIME, **options, **self.load)
 
 
 def body(shape: str, x: np.ndarray, b: float) -> tuple[np.ndarray, np.ndarray, float]:
-    """Undeformed shape [m], the area A (1 inside) and the mean pressure [Pa] with contact half-width or radius b."""
+    """Return undeformed shape [m], the area A (1 inside) and the mean pressure [Pa] with contact half-width or radius b."""
     if shape == "flat":
         return np.zeros((x.size, x.size)), np.ones((x.size, x.size)), 300e6
     if shape == "cylinder":
@@ -104,7 +104,7 @@ def formulations(level: str) -> Iterator[Item]:
 
 
 def row(case: FormulationCase, name: str, result: ContactResult, off: float, seconds: float) -> TableRow:
-    """A line of the table."""
+    """Return a line of the table."""
     r = result.report
     residuals = float(f"{r.residual:.2g}"), float(f"{off:.2g}")
     return (case.name, name, r.status, r.iterations, round(r.evaluations), *residuals, round(seconds, 4))

@@ -50,19 +50,19 @@ def friction(level: str) -> Iterator[Item]:
 
 
 def surface(shape: tuple[int, int], spacing: float, seed: int = 1) -> np.ndarray:
-    """Heights with the roughness of the scene, m."""
+    """Return heights with the roughness of the scene, m."""
     made: Keywords = {"sq": 100e-9, "correlation_length": LENGTH, "acf": "gaussian", "seed": seed}
     return lubfric.generate_surface(shape, spacing, **made).heights
 
 
 def model(heights: np.ndarray, spacing: float, region: str = "hertz", **numerics: Option) -> Prepared:
-    """The paper's cylinder made ready for given heights, tightly solved unless ``numerics`` say otherwise."""
+    """Return the paper's cylinder made ready for given heights, tightly solved unless ``numerics`` say otherwise."""
     scene = lubfric.load_scene("paper").with_(contact={"region": region}, numerics=TIGHT | numerics)
     return prepare(scene, lubfric.Surface(heights, (spacing, spacing)))
 
 
 def blocks(heights: np.ndarray, cells: int) -> np.ndarray:
-    """Means of the heights in square blocks, so many along x."""
+    """Return means of the heights in square blocks, so many along x."""
     k = heights.shape[0] // cells
     return heights.reshape(cells, k, -1, k).mean(axis=(1, 3))
 

@@ -78,7 +78,7 @@ def contact_given_fluid(level: str, contact: LineContact) -> Iterator[Item]:
 
 
 def laid(case: GivenFluidCase, contact: LineContact) -> Problem:
-    """The paper's roughness under ``contact`` at the case's speed, on an even number of cells along x."""
+    """Return the paper's roughness under ``contact`` at the case's speed, on an even number of cells along x."""
     shape = (FINE, FINE * case.across // case.cells)
     rough: Keywords = {"sq": 100e-9, "acf": "gaussian", "seed": 1}
     fine = lubfric.generate_surface(shape, WIDTH / FINE, correlation_length=LENGTH, **rough)
@@ -98,7 +98,7 @@ def laid(case: GivenFluidCase, contact: LineContact) -> Problem:
 
 
 def elements(problem: Problem, fineness: int) -> Compliance:
-    """The elastic body under the grid of ``problem``."""
+    """Return the elastic body under the grid of ``problem``."""
     body = Elastic.from_e_prime(problem.e_prime, 0.3)
     return compliance(HarmonicStrip(problem.heights.shape, problem.spacing, body, fineness=fineness))
 
@@ -150,7 +150,7 @@ def compared(case: GivenFluidCase, problem: Problem, solution: DeterministicResu
 
 
 def contact_by_elements(problem: Problem, solution: DeterministicResult, body: Compliance) -> tuple[Contact, float]:
-    """The contact under what the fluid leaves of the load; and its load at the mean gap of ``solution``, over that."""
+    """Return the contact under what the fluid leaves of the load; and its load at the mean gap of ``solution``, over that."""
     fluid = np.where(solution.touching, 0.0, solution.pressure)
     left = problem.load - solution.inlet_load - fluid.sum() * problem.spacing[0] / fluid.shape[1]
     gap0 = problem.rigid_gap + np.where(solution.touching, 0.0, solution.dent) + body.apply(fluid) - problem.floor

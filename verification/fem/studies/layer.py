@@ -40,7 +40,7 @@ def layer(level: str) -> Iterator[Item]:
 
 
 def plane_wave(cells: int, degree: int, depth: float = 0.5, body: Elastic = BODY) -> tuple[float, float]:
-    """(compliance seen by the energy of a cosine, largest error of a displacement over its amplitude).
+    """Return (compliance seen by the energy of a cosine, largest error of a displacement over its amplitude).
 
     ``depth`` is the thickness in wavelengths.
     """
@@ -107,7 +107,7 @@ def plane_finite(level: str) -> Iterator[Item]:
 
 
 def brick(nodes: int, degree: int, depth: float = 1.0, layers: int | None = None) -> Layer3D:
-    """A square period of one wavelength, ``depth`` wavelengths thick."""
+    """Return a square period of one wavelength, ``depth`` wavelengths thick."""
     levels = graded_levels(depth * WAVE, layers or nodes // degree, 4.0)
     return Layer3D(body=BODY, size=(WAVE, WAVE), levels=levels, shape=(nodes, nodes), degree=degree)
 
@@ -201,7 +201,7 @@ def approach(level: str) -> Iterator[Item]:
 
 
 def bending(result: Layer) -> float:
-    """Curvature that a layer adds under a narrow load, over ``4 w/(pi E' b^2)``; for a thick layer it is J (b/d)^2.
+    """Return curvature that a layer adds under a narrow load, over ``4 w/(pi E' b^2)``; for a thick layer it is J (b/d)^2.
 
     The pressure is ``p0 (1 - X^2)^1.5`` with X = x/b. A half-space sinks under it by ``(p0 b/E')(X^4 - 3 X^2)`` and a
     constant (from ``PV integral sqrt(1 - s^2) U_n(s)/(x - s) ds = pi T_(n+1)(x)``). The rest is fitted.

@@ -90,12 +90,12 @@ class Point:
     main: lubfric.FrictionResult
 
     def difference(self, name: str) -> float:
-        """Relative difference of a number that both have."""
+        """Return relative difference of a number that both have."""
         return float(abs(getattr(self.main, name) / getattr(self.fem, name) - 1))
 
 
 def scene() -> lubfric.Scene:
-    """The paper's cylinder, everything modelled on the grid given."""
+    """Return the paper's cylinder, everything modelled on the grid given."""
     return lubfric.load_scene("paper").with_(numerics=TIGHT | {"tolerance": 1e-4})
 
 
@@ -105,7 +105,7 @@ def elastic() -> Elastic:
 
 
 def rough(finest: int, cells: int) -> np.ndarray:
-    """One surface of ``finest`` squared cells, averaged in blocks."""
+    """Return one surface of ``finest`` squared cells, averaged in blocks."""
     rough_surface = scene().surface
     block = finest // cells
     made: Keywords = {
@@ -120,14 +120,14 @@ def rough(finest: int, cells: int) -> np.ndarray:
 
 @lru_cache(maxsize=3)
 def strip(cells: int, fineness: int, across: float | None = None) -> Compliance:
-    """The patch on so many cells each way, which are ``across`` (m) long along y (None: as along x)."""
+    """Return the patch on so many cells each way, which are ``across`` (m) long along y (None: as along x)."""
     return compliance(
         HarmonicStrip((cells, cells), (LENGTH / cells, across or LENGTH / cells), elastic(), fineness=fineness)
     )
 
 
 def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int, known: float | None) -> Point:
-    """One speed by both methods. The finite-element root starts from no knowledge of the other's, but from the split
+    """Return one speed by both methods. The finite-element root starts from no knowledge of the other's, but from the split
     that was ``known`` on coarser cells."""
     s = scene()
     cell = LENGTH / heights.shape[0]
@@ -141,7 +141,7 @@ def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int, 
 
 
 def cylinder(s: lubfric.Scene, speed: float, body: Compliance, heights: np.ndarray) -> Bodies:
-    """The scene for the finite elements, which get nothing of it but its numbers."""
+    """Return the scene for the finite elements, which get nothing of it but its numbers."""
     b = s.bodies
     sliding = s.motion.slide_roll_ratio * speed
     hardness = b.hardness or math.inf
@@ -162,14 +162,14 @@ def whole(s: lubfric.Scene, speed: float) -> LineContact:
 
 
 def averaged(model: Prepared) -> Prepared:
-    """The model with displacements that are means over cells along x, as those of the finite elements are."""
+    """Return the model with displacements that are means over cells along x, as those of the finite elements are."""
     contact = parts.half_space(model)
     averages = replace(contact, operator=cell_mean(contact.operator))
     return prepare(model.scene, model.surface, contact=averages)
 
 
 def cell_mean(operator: HalfSpace) -> HalfSpace:
-    """The operator with displacements that are means over each cell along x, under pressures uniform in each cell.
+    """Return the operator with displacements that are means over each cell along x, under pressures uniform in each cell.
 
     A line load that varies as exp(i k y) deflects a half-space by (4/(pi E')) K0(k |x|), and by -(4/(pi E')) ln|x|
     where k = 0. Integrated over one cell and averaged over another, that is a second difference of its second
@@ -193,7 +193,7 @@ def cell_mean(operator: HalfSpace) -> HalfSpace:
 
 
 def twice_integrated(z: np.ndarray) -> np.ndarray:
-    """The function whose second derivative is K0(z), zero far away: ∫ exp(-z cosh t)/cosh² t dt, t > 0."""
+    """Return the function whose second derivative is K0(z), zero far away: ∫ exp(-z cosh t)/cosh² t dt, t > 0."""
     values = 0.5 * np.exp(-z)
     for growth in np.cosh(STEP * np.arange(1, POINTS)):
         values += np.exp(-z * growth) / growth**2
@@ -211,7 +211,7 @@ def rows_of(main: lubfric.FrictionResult, fem: SharedLoad, allowed: tuple[float,
 
 
 def side_by_side(points: list[Point]) -> Table:
-    """Every number of both programs."""
+    """Return every number of both programs."""
     rows = []
     for p in points:
         f = p.fem
@@ -242,7 +242,7 @@ def approach(points: list[Point], grids: tuple[int, ...]) -> Iterator[Item]:
 
 
 def pressure_field(p: Point) -> Field:
-    """Contact pressure and gap of both."""
+    """Return contact pressure and gap of both."""
     edges = np.linspace(-LENGTH / 2, LENGTH / 2, p.cells + 1)
     x, y = np.meshgrid(edges, edges, indexing="ij")
     corner = np.arange((p.cells + 1) ** 2).reshape(p.cells + 1, -1)
@@ -259,7 +259,7 @@ def pressure_field(p: Point) -> Field:
 
 
 def pressure_figure(p: Point) -> Figure:
-    """Contact pressure of both and the film's pressure of both."""
+    """Return contact pressure of both and the film's pressure of both."""
     canvas, (left, middle, right) = plotting.axes(1, 3, width=9.6, height=3.4)
     half = LENGTH / 2 * 1e6
     contact = parts.contact_fields(p.main)

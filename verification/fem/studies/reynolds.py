@@ -70,7 +70,7 @@ def slider(refinements: int) -> Iterator[Item]:
 
 
 def parabola_mesh(cells: int, inlet: float = PARABOLA.inlet, shift: float = 0.0) -> skfem.MeshLine:
-    """Cells that are fine where the film is thin, up to X = 2. ``shift`` moves the nodes by a part of a cell."""
+    """Return cells that are fine where the film is thin, up to X = 2. ``shift`` moves the nodes by a part of a cell."""
     span = np.arcsinh(2) + np.arcsinh(-inlet)
     stretched = np.linspace(-np.arcsinh(-inlet), np.arcsinh(2) + shift * span / cells, cells + 1)
     return skfem.MeshLine(np.sinh(stretched) * PARABOLA.scale)
@@ -79,7 +79,7 @@ def parabola_mesh(cells: int, inlet: float = PARABOLA.inlet, shift: float = 0.0)
 def ruptured(
     e: exact.Parabola, mesh: skfem.MeshLine, degree: int, refinements: int, fluid: Fluid | None = None
 ) -> list[ReynoldsSolution]:
-    """Solutions with a free rupture point on a mesh and its refinements."""
+    """Return solutions with a free rupture point on a mesh and its refinements."""
     problem = ReynoldsProblem(
         mesh=mesh, film=e.film, fluid=fluid or Fluid(e.viscosity), speed=e.speed, degree=degree, cavitation=True
     )
@@ -117,7 +117,7 @@ def parabola(refinements: int) -> Iterator[Item]:
 
 
 def scaled(load: float, exit: float, couette: float, rolling: float) -> tuple[float, float, float, float]:
-    """Load, rupture point, Couette friction of unit sliding speed, and rolling friction, without dimension."""
+    """Return load, rupture point, Couette friction of unit sliding speed, and rolling friction, without dimension."""
     e = PARABOLA
     friction = e.viscosity * np.sqrt(e.radius / e.film_thickness)
     lift = e.viscosity * e.speed * e.radius / e.film_thickness
@@ -125,13 +125,13 @@ def scaled(load: float, exit: float, couette: float, rolling: float) -> tuple[fl
 
 
 def constants(s: ReynoldsSolution) -> tuple[float, float, float, float]:
-    """The four numbers of a solution. At rupture, U h is the flow."""
+    """Return the four numbers of a solution. At rupture, U h is the flow."""
     film = s.inflow(s.problem.mesh.p.min()) / PARABOLA.speed
     return scaled(s.load, np.sqrt(film / PARABOLA.film_thickness - 1), *s.friction(1.0))
 
 
 def exact_constants() -> tuple[float, float, float, float]:
-    """What `constants` should be."""
+    """Return what `constants` should be."""
     return scaled(PARABOLA.load, PARABOLA.exit, PARABOLA.couette, PARABOLA.rolling)
 
 

@@ -61,28 +61,28 @@ class Manufactured:
         self.wave = np.pi / np.array([LENGTH, WIDTH][:dimension])
 
     def film(self, x: FloatArray) -> FloatArray:
-        """Film [m], sloping in x and bent in y."""
+        """Return film [m], sloping in x and bent in y."""
         return 1e-6 * (2 - x[0] / LENGTH + (0.3 * np.cos(2 * x[1] / WIDTH) if len(self.wave) > 1 else 0.0))
 
     def film_slope(self, x: FloatArray) -> FloatArray:
-        """Gradient of the film."""
+        """Return gradient of the film."""
         along = -1e-6 / LENGTH + 0 * x[0]
         if len(self.wave) == 1:
             return np.array([along])
         return np.array([along, -0.6e-6 / WIDTH * np.sin(2 * x[1] / WIDTH)])
 
     def pressure(self, x: DiscreteField | FloatArray) -> FloatArray:
-        """The pressure to be found, Pa."""
+        """Return the pressure to be found, Pa."""
         return self.peak * np.prod([np.sin(k * a) for k, a in zip(self.wave, x, strict=True)], axis=0)
 
     def gradient(self, x: FloatArray) -> FloatArray:
-        """Gradient of the pressure [Pa/m]."""
+        """Return gradient of the pressure [Pa/m]."""
         sines = np.array([np.sin(k * a) for k, a in zip(self.wave, x, strict=True)])
         slopes = np.array([k * np.cos(k * a) for k, a in zip(self.wave, x, strict=True)])
         return self.peak * (slopes if len(self.wave) == 1 else slopes * sines[::-1])
 
     def source(self, x: FloatArray) -> FloatArray:
-        """``-div(D grad p) + d(rho U h)/dx`` derived by hand, with D = rho h^3/(12 eta)."""
+        """Return ``-div(D grad p) + d(rho U h)/dx`` derived by hand, with D = rho h^3/(12 eta)."""
         p = self.pressure(x)
         dp = self.gradient(x)
         h = self.film(x)
@@ -95,7 +95,7 @@ class Manufactured:
 
 
 def box(kind: str, cells: int, width: float = WIDTH, length: float = LENGTH) -> skfem.Mesh:
-    """A mesh of 0..length, on surfaces times -width/2..width/2."""
+    """Return a mesh of 0..length, on surfaces times -width/2..width/2."""
     x = np.linspace(0, length, cells + 1)
     if kind == "line":
         return skfem.MeshLine(x)
@@ -133,7 +133,7 @@ def manufactured(refinements: int) -> Iterator[Item]:
 
 
 def pad(ratio: float) -> exact.ExponentialPad:
-    """The exact pad with this ratio of width to length."""
+    """Return the exact pad with this ratio of width to length."""
     return exact.ExponentialPad(
         viscosity=VISCOSITY, speed=SPEED, length=LENGTH, width=ratio * LENGTH, inlet=INLET, outlet=OUTLET
     )
@@ -178,7 +178,7 @@ def finite_width(refinements: int) -> Iterator[Item]:
 
 
 def edged(e: exact.ExponentialPad) -> skfem.MeshQuad:
-    """A mesh of the pad with its lines crowded at the four edges, more so along the longer side."""
+    """Return a mesh of the pad with its lines crowded at the four edges, more so along the longer side."""
 
     def crowded(length: float, other: float) -> FloatArray:
         strength = np.clip(1.5 * np.log10(max(length / other, 1.0)) * 1.6, 0.5, 4.0)

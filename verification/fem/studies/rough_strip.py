@@ -212,7 +212,7 @@ def both_programs(
     moving: bool,
     bodies: dict[tuple[int, int], Discretisation],
 ) -> tuple[list[list[Fields]], list[list[Fields]]]:
-    """The films of lubfric with each number of ``cells`` in a half-width, and those of finite elements on each of the
+    """Return the films of lubfric with each number of ``cells`` in a half-width, and those of finite elements on each of the
     ``grids``. ``bodies`` keeps the elastic body of each grid."""
     ours = [own_films(case, count, moving=moving) for count in cells]
     elements = []
@@ -230,7 +230,7 @@ def rows_of(
     grids: tuple[tuple[int, int], ...],
     elements: list[list[Fields]],
 ) -> list[TableRow]:
-    """The rows of the table: what each program has on each of its grids."""
+    """Return the rows of the table: what each program has on each of its grids."""
     finenesses = [round((grid[0] - 1) / (INLET + OUTLET)) for grid in grids]
     rows: list[TableRow] = []
     for by, counts, solutions in (("lubfric", cells, ours), ("elements", finenesses, elements)):
@@ -240,7 +240,7 @@ def rows_of(
 
 
 def surface_of(b: float, pace: float = 0.0, sq: float = SQ) -> Heights:
-    """z [m] of x, y [m] and a time [s]: waves with random heights and phases, even in y, that move at ``pace`` [m/s]."""
+    """Return z [m] of x, y [m] and a time [s]: waves with random heights and phases, even in y, that move at ``pace`` [m/s]."""
     rng = np.random.default_rng(SEED)
     along = PERIODS[0] * b
     across = PERIODS[1] * b
@@ -264,7 +264,7 @@ def surface_of(b: float, pace: float = 0.0, sq: float = SQ) -> Heights:
 def element_films(
     case: StripCase, cells: tuple[int, int], *, moving: bool, like: Discretisation | None
 ) -> tuple[list[Fields], Discretisation]:
-    """The films by finite elements: one at rest, or the `MOMENTS` of a period."""
+    """Return the films by finite elements: one at rest, or the `MOMENTS` of a period."""
     contact = case.contact
     b = contact.half_width
     speed = contact.entrainment_speed
@@ -290,7 +290,7 @@ def element_films(
 
 
 def steps_of(b: float, speed: float, cell: float) -> tuple[int, int]:
-    """Steps in a period of the moving surface, about as many as the film needs cells, and the steps before the
+    """Return steps in a period of the moving surface, about as many as the film needs cells, and the steps before the
     evaluation: an integer number of periods, so that both programs begin at the same phase."""
     period = PERIODS[0] * b / (PACE * speed)
     count = MOMENTS * max(1, round(period * speed / cell / MOMENTS))
@@ -299,12 +299,12 @@ def steps_of(b: float, speed: float, cell: float) -> tuple[int, int]:
 
 
 def fields_of(film: RoughStripFilm) -> Fields:
-    """The fields of a finite-element film."""
+    """Return the fields of a finite-element film."""
     return Fields(x=film.problem.x, y=film.problem.y, pressure=film.pressure, gap=film.gap, flow=film.flow)
 
 
 def own_films(case: StripCase, cells: int, *, moving: bool) -> list[Fields]:
-    """The films of the deterministic model with so many ``cells`` in a half-width."""
+    """Return the films of the deterministic model with so many ``cells`` in a half-width."""
     line = line_contact(case.given)
     b = line.half_width
     line = replace(line, lubricant=replace(line.lubricant, inlet_length=INLET * b))
@@ -334,14 +334,14 @@ def own_films(case: StripCase, cells: int, *, moving: bool) -> list[Fields]:
 
 
 def half_of(problem: Problem, pressure: np.ndarray, gap: np.ndarray, flow: float) -> Fields:
-    """The fields over half of the period, which is its own mirror image."""
+    """Return the fields over half of the period, which is its own mirror image."""
     half = gap.shape[1] // 2 + 1
     y = np.arange(half) * problem.spacing[1]
     return Fields(x=problem.x, y=y, pressure=pressure[:, :half], gap=gap[:, :half], flow=flow)
 
 
 def middle_of(case: StripCase, film: Fields) -> tuple[np.ndarray, np.ndarray]:
-    """Pressure [Pa] and gap [m] on a common grid of the middle of the contact."""
+    """Return pressure [Pa] and gap [m] on a common grid of the middle of the contact."""
     b = case.contact.half_width
     x = np.linspace(-NEAR * b, NEAR * b, 161)
     y = np.linspace(0.0, PERIODS[1] * b / 2, 41)
@@ -354,7 +354,7 @@ def middle_of(case: StripCase, film: Fields) -> tuple[np.ndarray, np.ndarray]:
 
 
 def averages(case: StripCase, films: list[Fields]) -> dict[str, float]:
-    """Mean and smallest gap, flow, and the viscous force at a sliding speed of 1 m/s, over |x| < 0.8 b and over the
+    """Return mean and smallest gap, flow, and the viscous force at a sliding speed of 1 m/s, over |x| < 0.8 b and over the
     moments. Of bodies that touch, the share of the load on gaps up to `THIN` floors stands for the smallest gap, which
     is the floor."""
     contact = case.contact
@@ -406,7 +406,7 @@ def judged_films(
 
 
 def picture_field(name: str, what: str, case: StripCase, ours: Fields, elements: Fields) -> Field:
-    """Pressure and gap of both on the common grid."""
+    """Return pressure and gap of both on the common grid."""
     b = case.contact.half_width
     x, y = np.meshgrid(np.linspace(-NEAR * b, NEAR * b, 161), np.linspace(0, PERIODS[1] * b / 2, 41), indexing="ij")
     corner = np.arange(x.size).reshape(x.shape)

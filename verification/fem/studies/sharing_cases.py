@@ -113,7 +113,7 @@ def measured_map(allowed: tuple[float, float, float], refinements: int) -> Itera
 
 
 def ground(across: float) -> np.ndarray:
-    """Heights (CELLS, CELLS) m, grooved and skewed, with worn tops and deep scratches, on a tilted plane."""
+    """Return heights (CELLS, CELLS) m, grooved and skewed, with worn tops and deep scratches, on a tilted plane."""
     rng = np.random.default_rng(5)
     y = np.arange(CELLS)[:, None] * across
     x = np.arange(CELLS) * LENGTH / CELLS
@@ -148,7 +148,7 @@ def flat(allowed: tuple[float, float, float], refinements: int) -> Iterator[Item
 
 
 def pressed_layer(nodes: int) -> Callable[[float], tuple[float, float]]:
-    """Mean gap (m) and share in contact of the patch, pressed on a layer of bricks by a mean pressure (Pa)."""
+    """Return mean gap (m) and share in contact of the patch, pressed on a layer of bricks by a mean pressure (Pa)."""
     grid = layer_of(nodes, 2)
     displacement = fourier_compliance(grid).displacement
     weights = grid.weights.ravel()

@@ -209,7 +209,7 @@ def steps(case: RampCase, moments: list[SharedMoment], history: lubfric.Transien
 
 
 def lag(case: RampCase, moments: list[SharedMoment], _: lubfric.TransientResult) -> Check:
-    """The contact load at the end of the ramp compared with the steady one at that speed."""
+    """Return the contact load at the end of the ramp compared with the steady one at that speed."""
     cell = LENGTH / case.heights.shape[0]
     model = averaged(prepare(scene(), lubfric.Surface(case.heights, (cell, cell))))
     steady = lubfric.friction(model, SPEED * case.motion.speed)
@@ -220,7 +220,7 @@ def lag(case: RampCase, moments: list[SharedMoment], _: lubfric.TransientResult)
 
 
 def rows_of(case: RampCase, moments: list[SharedMoment], history: lubfric.TransientResult) -> list[tuple[str, ...]]:
-    """The rows of the table."""
+    """Return the rows of the table."""
     return [
         (
             case.motion.name.split()[0],

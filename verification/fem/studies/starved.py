@@ -71,14 +71,14 @@ def starved(level: str) -> Iterator[Item]:
 
 
 def half_width() -> float:
-    """The half-width of Hertz [m]."""
+    """Return the half-width of Hertz [m]."""
     return LineContact.of(CASE | OIL).half_width
 
 
 def film_from(
     place: float, cells: int, bodies: dict[int, Discretisation], start: RoughStripFilm | None = None
 ) -> RoughStripFilm:
-    """The film by finite elements, with the lubricant from ``place`` [half-widths] upstream on; ``start``: one with
+    """Return the film by finite elements, with the lubricant from ``place`` [half-widths] upstream on; ``start``: one with
     another inlet."""
     contact = LineContact.of(CASE | OIL)
     b = contact.half_width
@@ -97,7 +97,7 @@ def film_from(
 
 
 def fed_with(layer: float, cells: int, bodies: dict[int, Discretisation]) -> RoughStripFilm:
-    """The film by finite elements into which flows what a ``layer`` [m] brings."""
+    """Return the film by finite elements into which flows what a ``layer`` [m] brings."""
     speed = CASE["entrainment_speed"]
     known: dict[float, RoughStripFilm] = {}
 
@@ -112,7 +112,7 @@ def fed_with(layer: float, cells: int, bodies: dict[int, Discretisation]) -> Rou
 
 
 def films_of(film: RoughStripFilm) -> np.ndarray:
-    """Smallest film, film at x = 0 and flow film [m]."""
+    """Return smallest film, film at x = 0 and flow film [m]."""
     x = film.problem.x
     gap = film.gap[:, 0]
     lowest = int(gap[1:-1].argmin()) + 1
@@ -123,7 +123,7 @@ def films_of(film: RoughStripFilm) -> np.ndarray:
 
 
 def extrapolated(films: list[RoughStripFilm], grids: tuple[int, ...]) -> np.ndarray:
-    """The three films [m] of the finest two grids, extrapolated."""
+    """Return the three films [m] of the finest two grids, extrapolated."""
     return extrapolated_by(ORDER, [1 / (n - 1) for n in grids], [films_of(film) for film in films])
 
 
@@ -140,7 +140,7 @@ def compared(
 
 
 def order_of(films: list[RoughStripFilm], grids: tuple[int, ...]) -> Check:
-    """The order in which the flow of three grids converges."""
+    """Return the order in which the flow of three grids converges."""
     order = order_of_three([1 / (n - 1) for n in grids], [film.flow for film in films])
     source = "bilinear elements: second order"
     return Check(

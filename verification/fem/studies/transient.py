@@ -76,14 +76,14 @@ def transient(level: str) -> Iterator[Item]:
 
 
 def contact(M: float, L: float, density: str = "constant") -> tuple[PlainRow, FilmProblem, float]:
-    """Keywords, `FilmProblem` and time b/U (at least 3 film lengths) of a contact with these Moes numbers."""
+    """Return keywords, `FilmProblem` and time b/U (at least 3 film lengths) of a contact with these Moes numbers."""
     keywords = case_of(M, L, density=density)
     problem = FilmProblem(line_contact(keywords))
     return keywords, problem, max(problem.half_width, 3.0) * problem.length_unit / keywords["entrainment_speed"]
 
 
 def step_history(value: float, factor: float) -> History:
-    """A value that jumps by ``factor`` at once."""
+    """Return a value that jumps by ``factor`` at once."""
     return History(times=(0.0, 0.0, 1e3), values=(value, factor * value, factor * value))
 
 
@@ -130,7 +130,7 @@ def squeeze(most: int) -> Iterator[Item]:
 
 
 def setting(resolution: float) -> Setting:
-    """The rigid squeeze on a grid of a given resolution."""
+    """Return the rigid squeeze on a grid of a given resolution."""
     oil, load, radius, still, viscosity = (
         Lubricant(0.1, 0.0, viscosity_law="constant"),
         *map(Constant, (100.0, 0.01, 0.0, 0.1)),
@@ -153,7 +153,7 @@ def setting(resolution: float) -> Setting:
 
 
 def marched(resolution: float, steps: int) -> float:
-    """Film after 0.3 of the squeeze in equal steps, in units of the film at the start."""
+    """Return film after 0.3 of the squeeze in equal steps, in units of the film at the start."""
     made = setting(resolution)
     first = made.undeformed(1e-6)
     now = Progress(levels=(first,), step=LONG)
@@ -165,7 +165,7 @@ def marched(resolution: float, steps: int) -> float:
 
 
 def one_step(resolution: float) -> float:
-    """Relative error of the sinking speed in one backward Euler step: the law holds with the film at its end."""
+    """Return relative error of the sinking speed in one backward Euler step: the law holds with the film at its end."""
     made = setting(resolution)
     step = 1e-2 * LONG
     first = made.undeformed(1e-6)

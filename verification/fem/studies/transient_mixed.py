@@ -47,13 +47,13 @@ def transient_mixed(level: str) -> Iterator[Item]:
 def run(
     model: Prepared, plan: Transient, times: FloatArray | list[float] | None = None, **numerics: Option
 ) -> lubfric.TransientResult:
-    """`lubfric.transient` of a prepared model with another plan (and numerics)."""
+    """Return `lubfric.transient` of a prepared model with another plan (and numerics)."""
     scene = replace(model.scene, transient=plan).with_(numerics=numerics)
     return lubfric.transient(prepare(scene, like=model), times)
 
 
 def wave(amplitude: float, frequency: float, mean: float = 0.0) -> Harmonic:
-    """A speed that swings about ``mean`` from its largest value [m/s, Hz]."""
+    """Return a speed that swings about ``mean`` from its largest value [m/s, Hz]."""
     return Harmonic(mean=mean, amplitude=amplitude, frequency=frequency, phase=np.pi / 2)
 
 

@@ -48,7 +48,7 @@ class WavinessCase:
         return line_contact(self.values)
 
     def elements(self, speed: float = 0.0) -> ehl.LineContact:
-        """For the finite elements, with waves of this ``speed`` over the entrainment speed."""
+        """Return the same for the finite elements, with waves of this ``speed`` over the entrainment speed."""
         return ehl.LineContact.of(self.values, 2 * abs(speed - 1) * self.values["entrainment_speed"])
 
     def but(self, name: str = "", **values: float) -> "WavinessCase":
@@ -122,7 +122,7 @@ def waviness(level: str) -> Iterator[Item]:
 def compared(
     case: WavinessCase, speed: float, length: float, reference_case: WavinessCase | None = None
 ) -> tuple[float, float, float, float, float]:
-    """The part that goes with the surface by lubfric and by finite elements, the part from the inlet by both (0 in
+    """Return the part that goes with the surface by lubfric and by finite elements, the part from the inlet by both (0 in
     pure rolling, where they are one), and the rms difference of the films. ``reference_case``: what the elements solve."""
     smooth = laid_out(case.line, speed, CELLS * (max(1.0, speed) if speed else 2.5) / length)
     b = smooth.half_width
@@ -142,7 +142,7 @@ def compared(
 
 
 def parts(film: np.ndarray, x: np.ndarray, length: float, speed: float) -> tuple[float, float]:
-    """Amplitudes of the wave of the surface and of that from the inlet; the second may fall along x."""
+    """Return amplitudes of the wave of the surface and of that from the inlet; the second may fall along x."""
     surface = np.exp(2j * np.pi * x / length)
     inlet = np.exp(2j * np.pi * x * speed / length)
     if speed == 1:
