@@ -5,7 +5,7 @@ import re
 import pytest
 from pages import ROOT
 
-# Words of README and docs, tables included; bars and rules of tables are no words. The owner's limit (issue 47).
+# Words of README and docs, tables included; bars and rules of tables are no words. A limit set from outside.
 MOST_WORDS = 26_000
 RULE = re.compile(r"[|:-]+")
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("**/*.md"))]

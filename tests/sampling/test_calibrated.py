@@ -301,6 +301,30 @@ def test_the_bounds_grow_with_what_cells_and_boundary_film_change():
     assert 0 < half_width(coefficient=0.0905) < half_width(coefficient=0.089) < half_width(coefficient=0.05)
 
 
+def test_the_bounds_grow_with_the_rolling_part_less_than_in_proportion():
+    """Eleven solved cases whose rolling part is the larger one scatter by 0.6 in ln of the sliding part, at most 1.4."""
+    alike = {"at_half_film": 0.05, "at_twice_film": 0.05}
+    (small, even, large) = (
+        half_width("rolling", rolling=part * 0.05 / (1 + part), **alike) for part in (0.01, 1.0, 10.0)
+    )
+    assert small < even < large < 1.4 * 3 and large < 10 * even
+
+
+def test_of_two_answers_to_a_thick_film_on_moving_roughness_that_with_the_smaller_error_is_given():
+    """No asperity touches, and the bounds of long cells are widened far outside the solved cases."""
+    scene = lubfric.load_scene("paper").with_(
+        bodies={"radius": 10e-3, "width": 10e-3, "load": 62.0, "material": "steel"},
+        lubricant={"viscosity": 0.138, "eyring_stress": 5e6},
+        motion={"slide_roll_ratio": 0.1},
+        surface={"sq": 87e-9, "correlation_length": 15e-6, "acf": "gaussian"},
+        contact={"shape": (160, 96), "spacing": 4e-6},
+    )
+    (by_equation, quick) = (lubfric.friction(scene.with_(numerics={"model": name}), 0.5) for name in ("paper", "quick"))
+    assert by_equation.contact_load == 0 and by_equation.film_to_roughness_ratio > 5
+    assert quick.coefficient == by_equation.coefficient and quick.uncertainty.model == by_equation.uncertainty.model
+    assert "where the error of load sharing is the smaller one" in quick.uncertainty.text
+
+
 def test_the_bounds_grow_where_no_case_is_alike():
     """x C x of the coefficients: at a hundred times the change by cells of any case it is no longer small."""
     model = error_models()["rest"]

@@ -42,7 +42,9 @@ ELASTIC = "elastic shear (lubricant.shear_modulus) is not calibrated: friction b
 NOT_FLOODED = (
     "f of Eq. (9) with the error of load sharing: the campaign behind the calibration has flooded contacts only"
 )
-THICK_FILM_NOTE = "f of Eq. (9): the film is thick and touches no asperity, where the error of load sharing is small"
+THICK_FILM_NOTE = (
+    "f of Eq. (9): the film is thick and touches no asperity, where the error of load sharing is the smaller one"
+)
 STRIPS_NOT_SOLVED = "f of Eq. (9) with the error of load sharing: the strips on long cells were not solved ({})"
 
 
@@ -105,9 +107,14 @@ class QuickSolution(SampleSolution):
             why = THICK_FILM_NOTE if solution._is_separated_within(of_thick_films) else ""
         if not why:
             try:
-                return replace(solution, on_long_cells=solve_on_long_cells(self.prepared, self.speed))
+                with_strips = replace(solution, on_long_cells=solve_on_long_cells(self.prepared, self.speed))
             except ConvergenceError as error:
                 why = STRIPS_NOT_SOLVED.format(error)
+            else:
+                error_of_strips = max(with_strips.answer().model_error)
+                if not (of_thick_films > 0 and solution._is_separated_within(error_of_strips)):
+                    return with_strips
+                why = THICK_FILM_NOTE
         return replace(solution._with_paper_solution(), why_by_equation=why)
 
     def _with_paper_solution(self) -> QuickSolution:

@@ -32,7 +32,7 @@ COLUMNS_OF_CASE = ("seed", "repeat", "per_length")  # of the table of numbers: w
 BIAS = {"rest": ("one", "cells"), "rolling": ("one", "narrowed", "summits")}
 
 # Features of ln of its standard deviation.
-SPREAD = {"rest": ("one", "ln cells", "ln film", "ln below"), "rolling": ("one", "ln film", "rolling", "ln near")}
+SPREAD = {"rest": ("one", "ln cells", "ln film", "ln below"), "rolling": ("one", "ln film", "ln rolling", "ln near")}
 
 # What cells shorter than those of a reference at rest would still change of ln f, over what these have changed from the long
 # ones: ln f moves by .17 of its change before when the cells are halved (276 cases on three lengths), .2 in all.

@@ -10,7 +10,7 @@ from ...kept import Run
 from .fit import MOTIONS, Design, HeldOut, Solved, cases, design, held_out, quantile_of
 
 LEAST = 0.92  # share of cases within the bounds, of all kinds together
-TARGETS = {"rest": 0.15, "rolling": 0.18}  # median half-widths that issue 46 asks for
+TARGETS = {"rest": 0.15, "rolling": 0.18}  # median half-widths, the target
 WORDS = {"rest": "at rest", "rolling": "rolling"}
 
 
