@@ -171,7 +171,7 @@ def test_rolling_roughness_moves_or_gets_load_sharing_and_the_reason(monkeypatch
     monkeypatch.setattr("lubfric.models.deterministic.rough_bodies.MOST_WORK_IN_AUTO", 0.1)
     costly = lubfric.friction(small, 0.01)
     assert costly.decision.model == "quick"
-    assert "s of processor time, more than 0.1 s" in costly.decision.text
+    assert "s of counted work, more than 0.1 s" in costly.decision.text
     assert abs(moved.coefficient / costly.coefficient - 1) < costly.uncertainty.model < 1.5
 
 

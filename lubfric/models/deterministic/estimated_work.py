@@ -2,7 +2,6 @@
 (`counted_work`). Nothing is solved."""
 
 import math
-from dataclasses import replace
 
 from ...samples import PIECE, Sample
 from ...scene import BOUNDARY_FRICTION_KEY, Scene, has_moving_roughness, why_gap_not_resolved
@@ -13,7 +12,6 @@ from .cells_in_motion import CellsInMotion
 from .counted_work import work_of_steps
 from .levels import DIFFERENCE_SHARE, HALVED_WORK
 from .linear import HIGH_PRESSURE
-from .moving_strip import OF_SHEAR
 from .problem import are_soft, reach
 from .rough_bodies import MOST_WORK_IN_AUTO, moving_point_work
 from .shorter_cells import LAST_PIECE, SHORT
@@ -77,10 +75,6 @@ BY_SLIDING = 0.318
 
 # The least of the former product over Λ in those contacts [-]: below it the number of steps is that at it.
 LEAST_THICKENING = 0.56
-
-# Slide-roll ratio from which the ends of the stress of an oil are expected to be solved in motion [-]: a gear flank at 1.07 had
-# them, a needle roller at 0.01 and a bearing at 0.03 had not.
-SOLVED_ENDS_SLIDING = 0.3
 
 # Change of ln f with ln of the boundary film that is expected of moving roughness [-], where the full-load film over Sq is within
 # `MIXED_FILMS`: the larger of the values between which it lies in most of the 301 contacts of verification.campaigns.calibration, 0 and
@@ -255,11 +249,7 @@ def work_on_strips(
     """Return the counted work [s] of ``count`` strips on cells ``sample_coarsening`` times as long as those of ``sample``, and of the
     ends of input ranges; ``sq`` [m]: of the surface."""
     if has_moving_roughness(scene):
-        slides = abs(scene.motion.slide_roll_ratio) > SOLVED_ENDS_SLIDING  # else these are not solved again
-        continued = tuple(ends for ends in scene.ranges if slides or ends[0] not in OF_SHEAR)
-        work = moving_point_work(
-            replace(scene, ranges=continued), sample, sq=sq, speed=speed, sample_coarsening=sample_coarsening
-        )
+        work = moving_point_work(scene, sample, sq=sq, speed=speed, sample_coarsening=sample_coarsening)
         return count * _seconds_in_motion(scene, sample, sq=sq, speed=speed, work=work)
     (fx, fy) = sample_coarsening
     (dx, dy) = sample.cells.spacing
