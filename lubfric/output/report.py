@@ -3,7 +3,6 @@
 import base64
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from html import escape
 from importlib.resources import files
 from string import Template
@@ -426,13 +425,13 @@ def _history_effects(prepared: Prepared, result: TransientResult, estimate: Scen
         return _effects(estimate.effects, "at the largest speed")
     index = int(rolls[np.argmin(np.abs(result.coefficient[rolls] - result.average().coefficient))])
     time = float(result.time[index])
-    moment = replace(scene_at(prepared.scene, time), ranges=prepared.scene.ranges)
     load = result.load[index]
     effects = unmodelled_effects(
-        moment,
+        scene_at(prepared.scene, time),
         prepared.surface.sq,
         abs(float(result.entrainment_speed[index])),
         (abs(float(result.boundary_force[index] / load)), abs(float(result.coefficient[index]))),
+        run=prepared.scene,
         includes_motion=run_model_of(prepared.scene).moves_roughness,
     )
     return _effects(effects, f"at t = {worded(time, 's')}, where f is nearest to its mean")

@@ -79,8 +79,8 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
             failure = error
         _write(folder, scene, result, animation=arguments.animation)
         folder.complete(prepared, estimate, given_tables(arguments.scene), result, OF_MOMENT)
-    for line in history_answer(result, complete=failure is None):
-        commands.say(line)
+        for line in history_answer(result, complete=failure is None):  # before a file that was not written is an error
+            commands.say(line)
     if failure:
         raise failure
 

@@ -12,10 +12,13 @@ import scene_text
 import lubfric
 from lubfric._base import files
 from lubfric.output import commands, main, run_history, run_in_command
-from lubfric.scene import Harmonic, Transient
+from lubfric.quantities import KEYS
+from lubfric.scene import Harmonic, Transient, typical
 
 IN_TIME = scene_text.paper_scene(numerics={"model": "paper", "sampling": "patch"}).with_(
     motion={"entrainment_speed": 0.03},
+    bodies={"hardness": [7e9, 8e9], "boundary_friction_coefficient": [0.1, 0.14]},
+    lubricant={"eyring_stress": [4e6, 6e6], "limiting_stress_coefficient": [0.04, 0.09]},
     transient=Transient(duration=3e-4, outputs=2, speed=Harmonic(mean=0.03, amplitude=0.01, frequency=250.0)),
 )
 RUN_IN = scene_text.paper_scene(numerics={"model": "paper", "sampling": "patch"}, bodies={"hardness": 2e9})
@@ -70,6 +73,19 @@ def test_each_writer_of_a_run_in_time_may_fail(name, missing, whole, tmp_path, c
     without_solving(monkeypatch)
     code, said = run(capsys, "run", scene_file, out)
     assert code == 0 and (out / missing).exists() and (out / "history.csv").read_text() == table
+
+
+def test_a_run_in_time_whose_inputs_have_ranges_has_a_report(whole):
+    """All keys that take a range have one here."""
+    assert {name for name, *_ in IN_TIME.ranges} == {key for key in KEYS if typical(key)}
+    assert "another additive" not in (whole["run"][0].parent / "out" / "report.html").read_text(encoding="utf-8")
+
+
+def test_a_report_that_fails_costs_no_answer(whole, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(commands, "report_page", broken)
+    code, said = run(capsys, "run", whole["run"][0], tmp_path / "out")
+    assert code == 2 and "report.html was not written (RuntimeError: 'broken on purpose')" in said
+    assert "The mean friction coefficient over" in said and "The mean power loss is" in said
 
 
 @pytest.mark.parametrize("name, missing", {"_npy": "surface.npy", "_page": "report.html", "_record": "run_in.json", "draw_run_in": "run_in.png", "scene_after": "scene.toml", "table_bytes": "run_in.csv"}.items())  # fmt: skip

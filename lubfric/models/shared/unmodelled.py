@@ -72,17 +72,24 @@ ExpectedEffect = tuple[str, float, float, str]  # the effect; lowest and highest
 
 
 def unmodelled_effects(
-    scene: Scene, sq: float, speed: float, known: tuple[float, float] | None = None, *, includes_motion: bool = True
+    scene: Scene,
+    sq: float,
+    speed: float,
+    known: tuple[float, float] | None = None,
+    *,
+    run: Scene | None = None,
+    includes_motion: bool = True,
 ) -> tuple[UnmodelledEffect, ...]:
     """Return the effects that are not modelled for ``scene``, whose surface has the standard deviation ``sq`` [m], at
     ``speed`` [m/s]: the largest change of f first, what is not known last. What would change f by less than
     ``numerics.tolerance`` is not reported.
 
-    ``known``: the friction [-] of asperities alone and of all, of a result there, if there is one; ``includes_motion``:
-    whether the model has the motion of the roughness (`lubfric.models.Model.includes_motion`).
+    ``known``: the friction [-] of asperities alone and of all, of a result there, if there is one; ``run``: the scene of
+    the run in time of which ``scene`` is one moment, which holds the ranges and tables that a moment has not;
+    ``includes_motion``: whether the model has the motion of the roughness (`lubfric.models.Model.includes_motion`).
     """
     tolerance = scene.numerics.tolerance
-    effects = _all_effects(scene, sq, speed, known, includes_motion=includes_motion)
+    effects = _all_effects(scene, sq, speed, known, run=run, includes_motion=includes_motion)
     kept = [effect for effect in effects if not abs(effect[1]) <= tolerance]
     return tuple(sorted(kept, key=lambda effect: -abs(effect[1]) if math.isfinite(effect[1]) else 0.0))
 
@@ -113,16 +120,24 @@ def expected_effects(
 
 
 def _all_effects(
-    scene: Scene, sq: float, speed: float, known: tuple[float, float] | None = None, *, includes_motion: bool
+    scene: Scene,
+    sq: float,
+    speed: float,
+    known: tuple[float, float] | None = None,
+    *,
+    run: Scene | None = None,
+    includes_motion: bool,
 ) -> list[UnmodelledEffect]:
-    """Return all effects, however small."""
+    """Return all effects, however small; arguments as of `unmodelled_effects`."""
     bodies = scene.bodies
+    whole = run or scene
     rubbing, friction = known or _parts(scene, sq, speed)
     effects = (
         [] if speed == 0 or not friction > 0 else _of_film(scene, sq, speed, known, includes_motion=includes_motion)
     )
     is_stated = (
-        any("boundary_friction" in name for name, *_ in scene.ranges) or bodies.boundary_friction_table is not None
+        any("boundary_friction" in name for name, *_ in whole.ranges)
+        or whole.bodies.boundary_friction_table is not None
     )
     if friction > 0 and not is_stated:
         what = f"another additive, a coating or a tribofilm (f_b x {RUBBED:g})"
