@@ -19,7 +19,7 @@ from .fit_checks import residual_tests, root_mean_square
 from .fit_curves import FitCurves, coarse_measured, coarse_scene, fit_tolerance
 from .fit_input import SLIDE_ROLL_RATIO_COLUMN, Measured, parameters_of, values_at
 from .fit_profile import Profile, flat_parameters, follow
-from .fit_result import FitResult
+from .fit_result import AT_BOUND, FitResult
 from .fit_search import INSIDE, Candidate, estimated_curves, search_minima, sobol_count, with_minimum
 from .store import opened
 from .vary import Between, unit_of
@@ -340,6 +340,8 @@ def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[C
     variance += float(np.mean(numerical**2))  # the data do not see a change of f below its numerical error
     _, singular, axes = np.linalg.svd(end.jac, full_matrices=False)
     effect = np.maximum(singular, max(1e-8 * singular[0], LEAST_SLOPE))  # a direction without effect: a huge variance
+    is_free = np.minimum(end.x, 1.0 - end.x) >= AT_BOUND
+    scale = measured.scale if stated else predicted  # without the noise of the measured f
     status = CONVERGED if end.status > 0 else ITERATION_LIMIT
     advice = "give start = {...} closer to the answer, narrower bounds, or fewer parameters"
     report = Report(
@@ -365,10 +367,12 @@ def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[C
         sampling=np.array([point.uncertainty.sampling for point in points]),
         tests=residual_tests(
             measured.x,
-            end.fun,
-            p,
+            end.fun * measured.scale / scale,
+            (end.jac * (measured.scale / scale)[:, None])[:, is_free],
             numerical,
             stated=stated,
+            fitted=predicted,
+            scale=scale,
             relative=root_mean_square(predicted / measured.coefficient - 1.0),
             expected=root_mean_square(np.nan_to_num(model_error)),
         ),

@@ -1,4 +1,9 @@
-"""Whether a fit describes its data: the size of the residuals against the stated noise, and their signs and order."""
+"""Whether a fit describes its data: the size of the residuals against the stated noise, their order, and whether an offset
+or a factor of the measured f would explain them.
+
+The residuals of a fit are not independent: what its parameters can follow is taken out of them. So the probabilities are
+those among residuals of random noise from which the same parameters take out the same, to first order.
+"""
 
 import math
 from dataclasses import dataclass
@@ -10,8 +15,23 @@ from .._base import FloatArray
 # Probability of the residuals, if the fit describes the data, below which it is said not to.
 SIGNIFICANCE = 0.01
 
-# Random orders of the residuals, where these are too many for all orders; fixed, so that a fit is repeatable.
-RANDOM_ORDERS = 9999
+# The same below which the residuals are said not to be random, and the fit perhaps not to describe the data.
+DOUBTED = 0.05
+
+# Random residuals with which those of a fit are compared; fixed, so that a fit is repeatable.
+RANDOM_RESIDUALS = 9999
+
+# Numbers in these, at most: more points are compared with fewer.
+MOST_NUMBERS = 5_000_000
+
+# Fewest points of which the order is tested.
+FEWEST_OF_ORDER = 4
+
+# Smallest part of the column of an offset or a factor that the parameters leave: below it they stand for it.
+LEAST_REST = 1e-3
+
+# Share of the sum of squares from which an offset is said to explain the residuals. A convention.
+EXPLAINING = 0.5
 
 # Root mean square residual relative to f that the scatter of a measurement explains, where its deviations are not stated.
 # A convention: friction on rigs repeats within some 5 to 10 %.
@@ -30,26 +50,36 @@ class ResidualTests:
     ----------
     size : probability of the sum of squares by the stated deviations (chi-square with n - p degrees of freedom)
     times_stated : root mean square residual over the stated deviations, with n - p degrees of freedom
-    runs : probability of so few runs of one sign over the measured range (Wald and Wolfowitz)
-    order : probability that neighbouring residuals are so alike, among all orders of the residuals (von Neumann's
-        ratio, by permutations)
-    small : whether the residuals are within the numerical error of f, so that their signs mean nothing
+    order : probability that neighbouring residuals are so alike (von Neumann's ratio)
+    shape : probability that a constant offset and a factor of the measured f explain so much of them (F test)
+    chance : probability of both (Fisher's combination)
+    offset : the constant offset of the measured f that makes the sum of squares least, to first order [-]
+    explained : share of the sum of squares that this offset explains
+    small : whether the residuals are within the numerical error of f, so that their order means nothing
     relative : root mean square residual relative to the measured f
     expected : root mean square model-form error of f at 95 %, relative; 0 where it is not known
     """
 
     size: float
     times_stated: float
-    runs: float
     order: float
+    shape: float
+    chance: float
+    offset: float
+    explained: float
     small: bool
     relative: float = math.nan
     expected: float = 0.0
 
     @property
     def systematic(self) -> bool:
-        """Whether the signs or the order of the residuals are not those of chance."""
-        return not self.small and min(_known(self.runs), _known(self.order)) < SIGNIFICANCE
+        """Whether the residuals are not those of chance, at 1 %."""
+        return not self.small and _known(self.chance) < SIGNIFICANCE
+
+    @property
+    def doubtful(self) -> bool:
+        """Whether the residuals are not those of chance at 5 %, but may be at 1 %."""
+        return not self.small and SIGNIFICANCE <= _known(self.chance) < DOUBTED
 
     @property
     def too_large(self) -> bool:
@@ -63,12 +93,17 @@ class ResidualTests:
         return math.isnan(self.size) and _known_error(self.relative) > max(LARGEST_UNSTATED, self.expected)
 
     @property
+    def describes(self) -> bool:
+        """Whether the fit describes the data as far as the tests show."""
+        return not (self.systematic or self.too_large or self.too_far)
+
+    @property
     def text(self) -> str:
-        """What the tests found, in a sentence; "" if the fit describes the data as far as they show."""
+        """Why the fit does not describe the data, in a sentence; "" if it does as far as the tests show."""
         how = []
         if self.systematic:
-            least, which = min((_known(self.runs), "signs"), (_known(self.order), "order"))
-            how.append(f"the residuals are systematic (their {which} has a probability of {least:.1g} by chance)")
+            chance = f"probability by chance {self.chance:.1g}{self._cause}"
+            how.append(f"the residuals are systematic ({chance})")
         if self.too_large:
             how.append(f"they are {self.times_stated:.2g} times as large as the stated deviations")
         if self.too_far:
@@ -86,84 +121,147 @@ class ResidualTests:
             + ("; state their deviations if they are known" if self.too_far else "")
         )
 
+    @property
+    def note(self) -> str:
+        """What the test of the order and the shape of the residuals found, where the fit describes the data."""
+        if not self.describes or math.isnan(self.chance):
+            return ""
+        if self.small:
+            return "the residuals are within the numerical error of f"
+        if self.doubtful:
+            return (
+                f"the residuals are not random: probability by chance {self.chance:.1g}{self._cause}; the fit may not "
+                "describe the data, and the intervals, which assume random residuals, may be too narrow"
+            )
+        return f"the intervals assume random residuals, which these may be: probability by chance {self.chance:.2g}"
+
+    @property
+    def _cause(self) -> str:
+        """What explains the residuals, to be appended; "" if nothing is known."""
+        if _known(self.shape) >= DOUBTED or not self.explained > EXPLAINING:
+            return ""
+        share = f"{100 * self.explained:.0f} % of their squares"
+        return f"; an offset of the measured f, of the order of {self.offset:.1g}, would explain {share}"
+
 
 def residual_tests(
-    x: np.ndarray,
-    residuals: np.ndarray,
-    parameters: int,
-    numerical: np.ndarray,
+    x: FloatArray,
+    residuals: FloatArray,
+    jacobian: FloatArray,
+    numerical: FloatArray,
     *,
     stated: bool,
+    fitted: FloatArray | None = None,
+    scale: FloatArray | None = None,
     relative: float = math.nan,
     expected: float = 0.0,
 ) -> ResidualTests:
-    """Return the tests of ``residuals`` (n,) over ``x`` (n,), left by a fit of so many ``parameters``.
+    """Return the tests of ``residuals`` (n,) over ``x`` (n,).
 
-    ``numerical`` (n,): numerical error of f in the unit of the residuals; ``stated``: whether the residuals are in
-    stated deviations; ``relative`` and ``expected``: as in `ResidualTests`.
+    Parameters
+    ----------
+    jacobian : of the residuals by the parameters, (n, p)
+    numerical : numerical error of f in the unit of the residuals, (n,)
+    stated : whether the residuals are in stated deviations
+    fitted : f of the fit, (n,); None: 1
+    scale : what its residuals are divided by, (n,); None: 1. The measured f itself must not be: it holds the noise
+    relative, expected : as in `ResidualTests`
     """
     from scipy.stats import chi2
 
-    order = np.argsort(x)
-    freedom = residuals.size - parameters
-    variance = 1.0 + numerical**2
-    squares = float(np.sum(residuals**2 / variance))
-    signs = residuals[order] > 0
+    count = residuals.size
+    along = np.argsort(x, kind="stable")
+    freedom = max(count - jacobian.shape[1], 1)
+    squares = float(np.sum(residuals**2 / (1.0 + numerical**2)))
+    per_offset = np.ones(count) if scale is None else 1.0 / scale
+    per_factor = per_offset if fitted is None else fitted * per_offset
+    error = float(np.sqrt(np.sum(numerical**2)))
+    axes = _axes_of(jacobian[along], error)
+    both = np.stack([per_offset, per_factor], axis=1)[along]
+    order, shape, chance = chance_of(residuals[along], axes, _new_axes(both, axes))
+    offset, explained = _offset(residuals[along], axes, per_offset[along])
     return ResidualTests(
         size=float(chi2.sf(squares, freedom)) if stated else math.nan,
         times_stated=math.sqrt(squares / freedom) if stated else math.nan,
-        runs=probability_of_runs(signs),
-        order=probability_of_order(residuals[order]),
+        order=order,
+        shape=shape,
+        chance=chance,
+        offset=offset,
+        explained=explained,
         relative=relative,
         expected=expected,
         small=bool(np.sqrt(np.mean(residuals**2)) <= ABOVE_NUMERICAL * np.sqrt(np.mean(numerical**2))),
     )
 
 
-def probability_of_runs(signs: np.ndarray) -> float:
-    """Return the probability of as few runs of equal ``signs`` (n,) as these, or fewer, if all orders are alike.
+def chance_of(residuals: FloatArray, axes: FloatArray, further: FloatArray) -> tuple[float, float, float]:
+    """Return the probabilities of the order of ``residuals`` (n,), of what ``further`` axes explain of them, and of both.
 
-    A. Wald and J. Wolfowitz, Ann. Math. Statist. 11 (1940) 147-162, doi:10.1214/aoms/1177731909.
+    They are those among random residuals (normal, alike at all points) without what the parameters follow: the order by
+    the sum of the products of neighbours over the sum of squares (J. von Neumann, Ann. Math. Statist. 12 (1941) 367-395,
+    doi:10.1214/aoms/1177731677), the further axes by the F test of two nested models, and both by the product of the two
+    probabilities (R. A. Fisher), whose distribution is that among the random residuals as well, as the two are not
+    independent.
+
+    Parameters
+    ----------
+    residuals : in the order of the measurement's axis, (n,)
+    axes : orthonormal, of what the parameters follow, (n, p)
+    further : orthonormal and normal to ``axes``: of what else may explain the residuals, (n, q); q = 0: not tested
+
+    Returns NaN for what cannot be tested.
     """
-    positive = int(np.count_nonzero(signs))
-    negative = signs.size - positive
-    if not positive or not negative:
-        return 1.0
-    runs = 1 + int(np.count_nonzero(signs[1:] != signs[:-1]))
-    ways = sum(_ways(count, positive, negative) for count in range(2, runs + 1))
-    return ways / math.comb(signs.size, positive)
+    from scipy.stats import f, rankdata
+
+    count = residuals.size
+    left = count - axes.shape[1] - further.shape[1]
+    if count < FEWEST_OF_ORDER or count <= axes.shape[1] + 1:
+        return math.nan, math.nan, math.nan
+    draws = min(RANDOM_RESIDUALS, MOST_NUMBERS // count)
+    random = np.random.default_rng(0).standard_normal((draws, count))
+    every = np.concatenate([residuals[None, :], random])
+    every -= (every @ axes) @ axes.T
+    squares = np.sum(every**2, axis=1)
+    if not squares[0] > 0.0:
+        return math.nan, math.nan, math.nan
+    alike = np.sum(every[:, 1:] * every[:, :-1], axis=1) / squares
+    of_order = rankdata(-alike, method="max") / every.shape[0]
+    if not further.shape[1] or left < 1:
+        return float(of_order[0]), math.nan, float(of_order[0])
+    explained = np.sum((every @ further) ** 2, axis=1) / squares
+    ratio = explained / further.shape[1] / np.maximum((1.0 - explained) / left, np.finfo(float).tiny)
+    of_shape = f.sf(ratio, further.shape[1], left)
+    product = np.log(of_order) + np.log(np.maximum(of_shape, np.finfo(float).tiny))
+    of_both = float(np.mean(product <= product[0]))
+    return float(of_order[0]), float(of_shape[0]), of_both
 
 
-def _ways(runs: int, positive: int, negative: int) -> int:
-    """Return the number of orders of so many signs with so many ``runs``."""
-    half, odd = divmod(runs, 2)
-    if not odd:
-        return 2 * math.comb(positive - 1, half - 1) * math.comb(negative - 1, half - 1)
-    more = math.comb(positive - 1, half) * math.comb(negative - 1, half - 1)
-    return more + math.comb(positive - 1, half - 1) * math.comb(negative - 1, half)
+def _axes_of(jacobian: FloatArray, error: float) -> FloatArray:
+    """Return orthonormal axes, (n, q), of what the parameters change of the residuals over their bounds by more than
+    ``error``."""
+    axes, singular, _ = np.linalg.svd(jacobian, full_matrices=False)
+    return np.asarray(axes[:, singular > max(error, 1e-8 * singular.max(initial=0.0))])
 
 
-def probability_of_order(residuals: np.ndarray) -> float:
-    """Return the probability that the sum of the products of neighbouring ``residuals`` (n,) is as large as this one,
-    if all orders of them are alike (J. von Neumann, Ann. Math. Statist. 12 (1941) 367-395)."""
-    from scipy.stats import permutation_test
+def _new_axes(columns: FloatArray, axes: FloatArray) -> FloatArray:
+    """Return orthonormal axes of ``columns`` (n, m) without ``axes`` (n, p) and without what is next to them."""
+    columns = columns / np.linalg.norm(columns, axis=0)
+    left = columns - axes @ (axes.T @ columns)
+    new, singular, _ = np.linalg.svd(left, full_matrices=False)
+    return np.asarray(new[:, singular > LEAST_REST])
 
-    def neighbours(values: np.ndarray, axis: int = -1) -> float | FloatArray:
-        values = np.moveaxis(values, axis, -1)
-        return np.sum(values[..., 1:] * values[..., :-1], axis=-1)
 
-    if residuals.size < 4:
-        return 1.0
-    result = permutation_test(
-        (residuals,),
-        neighbours,
-        permutation_type="pairings",
-        alternative="greater",
-        n_resamples=RANDOM_ORDERS,
-        vectorized=True,
-        random_state=np.random.default_rng(0),
-    )
-    return float(result.pvalue)
+def _offset(residuals: FloatArray, axes: FloatArray, per_offset: FloatArray) -> tuple[float, float]:
+    """Return the offset of the measured f that makes the sum of the squared ``residuals`` least, with the parameters moved
+    along to first order, and the share of the sum that it explains; NaN where the parameters stand for it."""
+    left = per_offset - axes @ (axes.T @ per_offset)
+    length = float(np.linalg.norm(left))
+    own = residuals - axes @ (axes.T @ residuals)
+    squares = float(own @ own)
+    if length <= LEAST_REST * float(np.linalg.norm(per_offset)) or squares == 0.0:
+        return math.nan, math.nan
+    along = float(left @ own) / length
+    return -along / length, along**2 / squares
 
 
 def _known(probability: float) -> float:

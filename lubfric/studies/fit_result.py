@@ -167,7 +167,7 @@ class FitResult(Renamed, Shown):
     def describes_data(self) -> bool:
         """False where the residuals are systematic, or larger than the stated deviations, or else the usual scatter and the
         model-form error, allow. Such a fit has no meaningful intervals."""
-        return self.tests is None or not self.tests.text
+        return self.tests is None or self.tests.describes
 
     @property
     def other_minima(self) -> tuple[dict[str, float], ...]:
@@ -273,6 +273,8 @@ class FitResult(Renamed, Shown):
         lines.append(
             f"  root mean square deviation of the points from the fit: {100 * scatter:.2g} % of the measured f"
         )
+        if self.tests is not None and self.tests.note:
+            lines.append(f"  {self.tests.note}")
         warnings = (*self._identifiability(), self._model_note(), self._surface_note(), *self.validity)
         return "\n".join([*lines, *(f"  {text}" for text in warnings if text)])
 
