@@ -12,6 +12,7 @@ from ..estimate import estimated_work_of_point, seconds_of_points
 from ..models import AUTO, model_named, models_that_may_answer
 from ..models.deterministic import MOST_WORK_IN_AUTO
 from ..models.shared import (
+    IF_ALL,
     ExpectedEffect,
     Violation,
     beforehand,
@@ -71,7 +72,7 @@ class SceneEstimate:
     command_seconds : processor time of ``lubfric run``, with its start, pictures and files
     table : of some speeds, their headings first: expected film, whether it separates the surfaces, what the sample
         costs
-    refusals : assumptions that fail by what is known so far, so that f means nothing
+    refusals : assumptions that fail by what is known so far, so that f means nothing, or may mean nothing
     effects : effects that are not modelled (`lubfric.models.shared.expected_effects`)
     run : steps and time of a run in time; None of any other scene
     """
@@ -137,7 +138,7 @@ def estimate_scene(
         *((None, violation) for violation in violations_by_form(scene, sample.own_maps, is_given=False)),
         *first_model.expected_violations(scene, sorted(set(speeds))),
     ]
-    refusals = _doubts([(speed, violation) for speed, violation in at if violation.severe])
+    refusals = _doubts([pair for pair in at if pair[1].severe or IF_ALL in pair[1].consequence])
     scene_map = sample.map
     notes = [note for note in scene_map.notes if "nm as measured" in note]
     effects = expected_effects(

@@ -110,7 +110,7 @@ def test_a_refused_point_is_said_kept_and_can_be_accepted(tmp_path, capsys):
     command = ["run", str(tmp_path / "heavy.toml"), "--speeds", "0.001", "--fields", "0.001", "--out"]
     assert main([*command, str(tmp_path / "o")]) == 1
     said = capsys.readouterr().err
-    assert said.index("estimate: ") < said.index("not valid") < said.index("[1/1]")
+    assert said.index("estimate: ") < said.index("refused only if") < said.index("[1/1]") < said.index("not valid")
     assert "Newtonian shear reaches" in said and "eyring_stress" in said and "--accept" in said
     record = json.loads((tmp_path / "o" / "result.json").read_text())
     assert record["points"][0]["validity"][0]["severe"] in (True, False) and "not valid" in record["points"][0]["error"]

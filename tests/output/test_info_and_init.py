@@ -1,6 +1,7 @@
 """`lubfric info` names every input with its unit and tells what will be refused; `lubfric init` writes what runs."""
 
 import csv
+import math
 import re
 
 import numpy as np
@@ -35,6 +36,13 @@ def test_every_input_stands_with_its_unit():
     stated += "|surface speeds 0.975 and 1.025 m/s"
     for words in stated.split("|"):
         assert words in text, words
+
+
+def test_info_refuses_no_newtonian_oil_between_asperities_that_friction_answers():
+    rough = HEAVY.with_(surface={"sq": 1e-6}, numerics={"model": "paper"})
+    assert math.isfinite(lubfric.friction(rough).coefficient)
+    stated = describe_scene(rough).partition("  validity\n")[2]
+    assert "not valid" not in stated and "the result is refused only if it is above 0.2" in stated
 
 
 def test_info_reports_beforehand_what_friction_refuses():

@@ -29,6 +29,7 @@ from ..shared import (
     expected_on_hertz,
     percent_beside,
     rolling_model_error,
+    stated_sq,
     why_no_rough_film,
 )
 from .calibrated_error import error_model_of, out_of_range, reported, widening
@@ -203,7 +204,7 @@ class QuickModel(Model):
         at_all = out_of_range(scene, None, 0.0, known)
         expected: list[tuple[float | None, Violation]] = [(None, part.violation) for part in reported(at_all)]
         for speed in speeds:
-            sq = _stated_sq(scene)
+            sq = stated_sq(scene)
             if not _is_thick_film_expected(scene, sq, speed):  # else load sharing answers, without long cells
                 outside = out_of_range(scene, sq, speed, known)
                 expected += [(speed, part.violation) for part in reported(outside) if part not in at_all]
@@ -285,12 +286,6 @@ def _is_thick_film_expected(scene: Scene, sq: float | None, speed: float) -> boo
         return False
     film = scene.line_contact(abs(speed)).expected_film
     return 0 < expected_model_error(scene, film, sq, abs(speed)) <= _error_of_thick_films(scene, sq, speed)
-
-
-def _stated_sq(scene: Scene) -> float | None:
-    """Return the Sq [m] of all roughness of ``scene``, if it states that of each body."""
-    parts = [rough.sq for rough in (scene.surface, scene.counterface) if rough is not None]
-    return None if None in parts else math.hypot(*(part for part in parts if part is not None))
 
 
 def _with_known(paper_solution: PaperSolution) -> QuickSolution:

@@ -24,12 +24,14 @@ from .checks import (
     violations_by_typical_heat,
 )
 from .checks_before import (
+    IF_ALL,
     MAP_WIDTH,
     ExpectedViolations,
     beforehand,
     expected_in_film,
     expected_on_hertz,
     is_by_form,
+    stated_sq,
     violations_by_bodies,
     violations_by_form,
     violations_by_map,
