@@ -48,6 +48,11 @@ def test_the_likely_size_is_that_of_the_scene_that_has_it_to_a_factor_of_three(s
         "oil": None,
         "viscosity": ROLLER.lubricant.viscosity * math.exp(-10 * ROLLER.lubricant.temperature_coefficient),
     }
+    alpha = ROLLER.lubricant.oil.pressure_viscosity_coefficient(ROLLER.lubricant.temperature)
+    for word, end in {"the least": alpha.low, "the most": alpha.high}.items():
+        there = ROLLER.with_(lubricant={"pressure_viscosity_coefficient": end})
+        change = lubfric.friction(there, speed).coefficient / result.coefficient - 1
+        assert told(result.unmodelled_effects, word) == pytest.approx(change, rel=0.4), word
     for word, there in (
         ("starved", ROLLER.with_(lubricant=film)),
         ("warmer", ROLLER.with_(lubricant=warm)),
@@ -72,7 +77,8 @@ def test_what_is_given_and_what_is_below_the_tolerance_is_not_reported():
     assert "running-in" not in smooth and "motion" not in smooth
     loose = dataclasses.replace(ROLLER, numerics=dataclasses.replace(ROLLER.numerics, tolerance=0.2))
     assert all(abs(change) > 0.2 or math.isnan(change) for _, change, _ in unmodelled_effects(loose, SQ, 0.3))
-    assert [what for what, *_ in unmodelled_effects(loose, 0.0, 1.0)] == []
+    given = loose.with_(lubricant={"pressure_viscosity_coefficient": 18e-9})
+    assert [what for what, *_ in unmodelled_effects(given, 0.0, 1.0)] == []
     assert "f_b" in unmodelled_effects(paper_scene(), 1e-7, 0.0)[0][0]
 
 
@@ -100,6 +106,15 @@ def test_a_soft_body_is_answered_with_how_thick_its_cover_has_to_be():
     soft = ROLLER.with_(bodies={"e_prime": 2e7, "load": 100.0})
     (cover,) = [what for what, *_ in unmodelled_effects(soft, SQ, 1.0) if "cover" in what]
     assert f"{5e3 * soft.bodies.half_width:.2g} mm" in cover
+
+
+def test_a_given_pressure_viscosity_coefficient_is_exact():
+    oil = ROLLER.lubricant
+    given = ROLLER.with_(lubricant={"pressure_viscosity_coefficient": oil.pressure_viscosity_coefficient})
+    (estimated, exact) = (
+        " ".join(what for what, *_ in unmodelled_effects(scene, SQ, 1.0)) for scene in (ROLLER, given)
+    )
+    assert "which is estimated" in estimated and "which is estimated" not in exact
 
 
 def test_a_starved_inlet_is_reported_where_the_asperities_carry_most():

@@ -181,6 +181,11 @@ def _of_film(
         words = f"the inlet is flooded if oil reaches {1e3 * reach:.2g} mm ahead of the contact line; if not, give lubricant.inlet_length"
         size = math.nan if narrow and alone else change(scene, sq, STARVED_EXAMPLE)  # the rolling part may fall by more
         effects.append((f"a starved inlet (film x {STARVED_EXAMPLE:g})", size, words))
+    for end, other in _at_ends_of_alpha(scene).items():
+        words = f"the pressure-viscosity coefficient, which is estimated, at {end} of measured oils"
+        effects.append(
+            (words, change(other, sq), "give lubricant.pressure_viscosity_coefficient; the interval is without it")
+        )
     words = f"oil in the inlet {WARMER:g} K warmer than the given temperature"
     effects.append((words, change(warm, sq), "give lubricant.temperature at the inlet of the contact"))
     if sq > 0:
@@ -196,6 +201,21 @@ def _of_film(
         words = f"a cover that is thinner than {1e3 * DEEP * line.half_width:.2g} mm, and its damping"
         effects.append((words, math.nan, "give e_prime so that the contact is as wide as measured"))
     return effects
+
+
+def _at_ends_of_alpha(scene: Scene) -> dict[str, Scene]:
+    """Return ``scene`` with the least and the largest pressure-viscosity coefficient of measured oils, by what that is as text; {}
+    where the coefficient is given."""
+    lubricant = scene.lubricant
+    if lubricant.oil is None or lubricant.temperature is None:
+        return {}
+    alpha = lubricant.oil.pressure_viscosity_coefficient(lubricant.temperature)
+    if alpha.low == alpha.high:
+        return {}
+    return {
+        f"{1e9 * end:.3g} 1/GPa, the {word}": scene.with_(lubricant={"pressure_viscosity_coefficient": end})
+        for word, end in {"least": alpha.low, "most": alpha.high}.items()
+    }
 
 
 def _scaled(
