@@ -168,11 +168,11 @@ class TestModel:
         count = model.first_strips(prepared.sample)
         solution = model.solve(prepared, prepared.sample, count, 0.03)
         assert isinstance(solution, SampleSolution) and solution.count == count
-        assert solution.required_strips() >= count and solution.sampling_error.error >= 0
+        assert solution.required_strips() >= count and solution.sampling_error.value >= 0
         completed = solution.corrected().completed()
         assert completed.completed() is completed and (completed.may_suffice() or not completed.why_sufficient())
         answer = completed.answer()
-        assert 0 < answer.numbers["coefficient"] < 0.1 and answer.numerical > 0 and answer.sampling_error.error > 0
+        assert 0 < answer.numbers["coefficient"] < 0.1 and answer.numerical > 0 and answer.sampling_error.value > 0
         assert answer.report.converged
         assert answer.fields.heights.shape == answer.fields.shear.shape == answer.fields.pressure.shape
         again = model.solve(prepared, prepared.sample, count, 0.03, start=solution)

@@ -49,7 +49,7 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
     loss = _power_loss(scene, speed, model=choice.model, answer=answer, numbers=numbers, uncertainty=uncertainty)
     numbers["power_loss"] = loss.value
     errors = answer.errors | {"power_loss": loss.error}
-    sampling = answer.sampling_error.error
+    sampling = answer.sampling_error.value
     is_sampled_well = sampling <= SAMPLED_WELL * scene.numerics.sampling_tolerance
     of_answer = [each for each in answer.violations if each.what != MAP_WIDTH or not is_sampled_well]
     violations = (

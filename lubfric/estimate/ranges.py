@@ -24,20 +24,20 @@ def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tupl
     solved, and the hardness of a contact that is not lubfric's own, are not known.
     """
     scene = prepared.scene
-    changes: dict[str, tuple[float, ...] | str] = {}
+    changes_of_f: dict[str, tuple[float, ...] | str] = {}
     by_model: dict[str, tuple[float | None, ...]] = {}
     to_solve: list[Scene] = []
     for name, *ends in scene.at_ends():
         if name == BOUNDARY_FRICTION_KEY:
             load_ratio = answer.numbers["contact_load"] / scene.bodies.load
             slope = load_ratio * (scene.motion.slide_roll_ratio != 0)
-            changes[name] = tuple(slope * (value_of(end, name) - value_of(scene, name)) for end in ends)
+            changes_of_f[name] = tuple(slope * (value_of(end, name) - value_of(scene, name)) for end in ends)
         elif name == HARDNESS_KEY and not prepared.has_own_contact:
-            changes[name] = "the contact was given by the caller"
+            changes_of_f[name] = "the contact was given by the caller"
         elif answer.at_inputs is None:
-            changes[name] = "this model does not solve the ends of its range"
+            changes_of_f[name] = "this model does not solve the ends of its range"
         else:
-            changes[name] = "the solve at an end of its range did not converge"  # unless it does
+            changes_of_f[name] = "the solve at an end of its range did not converge"  # unless it does
             known = tuple(answer.change_without_solve(name, number, end) for number, end in enumerate(ends))
             by_model[name] = known
             to_solve += [end for end, change in zip(ends, known) if change is None]
@@ -45,8 +45,8 @@ def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tupl
     for name, known in by_model.items():
         relative = [next(solved) if change is None else change for change in known]
         if all(map(math.isfinite, relative)):
-            changes[name] = tuple(answer.numbers["coefficient"] * change for change in relative)
-    return changes
+            changes_of_f[name] = tuple(answer.numbers["coefficient"] * change for change in relative)
+    return changes_of_f
 
 
 def _changes_at(answer: ModelAnswer, ends: list[Scene]) -> list[float]:
@@ -72,19 +72,20 @@ def _or_nan(coefficient: Callable[[Scene], float], scene: Scene) -> float:
         return math.nan
 
 
-def with_missing_inputs(old: Uncertainty, f: float, changes: dict[str, tuple[float, float]]) -> Uncertainty:
-    """Return ``old`` of ``f`` with the relative ``changes`` of f at both ends of the range of inputs that the scene does not
-    give, by their keys (`lubfric.models.ModelAnswer.not_given`). They add up as squares, up and down for themselves."""
-    if not any(any(ends) for ends in changes.values()):
+def with_missing_inputs(old: Uncertainty, f: float, relative_changes: dict[str, tuple[float, float]]) -> Uncertainty:
+    """Return ``old`` of ``f`` with the ``relative_changes`` of f at both ends of the range of inputs that the scene does not
+    give, by their keys (`lubfric.models.ModelAnswer.not_given`). They add up as squares, towards 0 and away from it for
+    themselves."""
+    if not any(any(ends) for ends in relative_changes.values()):
         return old
-    towards, away = (math.hypot(*(side(0.0, *ends) for ends in changes.values())) for side in (min, max))
+    towards, away = (math.hypot(*(side(0.0, *ends) for ends in relative_changes.values())) for side in (min, max))
     below, above = (towards, away) if f >= 0 else (away, towards)
     low, high = old.interval
     return replace(
         old,
         not_given=max(towards, away),
         not_given_sides=(towards, away),
-        missing_input=max(changes, key=lambda name: max(map(abs, changes[name]))),
+        missing_input=max(relative_changes, key=lambda name: max(map(abs, relative_changes[name]))),
         interval=(f - math.hypot(f - low, f * below), f + math.hypot(high - f, f * above)),
     )
 
@@ -94,34 +95,33 @@ def _signed(percentage: float) -> str:
     return f"{percentage:+.{2 + (abs(percentage) >= 99.5)}g}" if percentage else "0"
 
 
-def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, ...] | str]) -> Uncertainty:
-    """Return ``old`` of ``f`` with the ``changes`` of f by the two ends of inputs, by name (`changes_by_ranges`).
+def widened(old: Uncertainty, f: float, changes_of_f: dict[str, tuple[float, ...] | str]) -> Uncertainty:
+    """Return ``old`` of ``f`` with the ``changes_of_f`` [-] by the two ends of inputs, by name (`changes_by_ranges`).
 
-    Those of several inputs add up as squares, up and down for themselves. One that is not known leaves ``inputs`` NaN,
+    Those of several inputs add up as squares, below and above f for themselves. One that is not known leaves ``inputs`` NaN,
     and a note.
     """
-    moved = {name: ends for name, ends in changes.items() if not isinstance(ends, str)}
-    down, up = (math.hypot(*(side(0.0, *ends) for ends in moved.values())) for side in (min, max))
+    moved = {name: ends for name, ends in changes_of_f.items() if not isinstance(ends, str)}
+    below, above = (math.hypot(*(side(0.0, *ends) for ends in moved.values())) for side in (min, max))
     low, high = old.interval
     notes = []
-    for name, ends in changes.items():
+    for name, ends in changes_of_f.items():
         begin = f"{name.partition('.')[2]} in its range: "
         if isinstance(ends, str):
             notes.append(f"{begin}not in the interval, as {ends}")
         elif not f:
             notes.append(f"{begin}f {ends[0]:+.2g} to {ends[1]:+.2g}")
         elif max(map(abs, ends)) > LEAST_REPORTED_CHANGE * abs(f):
-            changes_of_f = (0.0, *(100 * end / f for end in ends))  # at the value itself it is 0
-            percents = (min(changes_of_f), max(changes_of_f))
-            notes.append(f"{begin}f {' to '.join(map(_signed, percents))} %")
-    relative = max(down, up) / abs(f) if f else math.inf if max(down, up) else 0.0
-    complete = len(moved) == len(changes)
-    towards, away = (down, up) if f >= 0 else (up, down)
+            percents = (0.0, *(100 * end / f for end in ends))  # at the value itself it is 0
+            notes.append(f"{begin}f {' to '.join(map(_signed, (min(percents), max(percents))))} %")
+    relative = max(below, above) / abs(f) if f else math.inf if max(below, above) else 0.0
+    complete = len(moved) == len(changes_of_f)
+    towards, away = (below, above) if f >= 0 else (above, below)
     return replace(
         old,
         inputs=relative if complete else math.nan,
         input_sides=(towards / abs(f), away / abs(f)) if f and complete else (math.nan, math.nan),
-        interval=(f - math.hypot(f - low, down), f + math.hypot(high - f, up)),
+        interval=(f - math.hypot(f - low, below), f + math.hypot(high - f, above)),
         notes=(*old.notes, *notes),
         largest_input=max(moved, key=lambda name: max(map(abs, moved[name])), default=""),
     )

@@ -205,12 +205,12 @@ def interval(
     """Return value (1 ± sqrt(numerical² + (t sampling error)² + model error²)), t the 97.5 % quantile of Student's t with
     the degrees of freedom of the ``sampling_error``; ``model_error``: towards 0 and away from it; it counts where it is
     known."""
-    error = sampling_error.error
+    error = sampling_error.value
     if not math.isfinite(error):
         return math.nan, math.nan
     of_sample = student(sampling_error.freedom) * error if error else 0.0
-    below, above = (
+    towards, away = (
         abs(value) * math.hypot(numerical, of_sample, 0.0 if math.isnan(side) else side) for side in model_error
     )
-    down, up = (below, above) if value >= 0 else (above, below)
-    return value - down, value + up
+    below, above = (towards, away) if value >= 0 else (away, towards)
+    return value - below, value + above

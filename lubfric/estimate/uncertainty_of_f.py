@@ -30,9 +30,9 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
     of_solve = Uncertainty(
         coefficient=f,
         numerical=answer.numerical,
-        sampling=sampling_error.error,
+        sampling=sampling_error.value,
         interval=interval(f, numerical=answer.numerical, sampling_error=sampling_error, model_error=answer.model_error),
-        line_scatter=sampling_error.error * math.sqrt(answer.length / scene.bodies.width),
+        line_scatter=sampling_error.value * math.sqrt(answer.length / scene.bodies.width),
         effective_contacts=answer.effective_contacts,
         length=answer.length,
         freedom=float(sampling_error.freedom),

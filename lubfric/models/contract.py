@@ -103,16 +103,17 @@ class ModelAnswer:
     Attributes
     ----------
     numbers : quantities of a point by name (`lubfric.quantities`), among them ``coefficient``; those omitted are NaN
-    numerical : relative error of f by solver and grids
+    numerical : relative error of f by solver and grids, an estimate that the interval takes as a bound at 95 %
     sampling_error : relative standard error of f because the sample is finite; an error that is NaN is not known
     model_error : relative error of f by the model itself, at 95 %, towards 0 and away from it; NaN: not known
-    by_limit : part of ``model_error`` because the limiting stress of a Newtonian lubricant is not known
+    by_limit : part of ``model_error``, at 95 %, because the limiting stress of a Newtonian lubricant is not known
     largest_in_model : the largest part of the model error, as text; "": one part only
     narrows_numerical : what narrows ``numerical``, as text
     most_rolling_ratio : the largest that the rolling part of f may be, over its value; it bounds the interval
     not_given : relative changes of f at both ends of the range of an input that the scene does not give, by its name in
         words and its key; no part of ``model_error``
-    errors : relative errors of the other numbers, by name
+    errors : relative errors of the numbers, by name: of the sample the standard error, with ``numerical`` or what it is of
+        that number; the model-form error is not included
     why_no_error, reasons : why an error is not known: of those not in ``errors``, and of some by name
     length, effective_contacts, area_needed : of the sample (`lubfric.estimate.Uncertainty`)
     notes : what a reader should know of these errors

@@ -95,7 +95,7 @@ class TransientResult(Renamed, Shown):
         means over y
     report : how the run ended
     violations : the assumptions that do not hold at each output (`lubfric.Violation`); ``validity`` gathers them
-    inputs : how far the range of f_b moves f down and up at every time [-], (2, nt)
+    inputs : how far the range of f_b moves f below and above it at every time [-], (2, nt)
     not_in : inputs, as text, whose ranges are not in ``uncertainty``: a run is solved with their values alone
     requested : the output times [s] of the run, whether or not they were reached
     model_form_unknown : why the model-form error of f is not known and not in ``uncertainty``; "" where it is
@@ -223,19 +223,19 @@ class TransientResult(Renamed, Shown):
         f = self.coefficient
         error = self.sampling_error
         unknown = np.full(f.size, math.nan)
-        down, up = np.broadcast_to(self.inputs, (2, f.size))
+        below, above = np.broadcast_to(self.inputs, (2, f.size))
         sides = [self.columns.get(f"model_error_{end}", unknown) for end in ("low", "high")]
         return UncertaintyCurve(
             model_sides=np.stack(sides, axis=1),
             numerical=self.columns.get("shear_error", unknown),
             sampling=error,
-            interval=interval_in_time(self.columns, down, up),
+            interval=interval_in_time(self.columns, below, above),
             line_scatter=error * math.sqrt(self.line_length / self.width),
             effective_contacts=unknown,
             length=np.full(f.size, self.line_length),
             area_needed=unknown,
             model=np.fmax(*sides),
-            inputs=unknown if self.not_in else np.maximum(down, up) / np.maximum(np.abs(f), TINY),
+            inputs=unknown if self.not_in else np.maximum(below, above) / np.maximum(np.abs(f), TINY),
             text=tuple("; ".join((f"sampling {percent(each)}", *self.not_in)) for each in error),
         )
 
@@ -283,34 +283,34 @@ def _mean_known(values: np.ndarray, weight: np.ndarray) -> float:
 
 
 def errors_in_time(
-    columns: dict[str, np.ndarray], inputs_down: np.ndarray, inputs_up: np.ndarray
+    columns: dict[str, np.ndarray], inputs_below: np.ndarray, inputs_above: np.ndarray
 ) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """Return how far each part of the uncertainty budget moves f at every time, down and up, (nt,) each; NaN where it is
-    not known. ``inputs_down``, ``inputs_up`` (nt,) [-]: how far the range of f_b moves f."""
+    """Return how far each part of the uncertainty budget moves f at every time, below and above it, (nt,) each; NaN where it is
+    not known. ``inputs_below``, ``inputs_above`` (nt,) [-]: how far the range of f_b moves f."""
     f = columns["coefficient"]
     size = np.abs(f)
     sampling = student(MANY_BLOCKS) * columns["sampling_error"] * size
     numerical = columns.get("shear_error", np.zeros(f.size)) * size
     unknown = np.full(f.size, math.nan)
-    to_zero, away = (columns.get(f"model_error_{end}", unknown) * size for end in ("low", "high"))
+    towards, away = (columns.get(f"model_error_{end}", unknown) * size for end in ("low", "high"))
     return {
         "numerical": (numerical, numerical),
         "sampling": (sampling, sampling),
-        "model-form": (np.where(f >= 0, to_zero, away), np.where(f >= 0, away, to_zero)),
-        "input": (inputs_down, inputs_up),
+        "model-form": (np.where(f >= 0, towards, away), np.where(f >= 0, away, towards)),
+        "input": (inputs_below, inputs_above),
     }
 
 
-def interval_in_time(columns: dict[str, np.ndarray], inputs_down: np.ndarray, inputs_up: np.ndarray) -> np.ndarray:
+def interval_in_time(columns: dict[str, np.ndarray], inputs_below: np.ndarray, inputs_above: np.ndarray) -> np.ndarray:
     """Return the 95 % interval of f at every time, (nt, 2); arguments as of `errors_in_time`. A part that is not known is
     not in it; NaN where sampling is not known, and at rest."""
     f = columns["coefficient"]
-    parts = errors_in_time(columns, inputs_down, inputs_up).values()
-    down, up = (np.sqrt(sum(np.nan_to_num(part[side]) ** 2 for part in parts)) for side in (0, 1))
+    parts = errors_in_time(columns, inputs_below, inputs_above).values()
+    below, above = (np.sqrt(sum(np.nan_to_num(part[side]) ** 2 for part in parts)) for side in (0, 1))
     allowed = columns.get("largest_friction", np.zeros(f.size))  # 0: not known
     most = np.maximum(np.where(allowed > 0, allowed, math.inf), np.abs(f))
     unknown = np.isnan(columns["sampling_error"]) | ~in_motion(columns)  # at rest there is no f
-    ends = np.stack([np.maximum(f - down, -most), np.minimum(f + up, most)], axis=1)
+    ends = np.stack([np.maximum(f - below, -most), np.minimum(f + above, most)], axis=1)
     return np.where(unknown[:, None], math.nan, ends)
 
 

@@ -341,7 +341,7 @@ def deterministic_moment(
     sense = float(np.sign(sliding) or np.sign(speed) or 1.0)
     along = float(np.sign(speed) or 1.0)
     places = (result.friction_at - f * result.load_at) / result.load
-    scatter = block_error(places, solver.base.spacing[1], solver.correlation_length).error
+    scatter = block_error(places, solver.base.spacing[1], solver.correlation_length).value
     wet = solver.x[now.solution.payload.pressure.mean(axis=1) > 0]
     row = {name: numbers.get(name, math.nan) for name in OF_MOMENT} | {
         **{name: sense * numbers[name] for name in ("boundary_force", "couette_force", "rolling_force")},

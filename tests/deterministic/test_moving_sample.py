@@ -82,7 +82,7 @@ def test_blocks_tell_the_error_of_the_mean_with_and_without_the_control():
     means = [mean_over_blocks([sample_of(seed)], "friction", LENGTH, control) for seed in range(60)]
     plain = [mean_over_blocks([sample_of(seed)], "friction", LENGTH, None) for seed in range(60)]
     for answers in (means, plain):
-        z = [(one.value - 0.05) / one.error.error for one in answers]
+        z = [(one.value - 0.05) / one.error.value for one in answers]
         assert 0.75 < math.sqrt(np.mean(np.square(z))) < 1.25
     assert np.std([one.value for one in means]) < 0.45 * np.std([one.value for one in plain])
     assert all(one.value == other.value + one.correction for one, other in zip(means, plain))
@@ -90,7 +90,7 @@ def test_blocks_tell_the_error_of_the_mean_with_and_without_the_control():
 
 def test_a_short_sample_does_not_know_its_error():
     short = mean_over_blocks([sample_of(1, moments=10, places=24)], "friction", LENGTH, None)
-    assert short.error.error == math.inf and short.error.freedom == 0
+    assert short.error.value == math.inf and short.error.freedom == 0
 
 
 def test_a_march_ends_when_its_error_is_within_the_target():
@@ -107,7 +107,7 @@ def test_a_march_ends_when_its_error_is_within_the_target():
     length = half_width / 2 / math.sqrt(math.log(10))
 
     def followed(error):
-        target = SampleTarget(error=error, correlation_length=length, control=control)
+        target = SampleTarget(relative_error=error, correlation_length=length, control=control)
         return solve_moving_strip(scene, body, 0.3, target=target)
 
     long, short = (followed(error) for error in (1e-9, 0.5))
@@ -115,8 +115,8 @@ def test_a_march_ends_when_its_error_is_within_the_target():
     assert counts[0] == round(96 / 1.05) and counts[1] < 0.4 * counts[0]
     assert short.series["coefficient"] == pytest.approx(long.series["coefficient"][: short.times.size], rel=1e-12)
     reached = mean_over_blocks([short.places], "friction", length, control)
-    assert reached.error.error < 0.5 * reached.value
-    assert reached.value == pytest.approx(long.result.coefficient, rel=4 * reached.error.error / reached.value)
+    assert reached.error.value < 0.5 * reached.value
+    assert reached.value == pytest.approx(long.result.coefficient, rel=4 * reached.error.value / reached.value)
 
 
 def test_two_rough_bodies_start_a_step_where_their_common_roughness_is():

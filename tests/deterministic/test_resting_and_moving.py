@@ -40,5 +40,5 @@ def test_scatter_of_a_resting_body_is_that_between_places_however_long_it_is_fol
             spacing=1.0,
             mean_load=1.0,
         )
-        errors.append(mean_over_blocks([sample], "friction", 1.0, None).plain.error)
+        errors.append(mean_over_blocks([sample], "friction", 1.0, None).plain.value)
     assert np.sqrt(np.mean(np.square(errors))) == pytest.approx(0.3 / math.sqrt(640), rel=0.12)

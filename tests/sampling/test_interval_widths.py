@@ -99,7 +99,7 @@ def test_an_interval_has_two_sides_and_the_farther_one_lies_away_from_0():
 def test_freedom_of_a_sum_is_no_more_than_that_of_its_largest_part():
     """Welch and Satterthwaite: 9²/(8.1²/5 + .9²/50) = 6.2, cut to 6."""
     result = add_errors(StandardError(3 * math.sqrt(0.9), 5), StandardError(math.sqrt(0.9), 50))
-    assert result.error == pytest.approx(3.0) and result.freedom == 6
+    assert result.value == pytest.approx(3.0) and result.freedom == 6
 
 
 @pytest.fixture(scope="module")

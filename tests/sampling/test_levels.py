@@ -81,7 +81,7 @@ def test_the_effect_of_shorter_cells_is_that_on_other_strips():
         changes.append(own / coarse - 1)
     shift = result.numbers["coefficient"] / alone - 1
     assert len(result.pieces) >= 1 and prepared.sample.cells.coarsening == (4, 4)
-    assert shift == pytest.approx(np.mean(changes), abs=2 * np.std(changes, ddof=1) + 2 * result.sampling_error.error)
+    assert shift == pytest.approx(np.mean(changes), abs=2 * np.std(changes, ddof=1) + 2 * result.sampling_error.value)
     assert result.numerical < FINE.numerics.tolerance
 
 
@@ -325,9 +325,9 @@ def test_standard_error_of_the_sum_by_monte_carlo(prepared, monkeypatch, n, betw
         pairs, of_line = synthetic(rng, 24, between=between)
         with_line, without = (levels._estimate_at_rest(model, pairs[:n], one) for one in (of_line, None))
         sums.append(with_line.numbers["coefficient"])
-        stated.append(with_line.error.error)
+        stated.append(with_line.error_of_f.value)
         means.append(without.numbers["coefficient"])
-        alone.append(without.error.error)
+        alone.append(without.error_of_f.value)
     assert math.sqrt(np.mean(np.square(stated))) == pytest.approx(np.std(sums), rel=0.15)
     assert 0.85 < math.sqrt(np.mean(np.square(alone))) / np.std(means) < 1.35
 

@@ -25,7 +25,7 @@ def test_neighbouring_blocks_are_alike_near_their_common_end():
     kernel = np.exp(-2 * (np.arange(-40, 41) / length) ** 2)
     kernel /= np.linalg.norm(kernel)
     noise = rng.standard_normal((2000, count + 80))
-    result = [block_error(np.convolve(row, kernel, "valid"), 1.0, length).error ** 2 for row in noise]
+    result = [block_error(np.convolve(row, kernel, "valid"), 1.0, length).value ** 2 for row in noise]
     exact = math.sqrt(math.pi) * length / count * (1 - 1 / (math.sqrt(math.pi) * 180))
     assert np.mean(result) == pytest.approx(exact, rel=0.02)  # 6 % less without
 
@@ -45,7 +45,7 @@ def test_what_blocks_scatter_by_with_a_quantity_known_exactly_is_no_error():
         means.append(values.mean())
         result.append(block_error(values, 1.0, length / math.sqrt(math.pi), other))
         blind.append(block_error(values, 1.0, length / math.sqrt(math.pi)))
-    reported, unaware = (np.sqrt(np.mean([f.error**2 for f in each])) for each in (result, blind))
+    reported, unaware = (np.sqrt(np.mean([f.value**2 for f in each])) for each in (result, blind))
     assert result[0].freedom == blind[0].freedom - 1
     assert reported == pytest.approx(np.std(means), rel=0.1)
     assert unaware == pytest.approx(np.std(means) / 0.6, rel=0.1)
@@ -71,5 +71,5 @@ def test_there_are_no_more_blocks_than_places():
     for count in (5, 6, 7):
         values = np.random.default_rng(count).standard_normal(count)
         result = block_error(values, 1.0, 1e-3)
-        assert result.error == pytest.approx(stats.sem(values), rel=1e-3) and result.freedom == count - 1
-    assert math.isinf(block_error(np.arange(4.0), 1.0, 1e-3).error)
+        assert result.value == pytest.approx(stats.sem(values), rel=1e-3) and result.freedom == count - 1
+    assert math.isinf(block_error(np.arange(4.0), 1.0, 1e-3).value)

@@ -106,9 +106,9 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
             numbers["rolling_resistance"] = resistance
             errors["rolling_resistance"] = error
     sampling_error = levels.sampling_error
-    if not math.isfinite(sampling_error.error):
-        sampling_error = replace(sampling_error, error=math.nan)
-    by_scatter = student(levels.difference_error.freedom) * levels.difference_error.error
+    if not math.isfinite(sampling_error.value):
+        sampling_error = replace(sampling_error, value=math.nan)
+    by_scatter = student(levels.difference_error.freedom) * levels.difference_error.value
     with_thinner, with_thicker = levels.by_film
     parts_of_model = {
         "the difference of the models from place to place: a smaller numerics.model_tolerance narrows it": by_scatter,
@@ -321,12 +321,12 @@ def _sample_notes(prepared: Prepared, error: StandardError, length: float) -> tu
     """Return what a reader should know of the sampling ``error`` of strips of this ``length`` [m]."""
     sample = prepared.sample
     tolerance = prepared.scene.numerics.sampling_tolerance
-    if math.isnan(error.error):
+    if math.isnan(error.value):
         return why_sample_too_short(prepared.scene, length / sample.correlation_lengths[1], sample.map), BIASED
-    if error.error <= WORTH_A_NOTE * tolerance:
+    if error.value <= WORTH_A_NOTE * tolerance:
         return ()
-    (stated, target) = percent_beside(error.error, tolerance)
-    both_sides = percent(student(error.freedom) * error.error)
+    (stated, target) = percent_beside(error.value, tolerance)
+    both_sides = percent(student(error.freedom) * error.value)
     of_target = f"is above the target of {target} (numerics.sampling_tolerance)"
     return (f"sampling: its standard error, {stated} ({both_sides} at 95 %), {of_target}",)
 

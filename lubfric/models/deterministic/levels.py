@@ -164,15 +164,15 @@ class TwoLevelEstimate:
     Attributes
     ----------
     control_strips, numbers, note : as in `Levels`
-    error : standard error of f [-]
-    difference_error : the part of it that is the difference between the models [-]
+    error_of_f : standard error of f [-], not over it
+    difference_error_of_f : the part of it that is the difference between the models [-]
     between : standard deviation of f between strips [-]
     """
 
     control_strips: int
     numbers: dict[str, float]
-    error: StandardError
-    difference_error: StandardError
+    error_of_f: StandardError
+    difference_error_of_f: StandardError
     between: float
     note: str = ""
 
@@ -181,10 +181,15 @@ class TwoLevelEstimate:
         ``count``."""
         f = abs(self.numbers["coefficient"])
         of_sampling = f * numerics.sampling_tolerance
-        targets = [(self.error, of_sampling)]
+        targets = [(self.error_of_f, of_sampling)]
         if self.control_strips:
-            of_difference = f * DIFFERENCE_SHARE * numerics.model_tolerance / student(self.difference_error.freedom)
-            targets = [(self.error, math.hypot(of_sampling, of_difference)), (self.difference_error, of_difference)]
+            of_difference = (
+                f * DIFFERENCE_SHARE * numerics.model_tolerance / student(self.difference_error_of_f.freedom)
+            )
+            targets = [
+                (self.error_of_f, math.hypot(of_sampling, of_difference)),
+                (self.difference_error_of_f, of_difference),
+            ]
         return max(
             strips_for_error(
                 error, target, count=count, first=1, available=most, growth=STRIPS_GROWTH, spare=STRIPS_SPARE
@@ -274,16 +279,16 @@ def levels_of(
     results = [pair.resolved.result for pair in pairs]
     numbers = with_divided_contact_load(prepared.scene, fourth, results)
     f = abs(numbers["coefficient"])
-    of_strips = add_errors(estimate.error, replace(shorter.sampling_error, error=shorter.sampling_error.error * f))
+    of_strips = add_errors(estimate.error_of_f, replace(shorter.sampling_error, value=shorter.sampling_error.value * f))
     difference_error = StandardError(
-        min(estimate.difference_error.error, of_strips.error) / f, estimate.difference_error.freedom
+        min(estimate.difference_error_of_f.value, of_strips.value) / f, estimate.difference_error_of_f.freedom
     )
-    by_chance = math.sqrt((of_strips.error / f) ** 2 - difference_error.error**2)
-    sampling_error = replace(of_strips, error=math.hypot(by_chance, BALANCED * (estimate.between / f) ** 2))
+    by_chance = math.sqrt((of_strips.value / f) ** 2 - difference_error.value**2)
+    sampling_error = replace(of_strips, value=math.hypot(by_chance, BALANCED * (estimate.between / f) ** 2))
     films = tuple(mean(getattr(result, name) - result.coefficient for result in results) / f for name in OTHER_FILMS)
     errors = _errors(prepared, pairs, numbers)
     errors["coefficient"] = math.hypot(
-        *(e for e in (sampling_error.error, difference_error.error, shorter.error) if math.isfinite(e))
+        *(e for e in (sampling_error.value, difference_error.value, shorter.error) if math.isfinite(e))
     )
     first = pairs[0].resolved
     at_rest = first.at_rest
@@ -345,23 +350,23 @@ def _estimate_at_rest(
         return TwoLevelEstimate(
             control_strips=0,
             numbers=numbers,
-            error=error,
-            difference_error=StandardError(0.0, 1),
-            between=error.error * math.sqrt(count),
+            error_of_f=error,
+            difference_error_of_f=StandardError(0.0, 1),
+            between=error.value * math.sqrt(count),
         )
     for name, differences in control.numbers.items():
         numbers[name] -= mean(differences[:count])
     unsolved = 1 - count / control.count
     others = replace(
-        control.sampling_error, error=math.sqrt(unsolved) * control.sampling_error.error * abs(numbers["coefficient"])
+        control.sampling_error, value=math.sqrt(unsolved) * control.sampling_error.value * abs(numbers["coefficient"])
     )
     error = add_errors(_scatter(pairs, prepared.sample, control, unsolved), others)
     between = float(np.std(control.numbers["coefficient"]))
     return TwoLevelEstimate(
         control_strips=control.count,
         numbers=numbers,
-        error=error,
-        difference_error=_scatter(pairs, prepared.sample, control, 1.0),
+        error_of_f=error,
+        difference_error_of_f=_scatter(pairs, prepared.sample, control, 1.0),
         between=between,
     )
 
@@ -390,13 +395,13 @@ def _estimate_in_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) ->
     numbers["coefficient"] = friction.value
     numbers["shear_force"] = load * friction.value - numbers["boundary_force"]
     numbers["couette_force"] = numbers["shear_force"] - numbers["rolling_force"]
-    between = friction.plain.error * math.sqrt(len(pairs))
+    between = friction.plain.value * math.sqrt(len(pairs))
     note = CORRECTED_BY_SUMMITS.format(100 * friction.correction / friction.value) if friction.correction else ""
     return TwoLevelEstimate(
         control_strips=0,
         numbers=numbers,
-        error=friction.error,
-        difference_error=StandardError(0.0, 1),
+        error_of_f=friction.error,
+        difference_error_of_f=StandardError(0.0, 1),
         between=between,
         note=note,
     )
@@ -434,7 +439,7 @@ def _scatter(
         places = [values - share * control.deviations(k, values.size) for k, values in enumerate(places)]
         f -= share * control.numbers["coefficient"][:count]
     within = _error_by_blocks(places, sample, pairs[0])
-    by_blocks = count * (within.error * (DIFFERENCE_OVER_BLOCKS if control else STRIP_OVER_BLOCKS)) ** 2
+    by_blocks = count * (within.value * (DIFFERENCE_OVER_BLOCKS if control else STRIP_OVER_BLOCKS)) ** 2
     if count == 1:
         return StandardError(math.sqrt(by_blocks), min(within.freedom, FREEDOM))
     by_strips = float(np.var(f, ddof=1))

@@ -52,8 +52,8 @@ class DeterministicSolution(SampleSolution):
 
     @property
     def sampling_error(self) -> StandardError:
-        error = self.estimate.error
-        return StandardError(error.error / abs(self.estimate.numbers["coefficient"]), error.freedom)
+        error = self.estimate.error_of_f
+        return StandardError(error.value / abs(self.estimate.numbers["coefficient"]), error.freedom)
 
     def required_strips(self) -> int:
         return self.wanted

@@ -139,12 +139,12 @@ ECONOMICAL = MovingEffort(
 
 @dataclass(frozen=True, kw_only=True)
 class SampleTarget:
-    """When a strip has moved long enough: the standard error of f is ``error``, relative, by its blocks of time and place.
+    """When a strip has moved long enough: the standard error of f over f is ``relative_error``, by its blocks of time and place.
 
     ``correlation_length`` [m]: of the roughness along y; ``control``: what its friction scatters with.
     """
 
-    error: float
+    relative_error: float
     correlation_length: float
     control: SummitControl
 
@@ -361,10 +361,10 @@ def _required_moments(places: TimeAndPlace, target: SampleTarget, required: int,
     """
     friction = mean_over_blocks([places], "friction", target.correlation_length, target.control)
     freedom = friction.error.freedom
-    reached = friction.error.error * (1 + 1 / math.sqrt(freedom)) / abs(friction.value) if freedom else math.inf
-    if reached <= target.error:
+    reached = friction.error.value * (1 + 1 / math.sqrt(freedom)) / abs(friction.value) if freedom else math.inf
+    if reached <= target.relative_error:
         return required
-    times = MOMENTS_SPARE * (reached / target.error) ** 2
+    times = MOMENTS_SPARE * (reached / target.relative_error) ** 2
     return min(most, math.ceil(required * min(max(times, MOMENTS_GROWTH[0]), MOMENTS_GROWTH[1])))
 
 

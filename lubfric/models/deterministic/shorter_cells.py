@@ -296,7 +296,7 @@ def _pieces(prepared: Prepared, speed: float, first: StripOnTwoGrids | None) -> 
     error = StandardError(math.inf, 0)
     spent = 0.0
     while len(pieces) < min(sample.available_pieces, MOST_SOLVED_PIECES) and not (
-        error.error <= tolerance or spent > PIECES_WORK
+        error.value <= tolerance or spent > PIECES_WORK
     ):
         slope = pieces[0][1].slope if pieces else None
         pieces.append(_refined(prepared, speed, len(pieces), None if pieces else first, slope))

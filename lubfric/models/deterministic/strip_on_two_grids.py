@@ -155,7 +155,9 @@ def sample_target(prepared: Prepared, error: float) -> SampleTarget | None:
     control = summit_control(prepared)
     if control is None:
         return None
-    return SampleTarget(error=error, correlation_length=prepared.sample.correlation_lengths[1], control=control)
+    return SampleTarget(
+        relative_error=error, correlation_length=prepared.sample.correlation_lengths[1], control=control
+    )
 
 
 def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, float]:

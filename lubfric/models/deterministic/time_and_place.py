@@ -128,7 +128,7 @@ def mean_over_blocks(
     excess = sum(float(sample.summits.sum()) for sample in samples) / places - control.mean
     correction = -slope * excess / control.threshold
     of_mean = slope * control.error / control.threshold
-    error = StandardError(math.hypot(residual.error, of_mean), residual.freedom)
+    error = StandardError(math.hypot(residual.value, of_mean), residual.freedom)
     return MeanOverBlocks(mean + correction, error, plain, correction)
 
 

@@ -135,12 +135,12 @@ class BalancedSample:
             return 0.0
         if self.response is None:
             return self.undetected
-        of_gap = self.gap_scatter.error
+        of_gap = self.gap_scatter.value
         if not math.isfinite(of_gap):  # a contact without places, or of too few blocks
             return math.nan
         to_first_order = self.response.per_gap("coefficient") * of_gap
         beyond_first_order = self.response.relative("coefficient", of_gap) / to_first_order if to_first_order else 1.0
-        return self.friction_scatter.error * beyond_first_order
+        return self.friction_scatter.value * beyond_first_order
 
     @property
     def friction_scatter(self) -> StandardError:
@@ -148,7 +148,7 @@ class BalancedSample:
         cells = self.effect.error
         response = self.response
         per_gap = response.per_gap("coefficient") if response is not None else 0.0
-        return add_errors(self.scatter.friction, StandardError(per_gap * cells.error, cells.freedom))
+        return add_errors(self.scatter.friction, StandardError(per_gap * cells.value, cells.freedom))
 
     @property
     def corrected_gap(self) -> float:
@@ -195,8 +195,8 @@ class BalancedSample:
         tolerance = self.prepared.scene.numerics.sampling_tolerance
         contacts = self.scatter.effective_contacts
         error = self.sampling_error
-        few = self.response is not None and has_too_few_contacts(contacts, error.error, tolerance)
-        at_least = min(FEW_CONTACTS / contacts, (error.error / (SAMPLING_MATTERS * tolerance)) ** 2) if few else 0.0
+        few = self.response is not None and has_too_few_contacts(contacts, error.value, tolerance)
+        at_least = min(FEW_CONTACTS / contacts, (error.value / (SAMPLING_MATTERS * tolerance)) ** 2) if few else 0.0
         count = strips_for_error(
             error,
             tolerance,

@@ -117,7 +117,7 @@ class CellEffect:
         if not self.contact_load:
             return self
         moved = abs(math.log(contact_load / self.contact_load))
-        remaining_change = self.remaining_change + BY_LOAD * moved * (abs(self.gap_change) + self.error.error)
+        remaining_change = self.remaining_change + BY_LOAD * moved * (abs(self.gap_change) + self.error.value)
         return replace(
             self, remaining_change=remaining_change, area_error=self.area_error + abs(1 - self.area_factor) * moved
         )
@@ -170,8 +170,8 @@ def _error_of_area(steps: Sequence[CellStep]) -> float:
 def _settled(steps: Sequence[CellStep], most: float, scatter: float) -> bool:
     """Return whether these pieces are enough: the error of their mean is within ``scatter`` [m], there are no more
     pieces, or there are three that are too short for blocks."""
-    short = len(steps) >= FEWEST_PIECES and not math.isfinite(steps[0].error.error)
-    return len(steps) > 0 and (short or len(steps) >= most or mean_error(steps).error <= scatter)
+    short = len(steps) >= FEWEST_PIECES and not math.isfinite(steps[0].error.value)
+    return len(steps) > 0 and (short or len(steps) >= most or mean_error(steps).value <= scatter)
 
 
 def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, *, index: int, enough: float) -> CellStep:
@@ -237,7 +237,7 @@ def _ratio(fine: np.ndarray, coarse: np.ndarray, step: float, correlation: float
     if not coarse.any() or not fine.any():
         return 1.0, math.nan
     ratio = float(fine.mean() / coarse.mean())
-    return ratio, block_error(fine - ratio * coarse, step, correlation).error / float(fine.mean())
+    return ratio, block_error(fine - ratio * coarse, step, correlation).value / float(fine.mean())
 
 
 def mean_error(steps: Sequence[CellStep]) -> StandardError:
@@ -246,9 +246,9 @@ def mean_error(steps: Sequence[CellStep]) -> StandardError:
     If the pieces are too short for blocks, it follows from the differences between them. Fewer than three of these have
     no scatter: it is taken to be as large as the changes themselves.
     """
-    if all(math.isfinite(step.error.error) for step in steps):
+    if all(math.isfinite(step.error.value) for step in steps):
         within = add_errors(*(step.error for step in steps))
-        return StandardError(within.error / len(steps), within.freedom)
+        return StandardError(within.value / len(steps), within.freedom)
     gaps = np.array([step.gap_change for step in steps])
     few = gaps.size < FEWEST_PIECES
     scatter = float(np.sqrt(np.mean(gaps**2))) if few else float(np.std(gaps, ddof=1))

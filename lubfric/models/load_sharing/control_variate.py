@@ -34,7 +34,7 @@ def control_for(solution: BalancedSample) -> ControlVariate | None:
     sample = prepared.sample
     has_others = solution.sample.cells == sample.cells and sample.represents_more
     return (
-        control_variate_of(prepared, solution) if has_others and math.isfinite(solution.sampling_error.error) else None
+        control_variate_of(prepared, solution) if has_others and math.isfinite(solution.sampling_error.value) else None
     )
 
 
@@ -56,7 +56,7 @@ def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlV
     places = of_strips(raw_balance.forces.coefficient * friction_influence(prepared.scene, rough_contact, raw_balance))
     numbers = {"coefficient": places.mean(axis=1)}
     if response is None or response.rates is None:
-        return ControlVariate(places, numbers, StandardError(balanced.sampling_error.error, FREEDOM_NOT_COUNTED))
+        return ControlVariate(places, numbers, StandardError(balanced.sampling_error.value, FREEDOM_NOT_COUNTED))
     gap, loads = (of(rough_contact, raw_balance.contact_state) for of in (hertz_mean_gap, line_load))
     influence = gap_influence(gap, loads, response.slopes.gap)
     moved = response.log_load_ratio_per_gap * of_strips(influence).mean(axis=1)  # of ln(F_H/F_C)
@@ -72,5 +72,5 @@ def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlV
     numbers["shear_force"] = load * numbers["coefficient"] - numbers["boundary_force"]
     numbers["couette_force"] = numbers["shear_force"] - numbers["rolling_force"]
     return ControlVariate(
-        places, numbers, StandardError(balanced.sampling_error.error, balanced.friction_scatter.freedom)
+        places, numbers, StandardError(balanced.sampling_error.value, balanced.friction_scatter.freedom)
     )

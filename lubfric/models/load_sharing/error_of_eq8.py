@@ -21,7 +21,7 @@ MOST_OF_FILM = 0.3
 # verification model --only rolling`).
 OF_ROLLING = 8.0
 
-# Error of f below and above, over the filled part of the gap, where a given film arrives (`starved_error`).
+# Error of f towards 0 and away from it, over the filled part of the gap, where a given film arrives (`starved_error`).
 STARVED_ERROR = (0.5, 0.1)
 
 # Least error of f over the film-to-roughness ratio, up to 1, where there is a film between rough surfaces.
@@ -35,13 +35,13 @@ FLANKS = 1.5
 def load_sharing_error(
     film_to_roughness_ratio: float, *, share: float, boundary: float, shear: float, rolling: float = 0.0
 ) -> tuple[float, float]:
-    """Return the relative error of f by Eq. (8), at 95 % (docs/uncertainty.md): by how much f may be lower, and higher.
+    """Return the relative error of f by Eq. (8), at 95 % (docs/uncertainty.md), towards 0 and away from it.
 
     ``film_to_roughness_ratio``: r, the central film over Sq; ``share``: s = F_C/F_T; ``boundary``, ``shear``: the two
     parts of f, of asperities and film; ``rolling``: the part of rolling in the latter, if roughness moves. Four things may be off: the load that asperities carry, by up to 0.7
     sqrt(s (1 - s)) of the whole, but never below 0 or above the whole, which exchanges the friction of one part for
     that of the other; the shear of the film, which is that of smooth surfaces, by 3.2/r² of it, at most 30 %; in
-    contact all of f by 0.25 sqrt(1 - s): below, of what the others leave; and the pressure on the flanks of moving
+    contact all of f by 0.25 sqrt(1 - s): towards 0, of what the others leave; and the pressure on the flanks of moving
     roughness, which is omitted, by up to 8 times the rolling force, and 18/r² times for thick films. 0 without
     roughness.
     """
@@ -55,13 +55,13 @@ def load_sharing_error(
     exchanged = (boundary / share - shear / (1 - share)) / f
     rooms = (share, 1 - share)
     of_share = OF_SHARE * math.sqrt(share * (1 - share))
-    down, up = (of_film + min(of_share, room) * abs(exchanged) for room in rooms[:: 1 if exchanged > 0 else -1])
+    towards, away = (of_film + min(of_share, room) * abs(exchanged) for room in rooms[:: 1 if exchanged > 0 else -1])
     of_all = IN_CONTACT * math.sqrt(1 - share)
-    return down + max(1 - down, 0.0) * of_all, up + of_all
+    return towards + max(1 - towards, 0.0) * of_all, away + of_all
 
 
 def starved_error(inlet_film: float, gap: float) -> tuple[float, float]:
-    """Return the relative error of f by Eq. (8), at 95 %, below and above f, where a given film arrives.
+    """Return the relative error of f by Eq. (8), at 95 %, towards 0 and away from it, where a given film arrives.
 
     Eq. (8) takes a film that does not fill the gap for none, and f = f_b. The deterministic model finds lubricant
     between the asperities that lowers f, the more of the gap it fills: by 7 % at half and by 33 % at all of it (scene

@@ -26,7 +26,7 @@ from .scatter import Scatter
 PLASTIC = 3.0
 NO_CELLS = "not known: this contact has no places along y to compare"
 
-# Errors below and above f where the model has none.
+# Errors of f towards 0 and away from it where the model has none.
 NONE = (0.0, 0.0)
 UNKNOWN = (math.nan, math.nan)
 GAP_NOT_FILLED = "the film that arrives does not fill the gap: Eq. (8) neglects it, and f may be lower"
@@ -43,7 +43,7 @@ class PointErrors:
     ----------
     numerical : of f, by solvers and grids
     sampling_error : of f, because the sample is finite
-    model_error : of f, by the model, below and above f
+    model_error : of f, by the model, at 95 %, towards 0 and away from it
     errors : of all numbers, by name
     why_not : why an error is not known
     reasons : why that of some numbers is not, by name
@@ -88,7 +88,7 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
     relative = solver.shear_error
     forces = balance.forces
     scatter = balanced.scatter
-    sampling = balanced.sampling_error.error
+    sampling = balanced.sampling_error.value
     error = StandardError(0.0, FREEDOM_NOT_COUNTED)
     why = "there was none, or too little to estimate it"
     if balance.film is None:
@@ -171,7 +171,7 @@ def _contact_errors(scene: Scene, balanced: BalancedSample, solver: SolverErrors
     balance = balanced.corrected_balance
     response = balanced.response
     assert response is not None
-    scattered = balanced.gap_scatter.error if math.isfinite(balanced.gap_scatter.error) else 0.0
+    scattered = balanced.gap_scatter.value if math.isfinite(balanced.gap_scatter.value) else 0.0
     gap_error = math.hypot(scattered, solver.gap_error + solver.film_error * balance.contact_state.mean_film)
     errors = {name: response.relative(name, gap_error) for name in response.rates or ()}
     errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
@@ -204,7 +204,7 @@ def _relative(error: StandardError, value: float) -> float:
     """Return the ``error`` of a ``value`` over it: 0 where it is not known, NaN where the value is not above 0."""
     if not value > 0:
         return math.nan
-    return error.error / value if math.isfinite(error.error) else 0.0
+    return error.value / value if math.isfinite(error.value) else 0.0
 
 
 def _given_load(forces: Forces, film_error: float) -> dict[str, float]:
@@ -233,7 +233,7 @@ def _shear_errors(forces: Forces, film_error: float) -> dict[str, float]:
 
 
 def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], tuple[str, ...]]:
-    """Return the relative error of f by load sharing itself, at 95 %, below and above f; where it is not known NaN, and
+    """Return the relative error of f by load sharing itself, at 95 %, towards 0 and away from it; where it is not known NaN, and
     why."""
     balance = balanced.corrected_balance
     scene = balanced.prepared.scene
@@ -255,7 +255,7 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
     forces = balance.forces
     load = scene.bodies.load
     ratio = film / sq if sq else math.inf
-    down, up = load_sharing_error(
+    towards, away = load_sharing_error(
         ratio,
         share=share,
         boundary=forces.boundary / load,
@@ -264,19 +264,19 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
     )
     if share > 0 and sq:
         least = least_error(ratio)
-        down = max(down, least)
-        up = max(up, least)
+        towards = max(towards, least)
+        away = max(away, least)
     if scene.lubricant.inlet_film is not None and share > 0:
         starved = starved_error(scene.lubricant.inlet_film, balance.contact_state.mean_gap)
-        down = math.hypot(down, starved[0])
-        up = math.hypot(up, starved[1])
-    return (min(down, 1.0), up), ()
+        towards = math.hypot(towards, starved[0])
+        away = math.hypot(away, starved[1])
+    return (min(towards, 1.0), away), ()
 
 
 def moment_model_error(
     scene: Scene, *, film_to_roughness_ratio: float, share: float, boundary: float, shear: float, rolling: float
 ) -> tuple[float, float]:
-    """Return the relative model-form error of f at a moment of a run in time, at 95 %, below and above f.
+    """Return the relative model-form error of f at a moment of a run in time, at 95 %, towards 0 and away from it.
 
     It is that of steady motion with the same film, asperity load ratio ``share``, and parts of f. NaN where it is not
     known (`why_moment_unknown`).
@@ -284,9 +284,11 @@ def moment_model_error(
     if why_moment_unknown(scene):
         return UNKNOWN
     moving = rolling if has_moving_roughness(scene) else 0.0
-    down, up = load_sharing_error(film_to_roughness_ratio, share=share, boundary=boundary, shear=shear, rolling=moving)
+    towards, away = load_sharing_error(
+        film_to_roughness_ratio, share=share, boundary=boundary, shear=shear, rolling=moving
+    )
     least = least_error(film_to_roughness_ratio) if 0 < share < 1 and math.isfinite(film_to_roughness_ratio) else 0.0
-    return min(max(down, least), 1.0), max(up, least)
+    return min(max(towards, least), 1.0), max(away, least)
 
 
 def why_moment_unknown(scene: Scene) -> str:
@@ -300,12 +302,12 @@ def _area_needed(balanced: BalancedSample, scene: Scene) -> float:
     known)."""
     needed = 1.0
     if balanced.sample.ends_after(balanced.count):
-        needed = (balanced.sampling_error.error / scene.numerics.sampling_tolerance) ** 2
+        needed = (balanced.sampling_error.value / scene.numerics.sampling_tolerance) ** 2
     return 1.0 if needed < 1 else needed if math.isfinite(needed) else math.nan
 
 
 def _notes(balanced: BalancedSample, scene: Scene) -> tuple[str, ...]:
-    error = balanced.sampling_error.error
+    error = balanced.sampling_error.value
     tolerance = scene.numerics.sampling_tolerance
     sample = balanced.sample
     notes = []

@@ -143,7 +143,7 @@ def place_error(
         return blocks
     means = means_of_blocks(influence, count)
     windows = StandardError(float(means.std(ddof=1)) / math.sqrt(count), count - 1)
-    return max((e for e in (blocks, windows) if math.isfinite(e.error)), key=lambda e: e.error)
+    return max((e for e in (blocks, windows) if math.isfinite(e.value)), key=lambda e: e.value)
 
 
 def film_stress(scene: Scene, rough_contact: HalfSpaceContact, film: EHLResult) -> np.ndarray:
@@ -185,5 +185,5 @@ def moment_error(
     values = gap_influence(hertz_mean_gap(rough_contact, contact_state), line_load(rough_contact, contact_state), slope)
     influence_error = block_error(values, rough_contact.spacing[1], correlation_length)
     shares = contact_load / total, film_load / total
-    split = influence_error.error / (softness * shares[1] + thinning * contact_state.mean_film * shares[0])
+    split = influence_error.value / (softness * shares[1] + thinning * contact_state.mean_film * shares[0])
     return abs((viscous * shares[0] - boundary * shares[1]) / friction) * split if influence_error.freedom else math.nan

@@ -123,7 +123,7 @@ class StripsOnLongCells:
         }
 
     def bounds(self, scene: Scene) -> tuple[float, float]:
-        """Return the 95 % bounds of f by the cells, relative, below and above. In pure rolling all of f is the rolling
+        """Return the 95 % bounds of f by the cells, relative, towards 0 and away from it. In pure rolling all of f is the rolling
         part."""
         numbers = self.numbers(scene)
         f = numbers["coefficient"]
@@ -132,8 +132,8 @@ class StripsOnLongCells:
         if f == 0:
             return math.inf, math.inf
         of_rolling = self.widening * self.error_model.rolling_error(rolling, sliding)
-        down, up = (sliding * abs(math.expm1(side * self.log_half_width)) for side in (-1, 1))
-        return math.hypot(down, of_rolling) / abs(f), math.hypot(up, of_rolling) / abs(f)
+        towards, away = (sliding * abs(math.expm1(side * self.log_half_width)) for side in (-1, 1))
+        return math.hypot(towards, of_rolling) / abs(f), math.hypot(away, of_rolling) / abs(f)
 
 
 def solve_on_long_cells(prepared: Prepared, speed: float) -> StripsOnLongCells:
@@ -231,19 +231,19 @@ def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLon
     largest = OF_CELLS.format(on_long_cells.error_model.cases) if by_cells else answer.largest_in_model
     f = levels.numbers["coefficient"]
     basis = f"deterministic model on long cells, calibrated on {on_long_cells.error_model.cases} solved cases"
-    below, above = (math.hypot(part, bound) for part, bound in zip(answer.model_error, bounds))
+    towards, away = (math.hypot(part, bound) for part, bound in zip(answer.model_error, bounds))
     warnings = (
         violation for violation in answer.violations if not violation.what.startswith(MODEL_ERROR)
     )  # which was without the cells
     return replace(
         answer,
-        model_error=(min(below, 1.0), above),
+        model_error=(min(towards, 1.0), away),
         largest_in_model=largest,
         violations=(
             *warnings,
             *violations_by_model_error(
                 prepared,
-                max(below, above),
+                max(towards, away),
                 f,
                 consequence=LARGEST_PART.format(largest.partition(":")[0]),
                 recommendation=NARROWED_BY_DETERMINISTIC if by_cells else "",

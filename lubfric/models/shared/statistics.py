@@ -74,9 +74,9 @@ SAMPLING_MATTERS = 0.25
 
 @dataclass(frozen=True)
 class StandardError:
-    """Standard error of a mean over blocks, in the unit of the values, and its degrees of freedom."""
+    """Standard error of a mean over blocks: its ``value``, in the unit of what is averaged, and its degrees of freedom."""
 
-    error: float
+    value: float
     freedom: int
 
 
@@ -122,7 +122,7 @@ def means_of_blocks(values: np.ndarray, count: int) -> np.ndarray:
 def add_errors(*parts: StandardError) -> StandardError:
     """Return the error of a sum of independent quantities. The degrees of freedom are by Welch and Satterthwaite (F. E.
     Satterthwaite, Biometrics Bull. 2 (1946) 110-114, doi:10.2307/3002019)."""
-    terms = [(part.error**2, part.freedom) for part in parts]
+    terms = [(part.value**2, part.freedom) for part in parts]
     variance = sum(v for v, _ in terms)
     if variance == 0 or not math.isfinite(variance):
         return StandardError(math.sqrt(variance), sum(f for _, f in terms))
@@ -156,7 +156,7 @@ def strips_for_error(
     """
     is_first = count == first
     doubt = 1 / math.sqrt(error.freedom) if is_first and error.freedom > 0 else 0.0
-    reached = error.error * (1 + doubt)
+    reached = error.value * (1 + doubt)
     if reached <= target and not at_least:
         return count
     most = growth[1] if count > first else growth[0]
@@ -202,13 +202,13 @@ def distinct_texts(value: float, other: float, text_of: Callable[[float, int], s
     return text_of(value, least), text_of(other, least)
 
 
-def percent_of_sides(below: float, above: float, largest: float) -> str:
+def percent_of_sides(towards: float, away: float, largest: float) -> str:
     """Return a relative error with different sides as "-29 to +42 %", with equal ones as "42 %"; ``largest``: of both
-    sides, which is alone known where ``below`` and ``above`` are NaN."""
-    if not (math.isfinite(below) and math.isfinite(above)) or percent(below) == percent(above):
+    sides, which is alone known where ``towards`` (0) and ``away`` (from it) are NaN."""
+    if not (math.isfinite(towards) and math.isfinite(away)) or percent(towards) == percent(away):
         return percent(largest)
     low, high = (
-        f"{sign}{percent(side)}" if side >= INVISIBLE else "0 %" for sign, side in (("-", below), ("+", above))
+        f"{sign}{percent(side)}" if side >= INVISIBLE else "0 %" for sign, side in (("-", towards), ("+", away))
     )
     return f"{low.removesuffix(' %')} to {high}"
 
@@ -218,15 +218,15 @@ def is_near_zero(f: float, error: float) -> bool:
     return abs(f) < NEAR_ZERO and error > MOST_RELATIVE
 
 
-def sides_in_f(below: float, above: float, largest: float, f: float) -> str:
+def sides_in_f(towards: float, away: float, largest: float, f: float) -> str:
     """Return the same as `percent_of_sides` in f itself, as "-0.0004 to +0.0025", or "0.0004" where both sides are equal."""
     if not math.isfinite(largest):
         return "not known"
     size = abs(f)
-    if not (math.isfinite(below) and math.isfinite(above)) or f"{below:.2g}" == f"{above:.2g}":
+    if not (math.isfinite(towards) and math.isfinite(away)) or f"{towards:.2g}" == f"{away:.2g}":
         return f"{largest * size:.2g}"
-    (down, up) = (below, above) if f >= 0 else (above, below)
-    low, high = (f"{sign}{side * size:.2g}" if side > 0 else "0" for sign, side in (("-", down), ("+", up)))
+    (below, above) = (towards, away) if f >= 0 else (away, towards)
+    low, high = (f"{sign}{side * size:.2g}" if side > 0 else "0" for sign, side in (("-", below), ("+", above)))
     return f"{low} to {high}"
 
 

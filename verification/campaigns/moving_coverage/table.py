@@ -116,7 +116,7 @@ def answer(contact: RollingContact, seed: int) -> PlainRow:
     return {
         "f": parts.numbers["coefficient"],
         "change": cells.change,
-        "sampling": parts.sampling_error.error,
+        "sampling": parts.sampling_error.value,
         "freedom": parts.sampling_error.freedom,
         "strips": len(pairs),
         "steps": places.friction.shape[0],
@@ -152,13 +152,13 @@ def reference_strip(contact: RollingContact, seed: int) -> PlainRow:
     control = summit_control(prepared)
     assert control is not None  # the sample has strips
     length = prepared.sample.correlation_lengths[1]
-    target = SampleTarget(error=WHOLE_PASS, correlation_length=length, control=control)
+    target = SampleTarget(relative_error=WHOLE_PASS, correlation_length=length, control=control)
     strip = solve_moving_strip(
         prepared.scene, bodies, contact.speed, map_coarsening=map_coarsening, effort=effort, target=target
     )
     mean = mean_over_blocks([strip.places], "friction", length, control)
-    plain = {"plain": mean.value - mean.correction, "plain_error": mean.plain.error}
-    return {"f": mean.value, "error": mean.error.error} | plain
+    plain = {"plain": mean.value - mean.correction, "plain_error": mean.plain.value}
+    return {"f": mean.value, "error": mean.error.value} | plain
 
 
 def narrow_strip(
