@@ -428,16 +428,16 @@ def _lift_off(rig: _WearRig, state: _WearStep) -> tuple[float, tuple[float, floa
     except ConvergenceError as error:
         return math.nan, unknown, f"lift-off speed: a balance on the way was not solved ({error})"
     speed = sense * math.exp(root)
-    steepness = _steepness(solved, root)
+    exponent = _load_ratio_exponent(solved, root)
     loads = solved[min(solved, key=lambda at: abs(at - root))].by_window.sum(axis=(1, 2))
-    if loads.size < FEWEST_WEAR_WINDOWS or not steepness or not loads.any():
+    if loads.size < FEWEST_WEAR_WINDOWS or not exponent or not loads.any():
         return speed, unknown, ""
     scatter = float(loads.std(ddof=1) / math.sqrt(loads.size) / loads.mean())
-    half = NORMAL_95 * scatter / steepness
+    half = NORMAL_95 * scatter / exponent
     return speed, (speed * math.exp(-half), speed * math.exp(half)), ""
 
 
-def _steepness(solved: dict[float, _WearStep], root: float) -> float:
+def _load_ratio_exponent(solved: dict[float, _WearStep], root: float) -> float:
     """Return -d ln(F_C/F_T)/d ln U between the two solved speeds next to ``root``; 0 if there are none with load."""
     loaded = [(at, step.ratio) for at, step in solved.items() if step.ratio > 0]
     (first, *others) = sorted(loaded, key=lambda point: abs(point[0] - root))

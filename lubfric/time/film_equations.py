@@ -116,7 +116,7 @@ class StepTerms:
     centre: tuple[Any, ...]
     fluidity: tuple[Any, ...]
     gradient: np.ndarray
-    thin: tuple[Any, ...]  # Φ, s dΦ/ds, b dΦ/db
+    thinning: tuple[Any, ...]  # Φ, s dΦ/ds, b dΦ/db
     flux: np.ndarray  # towards +X, (n,)
     stored: np.ndarray  # per unit time in each control volume
     r: np.ndarray  # node equations
@@ -167,8 +167,8 @@ class StepEquations:
         mid_H = centred(H)
         fluidity = tuple(f / self.viscosity for f in log_mean_fluidity(log_eta))
         gradient = np.diff(P) / (6.0 * grid.cells)
-        thin = self.problem.thinned(fluidity[0], mid_H, 6.0 * gradient)
-        flux = speed * up_rho * up_H - mid_rho * mid_H**3 * fluidity[0] * gradient * thin[0]
+        thinning = self.problem.thinned(fluidity[0], mid_H, 6.0 * gradient)
+        flux = speed * up_rho * up_H - mid_rho * mid_H**3 * fluidity[0] * gradient * thinning[0]
         stored = memory.rate * (rho[0] * H - memory.film) * grid.weights
         r = np.empty_like(P)
         r[1:-1] = stored[1:-1] + flux[1:] - flux[:-1]
@@ -196,7 +196,7 @@ class StepEquations:
             centre=(mid_rho, mid_H),
             fluidity=fluidity,
             gradient=gradient,
-            thin=thin,
+            thinning=thinning,
             flux=flux,
             stored=stored,
             r=r,
@@ -252,17 +252,17 @@ class StepEquations:
         centred = grid.centred
         mean, by_left, by_right = t.fluidity
         rho, H = t.centre
-        thin, by_stress, by_gradient = t.thin
+        thinner, by_stress, by_gradient = t.thinning
         couette = speed * t.up[0]
-        poiseuille = (3.0 * thin - by_stress + by_gradient) * rho * H**2 * mean * t.gradient
+        poiseuille = (3.0 * thinner - by_stress + by_gradient) * rho * H**2 * mean * t.gradient
         G = np.empty((n, n + 2))
         np.multiply(couette[:, None], up.kernel, out=G[:, :-1])
         G[:, :-1] -= poiseuille[:, None] * centred.kernel
         G[:, -1] = couette - poiseuille
         i = np.arange(n)
         cube = rho * H**3
-        by_P = cube * mean / (6.0 * grid.cells) * (thin + by_gradient)
-        by_log = cube * t.gradient * (thin - by_stress)
+        by_P = cube * mean / (6.0 * grid.cells) * (thinner + by_gradient)
+        by_log = cube * t.gradient * (thinner - by_stress)
         G[i, i] += by_P - by_log * by_left * t.log_slope[:-1]
         G[i, i + 1] -= by_P + by_log * by_right * t.log_slope[1:]
         slope = t.rho[1]
@@ -270,7 +270,7 @@ class StepEquations:
             rows = i[:, None]
             G[rows, up.columns] += (speed * t.up[1])[:, None] * up.values * slope[up.columns]
             steep = centred.values * slope[centred.columns]
-            G[rows, centred.columns] -= (H**3 * mean * t.gradient * thin)[:, None] * steep
+            G[rows, centred.columns] -= (H**3 * mean * t.gradient * thinner)[:, None] * steep
         return G
 
     def residual(self, t: StepTerms) -> float:

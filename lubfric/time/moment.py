@@ -81,7 +81,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
     heated_inlet = setting.line_history.viscosity.before(time) != scene.lubricant.viscosity
     film_factor = math.nan if inlet is None else inlet.factor if heated_inlet else 1.0
     length = model.correlation_length
-    thinning = film_thinning(scene, film_load)
+    film_exponent = film_load_exponent(scene, film_load)
     finite = moment_error(
         cast(HalfSpaceContact, model.patch),
         state,
@@ -90,7 +90,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         width=scene.bodies.width,
         correlation_length=length,
         parts=parts,
-        thinning=thinning,
+        film_load_exponent=film_exponent,
     )
     touches = contact_step.load > 0.0
     wet = setting.grid.x[t.P > 0.0] * p.length_unit
@@ -351,7 +351,7 @@ def _rupture(x: np.ndarray, root: np.ndarray, node: int, step: int) -> float:
     return float(x[node] + root[node] * (x[node] - x[before]) / (root[before] - root[node]))
 
 
-def film_thinning(scene: Scene, film_load: float) -> float:
+def film_load_exponent(scene: Scene, film_load: float) -> float:
     """Return -d ln h/d ln F_H [-] of Moes' film that carries ``film_load`` [N]. At rest, that of a film that was drawn
     in slowly; 1 without load."""
     if film_load <= 0.0:

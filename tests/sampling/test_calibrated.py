@@ -581,7 +581,7 @@ def test_outside_the_campaign_the_half_width_grows_with_the_distance():
     """With e times the largest lambda ratio it doubles."""
     prepared = lubfric.prepare(PAPER)
     sq = PAPER.surface.sq
-    largest = error_models()["rest"].range["lambda"][1]
+    largest = error_models()["rest"].range["moes_ratio"][1]
     speeds = [speed_of(PAPER, sq * largest * factor) for factor in (0.99, 1.5)]
     strips = [solve_on_long_cells(prepared, speed) for speed in speeds]
     assert strips[0].outside == () and strips[0].widening == 1.0

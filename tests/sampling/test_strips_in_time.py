@@ -9,7 +9,7 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.scene import Transient
-from lubfric.time.moment import film_thinning
+from lubfric.time.moment import film_load_exponent
 from lubfric.time.start import strip_of_run
 
 HELD = paper_scene(
@@ -107,9 +107,9 @@ def test_a_film_that_bends_its_bodies_divides_the_load_as_softly_as_in_a_steady_
 def test_a_film_thins_with_its_load_as_a_rigid_or_an_elastic_one(load, speed, low, high):
     """h ~ 1/w (Martin) where bodies are rigid, and about w^-0.1 (Dowson) where they bend."""
     scene = HELD.with_(motion={"entrainment_speed": speed}, bodies={"load": load})
-    assert low < film_thinning(scene, load) < high
-    assert film_thinning(scene, 0.0) == 1.0
-    assert 0 < film_thinning(scene.with_(motion={"entrainment_speed": 0.0, "speeds": (1.0,)}), load) <= 1.0
+    assert low < film_load_exponent(scene, load) < high
+    assert film_load_exponent(scene, 0.0) == 1.0
+    assert 0 < film_load_exponent(scene.with_(motion={"entrainment_speed": 0.0, "speeds": (1.0,)}), load) <= 1.0
 
 
 def test_a_run_on_one_patch_takes_the_cells_of_the_patch():

@@ -78,9 +78,9 @@ def inlet(problem: Problem, pressure: FloatArray, thickness: FloatArray) -> Inle
     stretch = start / t**2
     shape = (start / t) ** 2 / (2 * radius) - start**2 / (2 * radius) + problem.edge_log * np.log(t)
     gap = thickness[:, None] + shape
-    thin = _ambient_thinning(problem, gap)
+    flow_factor = _ambient_thinning(problem, gap)
     viscous = 12 * lubricant.viscosity
-    by_square = viscous * stretch / (gap * gap * thin)  # viscous/(h³ Φ) times h, along t
+    by_square = viscous * stretch / (gap * gap * flow_factor)  # viscous/(h³ Φ) times h, along t
     b = by_square / gap
     A = speed * (by_square @ weight)
     B = b @ weight

@@ -129,7 +129,7 @@ def moments(
     count = 0
     imbalance: np.ndarray | None = None
     at = before = earlier = evaluated(problem, solve_point(problem).state if start is None else start)
-    smooth = max(1, round(SMOOTHED_HALF_WIDTHS * half_width(problem.line) / problem.spacing[0]))
+    smooth = max(1, round(SMOOTHED_HALF_WIDTHS * film_half_width(problem.line) / problem.spacing[0]))
     yield Moment(0.0, at, Work(0))
     while True:
         count += 1
@@ -276,6 +276,6 @@ def travelling(problem: Problem, bodies: Sequence[RoughBody]) -> Callable[[float
     return at
 
 
-def half_width(line: LineContact) -> float:
+def film_half_width(line: LineContact) -> float:
     """Return the half-width of the Hertz strip [m], or that of the smooth film where that is wider."""
     return max(line.half_width, math.sqrt(2 * line.radius * line.moes_film))

@@ -16,7 +16,7 @@ from ...scene import HARDNESS_KEY, Scene, value_of
 from ...surface import Surface
 from ...units import worded
 from .linear import GMRES_RESIDUAL
-from .moving import SAME_STEP, STEP_ORDERS, Moment, RoughBody, half_width, moments, travelling
+from .moving import SAME_STEP, STEP_ORDERS, Moment, RoughBody, film_half_width, moments, travelling
 from .problem import HERTZ_INLET, HERTZ_OUTLET, Problem, reach
 from .result import DeterministicResult, LoadSplit, change_with_oil, share_moved_by_hardness
 from .state import State
@@ -249,7 +249,7 @@ def solve_moving_strip(
     )
     step, discarded, count = _steps_of(scene, bodies, speed, rest.problem.spacing[0], effort)
     count = count if most_steps is None else min(count, most_steps)
-    travelled = _travelled(bodies, speed, step, half_width(rest.problem.line))
+    travelled = _travelled(bodies, speed, step, film_half_width(rest.problem.line))
     passing = _passing(rest.problem, bodies, speed, step=step, effort=effort, state=rest.result.state, begun=0.0)
     summits_at = _summits(rest.problem, bodies, speed, target)
     oils = oils_at_ends(scene)
@@ -370,7 +370,7 @@ def _required_moments(places: TimeAndPlace, target: SampleTarget, required: int,
 
 def _pilot(line: LineContact, bodies: Sequence[RoughBody], step: float) -> int:
     """Return the number of steps [s] in which the fastest of ``bodies`` passes `PILOT` half-widths."""
-    return math.ceil(PILOT * half_width(line) / (max(abs(body.speed) for body in bodies) * step))
+    return math.ceil(PILOT * film_half_width(line) / (max(abs(body.speed) for body in bodies) * step))
 
 
 def _travelled(bodies: Sequence[RoughBody], speed: float, step: float, half_width: float) -> float:
@@ -404,13 +404,13 @@ def _sample(rows: Sequence[dict[str, Any]], result: DeterministicResult, travell
 def compared_moments(strip: MovingStripSolution) -> int:
     """Return the number of moments of ``strip`` that are compared with those on longer cells (`COMPARED`)."""
     way = abs(strip.problem.speed) * float(strip.times[0])
-    return min(strip.times.size - strip.discarded, math.ceil(COMPARED * half_width(strip.problem.line) / way))
+    return min(strip.times.size - strip.discarded, math.ceil(COMPARED * film_half_width(strip.problem.line) / way))
 
 
 def continued_moments(line: LineContact, cell: float, way: float, effort: MovingEffort) -> tuple[int, int]:
     """Return the numbers of moments of a continuation that are discarded, and that count, on cells [m] along x; ``way``
     [m]: that the lubricant travels in a step."""
-    width = half_width(line)
+    width = film_half_width(line)
     return math.ceil(effort.discarded_again * width / way), max(FEWEST_CONTINUED, math.ceil(CONTINUED * width / cell))
 
 
@@ -536,7 +536,7 @@ def effort_for(line: LineContact, sq: float, cell: float) -> MovingEffort:
     """
     oil = line.lubricant
     starved = oil.inlet_film is not None or oil.inlet_length is not None
-    light = half_width(line) > line.half_width
+    light = film_half_width(line) > line.half_width
     smooth = line.moes_film > SMALL_WAVES * sq
     narrow = line.half_width < CELLS_FOR_LOOSE_STEPS * cell
     return TIGHT if starved or light or smooth or narrow else ECONOMICAL
@@ -557,7 +557,7 @@ def _steps(
     x and a ``fastest`` body [m/s] whose map has this ``length`` [m]."""
     speed = line.entrainment_speed
     step = cell / (speed if SLOW_ROUGHNESS <= abs(fastest) / speed <= FAST_ROUGHNESS else abs(fastest))
-    discarded = math.ceil(effort.discarded * half_width(line) / (speed * step))
+    discarded = math.ceil(effort.discarded * film_half_width(line) / (speed * step))
     return step, discarded, max(1, round(length / (abs(fastest) * step)))
 
 
@@ -569,8 +569,8 @@ def moving_work(
     effort = effort_for(line, sq, cell)
     step, discarded, count = _steps(line, cell, fastest, length, effort)
     once_more = sum(continued_moments(line, cell, line.entrainment_speed * step, effort))
-    expected = math.ceil(EXPECTED * half_width(line) / (abs(fastest) * step))
-    compared = min(count, expected, math.ceil(COMPARED * half_width(line) / (line.entrainment_speed * step)))
+    expected = math.ceil(EXPECTED * film_half_width(line) / (abs(fastest) * step))
+    compared = min(count, expected, math.ceil(COMPARED * film_half_width(line) / (line.entrainment_speed * step)))
     steps = discarded + min(count, expected) + continuations * once_more + ON_LONGER * (discarded + compared)
     return STEPS_WORTH_OF_REST * work_of_steps(
         cells, FACTORISATIONS_IN_A_STEP, KRYLOV_IN_A_STEP

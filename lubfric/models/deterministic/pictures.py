@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..._base import figures
-from .moving_strip import Moment, MovingStripSolution, half_width
+from .moving_strip import Moment, MovingStripSolution, film_half_width
 
 MOST_MOMENTS = 8  # moments side by side
 TIME = "time since the roughness began to move (ms)"
@@ -63,7 +63,7 @@ def plot_passing(path: Path | str, strip: MovingStripSolution) -> None:
 
 def _limits(moments: Sequence[Moment]) -> tuple[float, float]:
     """Return the largest gap [nm] and pressure [GPa] that are drawn."""
-    near = np.abs(moments[0].at.problem.x) < 1.2 * half_width(moments[0].at.problem.line)
+    near = np.abs(moments[0].at.problem.x) < 1.2 * film_half_width(moments[0].at.problem.line)
     gap = 1.3 * max(np.quantile(moment.at.gap[near], 0.98) for moment in moments)
     return 1e9 * float(gap), 1e-9 * float(max(moment.at.state.pressure.max() for moment in moments))
 

@@ -26,7 +26,8 @@ PRESSED = 50e6  # Pa: below it no Newtonian film is taken to be at its cap
 
 @dataclass(frozen=True)
 class LoadSplit:
-    """The load per width [N/m] by what carries it.
+    """The load per width [N/m] by what carries it. Parts overlap: ``touching`` is in ``thin``, ``capped`` in ``saturated``;
+    ``thin`` and ``saturated`` have nothing in common, and a film below its limit is in none.
 
     Attributes
     ----------

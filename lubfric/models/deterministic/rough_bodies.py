@@ -24,9 +24,9 @@ from .problem import (
 )
 from .summits import SummitControl, control_of
 
-MOST_WORK_IN_AUTO = (
-    120.0  # s, counted: a point whose estimate is above it is left to load sharing by "auto" (docs/models.md)
-)
+# Counted work [s] of a point from which "auto" leaves it to the quick answer, and that of its strips, at most
+# (docs/models.md).
+MOST_WORK_IN_AUTO = 120.0
 
 # Slide-roll ratio from which the ends of the stress of an oil are expected to be solved in motion [-]: a gear flank at 1.07 had
 # them, a needle roller at 0.01 and a bearing at 0.03 had not.
@@ -118,7 +118,7 @@ def moving_point_work(
 
 
 def why_too_costly(prepared: Prepared, speed: float, sample_coarsening: tuple[float, float]) -> str:
-    """Return why "auto" leaves moving roughness to load sharing; "" if it does not."""
+    """Return why "auto" leaves moving roughness to the quick answer; "" if it does not."""
     scene = prepared.scene
     sample = prepared.sample
     work = (

@@ -193,8 +193,8 @@ def _attempts(
     lubricant = problem.lubricant
     if lubricant.newtonian:
         limited = replace(lubricant, limiting_stress_coefficient=THIN_STRESS, limiting_stress_offset=THIN_OFFSET)
-        thin = replace(problem, line=replace(problem.line, lubricant=limited))
-        helped = newton(thin, cold, work, tolerance=tolerance, most=DIRECT)
+        with_limit = replace(problem, line=replace(problem.line, lubricant=limited))
+        helped = newton(with_limit, cold, work, tolerance=tolerance, most=DIRECT)
         if helped.residual <= tolerance:
             result = newton(problem, helped.at.state, work, tolerance=tolerance, most=DIRECT)
             yield "from a fluid with a limiting stress", result

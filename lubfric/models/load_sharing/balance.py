@@ -11,7 +11,7 @@ from ...scene import Scene, budget
 from ..contract import ModelDetails
 from ..shared import exponents, meaningless
 from .closure import residual_slope, volume_residual
-from .forces import Forces, forces
+from .forces import Forces, forces_of
 from .point import (
     Point,
     Settings,
@@ -150,13 +150,13 @@ def _dry(scene: Scene, rough_contact: RoughContact, why: str) -> Balance:
     shape = rough_contact.x**2 / (2 * scene.bodies.radius)
     state = rough_contact.close(shape, load)
     report = _report(scene, CONVERGED, history=(0.0,), contact_state=state, film=None, notes=(f"{why}: all contact",))
-    friction = forces(scene, None, state, load)
+    forces = forces_of(scene, None, state, load)
     return Balance(
         film_load=0.0,
         contact_load=load,
         film=None,
         contact_state=state,
-        forces=friction,
+        forces=forces,
         report=report,
         response=respond(scene, rough_contact, state, load=load, thickness=shape),
         why_no_film=why,
@@ -169,8 +169,8 @@ def _film_alone(point: Point) -> Balance:
     load = point.scene.bodies.load
     trial = point.trial(load, 0.0)
     while True:
-        friction = forces(point.scene, trial.film, trial.contact_state, 0.0)
-        cells = _cells(point, trial.film, friction)
+        forces = forces_of(point.scene, trial.film, trial.contact_state, 0.0)
+        cells = _cells(point, trial.film, forces)
         if cells == point.settings.film_cells:
             break
         point = replace(point, settings=replace(point.settings, film_cells=cells))
@@ -184,7 +184,7 @@ def _film_alone(point: Point) -> Balance:
         contact_load=0.0,
         film=trial.film,
         contact_state=trial.contact_state,
-        forces=friction,
+        forces=forces,
         report=report,
         settings=point.settings,
     )
@@ -307,15 +307,18 @@ def predict_log_load_ratio(point: Point, start: Balance) -> tuple[float, float |
     for _ in range(MOST_NEWTON_ITERATIONS):
         film_load, contact_load = loads_at(load, log_load_ratio)
         film, exponent, _ = exponents(point.line(film_load))
-        steepness = (stiffness * film_load + exponent * contact_load) / load
+        slope_of_excess = (stiffness * film_load + exponent * contact_load) / load
         excess = -stiffness * math.log(contact_load / start.contact_load) - math.log(film / before)
         log_load_ratio = min(
-            max(log_load_ratio + min(max(-excess / steepness, -LONGEST_NEWTON_STEP), LONGEST_NEWTON_STEP), BOUNDS[0]),
+            max(
+                log_load_ratio + min(max(-excess / slope_of_excess, -LONGEST_NEWTON_STEP), LONGEST_NEWTON_STEP),
+                BOUNDS[0],
+            ),
             BOUNDS[1],
         )
-        if abs(excess) <= LAST_NEWTON_STEP * steepness:
+        if abs(excess) <= LAST_NEWTON_STEP * slope_of_excess:
             break
-    return log_load_ratio, 0.5 * steepness
+    return log_load_ratio, 0.5 * slope_of_excess
 
 
 def _seen_root(point: Point, near: RootStart) -> tuple[Point, Root]:
@@ -380,13 +383,13 @@ def _balance(point: Point, root: Root, response: Response) -> Balance:
         notes=(),
         tolerance=point.settings.balance_tolerance,
     )
-    friction = forces(scene, trial.film, trial.contact_state, trial.contact_load)
+    forces = forces_of(scene, trial.film, trial.contact_state, trial.contact_load)
     return Balance(
         film_load=trial.film_load,
         contact_load=trial.contact_load,
         film=trial.film,
         contact_state=trial.contact_state,
-        forces=friction,
+        forces=forces,
         report=report,
         response=response,
         settings=point.settings,
@@ -438,12 +441,12 @@ def _tightened(now: float, needed: float) -> float:
     return now if now <= budget.SLACK * needed else needed
 
 
-def _cells(point: Point, film: EHLResult, friction: Forces) -> int:
+def _cells(point: Point, film: EHLResult, forces: Forces) -> int:
     """Return the least number of cells of the film: twice its present number where the sum of its shear stress is not
     exact enough. It stays where that sum is of stresses that no oil carries."""
     numerics = point.scene.numerics
     now = point.settings.film_cells
-    resolved = friction.quadrature <= budget.SHEAR_SUM * numerics.tolerance or meaningless(friction.shear)
+    resolved = forces.quadrature <= budget.SHEAR_SUM * numerics.tolerance or meaningless(forces.shear)
     if numerics.film_tolerance is not None or resolved:
         return now
     return min(2 * film.cells, max(budget.MOST_FILM_CELLS, now))

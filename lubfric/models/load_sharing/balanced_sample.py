@@ -41,9 +41,7 @@ from .cell_effect import (
     lost_summits,
 )
 from .closure import closed, open_gap
-from .forces import (
-    forces,
-)
+from .forces import forces_of
 from .point import (
     Point,
 )
@@ -148,7 +146,7 @@ class BalancedSample:
         cells = self.effect.error
         response = self.response
         per_gap = response.per_gap("coefficient") if response is not None else 0.0
-        return add_errors(self.scatter.friction, StandardError(per_gap * cells.value, cells.freedom))
+        return add_errors(self.scatter.coefficient, StandardError(per_gap * cells.value, cells.freedom))
 
     @property
     def corrected_gap(self) -> float:
@@ -278,7 +276,7 @@ class BalancedSample:
             contact_load=loads[1],
             film=film,
             contact_state=state,
-            forces=forces(scene, film, state, loads[1]),
+            forces=forces_of(scene, film, state, loads[1]),
         )
         return replace(self, corrected_balance=corrected_balance)
 

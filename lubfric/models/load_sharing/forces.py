@@ -50,7 +50,7 @@ class Forces:
         return self.shear.magnitude / self.total if 0 < self.total < np.inf else 1.0
 
 
-def forces(scene: Scene, film: EHLResult | None, contact_state: ContactState, contact_load: float) -> Forces:
+def forces_of(scene: Scene, film: EHLResult | None, contact_state: ContactState, contact_load: float) -> Forces:
     """Return the forces of ``film`` (None: none) and of a contact that carries ``contact_load`` [N]."""
     bodies = scene.bodies
     boundary = bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0) * contact_load

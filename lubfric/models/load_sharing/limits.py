@@ -33,20 +33,20 @@ def limits_exceeded(prepared: Prepared, speed: float, balance: Balance, ends: fl
     )
     if film is not None:
         peak = float(film.pressure.max())
-        friction = balance.forces
-        force = abs(friction.coefficient) * scene.bodies.load
+        forces = balance.forces
+        force = abs(forces.coefficient) * scene.bodies.load
         violations += violations_by_inlet(scene, film.line, film.flow_film, force)
         violations += violations_by_film(
             scene,
             thickness=thickness,
             peak=peak,
-            shear=friction.shear,
+            shear=forces.shear,
             film_load=balance.film_load,
             force=force,
-            heat=friction.heat,
+            heat=forces.heat,
         )
         typical = typical_heat(
-            scene, film, balance.contact_state, contact_load=balance.contact_load, force=force, shear=friction.shear
+            scene, film, balance.contact_state, contact_load=balance.contact_load, force=force, shear=forces.shear
         )
         violations += violations_by_typical_heat(scene, typical)
         if scene.numerics.film_deflection == "hydrodynamic" and balance.contact_load > 0:

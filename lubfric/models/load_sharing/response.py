@@ -10,7 +10,7 @@ from ...contact import ContactState, RoughContact, weighted_mean
 from ...film import EHLResult
 from ...scene import Scene
 from .closure import gap_under, log_load_ratio_per_gap
-from .forces import Forces, forces
+from .forces import Forces, forces_of
 
 # Step of ln(F_H/F_C), each way, for the rates of the film. Half and twice as much change f by less than 0.01 %
 # (`python -m verification.campaigns.constants`).
@@ -145,7 +145,7 @@ def respond(
         factor = slopes.area_factor(loads[1] - load, width, contact_state.real_contact_area_fraction)
         mean_gap = gap_under(weighted_mean(shared.film_at(rough_contact.x), rough_contact.weight))
         return quantities(
-            forces(scene, shared, with_contact_area_scaled(contact_state, factor), loads[1]), shared, loads, mean_gap
+            forces_of(scene, shared, with_contact_area_scaled(contact_state, factor), loads[1]), shared, loads, mean_gap
         )
 
     low = at(log_load_ratio - LOG_RATIO_STEP)
@@ -156,27 +156,25 @@ def respond(
     return Response(slopes, per_gap, {name: _log_rate(low[name], high[name]) for name in low}, film_load / load)
 
 
-def quantities(
-    friction: Forces, film: EHLResult | None, loads: tuple[float, float], mean_gap: float
-) -> dict[str, float]:
-    """Return the numbers of a point that a balance determines, by name (`lubfric.quantities`). ``friction``: forces of
+def quantities(forces: Forces, film: EHLResult | None, loads: tuple[float, float], mean_gap: float) -> dict[str, float]:
+    """Return the numbers of a point that a balance determines, by name (`lubfric.quantities`). ``forces``: those of
     the ``film`` (None: none), which carries the first of ``loads`` [N], and of the contact, which carries the second."""
     return {
-        "coefficient": friction.coefficient,
+        "coefficient": forces.coefficient,
         "contact_load": loads[1],
         "boundary_film_load": loads[1],
         "film_load": loads[0],
-        "shear_force": friction.shear.total,
-        "couette_force": friction.shear.couette,
-        "rolling_force": friction.shear.rolling,
-        "rolling_resistance": friction.shear.resistance,
-        "boundary_force": friction.boundary,
+        "shear_force": forces.shear.total,
+        "couette_force": forces.shear.couette,
+        "rolling_force": forces.shear.rolling,
+        "rolling_resistance": forces.shear.resistance,
+        "boundary_force": forces.boundary,
         "min_film": math.nan if film is None else film.min_film,
         "central_film": math.nan if film is None else film.central_film,
         "mean_gap": mean_gap,
-        "inlet_film_factor": friction.heat.inlet_film_factor,
-        "flash_temperature_rise": friction.heat.flash,
-        "film_temperature_rise": friction.heat.film_rise,
+        "inlet_film_factor": forces.heat.inlet_film_factor,
+        "flash_temperature_rise": forces.heat.flash,
+        "film_temperature_rise": forces.heat.film_rise,
     }
 
 

@@ -68,7 +68,7 @@ class Scatter:
     gap : standard error of the mean gap at given load [m]
     area : of the contact area fraction of A at given load [-]
     contact_length : of the contact area per length at given load [m]
-    friction : of f in balance, relative
+    coefficient : of f in balance, relative
     effective_contacts : what `effective_contacts` gives
     """
 
@@ -76,7 +76,7 @@ class Scatter:
     gap: StandardError = StandardError(math.inf, 0)
     area: StandardError = StandardError(math.inf, 0)
     contact_length: StandardError = StandardError(math.inf, 0)
-    friction: StandardError = StandardError(math.inf, 0)
+    coefficient: StandardError = StandardError(math.inf, 0)
     effective_contacts: float = 0.0
 
 
@@ -99,15 +99,15 @@ def scatter_of(scene: Scene, rough_contact: HalfSpaceContact, balance: Balance, 
     def at_given_load(values: FloatArray, slope: float) -> StandardError:
         return error(gap_influence(values, by_place, slope))
 
-    of_friction = StandardError(0.0, 1)
+    of_coefficient = StandardError(0.0, 1)
     if balance.film is not None and response.rates and balance.forces.total:
-        of_friction = error(friction_influence(scene, rough_contact, balance)[rows])
+        of_coefficient = error(friction_influence(scene, rough_contact, balance)[rows])
     return Scatter(
         length=by_place.size * step,
         gap=at_given_load(hertz_mean_gap(rough_contact, state)[rows], slopes.gap),
         area=at_given_load(rough_contact.weight @ touching / rough_contact.weight.sum(), slopes.area),
         contact_length=at_given_load(touching.sum(axis=0) * rough_contact.spacing[0], slopes.contact_length),
-        friction=of_friction,
+        coefficient=of_coefficient,
         effective_contacts=effective_contacts(by_place, step, sample.correlation_lengths[1]),
     )
 
@@ -163,21 +163,21 @@ def moment_error(
     width: float,
     correlation_length: float,
     parts: tuple[float, float],
-    thinning: float,
+    film_load_exponent: float,
 ) -> float:
     """Return the relative standard error of f at one moment, from a `ContactState` with fields on ``rough_contact``: 0
     without contact, NaN if the line is too short.
 
     ``loads``: (F_C, F_H) [N]; ``softness``: -dG/d ln F_C [m] of the contact; ``parts``: boundary and viscous friction
-    [N]; ``thinning``: -d ln h/d ln F_H of the film, 1 if it is rigid and some .1 if it is elastic. Film and contact are
+    [N]; ``film_load_exponent``: -d ln h/d ln F_H of the film, 1 if it is rigid and some .1 if it is elastic. Film and contact are
     assumed to have time to divide the load anew (`lubfric.models.load_sharing.response.respond`). A film that is
     squeezed follows more slowly, and the error is smaller then.
     """
     contact_load, film_load = loads
     boundary, viscous = parts
     total = contact_load + film_load
-    friction = boundary + viscous
-    if contact_load <= 0 or friction == 0:
+    friction_force = boundary + viscous
+    if contact_load <= 0 or friction_force == 0:
         return 0.0
     if contact_state.fields is None or not math.isfinite(correlation_length):
         return math.nan
@@ -185,5 +185,11 @@ def moment_error(
     values = gap_influence(hertz_mean_gap(rough_contact, contact_state), line_load(rough_contact, contact_state), slope)
     influence_error = block_error(values, rough_contact.spacing[1], correlation_length)
     shares = contact_load / total, film_load / total
-    split = influence_error.value / (softness * shares[1] + thinning * contact_state.mean_film * shares[0])
-    return abs((viscous * shares[0] - boundary * shares[1]) / friction) * split if influence_error.freedom else math.nan
+    log_ratio_error = influence_error.value / (
+        softness * shares[1] + film_load_exponent * contact_state.mean_film * shares[0]
+    )
+    return (
+        abs((viscous * shares[0] - boundary * shares[1]) / friction_force) * log_ratio_error
+        if influence_error.freedom
+        else math.nan
+    )

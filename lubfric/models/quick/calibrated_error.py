@@ -120,7 +120,7 @@ def out_of_range(
         "slip": ("slide-roll ratio", abs(scene.motion.slide_roll_ratio), ""),
     }
     if sq and speed:
-        values["lambda"] = ("lambda ratio by Moes' formula", scene.line_contact(abs(speed)).moes_film / sq, "")
+        values["moes_ratio"] = ("lambda ratio by Moes' formula", scene.line_contact(abs(speed)).moes_film / sq, "")
     outside = []
     for name, (what, value, unit) in values.items():
         low, high = known[name]

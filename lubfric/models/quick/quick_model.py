@@ -176,7 +176,7 @@ def _error_of_thick_films(scene: Scene, sq: float, speed: float) -> float:
     [m/s] is thicker than in all solved cases, by how far they are widened; 0 where it is not."""
     if not (speed and sq):
         return 0.0
-    times = scene.line_contact(abs(speed)).moes_film / (error_model_of(scene).range["lambda"][1] * sq)
+    times = scene.line_contact(abs(speed)).moes_film / (error_model_of(scene).range["moes_ratio"][1] * sq)
     return LEAST_TOLERANCE * widening([math.log(times)]) if times > 1 else 0.0
 
 

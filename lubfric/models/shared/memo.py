@@ -78,8 +78,12 @@ class OperatorKey(Key[HalfSpace]):
 class ReferenceKey(Key[Any]):
     """A solution at a fixed speed, from which others start or take a correction.
 
-    ``what``: what is taken from it; ``at``: film or step by which the fixed speed is found, or that speed [m/s];
-    ``forward``: whether that speed is positive.
+    ``forward``: whether that speed is positive; ``what`` is taken from it, and ``at`` tells it apart from others of that kind:
+
+    - "balance": ``at`` is the expected film [Sq] of the fixed speed;
+    - "effect of cells": that speed [m/s];
+    - "change by shorter cells": the number of its step in ln of the expected film;
+    - "attenuated summits": 0, as these depend on no speed.
     """
 
     of_surface_alone = False

@@ -344,7 +344,7 @@ def ranges(solved: Sequence[Solved]) -> dict[str, np.ndarray]:
     modulus = np.array([float(case.row["e_prime"]) for case in solved])
     radius = np.array([float(case.row["radius"]) for case in solved])
     load = 2 * np.pi * radius * table["pressure"] ** 2 / modulus
-    return {"pressure": table["pressure"], "lambda": table["ratio"], "load": load, "slip": np.abs(table["slip"])}
+    return {"pressure": table["pressure"], "moes_ratio": table["ratio"], "load": load, "slip": np.abs(table["slip"])}
 
 
 HEAD = """# The error of f on long cells, fitted to the tables of verification/campaigns/calibration by

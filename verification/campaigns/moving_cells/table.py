@@ -11,7 +11,7 @@ import numpy as np
 
 import lubfric
 from lubfric.models.deterministic import CellsInMotion, effort_of, solve_moving_strip
-from lubfric.models.deterministic.moving import half_width
+from lubfric.models.deterministic.moving import film_half_width
 
 from ...types import PlainRow
 from .. import extending, table_file
@@ -72,7 +72,7 @@ def followed(contact: RollingContact, seed: int, axis: str, halvings: int) -> Pl
     cell = map_coarsening[0] * bodies[0].surface.spacing[0]
     (lx, ly) = prepared.sample.correlation_lengths
     coarse_y = map_coarsening[1] * bodies[0].surface.spacing[1] / ly
-    steps = round(WAY * half_width(scene.line_contact(contact.speed)) / cell)
+    steps = round(WAY * film_half_width(scene.line_contact(contact.speed)) / cell)
     effort = effort_of(scene, bodies, contact.speed, (fx, fy))  # that of the answer
     strip = solve_moving_strip(
         scene, bodies, contact.speed, map_coarsening=map_coarsening, effort=effort, most_steps=steps
