@@ -224,7 +224,6 @@ def solve_moving_strip(
     *,
     map_coarsening: tuple[int, int] = (1, 1),
     start: StripSolution | None = None,
-    find_slope: bool = False,
     effort: MovingEffort | None = None,
     most_steps: int | None = None,
     target: SampleTarget | None = None,
@@ -237,16 +236,14 @@ def solve_moving_strip(
 
     Parameters
     ----------
-    map_coarsening, start, find_slope : as in `solve_strip`, for the roughness at rest, from which the motion starts
+    map_coarsening, start : as in `solve_strip`, for the roughness at rest, from which the motion starts
     effort : None: `effort_for` the contact
     most_steps : moments that count, at most (None: a complete pass of the map)
     target : None: the complete map passes
     """
     effort = effort_of(scene, bodies, speed, map_coarsening) if effort is None else effort
     near = None if start is None else start.at_rest
-    rest = strip_at_rest(
-        scene, bodies, speed, map_coarsening=map_coarsening, start=near, find_slope=find_slope, effort=effort
-    )
+    rest = strip_at_rest(scene, bodies, speed, map_coarsening=map_coarsening, start=near, effort=effort)
     step, discarded, count = _steps_of(scene, bodies, speed, rest.problem.spacing[0], effort)
     count = count if most_steps is None else min(count, most_steps)
     travelled = _travelled(bodies, speed, step, film_half_width(rest.problem.line))
@@ -360,8 +357,7 @@ def _required_moments(places: TimeAndPlace, target: SampleTarget, required: int,
     be within it: a march that ended where blocks happen to scatter little would state too small an error.
     """
     friction = mean_over_blocks([places], "friction", target.correlation_length, target.control)
-    freedom = friction.error.freedom
-    reached = friction.error.value * (1 + 1 / math.sqrt(freedom)) / abs(friction.value) if freedom else math.inf
+    reached = friction.error.cautious / abs(friction.value)  # infinite without a degree of freedom
     if reached <= target.relative_error:
         return required
     times = MOMENTS_SPARE * (reached / target.relative_error) ** 2
@@ -421,16 +417,13 @@ def strip_at_rest(
     *,
     map_coarsening: tuple[int, int] = (1, 1),
     start: StripSolution | None = None,
-    find_slope: bool = False,
     effort: MovingEffort | None = None,
 ) -> StripSolution:
     """Solve the strip of `solve_moving_strip` with its roughness at rest, unchanged at time 0."""
     surface, upper = _combined(bodies)
     effort = effort_of(scene, bodies, speed, map_coarsening) if effort is None else effort
     ends = _ends(scene, bodies, speed, effort)
-    return solve_strip(
-        scene, surface, speed, map_coarsening=map_coarsening, start=start, find_slope=find_slope, upper=upper, ends=ends
-    )
+    return solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=start, upper=upper, ends=ends)
 
 
 def _combined(bodies: Sequence[RoughBody]) -> tuple[Surface, Surface | None]:

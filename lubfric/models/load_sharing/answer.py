@@ -36,7 +36,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
     """Return the answer of ``balanced``."""
     scene = balanced.prepared.scene
     numbers = _numbers(balanced)
-    errors = errors_of(scene, balanced)
+    errors = errors_of(balanced)
     sample = {
         "coarsening": balanced.sample.cells.coarsening,
         "strips": balanced.count,

@@ -41,12 +41,19 @@ from .scatter import (
     line_load,
 )
 
-# Largest ratio of successive changes with which a series of halvings is continued. Not measured: heights of an
-# exponential correlation change by sqrt(1/2) from halving to halving.
-MOST_CHANGE_RATIO = 0.75
+# Ratio of successive changes with which a series of halvings is continued, at least and at most [-]: second order; and,
+# not measured, more than the sqrt(1/2) by which heights of an exponential correlation change from halving to halving.
+SERIES_RATIOS = (0.25, 0.75)
 
-# Least ratio of successive changes: second order.
-LEAST_CHANGE_RATIO = 0.25
+# Ratio of the next change to the last one, at least and at most [-]: smooth heights, of second order and better; and
+# detail at every scale.
+NEXT_RATIOS = (0.125, 0.5)
+
+# Ratio of successive changes where there is one change only [-].
+UNKNOWN_CHANGE_RATIO = 0.5
+
+# Next change over the last but one, at least [-], in case the last one is small by chance. Not measured.
+LEAST_NEXT_RATIO = 1 / 32
 
 # Pieces that state a scatter where each is too short for blocks.
 FEWEST_PIECES = 3
@@ -83,22 +90,6 @@ class CellStep:
     edge_load_share : share of the load on the edge columns
     """
 
-    gap_change: float
-    error: StandardError
-    remaining_change: float
-    finer_grid_change: float
-    film_change: float
-    area_factor: float
-    area_error: float
-    length_factor: float
-    plastic_change: float
-    edge_load_share: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class CellEffect:
-    """The mean `CellStep` of several pieces, which were solved at ``contact_load`` [N]."""
-
     gap_change: float = 0.0
     error: StandardError = StandardError(0.0, 1)
     remaining_change: float = 0.0
@@ -109,6 +100,12 @@ class CellEffect:
     length_factor: float = 1.0
     plastic_change: float = 0.0
     edge_load_share: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class CellEffect(CellStep):
+    """The mean `CellStep` of several pieces, which were solved at ``contact_load`` [N]; by default no change."""
+
     contact_load: float = 0.0
 
     def at_load(self, contact_load: float) -> CellEffect:
@@ -260,7 +257,7 @@ def remaining(changes: Sequence[float]) -> float:
     two changes (1/4 to 3/4; 1/2 if there is only one change)."""
     last = abs(changes[-1])
     before = abs(changes[-2]) if len(changes) > 1 else 0.0
-    ratio = min(max(last / before, LEAST_CHANGE_RATIO), MOST_CHANGE_RATIO) if before > 0 else 0.5
+    ratio = _change_ratio(last, before, SERIES_RATIOS)
     return last * ratio / (1 - ratio)
 
 
@@ -272,8 +269,14 @@ def predicted_next_change(changes: Sequence[float]) -> float:
     """
     d1 = abs(changes[0])
     d2 = abs(changes[1]) if len(changes) > 1 else 0.0
-    ratio = min(max(d1 / d2, 0.125), 0.5) if d2 > 0 else 0.5
-    return max(d1 * ratio, d2 / 32)
+    return max(d1 * _change_ratio(d1, d2, NEXT_RATIOS), LEAST_NEXT_RATIO * d2)
+
+
+def _change_ratio(last: float, before: float, bounds: tuple[float, float]) -> float:
+    """Return the ratio of the ``last`` change to the one ``before``, within ``bounds``; `UNKNOWN_CHANGE_RATIO` where that
+    is 0."""
+    (least, most) = bounds
+    return min(max(last / before, least), most) if before > 0 else UNKNOWN_CHANGE_RATIO
 
 
 def lost_summits(prepared: Prepared, point: Point, balance: Balance, sample: Sample) -> float:

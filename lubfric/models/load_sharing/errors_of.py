@@ -80,8 +80,9 @@ class SolverErrors:
     area_error: float
 
 
-def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
+def errors_of(balanced: BalancedSample) -> PointErrors:
     """Return the errors of ``balanced``."""
+    scene = balanced.prepared.scene
     balance = balanced.corrected_balance
     response = balanced.response
     solver = solver_errors_of(balanced)
@@ -106,8 +107,8 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
         mean_film = balance.contact_state.mean_film
         relative += response.per_film(forces, mean_film) * solver.film_error
         relative += response.relative("coefficient", solver.gap_error)
-        errors = _contact_errors(scene, balanced, solver)
-    notes = _notes(balanced, scene)
+        errors = _contact_errors(balanced, solver)
+    notes = _notes(balanced)
     if not math.isfinite(sampling):
         sampling = math.nan
     of_model, unknown = model_error_of_eq8(balanced)
@@ -126,7 +127,7 @@ def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
         why_not=why,
         reasons=left_out,
         notes=(*notes, *unknown),
-        area_needed=_area_needed(balanced, scene),
+        area_needed=_area_needed(balanced),
     )
 
 
@@ -161,7 +162,7 @@ def solver_errors_of(balanced: BalancedSample) -> SolverErrors:
     )
 
 
-def _contact_errors(scene: Scene, balanced: BalancedSample, solver: SolverErrors) -> dict[str, float]:
+def _contact_errors(balanced: BalancedSample, solver: SolverErrors) -> dict[str, float]:
     """Return the relative errors where film and contact share the load, by the names of `FrictionResult`: the root of
     the sum of squares of the standard error by the surface and of the estimated error by solvers and grids.
 
@@ -297,21 +298,22 @@ def why_moment_unknown(scene: Scene) -> str:
     return why_gap_not_resolved(replace(scene, transient=None))
 
 
-def _area_needed(balanced: BalancedSample, scene: Scene) -> float:
+def _area_needed(balanced: BalancedSample) -> float:
     """Return how many times more of a map that ends would be needed (1: enough, or there is more of it; NaN: not
     known)."""
     needed = 1.0
     if balanced.sample.ends_after(balanced.count):
-        needed = (balanced.sampling_error.value / scene.numerics.sampling_tolerance) ** 2
+        needed = (balanced.sampling_error.value / balanced.prepared.scene.numerics.sampling_tolerance) ** 2
     return 1.0 if needed < 1 else needed if math.isfinite(needed) else math.nan
 
 
-def _notes(balanced: BalancedSample, scene: Scene) -> tuple[str, ...]:
+def _notes(balanced: BalancedSample) -> tuple[str, ...]:
+    scene = balanced.prepared.scene
     error = balanced.sampling_error.value
     tolerance = scene.numerics.sampling_tolerance
     sample = balanced.sample
     notes = []
-    needed = _area_needed(balanced, scene)
+    needed = _area_needed(balanced)
     if not math.isfinite(error):
         if balanced.on_cells is None:
             return (NO_CELLS,)

@@ -79,6 +79,11 @@ class StandardError:
     value: float
     freedom: int
 
+    @property
+    def cautious(self) -> float:
+        """1 + 1/sqrt(nu) times the value, with nu degrees of freedom: from few blocks it is itself known to 1/sqrt(2 nu) only."""
+        return self.value * (1 + 1 / math.sqrt(self.freedom)) if self.freedom > 0 else self.value
+
 
 def block_error(
     values: np.ndarray, step: float, correlation_length: float, exact: FloatArray | None = None
@@ -150,13 +155,10 @@ def strips_for_error(
     growth : largest factor on ``count``, of the ``first`` strips and of more
     spare : factor on what the error needs, and least factor on ``count``
 
-    A standard error from few blocks is itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. If a sample
-    counted as long enough whenever its blocks happen to scatter little, the stated error would be too small. So the
-    first strips count as enough only if even 1 + 1/sqrt(nu) times their error is within the target.
+    If a sample counted as long enough whenever its blocks happen to scatter little, the stated error would be too small.
+    So the first strips count as enough only if even their `StandardError.cautious` error is within the target.
     """
-    is_first = count == first
-    doubt = 1 / math.sqrt(error.freedom) if is_first and error.freedom > 0 else 0.0
-    reached = error.value * (1 + doubt)
+    reached = error.cautious if count == first else error.value
     if reached <= target and not at_least:
         return count
     most = growth[1] if count > first else growth[0]
