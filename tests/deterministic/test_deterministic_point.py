@@ -169,8 +169,9 @@ def test_the_film_of_longer_cells_leads_to_shorter_ones_in_a_few_whole_steps():
     surface = lubfric.generate_surface((64, 32), 2.25e-6, sq=150e-9, correlation_length=10e-6, acf="gaussian", seed=1)
     line = contact(1.6e5, 1.0, oil, 6e-3)
     coarse, fine = (lay_out(surface, line, sliding=2.0, boundary_friction=0.12, map_coarsening=(k, k)) for k in (2, 1))
-    start, least = refined_start(coarse, fine, solve_point(coarse, tolerance=1e-2))
-    near, none = (solve_point(fine, start=start, least=part) for part in (least, 2.0))
+    start = refined_start(coarse, fine, solve_point(coarse, tolerance=1e-2))
+    least = start.least_step
+    near, none = (solve_point(fine, start=start.state, least=part) for part in (least, 2.0))
     assert "from a neighbouring state" in near.report.notes[0] and "from the dry contact" in none.report.notes[0]
     assert 0 < least < 1 and near.report.iterations < 0.7 * none.report.iterations
     assert near.coefficient == pytest.approx(none.coefficient, rel=1e-6)

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -86,12 +86,13 @@ LAST_LIFTS = (0.2, 2.0)
 SHARP_LOAD_RATIO = 0.02
 
 # Residuals over those of the dry start, from which on an interpolated start is not taken [-]. A roller of 1 GPa at 1 m/s
-# took 33 Newton steps from one whose residuals were some 20 times as large, and 14 from the laid-on film.
+# took 33 Newton steps from one whose residuals were some 20 times as large, and 14 from the dry contact plus the
+# change by the film (`_corrected_dry_start`).
 WORSE = 2.0
 
-# Asperity load ratio [-], up to which the film of longer cells is laid on the dry contact of shorter ones. Levels of a
-# roller of 1 GPa take 7 Newton steps so where it is 0.05 to 0.09, and 12 from the lifted dry contact; where it is 0.19,
-# 0.53 and 0.83, 20, 19 and 37 for 11, 13 and 16.
+# Asperity load ratio [-], up to which the change by the film on longer cells is added to the dry contact of shorter ones
+# (`_corrected_dry_start`). Levels of a roller of 1 GPa take 7 Newton steps so where it is 0.05 to 0.09, and 12 from the
+# dry contact lifted by the film; where it is 0.19, 0.53 and 0.83, 20, 19 and 37 for 11, 13 and 16.
 WET_LOAD_RATIO = 0.1
 
 # Part of the pressure of the film between the asperity contacts of the longer cells that a start from the dry contact has
@@ -99,9 +100,9 @@ WET_LOAD_RATIO = 0.1
 # of Moes' film, 15, 21, 33 with 0, 12, 15, 21 with 0.12, 13, 14, 36 with 0.25, 21 (not solved), 13, 45 with 0.5.
 FILM_PRESSURE_PART = 0.125
 
-# Part of a Newton step [-], below which a start from laid-on film is given up: the solution follows by steps that are longer,
+# Part of a Newton step [-], below which a `_corrected_dry_start` is given up: the solution follows by steps that are longer,
 # or not at all (7 steps where it does, see `WET_LOAD_RATIO`).
-LEAST_LAID_ON_STEP = 0.3
+LEAST_CORRECTED_STEP = 0.3
 
 
 def solve_point(
@@ -293,69 +294,150 @@ def _in_time(problem: Problem, state: State, tolerance: float, work: Work) -> Ne
     return newton(problem, marched, work, tolerance=tolerance, most=DIRECT)
 
 
-def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult) -> tuple[State | None, float]:
-    """Return the state of ``result``, a solution of ``coarse``, on the smaller cells of ``problem``, linear between cells;
-    and the least Newton step to take from there.
+@dataclass(frozen=True, kw_only=True)
+class RefinedStart:
+    """A ``state`` to start from, and the least Newton step to take from there [-]; 0: any."""
 
-    Where asperities carry more than `WET_LOAD_RATIO` of the load, their asperity contacts are too sharp to be interpolated to
-    smaller cells. Then the start is the dry contact of the finer grid, lifted as far as the film lifts the coarser one
-    from its own, with the part `FILM_PRESSURE_PART` of the pressure of the film between the asperity contacts.
+    state: State
+    least_step: float = 0.0
 
-    Where they carry less, and the residuals of ``result`` on the finer grid are `WORSE` times those of `dry_start`, as
-    under heavy loads, it is the dry contact of the finer grid plus what the film changes of the coarser one (as in a
-    full approximation scheme: A. Brandt, Math. Comput. 31 (1977) 333-390, doi:10.1090/S0025-5718-1977-0431719-X). That
-    is far away and yet a few full steps from the solution, or it leads nowhere.
 
-    Beyond the old grid p = 0, with fluid upstream and rupture downstream.
-    h0 is corrected, because the half-space has its zero, u = 0, at the length of the grid from a line load. The cells
-    may also be those of ``coarse`` on a longer or shorter grid.
+def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult) -> RefinedStart:
+    """Return a start for ``problem`` from ``result``, a solution of ``coarse``, the same on longer cells, or on cells as long
+    on a longer or shorter grid. The first of these that applies:
+
+        start                              where
+        `_interpolated_start`              the cells are as long; or asperities carry less than `SHARP_LOAD_RATIO`, and its
+                                           residuals are at most `WORSE` times those of `dry_start`
+        `_pressed_start`                   asperities carry more than `WET_LOAD_RATIO`
+        `_corrected_dry_start`             otherwise
     """
-    old = result.state
-    (nx, ny) = problem.heights.shape
-    (nx_old, ny_old) = coarse.heights.shape
-    along = (problem.x - coarse.x[0]) / coarse.spacing[0]
-    across = (np.arange(ny) + 0.5) * (ny_old / ny) - 0.5
-    nearest = old.kind[np.clip(np.rint(along).astype(int), 0, nx_old - 1)][:, np.rint(across).astype(int) % ny_old]
-    kind = np.where((along < -0.5)[:, None], FLUID, np.where((along > nx_old - 0.5)[:, None], RUPTURED, nearest))
-    fill = _interpolated(old.fill, np.clip(along, 0, nx_old - 1), across)
+    transfer = _transfer(coarse, problem, result)
+    interpolated = _interpolated_start(transfer)
+    if problem.spacing == coarse.spacing:
+        return RefinedStart(state=interpolated)
+    dry = dry_contact(problem)
+    rubbing_share = result.split.rubbing / result.load
+    if rubbing_share < SHARP_LOAD_RATIO:
+        starts = (interpolated, dry_start(problem, dry))
+        left, left_by_dry = (max(residuals(evaluated(problem, start)).values()) for start in starts)
+        if left <= WORSE * left_by_dry:
+            return RefinedStart(state=interpolated)
+    dry_coarse = dry_contact(coarse)
+    if rubbing_share > WET_LOAD_RATIO:
+        return RefinedStart(state=_pressed_start(transfer, dry, dry_coarse))
+    return RefinedStart(state=_corrected_dry_start(transfer, dry, dry_coarse), least_step=LEAST_CORRECTED_STEP)
 
-    def state(pressure: FloatArray, kind: IntArray, dent: FloatArray, approach: float) -> State:
+
+@dataclass(frozen=True, kw_only=True)
+class GridTransfer:
+    """From a solution of ``coarse`` to the cells of ``problem``.
+
+    Attributes
+    ----------
+    coarse, problem, result : what is solved, what is to be solved, and the solution
+    along, across : places of the new cells along x and y, counted in old ones
+    kind : of the new cells: that of the nearest old one; beyond the old grid fluid upstream, rupture downstream
+    fill : of the new cells, linear between old ones
+    """
+
+    coarse: Problem
+    problem: Problem
+    result: DeterministicResult
+    along: FloatArray
+    across: FloatArray
+    kind: IntArray
+    fill: FloatArray
+
+    def interpolated(self, field: FloatArray) -> np.ndarray:
+        """Return a ``field`` of the old cells on the new ones, linear between cells, 0 beyond the old grid."""
+        return _interpolated(field, self.along, self.across)
+
+    def state(self, *, pressure: FloatArray, kind: IntArray, dent: FloatArray, approach: float) -> State:
+        """Return the state of these fields, within the bounds of pressure and hardness."""
         ruptured = kind == RUPTURED
-        pressure = np.where(ruptured, 0.0, np.clip(pressure, 0.0, problem.hardness))
-        yielded = pressure >= problem.hardness
-        kind, dent = kind.astype(np.int8), np.where(yielded, dent, 0.0)
+        pressure = np.where(ruptured, 0.0, np.clip(pressure, 0.0, self.problem.hardness))
+        yielded = pressure >= self.problem.hardness
         return State(
             pressure=pressure,
-            fill=np.where(ruptured, fill, 1.0),
-            dent=dent,
-            kind=kind,
+            fill=np.where(ruptured, self.fill, 1.0),
+            dent=np.where(yielded, dent, 0.0),
+            kind=kind.astype(np.int8),
             yielded=yielded,
             approach=approach,
         )
 
-    longer = nx * problem.spacing[0] / (nx_old * coarse.spacing[0])
-    approach = old.approach - 4 * (result.load - result.inlet_load) / (math.pi * problem.e_prime) * math.log(longer)
-    smooth = state(_interpolated(old.pressure, along, across), kind, _interpolated(old.dent, along, across), approach)
-    if problem.spacing == coarse.spacing:
-        return smooth, 0.0
-    new = dry_contact(problem)
-    rubbing_share = result.split.rubbing / result.load
 
-    if rubbing_share < SHARP_LOAD_RATIO:
-        starts = (smooth, dry_start(problem, new))
-        left, left_by_dry = (max(residuals(evaluated(problem, start)).values()) for start in starts)
-        if left <= WORSE * left_by_dry:
-            return smooth, 0.0
-    bare = dry_contact(coarse)
+def _transfer(coarse: Problem, problem: Problem, result: DeterministicResult) -> GridTransfer:
+    old = result.state
+    (ny,) = problem.heights.shape[1:]
+    (nx_old, ny_old) = coarse.heights.shape
+    along = (problem.x - coarse.x[0]) / coarse.spacing[0]
+    across = (np.arange(ny) + 0.5) * (ny_old / ny) - 0.5
+    nearest = old.kind[np.clip(np.rint(along).astype(int), 0, nx_old - 1)][:, np.rint(across).astype(int) % ny_old]
+    return GridTransfer(
+        coarse=coarse,
+        problem=problem,
+        result=result,
+        along=along,
+        across=across,
+        kind=np.where((along < -0.5)[:, None], FLUID, np.where((along > nx_old - 0.5)[:, None], RUPTURED, nearest)),
+        fill=_interpolated(old.fill, np.clip(along, 0, nx_old - 1), across),
+    )
 
-    def on_dry(pressure: FloatArray) -> State:
-        sunk = np.where((kind == RUPTURED) & (pressure <= 0), RUPTURED, FLUID), np.maximum(-new.gap, 0.0)
-        return state(pressure, *sunk, old.approach + bare.approach - new.approach)
 
-    if rubbing_share > WET_LOAD_RATIO:
-        film = _interpolated(np.where(bare.pressure > 0, 0.0, old.pressure), along, across)
-        return on_dry(np.where(new.pressure > 0, new.pressure, FILM_PRESSURE_PART * film)), 0.0
-    return on_dry(new.pressure + _interpolated(old.pressure - bare.pressure, along, across)), LEAST_LAID_ON_STEP
+def _interpolated_start(transfer: GridTransfer) -> State:
+    """Return the solution on the new cells, linear between old ones.
+
+    h0 is corrected, because the half-space has its zero, u = 0, at the length of the grid from a line load.
+    """
+    problem = transfer.problem
+    result = transfer.result
+    old = result.state
+    longer = (
+        problem.heights.shape[0] * problem.spacing[0] / (transfer.coarse.heights.shape[0] * transfer.coarse.spacing[0])
+    )
+    moved = 4 * (result.load - result.inlet_load) / (math.pi * problem.e_prime) * math.log(longer)
+    return transfer.state(
+        pressure=transfer.interpolated(old.pressure),
+        kind=transfer.kind,
+        dent=transfer.interpolated(old.dent),
+        approach=old.approach - moved,
+    )
+
+
+def _pressed_start(transfer: GridTransfer, dry: ContactResult, dry_coarse: ContactResult) -> State:
+    """Return the ``dry`` contact of the new grid, as far from the film as the old solution is from its own dry contact
+    (``dry_coarse``), with the part `FILM_PRESSURE_PART` of the pressure of the film between the asperity contacts.
+
+    Contacts that carry so much are too sharp to be interpolated to smaller cells.
+    """
+    film = transfer.interpolated(np.where(dry_coarse.pressure > 0, 0.0, transfer.result.state.pressure))
+    return _on_dry_contact(
+        transfer, dry, dry_coarse, pressure=np.where(dry.pressure > 0, dry.pressure, FILM_PRESSURE_PART * film)
+    )
+
+
+def _corrected_dry_start(transfer: GridTransfer, dry: ContactResult, dry_coarse: ContactResult) -> State:
+    """Return the ``dry`` contact of the new grid plus what the film changes of ``dry_coarse``, that of the old one (as in a
+    full approximation scheme: A. Brandt, Math. Comput. 31 (1977) 333-390, doi:10.1090/S0025-5718-1977-0431719-X).
+
+    That has large residuals and yet is a few full Newton steps from the solution, or it leads nowhere.
+    """
+    change = transfer.interpolated(transfer.result.state.pressure - dry_coarse.pressure)
+    return _on_dry_contact(transfer, dry, dry_coarse, pressure=dry.pressure + change)
+
+
+def _on_dry_contact(
+    transfer: GridTransfer, dry: ContactResult, dry_coarse: ContactResult, *, pressure: FloatArray
+) -> State:
+    """Return the state of this ``pressure`` at the approach of the old solution, changed by that of the dry contacts."""
+    return transfer.state(
+        pressure=pressure,
+        kind=np.where((transfer.kind == RUPTURED) & (pressure <= 0), RUPTURED, FLUID),
+        dent=np.maximum(-dry.gap, 0.0),
+        approach=transfer.result.state.approach + dry_coarse.approach - dry.approach,
+    )
 
 
 def _interpolated(field: FloatArray, along: FloatArray, across: FloatArray) -> np.ndarray:

@@ -157,8 +157,11 @@ def solve_strip(
                 scene, surface, speed, map_coarsening=longer, tolerance=LONGER_CELLS_RESIDUAL, upper=upper, ends=ends
             )
             work = start.work
-    near, least = (None, 0.0) if start is None else refined_start(start.problem, problem, start.result)
-    result = solve_point(problem, start=near, least=least, tolerance=tolerance, most=most)
+    if start is None:
+        result = solve_point(problem, tolerance=tolerance, most=most)
+    else:
+        near = refined_start(start.problem, problem, start.result)
+        result = solve_point(problem, start=near.state, least=near.least_step, tolerance=tolerance, most=most)
     work += work_of(result)
     if find_slope:
         heavier = problem.at_load(SECOND_LOAD * problem.load)
