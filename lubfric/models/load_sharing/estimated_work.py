@@ -21,7 +21,7 @@ BALANCED_FILM = 3e-3
 # Processor time [s] of a cell of the strips each time that they are pressed together: .5 to 1.5e-7 there.
 CELL_SECONDS = 1.0e-7
 
-# The same of a piece on shorter cells, which starts from fewer known ones: .8 to 2.2e-7 there.
+# Processor time [s] of a cell of a piece on shorter cells, which starts from fewer known ones: .8 to 2.2e-7 there.
 PIECE_SECONDS = 1.5e-7
 
 # Processor time [s] of a cell of the map of a piece on native cells, which is generated: .7 to 1.8e-7 there.
@@ -30,10 +30,10 @@ GENERATED_SECONDS = 1.1e-7
 # Films and contacts of the balance of a point that starts from a reference point, and of those of its response: 3 to 9 there.
 SOLVES = 6
 
-# The same on more strips, which start from fewer: 8 to 10 there, and half of the points that are expected to need them do not.
+# Films and contacts of the balance on more strips, which start from fewer: 8 to 10 there, and half of the points that are expected to need them do not.
 SOLVES_ON_MORE = 5
 
-# The same of the reference point, which no other is near: 6 to 9 there.
+# Films and contacts of the balance of the reference point, which no other is near: 6 to 9 there.
 SOLVES_OF_REFERENCE = 7
 
 # Sizes of cells on which a piece is solved, at least.
@@ -62,7 +62,7 @@ HOT = 5.0
 ROUGH_TIMES = 1.5
 ROUGH_TIMES_ON_LONG_CELLS = 6.0
 
-# The same where the heights are smooth over a cell, and cells are longer than those of the map: shorter ones may follow. Four
+# Factor on the time where the heights are smooth over a cell, and cells are longer than those of the map: shorter ones may follow. Four
 # random runs were estimated to .56 to 1.4 of what they took without it, and to .64 to 1.7 with it.
 REFINED = 1.3
 
@@ -84,7 +84,7 @@ RISE = 0.4
 # Friction where the film carries most of the load, over f_b, about.
 FILM_FRICTION = 0.25
 
-# Film that hardly meets an asperity, in Sq.
+# Film [Sq] that hardly meets an asperity.
 CLEAR_OF_ASPERITIES = 3.5
 
 # Factor between the expected film and any film: outside of it contact or separation is certain.
@@ -92,71 +92,24 @@ CERTAIN_FACTOR = 2.0
 
 
 def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float) -> WorkEstimate:
-    """Return what a point at ``speed`` [m/s] will take; ``surface``: the map that is solved first.
-
-    The mean gap over a line of length L and half-width b scatters as a mean of L (2b + sqrt(pi) lx)/(pi lx ly)
-    independent heights. The effect on f follows from the share of the load that the rigid film of the total load would
-    carry if it were as thick as the gap.
-    """
+    """Return what a point at ``speed`` [m/s] will take; ``surface``: the map that is solved first."""
     film = scene.line_contact(speed).expected_film if speed else 0.0
     sq = surface.sq
-    summit = float(surface.heights.max() - surface.heights.mean())
-    hot = HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0
-    seconds = FILM_SECONDS * hot
-    touching = (
-        "touching"
-        if CERTAIN_FACTOR * film < summit
-        else "none"
-        if film > CERTAIN_FACTOR * summit
-        else "none or a few summits"
-    )
+    touching = _touching_in_words(film, float(surface.heights.max() - surface.heights.mean()))
+    seconds = FILM_SECONDS * _times_by_heat(scene)
     error_of_model = expected_model_error(scene, film, sq, speed)
     if not sample.represents_more:
         if touching != "none":
             seconds += PATCH_SECONDS + MAP_SECONDS * surface.heights.size
         return WorkEstimate(strips=1, seconds=seconds, expected_model_error=error_of_model, touching=touching)
-    (lx, ly) = sample.correlation_lengths
-    first = sample.first_strips * sample.strip_length
+    error = expected_sampling_error(scene, sample, sq, film, speed)
     target = scene.numerics.sampling_tolerance
-    error = 0.0
-    if speed and film <= CLEAR_OF_ASPERITIES * sq:
-        gap = expected_gap(film, sq)
-        share = min(film / gap, 1.0)
-        scatter = sq * math.sqrt(math.pi * lx * ly / (first * (2 * scene.bodies.half_width + math.sqrt(math.pi) * lx)))
-        error = (
-            SCATTER * math.exp(-((film / (SEPARATED * sq)) ** 4)) * scatter / gap * share / (1 - share + FILM_FRICTION)
-        )
     count = math.ceil(sample.first_strips * max(1.0, STRIPS_SAFETY * (error / target) ** 2 if error > target else 1.0))
     count = min(count, sample.available_strips)
-    cells = sample.cells
-    (fx, fy) = cells.coarsening
-    (_, dy) = cells.spacing
     shared: tuple[SharedWork, ...] = ()
     if touching != "none":
-        one_film = BALANCED_FILM * hot
-        strip = cells.columns * sample.strip_length / dy
-        work = SOLVES * (one_film + CELL_SECONDS * strip * sample.first_strips)
-        if count > sample.first_strips:
-            work += SOLVES_ON_MORE * (one_film + CELL_SECONDS * strip * count)
-        share = film / expected_gap(film, sq)
-        if SHARED[0] < share < SHARED[1]:
-            if not smooth_over_cells(surface.heights):
-                work *= ROUGH_TIMES_ON_LONG_CELLS if lx < FEW_CELLS_OF_LENGTH * cells.spacing[0] else ROUGH_TIMES
-            elif not cells.is_native:
-                work *= REFINED
-        pieces = 0.0
-        if not cells.is_native:
-            native = cells.columns * fx * cells.rows(PIECE * ly) * fy
-            pieces = PIECE_SECONDS * cells_of_pieces(cells, native)
-            made = GENERATED_SECONDS * native
-            shared = (SharedWork(what=f"pieces on {cells.coarsening}", seconds=made, of_surface_alone=True),)
-        reference = nearest_reference(film / sq)
-        if reference is not None and scene.lubricant.inlet_film is None:
-            there = SOLVES_OF_REFERENCE * (one_film + CELL_SECONDS * strip * sample.first_strips) + pieces
-            name = f"reference point at {reference} Sq on {cells.coarsening}"
-            shared = (*shared, SharedWork(what=name, seconds=there, of_surface_alone=False))
-            pieces *= OWN_PIECES
-        seconds += POINT_SECONDS + work + pieces + sum(part.seconds for part in shared)
+        of_strips, shared = _work_of_strips(scene, sample, surface, film, count)
+        seconds += of_strips
     return WorkEstimate(
         strips=count,
         seconds=seconds,
@@ -166,6 +119,79 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
         expected_model_error=error_of_model,
         touching=touching,
     )
+
+
+def _touching_in_words(film: float, summit: float) -> str:
+    """Return whether asperities touch under an expected ``film`` [m] below a ``summit`` [m] above the mean height, as text."""
+    if CERTAIN_FACTOR * film < summit:
+        return "touching"
+    return "none" if film > CERTAIN_FACTOR * summit else "none or a few summits"
+
+
+def _times_by_heat(scene: Scene) -> float:
+    """Return the factor on the time of a film by its heat."""
+    return HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0
+
+
+def expected_sampling_error(scene: Scene, sample: Sample, sq: float, film: float, speed: float) -> float:
+    """Return the expected relative standard error of f after the first strips of ``sample``, under the ``film`` [m] of the
+    total load on ``sq`` [m]; 0 where asperities hardly touch, and without entrainment.
+
+    The mean gap over a line of length L and half-width b scatters as a mean of L (2b + sqrt(pi) lx)/(pi lx ly)
+    independent heights. The effect on f follows from the share of the load that the rigid film of the total load would
+    carry if it were as thick as the gap.
+    """
+    if not (speed and film <= CLEAR_OF_ASPERITIES * sq):
+        return 0.0
+    (lx, ly) = sample.correlation_lengths
+    first = sample.first_strips * sample.strip_length
+    gap = expected_gap(film, sq)
+    share = min(film / gap, 1.0)
+    scatter = sq * math.sqrt(math.pi * lx * ly / (first * (2 * scene.bodies.half_width + math.sqrt(math.pi) * lx)))
+    return SCATTER * math.exp(-((film / (SEPARATED * sq)) ** 4)) * scatter / gap * share / (1 - share + FILM_FRICTION)
+
+
+def _work_of_strips(
+    scene: Scene, sample: Sample, surface: Surface, film: float, count: int
+) -> tuple[float, tuple[SharedWork, ...]]:
+    """Return the processor time [s] of the balance on ``count`` strips of ``sample`` under an expected ``film`` [m], and the
+    parts of it that other points are spared: pieces, and the reference point."""
+    sq = surface.sq
+    (lx, ly) = sample.correlation_lengths
+    cells = sample.cells
+    (fx, fy) = cells.coarsening
+    (_, dy) = cells.spacing
+    shared: tuple[SharedWork, ...] = ()
+    one_film = BALANCED_FILM * _times_by_heat(scene)
+    strip = cells.columns * sample.strip_length / dy
+    work = SOLVES * (one_film + CELL_SECONDS * strip * sample.first_strips)
+    if count > sample.first_strips:
+        work += SOLVES_ON_MORE * (one_film + CELL_SECONDS * strip * count)
+    work *= _times_by_shorter_cells(sample, surface, film)
+    pieces = 0.0
+    if not cells.is_native:
+        native = cells.columns * fx * cells.rows(PIECE * ly) * fy
+        pieces = PIECE_SECONDS * cells_of_pieces(cells, native)
+        made = GENERATED_SECONDS * native
+        shared = (SharedWork(what=f"pieces on {cells.coarsening}", seconds=made, of_surface_alone=True),)
+    reference = nearest_reference(film / sq)
+    if reference is not None and scene.lubricant.inlet_film is None:
+        there = SOLVES_OF_REFERENCE * (one_film + CELL_SECONDS * strip * sample.first_strips) + pieces
+        name = f"reference point at {reference} Sq on {cells.coarsening}"
+        shared = (*shared, SharedWork(what=name, seconds=there, of_surface_alone=False))
+        pieces *= OWN_PIECES
+    return POINT_SECONDS + work + pieces + sum(part.seconds for part in shared), shared
+
+
+def _times_by_shorter_cells(sample: Sample, surface: Surface, film: float) -> float:
+    """Return the factor on the time of the strips because shorter cells may follow, under an expected ``film`` [m]."""
+    share = film / expected_gap(film, surface.sq)
+    if not SHARED[0] < share < SHARED[1]:
+        return 1.0
+    if not smooth_over_cells(surface.heights):
+        is_long = sample.correlation_lengths[0] < FEW_CELLS_OF_LENGTH * sample.cells.spacing[0]
+        return ROUGH_TIMES_ON_LONG_CELLS if is_long else ROUGH_TIMES
+    return 1.0 if sample.cells.is_native else REFINED
 
 
 def expected_gap(film: float, sq: float) -> float:
