@@ -29,7 +29,7 @@ from .problem import ContactProblem, TrialContact, dot, with_load, zero_level
 # Counted work [s of a usual core] of an iteration, over n log2 n of its n cells: 0.9 to 1.2e-9 was measured on maps of
 # 256 x 256 and 512 x 512 (`lubfric.solve_contact`, tolerance 1e-8).
 ITERATION = 1.2e-9
-# The same of an iteration, whatever its cells: measured on strips of some 100 candidate cells.
+# Counted work [s of a usual core] of an iteration, whatever its cells: measured on strips of some 100 candidate cells.
 LEAST_ITERATION = 1.5e-4
 
 # Length of the first step over that of an exact preconditioner [-]. Halved and doubled by `python -m

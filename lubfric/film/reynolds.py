@@ -35,7 +35,8 @@ VISCOSITY_STEP = 3.0
 MOST_FILM_STEP = 0.7
 # Counted work [s of a usual core] of a Newton step, whatever its cells: 1.4 to 1.6e-4 was measured on 48 and 96 cells.
 STEP_WORK = 1.4e-4
-# The same over the square of the number of cells, whose matrix is dense: by 96 and 192 cells.
+# Counted work [s of a usual core] of a Newton step over the square of its cells, whose matrix is dense: measured on 96 and
+# 192 cells.
 MATRIX_WORK = 4e-9
 
 

@@ -32,11 +32,11 @@ MOST_CHOSEN_SPEEDS = 25
 # Moes' film of the whole load over Sq at the slow end of a curve: boundary lubrication.
 THIN = 0.02
 
-# The same at the fast end: full-film lubrication.
+# Moes' film of the whole load over Sq at the fast end of a curve: full-film lubrication.
 FULL_FILM_RATIO = 10.0
 
-# The same where the asperity load ratio is about 0.9, 0.5 and 0.
-MIXED = (0.5, 1.5, 4.5)
+# Moes' film of the whole load over Sq where the asperity load ratio is about 0.9, 0.5 and 0.
+MIXED_FILM_RATIOS = (0.5, 1.5, 4.5)
 
 # Speeds to begin with.
 BEGIN = 5
@@ -182,7 +182,7 @@ def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
     if sq > 0:
         least = film_ratio(scene, sq, low) / 0.9
         most = film_ratio(scene, sq, high) / 1.1
-        speeds += [_speed_of(scene, sq, ratio, low, high) for ratio in MIXED if least < ratio < most]
+        speeds += [_speed_of(scene, sq, ratio, low, high) for ratio in MIXED_FILM_RATIOS if least < ratio < most]
     while len(speeds) < BEGIN:
         speeds.sort()
         _, at = max((math.log(b / a), i) for i, (a, b) in enumerate(zip(speeds, speeds[1:])))

@@ -23,7 +23,7 @@ MOST_SOBOL = 64
 # Curves at minima of the interpolation: for each parameter, beside two.
 REFINEMENTS_PER_PARAMETER = 3
 
-# The same, about, for each parameter: one and two parameters took one and two.
+# Curves at minima of the interpolation that are expected for each parameter: one and two parameters took one and two.
 USUAL_REFINEMENTS = 1
 
 # Starts of the minimisation of the interpolation, in a power of two: it costs no solve.
@@ -32,7 +32,7 @@ SURROGATE_STARTS = 16
 # Distance of two positions, as a share of the bounds, below which they are one minimum.
 SAME_MINIMUM = 0.1
 
-# The same below which a curve adds nothing to the interpolation.
+# Distance of two positions, as a share of the bounds, below which a curve adds nothing to the interpolation.
 KNOWN_DISTANCE = 0.01
 
 # Positions between two curves at which the interpolation is compared with them; and how much larger than at the higher

@@ -198,8 +198,8 @@ class TwoLevelEstimate:
 def solve_pairs(
     prepared: Prepared, speed: float, count: int, *, solved: Sequence[StripOnTwoGrids] = ()
 ) -> tuple[StripOnTwoGrids, ...]:
-    """Solve the first ``count`` strips at ``speed`` [m/s], not 0, each on two grids; ``solved``: the first of them, if they
-    are."""
+    """Solve the first ``count`` strips at ``speed`` [m/s], not 0, each on two grids; ``solved``: the first of them, where
+    these are solved already."""
     first = tuple(solved) or (_first_pair(prepared, speed),)
     slope = first[0].resolved.slope
     solve = partial(solve_pair, has_halved_cells=True) if first[0].has_halved_cells else solve_pair

@@ -8,7 +8,7 @@ with m the mass rho θ h, and mn that of n moments ago, n cells upstream; limite
 the lubricant both first terms of the balance are one, d(rho θ h)/dt. Waves that go with it lose nothing, and of a film at
 rest that is third-order upwind. (In steps and cells that are at rest, waves of 12 cells lost half of their height in a
 half-width. With BDF2 along the lubricant, ten cells in the half-width of a needle roller let 5.5 % less film through its
-short inlet. Then f, which hangs on the thinnest of it, was 33 % too high; with BDF3 it is 6 % too high.)
+short inlet. Then f, which depends on the thinnest film, was 33 % too high; with BDF3 it is 6 % too high.)
 
 Where all roughness is slower than U/2, or some is faster than 2 U, the fastest rough body moves by one cell in a step.
 Then steps are BDF2 of the cell itself, the Couette flow is second-order upwind, and the first step is implicit Euler; so are

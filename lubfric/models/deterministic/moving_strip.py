@@ -57,7 +57,7 @@ SMALLEST_SQUARE = 1e-30
 # There that takes twice as many steps as the roughness needs; `moving` has what slower roughness would gain.
 SLOW_ROUGHNESS = 0.5
 
-# The same where some roughness is faster [-]: then it passes one cell in a step, and not more.
+# Speed of the roughness over U [-]: where some is faster, it passes one cell in a step, and not more.
 FAST_ROUGHNESS = 2.0
 
 # Distance that the lubricant travels in the moments on longer cells that are compared with those of a strip [half-widths].

@@ -34,7 +34,7 @@ STEP_HALVINGS = 10
 # 12, 11, 13, 16, and 10 takes up to 35.
 RESIDUAL_GROWTH = 1.05
 
-# The same in a step as short as `LEAST_STEP_PART` [-]. Half and twice change nothing.
+# Factor by which the residual may grow in a step as short as `LEAST_STEP_PART` [-]. Half and twice change nothing.
 SURGE = 2.0
 
 # Residual, below which a step in time whose residual no longer falls is damped [-]: above it full steps sort the cells.

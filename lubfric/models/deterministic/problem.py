@@ -37,7 +37,7 @@ BOUNDARY_FILM = 20e-9  # m: nearest to published shares of the load (docs/determ
 # Undeformed gap at the inlet end of the grid [Sq], at least. Half changes f by .5 %; twice by .2 %, for 42 % more time.
 ROUGH_INLET = 14.0
 
-# The same at the outlet end [Sq]. Half and twice change f by .03 % at most.
+# Undeformed gap at the outlet end of the grid [Sq], at least. Half and twice change f by .03 % at most.
 ROUGH_OUTLET = 5.0
 
 # Hertz half-widths from the middle to the inlet end [-], at least. Half and twice change nothing there.

@@ -28,7 +28,7 @@ from .time_and_place import Places, TimeAndPlace
 # Tolerance of a strip's residuals [-]: f moves by some .1 %.
 STRIP_RESIDUAL = 3e-3
 
-# The same on longer cells, from which a strip starts [-]. Half and twice change nothing.
+# Tolerance of the residuals on longer cells, from which a strip starts [-]. Half and twice change nothing.
 LONGER_CELLS_RESIDUAL = 1e-2
 
 MANY_CELLS = 12_000  # cells from which longer ones come first

@@ -132,7 +132,7 @@ def solve_balance(
     if not _certainly_touching(scene, speed, rough_contact):
         try:
             separated = _film_alone(Point(scene, speed, rough_contact, _first_settings(scene, alone=True)))
-        except ConvergenceError as error:  # then a balance in contact, one of a kind, is what excludes separation
+        except ConvergenceError as error:  # a balance in contact, which is unique, excludes separation as well
             notes = (f"the full-load film was not solved ({error})",)
         else:
             if volume_residual(separated.contact_state) <= 0:
@@ -322,8 +322,8 @@ def predict_log_load_ratio(point: Point, start: Balance) -> tuple[float, float |
 
 
 def _seen_root(point: Point, near: RootStart) -> tuple[Point, Root]:
-    """Return the root, and ``point`` with a contact so tight that its gap at the root is known as closely as it is
-    closed: a root of the errors of a loose contact is none."""
+    """Return the root, and ``point`` with a contact solved so closely that the error of its gap at the root is within the
+    tolerance of the root; a less accurate contact would have its root elsewhere."""
     while True:
         root = _root(point, near)
         now = point.settings.contact_tolerance

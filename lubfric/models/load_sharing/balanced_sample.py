@@ -72,14 +72,14 @@ LARGE_CLEARANCE = 1.0
 # Expected films of the total load over Sq at the speeds of reference points: contact, mixed, and about lift-off.
 REFERENCES = (0.05, 0.4, 1.6)
 
-# Film of the total load [Sq] from which it clears the summits (4.5 Sq) whatever heat takes of it: a point there begins
-# nowhere.
+# Film of the total load [Sq] from which it clears the summits (4.5 Sq) whatever heat takes of it: a point there has no
+# reference point.
 CLEAR_OF_SUMMITS = 10.0
 
 # Distance in ln F_C from a reference point up to which its effect of the cells may serve.
 NEAR_LOAD = 0.25
 
-# Part of the tolerance on f that this may leave.
+# Change of f by the distance from the reference point, over the tolerance on f, up to which its effect of the cells serves [-].
 REFERENCED = 0.1
 
 
@@ -252,8 +252,8 @@ class BalancedSample:
         return depth > 0 and hidden_contact(scene, native, raw_balance.forces, depth) > allowed
 
     def corrected(self) -> BalancedSample:
-        """Divide the load as native cells and the end of the root demand: film and friction are those of that division,
-        areas follow its load."""
+        """Return this sample with the load divided as on native cells and at the exact root (`corrected_gap`): film and
+        friction are solved at that division, and areas scaled to its load."""
         raw_balance = self.raw_balance
         response = self.response
         scene = self.prepared.scene

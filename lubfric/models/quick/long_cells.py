@@ -22,9 +22,9 @@ from ..deterministic import (
     StripOnTwoGrids,
     StripSolution,
     effort_of,
+    film_exponent_of,
     solve_moving_strip,
     solve_strip,
-    steepness_of,
     strip_at_rest,
 )
 
@@ -32,16 +32,17 @@ from ..deterministic import (
 # long by 1.4 % (median of 276 cases), and a strip takes .16 s.
 CELLS_AT_REST = (2.5, 2.0)
 
-# The same where it moves: 3.4 % (median of 198 cases), and .7 s.
+# Cells in a correlation length along x and along y, at least, where roughness moves: f differs from that on cells half as
+# long by 3.4 % (median of 198 cases), and a strip takes .7 s.
 CELLS_IN_MOTION = (2.0, 1.25)
 
-# Cells along x in the place of the first of these where f hangs on the boundary film, because a film that long cells make
+# Cells along x in the place of the first of these where f depends on the boundary film, because a film that long cells make
 # too thin changes f most there: of 11 such cases cells twice as short along x explain half of the error, along y less. A
 # step in time takes 1.5 times as long, and there are 1.5 times as many.
 CELLS_OF_THIN_FILM = 3.0
 
 # Change of f at rest by the boundary film, from which on it does (`LongCellsInMotion.by_film`): with .2 the half-width where f
-# hangs on the film is 21 instead of 18 %, with .4 more.
+# depends on the film is 21 instead of 18 %, with .4 more.
 THIN_BY_FILM = 0.05
 
 # Cells in a correlation length along x and along y, and along x in the half-width, of the solved cases that move
@@ -67,10 +68,10 @@ LONG_CELLS_OF_HALF_WIDTH = 2.0
 # change says only that it is large.
 MOST_BY_CELLS = 0.5
 
-# The least of it: below, the solver's tolerance is as large.
+# Change of ln f on cells twice as long, at least, that a feature takes as it is: below, the solver's tolerance is as large.
 LEAST_BY_CELLS = 0.01
 
-# The middle of it.
+# Change of ln f on cells twice as long at which the feature is 0. A convention.
 MIDDLE_BY_CELLS = 0.05
 
 # Relative length by which a cell may be longer than allowed: that of rounding.
@@ -88,7 +89,8 @@ LITTLE_BY_FILM = 0.1
 # Distance of the sliding part of f from f_b, over f_b, at least: where f is f_b, no cell changes it.
 LEAST_BELOW = 0.02
 
-# The same, from which on it says nothing more in rolling. Chosen with the features, by the likelihood.
+# Distance of the sliding part of f from f_b, over f_b, from which on it says nothing more in rolling. Chosen with the
+# features, by the likelihood.
 NEAR_FRICTION = 0.3
 
 # What is added to it, so that its ln is finite.
@@ -150,7 +152,7 @@ class LongCellsInMotion:
 def long_cells_in_motion(
     scene: Scene, bodies: Sequence[RoughBody], speed: float, lengths: Sequence[float]
 ) -> LongCellsInMotion:
-    """Return rough ``bodies`` on the long cells for ``speed`` [m/s]: on those of `CELLS_IN_MOTION`, or, where f hangs on the
+    """Return rough ``bodies`` on the long cells for ``speed`` [m/s]: on those of `CELLS_IN_MOTION`, or, where f depends on the
     boundary film, on those of `CELLS_OF_THIN_FILM`. ``lengths`` [m]: the correlation lengths. Raises `ConvergenceError`."""
     cells = long_cells_of(scene, bodies, speed, lengths=lengths, per_length=CELLS_IN_MOTION[0])
     if cells.by_film <= THIN_BY_FILM:
@@ -289,15 +291,15 @@ def features(numbers: Mapping[str, float], friction: float) -> dict[str, float]:
     size = MOST_BY_CELLS if math.isnan(by_cells) else min(abs(by_cells), MOST_BY_CELLS)
     by_film = min(abs(numbers["at_twice_film"] - numbers["at_half_film"]) / sliding, MOST_BY_FILM)
     half, twice = (numbers[f"at_{name}_film"] - numbers["rolling"] for name in ("half", "twice"))
-    steepness = steepness_of(twice / half) if half > 0 < twice else 0.0
+    film_exponent = film_exponent_of(twice / half) if half > 0 < twice else 0.0
     return {
         "one": 1.0,
         "cells": 0.0 if math.isnan(by_cells) else math.copysign(size, by_cells),
         "ln cells": math.log(max(size, LEAST_BY_CELLS) / MIDDLE_BY_CELLS),
         "film": by_film / (1 + by_film),
         "ln film": math.log(1 + by_film / LITTLE_BY_FILM),
-        "narrowed": steepness * (CELLS_OF_THIN_FILM * numbers["coarse"]) ** 2 * numbers["smooth"],
-        "summits": steepness * (1.0 - numbers["smooth"]),
+        "narrowed": film_exponent * (CELLS_OF_THIN_FILM * numbers["coarse"]) ** 2 * numbers["smooth"],
+        "summits": film_exponent * (1.0 - numbers["smooth"]),
         "ln rolling": math.log(1 + min(abs(numbers["rolling"]) / sliding, MOST_ROLLING) / LITTLE_ROLLING),
         "ln below": math.log(max(below, LEAST_BELOW)),
         "ln near": math.log((min(max(below, 0.0), NEAR_FRICTION) + LEAST_NEAR) / NEAR_FRICTION),

@@ -45,10 +45,12 @@ MOST_STRIPS = 4
 # error by the cells is worth.
 LEAST_SAMPLING_ERROR = 0.03
 
-# The same, over the half-width of the bounds of f by the cells: with Student's t it widens the interval by a tenth.
+# Standard error of f that strips are solved for, over the half-width of the bounds of f by the cells [-]: with Student's t
+# it widens the interval by a tenth.
 OF_BOUNDS = 0.2
 
-# The same on cells for thin films, where a moment takes twice as long and the bounds are half as wide: by four tenths.
+# `OF_BOUNDS` on cells for thin films, where a moment takes twice as long and the bounds are half as wide [-]: with Student's
+# t it widens the interval by four tenths.
 OF_NARROW_BOUNDS = 0.4
 
 # Part of the work that a point has left, which one more strip may take [-]: the rest is for the ends of input ranges.

@@ -1,7 +1,7 @@
 """The largest friction coefficient that the limits of the shear stress allow.
 
-At no place is the shear stress larger than f_b p, that of a boundary film, or than the stress of the oil in the thinnest
-film that is none. So the sliding part of f is at most the mean of the larger of both over the load.
+At no place is the shear stress larger than both f_b p, that of a boundary film, and the stress of the oil in the thinnest
+film above a boundary film. So the sliding part of f is at most the mean of the larger of both over the load.
 """
 
 import math
