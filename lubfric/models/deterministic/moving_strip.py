@@ -249,58 +249,92 @@ def solve_moving_strip(
     travelled = _travelled(bodies, speed, step, film_half_width(rest.problem.line))
     passing = _passing(rest.problem, bodies, speed, step=step, effort=effort, state=rest.result.state, begun=0.0)
     summits_at = _summits(rest.problem, bodies, speed, target)
-    oils = oils_at_ends(scene)
-    ends_of_hardness = [value_of(end, name) for name, *ends in scene.at_ends() if name == HARDNESS_KEY for end in ends]
-    moved: list[list[float]] = []
-    rows: list[dict[str, Any]] = []
-    sheared: list[dict[str, list[float]]] = []
+    ends = InputEnds(oils=oils_at_ends(scene), hardness=hardness_at_ends(scene))
+    no_ends = InputEnds(oils={}, hardness=())
+    records: list[MomentRecord] = []
     state_after_discard = rest.result.state
     required = count if target is None else min(count, _pilot(rest.problem.line, bodies, step))
-    last = discarded + required
     for number, moment in enumerate(islice(passing, 1, None), 1):
-        rows.append(_row(moment) | {"summits_at": summits_at(number * step)})
-        if number > discarded:
-            sheared.append(with_oils(moment.result, moment.at.problem.sliding, oils))
-            pressure = moment.at.state.pressure
-            hardness = moment.at.problem.hardness
-            moved.append([share_moved_by_hardness(pressure, hardness, end) for end in ends_of_hardness])
-        report_progress("moving roughness", number, last)
+        records.append(_recorded(moment, summits_at(number * step), ends if number > discarded else no_ends))
+        report_progress("moving roughness", number, discarded + required)
         if number == discarded:
             state_after_discard = moment.at.state
         if number == discarded + required:
-            counted = moment
-            sample = _sample(rows[discarded:], moment.result, travelled)
-            if target is not None:
-                required = _required_moments(sample, target, required, count)
-                last = discarded + required
-        if number == last:
-            break
-    count = required
-    speeds = " and ".join(f"{body.speed:.4g}" for body in bodies)
-    lower = sum(row["order"] < STEP_ORDERS[0] for row in rows)
-    by_lower = f"; {lower} step{'s' * (lower > 1)} by lower order" if lower else ""
-    note = (
-        f"the roughness moves at {speeds} m/s: mean over {count} steps of {worded(step, 's')}, after {discarded} discarded ones; "
-        f"the same surfaces at rest, for comparison: f = {rest.result.coefficient:.4g}{by_lower}"
-    )
-    result = _mean(rows[discarded : discarded + count], counted.result)
+            places = _places_of(records[discarded:], moment.result, travelled)
+            enough = required if target is None else _required_moments(places, target, required, count)
+            if enough == required:
+                break
+            required = enough
+    result = _mean([record.numbers for record in records[discarded:]], moment.result)
+    note = _note_of_motion(records, bodies, step=step, discarded=discarded, rest=rest)
     return MovingStripSolution(
-        problem=counted.at.problem,
+        problem=moment.at.problem,
         result=replace(result, report=replace(result.report, notes=(note,))),
         slope=rest.slope,
-        work=rest.work + sum(row["work"] for row in rows),
+        work=rest.work + sum(record.numbers["work"] for record in records),
         rest=rest,
         bodies=tuple(bodies),
-        times=step * np.arange(1, 1 + discarded + count),
+        times=step * np.arange(1, 1 + len(records)),
         discarded=discarded,
-        places=sample,
-        series={name: np.array([row[name] for row in rows[: discarded + count]]) for name in SERIES},
+        places=places,
+        series={name: np.array([record.numbers[name] for record in records]) for name in SERIES},
         effort=effort,
         ends=_ends(scene, bodies, speed, effort),
         state_after_discard=state_after_discard,
-        with_oils={name: tuple(np.mean([each[name] for each in sheared[:count]], axis=0).tolist()) for name in oils},
-        moved=dict(zip(ends_of_hardness, np.mean(moved[:count], axis=0).tolist())),
+        with_oils={
+            name: tuple(np.mean([record.with_oils[name] for record in records[discarded:]], axis=0).tolist())
+            for name in ends.oils
+        },
+        moved=dict(zip(ends.hardness, np.mean([record.moved for record in records[discarded:]], axis=0).tolist())),
     )
+
+
+@dataclass(frozen=True, kw_only=True)
+class InputEnds:
+    """Ends of the ranges of inputs at which f follows from the moments: ``oils``, both lubricants by the name of the input,
+    and ``hardness`` [Pa]."""
+
+    oils: Mapping[str, Sequence[Lubricant]]
+    hardness: Sequence[float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class MomentRecord:
+    """What is kept of a moment: its ``numbers`` by name (`_row`); f `with_oils` at the ends of inputs, by name; the share of the
+    load that ``moved`` at each end of the hardness."""
+
+    numbers: dict[str, Any]
+    with_oils: dict[str, list[float]]
+    moved: list[float]
+
+
+def _recorded(moment: Moment, summits: np.ndarray, ends: InputEnds) -> MomentRecord:
+    """Return the record of a ``moment`` whose places have the control ``summits`` [m] (ny,)."""
+    problem = moment.at.problem
+    pressure = moment.at.state.pressure
+    return MomentRecord(
+        numbers=_row(moment) | {"summits_at": summits},
+        with_oils=with_oils(moment.result, problem.sliding, ends.oils),
+        moved=[share_moved_by_hardness(pressure, problem.hardness, end) for end in ends.hardness],
+    )
+
+
+def _note_of_motion(
+    records: Sequence[MomentRecord], bodies: Sequence[RoughBody], *, step: float, discarded: int, rest: StripSolution
+) -> str:
+    """Return what moved, how many steps of ``step`` [s] count, and f of the same surfaces at ``rest``, as text."""
+    speeds = " and ".join(f"{body.speed:.4g}" for body in bodies)
+    lower = sum(record.numbers["order"] < STEP_ORDERS[0] for record in records)
+    by_lower = f"; {lower} step{'s' * (lower > 1)} by lower order" if lower else ""
+    return (
+        f"the roughness moves at {speeds} m/s: mean over {len(records) - discarded} steps of {worded(step, 's')}, after {discarded} "
+        f"discarded ones; the same surfaces at rest, for comparison: f = {rest.result.coefficient:.4g}{by_lower}"
+    )
+
+
+def hardness_at_ends(scene: Scene) -> tuple[float, ...]:
+    """Return the hardness [Pa] at both ends of its range in ``scene``; () without one."""
+    return tuple(value_of(end, name) for name, *ends in scene.at_ends() if name == HARDNESS_KEY for end in ends)
 
 
 def oils_at_ends(scene: Scene) -> dict[str, tuple[Lubricant, ...]]:
@@ -384,13 +418,17 @@ def _summits(
     return summits_over_time(problem, _as_seen(bodies, speed), target.control)
 
 
-def _sample(rows: Sequence[dict[str, Any]], result: DeterministicResult, travelled: float) -> TimeAndPlace:
-    """Return the places of the moments of ``rows``; ``result``: of the last."""
+def _places_of(records: Sequence[MomentRecord], result: DeterministicResult, travelled: float) -> TimeAndPlace:
+    """Return the places of the moments of ``records``; ``result``: of the last."""
+
+    def over_time(name: str) -> np.ndarray:
+        return np.array([record.numbers[name] for record in records])
+
     return TimeAndPlace(
-        friction=np.array([row["friction_at"] for row in rows]),
-        load=np.array([row["load_at"] for row in rows]),
-        contact_load=np.array([row["contact_load_at"] for row in rows]),
-        summits=np.array([row["summits_at"] for row in rows]),
+        friction=over_time("friction_at"),
+        load=over_time("load_at"),
+        contact_load=over_time("contact_load_at"),
+        summits=over_time("summits_at"),
         travelled=travelled,
         spacing=result.spacing[1],
         mean_load=result.load,
