@@ -369,8 +369,8 @@ def _violations(
     yield from prepared.violations
     yield from violations_by_motion(scene, speed, film)
     flow = mean(result.flow_film for result in results)
-    friction = abs(numbers["coefficient"]) * scene.bodies.load
-    yield from violations_by_inlet(scene, scene.line_contact(abs(speed)), flow, friction)
+    friction_force = abs(numbers["coefficient"]) * scene.bodies.load
+    yield from violations_by_inlet(scene, scene.line_contact(abs(speed)), flow, friction_force)
     for violation in violations_by_pressure(
         scene, max(peak_hertz_pressure(scene), *(result.top_pressure for result in results))
     ):

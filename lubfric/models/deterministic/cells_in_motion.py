@@ -158,9 +158,9 @@ def film_ratio_of(results: Sequence[DeterministicResult]) -> float:
 
 def sliding_share_of(results: Sequence[DeterministicResult]) -> float:
     """Return the sliding part of f over f, of these ``results`` together; 1 where f is 0."""
-    friction = sum(result.coefficient for result in results)
+    f = sum(result.coefficient for result in results)
     rolling = sum(result.rolling / result.load for result in results)
-    return 1.0 - rolling / friction if friction else 1.0
+    return 1.0 - rolling / f if f else 1.0
 
 
 def changed_as_expected(numbers: dict[str, float], change: float) -> dict[str, float]:

@@ -100,9 +100,9 @@ def _share(scene: Scene, load: float, forces: Forces) -> float:
     """Return the relative effect of a contact ``load`` [N] on f: by its own friction, where the surfaces slide, or by
     the load that the film loses, to whose friction that is at most in proportion."""
     bodies = scene.bodies
-    friction = abs(forces.coefficient)
+    f = abs(forces.coefficient)
     boundary_friction = bodies.boundary_friction_coefficient if scene.motion.slide_roll_ratio else 0.0
-    return load / bodies.load * max(boundary_friction / friction, 1.0) if friction else math.inf
+    return load / bodies.load * max(boundary_friction / f, 1.0) if f else math.inf
 
 
 def _load_on_summit(heights: FloatArray, spacing: tuple[float, float], e_prime: float, depth: float) -> float:

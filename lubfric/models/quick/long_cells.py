@@ -271,10 +271,10 @@ def numbers_of_strip(pair: StripOnTwoGrids, length: float, *, is_smooth: bool) -
     }
 
 
-def features(numbers: Mapping[str, float], friction: float) -> dict[str, float]:
+def features(numbers: Mapping[str, float], boundary_friction: float) -> dict[str, float]:
     """Return what bias and σ may depend on, by name, for the ``numbers`` of a strip (`numbers_of_strip`).
 
-    ``friction``: f_b. The features are
+    ``boundary_friction``: f_b. The features are
 
     - "one"; "cells", by_cells between ± `MOST_BY_CELLS`, and "ln cells" of its size;
     - "film": c/(1 + c) of the change c of f by twice the boundary film instead of half of it, over the sliding part of f,
@@ -286,7 +286,7 @@ def features(numbers: Mapping[str, float], friction: float) -> dict[str, float]:
     - "ln below": ln of how far the sliding part of f is below f_b, over f_b; "ln near": the same, to `NEAR_FRICTION` only.
     """
     sliding = max(numbers["coefficient"] - numbers["rolling"], LEAST_SLIDING)
-    below = 1 - sliding / friction
+    below = 1 - sliding / boundary_friction
     by_cells = numbers["by_cells"]
     size = MOST_BY_CELLS if math.isnan(by_cells) else min(abs(by_cells), MOST_BY_CELLS)
     by_film = min(abs(numbers["at_twice_film"] - numbers["at_half_film"]) / sliding, MOST_BY_FILM)

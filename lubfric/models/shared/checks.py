@@ -193,9 +193,9 @@ def violations_by_thickness(scene: Scene, thickness: float) -> Iterator[Violatio
     )
 
 
-def violations_by_inlet(scene: Scene, line: LineContact, flow: float, friction: float) -> Iterator[Violation]:
+def violations_by_inlet(scene: Scene, line: LineContact, flow: float, friction_force: float) -> Iterator[Violation]:
     """Yield the violations by a film of ``line``, a `LineContact`, that a given inlet changes: its ``flow`` film [m] over that of a
-    full one, by Moes; or what the lubricant farther out would add to ``friction`` |f| F_T [N] by rolling, 12 eta U R/x
+    full one, by Moes; or what the lubricant farther out would add to ``friction_force`` |f| F_T [N] by rolling, 12 eta U R/x
     a width from x on: ∫ h/2 dp/dx dx, where the film is far thicker than where it rolls in."""
     oil = scene.lubricant
     tolerance = scene.numerics.tolerance
@@ -208,12 +208,12 @@ def violations_by_inlet(scene: Scene, line: LineContact, flow: float, friction: 
         yield Violation(
             what=what, value=flow / flooded, limit=1.0, unit="", consequence=consequence, recommendation="omit both"
         )
-    elif lost > tolerance * friction:
+    elif lost > tolerance * friction_force:
         what = "rolling friction of the inlet beyond inlet_length, relative to f"
         why = "f depends on where the lubricant begins"
         yield Violation(
             what=what,
-            value=100 * lost / friction,
+            value=100 * lost / friction_force,
             limit=100 * tolerance,
             unit="%",
             consequence=why,
@@ -285,7 +285,7 @@ def violations_by_shear(
     if not friction_force > 0:
         return
     share = shear.excess / friction_force if shear.excess < math.inf else 1.0
-    friction = abs(shear.couette) / max(film_load, 1e-300)
+    of_film = abs(shear.couette) / max(film_load, 1e-300)
     law = "Newtonian shear" if scene.lubricant.newtonian else "the shear law"
     recommendation = "give lubricant.eyring_stress (some 5e6 Pa) and limiting_stress_coefficient (some 0.05 to 0.1)"
     if share > tolerance:
@@ -296,15 +296,15 @@ def violations_by_shear(
             limit=REFUSED_SHARE if severe else tolerance,
             unit="",
             consequence=f"no oil carries more; {law} reaches {shear.stress_ratio:.2g} times that stress, and gives the film a "
-            f"friction coefficient of {friction:.2g}",
+            f"friction coefficient of {of_film:.2g}",
             recommendation=recommendation,
             severe=severe,
         )
-    elif friction > MOST_FILM_FRICTION and abs(shear.couette) > tolerance * friction_force:
+    elif of_film > MOST_FILM_FRICTION and abs(shear.couette) > tolerance * friction_force:
         what = "friction coefficient of the film"
         why = "more than any lubricant gives"
         yield Violation(
-            what=what, value=friction, limit=MOST_FILM_FRICTION, unit="", consequence=why, recommendation=recommendation
+            what=what, value=of_film, limit=MOST_FILM_FRICTION, unit="", consequence=why, recommendation=recommendation
         )
 
 

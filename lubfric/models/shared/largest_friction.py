@@ -28,8 +28,8 @@ PRESSURES = 30
 HERTZ_POINTS = 60
 
 
-def largest_of_oil(oil: Lubricant, friction: float, peak: float, sliding: float, thickness: float) -> float:
-    """Return the largest sliding part of f [-] for an ``oil`` and f_b = ``friction``, under the Hertz pressure ``peak`` [Pa]
+def largest_of_oil(oil: Lubricant, boundary_friction: float, peak: float, sliding: float, thickness: float) -> float:
+    """Return the largest sliding part of f [-] for an ``oil`` and f_b = ``boundary_friction``, under the Hertz pressure ``peak`` [Pa]
     that slides at ``sliding`` [m/s], where the thinnest film is ``thickness`` [m].
 
     The mean of the larger of both stresses is taken over the Hertz pressure, and the ratio of that of the oil to the
@@ -37,14 +37,14 @@ def largest_of_oil(oil: Lubricant, friction: float, peak: float, sliding: float,
     the oil's limit is not stated, to the upper end of `LIMIT_RANGE` times p.
     """
     if oil.newtonian:
-        return friction if oil.limited_by_boundary_friction else max(friction, LIMIT_RANGE[1])
+        return boundary_friction if oil.limited_by_boundary_friction else max(boundary_friction, LIMIT_RANGE[1])
     angle = (np.arange(HERTZ_POINTS) + 0.5) * math.pi / HERTZ_POINTS
     hertz = peak * np.sin(angle)
     higher = np.geomspace(math.pi / 4 * peak, max(MOST_PRESSURE, peak), PRESSURES)
     with np.errstate(over="ignore"):
         of_hertz, of_higher = (shear_stress(oil, pressure, sliding / thickness) for pressure in (hertz, higher))
     weight = np.sin(angle)  # of the place x = -a cos(angle)
-    mean = float(np.sum(np.maximum(of_hertz, friction * hertz) * weight) / np.sum(hertz * weight))
+    mean = float(np.sum(np.maximum(of_hertz, boundary_friction * hertz) * weight) / np.sum(hertz * weight))
     return max(mean, float(np.max(of_higher / higher)))
 
 

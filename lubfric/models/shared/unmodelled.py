@@ -100,10 +100,10 @@ def expected_effects(
     """Return the effects that are not modelled at ``speed`` [m/s], before f is known there, each with the range of its
     change of f: that of any result with the asperity load ratio and the shear of `POWERS` and `SHEARS`. The largest is
     first. ``includes_motion``: as in `unmodelled_effects`."""
-    rubs, friction = _parts(scene, sq, speed)
+    of_boundary, f = _parts(scene, sq, speed)
     f_b = scene.bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0)
-    share = rubs / f_b if f_b else 0.0
-    shear = (friction - rubs) / max(1.0 - share, LEAST_SCALED_SHARE)
+    share = of_boundary / f_b if f_b else 0.0
+    shear = (f - of_boundary) / max(1.0 - share, LEAST_SCALED_SHARE)
     ranges: dict[str, tuple[float, float, str]] = {}
     for power in POWERS if f_b and speed else (1.0,):
         of_load = share**power
@@ -131,18 +131,16 @@ def _all_effects(
     """Return all effects, however small; arguments as of `unmodelled_effects`."""
     bodies = scene.bodies
     whole = run or scene
-    rubbing, friction = known or _parts(scene, sq, speed)
-    effects = (
-        [] if speed == 0 or not friction > 0 else _of_film(scene, sq, speed, known, includes_motion=includes_motion)
-    )
+    of_boundary, f = known or _parts(scene, sq, speed)
+    effects = [] if speed == 0 or not f > 0 else _of_film(scene, sq, speed, known, includes_motion=includes_motion)
     is_stated = (
         any("boundary_friction" in name for name, *_ in whole.ranges)
         or whole.bodies.boundary_friction_table is not None
     )
-    if friction > 0 and not is_stated:
+    if f > 0 and not is_stated:
         what = f"another additive, a coating or a tribofilm (f_b x {RUBBED:g})"
         effects.append(
-            (what, (RUBBED - 1) * rubbing / friction, "give bodies.boundary_friction_coefficient = [low, high]")
+            (what, (RUBBED - 1) * of_boundary / f, "give bodies.boundary_friction_coefficient = [low, high]")
         )
     ends = 2 * bodies.half_width / bodies.width
     effects.append(
