@@ -407,7 +407,7 @@ def _interpolated_start(transfer: GridTransfer) -> State:
 
 
 def _pressed_start(transfer: GridTransfer, dry: ContactResult, dry_coarse: ContactResult) -> State:
-    """Return the ``dry`` contact of the new grid, as far from the film as the old solution is from its own dry contact
+    """Return the ``dry`` contact of the new grid, raised by as much as the film raises the old solution above its own
     (``dry_coarse``), with the part `FILM_PRESSURE_PART` of the pressure of the film between the asperity contacts.
 
     Contacts that carry so much are too sharp to be interpolated to smaller cells.
