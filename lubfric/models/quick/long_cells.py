@@ -99,8 +99,8 @@ LEAST_NEAR = 0.01
 # Part of f by the gradient of the pressure over the sliding part that counts at most: f may be a small difference.
 MOST_ROLLING = 20.0
 
-# The same, below which it says little of the scatter. Chosen by the likelihood of kinds that were left out: with the part itself
-# in the place of the logarithm, eleven cases above 1 had six times the scatter that they have.
+# Part of f by the gradient of the pressure over the sliding part, below which it says little of the scatter. Chosen by the
+# likelihood of kinds that were left out: with the part itself in the place of the logarithm, eleven cases above 1 had six times the scatter that they have.
 LITTLE_ROLLING = 0.1
 
 
