@@ -4,6 +4,7 @@ Monte Carlo of the sum over levels on numbers of known scatter."""
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -24,6 +25,7 @@ from lubfric.models.deterministic import (
 from lubfric.models.deterministic import (
     shorter_cells as shorter,
 )
+from lubfric.models.deterministic.answer import shorter_cells_in_motion
 from lubfric.models.deterministic.strip_on_two_grids import solve_pair
 from lubfric.models.load_sharing import solve_balance
 from lubfric.models.load_sharing.control_variate import control_variate_of
@@ -173,6 +175,24 @@ def test_rolling_roughness_moves_or_gets_load_sharing_and_the_reason(monkeypatch
     assert costly.decision.model == "quick"
     assert "s of counted work, more than 0.1 s" in costly.decision.text
     assert abs(moved.coefficient / costly.coefficient - 1) < costly.uncertainty.model < 1.5
+
+
+@pytest.mark.parametrize(
+    "work, advice",
+    [
+        (0.5, "numerics.grid = 'given' for shorter cells (some {} times the work of a strip)"),
+        (10.0, "numerics.grid = 'given' and numerics.model = 'deterministic' for shorter cells"),
+        (1e4, "a map on longer cells with numerics.grid = 'given' (on these cells some {} times the work of a strip)"),
+    ],
+)
+def test_advice_to_take_shorter_cells_says_what_they_take(work, advice):
+    """Twice as many cells along x need twice as many steps, too: four times the work, and twice that for those along y."""
+    prepared = lubfric.prepare(FINE.with_(motion=ROLLING))
+    (fx, fy) = surface_and_map_coarsening(prepared, 0)[1]
+    (cx, cy) = prepared.sample.cells.coarsening
+    pair = SimpleNamespace(resolved=SimpleNamespace(work=work), has_halved_cells=False)
+    times = (fx * cx) ** 2 * fy * cy
+    assert times > 1 and advice.format(f"{float(f'{times:.2g}'):g}") in shorter_cells_in_motion(prepared, pair)
 
 
 def test_where_roughness_moves_cells_along_the_motion_are_a_quarter_of_a_correlation_length():

@@ -42,7 +42,7 @@ from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
 from .levels import Levels, mean
 from .problem import BOUNDARY_FILM
 from .result import DeterministicResult, stress_with_oil
-from .rough_bodies import map_of, strip_surface
+from .rough_bodies import MOST_WORK_IN_AUTO, map_of, strip_surface
 from .strip import StripSolution, change_by_flow, solve_strip
 from .strip_on_two_grids import StripOnTwoGrids, halved_along_y, sample_coarsening_of
 
@@ -50,6 +50,9 @@ LARGEST_PART = "its largest part is {}"
 
 # Sampling error over its target, above which a note states it [-]: a standard error of a few strips is itself not known to 5 %.
 WORTH_A_NOTE = 1.05
+
+# Counted work of a strip [s] above which no cells are recommended: an hour. A convention.
+LONGEST_WORK = 3600.0
 FEW_STRIPS = "not known from fewer than three strips"
 UNSOLVED_CELLS = (
     "shorter cells did not converge within the work of a point: the numerical error is twice the estimate from longer "
@@ -290,7 +293,7 @@ def _recommendation(prepared: Prepared, pair: StripOnTwoGrids) -> str:
     scene = prepared.scene
     sample = prepared.sample
     if has_moving_roughness(scene):
-        return f"{_shorter_cells_in_motion(prepared, pair)}, or {LARGER_TOLERANCE}"
+        return f"{shorter_cells_in_motion(prepared, pair)}, or {LARGER_TOLERANCE}"
     if not sample.cells.is_native and not sample.refines_in_place:
         return f"numerics.grid = 'given' for shorter cells, or {LARGER_TOLERANCE}"
     if prepared.is_given or is_measured(scene):
@@ -298,14 +301,22 @@ def _recommendation(prepared: Prepared, pair: StripOnTwoGrids) -> str:
     return f"a finer contact.spacing with numerics.grid = 'given', or {LARGER_TOLERANCE}"
 
 
-def _shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
-    """Return how a scene whose roughness moves takes shorter cells than those of ``pair``, as text."""
+def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
+    """Return how a scene whose roughness moves takes shorter cells than those of ``pair``, and at what cost, as text."""
     scene = prepared.scene
-    sample_coarsening = sample_coarsening_of(scene, prepared.sample)
+    sample = prepared.sample
+    sample_coarsening = sample_coarsening_of(scene, sample)
     if pair.has_halved_cells:
         sample_coarsening = halved_along_y(sample_coarsening)
-    if not prepared.sample.cells.is_native or sample_coarsening != (1, 1):
-        return "numerics.grid = 'given' for shorter cells"
+    if not sample.cells.is_native or sample_coarsening != (1, 1):
+        (fx, fy) = (a * b for a, b in zip(sample.cells.coarsening, sample_coarsening))
+        times = fx * fx * fy  # as many more steps in time as cells along x
+        work = times * pair.resolved.work
+        cost = f"some {float(f'{times:.2g}'):g} times the work of a strip"
+        if work > LONGEST_WORK:
+            return f"a map on longer cells with numerics.grid = 'given' (on these cells {cost})"
+        with_model = "" if work <= MOST_WORK_IN_AUTO else " and numerics.model = 'deterministic'"
+        return f"numerics.grid = 'given'{with_model} for shorter cells ({cost})"
     if prepared.is_given or is_measured(scene):
         return "a map with shorter cells and numerics.grid = 'given'"
     return "a finer contact.spacing with numerics.grid = 'given'"
@@ -314,7 +325,7 @@ def _shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
 def _narrows_numerical(prepared: Prepared, pair: StripOnTwoGrids) -> str:
     """Return what narrows the numerical error, as text: where roughness moves no tolerance does."""
     is_moving = has_moving_roughness(prepared.scene)
-    return f"{_shorter_cells_in_motion(prepared, pair) if is_moving else SMALLER_SOLVE_TOLERANCE} narrows it"
+    return f"{shorter_cells_in_motion(prepared, pair) if is_moving else SMALLER_SOLVE_TOLERANCE} narrows it"
 
 
 def _sample_notes(prepared: Prepared, error: StandardError, length: float) -> tuple[str, ...]:
