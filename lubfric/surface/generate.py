@@ -13,7 +13,7 @@ from ..units import worded
 from .height_map import Surface
 from .honed import Honing, honed_heights
 from .regrid import pair, points
-from .statistics import INVERSE_E, correlation_length, first_crossing
+from .statistics import INVERSE_E, check_slopes, check_spacing, correlation_length, first_crossing
 
 ACFS = ("exponential", "gaussian")
 LEAST_CELLS_OF_LENGTH = 2.0  # cells in one correlation length (1/e)
@@ -88,6 +88,7 @@ def generate_surface(
         "groove_width": groove_width,
     }
     surface = surface_generator(shape, spacing, **of)(seed)
+    check_slopes(surface)
     first, *lengths = surface.notes
     length_notes = (f"{note}, found {_found_length(surface, axis, decay_level)}" for axis, note in enumerate(lengths))
     return replace(surface, notes=(first, *length_notes))
@@ -114,6 +115,7 @@ def surface_generator(
 
     shape, spacing = pair("shape", shape), validate.spacing("spacing", spacing)
     points("shape", shape)
+    check_spacing(spacing)
     lengths = validate.spacing("correlation_length", correlation_length)
     honing = honing_of(sk, spk, svk, honing_angle, groove_width, lengths)
     if honing is None or sq == 0:

@@ -10,13 +10,15 @@ import numpy as np
 
 from .._base import validate, with_default_errors
 from ..errors import InputError
+from ..quantities import KEYS
+from ..units import worded
 from .header import LENGTH_UNITS
 from .height_map import Surface
 from .layout import kind_of_table, refuse_profile
 from .prepare import BETTER, FORM_POWERS, advised_form, outliers
 from .regrid import points
 from .sdf import SDF_FIRST_WORDS as SDF
-from .statistics import check_scale, check_slopes
+from .statistics import WHERE_GIVEN_UNIT_IS_WRONG, WHERE_UNIT_IS_WRONG, check_scale, check_slopes
 from .surfer import BINARY as SURFER_BINARY
 from .text import DECIMALS, read_text
 from .x3p import read_x3p
@@ -99,6 +101,8 @@ def read_surface(
     try:
         with np.errstate(all="ignore"):
             surface = _read(path, head, spacing, unit, decimal, missing_value)
+            is_given = spacing is not None or unit is not None  # else the file alone says what its numbers are
+            check_scale(surface, advice=WHERE_GIVEN_UNIT_IS_WRONG if is_given else WHERE_UNIT_IS_WRONG)
             return _prepared(replace(surface, source=path.name), level=level, fill=fill, form=form)
     except MemoryError:
         size = path.stat().st_size
@@ -176,7 +180,7 @@ def _plain(path: Path, suffix: str, spacing: Any, unit: Any, decimal: str | None
         return _masked(path, heights.astype(float), scale, (missing_value,), spacing)
     table = read_text(path, points=suffix == ".xyz", decimal=decimal, units=units, spacing=spacing)
     missing = (missing_value, table.missing_value)
-    surface = _masked(
+    return _masked(
         path,
         table.heights,
         table.height_scale,
@@ -185,9 +189,6 @@ def _plain(path: Path, suffix: str, spacing: Any, unit: Any, decimal: str | None
         notes=table.notes,
         unread_sizes=table.unread_sizes,
     )
-    if spacing is None and units is None:  # nobody but the file says what its numbers are
-        check_scale(surface)
-    return surface
 
 
 def _refuse(suffix: str, **given: Any) -> None:
@@ -242,9 +243,19 @@ def _prepared(surface: Surface, *, level: bool, fill: bool, form: str) -> Surfac
         advised = advised_form(left)
         if left[advised] < BETTER * left[form]:
             words += f"; a form is left in it? give form = {advised!r}"
-        surface = replace(surface, notes=(*surface.notes, f"Sq {words}"))
+        surface = replace(surface, notes=(*surface.notes, f"Sq {words}", *_unusual_height(surface.sq)))
     surface = surface.fill() if fill else surface
     return _with_outliers_noted(surface) if fill and level else surface
+
+
+def _unusual_height(sq: float) -> tuple[str, ...]:
+    """Return a note of an ``sq`` [m] that machined surfaces do not have; () where they do."""
+    low, high = KEYS["surface.sq"].usual
+    if sq == 0 or low <= sq <= high:
+        return ()
+    return (
+        f"Sq {worded(sq, 'm')} is unusual, machined surfaces have {worded(low, 'm')} to {worded(high, 'm')}: check the unit of the heights",
+    )
 
 
 def _with_outliers_noted(surface: Surface) -> Surface:
@@ -305,6 +316,4 @@ def _instrument(path: Path) -> Surface:
     if len(channels) > 1:
         notes.append(f"channel {channels[0]}, the first of {len(channels)}")
     heights = heights * scale
-    surface = Surface(heights, spacing, mask=~np.isnan(heights), source=path.name, notes=tuple(notes))
-    check_scale(surface)
-    return surface
+    return Surface(heights, spacing, mask=~np.isnan(heights), source=path.name, notes=tuple(notes))

@@ -18,6 +18,7 @@ Surface = Any  # `lubfric.Surface`, which is built of these functions
 
 INVERSE_E = math.exp(-1)
 SMOOTHEST = 1e-7  # rms slope below which an instrument's heights and spacing cannot be in the same unit
+SMALLEST_SQ = 1e-11  # m: of a rough map; a tenth of an atom. Superpolished mirrors have 5e-11 m
 SHORTEST_SPACING = 1e-11  # m: spacing of an instrument's map; a tenth of an atom
 LONGEST_SPACING = 1e-2  # m
 IMPOSSIBLE_SLOPE = 3.0  # rms slope beyond which heights and spacing cannot be in the same unit
@@ -109,32 +110,32 @@ def check_slopes(surface: Surface) -> None:
 
 # What to do about lengths that no surface has.
 WHERE_UNIT_IS_WRONG = "check the unit; where the file names none, give it: unit = 'um'"
+WHERE_GIVEN_UNIT_IS_WRONG = "check the unit of the heights, and the spacing, which is in m: spacing = 1e-6 is 1 µm"
 
 
-def check_scale(surface: Surface) -> None:
-    """Raise `InputError` for a map of a file whose lengths cannot be right: another program wrote or read them, and may
-    have taken a unit for another."""
-    dx, dy = surface.spacing
-    if not all(SHORTEST_SPACING <= step <= LONGEST_SPACING for step in (dx, dy)):
-        said = f": spacing = {dx:.3g} x {dy:.3g} m"
-        raise InputError(
-            said,
-            "surface",
-            f"{SHORTEST_SPACING:g} to {LONGEST_SPACING:g} m in a file of an instrument",
-            WHERE_UNIT_IS_WRONG,
-        )
+def check_spacing(spacing: tuple[float, float], *, advice: str = WHERE_GIVEN_UNIT_IS_WRONG) -> None:
+    """Raise `InputError` for a ``spacing`` [m] that no map of a rough surface has; ``advice``: what to do."""
+    dx, dy = spacing
+    if not all(SHORTEST_SPACING <= step <= LONGEST_SPACING for step in spacing):
+        said = f" = {dx:.3g} m" if dx == dy else f" = {dx:.3g} x {dy:.3g} m"
+        raise InputError(said, "spacing", f"{SHORTEST_SPACING:g} to {LONGEST_SPACING:g} m in a map", advice)
+
+
+def check_scale(surface: Surface, *, advice: str = WHERE_UNIT_IS_WRONG) -> None:
+    """Raise `InputError` for a map whose lengths cannot be right: a unit was taken for another. ``advice``: what to do."""
+    check_spacing(surface.spacing, advice=advice)
     if min(surface.shape) < 3 or np.count_nonzero(np.isfinite(surface.heights)) < 9:
         return
     rough = surface.level()
     slope = rms_slope(rough)[2]
-    if rough.sq > 0 and not SMOOTHEST <= slope <= IMPOSSIBLE_SLOPE:
-        said = f": rms slope = {slope:.3g} of heights with Sq {rough.sq:.3g} m on a spacing of {dx:.3g} m"
-        raise InputError(
-            said,
-            "surface",
-            f"{SMOOTHEST:g} to {IMPOSSIBLE_SLOPE:g} in a file of an instrument",
-            WHERE_UNIT_IS_WRONG,
-        )
+    if rough.sq == 0:
+        return
+    if rough.sq < SMALLEST_SQ:
+        raise InputError(f": Sq = {rough.sq:.3g} m", "surface", f"from {SMALLEST_SQ:g} m in a map", advice)
+    of = f"of heights with Sq {rough.sq:.3g} m on a spacing of {surface.spacing[0]:.3g} m"
+    if not SMOOTHEST <= slope <= IMPOSSIBLE_SLOPE:
+        allowed = f"{SMOOTHEST:g} to {IMPOSSIBLE_SLOPE:g} in a map"
+        raise InputError(f": rms slope = {slope:.3g} {of}", "surface", allowed, advice)
 
 
 def autocorrelation(surface: Surface, axis: int = 0) -> tuple[np.ndarray, np.ndarray]:

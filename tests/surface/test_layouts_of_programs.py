@@ -233,6 +233,7 @@ def test_marks_of_thousands_are_refused(thousand, heights, tmp_path):
         "0,991;-0,006\n0,001;0,012\n",
     ):  # decimal commas, without a doubt
         path.write_text(text)
-        assert "decimal comma" in read_surface(path, spacing=1.0, **RAW).notes
+        assert "decimal comma" in read_surface(path, spacing=0.01, unit="mm", **RAW).notes
     path.write_text("4,991;5,006\n5,001;5,012\n")
-    assert read_surface(path, spacing=1.0, decimal=",", **RAW).heights[0, 0] == 4.991
+    z = read_surface(path, spacing=0.01, unit="mm", decimal=",", **RAW).heights
+    assert z[0, 0] == pytest.approx(4.991e-3)

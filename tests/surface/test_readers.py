@@ -335,12 +335,12 @@ def test_xyz_with_decimal_commas_and_titles(tmp_path):
         ("0,12 0,13\n1 2,5E-1\n", [[0.12, 0.13], [1, 0.25]]),
         ("1\t2,5\n3\t4\n", [[1, 2.5], [3, 4]]),
         ("height\n\n# none\n1 2\n# between\n3 5\n", [[1, 2], [3, 5]]),
-        ("Scan 17, roller A 2\nPixel 1.0 x 1.0\n1 2 3 4 5\n4 5 6 7 8\n", [[1, 2, 3, 4, 5], [4, 5, 6, 7, 8]]),
+        ("Scan 17, roller A 2\nPixel 0.01 x 0.01\n1 2 3 4 5\n4 5 6 7 8\n", [[1, 2, 3, 4, 5], [4, 5, 6, 7, 8]]),
     ],
 )
 def test_text_that_can_be_read_in_one_way(tmp_path, text, found):
     (tmp_path / "a.txt").write_text(text)
-    surface = read_surface(tmp_path / "a.txt", spacing=1.0, unit="mm", **RAW)
+    surface = read_surface(tmp_path / "a.txt", spacing=0.01, unit="mm", **RAW)
     assert np.allclose(surface.heights * 1e3, found, rtol=1e-14, equal_nan=True)
 
 
@@ -351,16 +351,16 @@ def test_commas_that_can_be_either_need_a_word(tmp_path, text):
     path = tmp_path / "a.csv"
     path.write_text(text)
     with pytest.raises(InputError, match=r"line 1 .*decimal = '\.'.*','"):
-        read_surface(path, spacing=1.0)
-    separated = read_surface(path, spacing=1.0, unit="mm", decimal=".", **RAW).heights
+        read_surface(path, spacing=0.01)
+    separated = read_surface(path, spacing=0.01, unit="mm", decimal=".", **RAW).heights
     assert separated.shape == (2, text.split("\n")[0].count(",") + 1)
     marks = {"1,2": [[1.2], [3.5]], "-1,": [[-1.5e-7, 2.5e-7], [3.5e-7, 4.5e-7]], "6, ": [[6, -9.8], [7, 1.5]]}
     if text[:3] in marks:
-        z = read_surface(path, spacing=1.0, unit="mm", decimal=",", **RAW).heights
+        z = read_surface(path, spacing=0.01, unit="mm", decimal=",", **RAW).heights
         assert np.allclose(z * 1e3, marks[text[:3]], rtol=1e-12)
     else:
         with pytest.raises(InputError, match="line 1"):
-            read_surface(path, spacing=1.0, decimal=",")
+            read_surface(path, spacing=0.01, decimal=",")
 
 
 @pytest.mark.parametrize(
@@ -386,7 +386,7 @@ def test_commas_that_can_be_either_need_a_word(tmp_path, text):
 def test_text_errors_name_the_line(tmp_path, text, options, words):
     (tmp_path / "a.txt").write_text(text)
     with pytest.raises(InputError, match=words):
-        read_surface(tmp_path / "a.txt", spacing=1.0, **options)
+        read_surface(tmp_path / "a.txt", spacing=0.01, **options)
 
 
 def test_options_that_do_not_apply_are_refused(tmp_path):

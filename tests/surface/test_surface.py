@@ -249,3 +249,10 @@ def test_statistics_refuse_what_they_cannot_give():
     ):
         with pytest.raises(InputError):
             work()
+
+
+def test_a_generated_map_has_lengths_of_a_map():
+    with pytest.raises(InputError, match=r"spacing = 1 m; allowed: 1e-11 to 0.01 m .* 1e-6 is 1 µm"):
+        generate_surface((100, 100), 1, sq=1e-7, correlation_length=8, seed=1)
+    with pytest.raises(InputError, match="rms slope"):
+        generate_surface((100, 100), 1e-6, sq=0.1, correlation_length=8e-6, seed=1)

@@ -28,8 +28,8 @@ NAN = np.nan
 )
 def test_an_empty_cell_is_unmeasured(tmp_path, text, found):
     (tmp_path / "a.csv").write_text(text)
-    surface = read_surface(tmp_path / "a.csv", spacing=1.0, **RAW)
-    np.testing.assert_array_equal(surface.heights, found)
+    surface = read_surface(tmp_path / "a.csv", spacing=0.01, unit="mm", **RAW)
+    np.testing.assert_allclose(surface.heights * 1e3, found, rtol=1e-14)
     np.testing.assert_array_equal(surface.mask, np.isfinite(found))
     count = int(np.isnan(found).sum())
     assert f"{count} empty cell{'s' * (count > 1)} taken for unmeasured" in surface.notes
@@ -164,3 +164,32 @@ def test_heights_and_spacing_that_cannot_be_in_one_unit_are_refused(tmp_path):
     assert read_surface(tmp_path / "a.txt", spacing=2e-6, unit="um").sq == pytest.approx(440e-9, rel=0.2)
     with pytest.raises(InputError, match="rms slope"):
         read_surface(tmp_path / "a.txt", spacing=2e-6, **RAW)
+
+
+@pytest.mark.parametrize(
+    "spacing, unit, words",
+    [
+        (1, "um", r"spacing = 1 m; allowed: 1e-11 to 0.01 m in a map; .*spacing = 1e-6 is 1 µm"),
+        (1e-6, "nm", r"Sq = .*e-1[6-9] m"),
+        (1e-9, "m", "rms slope = .*allowed: 1e-07 to 3"),
+    ],
+)
+@pytest.mark.parametrize("suffix", [".csv", ".npy"])
+def test_a_unit_of_the_caller_that_no_map_has_is_refused(tmp_path, suffix, spacing, unit, words):
+    """Heights in metres, which are called others, or a pixel of 1 µm that is written as 1."""
+    heights = 1e-7 * np.random.default_rng(0).standard_normal((30, 20))
+    path = tmp_path / f"a{suffix}"
+    if suffix == ".npy":
+        np.save(path, heights)
+    else:
+        np.savetxt(path, heights, delimiter=";")
+    assert 5e-8 < read_surface(path, spacing=1e-6).sq < 2e-7
+    with pytest.raises(InputError, match=words):
+        read_surface(path, spacing=spacing, unit=unit)
+
+
+def test_a_smooth_map_is_noted(tmp_path):
+    """Heights in µm that are called nm: 0.1 nm, as polished mirrors have, but no machined surface."""
+    np.save(tmp_path / "a.npy", 0.1 * np.random.default_rng(0).standard_normal((30, 20)))
+    note = next(note for note in read_surface(tmp_path / "a.npy", spacing=1e-6, unit="nm").notes if "unusual" in note)
+    assert note.startswith("Sq 0.09963 nm") and "check the unit of the heights" in note
