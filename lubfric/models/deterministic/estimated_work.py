@@ -23,9 +23,9 @@ STRIP_STEPS = 9
 # Newton steps on cells half as long, which begin there.
 FINER_STEPS = 6
 
-# The same where the pressure is high: above each film of the smooth contact over Sq, so many. A thick film does not need them;
-# of a thin one asperities carry the load, and they begin at the dry contact. A roller of 1 GPa takes 0, 9, 8, 16, 18, 47 at
-# 5.3, 2.3, 1.1, 0.46, 0.21, 0.09 times Sq.
+# Newton steps on cells half as long where the pressure is high: above each film of the smooth contact over Sq, so many. A
+# thick film does not need them; of a thin one asperities carry the load, and they begin at the dry contact. A roller of 1 GPa
+# takes 0, 9, 8, 16, 18, 47 at 5.3, 2.3, 1.1, 0.46, 0.21, 0.09 times Sq.
 FINER_STEPS_HEAVY = ((4.0, 0), (0.7, 9), (0.15, 18), (0.0, 45))
 
 # Newton steps on cells a quarter as long, on which a map shorter than a piece is solved as a whole: 20, in half of the
@@ -54,14 +54,15 @@ SOFT_PIECES = 2
 # Newton steps on a piece of such bodies on shorter cells: from 20 to 263.
 SOFT_PIECE_STEPS = 65
 
-# The same where a given film arrives at the inlet: 60 nm on 80 nm of roughness took 6 to 9 times as long.
+# Factor on the work at rest where a given film arrives at the inlet: 60 nm on 80 nm of roughness took 6 to 9 times as long.
 STARVED_WORK = 8.0
 
 # Processor time of roughness at rest over its counted work [-]: six speeds of a roller took .55 of their estimate.
 AT_REST = 0.6
 
-# The same of moving roughness: .38 to .66 in seven random points, for their matrices have cuts one cell wide and omit what is
-# small; less where fewer steps are needed than are counted. A pass takes .79 of what it took then.
+# Processor time of moving roughness over its counted work [-]: .38 to .66 in seven random points, for their matrices have
+# cuts one cell wide and omit what is small; less where fewer steps are needed than are counted. A pass takes .79 of what it
+# took then.
 IN_MOTION = 0.36
 
 # Newton steps in a step in time of moving roughness over those of the counted work [-]: the first, times the correlation length
@@ -76,9 +77,10 @@ BY_SLIDING = 0.318
 # The least of the former product over Λ in those contacts [-]: below it the number of steps is that at it.
 LEAST_THICKENING = 0.56
 
-# Change of ln f with ln of the boundary film that is expected of moving roughness [-], where the full-load film over Sq is within
-# `MIXED_FILMS`: the larger of the values between which it lies in most of the 301 contacts of verification.campaigns.calibration, 0 and
-# 0.6. A fifth of them have more than 0.4, with which a strip may be solved again on cells half as long along y.
+# Change of ln f with ln of the boundary film that is expected of moving roughness [-], where the full-load film over Sq is
+# within `MIXED_FILMS`: the larger of the values between which it lies in most of the 301 contacts of
+# verification.campaigns.calibration, 0 and 0.6. A fifth of them have more than 0.4, with which a strip may be solved again on
+# cells half as long along y.
 EXPECTED_STEEPNESS = 0.6
 MIXED_FILMS = (0.3, 1.7)
 
@@ -89,7 +91,8 @@ MAY_BE_HALVED = 1.4
 # Scatter of the difference between the models over that of f.
 UNLIKE = 0.65
 
-# The same where roughness moves: attenuated summits leave 12 to 20 % of the variance (docs/design-notes.md).
+# Scatter of f with its control over that without where roughness moves: attenuated summits leave 12 to 20 % of the variance
+# (docs/design-notes.md).
 UNLIKE_IN_MOTION = 0.45
 
 # Half-widths of the Hertz strip along y that are solved again for a picture.
@@ -253,9 +256,8 @@ def work_on_strips(
         return count * _seconds_in_motion(scene, sample, sq=sq, speed=speed, work=work)
     (fx, fy) = sample_coarsening
     (dx, dy) = sample.cells.spacing
-    (ux, uy) = sample.refinement
     length = sum(reach(scene.line_contact(abs(speed)), sq))
-    cells = length / (fx * dx / ux) * sample.strip_length / (fy * dy / uy)
+    cells = length / (fx * dx) * sample.strip_length / (fy * dy)
     ends = 2 * sum(name != BOUNDARY_FRICTION_KEY for name, *_ in scene.ranges)
     thickened = scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene)
     steps = HEAVY_LONG_CELL_STEPS if thickened > HIGH_PRESSURE else STRIP_STEPS

@@ -31,8 +31,9 @@ from .state import RUPTURED, TOUCHING, Iterate, State, stored
 # fails at 1 GPa and 0.03 m/s.
 GMRES_RESIDUAL = 0.01
 
-# Residual of the linear system over its right side, at which GMRES ends at rest where rows are scaled [-]. A roller of 1 GPa at 1, 0.3, 0.1, 0.03 m/s: 9, 9, -1 and 41 % less time than
-# with `GMRES_RESIDUAL` in rows that are not scaled; light contacts 7 % more. Half and twice: 1 % more work.
+# Residual of the linear system over its right side, at which GMRES ends at rest where rows are scaled [-]. A roller of 1 GPa
+# at 1, 0.3, 0.1, 0.03 m/s: 9, 9, -1 and 41 % less time than with `GMRES_RESIDUAL` in rows that are not scaled; light contacts
+# 7 % more. Half and twice: 1 % more work.
 SCALED_ACCURACY = 0.1
 
 # Pressure-viscosity coefficient times Hertz pressure, from which on rows are scaled at rest [-]: 2 and 18 were measured.

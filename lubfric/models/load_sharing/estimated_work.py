@@ -30,7 +30,8 @@ GENERATED_SECONDS = 1.1e-7
 # Films and contacts of the balance of a point that starts from a reference point, and of those of its response: 3 to 9 there.
 SOLVES = 6
 
-# Films and contacts of the balance on more strips, which start from fewer: 8 to 10 there, and half of the points that are expected to need them do not.
+# Films and contacts of the balance on more strips, which start from fewer: 8 to 10 there, and half of the points that are
+# expected to need them do not.
 SOLVES_ON_MORE = 5
 
 # Films and contacts of the balance of the reference point, which no other is near: 6 to 9 there.
@@ -62,8 +63,8 @@ HOT = 5.0
 ROUGH_TIMES = 1.5
 ROUGH_TIMES_ON_LONG_CELLS = 6.0
 
-# Factor on the time where the heights are smooth over a cell, and cells are longer than those of the map: shorter ones may follow. Four
-# random runs were estimated to .56 to 1.4 of what they took without it, and to .64 to 1.7 with it.
+# Factor on the time where the heights are smooth over a cell, and cells are longer than those of the map: shorter ones may
+# follow. Four random runs were estimated to .56 to 1.4 of what they took without it, and to .64 to 1.7 with it.
 REFINED = 1.3
 
 # Cells in a correlation length along x below which cells are long.

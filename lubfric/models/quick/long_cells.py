@@ -100,7 +100,8 @@ LEAST_NEAR = 0.01
 MOST_ROLLING = 20.0
 
 # Part of f by the gradient of the pressure over the sliding part, below which it says little of the scatter. Chosen by the
-# likelihood of kinds that were left out: with the part itself in the place of the logarithm, eleven cases above 1 had six times the scatter that they have.
+# likelihood of kinds that were left out: with the part itself in the place of the logarithm, eleven cases above 1 had six
+# times the scatter that they have.
 LITTLE_ROLLING = 0.1
 
 

@@ -158,17 +158,18 @@ class QuickSolution(SampleSolution):
 
 
 def sample_coarsening_of_long_cells(scene: Scene, sample: Sample) -> tuple[float, float]:
-    """Return the length of the long cells in those of ``sample``, of a patch at rest in those of the map; where roughness
-    moves those of a thin film, which are the shorter ones."""
+    """Return the length of the long cells in those of ``sample``; where roughness moves those of a thin film, which are the
+    shorter ones."""
     (dx, dy) = sample.cells.spacing
     if has_moving_roughness(scene):
         return map_coarsening_in_motion(
             scene, spacing=(dx, dy), rows=sample.rows, lengths=sample.correlation_lengths, per_length=CELLS_OF_THIN_FILM
         )
-    (fx, fy) = sample.refinement
-    return map_coarsening_at_rest(
+    (fx, fy) = sample.refinement  # of a patch, whose strips are solved on the cells of its map
+    (along, across) = map_coarsening_at_rest(
         scene, spacing=(dx / fx, dy / fy), rows=sample.rows * fy, lengths=sample.correlation_lengths
     )
+    return along / fx, across / fy
 
 
 def _error_of_thick_films(scene: Scene, sq: float, speed: float) -> float:
