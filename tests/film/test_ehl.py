@@ -288,6 +288,26 @@ def test_a_starved_rigid_film_is_the_one_integrated_directly():
         assert result.flow_film == pytest.approx(load_of(gap)[1], rel=3e-4)
 
 
+@pytest.mark.parametrize("M, L, off", [(0.06, 3.3, 0.06), (0.2, 10, 0.06), (2, 4, 0.1), (100, 10, 0.1)])
+def test_the_closed_form_of_a_starved_film_is_near_the_solved_one(M, L, off):
+    """The first is a piston ring, whose contact is far narrower than its inlet."""
+    arguments, _ = contact(M, L)
+    names = ("load_per_width", "radius", "e_prime", "entrainment_speed")
+    numbers = {name: arguments[name] for name in names}
+    oil = {name: value for name, value in arguments.items() if name not in numbers and name != "tolerance"}
+
+    def films(inlet):
+        line = LineContact(**numbers, lubricant=Lubricant(**oil, inlet_length=inlet))
+        return np.array([solve_ehl(**arguments, inlet_length=inlet).flow_film, line.expected_film])
+
+    full = films(None)
+    rise = math.sqrt(2 * arguments["radius"] * full[1])
+    for k in (0.25, 0.65, 2.0):
+        solved, closed = films(half_width(arguments) + k * rise) / full
+        assert closed == pytest.approx(solved, abs=off), k
+        assert closed == pytest.approx(solved, rel=0.2), k
+
+
 @pytest.mark.parametrize("M, L", [(0.05, 1), (5, 5), (100, 10)])
 def test_what_arrives_is_what_flows(M, L):
     arguments, _ = contact(M, L, tolerance=1e-3, density_law="dowson-higginson")
