@@ -129,8 +129,10 @@ def combined(first: Surface, second: Surface) -> Surface:
             raise InputError(f"{name} surface has unmeasured points (NaN); call level() and fill() first")
     turned = None if second.mask is None else second.mask[:, ::-1]
     second = replace(second, heights=second.heights[:, ::-1], mask=turned)
-    spacing = tuple(min(a, b) for a, b in zip(first.spacing, second.spacing))
-    parts = [surface.resampled(spacing=spacing) for surface in (first, second)]
+    spacing = (min(first.spacing[0], second.spacing[0]), min(first.spacing[1], second.spacing[1]))
+    parts = [_cut_to_common(pair_of, spacing) for pair_of in ((first, second), (second, first))]
+    _check_size(parts, spacing)
+    parts = [surface.resampled(spacing=spacing) for surface in parts]
     shape, closed = zip(*(_common(axis, *parts) for axis in range(2)))
     shorter = [_shorter(axis, *parts) for axis in range(2)]
     parts = [part.patch(shape) for part in parts]
@@ -143,6 +145,37 @@ def combined(first: Surface, second: Surface) -> Surface:
     notes.append(f"sum of surface and counterface, {both}, the counterface turned over about x")
     notes += [shorter_in_words(axis, name) for axis, name in enumerate(shorter) if name]
     return replace(parts[0], heights=heights, mask=mask, periodic_axes=closed, source=source, notes=tuple(notes))
+
+
+def _cut_to_common(pair_of: tuple[Surface, Surface], spacing: tuple[float, float]) -> Surface:
+    """Return the first map of a pair, cut around its middle along each axis where finer cells of ``spacing`` [m] are made of
+    it and the other map is shorter: two cells longer than the sum."""
+    surface, other = pair_of
+    shape = list(surface.shape)
+    for axis in range(2):
+        step = surface.spacing[axis]
+        if surface.periodic_axes[axis] or other.periodic_axes[axis] or step <= spacing[axis] * (1 + EQUAL_LENGTHS):
+            continue
+        shape[axis] = min(shape[axis], math.ceil(other.size[axis] / step) + 2)
+    return surface if tuple(shape) == surface.shape else surface.cropped(shape)
+
+
+def _check_size(parts: list[Surface], spacing: tuple[float, float]) -> None:
+    """Raise `InputError` where a map of a sum has too many points on the finer cells of both, of ``spacing`` [m]."""
+    for surface in parts:
+        shape = tuple(math.floor(length / step * (1 + EQUAL_LENGTHS)) for length, step in zip(surface.size, spacing))
+        if math.prod(shape) > MOST_MAP_POINTS:
+            name = surface.source or "a map"
+            said = f"{name} on the finer cells of both maps, {worded(spacing[0], 'm')} x {worded(spacing[1], 'm')}"
+            ways = (
+                "coarser cells of the finer map, surface.resampled(spacing=...), or a smaller part of the larger map, "
+            )
+            raise InputError(
+                f": {shape[0]} x {shape[1]} points of {said}",
+                "sum of two maps",
+                f"up to {MOST_MAP_POINTS:.3g} points",
+                f"give {ways}surface.cropped(...)",
+            )
 
 
 def _shorter(axis: int, first: Surface, second: Surface) -> str:

@@ -150,3 +150,23 @@ def test_the_shorter_of_two_maps_is_named(tmp_path):
     )
     with pytest.raises(InputError, match=r"map of the counterface \(.*short.npy\) is 40 µm.*counterface.extension"):
         prepare(scene)
+
+
+def test_maps_of_very_different_cells_are_cut_before_they_are_resampled():
+    """A map of 2 mm on cells of 4 µm against one of 51 µm on cells of 0.1 µm: on these the first had 4e8 points."""
+    fine = Surface(1e-7 * np.random.default_rng(2).standard_normal((510, 510)), 1e-7)
+    x = (np.arange(500) - 249.5) * 4e-6
+    coarse = Surface(1e-3 * x[:, None] + np.zeros(500), 4e-6)
+    both = coarse.combined(fine)
+    assert both.shape == (510, 510) and both.spacing == (1e-7, 1e-7)
+    slope = both.heights - (fine.heights - fine.heights.mean())[:, ::-1]
+    np.testing.assert_allclose(slope, 1e-3 * (np.arange(510) - 254.5)[:, None] * 1e-7 + np.zeros(510), atol=1e-15)
+
+
+def test_a_sum_that_is_too_large_names_the_map_and_what_to_do():
+    across = Surface(1e-9 * np.arange(2)[:, None] + np.zeros(9_000), (5e-4, 1e-7), source="wide.sur")
+    along = Surface(1e-9 * np.arange(2) + np.zeros((9_000, 2)), (1e-7, 5e-4), source="long.sur")
+    with pytest.raises(
+        InputError, match="10000 x 9000 points of wide.sur .*allowed: up to 6.71e.07 points; .*resampled"
+    ):
+        across.combined(along)
