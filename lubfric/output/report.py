@@ -409,7 +409,7 @@ def _history_parts(prepared: Prepared, result: TransientResult, estimate: SceneE
     return {
         "kind": "" if complete else "failed",
         "status": escape(result.status),
-        "answer": _paragraphs([*history_answer(result, complete=complete), *_history_notes(result)]),
+        "answer": _paragraphs([*history_answer(result, complete=complete), *_history_notes(prepared.scene, result)]),
         "budget": _history_budget(result),
         "table": _history_table(result),
         "effects": _history_effects(prepared, result, estimate),
@@ -475,10 +475,10 @@ def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
     return sentences
 
 
-def _history_notes(result: TransientResult) -> list[str]:
-    """Return what a reader of f and of its mean should know: why f is negative at some times, and that the run contains
-    its start."""
-    notes = []
+def _history_notes(scene: Scene, result: TransientResult) -> list[str]:
+    """Return what a reader of f and of its mean should know: which model answers, and where a steady point may have a
+    narrower interval; why f is negative at some times; and that the run contains its start."""
+    notes = [_model_of_run(scene, result)]
     negative = int(np.sum((result.coefficient < 0) & (result.sliding_speed != 0)))
     if negative:
         notes.append(
@@ -489,6 +489,23 @@ def _history_notes(result: TransientResult) -> list[str]:
     if result.start_in_words:
         notes.append(result.start_in_words)
     return notes
+
+
+def _model_of_run(scene: Scene, result: TransientResult) -> str:
+    """Return which model answers at all times, as a sentence, and at which outputs a steady point by another one may have a
+    narrower interval."""
+    if "deterministic model" in result.methods:
+        return "The deterministic model answers at all times."
+    answers = "The load-sharing model answers at all times."
+    target = scene.numerics.model_tolerance
+    wide = in_motion(result.columns) & (result.uncertainty.model > target)
+    if not wide.any():
+        return answers
+    return (
+        f"{answers} At {counted(int(wide.sum()), 'outputs')} its model-form error is above {100 * target:g} % "
+        "(numerics.model_tolerance); for a steady point at the values of such a moment (a scene without [transient]) "
+        "lubfric then takes the deterministic model where it can, with a narrower interval."
+    )
 
 
 def _largest_friction(result: TransientResult) -> int:

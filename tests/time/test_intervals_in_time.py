@@ -123,6 +123,8 @@ def test_the_report_of_a_run_has_budget_table_and_sources(tmp_path):
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     assert "<h2>Uncertainty budget</h2><p>Relative errors of the mean friction coefficient," in page
     assert "<h2>Uncertainty budget</h2>" in page and "<h2>Operating points</h2>" in page
+    answer = page.partition("<h2>Answer</h2>")[2].partition("<h2>")[0]
+    assert "The load-sharing model answers at all times. At " in answer and "(numerics.model_tolerance)" in answer
     assert "The mean power loss is" in page and "Akchurin" in page.partition("Method and sources")[2]
     header = (tmp_path / "out" / "history.csv").read_text().splitlines()[0]
     assert "interval_low [-]" in header and "power_loss_high [W]" in header and "model_error_high [-]" in header
