@@ -26,7 +26,7 @@ from ..models.shared import (
 )
 from ..quantities import COLUMNS, KEYS, counted
 from ..scene import Scene, short_keys
-from ..studies import DRAWN_ERROR, CurveResult, Law, StribeckResult, TractionResult
+from ..studies import CurveResult, Law, StribeckResult, TractionResult
 from ..time import TransientResult, in_motion, run_model_of, scene_at
 from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval, worded
 from .describe import TABLE_CAPTION, SceneEstimate
@@ -235,14 +235,12 @@ def _lift_off(curve: CurveResult, point: FrictionResult) -> list[str]:
     try:
         speed = curve.lift_off
         low, high = curve.lift_off_range
-        least = curve.least
     except InputError:  # too few points, or in both directions
         return []
     if speed is None:
         touching = np.nanmax(curve.contact_load[curve.speed != 0]) > 0
-        where = "above" if touching else "below"
-        return [f"The lift-off speed is {where} the speeds solved."]
-    if math.isnan(speed):
+        first = f"The lift-off speed is {'above' if touching else 'below'} the speeds solved."
+    elif math.isnan(speed):
         first = (
             f"The lift-off speed, above which the film separates the surfaces, lies between the solved speeds {low:.4g} and "
             f"{high:.4g} m/s; more speeds between them determine it."
@@ -251,16 +249,28 @@ def _lift_off(curve: CurveResult, point: FrictionResult) -> list[str]:
         surface = ", for this sample of the surface" if point.uncertainty.sampling else ""
         known = with_interval(speed, low, high, "", unit="m/s")
         first = f"The lift-off speed, above which the film separates the surfaces, is {known}{surface}."
-    if curve.between <= DRAWN_ERROR:
-        between = (
-            f"Between the solved speeds f is interpolated within {percent(curve.between)}, and its minimum is "
-            f"{least[1]:.3g} at U = {least[0]:.3g} m/s."
-        )
-    elif curve.between <= LARGEST_BETWEEN:
-        between = f"Between the solved speeds f is interpolated within {percent(curve.between)}."
+    if curve.between > LARGEST_BETWEEN:
+        between = "Between some of the solved speeds f is not known."
     else:
-        between = "Between the solved speeds f is not known; solve more of them (--speeds auto chooses them)."
-    return [f"{first} {between}"]
+        between = f"Between the solved speeds f is interpolated within {percent(curve.between)}."
+    return [f"{first} {between} {_minimum(curve)}"]
+
+
+def _minimum(curve: StribeckResult) -> str:
+    """Return in a sentence where f is least between the solved speeds, as far as these bracket it."""
+    minimum = curve.minimum
+    low, high = minimum.speeds
+    if minimum.is_bracketed:
+        f = with_interval(minimum.coefficient, *minimum.interval, " by the interpolation")
+        return f"The minimum of f is {f}, between U = {low:.3g} and {high:.3g} m/s."
+    more = "solve more speeds there, or let --speeds auto choose them"
+    if minimum.is_inside:
+        return f"The minimum of f lies between U = {low:.3g} and {high:.3g} m/s; {more}."
+    ends = np.sort(curve.speed[np.isfinite(curve.coefficient) & (curve.speed != 0)])
+    outside = " and ".join(
+        name for name, reached in (("below", low <= ends[0]), ("above", high >= ends[-1])) if reached
+    )
+    return f"The minimum of f lies between U = {low:.3g} and {high:.3g} m/s, or {outside} the speeds solved; {more}."
 
 
 def _budget(values: dict[str, float], words: dict[str, str], subject: str, notes: Iterable[str]) -> str:

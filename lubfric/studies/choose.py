@@ -23,7 +23,7 @@ AUTO_SPEEDS = "auto"
 # through both would have any slope.
 ALIKE = 1e-6
 
-# Speeds that a curve chooses, about, for estimates of time: 9 to 12 in most scenes.
+# Speeds that a curve chooses, about, for estimates of time: 10 to 15 in most scenes.
 EXPECTED_SPEEDS = 12
 
 # Most speeds that a curve chooses.

@@ -15,12 +15,12 @@ from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import ITERATION_LIMIT, InputError, Report
 from ..estimate import FrictionResult
 from ..models import prepared_with
-from ..models.shared import Prepared, scene_of
+from ..models.shared import Prepared, percent, scene_of
 from ..quantities import PointQuantities, described_in_doc
 from ..scene import FASTEST, LARGEST_RATIO, Scene
-from .choose import GRID, alike, between, each_once, requested_speeds, span, tolerance_between
+from .choose import alike, between, each_once, requested_speeds, span, tolerance_between
 from .curve import CurveResult, checked_curve, columns_of, csv_bytes, parted, report_of
-from .interpolate import FEWEST_SPEEDS, Interpolant, through
+from .interpolate import FEWEST_SPEEDS, Interpolant, Minimum, through
 from .law import MORE_SPEEDS, Law, conditions_of, law_of
 from .points import Outcome, at_ratios, key_of, outcome_of, solved
 from .store import opened
@@ -88,10 +88,14 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
 
     @property
     def least(self) -> tuple[float, float]:
-        """(the speed [m/s] at which f is least between the slowest and the fastest, f there), interpolated."""
-        at = np.geomspace(*self._curve.range, 5 * GRID)
-        f = self.at(at)
-        return float(at[f.argmin()]), float(f.min())
+        """(the speed [m/s] at which f is least between the slowest and the fastest, f there), interpolated. ``minimum``
+        says how well that is known."""
+        return self.minimum.speed, self.minimum.coefficient
+
+    @cached_property
+    def minimum(self) -> Minimum:
+        """The least f between the solved speeds, with the range in which it and its speed lie by the interpolation."""
+        return self._curve.minimum()
 
     @cached_property
     def between(self) -> float:
@@ -107,7 +111,9 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         ``lubfric.study(...).law()`` has more of them. Raises `InputError` where f between the speeds is not known
         within 5 %."""
         if self.between > DRAWN_ERROR:
-            said = f"between the speeds f is known within {100 * self.between:.2g} %"
+            limit = f"a formula needs at most {percent(DRAWN_ERROR)}"
+            error = percent(self.between) if np.isfinite(self.between) else "not known"
+            said = f"the estimated error of f between the solved speeds is {error}, and {limit}"
             raise InputError(said, recommendation=MORE_SPEEDS)
         low, high = self.uncertainty.interval.T
         curves = [(conditions_of(self.scene), self._curve)]

@@ -122,7 +122,7 @@ def test_curves_without_a_knee(lift_off):
         speeds.append(speed)
     result = curve.through(np.array(speeds))
     at = np.geomspace(1e-4, 1.0, 500)
-    assert result.lift_off is None and len(speeds) <= 10
+    assert result.lift_off is None and len(speeds) <= 11
     np.testing.assert_allclose(result.at(at), sum(curve.at(at)), rtol=0.01)
 
 
@@ -148,7 +148,7 @@ def auto():
 
 
 def test_an_adaptive_curve_is_that_of_many_solves(auto):
-    assert auto.report.converged and auto.speed.size <= 12 and auto.report.residual <= 0.01
+    assert auto.report.converged and auto.speed.size <= 15 and auto.report.residual <= 0.01
     assert auto.speed[0] == pytest.approx(SCENE.motion.speeds[0]) and auto.speed[-1] == pytest.approx(1.0)
     speeds = np.sort(np.append(np.geomspace(1.1e-4, 0.9, 8), auto.lift_off * np.array([0.9, 0.97, 1.02])))
     direct = lubfric.stribeck(SCENE, speeds, tolerance=2e-3)
