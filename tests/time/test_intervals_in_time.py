@@ -10,6 +10,7 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.output import describe_scene, main
+from lubfric.output.report import history_answer
 from lubfric.scene import Harmonic, Transient
 
 STRIPS = paper_scene(motion={"entrainment_speed": 0.02}, bodies={"boundary_friction_coefficient": 0.09})
@@ -42,6 +43,12 @@ def test_the_mean_is_the_integral_over_the_cycle_and_its_interval_that_of_the_en
         assert number == pytest.approx(np.trapezoid(column, held.time) / duration)
     assert mean.interval[0] < mean.coefficient < mean.interval[1]
     assert held.cite().splitlines()[0] == lubfric.friction(STRIPS).cite().splitlines()[0]
+
+
+def test_the_time_of_a_mean_is_that_of_the_outputs(held):
+    later = replace(held, columns=held.columns | {"time": held.time + 0.06})
+    for run, words in ((held, "over 3 ms is "), (later, "over the time from 60 ms to 63 ms is ")):
+        assert history_answer(run, complete=True)[0].startswith(f"The mean friction coefficient {words}")
 
 
 def test_friction_gives_no_power():
