@@ -115,7 +115,8 @@ def run(arguments: Namespace) -> None:
     scene = scene.with_(numerics=changed | ({"accept": True} if arguments.accept else {}))
     what = OF_RUNS_IN_TIME if scene.transient is not None else OF_TRACTION if arguments.ratios else OF_CURVES
     for option, of in FOR.items():
-        if getattr(arguments, option) not in (None, False) and of != what:
+        is_default = getattr(arguments, option) in ((None, 1) if option == "workers" else (None, False))
+        if not is_default and of != what:
             raise InputError(f"--{option} is for {of}, and this is {what}; omit it")
     solve = {
         OF_TRACTION: run_curve.run_traction,

@@ -46,6 +46,7 @@ INTERRUPTED = 130
 TERMINATED = 143
 _CONTROL = re.compile("[\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069]")
 SAY_EVERY = 1.0  # s between two lines of progress
+PROGRESS_SECONDS = 5.0  # s between two lines on how far a point is
 
 
 def say(text: str) -> None:
@@ -101,6 +102,24 @@ def paced() -> Callable[..., bool]:
         return True
 
     return due
+
+
+def moment_reports(interval: float = PROGRESS_SECONDS) -> Callable[[str, int, int], None]:
+    """Return what writes how far a point is, and the time left for this part of it, every ``interval`` [s] at most."""
+    begun = last = time.monotonic()
+
+    def report(what: str, done: int, total: int) -> None:
+        nonlocal begun, last
+        now = time.monotonic()
+        if done == 1:
+            begun = now
+        if now - last < interval or done < 2:
+            return
+        last = now
+        left = (now - begun) / (done - 1) * (total - done)
+        say(f"      {what}: step {done} of {total}, {left:.0f} s left")
+
+    return report
 
 
 @contextmanager

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-import time
 from argparse import Namespace
 from collections.abc import Callable
 from dataclasses import asdict
@@ -31,7 +30,7 @@ from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..samples import takes_strips
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene, given_tables, has_moving_roughness
 from ..units import number_of, numbers_of, with_interval
-from .commands import RunFolder, check_outputs, made, read_record, run_begun, say
+from .commands import RunFolder, check_outputs, made, moment_reports, read_record, run_begun, say
 from .contact_pictures import compared_contact, drawn_contact, plot_contact
 from .describe import SceneEstimate
 from .fields import fields_bytes, read_contact, vtk_bytes
@@ -51,7 +50,6 @@ WIDEST_PICTURE = 0.6  # m: width of a picture
 TABLES = {"history": "a run in time", "traction": "a traction curve", "stribeck": "a Stribeck curve"}
 WORTH = 8  # speeds from which a second process gains more than it costs
 MOST_GAPS = 3  # gaps of a traction curve that are named
-PROGRESS_SECONDS = 5.0  # s between two lines on how far a point is
 
 
 def run_sweep(scene: Scene, arguments: Namespace) -> None:
@@ -95,7 +93,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
         parts_on(None if speeds_apart else executor),
     ):
         begun = run_begun(scene, arguments, names, kept, speeds, chosen, speeds=speeds)
-        with begun as (folder, prepared, estimate), progress_to(_moment_reports()):
+        with begun as (folder, prepared, estimate), progress_to(moment_reports()):
             curve = studies.stribeck(
                 prepared,
                 speeds,
@@ -489,24 +487,6 @@ def _range(option: str, words: list[str], unit: str, most: float, *, linear: boo
         )
         raise InputError(f" {text} has {count:g} values", option, recommendation=recommendation)
     return (np.linspace if linear else np.geomspace)(low, high, int(count)).tolist()
-
-
-def _moment_reports(interval: float = PROGRESS_SECONDS) -> Callable[[str, int, int], None]:
-    """Return what writes how far a point is, and the time left for this part of it, every ``interval`` [s] at most."""
-    begun = last = time.monotonic()
-
-    def report(what: str, done: int, total: int) -> None:
-        nonlocal begun, last
-        now = time.monotonic()
-        if done == 1:
-            begun = now
-        if now - last < interval or done < 2:
-            return
-        last = now
-        left = (now - begun) / (done - 1) * (total - done)
-        say(f"      {what}: step {done} of {total}, {left:.0f} s left")
-
-    return report
 
 
 def _progress(place: str) -> Callable[..., Any]:

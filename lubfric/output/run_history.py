@@ -24,6 +24,10 @@ PART_OF_LINE = 0.04
 PART_OF_TIME_LEFT = 0.08
 
 
+# Time without an output after which a line says how far the run is [s].
+MOST_SILENCE = 10.0
+
+
 def run_history(scene: Scene, arguments: Namespace) -> None:
     """Compute and write history.csv, history.png, fields.npz, surface.png, report.html, resolved.toml (with
     ``arguments.animation``: animation.gif) and, last, result.json to ``arguments.out``.
@@ -37,12 +41,13 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
     begun_at = time.monotonic()
     first: float | None = None
     reported = 0.0
+    said_at = begun_at
     due = commands.paced()
     failure: LubfricError | None = None
     names = ["history.csv", "history.png", *["animation.gif"] * arguments.animation]
 
     def on_step(now: float, duration: float, row: dict[str, float] | None) -> None:
-        nonlocal reached, first, reported, begun_at
+        nonlocal reached, first, reported, begun_at, said_at
         reached = now
         assert estimate.run is not None
         part = estimate.run.part(now)
@@ -51,14 +56,22 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
             begun_at = time.monotonic()
         shown.update(100.0 * part, 100.0)
         is_end = now >= duration
-        if row is not None and (is_end or part >= reported + PART_OF_LINE) and due(end=is_end):
-            reported = part
-            left = "" if is_end else _time_left(part, first, time.monotonic() - begun_at)
-            commands.say(
-                f"{100 * part:.0f} % of the estimated steps{left}: t = {now:.5g} of {duration:g} s, U = {row['entrainment_speed']:.4g} m/s, f = "
-                f"{row['coefficient']:z.5f}, F_C = {row['contact_load']:.4g} N, F_H = {row['film_load']:.4g} N, "
-                f"h_min = {row['min_film'] * 1e9:.4g} nm (step {row['steps']:.0f})"
-            )
+        silent = time.monotonic() - said_at > MOST_SILENCE
+        is_next = row is not None and (is_end or part >= reported + PART_OF_LINE)
+        if not (silent or is_next and due(end=is_end)):
+            return
+        reported = part
+        said_at = time.monotonic()
+        left = "" if is_end else _time_left(part, first, said_at - begun_at)
+        head = f"{100 * part:.0f} % of the estimated steps{left}: t = {now:.5g} of {duration:g} s, "
+        if row is None:
+            commands.say(f"{head}between two outputs")
+            return
+        commands.say(
+            f"{head}U = {row['entrainment_speed']:.4g} m/s, f = "
+            f"{row['coefficient']:z.5f}, F_C = {row['contact_load']:.4g} N, F_H = {row['film_load']:.4g} N, "
+            f"h_min = {row['min_film'] * 1e9:.4g} nm (step {row['steps']:.0f})"
+        )
 
     def kept() -> str:
         if reached == 0.0:

@@ -16,12 +16,13 @@ import numpy as np
 
 from .. import studies
 from .._base import IntArray, figures, plain, validate
+from .._base.progress import progress_to
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report, ValidityError
 from ..estimate import FrictionResult
 from ..quantities import KEYS, axis_label, counted, worded_value
 from ..units import ZERO_CELSIUS, converted, numbers_of, unit_for, with_interval, worded
 from .command_line import scene_of
-from .commands import answer, check_outputs, keeping, made, paced, run_folder, say
+from .commands import answer, check_outputs, keeping, made, moment_reports, paced, run_folder, say
 from .progress import ProgressLine
 from .study_report import answer_lines, planned_point_in_words, study_page
 
@@ -46,7 +47,8 @@ def run_study(arguments: Namespace) -> None:
     say(plan.explain(arguments.out))
     begun = time.perf_counter()
     workers_of = studies.pool(workers) if arguments.cluster is None else studies.cluster(arguments.cluster)
-    with ProgressLine("points") as shown, keeping(lambda: _kept(arguments.out)), workers_of as executor:
+    kept = keeping(lambda: _kept(arguments.out))
+    with ProgressLine("points") as shown, kept, workers_of as executor, progress_to(moment_reports()):
         result = studies.study(
             plan, executor=executor, store=arguments.out, on_progress=shown.update, on_point=_point_reports(plan, begun)
         )

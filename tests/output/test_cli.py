@@ -146,11 +146,11 @@ def test_the_error_of_the_model_is_a_column_inside_the_interval(tmp_path, capsys
 
 
 def test_how_far_a_long_point_is_is_reported_with_the_time_left(capsys, monkeypatch):
-    from lubfric.output import run_curve
+    from lubfric.output import commands
 
     clock = iter((0.0, 0.0, 1.0, 6.0, 7.0, 12.0))
-    monkeypatch.setattr(run_curve.time, "monotonic", lambda: next(clock))
-    report = run_curve._moment_reports(5.0)
+    monkeypatch.setattr(commands.time, "monotonic", lambda: next(clock))
+    report = commands.moment_reports(5.0)
     for done in range(1, 6):
         report("moving roughness", done, 10)
     lines = capsys.readouterr().err.splitlines()

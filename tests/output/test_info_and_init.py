@@ -119,6 +119,7 @@ TRANSIENT = lubfric.load_scene("paper").with_(transient=lubfric.Transient(durati
         (None, ["--ratios", "0.1", "--vtk"], "--vtk is for a Stribeck curve"),
         (None, ["--animation"], "--animation is for a scene with"),
         (TRANSIENT, ["--ratios", "0.1"], "--ratios is for a traction curve"),
+        (TRANSIENT, ["--workers", "2"], "--workers is for a Stribeck curve"),
         (TRANSIENT, ["--vtk"], "--vtk is for a Stribeck curve, and this is a scene with [transient]"),
     ],
 )

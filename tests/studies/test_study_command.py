@@ -14,7 +14,8 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 from small_study import SCENE as SMALL
 
 import lubfric
-from lubfric.output import main
+from lubfric._base.progress import report_progress
+from lubfric.output import main, run_study
 from lubfric.output.run_study import _kept, _picture
 from lubfric.output.study_report import answer_lines
 
@@ -126,3 +127,19 @@ def test_a_table_that_cannot_be_written_is_reported_before_any_point(tmp_path, m
     (tmp_path / "study.toml").write_text('scene = "paper"\nspeeds = [0.01]\n[vary]\n"bodies.load" = [5.5]\n')
     assert main(["study", str(tmp_path / "study.toml"), "--netcdf", "--out", str(tmp_path / "out")]) == 2
     assert "needs the package xarray" in capsys.readouterr().err
+
+
+def test_how_far_a_point_of_a_study_is_reaches_the_user(tmp_path, monkeypatch):
+    """As at a point of a curve (`tests/output/test_cli.py`)."""
+    seen = []
+
+    def stopped(*_, **__):
+        report_progress("moving roughness", 3, 10)
+        raise lubfric.InputError("enough")
+
+    monkeypatch.setattr(run_study, "moment_reports", lambda: lambda *said: seen.append(said))
+    monkeypatch.setattr("lubfric.studies.study", stopped)
+    (tmp_path / "scene.toml").write_text(SCENE)
+    (tmp_path / "study.toml").write_text('scene = "scene.toml"\n[vary]\n"bodies.load" = [4.0, 5.0]\n')
+    assert main(["study", str(tmp_path / "study.toml"), "--out", str(tmp_path / "out")]) == 2
+    assert seen == [("moving roughness", 3, 10)]
