@@ -455,7 +455,8 @@ def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
     f = result.coefficient
     peak = _largest_friction(result)
     low, high = result.uncertainty.interval[peak]
-    first, last = float(result.time[0]), float(result.time[-1])
+    first = float(result.time[0])
+    last = float(result.time[-1])
     span = worded(last, "s") if first == 0.0 else f"the time from {worded(first, 's')} to {worded(last, 's')}"
     when = f"over {span}" if mean.in_motion == 1 else f"over the {100 * mean.in_motion:.3g} % in motion of {span}"
     head = "" if complete else "The run has no valid answer. Its outputs so far show: "
