@@ -13,6 +13,7 @@ The way of a point, in the order of the modules:
 `lubfric.models.contract`, and a test holds that no module imports a model at run time.
 """
 
+from .build_result import beside_larger_part
 from .friction import LEAST_LIMIT, TIMES_ESTIMATE, friction
 from .full_load import full_load_numbers
 from .methods import MethodUse, methods_of

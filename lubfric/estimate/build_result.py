@@ -11,7 +11,9 @@ from ..errors import ConvergenceError, InputError, Report
 from ..models import ContactFields, Model, ModelAnswer
 from ..models.shared import (
     MAP_WIDTH,
+    MODEL_ERROR,
     Prepared,
+    Violation,
     unmodelled_effects,
     violations_by_numerical_error,
 )
@@ -53,7 +55,7 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
     is_sampled_well = sampling <= SAMPLED_WELL * scene.numerics.sampling_tolerance
     of_answer = [each for each in answer.violations if each.what != MAP_WIDTH or not is_sampled_well]
     violations = (
-        *of_answer,
+        *(beside_larger_part(each, uncertainty) for each in of_answer),
         *violations_by_numerical_error(answer.numerical, scene.numerics.tolerance, answer.recommendation),
     )
     decision = answer.decision
@@ -90,6 +92,15 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
         compared_fields=compared_fields,
         details=details,
     )
+
+
+def beside_larger_part(violation: Violation, uncertainty: Uncertainty) -> Violation:
+    """Return the warning of a large model-form error with the part of the budget that is larger, if one is; any other
+    ``violation`` as it is."""
+    if not violation.what.startswith(MODEL_ERROR) or uncertainty.is_largest_by_model or not uncertainty.largest_part:
+        return violation
+    other = f"the interval of f has a larger part ({uncertainty.largest_part})"
+    return replace(violation, recommendation="; ".join(filter(None, (violation.recommendation, other))))
 
 
 def _power_loss(

@@ -108,13 +108,18 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         return bool(is_near_zero(self.coefficient, max(known, default=0.0)))
 
     @property
+    def is_largest_by_model(self) -> bool:
+        """Whether no other part of the budget is larger than the model-form error."""
+        return not any(part > self.model for part in self.budget.values())
+
+    @property
     def largest_part(self) -> str:
         """What the largest part of the budget is, and what narrows it; "" where that is not known."""
         recommendations = {
             "numerical": self.narrows_numerical,
             "sampling": self.narrows_sampling,
             "model-form": self.largest_in_model or "numerics.model = 'deterministic' narrows it",
-            "not given": f"{self.missing_input} narrows it",
+            "not given": f"a measured {self.missing_input} narrows it",
             "input": f"a measured {self.largest_input or 'value'} narrows it",
         }
         known = {name: part for name, part in self.budget.items() if math.isfinite(part) and part > 0}

@@ -9,9 +9,9 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.estimate import Uncertainty, interval
+from lubfric.estimate import Uncertainty, beside_larger_part, interval
 from lubfric.models.load_sharing import load_sharing_error, summit_radius, undetected_load
-from lubfric.models.shared import StandardError, add_errors
+from lubfric.models.shared import MODEL_ERROR, StandardError, Violation, add_errors
 
 E_PRIME = 2.3e11
 WIDTH = 6e-3
@@ -172,6 +172,17 @@ def test_the_largest_part_of_an_interval_is_named_with_what_narrows_it():
     by_model = replace(known, model=0.3, largest_in_model="the boundary film: bodies.boundary_film narrows it")
     assert by_model.largest_part == "largest part: model-form 30 %, the boundary film: bodies.boundary_film narrows it"
     assert not replace(known, sampling=math.nan).largest_part
+
+
+def test_a_large_model_error_is_reported_beside_a_part_that_is_larger():
+    of_model = Violation(what=MODEL_ERROR, value=14, limit=5, unit="%", consequence="", recommendation="shorter cells")
+    known = Uncertainty(numerical=0.01, sampling=0.02, freedom=4.0, model=0.14, interval=(0.9, 1.1))
+    assert beside_larger_part(of_model, known) == of_model
+    film = replace(known, not_given=0.53, missing_input="bodies.boundary_film")
+    said = beside_larger_part(of_model, film).recommendation
+    assert said.startswith("shorter cells; ") and "not given 53 %, a measured bodies.boundary_film narrows it" in said
+    other = replace(of_model, what="film over radius")
+    assert beside_larger_part(other, film) == other
 
 
 def test_the_numerical_part_says_what_narrows_it():

@@ -395,7 +395,7 @@ def _violations(
             unit="nm",
             consequence="that is less than the boundary film, which is not given: where the film is thinner, it rubs with "
             "f_b and counts as asperity load",
-            recommendation=f"give {BOUNDARY_FILM_KEY}",
+            recommendation=f"give {BOUNDARY_FILM_KEY} if it is measured; the interval of f has that of half and twice {1e9 * BOUNDARY_FILM:g} nm",
         )
     cut = mean(result.split.capped / result.load for result in results)
     if cut > CUT:

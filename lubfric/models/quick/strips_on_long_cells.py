@@ -25,7 +25,7 @@ from ..deterministic import (
     two_levels,
 )
 from ..deterministic import answer_of as deterministic_answer
-from ..shared import MODEL_ERROR, Prepared, smooth_over_cells, violations_by_model_error
+from ..shared import MODEL_ERROR, Prepared, percent, smooth_over_cells, violations_by_model_error
 from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, reported, widening
 from .long_cells import (
     CELLS_OF_REFERENCES,
@@ -65,7 +65,7 @@ LEAST_TOLERANCE = 0.1
 LEAST_CONTRAST = 0.05
 
 NARROWER = "numerics.model = 'deterministic' reduces the error of f, at the cost that `lubfric info` estimates"
-NARROWED_BY_DETERMINISTIC = "take numerics.model = 'deterministic', which narrows it"
+NARROWED_BY_DETERMINISTIC = "take numerics.model = 'deterministic', which has no such part; the others are {}"
 OF_CELLS = "the error of long cells, calibrated on {} contacts: numerics.model = 'deterministic' reduces it"
 
 
@@ -248,7 +248,7 @@ def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLon
                 max(towards, away),
                 f,
                 consequence=LARGEST_PART.format(largest.partition(":")[0]),
-                recommendation=NARROWED_BY_DETERMINISTIC if by_cells else "",
+                recommendation=NARROWED_BY_DETERMINISTIC.format(percent(max(answer.model_error))) if by_cells else "",
             ),
             *(part.violation for part in reported(on_long_cells.outside)),
         ),

@@ -203,10 +203,13 @@ def violations_by_inlet(scene: Scene, line: LineContact, flow: float, friction_f
     out = oil.inlet_length or math.inf
     lost = 12 * oil.viscosity * line.entrainment_speed * line.radius / out * scene.bodies.width
     if not oil.floods and flow <= (1 - tolerance) * flooded:
-        consequence = "inlet_length or inlet_film makes the inlet starved; f depends on their values"
+        keys = ("inlet_length", "inlet_film")
+        given = " and ".join(f"lubricant.{key}" for key in keys if getattr(oil, key) is not None)
+        consequence = f"the inlet is starved by {given}, on which f depends"
         what = "film over that of a fully flooded inlet (Moes)"
+        advice = f"keep it where the contact is starved; for a flooded inlet omit {given}"
         yield Violation(
-            what=what, value=flow / flooded, limit=1.0, unit="", consequence=consequence, recommendation="omit both"
+            what=what, value=flow / flooded, limit=1.0, unit="", consequence=consequence, recommendation=advice
         )
     elif lost > tolerance * friction_force:
         what = "rolling friction of the inlet beyond inlet_length, relative to f"
