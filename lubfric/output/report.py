@@ -65,6 +65,11 @@ BUDGET = {
     "not given": "boundary film (not given)",
     "input": "input (stated ranges)",
 }
+# The same of the quick answer (`lubfric.models.quick`).
+BUDGET_ON_LONG_CELLS = BUDGET | {
+    "numerical": "numerical (solvers)",
+    "model-form": "model-form (equations, long cells)",
+}
 # A number smaller than this times the largest of its column is 0 in a table.
 TABLE_ROUNDING = 1e-9
 # Part of the power loss from which the report names the rolling resistance in it.
@@ -273,11 +278,17 @@ def _minimum(curve: StribeckResult) -> str:
     return f"The minimum of f lies between U = {low:.3g} and {high:.3g} m/s, or {outside} the speeds solved; {more}."
 
 
-def _budget(values: dict[str, float], words: dict[str, str], subject: str, notes: Iterable[str]) -> str:
+def _budget(
+    values: dict[str, float],
+    words: dict[str, str],
+    subject: str,
+    notes: Iterable[str],
+    labels: dict[str, str] = BUDGET,
+) -> str:
     """Return the uncertainty budget of ``subject`` (`lubfric.estimate.Uncertainty.budget`) as bars of its parts, relative
-    to f; ``words``: the parts as text."""
+    to f; ``words``: the parts as text; ``labels``: what each is called."""
     longest = max([value for value in values.values() if math.isfinite(value)], default=0.0) or 1.0
-    shown = {name: label for name, label in BUDGET.items() if name in values and (name != "not given" or values[name])}
+    shown = {name: label for name, label in labels.items() if name in values and (name != "not given" or values[name])}
     rows = "".join(
         f'<span>{label}</span><span><i style="width:{100 * min(values[name] / longest, 1.0):.1f}%"></i></span>'
         f"<span>{escape(words[name])}</span>"
@@ -300,7 +311,9 @@ def _budget(values: dict[str, float], words: dict[str, str], subject: str, notes
 
 def _point_budget(point: FrictionResult, place: str) -> str:
     known = point.uncertainty
-    return _budget(known.budget, known.budget_in_words, f"f {place}", (known.largest_part, *known.notes))
+    labels = BUDGET_ON_LONG_CELLS if point.decision.model == "quick" else BUDGET
+    notes = (known.largest_part, *known.notes)
+    return _budget(known.budget, known.budget_in_words, f"f {place}", notes, labels)
 
 
 def _operating_table(curve: CurveResult) -> str:

@@ -168,6 +168,8 @@ def test_report_says_first_what_the_answer_rests_on(tmp_path, monkeypatch):
     page = (tmp_path / "out/report.html").read_text()
     basis = f"{BASIS.capitalize()} on {error_models()['rest'].cases} solved cases"
     assert page.index("f = ") < page.index(basis) < page.index("Uncertainty budget")
+    assert "numerical (solvers)" in page and "model-form (equations, long cells)" in page
+    assert "error of the long cells is in the model-form error" in page.lower()
     titles: list[str] = []
     monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", lambda path, columns, title, *_: titles.append(title))
     monkeypatch.setattr("lubfric.output.run_curve.made", lambda name, make: make(tmp_path / name) or b"")

@@ -66,6 +66,7 @@ LEAST_CONTRAST = 0.05
 
 NARROWER = "numerics.model = 'deterministic' reduces the error of f, at the cost that `lubfric info` estimates"
 NARROWED_BY_DETERMINISTIC = "take numerics.model = 'deterministic', which has no such part; the others are {}"
+CELLS_IN_MODEL_ERROR = "the error of the long cells is in the model-form error, not in the numerical one"
 OF_CELLS = "the error of long cells, calibrated on {} contacts: numerics.model = 'deterministic' reduces it"
 
 
@@ -240,6 +241,7 @@ def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLon
     return replace(
         answer,
         model_error=(min(towards, 1.0), away),
+        notes=(*answer.notes, CELLS_IN_MODEL_ERROR),
         largest_in_model=largest,
         violations=(
             *warnings,
