@@ -32,6 +32,8 @@ FRICTION_LABEL = axis_label("coefficient")
 KEY_SIZE = 8.0  # pt: of the letters of a key, at most
 LETTER = 3.8  # pt: width of a letter of that size, about
 TITLE_LETTER = 0.56  # width of a letter of a title over the size of its font, about
+GEOMETRIC = 3.0  # ratio of the largest to the smallest of numbers that may be spaced by factors
+CORRELATION_ROUNDING = 1e-9  # of a correlation coefficient
 SLENDER_MAP = 4.0  # ratio of the sides beyond which a map is not drawn to scale
 
 
@@ -151,9 +153,21 @@ def plain_ticks(axis: XAxis | YAxis) -> None:
 
 
 def log_if_wide(axes: Axes, name: str, values: np.ndarray) -> None:
-    """Make an axis "x" or "y" logarithmic where the positive ``values`` on it spread over more than a factor of 20."""
-    if values.min() > 0 and values.max() > 20 * values.min():
+    """Make an axis "x" or "y" logarithmic where the positive ``values`` on it spread over more than a factor of 20, or are
+    spaced geometrically."""
+    if values.min() > 0 and (values.max() > 20 * values.min() or is_geometric(values)):
         axes.set(**{f"{name}scale": "log"})
+
+
+def is_geometric(values: np.ndarray) -> bool:
+    """Return whether positive ``values`` are spaced, or scattered, more evenly by their logarithms than by themselves, over
+    a factor of `GEOMETRIC` at least."""
+    different = np.unique(values)
+    if different.size < 3 or not different[-1] >= GEOMETRIC * different[0] > 0:
+        return False
+    place = np.arange(different.size)
+    (even, by_factors) = (np.corrcoef(place, x)[0, 1] for x in (different, np.log(different)))
+    return bool(by_factors > even + CORRELATION_ROUNDING)
 
 
 def speed_label(speed: np.ndarray) -> str:

@@ -166,7 +166,7 @@ def _curve_parts(scene: Scene, curve: CurveResult, law: Law | str, estimate: Sce
         "answer": _paragraphs(answer),
         "budget": "" if nearest is None else _point_budget(*nearest[:2]),
         "table": _operating_table(curve),
-        "effects": _effects(effects, "before the solve" if nearest is None else nearest[1]),
+        "effects": effects_table(effects, "before the solve" if nearest is None else nearest[1]),
         "details": _details(curve) + _law(law, curve),
         "sources": _list(curve.cite().splitlines()),
     }
@@ -445,7 +445,7 @@ def _history_effects(prepared: Prepared, result: TransientResult, estimate: Scen
     """Return the table of the effects that are not modelled, at the output at which f is nearest to its mean."""
     rolls = np.flatnonzero(in_motion(result.columns) & (result.entrainment_speed != 0))
     if result.time.size < 2 or not rolls.size:
-        return _effects(estimate.effects, "at the largest speed")
+        return effects_table(estimate.effects, "at the largest speed")
     index = int(rolls[np.argmin(np.abs(result.coefficient[rolls] - result.average().coefficient))])
     time = float(result.time[index])
     load = result.load[index]
@@ -457,7 +457,7 @@ def _history_effects(prepared: Prepared, result: TransientResult, estimate: Scen
         run=prepared.scene,
         includes_motion=run_model_of(prepared.scene).moves_roughness,
     )
-    return _effects(effects, f"at t = {worded(time, 's')}, where f is nearest to its mean")
+    return effects_table(effects, f"at t = {worded(time, 's')}, where f is nearest to its mean")
 
 
 def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
@@ -604,7 +604,7 @@ def _history_table(result: TransientResult) -> str:
 # parts that all pages share
 
 
-def _effects(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: str) -> str:
+def effects_table(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: str) -> str:
     """Return the table of the effects that are not modelled."""
     if not effects:
         return "<p>No known effect that is not modelled would change f by more than its tolerance.</p>"

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import studies
-from .._base import IntArray, figures, plain, validate
+from .._base import figures, plain, validate
 from .._base.progress import progress_to
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report, ValidityError
 from ..estimate import FrictionResult
@@ -85,6 +85,9 @@ LONGEST_BATCH = 5.0
 # Points of a study up to which each one gets a line on stderr.
 MOST_LINES = 200
 
+# Points from which on those of a picture are small, and their intervals thin.
+MANY_POINTS = 40
+
 # Panels of the picture of a study, at most: one for each number that is varied.
 MOST_PANELS = 4
 
@@ -92,7 +95,7 @@ MOST_PANELS = 4
 @figures.styled
 def _picture(path: Path, result: studies.StudyResult) -> None:
     """Draw what a study found: curves over the speed; operating points with their power loss; of one speed, f over what
-    is varied: one number, two as a map, else all points in the order of f."""
+    is varied: one number, two as a map, else all points by their number."""
     longer = [(key, values) for key, (_, values) in result.coords.items() if values.size > 1]
     numbers = all(values.dtype.kind == "f" and np.unique(values).size == values.size for _, values in longer)
     keys = [key for key, _ in longer]
@@ -123,9 +126,8 @@ def _picture(path: Path, result: studies.StudyResult) -> None:
         figures.plain_ticks(axes.xaxis)
         figure.suptitle(title)
     else:
-        order = np.argsort(result["coefficient"], axis=None)  # points without f at the end
-        _draw_intervals(axes, np.arange(1, order.size + 1), result, order)
-        axes.set_xlabel("points, in the order of their f (study.csv says which)")
+        _draw_intervals(axes, np.arange(1, result.status.size + 1), result)
+        axes.set_xlabel("no. of the point, as in report.html: its row of study.csv")
         figure.suptitle(title)
     figure.savefig(path)
 
@@ -166,19 +168,24 @@ def _draw_panels(path: Path, result: studies.StudyResult, over: dict[str, np.nda
     figure.savefig(path)
 
 
-def _draw_intervals(
-    axes: Axes, over: np.ndarray, result: studies.StudyResult, order: slice | IntArray = slice(None)
-) -> None:
+def _draw_intervals(axes: Axes, over: np.ndarray, result: studies.StudyResult) -> None:
     """Draw f of a study with its 95 % intervals, each as wide as it is, ``over`` (n,)."""
-    f = result["coefficient"].ravel()[order]
-    low, high = (result[f"uncertainty_{end}"].ravel()[order] for end in ("low", "high"))
+    f = result["coefficient"].ravel()
+    low, high = (result[f"uncertainty_{end}"].ravel() for end in ("low", "high"))
     known = np.isfinite(low) & np.isfinite(high)
-    width = 4 if f.size <= 40 else 1.5
+    many = f.size > MANY_POINTS
+    width = 0.7 if many else 4
     if known.any():
         axes.vlines(
-            over[known], low[known], high[known], color=figures.BLUE, alpha=0.4, lw=width, label="95 % interval"
+            over[known],
+            low[known],
+            high[known],
+            color=figures.BLUE,
+            alpha=0.25 if many else 0.4,
+            lw=width,
+            label="95 % interval",
         )
-    axes.plot(over, f, "o", ms=5 if f.size <= 40 else 2.5, color=figures.BLUE, label="friction coefficient")
+    axes.plot(over, f, "o", ms=2.5 if many else 5, color=figures.BLUE, label="friction coefficient")
     axes.set_ylabel(figures.FRICTION_LABEL)
     finite = np.concatenate([f[np.isfinite(f)], low[known], high[known]])
     if finite.size:

@@ -10,23 +10,36 @@ from string import Template
 import numpy as np
 
 from .._base import __version__
-from ..models.shared import MODEL_ERROR, NUMERICAL_ERROR, gathered_texts, is_note_text, percent, sentence, student
+from ..models import models_that_may_answer
+from ..models.shared import (
+    MODEL_ERROR,
+    NUMERICAL_ERROR,
+    gathered_texts,
+    is_note_text,
+    peak_hertz_pressure,
+    percent,
+    sentence,
+    student,
+    unmodelled_effects,
+)
 from ..quantities import CHOICES, COLUMNS, counted, worded_value
 from ..scene import SLIDE_ROLL_RATIO_KEY, Scene
 from ..studies import (
     DURATION,
     INTERVAL_COLUMNS,
+    UNUSED,
     StudyPlan,
     StudyResult,
     columns_of_study,
     label,
+    main_effects,
     mean_over_cycle,
     place_in_words,
     scenes_of,
 )
-from ..units import ZERO_CELSIUS, converted, plain_number, printed, unit_of_largest, with_interval
+from ..units import ZERO_CELSIUS, converted, plain_number, printed, unit_of_largest, with_interval, worded
 from .inputs import INPUT_SECTIONS, inputs
-from .report import picture, shortfalls, style_sheet, table
+from .report import effects_table, picture, shortfalls, style_sheet, table
 
 # Rows of the table of a report; study.csv has all.
 MOST_ROWS = 60
@@ -71,7 +84,11 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     notes = [text.replace(": note: ", ": ", 1) for text in gathered if is_note_text(text)]
     rows = min(MOST_ROWS, result.status.size)
     size = result.status.size
-    about = "study.csv has all numbers." if rows == size else f"{rows} of {size} points; study.csv has all of them."
+    about = (
+        "no. is the row of study.csv, which has all numbers."
+        if rows == size
+        else f"{rows} of {size} points; study.csv has all of them."
+    )
     unknown = int(np.isnan(result["uncertainty_low"][np.isfinite(result["coefficient"])]).sum())
     if unknown:
         about += f" The interval of f is not known at {counted(unknown, 'points')}"
@@ -92,7 +109,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         warnings=(_list(warnings) if warnings else "<p>Every assumption that is checked holds.</p>")
         + (f"<h3>Notes</h3>{_list(notes)}" if notes else ""),
         about=about,
-        table=_table(result, rows),
+        table=_table(result, rows) + _details(result, rows) + _effects_at_largest(result),
         varied=_list([_range(key, values) for key, (_, values) in result.coords.items()]),
         inputs=common_inputs(result),
         sources=_list(result.cite().splitlines()),
@@ -118,12 +135,13 @@ def model_error_above_target(result: StudyResult) -> list[str]:
     ]
 
 
-def common_inputs(result: StudyResult) -> str:
-    """Return the tables of the inputs that are the same at all points: all but those that are varied."""
+def common_inputs(result: StudyResult | StudyPlan) -> str:
+    """Return the tables of the inputs that are the same at all points of a study or its plan: all but those that are
+    varied."""
     varied = {*result.coords, "motion.entrainment_speed", "motion.speeds"}
     whole_sections = {key for key in varied if "." not in key}
     parts = []
-    scene, *others = _scenes_at_ends(result.plan)
+    scene, *others = _scenes_at_ends(result if isinstance(result, StudyPlan) else result.plan)
     for section in INPUT_SECTIONS:
         everywhere = [{(key, text, note) for _, text, key, note in inputs(other, section)} for other in others]
         rows = [
@@ -137,10 +155,12 @@ def common_inputs(result: StudyResult) -> str:
                 f'<td>{escape(key.partition(".")[2].replace("_", " "))}</td><td>{escape(value)}</td><td class="key">{key}</td>'
                 for key in CHOICES
                 if key.startswith(f"{section}.") and key not in varied
+                if len({getattr(getattr(each, section), key.partition(".")[2], None) for each in (scene, *others)}) == 1
                 if isinstance(value := getattr(getattr(scene, section), key.partition(".")[2], None), str)
             ]
         if section == "lubricant" and scene.lubricant.oil is not None and section not in whole_sections:
-            rows.append(f"<td>oil</td><td>{escape(scene.lubricant.oil.name)}</td><td></td>")
+            names = {"" if each.lubricant.oil is None else each.lubricant.oil.name for each in (scene, *others)}
+            rows += [f"<td>oil</td><td>{escape(name)}</td><td></td>" for name in names if len(names) == 1]
         parts.append(f"<h3>{section}</h3>{table(['quantity', 'value', 'key'], rows)}" if rows else "")
     return "".join(parts)
 
@@ -195,7 +215,7 @@ def _table(result: StudyResult, rows: int) -> str:
     columns = columns_of_study(result)
     columns[ASPERITY_LOAD_RATIO] = columns["contact_load"] / (columns["contact_load"] + columns["film_load"])
     count = len(next(iter(columns.values())))
-    picked = np.unique(np.linspace(0, count - 1, rows).round().astype(int))
+    picked = _picked(columns, rows)
     heads = ["no."]
     cells: list[list[str]] = [[f"{row + 1}" for row in picked]]
     constant = [name for name, (_, values) in result.coords.items() if count > 1 and np.unique(values).size == 1]
@@ -224,6 +244,56 @@ def _table(result: StudyResult, rows: int) -> str:
         status = columns["status"][picked]
         body = [f"{row}<td>{escape(str(state))[:60]}</td>" for row, state in zip(body, status)]
     return table(heads, body)
+
+
+def _details(result: StudyResult, rows: int) -> str:
+    """Return a folded table of the points with the peak Hertz pressure, temperatures, and the parts of the error of f."""
+    columns = columns_of_study(result)
+    picked = _picked(columns, rows)
+    scenes = _scene_of_each(result)
+    parts = {name: columns[f"uncertainty_{column}"][picked] for name, column in BUDGET_COLUMNS.items()}
+    freedom = columns["uncertainty_freedom"][picked]
+    parts["sampling"] = [error * student(n) if error else error for error, n in zip(parts["sampling"], freedom)]
+    rises = [columns[name][picked] for name in ("flash_temperature_rise", "film_temperature_rise")]
+    body = []
+    for i, row in enumerate(picked):
+        cells = [f"{row + 1}", worded(peak_hertz_pressure(scenes[row]), "Pa")]
+        cells += [_cell(rise[i], np.nan, np.nan, "K", "K") for rise in rises]
+        cells += [percent(float(part[i])) if np.isfinite(part[i]) else "not known" for part in parts.values()]
+        body.append("".join(f'<td class="number">{escape(text)}</td>' for text in cells))
+    heads = ["no.", "peak Hertz pressure", "flash temperature rise [K]", "film temperature rise [K]"]
+    heads += ["boundary film not given" if name == "not given" else name for name in parts]
+    about = "Pressure, temperature, and parts of the error of f at 95 %, of every point of the table"
+    return f"<details><summary>{about}</summary>{table(heads, body)}</details>"
+
+
+def _picked(columns: dict[str, np.ndarray], rows: int) -> np.ndarray:
+    """Return which of the points in ``columns`` so many ``rows`` of a table show."""
+    return np.unique(np.linspace(0, len(next(iter(columns.values()))) - 1, rows).round().astype(int))
+
+
+def _scene_of_each(result: StudyResult) -> list[Scene]:
+    """Return the scene of each point of `columns_of_study`."""
+    curves = result.plan.scenes
+    each = result.status.size // len(curves)
+    return [curves[i // each] for i in np.flatnonzero(result.status.ravel() != UNUSED)]
+
+
+def _effects_at_largest(result: StudyResult) -> str:
+    """Return the table of the effects that are not modelled, where |f| is largest; "" where no f is known."""
+    columns = columns_of_study(result)
+    f = np.abs(columns["coefficient"])
+    if not np.isfinite(f).any():
+        return ""
+    i = int(np.nanargmax(f))
+    scene = _scene_of_each(result)[i]
+    at = {name: abs(float(columns[name][i])) for name in ("speed", "boundary_force", "central_film")}
+    ratio = float(columns["film_to_roughness_ratio"][i])
+    sq = at["central_film"] / ratio if np.isfinite(ratio) and ratio > 0 else 0.0
+    moves = any(model.includes_motion for model in models_that_may_answer(scene.numerics.model))
+    known = at["boundary_force"] / scene.bodies.load, float(f[i])
+    effects = unmodelled_effects(scene, sq, at["speed"], known, includes_motion=moves)
+    return f"<h3>Effects not modelled</h3>{effects_table(effects, f'at point {i + 1}, of the largest f')}"
 
 
 def _cell(value: float, low: float, high: float, si: str, unit: str) -> str:
@@ -259,7 +329,23 @@ def answer_lines(result: StudyResult) -> list[str]:
             if name == "coefficient" and not _slides(result, index):
                 unknown += ", the rolling resistance of one surface, without sliding"
             rows.append(f"The {word} {what} is {shown}{unknown}, at {point_in_words(result, index)}.")
-    return [*rows, *_budget_line(result)]
+    return [*rows, *_budget_line(result), *_main_effects_line(result)]
+
+
+def _main_effects_line(result: StudyResult) -> list[str]:
+    """Return what the inputs that are varied do to f, each by itself, in a sentence; none where that is not known."""
+    effects = main_effects(result)
+    if not effects:
+        return []
+    trends = {-1: ", f falls with it", 0: "", 1: ", f rises with it"}
+    words = [
+        f"{COLUMNS[key].label if key in COLUMNS else key} {percent(effect.share)}{trends[effect.slope]}"
+        for key, effect in effects.items()
+    ]
+    return [
+        f"Of the variance of ln f over the points, the inputs have, each by itself: {'; '.join(words)}. The rest is "
+        "that of combinations."
+    ]
 
 
 def _budget_line(result: StudyResult) -> list[str]:

@@ -1,6 +1,7 @@
 """``lubfric study``: files written, study files read strictly, exit codes, broken streams, interrupts."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -14,10 +15,12 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 from small_study import SCENE as SMALL
 
 import lubfric
+from lubfric import studies
+from lubfric._base import figures
 from lubfric._base.progress import report_progress
 from lubfric.output import main, run_study
 from lubfric.output.run_study import _kept, _picture
-from lubfric.output.study_report import answer_lines
+from lubfric.output.study_report import answer_lines, common_inputs, study_page
 
 ROOT = Path(__file__).parents[2]
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.001\n" + SMALL_PATCH
@@ -73,6 +76,69 @@ def test_a_study_of_one_speed_is_drawn_over_what_is_varied(tmp_path, vary):
     result = lubfric.study(SMALL, vary, [0.3])
     _picture(tmp_path / "study.png", result)
     assert (tmp_path / "study.png").stat().st_size > 5000 and len(answer_lines(result)) == 5
+
+
+def numbered(vary, coefficient):
+    """A study of SMALL at one speed with made numbers, f by ``coefficient`` of what is varied."""
+    plan = lubfric.plan_study(SMALL, vary, [0.3])
+    f = np.empty(plan.shape)
+    for place, scene in zip(np.ndindex(f.shape), plan.scenes):
+        f[place] = coefficient(scene)
+    names = list(lubfric.study(SMALL, {}, [0.3]).columns)
+    columns = dict.fromkeys(names, np.zeros(f.shape)) | {"coefficient": f, "film_load": np.ones(f.shape)}
+    return studies.StudyResult(plan, columns, np.full(f.shape, "converged"), np.full(f.shape, ""))
+
+
+def test_shares_of_the_variance_are_those_of_a_product_of_powers(tmp_path):
+    loads = [1.0, 2.0, 4.0, 8.0]
+    viscosities = [0.1, 0.2, 0.4]
+    vary = {"bodies.load": loads, "lubricant.viscosity": viscosities}
+    result = numbered(vary, lambda scene: scene.bodies.load**-1.0 * scene.lubricant.viscosity**0.5)
+    parts = {"bodies.load": np.var(np.log(loads)), "lubricant.viscosity": np.var(np.log(viscosities)) / 4}
+    effects = studies.main_effects(result)
+    assert list(effects) == list(parts) and [effect.slope for effect in effects.values()] == [-1, 1]
+    for key, effect in effects.items():
+        assert effect.share == pytest.approx(parts[key] / sum(parts.values()), rel=1e-12)
+    (line,) = (line for line in answer_lines(result) if "variance" in line)
+    assert "total load 88 %, f falls with it; viscosity at ambient pressure 12 %, f rises with it." in line
+    page = study_page(result, {}, []).decode()
+    assert "Pressure, temperature, and parts of the error" in page and "Effects not modelled" in page
+    hertz = re.findall(r'data-label="peak Hertz pressure[^>]*>([0-9.]+) MPa|>([0-9.]+) MPa<', page)
+    assert len(hertz) == 12
+
+
+def test_inputs_that_vary_together_have_no_shares_of_their_own():
+    pairs = [(load, load / 10) for load in (1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0)]
+    result = numbered({("bodies.load", "lubricant.viscosity"): pairs}, lambda scene: scene.bodies.load)
+    assert not studies.main_effects(result)
+
+
+def test_a_grade_that_is_varied_is_no_common_input():
+    graded = SMALL.with_(lubricant={"grade": "ISO VG 46", "viscosity_index": 95, "temperature_celsius": 60})
+    page = common_inputs(lubfric.plan_study(graded, {"lubricant.grade": ["ISO VG 46", "ISO VG 100"]}, [0.3]))
+    assert "ISO VG" not in page
+    assert "ISO VG 46" in common_inputs(lubfric.plan_study(graded, {"bodies.load": [1.0, 2.0]}, [0.3]))
+
+
+@pytest.mark.parametrize(
+    "values, is_log", [([1, 2, 4, 8], True), ([1, 2, 3, 4], False), ([1, 1.5, 2], False), ([2, 30], False)]
+)
+def test_numbers_that_are_spaced_by_factors_have_a_logarithmic_axis(values, is_log):
+    axes = figures.new_figure().subplots()
+    figures.log_if_wide(axes, "x", np.array(values, dtype=float))
+    assert (axes.get_xscale() == "log") == is_log
+
+
+def test_points_of_a_picture_have_the_numbers_of_the_report(tmp_path, monkeypatch):
+    drawn = []
+    new_figure = figures.new_figure
+    monkeypatch.setattr(figures, "new_figure", lambda *a, **k: drawn.append(new_figure(*a, **k)) or drawn[-1])
+    vary = {"bodies.load": [3.0, 2.0], "numerics.heat": ["off", "auto"]}
+    result = numbered(vary, lambda scene: scene.bodies.load)
+    _picture(tmp_path / "study.png", result)
+    (axes,) = drawn[-1].axes
+    np.testing.assert_array_equal(axes.lines[-1].get_xydata(), [[1, 3], [2, 3], [3, 2], [4, 2]])
+    assert "study.csv" in axes.get_xlabel()
 
 
 def test_explain_solves_nothing(tmp_path, capsys):

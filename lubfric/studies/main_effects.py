@@ -1,0 +1,87 @@
+"""Shares of the variance of ln f that the inputs of a study have, each by itself."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .tables import columns_of_study
+
+# Points with f from which shares are stated. A convention.
+LEAST_POINTS = 6
+
+# The same for each number that hardly repeats. A convention.
+POINTS_FOR_EACH = 6
+
+# Correlation of two inputs from which their shares are not told apart. A convention.
+MOST_CORRELATED = 0.3
+
+# Points at each value of an input, on average, from which these are groups; else a parabola is laid through all points.
+POINTS_IN_GROUP = 2
+
+# Ratio of the largest to the smallest value from which a number counts by its logarithm.
+WIDE = 3.0
+
+
+class MainEffect(NamedTuple):
+    """Effect of one input of a study.
+
+    ``share``: of the variance of ln |f| over the points, by this input alone; ``slope``: sign of the change of |f| with it,
+    0 for words.
+    """
+
+    share: float
+    slope: int
+
+
+def main_effects(result: Any) -> dict[str, MainEffect]:
+    """Return the `MainEffect` of every input that a `StudyResult` varies, by its key, the largest first.
+
+    The share is the variance of the mean of ln |f| at each value of the input over that of ln |f| (the first-order index
+    of Sobol); of a number that hardly repeats, that of a parabola in the number, or in its logarithm where it varies by
+    more than a factor of 3. Empty where f is known at too few points, does not vary, or where the inputs vary
+    together, as do those of operating points.
+    """
+    columns = columns_of_study(result)
+    f = np.abs(columns["coefficient"])
+    known = np.isfinite(f) & (f > 0)
+    keys = [key for key in result.coords if np.unique(columns[key][known]).size > 1]
+    if result.paired or result.chosen or len(keys) < 2 or known.sum() < LEAST_POINTS:
+        return {}
+    scattered = [key for key in keys if _is_scattered(columns[key][known])]
+    if known.sum() < POINTS_FOR_EACH * len(scattered):
+        return {}
+    y = np.log(f[known])
+    if not y.std() > 0:
+        return {}
+    x = {key: _coordinate(columns[key][known]) for key in keys}
+    together = np.abs(np.corrcoef([*x.values()])) - np.eye(len(keys))
+    if together.max() > MOST_CORRELATED:
+        return {}
+    effects = {key: _effect(x[key], y, is_number=columns[key].dtype.kind == "f") for key in keys}
+    return dict(sorted(effects.items(), key=lambda pair: -pair[1].share))
+
+
+def _coordinate(values: np.ndarray) -> np.ndarray:
+    """Return the ``values`` of an input as numbers: of words their place in the alphabet, of a wide range logarithms."""
+    if values.dtype.kind != "f":
+        return np.unique(values.astype(str), return_inverse=True)[1].astype(float)
+    return np.log(values) if values.min() > 0 and values.max() > WIDE * values.min() else values
+
+
+def _is_scattered(values: np.ndarray) -> bool:
+    """Return whether an input hardly repeats its ``values``."""
+    return bool(np.unique(values).size * POINTS_IN_GROUP > values.size)
+
+
+def _effect(x: np.ndarray, y: np.ndarray, *, is_number: bool) -> MainEffect:
+    """Return the effect of ``x`` on ``y``, at all points."""
+    if not (is_number and _is_scattered(x)):
+        (_, place, count) = np.unique(x, return_inverse=True, return_counts=True)
+        means = (np.bincount(place, y) / count)[place]
+    else:
+        middle = (x - x.mean()) / x.std()
+        means = np.polyval(np.polyfit(middle, y, 2), middle)
+    slope = int(np.sign(np.corrcoef(x, y)[0, 1])) if is_number else 0
+    return MainEffect(share=float(means.var() / y.var()), slope=slope)
