@@ -16,11 +16,8 @@ from small_study import SCENE as SMALL
 
 import lubfric
 from lubfric import studies
-from lubfric._base import figures
 from lubfric._base.progress import report_progress
-from lubfric.output import main, run_study
-from lubfric.output.run_study import _kept, _picture
-from lubfric.output.study_report import answer_lines, common_inputs, study_page
+from lubfric.output import main, run_study, study_report
 
 ROOT = Path(__file__).parents[2]
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.001\n" + SMALL_PATCH
@@ -74,8 +71,8 @@ def test_a_study_file_is_carried_out(tmp_path, capsys):
 @pytest.mark.parametrize("vary", [{}, {"bodies.load": [3.0, 5.5]}, {"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}])
 def test_a_study_of_one_speed_is_drawn_over_what_is_varied(tmp_path, vary):
     result = lubfric.study(SMALL, vary, [0.3])
-    _picture(tmp_path / "study.png", result)
-    assert (tmp_path / "study.png").stat().st_size > 5000 and len(answer_lines(result)) == 5
+    run_study._picture(tmp_path / "study.png", result)
+    assert (tmp_path / "study.png").stat().st_size > 5000 and len(study_report.answer_lines(result)) == 5
 
 
 def numbered(vary, coefficient):
@@ -99,9 +96,9 @@ def test_shares_of_the_variance_are_those_of_a_product_of_powers(tmp_path):
     assert list(effects) == list(parts) and [effect.slope for effect in effects.values()] == [-1, 1]
     for key, effect in effects.items():
         assert effect.share == pytest.approx(parts[key] / sum(parts.values()), rel=1e-12)
-    (line,) = (line for line in answer_lines(result) if "variance" in line)
+    (line,) = (line for line in study_report.answer_lines(result) if "variance" in line)
     assert "total load 88 %, f falls with it; viscosity at ambient pressure 12 %, f rises with it." in line
-    page = study_page(result, {}, []).decode()
+    page = study_report.study_page(result, {}, []).decode()
     assert "Pressure, temperature, and parts of the error" in page and "Effects not modelled" in page
     hertz = re.findall(r'data-label="peak Hertz pressure[^>]*>([0-9.]+) MPa|>([0-9.]+) MPa<', page)
     assert len(hertz) == 12
@@ -115,27 +112,29 @@ def test_inputs_that_vary_together_have_no_shares_of_their_own():
 
 def test_a_grade_that_is_varied_is_no_common_input():
     graded = SMALL.with_(lubricant={"grade": "ISO VG 46", "viscosity_index": 95, "temperature_celsius": 60})
-    page = common_inputs(lubfric.plan_study(graded, {"lubricant.grade": ["ISO VG 46", "ISO VG 100"]}, [0.3]))
+    page = study_report.common_inputs(
+        lubfric.plan_study(graded, {"lubricant.grade": ["ISO VG 46", "ISO VG 100"]}, [0.3])
+    )
     assert "ISO VG" not in page
-    assert "ISO VG 46" in common_inputs(lubfric.plan_study(graded, {"bodies.load": [1.0, 2.0]}, [0.3]))
+    assert "ISO VG 46" in study_report.common_inputs(lubfric.plan_study(graded, {"bodies.load": [1.0, 2.0]}, [0.3]))
 
 
 @pytest.mark.parametrize(
     "values, is_log", [([1, 2, 4, 8], True), ([1, 2, 3, 4], False), ([1, 1.5, 2], False), ([2, 30], False)]
 )
 def test_numbers_that_are_spaced_by_factors_have_a_logarithmic_axis(values, is_log):
-    axes = figures.new_figure().subplots()
-    figures.log_if_wide(axes, "x", np.array(values, dtype=float))
+    axes = run_study.figures.new_figure().subplots()
+    run_study.figures.log_if_wide(axes, "x", np.array(values, dtype=float))
     assert (axes.get_xscale() == "log") == is_log
 
 
 def test_points_of_a_picture_have_the_numbers_of_the_report(tmp_path, monkeypatch):
     drawn = []
-    new_figure = figures.new_figure
-    monkeypatch.setattr(figures, "new_figure", lambda *a, **k: drawn.append(new_figure(*a, **k)) or drawn[-1])
+    new_figure = run_study.figures.new_figure
+    monkeypatch.setattr(run_study.figures, "new_figure", lambda *a, **k: drawn.append(new_figure(*a, **k)) or drawn[-1])
     vary = {"bodies.load": [3.0, 2.0], "numerics.heat": ["off", "auto"]}
     result = numbered(vary, lambda scene: scene.bodies.load)
-    _picture(tmp_path / "study.png", result)
+    run_study._picture(tmp_path / "study.png", result)
     (axes,) = drawn[-1].axes
     np.testing.assert_array_equal(axes.lines[-1].get_xydata(), [[1, 3], [2, 3], [3, 2], [4, 2]])
     assert "study.csv" in axes.get_xlabel()
@@ -160,7 +159,7 @@ def test_bad_study_files_are_one_line(tmp_path, capsys, change, words):
 def test_the_points_that_are_kept_are_counted_in_words(monkeypatch, solved, missing, words):
     study = SimpleNamespace(solved=solved, missing=missing, chosen=False)
     monkeypatch.setattr("lubfric.studies.open_study", lambda folder: study)
-    assert _kept(Path("out")) == words
+    assert run_study._kept(Path("out")) == words
 
 
 @pytest.mark.parametrize("sent, code", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
