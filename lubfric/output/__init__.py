@@ -8,4 +8,4 @@ from .fields import fields_bytes, grid_bytes, write_moments
 from .picture_options import PictureOptions
 from .pictures import plot_history, plot_stribeck, plot_surface, plot_traction
 from .progress import ProgressLine
-from .run_curve import parse_ratios, parse_speeds
+from .run_curve import in_percent, parse_ratios, parse_speeds

@@ -28,7 +28,16 @@ from ..models.shared import (
 )
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..samples import takes_strips
-from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene, given_tables, has_moving_roughness
+from ..scene import (
+    FASTEST,
+    LARGEST_RATIO,
+    MOST_RATIO,
+    MOST_SPEEDS,
+    Scene,
+    check_ratios,
+    given_tables,
+    has_moving_roughness,
+)
 from ..units import number_of, numbers_of, with_interval
 from .commands import RunFolder, check_outputs, made, moment_reports, read_record, run_begun, say
 from .contact_pictures import compared_contact, drawn_contact, plot_contact
@@ -133,7 +142,7 @@ def run_traction(scene: Scene, arguments: Namespace) -> None:
             shown.update(point[0], point[1])
             progress(*point)
 
-        curve = studies.traction(prepared, ratios, on_point=on_point, raise_on_failure=False)
+        curve = studies.traction(prepared, in_percent(ratios), on_point=on_point, raise_on_failure=False)
         _write(folder, prepared, curve, arguments, estimate, [])
         for gap in curve.gaps[:MOST_GAPS]:
             say(f"note: {gap.text}")
@@ -439,6 +448,11 @@ def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float =
     return numbers
 
 
+def in_percent(ratios: list[float]) -> list[float] | list[str]:
+    """Return ``ratios`` that were checked as text in percent, where some are such as `lubfric.traction` questions."""
+    return [f"{100 * ratio!r} %" for ratio in ratios] if max(map(abs, ratios)) > MOST_RATIO else ratios
+
+
 def parse_ratios(text: str | None) -> list[float]:
     """Return the slide-roll ratios of --ratios: 'a,b,c', or 'low:high:count', geometric, or in equal steps where low is
     0 or negative or ':linear' follows."""
@@ -447,10 +461,14 @@ def parse_ratios(text: str | None) -> list[float]:
     if spacing not in ("", "linear", "log"):
         raise InputError(f" {validate.shown(text)} ends with {validate.shown(spacing)}", "--ratios", "linear or log")
     if len(parts) != 3:
-        return parse_speeds("--ratios", ":".join(parts) if parts else text, "-", LARGEST_RATIO)
-    at_zero = number_of("--ratios", parts[0], "-") <= 0
-    linear = spacing == "linear" or (at_zero and spacing == "")
-    return _range("--ratios", parts, "-", LARGEST_RATIO, linear=linear)
+        ratios = parse_speeds("--ratios", ":".join(parts) if parts else text, "-", LARGEST_RATIO)
+    else:
+        at_zero = number_of("--ratios", parts[0], "-") <= 0
+        linear = spacing == "linear" or (at_zero and spacing == "")
+        ratios = _range("--ratios", parts, "-", LARGEST_RATIO, linear=linear)
+    if "%" not in (text or ""):
+        check_ratios("--ratios", ratios)
+    return ratios
 
 
 def _range(option: str, words: list[str], unit: str, most: float, *, linear: bool) -> list[float]:

@@ -16,6 +16,8 @@ from .file import builtin_scenes, given_tables, load_scene, read_toml, scene_fro
 from .history import Constant, Harmonic, History, Ramp, Table
 from .numerics import Numerics
 from .plausible import (
+    MOST_RATIO,
+    check_ratios,
     hint_unusual_values,
     likely_unit,
     other_convention,

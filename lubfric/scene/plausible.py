@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+import numpy as np
+
 from .._base import packaged
 from ..errors import ConvergenceError, InputError
 from ..quantities import KEYS
@@ -212,6 +214,21 @@ def other_convention(key: str, values: Iterable[Any]) -> str:
         least = min(sizes)
         return f'did you mean slip_percent = {least:g}? If not, write slide_roll_ratio = "{100 * least:g} %"'
     return ""
+
+
+def check_ratios(name: str, ratios: Any) -> None:
+    """Raise `InputError` where plain slide-roll ``ratios``, as the user wrote them, are as percentages are: one above 2, where
+    the surfaces move in opposite directions, and none below 1 but 0. ``name``: what they are called."""
+    parts = ratios if isinstance(ratios, (list, tuple, np.ndarray)) else [ratios]
+    sizes = [
+        abs(float(v)) for v in parts if isinstance(v, (int, float, np.number)) and not isinstance(v, bool) and v != 0
+    ]
+    if not sizes or not max(sizes) > MOST_RATIO or min(sizes) < LARGE_RATIO or math.isinf(max(sizes)):
+        return
+    most = max(sizes)
+    said = f": {most:g} is {100 * most:g} %, and above {MOST_RATIO:g} the surfaces move in opposite directions"
+    stated = f'for {100 * most:g} % write "{100 * most:g} %"'
+    raise InputError(said, name, recommendation=f"did you mean {most:g} %? Write {most / 100:g}; {stated}")
 
 
 def doubtful_values(section: str, given: Any) -> tuple[tuple[str, Any], ...]:

@@ -17,7 +17,7 @@ from ..estimate import FrictionResult
 from ..models import prepared_with
 from ..models.shared import Prepared, percent, scene_of
 from ..quantities import PointQuantities, described_in_doc
-from ..scene import FASTEST, LARGEST_RATIO, Scene
+from ..scene import FASTEST, LARGEST_RATIO, Scene, check_ratios
 from .choose import alike, between, each_once, requested_speeds, span, tolerance_between
 from .curve import CurveResult, checked_curve, columns_of, csv_bytes, parted, report_of
 from .interpolate import FEWEST_SPEEDS, Interpolant, Minimum, through
@@ -302,7 +302,7 @@ def traction(
     Parameters
     ----------
     scene : from `lubfric.load_scene` or `lubfric.prepare`
-    ratios : slide-roll ratios (u2 - u1)/U [-], (n,)
+    ratios : slide-roll ratios (u2 - u1)/U [-], (n,), or with a unit, ["5 %"]; refused where all are as percentages are
     speed : entrainment speed [m/s]; None: the scene's own
     tolerance, model : as in `lubfric.friction`
     on_point : called as on_point(done, total, ratio, outcome) as points end
@@ -319,6 +319,7 @@ def traction(
     ValidityError : the same, if all points that failed were refused as invalid
     """
     validate.called_back("on_point", on_point, "done, total, ratio, outcome")
+    check_ratios("ratios", ratios)
     ratios = np.array(each_once(validate.numbers("ratios", ratios, "(-)", LARGEST_RATIO).tolist()))
     if speed is not None:
         speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from lubfric import InputError
-from lubfric.output import parse_ratios, parse_speeds
+from lubfric import InputError, load_scene, traction
+from lubfric._base import validate
+from lubfric.output import in_percent, parse_ratios, parse_speeds
 
 
 @pytest.mark.parametrize(
@@ -37,3 +38,22 @@ def test_ranges_in_equal_and_in_geometric_steps():
     np.testing.assert_allclose(parse_ratios("0.01:0.04:4:linear"), [0.01, 0.02, 0.03, 0.04])
     np.testing.assert_allclose(parse_ratios("0.01:1:3"), [0.01, 0.1, 1.0])
     np.testing.assert_allclose(parse_speeds("--speeds", "1 mm/s:0.1 m/s:3"), [0.001, 0.01, 0.1])
+
+
+@pytest.mark.parametrize("text", ["5,10,20", "1:50:3", "-5,0", "3"])
+def test_ratios_that_are_percentages_are_questioned(text):
+    """Above 2 the surfaces move in opposite directions: a list of such ratios alone is likely in percent."""
+    with pytest.raises(InputError, match="--ratios: .*opposite directions; did you mean .* %. Write 0"):
+        parse_ratios(text)
+    in_python = [float(word) for word in text.replace("1:50:3", "1,7,50").split(",")]
+    with pytest.raises(InputError, match="ratios: .*opposite directions"):
+        traction(load_scene("paper"), in_python)
+
+
+@pytest.mark.parametrize(
+    "text, ratios", [("300 %", [3.0]), ("5 %,10 %", [0.05, 0.1]), ("0.5,3", [0.5, 3.0]), ("1,2", [1, 2])]
+)
+def test_ratios_of_any_size_are_taken_with_their_unit(text, ratios):
+    assert parse_ratios(text) == pytest.approx(ratios)
+    given = in_percent(parse_ratios(text))
+    np.testing.assert_allclose(validate.numbers("ratios", given, "-", 1e6), ratios)
