@@ -6,10 +6,11 @@ import io
 import json
 import math
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import resources
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -98,7 +99,11 @@ def read_table(path: Path, content: bytes | None = None) -> Columns:
 
 
 def read_columns(
-    path: Path, names: Sequence[str], units: Sequence[str | None], must_say: Sequence[str] = ()
+    path: Path,
+    names: Sequence[str],
+    units: Sequence[str | None],
+    must_say: Sequence[str] = (),
+    of_other_kind: Mapping[str, str] = MappingProxyType({}),
 ) -> list[list[float]]:
     """Return columns in ``units``, found by the ``names``, which are headings with or without their units, in the first
     row that has most of them: a preamble of up to `TITLES` lines may precede the table.
@@ -106,7 +111,8 @@ def read_columns(
     A heading may carry its unit in brackets: ``time [ms]``, ``load (kN)``, and so may the name of one that does not. A
     line of units may follow the headings (``s;mm/s;-``). Without a unit a column is in SI, unless its unit is among
     those that ``must_say`` it; a heading that ends with another unit without brackets is refused. ``units``: to which
-    each column is converted (None: from any of `UNITS`, to SI). Comma, semicolon, tab or two blanks separate;
+    each column is converted (None: from any of `UNITS`, to SI); ``of_other_kind``: by the SI unit, what to do with a
+    column that is of another kind. Comma, semicolon, tab or two blanks separate;
     with one of the others, a comma is the decimal mark. UTF-8 (with or without a byte-order mark), UTF-16 with one, or
     Windows-1252.
 
@@ -143,7 +149,8 @@ def read_columns(
         if word and not any(word in table for table in tables):
             listed = ", ".join(other for table in tables for other in table)
             said = f"file {path.name}, column {name!r}: unit {given!r} is not known here"
-            raise InputError(said, allowed=f"{listed}, or no unit for SI")
+            advice = next((of_other_kind[si] for si, row in UNITS.items() if word in row and si in of_other_kind), "")
+            raise InputError(said, allowed=f"{listed}, or no unit for SI", recommendation=advice)
         numbers = [_number(path, line, row, places[0]) for line, row in rows[1:]]
         columns.append([converted(number, word, unit or kind_of(word)) for number in numbers] if word else numbers)
     return columns

@@ -20,7 +20,7 @@ from .._base.progress import progress_to
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report, ValidityError
 from ..estimate import FrictionResult
 from ..quantities import KEYS, axis_label, counted, worded_value
-from ..units import ZERO_CELSIUS, converted, numbers_of, unit_for, with_interval, worded
+from ..units import ZERO_CELSIUS, converted, number_and_unit, numbers_of, unit_for, with_interval, worded
 from .command_line import scene_of
 from .commands import answer, check_outputs, keeping, made, moment_reports, paced, run_folder, say
 from .progress import ProgressLine
@@ -297,17 +297,28 @@ def run_fit(arguments: Namespace) -> None:
         folder.put()
 
 
-def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
-    bounds: dict[str, tuple[float, float]] = {}
+def _has_unit(word: str) -> bool:
+    """Return whether a ``word`` is a number with a unit."""
+    parts = number_and_unit(word)
+    return parts is not None and parts[1] != ""
+
+
+def _bounds(texts: list[str]) -> dict[str, tuple[Any, Any]]:
+    """Return the bounds by key: numbers, and text of those with a unit, which is stated and not to be questioned."""
+    bounds: dict[str, tuple[Any, Any]] = {}
     for text in texts:
         name, _, ends = text.partition("=")
         key = name.strip()
         ways = "write 'section.key=lowest:highest', in SI or with units, once for each key"
-        unit = KEYS[key].unit if key in KEYS else "-"
         if ends.count(":") != 1 or key in bounds:
             raise InputError(f" {validate.shown(text)}", "--parameter", recommendation=ways)
-        (low, high) = numbers_of(f"--parameter {key}", ends.split(":"), [unit, unit])
-        bounds[key] = (low, high)
+        words = [word.strip() for word in ends.split(":")]
+        if key in KEYS:
+            numbers = numbers_of(f"--parameter {key}", words, [KEYS[key].unit] * 2)
+            low, high = (word if _has_unit(word) else number for word, number in zip(words, numbers))
+            bounds[key] = (low, high)
+        else:
+            bounds[key] = (words[0], words[1])  # refused with the nearest key
     return bounds
 
 

@@ -21,6 +21,7 @@ from .plausible import (
     hint_unusual_values,
     likely_unit,
     other_convention,
+    refuse_far_value,
     source_of,
     typical,
     unusual_values,

@@ -192,6 +192,16 @@ def _unusual(key: str, written: Any) -> UnusualValue | None:
     )
 
 
+def refuse_far_value(name: str, key: str, written: Any) -> None:
+    """Raise `InputError` for a plain number ``written`` for a ``key`` (section.key) whose unit was certainly another, as a
+    scene with it is refused. ``name``: what the user calls it."""
+    unusual = _unusual(key, written) if key in KEYS and not isinstance(written, str) else None
+    if unusual is not None and unusual.is_refused:
+        low, high = KEYS[key].usual
+        ways = f"{low:g} to {high:g} {printed(unusual.unit)}".rstrip() + " is usual; write another value with its unit"
+        raise InputError(f" = {unusual.written}; {unusual.question}", name, recommendation=ways)
+
+
 def _is_far(value: float, usual: Sequence[float]) -> bool:
     """Return whether a ``value`` is outside its ``usual`` range by orders of magnitude."""
     (low, high) = usual

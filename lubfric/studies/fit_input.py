@@ -1,5 +1,6 @@
 """What a fit is given: a measured curve of friction with its units, and the numbers of a scene that are sought."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, replace
 from pathlib import Path
@@ -9,7 +10,7 @@ import numpy as np
 
 from .._base import figures, read_columns, validate, with_default_errors
 from ..errors import InputError
-from ..scene import Scene
+from ..scene import Scene, refuse_far_value
 from ..units import check_all_have_units
 from .points import SPEED
 from .vary import FITTED, Between, check_key, check_temperature, unit_of
@@ -19,7 +20,12 @@ if TYPE_CHECKING:
 
 SLIDE_ROLL_RATIO_COLUMN = "slide_roll_ratio"
 MARKS = "D^vos"  # of the ramps in a picture
+OTHER_AXIS = {  # what a column of another kind may be, by its unit
+    "-": "a slide-roll ratio goes into slide_roll_ratio (--ratio)",
+    "m/s": "a speed goes into speed (--speed)",
+}
 SHORTEST_RAMP = 2  # points of a ramp
+LARGEST_MEASURED = 2.0  # coefficient: clean metals in vacuum have more, no lubricated contact has
 LOGARITHMIC = 10.0  # ratio of positive bounds from which a parameter is sought in its logarithm
 
 
@@ -59,10 +65,21 @@ class Measured:
                 raise InputError(f"{name} has {value.size} values for {x.size} of x; give as many")
             object.__setattr__(self, name, value.copy())
         if self.deviation is not None and np.any(self.deviation <= 0):
-            raise InputError("deviation holds values that are not positive; give positive ones, or omit it")
-        if self.deviation is None and np.any(self.coefficient <= 0):
-            said = " holds values that are not positive, for which a relative deviation is not defined"
-            raise InputError(said, "coefficient", "> 0, or give a deviation")
+            place = int(np.argmax(self.deviation <= 0))
+            raise InputError(f" = {self.deviation[place]:g}", f"deviation[{place}]", "> 0, or no deviation")
+        wrong = np.abs(self.coefficient) > LARGEST_MEASURED
+        if self.deviation is None:
+            wrong |= self.coefficient <= 0
+        if wrong.any():
+            place = int(np.argmax(wrong))
+            value = self.coefficient[place]
+            ways = "give the deviation of each point, without which it is relative to the coefficient"
+            if value > LARGEST_MEASURED:
+                ways = "give the friction force over the load, and percent as such: 'mu [%]'"
+            allowed = (
+                f"above 0, up to {LARGEST_MEASURED:g}" if self.deviation is None else f"up to {LARGEST_MEASURED:g}"
+            )
+            raise InputError(f" = {value:g}", f"coefficient[{place}]", allowed, ways)
         if self.branch is not None:
             branch = np.array(self.branch)
             if branch.shape != x.shape or branch.dtype.kind not in "iu":
@@ -174,19 +191,27 @@ def read_measured(
     for name in names:
         validate.instance("heading", name, str, "words, as in the file")
     file = validate.folder("path", path)
-    columns = [np.array(c) for c in read_columns(file, names, units, must_say=("m/s",))]
+    columns = [np.array(c) for c in read_columns(file, names, units, must_say=("m/s",), of_other_kind=OTHER_AXIS)]
     branch = ramps(columns[0])
     order = np.argsort(columns[0], kind="stable")
     x, f, *spread = (column[order] for column in columns)
-    return Measured(
-        x,
-        f,
-        deviation=spread[0] if spread else None,
-        over=over,
-        source=file.name,
-        rolling=rolling,
-        branch=None if branch is None else branch[order],
-    )
+    try:
+        return Measured(
+            x,
+            f,
+            deviation=spread[0] if spread else None,
+            over=over,
+            source=file.name,
+            rolling=rolling,
+            branch=None if branch is None else branch[order],
+        )
+    except InputError as error:
+        place = re.fullmatch(r"(coefficient|deviation)\[(\d+)\]", error.quantity)
+        if place is None:
+            raise
+        column = coefficient if place[1] == "coefficient" else deviation
+        row = f"file {file.name}, column {column!r}, row {order[int(place[2])] + 1} of its numbers"
+        raise InputError(error.said, f"{row}: {place[1]}", error.allowed, error.recommendation) from None
 
 
 def ramps(x: np.ndarray) -> np.ndarray | None:
@@ -233,7 +258,8 @@ def parameters_of(scene: Scene, bounds: Mapping[str, Any]) -> dict[str, Between]
         check_all_have_units(f"parameters[{key!r}]", pair, [unit_of(key)] * 2)
         low = validate.number(f"parameters[{key!r}] lowest", pair[0], unit_of(key))
         high = validate.number(f"parameters[{key!r}] highest", pair[1], unit_of(key), above=low)
-        for end in (low, high):
+        for end, written in ((low, pair[0]), (high, pair[1])):
             scene.with_keys({key: end})
+            refuse_far_value(f"parameters[{key!r}]", key, written)
         parameters[key] = Between(low, high, "log" if low > 0 and high >= LOGARITHMIC * low else "linear")
     return parameters

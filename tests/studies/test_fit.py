@@ -129,7 +129,10 @@ def test_a_fit_prints_as_one_line_and_draws_its_residuals(fitted):
 
 @pytest.mark.parametrize(
     "arguments, words",
-    [(([0.1, 0.2], [0.1]), "1 values for 2 of x"), (([0.1, 0.2], [0.1, 0.1], [0.01, 0.0]), "not positive")],
+    [
+        (([0.1, 0.2], [0.1]), "1 values for 2 of x"),
+        (([0.1, 0.2], [0.1, 0.1], [0.01, 0.0]), r"deviation\[1\] = 0; allowed: > 0"),
+    ],
 )
 def test_measured_arrays_belong_together(arguments, words):
     with pytest.raises(lubfric.InputError, match=words):
@@ -430,3 +433,43 @@ def test_points_farther_off_than_their_deviations_say_are_reported(stated, told)
     result = lubfric.fit(SCENE, lubfric.Measured(speeds, f + off, deviation=stated * np.abs(off)), {key: (0.05, 0.2)})
     assert ("times as large as the stated deviations" in result.explain()) == told
     assert not told or "are 11 times" in result.explain()  # sqrt(6/5) of ten, one parameter
+
+
+EYRING = "lubricant.eyring_stress"
+
+
+def test_bounds_that_are_in_another_unit_are_questioned():
+    """1 to 20 Pa for an Eyring stress, as a scene would not take it; with its unit it is stated."""
+    measured = lubfric.Measured([0.1, 0.2, 0.3], [0.1, 0.1, 0.1])
+    with pytest.raises(lubfric.InputError, match=r"eyring_stress'\] = 1 is read as 1 Pa; did you mean 1 MPa .*usual"):
+        lubfric.explain_fit(SCENE, measured, {EYRING: (1, 20)}, starts=0)
+    assert "1 Pa to 20 Pa" in lubfric.explain_fit(SCENE, measured, {EYRING: ("1 Pa", "20 Pa")}, starts=0)
+
+
+def test_what_is_wrong_with_a_measured_value_is_said_with_its_place(tmp_path):
+    path = tmp_path / "rig.csv"
+    path.write_text("rig 7\nSRR [%];mu [-];F\n5;0.03;12\n2;0;17\n1;0.02;35\n")
+    with pytest.raises(
+        lubfric.InputError, match="file rig.csv, column 'mu', row 2 of its numbers: coefficient = 0; .*above 0"
+    ):
+        lubfric.read_measured(path, coefficient="mu", slide_roll_ratio="SRR [%]")
+    with pytest.raises(
+        lubfric.InputError, match="column 'F', row 3 of .* = 35; allowed: above 0, up to 2; .*force over the load"
+    ):
+        lubfric.read_measured(path, coefficient="F", slide_roll_ratio="SRR")
+    with pytest.raises(
+        lubfric.InputError, match=r"unit '%' is not known here; .*goes into slide_roll_ratio \(--ratio\)"
+    ):
+        lubfric.read_measured(path, coefficient="mu", speed="SRR [%]")
+    with pytest.raises(lubfric.InputError, match=r"coefficient\[1\] = 40; allowed: above 0, up to 2"):
+        lubfric.Measured([0.1, 0.2], [0.5, 40])
+
+
+def test_a_misspelt_parameter_of_the_command_is_named_before_its_unit(tmp_path, capsys):
+    (tmp_path / "rig.csv").write_text("U [m/s];mu [-]\n1;0.03\n2;0.02\n3;0.02\n")
+    command = ["fit", "paper", "--measured", str(tmp_path / "rig.csv"), "--speed", "U", "--coefficient", "mu"]
+    command += ["--out", str(tmp_path / "out"), "--parameter"]
+    assert main([*command, "lubricant.eyring=1 MPa:20 MPa"]) == 2
+    assert "did you mean 'eyring_stress'?" in capsys.readouterr().err
+    assert main([*command, f"{EYRING}=1:20"]) == 2
+    assert "did you mean 1 MPa" in capsys.readouterr().err
