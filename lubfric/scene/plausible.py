@@ -16,9 +16,11 @@ import numpy as np
 from .._base import packaged
 from ..errors import ConvergenceError, InputError
 from ..quantities import KEYS
-from ..units import converted, number_and_unit, printed, spelled, without_unit
+from ..units import converted, number_and_unit, printed, spelled, without_unit, worded
 from .bodies import SLIDE_ROLL_RATIO_KEY, SLIP_KEY
+from .history import Harmonic, Table
 from .short_forms import fields_of_key
+from .transient import HISTORIES, Transient
 
 
 @cache
@@ -50,6 +52,11 @@ NO_ROUGHNESS = 1e-3
 # it was meant in that. Not measured: a convention. Light loads of microscopic contacts are further below than others.
 FAR_ABOVE = 10.0
 FAR_BELOW = 1000.0
+# Part of a table or of a period that a run shows, below which a time is likely in another unit: ms for s are 1e-3. A
+# convention.
+LEAST_PART_OF_HISTORY = 0.02
+# Periods in a run above which the same is likely. A convention: two show a periodic motion.
+MOST_PERIODS_OF_RUN = 100.0
 # Numbers from here on are refused where they are read, and are no slip of a unit.
 MOST_READ = 1e300
 
@@ -147,7 +154,48 @@ def unusual_values(scene: Any) -> tuple[UnusualValue, ...]:
         for number in value if isinstance(value, (list, tuple)) else (value,):
             if number is not None:
                 unusual.append(_unusual(name, number))
+    unusual += _of_duration(scene.transient)
     return tuple(value for value in unusual if value is not None)
+
+
+def _of_duration(plan: Transient | None) -> list[UnusualValue]:
+    """Return that a run in time shows next to nothing of a table or period, or far more periods than are needed: a time is
+    likely in another unit."""
+    if plan is None:
+        return []
+    duration = worded(plan.duration, "s")
+    unusual = []
+    for name, key in HISTORIES.items():
+        history = getattr(plan, name)
+        length = history.times[-1] if isinstance(history, Table) else 0.0
+        if isinstance(history, Harmonic):
+            length = 1.0 / history.frequency
+        parts = plan.duration / length if length else 1.0
+        what = f"the table of {key} lasts {worded(length, 's')}"
+        advice = "give the unit in the heading of the time column, as in 'time [ms]', and of transient.duration"
+        if isinstance(history, Harmonic):
+            what = f"the period of {key} is {worded(length, 's')}"
+            advice = "give the units of frequency and transient.duration"
+        said = ""
+        if parts < LEAST_PART_OF_HISTORY:
+            limit = LEAST_PART_OF_HISTORY * length
+            said = f"{what}, {1.0 / parts:,.0f} times as long: is one of the two times in another unit?"
+        elif parts > MOST_PERIODS_OF_RUN:
+            limit = MOST_PERIODS_OF_RUN * length
+            said = f"{what}, and the run has {parts:,.0f} of them, where two show a periodic motion: is one of the two times in another unit?"
+        if said:
+            unusual.append(
+                UnusualValue(
+                    key="transient.duration",
+                    value=plan.duration,
+                    limit=limit,
+                    unit="s",
+                    written=duration,
+                    question=said,
+                    advice=advice,
+                )
+            )
+    return unusual[:1]  # columns of one file say the same
 
 
 def _of_convention(key: str, written: Any) -> UnusualValue | None:

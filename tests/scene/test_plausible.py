@@ -2,13 +2,14 @@
 one."""
 
 import pickle
+from dataclasses import replace
 
 import pytest
 
 import lubfric
 from lubfric.output import describe_scene
 from lubfric.quantities import KEYS
-from lubfric.scene import unusual_values
+from lubfric.scene import Harmonic, Table, unusual_values
 from lubfric.scene.plausible import slip
 from lubfric.units import converted, printed
 
@@ -163,3 +164,27 @@ def test_a_plain_number_in_another_unit_by_orders_is_refused_unless_accepted(sec
     violations = [each for each in lubfric.prepare(scene).violations if each.what.startswith(section)]
     assert any(each.severe for each in violations) == is_refused
     assert all("Did you mean" in each.text for each in violations if each.severe)
+
+
+CAM = Table(times=(0.0, 0.01, 0.04), values=(1.0, 2.0, 1.0), repeat=True)
+HOURS = "the table of motion.entrainment_speed lasts 40 ms, and the run has 3,000 of them"
+WITHOUT_UNIT = "the table of motion.entrainment_speed lasts 40 s, 1,000 times as long"
+
+
+@pytest.mark.parametrize(
+    "duration, speed, told",
+    [
+        (120.0, CAM, HOURS),
+        (0.04, replace(CAM, times=(0.0, 10.0, 40.0)), WITHOUT_UNIT),
+        (0.12, Harmonic(amplitude=1.0, frequency=1000.0), "is 1 ms, and the run has 120 of them"),
+        (0.12, Harmonic(amplitude=1.0, frequency=0.01), "is 100 s, 833 times as long"),
+        (0.08, CAM, ""),
+        (0.004, CAM, ""),
+        (0.12, Harmonic(amplitude=1.0, frequency=16.67), ""),
+    ],
+)
+def test_a_time_in_another_unit_is_questioned(duration, speed, told):
+    plan = lubfric.Transient(duration, speed=speed, load=5.0)
+    found = unusual_values(lubfric.load_scene("paper").with_(transient=plan))
+    assert bool(found) == bool(told) and all(told in value.question for value in found)
+    assert all(value.key == "transient.duration" and "unit?" in value.question for value in found)
