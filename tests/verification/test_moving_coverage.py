@@ -36,7 +36,7 @@ def test_answers_that_miss_the_reference_lower_the_coverage(tmp_path, inside, pa
         f = 0.045 if seed < inside else 0.053
         row = {"contact": "gear flank", "seed": seed, "f": f, "sampling": 0.02, "freedom": 30} | cells
         table_file.append(
-            tmp_path / ANSWERS, ANSWER_COLUMNS, row | {"by_longer": 0.09, "seconds": 1.0, "failure": ""}, 7
+            tmp_path / ANSWERS, ANSWER_COLUMNS, row | {"by_longer": 0.09, "seconds": 1.0, "work": 2.0, "failure": ""}, 7
         )
     table, check, _ = coverage("quick", folder=tmp_path)
     assert isinstance(table, Table) and isinstance(check, Check)

@@ -12,7 +12,7 @@ from .table import FOLDER, covered, judged_answers, summary
 INSIDE = (0.95, 0.04)
 
 SOURCE = "whole passes of other strips, on cells half as long, extrapolated"
-COLUMNS = ("", "answers", "inside", "rms error", "half-width", "by cells", "error of reference")
+COLUMNS = ("", "answers", "inside", "rms error", "half-width", "by cells", "error of reference", "counted work (s)")
 
 
 def coverage(level: str, run: Run = Run(), *, folder: Path = FOLDER) -> Iterator[Item]:
@@ -27,6 +27,7 @@ def coverage(level: str, run: Run = Run(), *, folder: Path = FOLDER) -> Iterator
             str(group["answers"]),
             str(group["inside"]),
             *(f"{100 * group[name]:.2g} %" for name in ("error", "half_width", "cells", "reference_error")),
+            f"{group['work']:.0f}",
         ]
         for group in groups
     ]

@@ -283,7 +283,7 @@ def reference_of(rows: Sequence[dict[str, str]]) -> Reference | None:
 @dataclass(frozen=True, kw_only=True)
 class Judged:
     """One answer and its reference: the relative ``deviation`` from it, the ``half_width`` of the answer and its part by the
-    ``cells``, and the standard error of the reference."""
+    ``cells``, the reference, and what the answer took: processor time and counted ``work`` [s]."""
 
     contact: RollingContact
     deviation: float
@@ -291,6 +291,7 @@ class Judged:
     cells: float
     reference: Reference
     seconds: float
+    work: float
 
     @property
     def is_inside(self) -> bool:
@@ -323,6 +324,7 @@ def judged_answers(folder: Path = FOLDER) -> Iterator[Judged]:
                     cells=cells,
                     reference=reference,
                     seconds=float(row["seconds"]),
+                    work=float(row["work"]),
                 )
 
 
@@ -338,6 +340,7 @@ def summary(answers: Sequence[Judged]) -> PlainRow:
         "cells": float(np.median([answer.cells for answer in answers])),
         "reference_error": float(np.median([answer.reference.error for answer in answers])),
         "seconds": float(np.median([answer.seconds for answer in answers])),
+        "work": float(np.median([answer.work for answer in answers])),
     }
 
 
