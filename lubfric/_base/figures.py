@@ -48,8 +48,10 @@ def styled(plot: Plot) -> Plot:
             files(__package__) / "pictures.mplstyle"
         ) as path:  # a file for the time being, if it is in an archive
             style = rc_params_from_file(str(path), use_default_template=False)
-        chosen = next((value for value in (*args, *options.values()) if hasattr(value, "fonts")), None)
-        with rc_context({**style, **(chosen.fonts() if chosen is not None else {})}):
+        chosen = next(
+            (value for value in (*args, *options.values()) if hasattr(value, "style") and callable(value.style)), None
+        )
+        with rc_context({**style, **(chosen.style() if chosen is not None else {})}):
             return plot(*args, **options)
 
     return drawn  # type: ignore[return-value]

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 PANELS = ("friction", "load", "film")  # of a Stribeck curve, from the top
 PICTURE_WIDTH = 7.0  # inch: of a picture
 INCH = 0.0254  # m
+PRINTED_DPI = 300.0  # of a picture whose width is chosen: what journals ask for
 LEAST_SCALE = 0.8  # of the heights: panels of a narrow picture are no lower
 NARROW_PICTURE = 4.5  # inch: narrower pictures have smaller fonts
 LOWEST = 0.2  # of the smallest f, where a logarithmic axis of f begins
@@ -33,6 +34,7 @@ class PictureOptions:
     panels : of a Stribeck curve, of "friction", "load" and "film"
     x_scale, y_scale : "linear" or "log", of the axis of speeds, ratios or times, and of f; None: by the data
     width : of the figure [m]; a journal's column is some 85 mm wide. None: `PICTURE_WIDTH`
+    dpi : points of a PNG per inch; None: `PRINTED_DPI` where the width is chosen, else that of the style
     has_warnings : whether points with warnings are marked, and the warnings named below
     has_parts : whether lines show the errors by the model and by the surface alone
     """
@@ -41,6 +43,7 @@ class PictureOptions:
     x_scale: str | None = None
     y_scale: str | None = None
     width: float | None = None
+    dpi: float | None = None
     has_warnings: bool = True
     has_parts: bool = True
 
@@ -65,7 +68,7 @@ class PictureOptions:
         return self.width is not None and self.width / INCH <= NARROW_PICTURE
 
     def thin(self, figure: Figure) -> None:
-        """Make lines and markers of a narrow ``figure`` smaller by `THINNER`, as `fonts` does with its texts."""
+        """Make lines and markers of a narrow ``figure`` smaller by `THINNER`, as `style` does with its texts."""
         if not self.is_narrow:
             return
         for axes in figure.axes:
@@ -75,8 +78,14 @@ class PictureOptions:
                 line.set_markersize(THINNER * line.get_markersize())
                 line.set_markeredgewidth(THINNER * line.get_markeredgewidth())
 
-    def fonts(self) -> dict[str, float]:
-        """Return the sizes of fonts [pt] that differ from the style: those of a narrow picture are smaller."""
+    def style(self) -> dict[str, float]:
+        """Return what differs from the style of pictures.mplstyle: the resolution, and the sizes of fonts [pt], which are
+        smaller in a narrow picture."""
+        dpi = PRINTED_DPI if self.dpi is None and self.width is not None else self.dpi
+        resolution = {} if dpi is None else {"savefig.dpi": dpi}
+        return resolution | self._fonts()
+
+    def _fonts(self) -> dict[str, float]:
         if not self.is_narrow:
             return {}
         small = dict.fromkeys(("font.size", "axes.labelsize", "figure.titlesize"), 8.0)

@@ -43,6 +43,7 @@ from .commands import RunFolder, check_outputs, made, moment_reports, read_recor
 from .contact_pictures import compared_contact, drawn_contact, plot_contact
 from .describe import SceneEstimate
 from .fields import fields_bytes, read_contact, vtk_bytes
+from .fit_picture import FIT, plot_fit, read_fit
 from .picture_options import PANELS, PictureOptions
 from .pictures import plot_history, plot_stribeck, plot_traction
 from .progress import ProgressLine
@@ -55,6 +56,8 @@ AXIS_SCALES = ("linear", "log")  # of an axis
 LEFT_OUT = ("warnings", "parts")  # of a picture, where a user does not want them
 FORMATS = ("png", "pdf", "svg")  # of a picture that is drawn again
 NARROWEST = 0.05  # m: width of a picture
+LEAST_DPI = 50  # points of a picture per inch
+MOST_DPI = 1200  # points of a picture per inch
 WIDEST_PICTURE = 0.6  # m: width of a picture
 TABLES = {"history": "a run in time", "traction": "a traction curve", "stribeck": "a Stribeck curve"}
 WORTH = 8  # speeds from which a second process gains more than it costs
@@ -265,8 +268,11 @@ def plot_again(arguments: Namespace) -> None:
     given = [option for option in ("measured", "speed", "coefficient") if getattr(arguments, option) is not None]
     if given and "measured" not in given:
         raise InputError(f"--{given[0]} names a column of the measured curve; give --measured as well")
+    if name is None and (folder / FIT).is_file():
+        _plot_fit_again(arguments)
+        return
     if name is None:
-        raise InputError(f"{folder} holds no stribeck.csv; give a folder that 'lubfric run' wrote")
+        raise InputError(f"{folder} holds no stribeck.csv; give a folder that 'lubfric run' or 'lubfric fit' wrote")
     if given and name != "stribeck":
         raise InputError(f"--measured is drawn with a Stribeck curve, and {folder} holds {TABLES[name]}")
     options = _picture_options(arguments, name)
@@ -288,6 +294,16 @@ def plot_again(arguments: Namespace) -> None:
     _write_picture(arguments, name, again)
 
 
+def _plot_fit_again(arguments: Namespace) -> None:
+    """Draw the picture of a fit again."""
+    of_curves = ("measured", "speed", "coefficient", "panels", "without")
+    given = next((name for name in of_curves if getattr(arguments, name) is not None), None)
+    if given is not None:
+        raise InputError(f"--{given} is for the picture of a run, and {arguments.folder} holds a fit; omit it")
+    options = _picture_options(arguments, "fit")
+    _write_picture(arguments, "fit", partial(plot_fit, record=read_fit(arguments.folder / FIT), options=options))
+
+
 def _plot_contact_again(arguments: Namespace) -> None:
     """Draw the picture of the contact at the speed ``arguments.contact`` again."""
     of_curves = ("measured", "speed", "coefficient", "panels", "x_scale", "y_scale", "without")
@@ -296,8 +312,10 @@ def _plot_contact_again(arguments: Namespace) -> None:
         option = given.replace("_", "-")
         raise InputError(f"--{option} is for the picture of a curve, and --contact draws the contact; omit one of them")
     contact = read_contact(arguments.folder / "fields.npz", number_of("--contact", arguments.contact, "m/s"))
-    options = PictureOptions(width=_width(arguments))
-    _write_picture(arguments, "contact", partial(plot_contact, contact=contact, options=options))
+    options = PictureOptions(width=_width(arguments), dpi=_dpi(arguments))
+    _write_picture(
+        arguments, f"contact_at_{contact.speed:.4g}", partial(plot_contact, contact=contact, options=options)
+    )
 
 
 def _write_picture(arguments: Namespace, name: str, draw: Callable[..., Any]) -> None:
@@ -319,6 +337,15 @@ def _width(arguments: Namespace) -> float | None:
     return validate.number("--width", number, "m", minimum=NARROWEST, maximum=WIDEST_PICTURE)
 
 
+def _dpi(arguments: Namespace) -> float | None:
+    """Return the points of a picture per inch that the ``arguments`` ask for."""
+    if arguments.dpi is None:
+        return None
+    if arguments.format != "png":
+        raise InputError(f"--dpi is for a PNG, and --format is {arguments.format}, which has no points; omit it")
+    return float(validate.integer("--dpi", arguments.dpi, minimum=LEAST_DPI, maximum=MOST_DPI))
+
+
 def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
     """Return the options of the picture of the table ``name`` by the ``arguments`` of ``lubfric plot``."""
     panels = PANELS
@@ -335,6 +362,7 @@ def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
     return PictureOptions(
         panels=panels,
         width=_width(arguments),
+        dpi=_dpi(arguments),
         **scales,
         has_warnings="warnings" not in left_out,
         has_parts="parts" not in left_out,

@@ -23,6 +23,7 @@ from ..quantities import KEYS, axis_label, counted, worded_value
 from ..units import ZERO_CELSIUS, converted, number_and_unit, numbers_of, unit_for, with_interval, worded
 from .command_line import scene_of
 from .commands import answer, check_outputs, keeping, made, moment_reports, paced, run_folder, say
+from .fit_picture import drawn_record, plot_fit
 from .progress import ProgressLine
 from .study_report import answer_lines, planned_point_in_words, study_page
 
@@ -292,7 +293,7 @@ def run_fit(arguments: Namespace) -> None:
     say(fitted.explain())
     with run_folder(arguments.out, begun) as folder:
         folder.add("fitted.toml", lambda: fitted.scene.to_toml().encode())
-        folder.draw("fit.png", _draw, fitted)
+        folder.draw("fit.png", plot_fit, drawn_record(fitted))
         folder.add("fit.json", lambda: json.dumps(plain(_record(fitted)), indent=1).encode())
         folder.put()
 
@@ -327,18 +328,7 @@ def _record(fitted: studies.FitResult) -> dict[str, Any]:
     names = (*of_fit, "describes_data", "other_minima", "starts")
     return {name: getattr(fitted, name) for name in names} | {
         "parameters": list(fitted.parameters),
-        "x": fitted.measured.x,
-        "measured": fitted.measured.coefficient,
-        "fitted": fitted.predicted,
+        **drawn_record(fitted),
         "report": fitted.report.as_dict(),
         "residual_tests": None if fitted.tests is None else asdict(fitted.tests),
     }
-
-
-@figures.styled
-def _draw(path: Path, fitted: studies.FitResult) -> None:
-    figure = figures.new_figure(figsize=(7, 6.5))
-    top, bottom = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [3, 1.5]})
-    fitted.plot(top).set_xlabel("")
-    fitted.plot_residuals(bottom)
-    figure.savefig(path)

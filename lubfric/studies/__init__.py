@@ -9,7 +9,7 @@ from .fit import estimated_fit, explain_fit, fit
 from .fit_checks import ResidualTests, chance_of, residual_tests
 from .fit_input import Measured, read_measured
 from .fit_profile import Profile, flat_parameters, follow
-from .fit_result import FitResult
+from .fit_result import FitResult, draw_fit, draw_residuals
 from .fit_search import Candidate, are_parted, search_minima, with_minimum
 from .interpolate import Interpolant, Samples, knee_of
 from .law import Law, law_of

@@ -143,6 +143,8 @@ class Measured:
             axes.set(xscale="log", xlabel=figures.speed_label(self.x))
             figures.plain_ticks(axes.xaxis)
         else:
+            figures.log_if_wide(axes, "x", np.abs(self.x))
+            figures.plain_ticks(axes.xaxis)
             axes.set_xlabel("slide-roll ratio (-)")
 
 

@@ -1,6 +1,7 @@
 """The result of a fit, and how sure it is."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -286,27 +287,13 @@ class FitResult(Renamed, Shown):
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw measured points, fitted curve and its 95 % band; returns the axes."""
         axes = figures.axes_or_new(ax)
-        (low, high) = self.band
-        self.measured.draw(axes)
-        order = np.argsort(x := np.abs(self.measured.x))
-        axes.plot(x[order], self.predicted[order], color=figures.BLUE, label="fit")
-        axes.fill_between(
-            x[order], low[order], high[order], color=figures.BLUE, alpha=0.2, lw=0, label="95 % interval of the fit"
-        )
-        self.measured.label(axes)
-        axes.set(ylim=(0.0, None), ylabel=figures.FRICTION_LABEL)
-        figures.key_above(axes)
+        draw_fit(axes, self.measured, self.predicted, self.band)
         return axes
 
     def plot_residuals(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the deviation of the points from the fitted curve, relative; returns the axes."""
         axes = figures.axes_or_new(ax)
-        miss = 100 * (1 - self.predicted / self.measured.coefficient)
-        axes.axhline(0, color=figures.GREY, lw=0.8)
-        axes.plot(np.abs(self.measured.x), miss, "o", ms=4, color=figures.RED)
-        self.measured.label(axes)
-        reach = 1.15 * max(np.abs(miss).max(), 1e-3)
-        axes.set(ylim=(-reach, reach), ylabel="(measured - fit)/measured (%)")
+        draw_residuals(axes, self.measured, self.predicted)
         return axes
 
     @property
@@ -340,3 +327,28 @@ class FitResult(Renamed, Shown):
         from scipy.stats import t
 
         return float(t.ppf(0.5 + LEVEL / 2, self.predicted.size - self.unit.size))
+
+
+def draw_fit(axes: "Axes", measured: Measured, predicted: np.ndarray, band: Sequence[np.ndarray]) -> None:
+    """Draw ``measured`` points, and the fitted curve of which they have the ``predicted`` (n,) with its 95 % ``band``, the
+    lower and the upper end (n,)."""
+    (low, high) = band
+    measured.draw(axes)
+    order = np.argsort(x := np.abs(measured.x))
+    axes.plot(x[order], predicted[order], color=figures.BLUE, label="fit")
+    axes.fill_between(
+        x[order], low[order], high[order], color=figures.BLUE, alpha=0.2, lw=0, label="95 % interval of the fit"
+    )
+    measured.label(axes)
+    axes.set(ylim=(0.0, None), ylabel=figures.FRICTION_LABEL)
+    figures.key_above(axes)
+
+
+def draw_residuals(axes: "Axes", measured: Measured, predicted: np.ndarray) -> None:
+    """Draw the deviation of ``measured`` points from the ``predicted`` (n,), relative."""
+    miss = 100 * (1 - predicted / measured.coefficient)
+    axes.axhline(0, color=figures.GREY, lw=0.8)
+    axes.plot(np.abs(measured.x), miss, "o", ms=4, color=figures.RED)
+    measured.label(axes)
+    reach = 1.15 * max(np.abs(miss).max(), 1e-3)
+    axes.set(ylim=(-reach, reach), ylabel="(measured - fit)\n/measured (%)")

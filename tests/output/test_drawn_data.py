@@ -264,7 +264,7 @@ def test_a_contact_is_drawn_again_from_its_file(figures, solved, kept, monkeypat
     """With the same numbers, at the width of a journal's column, and all texts within it."""
     monkeypatch.setattr("lubfric.output.run_curve.made", lambda name, draw: draw(name) or b"a picture")
     assert main(["plot", str(kept), "--contact", "0.01", "--width", width, "--format", "pdf"]) == 0
-    assert (kept / "contact.pdf").read_bytes() == b"a picture"
+    assert (kept / "contact_at_0.01.pdf").read_bytes() == b"a picture"
     plot_contact("x.png", drawn_contact(*solved))
     (again, first) = figures
     pictures = [figure.axes[0].images[0].get_array() for figure in figures]
@@ -287,7 +287,7 @@ def test_a_contact_is_drawn_again_from_its_file(figures, solved, kept, monkeypat
 )
 def test_a_contact_that_cannot_be_drawn_again_is_refused(kept, capsys, options, said):
     assert main(["plot", str(kept), *options]) == 2
-    assert said in capsys.readouterr().err and not (kept / "contact.png").exists()
+    assert said in capsys.readouterr().err and not list(kept.glob("contact*"))
 
 
 @pytest.mark.parametrize("content", [None, b"PK\x03\x04 and no more", b"text"])
@@ -421,6 +421,14 @@ def test_a_picture_for_a_paper_is_a_vector_graphic(tmp_path):
     for kind, begin in (("pdf", b"%PDF"), ("svg", b"<?xml")):
         assert main(["plot", str(out), "--format", kind, "--width", "85 mm"]) == 0
         assert (out / f"stribeck.{kind}").read_bytes().startswith(begin)
+    assert "friction coefficient" in (out / "stribeck.svg").read_text()  # letters, not their outlines
+    for options, dots in ((["--width", "85 mm"], 300), (["--width", "85 mm", "--dpi", "600"], 600), ([], 150)):
+        assert main(["plot", str(out), *options]) == 0
+        width = 85 / 25.4 if "--width" in options else 7.0
+        assert int.from_bytes((out / "stribeck.png").read_bytes()[16:20], "big") == pytest.approx(width * dots, abs=1)
+    assert (
+        main(["plot", str(out), "--dpi", "9"]) == 2 and main(["plot", str(out), "--dpi", "99", "--format", "pdf"]) == 2
+    )
     main(["run", str(scene), "--speeds", "0.1,1", "--out", str(out)])  # a new run removes what is no longer its own
     assert not (out / "stribeck.pdf").exists() and (out / "stribeck.png").exists()
 

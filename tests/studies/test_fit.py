@@ -403,7 +403,10 @@ def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_f
     fitted = lubfric.load_scene(tmp_path / "out" / "fitted.toml")
     assert record["values"] == result.values and record["starts"] == 4 and record["describes_data"]
     assert fitted.bodies.boundary_friction_coefficient == pytest.approx(list(result.values.values())[0])
-    assert (tmp_path / "out" / "fit.png").stat().st_size > 10_000
+    drawn = (tmp_path / "out" / "fit.png").read_bytes()
+    assert main(["plot", str(tmp_path / "out")]) == 0 and (tmp_path / "out" / "fit.png").read_bytes() == drawn
+    assert main(["plot", str(tmp_path / "out"), "--width", "85 mm", "--format", "pdf"]) == 0
+    assert (tmp_path / "out" / "fit.pdf").is_file() and main(["plot", str(tmp_path / "out"), "--panels", "film"]) == 2
     assert main([*command, "--parameter", "lubricant.viscosity"]) == 2
     assert "section.key=lowest:highest" in capsys.readouterr().err
     monkeypatch.setattr("lubfric.studies.points.outcome_of", None)  # all points are kept: nothing is solved again
