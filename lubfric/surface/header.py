@@ -99,6 +99,7 @@ _STATED_NUMBER = re.compile(_DIGITS)
 _GLUED = re.compile(rf"({_DIGITS})([a-zµμ]+)")  # '10µm'
 _MARKED = re.compile(r"[\[(]\s*([^\[\]()\s]{1,12})\s*[\])]|/(mm|um|µm|μm|nm|m)(?![\w/])")  # '[um]', '/mm'
 _PER_POINT = re.compile(r"(?<![a-zµμ])(mm|um|µm|μm|nm|m)\s?/\s?(?:pixel|px|point|pt|sample)s?(?!\w)", re.I)  # of a step
+_OF_AXIS = re.compile(r"(?<![^\W_])([xyz])_(?=(?:mm|um|µm|μm|nm|m)(?![^\W_]))", re.I)  # 'X_mm'
 _UNIT = "\x01"  # before a word that a bracket or a slash marks as a unit
 _BETWEEN = re.compile(r"[\s:=;：\"'|<>#{}]+|,(?!\d)|(?<!\d),")
 _WORDS = re.compile(r"[A-Z]{2,}(?![a-z])|[A-Z]?[^\W\d_A-Z]+|[A-Z]")  # of 'numCols', 'x-length', 'Pixel_size'
@@ -421,17 +422,19 @@ def _are_extents(numbers: Sequence[float | None], counts: tuple[int, int], steps
     )
 
 
-def column_units(titles: Iterable[tuple[int, str]]) -> tuple[tuple[str, str, str], str] | None:
-    """Return the units of three columns x, y, z that a title names, 'X [mm]; Y [mm]; Z [um]' or 'mm; mm; um', and the
-    title; None where none does. One unit represents all three only in a title that says 'units'."""
+def column_units(titles: Iterable[tuple[int, str]], columns: int = 3) -> tuple[tuple[str, str, str], str] | None:
+    """Return the units of three columns x, y, z that a title names, 'X [mm]; Y [mm]; Z [um]', 'X_mm Y_mm Z_um' or
+    'mm; mm; um', and the title; None where none does. One unit represents all three only in a title that says 'units'.
+    Of the two ``columns`` of a profile the first one's represents x and y."""
     for _, text in titles:
         if len(text) > LONGEST_STATEMENT:
             continue
-        marked = _MARKED.sub(lambda match: f" {_UNIT}{match[1] or match[2]} ", text)
+        apart = _OF_AXIS.sub(r"\1 ", text)
+        marked = _MARKED.sub(lambda match: f" {_UNIT}{match[1] or match[2]} ", apart)
         tokens = [token.lstrip(_UNIT).lower() for token in _BETWEEN.split(marked) if token]
         units = [UNIT_WORDS[token] for token in tokens if token in UNIT_WORDS]
-        if len(units) == 3 and not any(_STATED_NUMBER.fullmatch(token) for token in tokens):
-            return (units[0], units[1], units[2]), text
+        if len(units) == columns and not any(_STATED_NUMBER.fullmatch(token) for token in tokens):
+            return (units[0], units[columns - 2], units[-1]), text
         if len(units) == 1 and {"units", "unit"} & set(tokens) and not {"x", "y", "z"} & set(tokens):
             return (units[0], units[0], units[0]), text
     return None

@@ -58,7 +58,10 @@ class Surface(FrozenArrays, Shown):
         if np.ma.is_masked(self.heights):
             heights[np.ma.getmaskarray(self.heights)] = np.nan
         measured = validate.array("heights", heights if mask is None else np.where(mask, heights, 0.0), "m", ndim=2)
-        validate.number("heights, the largest", np.abs(measured).max(), "m", maximum=HIGHEST)
+        largest = float(np.abs(measured).max())
+        if largest > HIGHEST:
+            ways = "check their unit (unit = 'nm' or 'um' of a file), or give missing_value, if they stand for 'not measured'"
+            raise InputError(f" = {largest:g} m is out of range", "heights, the largest", f"up to {HIGHEST:g} m", ways)
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "mask", mask)
         object.__setattr__(self, "spacing", validate.spacing("spacing", self.spacing))

@@ -156,7 +156,11 @@ def refuse_profile(name: str, table: np.ndarray, header: Header | None, units: t
             x = table[:, 0] if min(table.shape) > 1 else None
             step = None if x is None else abs(float(x[-1] - x[0])) / (x.size - 1)
             said += f", correlation length {length:.3g} steps" if step is None else ""
-            said += "" if step is None else f", correlation length {length * step:.4g} in the unit of its first column"
+            scale_x = None if units is None else LENGTHS.get(units[0]) or LENGTH_UNITS.get(units[0])
+            if step is not None and scale_x is not None:
+                said += f", correlation length {length * step * scale_x:.4g} m"
+            elif step is not None:
+                said += f", correlation length {length * step:.4g} in the unit of its first column"
         said += ")"
     raise InputError(said, recommendation=recommendation)
 

@@ -221,6 +221,13 @@ def _masked(
         if value is not None:
             measured &= heights != value
             notes = (*notes, f"missing_value = {value:g}: {np.count_nonzero(heights == value)} points")
+    infinite = np.argwhere(measured & np.isinf(heights))
+    if infinite.size:
+        i, j = infinite[0]
+        said = f" = {heights[i, j]:g}{f', and {len(infinite) - 1} more' * (len(infinite) > 1)}"
+        raise InputError(
+            said, f"heights[{i}, {j}] of {path.name}", "finite heights, and NaN where nothing was measured"
+        )
     if not measured.any():
         raise InputError(f"heights: none of {heights.size} values is measured; allowed: measured heights in m")
     return Surface(np.where(measured, heights * scale, np.nan), spacing, mask=measured, notes=notes)

@@ -41,6 +41,9 @@ WYKO = "Wyko ASCII Data File Format"
 _PROFILM = re.compile(r"(numCols)\s+(numRows)\s+(pixelSize) \((\w+)\)\s+(\S+)\s+(\S+)\s+(\S+)\s", re.I)  # Filmetrics
 _SMD = re.compile(r"[^\n]*\n[^\n]* PRF [^\n]*\n *CX ")  # a profile of ISO 5436-2, as Taylor Hobson writes .prf and .smd
 HEIGHT_BLOCKS = ("RAW_DATA", "RAW DATA", "OPD", "SAMPLE_DATA")  # of a Wyko file; others are intensities
+OF_HEIGHTS = re.compile(
+    r"\b(?:heights?|z)\s+(?:are\s+|values\s+)?in\s+[\[(]?(mm|um|µm|μm|nm)\b", re.I
+)  # 'heights in nm'
 LATERAL = (1.0, 1e-3, 1e-6, 1e-9)  # m: units that coordinates without a stated one may be in
 SAME_SPACING = 0.02  # relative difference up to which the step of coordinates is the given spacing
 
@@ -137,7 +140,8 @@ def read_text(
         raise
     kind = "points" if points else kind_of_table(path.name, table.numbers)
     if kind == "profile":
-        refuse_profile(path.name, table.numbers, table.header, units)
+        named = column_units([*table.titles, *table.comments], columns=2)
+        refuse_profile(path.name, table.numbers, table.header, units if units or named is None else named[0])
     if kind == "points":
         return _points(path, table, units, spacing)
     return _matrix(path, table, units, spacing)
@@ -322,16 +326,27 @@ def _height_scale(path: Path, table: NumberTable, units: Units) -> tuple[float, 
     return LENGTH_UNITS[units[2]] * factor, ()
 
 
-def _refuse_unit_words(path: Path, table: NumberTable) -> None:
-    """Raise `InputError` for a title that names a unit which nobody has assigned: the heights may be in it."""
+def _refuse_unit_words(path: Path, table: NumberTable, *, points: bool = False) -> None:
+    """Raise `InputError` for a title that names a unit which nobody has assigned: the heights may be in it. ``points``:
+    whether the table is a list of points, which may have two units."""
     for number, text in table.titles:
         if number in table.header.lines_read:
+            of_heights = OF_HEIGHTS.search(text[:1000])
+            if of_heights:
+                unit = UNIT_WORDS[of_heights[1].lower()]
+                said = f"says that the heights are in {unit}, and unit is not given, which means m"
+                raise _wrong(path, number, text, f"{said}; allowed: unit = {unit!r}, or 'm' if it is m after all")
             continue
         words = re.findall(r"[a-zµμ]+", text[:1000].lower())
-        named = sorted({UNIT_WORDS[word] for word in words if word in UNIT_WORDS and word not in ("m", "in")})
+        named = list(
+            dict.fromkeys(UNIT_WORDS[word] for word in words if word in UNIT_WORDS and word not in ("m", "in"))
+        )
         if named:
             said = f"names {' and '.join(named)}, and unit is not given, which means m for every column"
-            raise _wrong(path, number, text, f"{said}; allowed: unit = {named[0]!r}, or 'm' if it is m after all")
+            ways = f"unit = {named[0]!r}, or 'm' if it is m after all"
+            if points:
+                ways = f"unit = {named[0]!r} for all columns, or unit = {(named[0], named[-1])!r} for x and y, and z"
+            raise _wrong(path, number, text, f"{said}; allowed: {ways}")
 
 
 # --- a list of points --------------------------------------------------------------------------
@@ -354,7 +369,7 @@ def _points(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
         scales = _stated_scales(path, table, units)
     else:
         if units is None:
-            _refuse_unit_words(path, table)
+            _refuse_unit_words(path, table, points=True)
         scales = [LENGTH_UNITS[unit] for unit in units or ("m", "m", "m")]
     heights, steps, made = gridded(path.name, numbers * np.array([scales[0], scales[1], 1.0]))
     if spacing is not None:

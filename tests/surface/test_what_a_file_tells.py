@@ -193,3 +193,57 @@ def test_a_smooth_map_is_noted(tmp_path):
     np.save(tmp_path / "a.npy", 0.1 * np.random.default_rng(0).standard_normal((30, 20)))
     note = next(note for note in read_surface(tmp_path / "a.npy", spacing=1e-6, unit="nm").notes if "unusual" in note)
     assert note.startswith("Sq 0.09963 nm") and "check the unit of the heights" in note
+
+
+def lines_of_points(scales, heading=""):
+    z = 1e-7 * np.random.default_rng(0).standard_normal((12, 10))
+    x, y = np.meshgrid(np.arange(12) * 1e-6, np.arange(10) * 1e-6, indexing="ij")
+    rows = np.stack([part.ravel() / scale for part, scale in zip((x, y, z), scales)], axis=1)
+    return heading + "".join(" ".join(f"{value:.9g}" for value in row) + "\n" for row in rows), z
+
+
+def test_units_of_the_heading_of_points_are_read(tmp_path):
+    text, z = lines_of_points((1e-3, 1e-3, 1e-6), "X_mm Y_mm Z_um\n")
+    (tmp_path / "a.txt").write_text(text)
+    np.testing.assert_allclose(read_surface(tmp_path / "a.txt", **RAW).heights, z, atol=1e-14)
+
+
+def test_the_advice_for_points_in_two_units_is_what_helps(tmp_path):
+    text, z = lines_of_points((1e-3, 1e-3, 1e-6), "ring 7: mm, then um\n")
+    path = tmp_path / "a.xyz"
+    path.write_text(text)
+    with pytest.raises(InputError, match=r"unit = \('mm', 'um'\) for x and y, and z"):
+        read_surface(path)
+    path.write_text(text.partition("\n")[2])
+    for given in ({}, {"unit": "um"}):
+        with pytest.raises(InputError, match=r"unit = \('mm', 'um'\) for x and y, and z"):
+            read_surface(path, **given)
+    np.testing.assert_allclose(read_surface(path, unit=("mm", "um"), **RAW).heights, z, atol=1e-14)
+
+
+def test_a_profile_is_described_in_the_units_that_are_stated(tmp_path):
+    x = np.arange(200) * 1e-6
+    rows = "".join(f"{1e3 * a:.6g};{1e6 * b:.6g}\n" for a, b in zip(x, 1e-7 * np.sin(x / 5e-6)))
+    path = tmp_path / "a.txt"
+    for heading, given in (("x [mm];z [µm]\n", {}), ("", {"unit": ("mm", "um")})):
+        path.write_text(heading + rows, encoding="utf-8")
+        with pytest.raises(
+            InputError, match=r"Sq [67]\.\d*e-08 m about its mean line, correlation length [56]\.\d*e-06 m"
+        ):
+            read_surface(path, **given)
+
+
+def test_what_is_wrong_with_heights_is_said_with_its_place(tmp_path):
+    path = tmp_path / "a.npy"
+    z = 1e-7 * np.random.default_rng(0).standard_normal((12, 10))
+    z[3, 4] = np.inf
+    np.save(path, z)
+    with pytest.raises(InputError, match=r"heights\[3, 4\] of a.npy = inf; allowed: finite heights, and NaN where"):
+        read_surface(path, spacing=1e-6)
+    z[3, 4] = 9999
+    np.save(path, z)
+    with pytest.raises(InputError, match="the largest = 9999 m is out of range; .*give missing_value"):
+        read_surface(path, spacing=1e-6)
+    (tmp_path / "a.txt").write_text("Sample 12, heights in nm, pixel 1 um\n" + "1 2 3 4 5\n" * 5)
+    with pytest.raises(InputError, match="says that the heights are in nm, .*unit = 'nm'"):
+        read_surface(tmp_path / "a.txt")
