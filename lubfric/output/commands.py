@@ -3,10 +3,12 @@ replaced. A broken stream or an interrupt never costs what was computed."""
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import platform
 import re
+import shlex
 import signal
 import sys
 import tempfile
@@ -16,7 +18,7 @@ import tomllib
 from argparse import Namespace
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
-from dataclasses import asdict, fields
+from dataclasses import asdict, dataclass, fields
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_type_hints
@@ -296,6 +298,32 @@ def _as_json(record: dict[str, Any]) -> bytes:
     return json.dumps(plain(record), indent=1, allow_nan=False).encode()
 
 
+@dataclass(frozen=True, kw_only=True)
+class RepeatedRun:
+    """How a run is repeated.
+
+    Attributes
+    ----------
+    scene : that resolved.toml holds
+    options : of the command, which no key of a scene holds
+    """
+
+    scene: Scene
+    options: tuple[str, ...] = ()
+
+    @property
+    def command(self) -> str:
+        """The command that repeats the run in its folder."""
+        return shlex.join(("lubfric", "run", RESOLVED_SCENE, *self.options))
+
+
+def map_checksums(scene: Scene) -> dict[str, str]:
+    """Return the SHA-256 of each height map of ``scene`` by its path."""
+    sections = (scene.surface, scene.counterface)
+    paths = [Path(part.file) for part in sections if part is not None and part.file is not None]
+    return {str(path): hashlib.sha256(path.read_bytes()).hexdigest() for path in paths}
+
+
 class RunFolder:
     """What a command that has ``begun`` (`time.perf_counter`) puts in the folder ``path``: ``contents`` by name. The
     last says that the others are complete.
@@ -378,18 +406,23 @@ class RunFolder:
         units: dict[str, Quantity],
         law: Law | str = "",
         unusual_values: Iterable[str] = (),
+        repeated: RepeatedRun | None = None,
         **numbers: object,
     ) -> None:
         """Add the scene with its defaults, the picture of the roughness and the page, and put all of a run instead of
         an earlier one; its record, which names the files, last as result.json. Then violated assumptions,
-        ``unusual_values`` and files are said, and what was saved for a resume is removed."""
+        ``unusual_values`` and files are said, and what was saved for a resume is removed. ``repeated``: how the run is
+        repeated, where not by the scene alone."""
+        again = repeated or RepeatedRun(scene=prepared.scene)
         with suppress(InputError):  # a path that is not Unicode has no place in a scene file
-            self.add(RESOLVED_SCENE, lambda: prepared.scene.to_toml().encode())
+            self.add(RESOLVED_SCENE, lambda: again.scene.to_toml(self.path).encode())
         if prepared.surface.sq > 0:
             self.draw("surface.png", plot_surface, prepared)
         record: dict[str, Any] = {"scene": {"name": prepared.scene.name}, "points": [], **numbers}
         with self.reporting(f"{RESULT} has the numbers alone"):
             record = self._record(prepared, result, units, **numbers)
+            record["command"] = again.command
+            record["map_sha256"] = map_checksums(prepared.scene)
         page = partial(report_page, record=record, contents=self.contents, estimate=estimate, given=given, law=law)
         self.add("report.html", page, prepared, result)
         record = {"files": sorted([*self.contents, RESULT])} | record

@@ -691,6 +691,7 @@ def _made(record: dict[str, Any]) -> str:
     """Return versions, the hash of the scene, and the time of the run."""
     rows = [
         *record["versions"].items(),
+        *((f"SHA-256 of the height map {path}", checksum) for path, checksum in record["map_sha256"].items()),
         ("scene", record["hash"]),
         *(
             []
@@ -702,7 +703,8 @@ def _made(record: dict[str, Any]) -> str:
     ]
     lines = [f'<td>{escape(name)}</td><td class="key">{escape(str(value))}</td>' for name, value in rows]
     note = (
-        "<p>resolved.toml holds the scene with all defaults; lubfric run resolved.toml computes the same numbers.</p>"
+        f"<p>resolved.toml holds the scene with all defaults. In its folder, <code>{escape(record['command'])}</code> "
+        "computes the same numbers with the versions and height maps below.</p>"
     )
     return note + table(("", ""), lines)
 

@@ -6,6 +6,7 @@ import math
 import re
 from argparse import Namespace
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -39,7 +40,7 @@ from ..scene import (
     has_moving_roughness,
 )
 from ..units import number_of, numbers_of, with_interval
-from .commands import RunFolder, check_outputs, made, moment_reports, read_record, run_begun, say
+from .commands import RepeatedRun, RunFolder, check_outputs, made, moment_reports, read_record, run_begun, say
 from .contact_pictures import compared_contact, drawn_contact, plot_contact
 from .describe import SceneEstimate
 from .fields import fields_bytes, read_contact, vtk_bytes
@@ -186,7 +187,21 @@ def _write(
     given: dict[str, Any] = {}
     with folder.reporting("report.html is without the inputs as they were given"):
         given = given_tables(arguments.scene)
-    folder.complete(prepared, estimate, given, curve, units, law, unusual_values, points=numbers)
+    again = _repeated(prepared.scene, curve, arguments)
+    folder.complete(prepared, estimate, given, curve, units, law, unusual_values, again, points=numbers)
+
+
+def _repeated(scene: Scene, curve: studies.CurveResult, arguments: Namespace) -> RepeatedRun:
+    """Return how a run is repeated: the speeds of the command are in the scene, and what no key holds is an option."""
+    if not isinstance(curve, studies.StribeckResult):
+        return RepeatedRun(scene=scene, options=(f"--ratios={arguments.ratios}",))
+    options = () if arguments.fields is None else (f"--fields={arguments.fields}",)
+    if arguments.speeds is None:
+        return RepeatedRun(scene=scene, options=options)
+    if arguments.speeds != studies.AUTO_SPEEDS:
+        with suppress(InputError):  # speeds that a scene does not take
+            return RepeatedRun(scene=scene.with_(motion={"speeds": tuple(curve.speed.tolist())}), options=options)
+    return RepeatedRun(scene=scene, options=(f"--speeds={arguments.speeds}", *options))
 
 
 def _write_fields(

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import KW_ONLY, dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
@@ -185,13 +187,13 @@ class Scene(Shown):
             sliding=sliding,
         )
 
-    def to_toml(self) -> str:
+    def to_toml(self, folder: str | Path | None = None) -> str:
         """Return the complete scene as the text of a scene file, which `lubfric.load_scene` reads back to the same
         numbers.
 
         Defaults are written except those of a roughness, and what is None is omitted. A ``surface.file`` is written
-        with its complete path, and an oil as it was given, instead of its numbers at the temperature. Raises
-        `InputError` for a history that scene files do not have.
+        with its complete path, or relative to the ``folder`` of the scene file where that is given; and an oil as it was
+        given, instead of its numbers at the temperature. Raises `InputError` for a history that scene files do not have.
         """
         lines = [f"name = {_toml(self.name)}"]
         for section in SECTIONS:
@@ -213,7 +215,7 @@ class Scene(Shown):
                 if name.partition(".")[0] == section:
                     keys[name.partition(".")[2]] = (value_of(self, name), low, high)
             if "file" in keys:
-                keys["file"] = str(Path(keys["file"]).absolute())
+                keys["file"] = _map_in_words(keys["file"], folder)
             lines += [f"{key} = {_toml(value)}" for key, value in keys.items() if value is not None and value != ()]
         return "\n".join(lines) + "\n"
 
@@ -233,6 +235,15 @@ class Scene(Shown):
 def _halved(text: str) -> bool:
     """Return whether there are surrogates in ``text``, which no file in UTF-8 holds."""
     return any("\ud800" <= mark <= "\udfff" for mark in text)
+
+
+def _map_in_words(file: str | Path, folder: str | Path | None) -> str:
+    """Return the path of a map as a scene file in ``folder`` has it: relative to that folder, with / on all systems;
+    complete without a folder, and from another drive."""
+    if folder is not None:
+        with suppress(ValueError):  # another drive
+            return Path(os.path.relpath(Path(file).resolve(), Path(folder).resolve())).as_posix()
+    return str(Path(file).absolute())
 
 
 def _toml(value: Any) -> str:
