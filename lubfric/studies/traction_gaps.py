@@ -19,8 +19,11 @@ UNKNOWN_HALF_WIDTH = 0.05
 # Positions between two points at which the lines are compared, as shares of their distance.
 PLACES = np.linspace(0.005, 0.995, 199)
 
-# Ratio of two slide-roll ratios, from which on more are recommended between 0 and the first point.
-DECADES_FROM_ZERO = 100.0
+# Slide-roll ratios that are recommended between 0 and the first point, over that of the point. A convention.
+FROM_ZERO = (0.01, 0.03, 0.1, 0.3)
+
+# Slide-roll ratios that are recommended between two points. A convention.
+RATIOS_BETWEEN = 2
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,11 +45,20 @@ class Gap:
     @property
     def text(self) -> str:
         """The gap in a sentence."""
-        more = f"{self.high / DECADES_FROM_ZERO:.2g}:{self.high:.3g}:6" if self.low == 0.0 else f"{self.at:.2g}"
         return (
-            f"between the slide-roll ratios {self.low:.4g} and {self.high:.4g} the points do not show f: near "
-            f"{self.at:.2g} it may be {self.change:.2g} above the line between them. More ratios there show it: {more}"
+            f"between the slide-roll ratios {self.low:.4g} and {self.high:.4g} the solved points do not determine f, which "
+            f"may be up to {self.change:.2g} above the line between them. Solve more ratios between them, such as "
+            f"{', '.join(f'{ratio:.3g}' for ratio in self.ratios)}"
         )
+
+    @property
+    def ratios(self) -> tuple[float, ...]:
+        """Slide-roll ratios between the two points that show f there [-]: in equal factors; from 0 on from the first of
+        `FROM_ZERO`."""
+        if self.low == 0.0:
+            return tuple(part * self.high for part in FROM_ZERO)
+        step = (self.high / self.low) ** (1.0 / (RATIOS_BETWEEN + 1))
+        return tuple(self.low * step**place for place in range(1, RATIOS_BETWEEN + 1))
 
 
 def gaps_of(ratio: Sequence[float] | FloatArray, coefficient: FloatArray, half_width: FloatArray) -> list[Gap]:
