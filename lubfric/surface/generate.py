@@ -151,7 +151,7 @@ def surface_generator(
     def made(seed: int) -> Surface:
         heights = fft.irfft2(fft.rfft2(np.random.default_rng(seed).standard_normal(shape)) * amplitude, shape)
         heights = heights / heights.std() * sq
-        note = f"Hu-Tonder, {acf} ACF, seed {seed}, Sq set to {worded(sq, 'm')} exactly"
+        note = f"Hu-Tonder, {acf} ACF; a map of seed {seed}, scaled to Sq {worded(sq, 'm')}"
         notes = (note, *stated) if sq else (note,)
         return Surface(heights, spacing, periodic_axes=(True, True), source=source, seed=seed, notes=notes)
 

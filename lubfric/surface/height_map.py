@@ -96,14 +96,18 @@ class Surface(FrozenArrays, Shown):
         return float(self.measured.std())
 
     def describe(self) -> str:
-        """Return one line: size, points, Sq, Ra, Rz, Sk, Spk, Svk, largest height over Sq, missing share, source."""
+        """Return one line: size, points, Sq, Ra, Rz, Ssk, Sk, Spk, Svk, largest height over Sq, missing share, source."""
         (lx, ly) = self.size
         (nx, ny) = self.shape
         (rz, length) = statistics.rz(self)
         curve = self.bearing()
+        rz_in_words = f"{rz * 1e9:.4g} nm (mean over lengths of {length * 1e3:.3g} mm)"
+        if math.isnan(rz):
+            rz_in_words = f"not known (the spacing is too long for a sampling length of {length * 1e3:.3g} mm)"
+        skewness = f"Ssk {self.ssk:.3g}, " if self.sq > 0 else ""
         text = (
             f"{nx} x {ny} points, {lx * 1e6:.4g} x {ly * 1e6:.4g} µm, Sq {self.sq * 1e9:.4g} nm, "
-            f"Ra {self.sa * 1e9:.4g} nm, Rz {rz * 1e9:.4g} nm (mean over lengths of {length * 1e3:.3g} mm), "
+            f"Ra {self.sa * 1e9:.4g} nm, Rz {rz_in_words}, {skewness}"
             f"Sk {curve.sk * 1e9:.4g} nm, Spk {curve.spk * 1e9:.4g} nm, Svk {curve.svk * 1e9:.4g} nm, "
             f"max |z|/Sq {self.largest_ratio:.3g}, {100 * self.missing_fraction:.3g} % missing"
         )
@@ -168,7 +172,8 @@ class Surface(FrozenArrays, Shown):
             filled = prepare.harmonic_fill(self.heights, mask, self.spacing)
             outlying = prepare.outliers(filled, mask, self.periodic_axes) != 0
             mask, more = mask & ~outlying, outlying.any()
-        lost = self.heights[np.isfinite(self.heights) & ~mask]
+        was_measured = np.isfinite(self.heights) if self.mask is None else self.mask  # filled points are no outliers
+        lost = self.heights[was_measured & ~mask]
         count = lost.size
         above = np.count_nonzero(lost > np.median(self.measured))
         around = f"{prepare.WINDOW} x {prepare.WINDOW} points around"

@@ -33,6 +33,11 @@ SAMPLING_LENGTHS = (
 )  # m: up to this Ra, sampling length (ISO 4288)
 
 
+# Fewest points on a sampling length that show its highest and lowest point: of white noise they find 3.7 Sq of the 5 Sq that
+# 100 points find. A convention.
+LEAST_RZ_POINTS = 20
+
+
 def sa(surface: Surface) -> float:
     """Return the mean absolute height [m]."""
     z = surface.measured
@@ -42,18 +47,21 @@ def sa(surface: Surface) -> float:
 def rz(surface: Surface) -> tuple[float, float]:
     """Return (Rz, sampling length) [m]: the mean height from the lowest to the highest point of a sampling length,
     along the axis on which it is larger, which runs across a lay. The length is that of ISO 4288 for the map's Ra, or
-    all of a shorter map."""
+    all of a shorter map. An axis with fewer than `LEAST_RZ_POINTS` points on that length is not evaluated; Rz is NaN where
+    neither is."""
     wanted = next((length for most, length in SAMPLING_LENGTHS if sa(surface) <= most), 8e-3)
     measured = np.isfinite(surface.heights) if surface.mask is None else surface.mask
     mean_heights = []
     z = np.where(measured, surface.heights, np.nan)
     for axis, step in enumerate(surface.spacing):
         lines = np.moveaxis(z, axis, 0)
-        points = min(len(lines), max(2, round(wanted / step)))
+        points = min(len(lines), round(wanted / step))
+        if points < LEAST_RZ_POINTS:
+            continue
         pieces = lines[: len(lines) // points * points].reshape(-1, points, lines.shape[1])
         heights = np.fmax.reduce(pieces, axis=1) - np.fmin.reduce(pieces, axis=1)
         mean_heights.append((float(np.nanmean(heights)) if np.isfinite(heights).any() else 0.0, points * step))
-    return max(mean_heights)
+    return max(mean_heights, default=(math.nan, wanted))
 
 
 def ssk(surface: Surface) -> float:

@@ -170,3 +170,20 @@ def test_a_sum_that_is_too_large_names_the_map_and_what_to_do():
         InputError, match="10000 x 9000 points of wide.sur .*allowed: up to 6.71e.07 points; .*resampled"
     ):
         across.combined(along)
+
+
+def test_filled_points_are_no_outliers():
+    """A map that was filled before has its spike counted, and none of the points that were never measured."""
+    heights = open_map(rough(5, (80, 80))).heights.copy()
+    heights[40, 40] = 3e-6
+    heights[5:9, 5:30] = np.nan
+    filled = Surface(heights, 1e-6, mask=np.isfinite(heights)).fill()
+    assert "outliers masked: 1 (" in " ".join(filled.without_outliers().notes)
+
+
+def test_rz_is_stated_where_a_sampling_length_has_enough_points():
+    """Of a map of 2 nm, on cells of 50 µm, a sampling length of 80 µm has two points: Rz was smaller than Ra."""
+    z = 2e-9 * np.random.default_rng(1).standard_normal((60, 60))
+    assert "Rz not known (the spacing is too long for a sampling length of 0.08 mm)" in Surface(z, 5e-5).describe()
+    fine = Surface(z, 1e-6).describe()
+    assert "Rz not known" not in fine and "Ssk " in fine and f"Ra {np.abs(z - z.mean()).mean() * 1e9:.4g} nm" in fine
