@@ -87,7 +87,7 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
         unmodelled_effects=unmodelled_effects(
             scene, prepared.surface.sq, speed, known, includes_motion=choice.model.includes_motion
         ),
-        methods=methods_of(prepared, _use(scene, choice.model, numbers, uncertainty)),
+        methods=_methods(prepared, choice, numbers, uncertainty),
         fields=fields,
         compared_fields=compared_fields,
         details=details,
@@ -117,6 +117,13 @@ def _power_loss(
         resistance_error=answer.errors.get("rolling_resistance", math.nan),
         resistance_model_error=model.rolling_error(numbers["lambda_ratio"]),
     )
+
+
+def _methods(prepared: Prepared, choice: Choice, numbers: dict[str, Any], uncertainty: Uncertainty) -> tuple[str, ...]:
+    """Return the methods of the answer, and then those of the model that it was compared with."""
+    models = [choice.model] if choice.compared is None else [choice.model, choice.compared[0]]
+    uses = [_use(prepared.scene, model, numbers, uncertainty) for model in models]
+    return tuple(dict.fromkeys(name for use in uses for name in methods_of(prepared, use)))
 
 
 def _use(scene: Scene, model: Model, numbers: dict[str, Any], uncertainty: Uncertainty) -> MethodUse:

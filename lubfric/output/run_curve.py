@@ -80,7 +80,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
     ended: list[tuple[Any, ...]] = []
     speeds, chosen = _requested(scene, arguments.speeds, arguments.fields)
     total = "some" if speeds == studies.AUTO_SPEEDS else len(speeds)
-    progress = _progress("U = {:.4g} m/s")
+    progress = _progress("U = {:.4g} m/s", is_total_known=speeds != studies.AUTO_SPEEDS)
     names = ["stribeck.csv", "stribeck.png", "contact.png", "sharing.png", "law.json", "law.c"]
     names += [f"contact_{i}.vtk" for i in range(len(chosen) if arguments.vtk else 0)]
 
@@ -550,11 +550,13 @@ def _range(option: str, words: list[str], unit: str, most: float, *, linear: boo
     return (np.linspace if linear else np.geomspace)(low, high, int(count)).tolist()
 
 
-def _progress(place: str) -> Callable[..., Any]:
-    """Return what says how a point ended; ``place``: the template of its place on the curve."""
+def _progress(place: str, *, is_total_known: bool = True) -> Callable[..., Any]:
+    """Return what says how a point ended; ``place``: the template of its place on the curve. ``is_total_known``: whether the
+    number of points is."""
 
     def on_point(done: int, total: int, value: float, outcome: FrictionResult | ValidityError) -> None:
-        head = f"[{done:>{len(str(total))}}/{total}] {place.format(value)}"
+        number = f"{done:>{len(str(total))}}/{total}" if is_total_known else str(done)
+        head = f"[{number}] {place.format(value)}"
         if isinstance(outcome, Exception):
             say(f"{head}: {'refused' if isinstance(outcome, ValidityError) else 'failed'}: {outcome}")
             return

@@ -23,6 +23,12 @@ def test_the_papers_are_those_of_what_was_used():
     assert "Polonsky" in mixed and "Gupta" not in mixed
 
 
+def test_a_result_cites_the_load_sharing_model_that_it_was_compared_with():
+    """The built-in scene in mixed lubrication: the deterministic model corrects the load-sharing model."""
+    point = lubfric.friction(lubfric.load_scene("paper"), 0.01)
+    assert point.decision.model == "deterministic" and "10.1007/s11249-015-0536-z" in point.cite()
+
+
 def test_a_curve_cites_every_paper_once():
     by_speed = lubfric.stribeck(PATCH, [0.01, 0.03, 1.0])
     by_ratio = lubfric.traction(PATCH.with_(lubricant=LAWS), [0.0, 0.5], speed=0.1)
