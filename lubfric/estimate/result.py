@@ -81,7 +81,11 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     def not_in_interval(self) -> str:
         """What changes f that neither f nor its interval has, as text; "" for nothing."""
         heat = [violation for violation in self.validity if violation.what == OMITTED_HEAT]
-        return f"without heat, which lowers f by up to {heat[0].value_in_words} %" if heat else ""
+        return (
+            f"f and its interval are without the heat of the film, which lowers f by up to {heat[0].value_in_words} %"
+            if heat
+            else ""
+        )
 
     def cite(self, format: str = "text") -> str:
         """Return the papers behind what was used for this result, the model's first: one a line, or with ``format``

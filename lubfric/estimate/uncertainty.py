@@ -146,7 +146,11 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
 
     def short(self, coefficient: float) -> str:
         """Return f with its 95 % interval, and the uncertainty budget, as text."""
-        return f"f = {with_interval(coefficient, *self.interval)}; {self._in_words(self.budget_in_words['sampling'])}"
+        unknown = ""
+        if not math.isfinite(self.sampling) and self.notes:
+            unknown = f"; no 95 % interval: {'; '.join(self.notes)}"
+        parts = self._in_words(self.budget_in_words["sampling"])
+        return f"f = {with_interval(coefficient, *self.interval)}; {parts}{unknown}"
 
     def _in_words(self, sampling_in_words: str) -> str:
         unknown = " (not included)" * math.isnan(self.model)

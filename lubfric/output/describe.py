@@ -19,6 +19,7 @@ from ..models.shared import (
     effect_in_words,
     expected_effects,
     gathered,
+    inlet_at,
     violations_by_form,
     violations_by_unusual_inputs,
 )
@@ -297,8 +298,10 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
         film = ("", "", "0", "0", "no entrainment" + ": all load" * steady)
         if speed != 0:
             line = scene.line_contact(abs(speed))
-            ratio = line.expected_film / surface.sq if surface.sq > 0 else math.inf
-            numbers = f"{line.M:.3g}", f"{line.L:.3g}", f"{line.expected_film * 1e9:.4g}", f"{ratio:.3g}"
+            inlet, is_used = inlet_at(scene, speed)
+            thickness = line.expected_film * (inlet.factor if is_used and inlet is not None else 1.0)
+            ratio = thickness / surface.sq if surface.sq > 0 else math.inf
+            numbers = f"{line.M:.3g}", f"{line.L:.3g}", f"{thickness * 1e9:.4g}", f"{ratio:.3g}"
             film = *numbers, ASPERITIES[one.touching]
         counts = (
             f"{one.strips}",

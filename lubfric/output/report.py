@@ -75,6 +75,9 @@ TABLE_ROUNDING = 1e-9
 # Part of the power loss from which the report names the rolling resistance in it.
 SMALL_ROLLING_PART = 0.01
 
+# Asperity load ratio up to which the solved film is that of the total load, and is stated beside the formula. A convention.
+FULL_FILM_PART = 0.01
+
 # Largest error of f between the solved speeds that is stated: beyond it f is not known there. A convention.
 LARGEST_BETWEEN = 0.5
 
@@ -202,7 +205,7 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding
     ``sliding_speed`` [m/s], and over all."""
     low, high = point.uncertainty.interval
     unknown = "" if not math.isnan(point.uncertainty.model) else " The model-form error is not known and not included."
-    omitted = f", {point.not_in_interval}" if point.not_in_interval else ""
+    omitted = f"; {point.not_in_interval}" if point.not_in_interval else ""
     sentences = [f"f = {with_interval(point.coefficient, low, high)} {place}{omitted}.{unknown}"]
     if point.decision.basis:
         sentences.append(sentence(point.decision.basis))
@@ -214,9 +217,14 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding
     sentences.append(f"{loss}.")
     if math.isfinite(point.lambda_ratio):
         sentences[-1] += (
-            f" The full-load film is {plain_number(point.full_load_film, 'm')} thick, a lambda ratio of "
+            f" The full-load film by Moes' formula is {plain_number(point.full_load_film, 'm')} thick, a lambda ratio of "
             f"{point.lambda_ratio:.3g}."
         )
+        if point.contact_load <= FULL_FILM_PART * (point.contact_load + point.film_load):
+            sentences[-1] += (
+                f" The film carries the load, and the solved film is {plain_number(point.central_film, 'm')} thick at the "
+                f"centre, {point.film_to_roughness_ratio:.3g} times Sq."
+            )
     share = point.contact_load / (point.contact_load + point.film_load)
     rubbing = point.decision.contact_load_in_words.format(part=f"{100 * share:.3g} %")
     if math.isfinite(point.mean_gap):

@@ -131,7 +131,7 @@ class Law(Shown):
                 f"  off by {100 * self.rms:.2g} % (rms), {100 * self.largest:.2g} % at most, from the solved curves; "
                 + (known if np.isfinite(self.interval) else "the error of the points is not known"),
                 f"  for |U| up to {high:.4g} m/s, slower than {low:.4g} m/s continued to 0 at rest; "
-                f"T {_range(T, 'K')}; p {_range(p, 'Pa')}",
+                f"{_range('T', T, 'K')}; {_range('p', p, 'Pa')}",
             ]
         )
 
@@ -162,11 +162,11 @@ class Law(Shown):
         return {"": self.name, "rms": f"{100 * self.rms:.2g} %", "largest": f"{100 * self.largest:.2g} %"}
 
 
-def _range(ends: tuple[float, float], unit: str) -> str:
+def _range(symbol: str, ends: tuple[float, float], unit: str) -> str:
     low, high = ends
     if low != low:
-        return "not known, and not used"
-    return f"{low:.5g} {unit} alone" if low == high else f"{low:.5g} to {high:.5g} {unit}"
+        return f"{symbol} is not given and changes nothing"
+    return f"at {symbol} = {low:.5g} {unit} only" if low == high else f"{symbol} from {low:.5g} to {high:.5g} {unit}"
 
 
 def conditions_of(scene: Scene) -> tuple[float, float, float, float]:

@@ -250,7 +250,9 @@ def test_the_error_of_the_solve_is_a_note_and_heat_that_is_left_out_stands_besid
     fast = lubfric.friction(scene, 1.0)
     kinds = {violation.what: violation.is_note for violation in fast.validity}
     assert kinds[NUMERICAL_ERROR] is True and kinds[OMITTED_HEAT] is False
-    assert fast.not_in_interval.startswith("without heat, which lowers f by up to 2")
+    assert fast.not_in_interval.startswith(
+        "f and its interval are without the heat of the film, which lowers f by up to 2"
+    )
     assert lubfric.friction(scene.with_(numerics={"heat": "off"}), 1.0).not_in_interval == ""
 
 

@@ -107,7 +107,7 @@ def test_a_curve_has_a_law_at_its_own_temperature_and_pressure():
     curve = lubfric.stribeck(SCENE, np.geomspace(0.02, 3.0, 8))
     law = curve.law()
     assert np.abs(law(curve.speed) / curve.coefficient - 1).max() <= law.largest * (1 + 1e-9) < 0.06
-    assert "T not known, and not used" in law.text and law.ranges["pressure"][0] == law.ranges["pressure"][1]
+    assert "T is not given and changes nothing" in law.text and law.ranges["pressure"][0] == law.ranges["pressure"][1]
 
 
 def test_of_smooth_bodies_in_a_fluid_too_thin_for_the_law_of_its_viscosity():

@@ -415,7 +415,7 @@ def _violations(
             "almost no lubricant passes through the contact, and f changes by about 1 % with the gap of 1 nm that the model "
             "leaves between touching cells"
         )
-        recommendation = "take f as known to 2 %"
+        recommendation = "count at least 2 % as the error of f"
         yield Violation(
             what="share of the lubricant that comes from touching cells",
             value=share,

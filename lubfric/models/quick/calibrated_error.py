@@ -105,7 +105,7 @@ class Outside:
             limit=factor * self.limit,
             unit="GPa" if self.unit == "Pa" else self.unit,
             consequence=OUTSIDE,
-            recommendation="take numerics.model = 'deterministic', which is not calibrated",
+            recommendation="use numerics.model = 'deterministic', which needs no calibration",
         )
 
 
