@@ -232,6 +232,8 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
     given = spelled(written)
     if given not in row:
         other = next((si for si, units in UNITS.items() if given in units), "")
+        if unit == "N" and other == "N/m":
+            allowed += "; a load per length times the length of the line, bodies.width, is the load"
         hrc = given == "HRC" and "HV" in row
         said = f"is in {written}, a unit of another kind ({other})" if other else f"has an unknown unit, {written!r}"
         if unit == "Pa s" and other == "m2/s":

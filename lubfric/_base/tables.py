@@ -151,7 +151,7 @@ def read_columns(
             said = f"file {path.name}, column {name!r}: unit {given!r} is not known here"
             advice = next((of_other_kind[si] for si, row in UNITS.items() if word in row and si in of_other_kind), "")
             raise InputError(said, allowed=f"{listed}, or no unit for SI", recommendation=advice)
-        numbers = [_number(path, line, row, places[0]) for line, row in rows[1:]]
+        numbers = [_number(path, line, row, places[0], heading) for line, row in rows[1:]]
         columns.append([converted(number, word, unit or kind_of(word)) for number in numbers] if word else numbers)
     return columns
 
@@ -287,7 +287,7 @@ def _fields(line: str, separator: str = "") -> list[str]:
     return next(csv.reader([line], delimiter=mark))
 
 
-def _number(path: Path, line: int, row: list[str], place: int) -> float:
+def _number(path: Path, line: int, row: list[str], place: int, heading: str) -> float:
     field = row[place].strip() if place < len(row) else ""
     try:
         value = float(field)
@@ -295,7 +295,8 @@ def _number(path: Path, line: int, row: list[str], place: int) -> float:
         value = math.nan
     if not math.isfinite(value) or "_" in field:
         raise InputError(
-            f"file {path.name}, line {line}, column {place + 1}: {shown(field)} is not a number; allowed: a "
+            f"file {path.name}, line {line}, column {place + 1} ({heading}): "
+            f"{f'{shown(field)} is not a number' if field else 'the cell is empty'}; allowed: a "
             "finite number in every row, without marks for thousands"
         )
     return value

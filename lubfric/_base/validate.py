@@ -137,7 +137,8 @@ def _within(name: str, value: float, unit: str, above: float, minimum: float, ma
     except (TypeError, ValueError, RecursionError):
         raise InputError(f" = {shown(value)} is not a number", name, allowed) from None
     if not (math.isfinite(x) and x > above and minimum <= x <= maximum):
-        raise InputError(f" = {x:g}{shown_unit} is out of range", name, allowed)
+        sign = ", as it has to be positive" if x <= 0 < max(minimum, least * (above >= 0)) else ""
+        raise InputError(f" = {x:g}{shown_unit} is out of range{sign}", name, allowed)
     if 0 < abs(x) < least:
         raise InputError(
             f" = {x:g}{shown_unit} is too small", name, f"{allowed}, of at least {least:g} where it is not 0"

@@ -29,7 +29,7 @@ from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_part
 from .._base.processes import begin_beside
 from ..errors import InputError, OutputError
 from ..models import prepare
-from ..models.shared import Prepared, Violation, violations_by_unusual_inputs
+from ..models.shared import Prepared, Violation, refused, violations_by_unusual_inputs
 from ..quantities import KEYS, Quantity, described
 from ..scene import Scene
 from ..studies import Law, Store, fingerprint_without_files, fits
@@ -203,7 +203,9 @@ def run_begun(
     begun = time.perf_counter()
     names = [*names, "fields.npz", "surface.png", "report.html", RESOLVED_SCENE, RESULT]
     check_outputs(arguments, arguments.out, names, OUTPUTS)
-    for violation in violations_by_unusual_inputs(scene):
+    unusual = violations_by_unusual_inputs(scene)
+    refused(unusual, accept=scene.numerics.accept)  # before the map is made, which the wrong unit may make large
+    for violation in unusual:
         say(violation.text)
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)

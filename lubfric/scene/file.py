@@ -31,7 +31,7 @@ from .transient import HISTORIES, UNITS_OF_HISTORIES, Transient, history
 MOST_SCENE_BYTES = 2**24  # of a scene
 LONGEST_PATH = 300  # characters of a path that is compared with the files there
 NEAR_FILE = 0.6  # likeness of two file names, 0 to 1, from which one may be meant by the other
-TOML_NUMBERS = "numbers have a decimal point; one with a unit is in quotes: '12 mm'"
+TOML_NUMBERS = "numbers have a decimal point; one with a unit is in quotes, '12 mm', and so is a name: 'mineral'"
 TOML_TWICE = "this section or key is there for the second time; put the keys of both into one, and remove the other"
 TOML_FAULTS = {  # begin of what Python's reader of TOML says: what it means, and what to do
     "Illegal character '\\n'": "a text has no closing quotation mark; add it",

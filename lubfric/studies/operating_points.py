@@ -2,6 +2,7 @@
 as along the path of contact of a gear, over the turn of a cam, or of a duty cycle."""
 
 import math
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -50,6 +51,10 @@ NAMED_COLUMNS = COORDINATES | SPEEDS_OF_SURFACES | RADII_OF_SURFACES
 ENTRAINMENT = "motion.entrainment_speed"
 RADIUS = "bodies.radius"
 RADII = "bodies.radii"
+# What to do with a column of another kind than that of its name, by the SI unit.
+OTHER_LOAD = {
+    "N/m": "a load per length times the length of the line, bodies.width, is the load; head the column load [N]"
+}
 BOTH_RADII = "give both R1 and R2, the radii of surface 1 and 2"
 TEMPERATURE = "temperature"
 CELSIUS_KEY = "lubricant.temperature_celsius"
@@ -127,7 +132,7 @@ def _columns(table: Any) -> tuple[dict[str, list[Any]], tuple[str, ...]]:
             )
         quantities = [_quantity(*name_and_unit(heading))[1] for heading in headings]
         units = [quantity.unit for quantity in quantities]
-        given: dict[str, list[Any]] = dict(zip(headings, read_columns(path, headings, units)))
+        given: dict[str, list[Any]] = dict(zip(headings, read_columns(path, headings, units, of_other_kind=OTHER_LOAD)))
         in_file = True
     else:
         given = _with_both_radii(_as_columns(table))
@@ -228,6 +233,10 @@ def _quantity(name: str, unit: str | None) -> tuple[str, Quantity]:
         plain = CELSIUS_KEY if word == "°C" else KELVIN
     key = COLUMN_NAMES.get(plain.lower(), plain)
     if key not in KEYS and "." not in key:
+        if re.search(r"\bload\b.*\bper\b|line ?load", plain.lower()):
+            raise InputError(
+                f": {plain!r} is no column of operating points", "points", recommendation=OTHER_LOAD["N/m"]
+            )
         near = validate.nearest(plain, [*COLUMN_NAMES, TEMPERATURE, *NAMED_COLUMNS])
         known = ", ".join([*COLUMN_NAMES, *RADII_OF_SURFACES, TEMPERATURE, *SPEEDS_OF_SURFACES, *COORDINATES])
         raise InputError(
@@ -254,7 +263,10 @@ def _value(heading: str, key: str, value: Any, unit: str | None, quantity: Quant
     except KeyError:
         raise InputError(f"points: the unit of {heading!r} is not known", allowed=quantity.unit) from None
     if row != _row(quantity.unit):
-        raise InputError(f"points: {heading!r} is in {row}", allowed=f"a unit of {quantity.unit}")
+        advice = OTHER_LOAD.get(row, "")
+        raise InputError(
+            f": {heading!r} is in {row}", "points", allowed=f"a unit of {quantity.unit}", recommendation=advice
+        )
     return converted(number, word, quantity.unit)
 
 

@@ -5,9 +5,10 @@ import pickle
 from dataclasses import replace
 
 import pytest
+from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
-from lubfric.output import describe_scene
+from lubfric.output import describe_scene, main
 from lubfric.quantities import KEYS
 from lubfric.scene import Harmonic, Table, unusual_values
 from lubfric.scene.plausible import slip
@@ -139,6 +140,14 @@ def test_a_key_in_capitals_is_the_key_itself():
 def test_a_grade_that_is_none_is_refused_before_its_index_is_missed():
     with pytest.raises(lubfric.InputError, match="an SAE grade is no ISO grade"):
         lubfric.load_scene("paper").with_(lubricant={"grade": "SAE 10W-30", "temperature": 343.15})
+
+
+def test_a_number_in_another_unit_is_refused_before_any_work(tmp_path, capsys, monkeypatch):
+    text = BODIES_AND_OIL.replace("radius = 2e-3", "radii = [3, 30]") + "[motion]\nentrainment_speed = 0.1\n"
+    (tmp_path / "scene.toml").write_text(text + SMALL_PATCH)
+    monkeypatch.setattr("lubfric.output.commands.prepare", None)  # no map is made
+    assert main(["run", str(tmp_path / "scene.toml"), "--out", str(tmp_path / "out")]) == 2
+    assert "not valid: bodies.radii" in capsys.readouterr().err and not (tmp_path / "out").exists()
 
 
 def test_what_is_unusual_begins_the_description_of_a_scene():

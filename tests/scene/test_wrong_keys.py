@@ -33,6 +33,13 @@ def test_a_wrong_key_leads_to_the_right_one(section, key, meant):
         scene(**{section: {key: 1.0}})()
 
 
+def test_a_number_that_has_to_be_positive_is_told_so():
+    with pytest.raises(lubfric.InputError, match="load = -800 N is out of range, as it has to be positive"):
+        scene(bodies={"load": "-800 N"})()
+    with pytest.raises(lubfric.InputError, match="another kind .*a load per length times .*bodies.width"):
+        scene(bodies={"load": "80 N/mm"})()
+
+
 def test_a_key_like_no_other_has_no_guess():
     with pytest.raises(lubfric.InputError, match=r"unknown key 'qqqq' in \[bodies\]; allowed: radius"):
         scene(bodies={"qqqq": 1.0})()
@@ -122,6 +129,8 @@ BROKEN = {  # text of a scene: what the message says of it
     "[bodies]\nload = 2\n[bodies]\nwidth = 1\n": "line 3: this section or key is there for the second time",
     "bodies = {load = 2}\nbodies = {width = 1}\n": "line 2: this section or key is there for the second time",
     "[bodies]\nload = [2\n": "a list has no closing bracket; add ]",
+    "[lubricant]\neyring_stress = mineral\n": "line 2: numbers have a decimal point; one with a unit is in quotes, '12 mm', "
+    "and so is a name: 'mineral'",
     "[bodies]\nload = 0,06\n": "line 2: numbers have a decimal point",
 }
 

@@ -165,6 +165,8 @@ def test_rows_that_repeat_are_solved_once_and_a_cut_study_goes_on(tmp_path, monk
         ({"sliding_speed": [0.1]}, "goes with speed"),
         ({"speed": [0.1], "motion.entrainment_speed": [0.1]}, "two columns give motion.entrainment_speed"),
         ({"temperature": [40.0]}, "names no unit"),
+        ({"load [N/mm]": [40.0]}, "is in N/m; .*times the length of the line, bodies.width"),
+        ({"load per length": [40.0]}, "times the length of the line, bodies.width"),
         ({"load [m]": [40.0]}, "is in m"),
         ({"load": ["3 m"]}, "is in m"),
         ({"load": [-3.0]}, "row 1: bodies.load"),

@@ -57,7 +57,12 @@ def test_each_quantity_has_its_units(tmp_path, name, unit, heading, si):
     "content, words",
     [("time [fortnight],speed\n0,1\n1,1\n", "fortnight"), ("time,speed [N]\n0,1\n1,1\n", "'N' is not known")]
     + [("time,speed,speed\n0,1,2\n1,1,2\n", "2 columns 'speed'"), ("time;speed\n0;1.234,5\n1;1\n", "line 2")]
-    + [("time,speed\n0,1\n1\n", "line 3"), ("time,speed\n0,1\n1,nan\n", "line 3"), ("time,speed\n", "1 rows")]
+    + [
+        ("time,speed\n0,1\n1\n", "line 3"),
+        ("time,speed\n0,1\n1,nan\n", "line 3"),
+        ("time,speed\n0,1\n1,\n", r"\(speed\): the cell is empty"),
+        ("time,speed\n", "1 rows"),
+    ]
     + [(b"time,speed\n\x00\x01\x02", "not text"), (b"time,speed\n0,\x81\n1,2", "not text")]
     + [('time,speed\n0,"1\n1,2"\n', "not a number")],
 )
