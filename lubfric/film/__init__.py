@@ -10,7 +10,7 @@ from .assemble import in_si, reported
 from .ehl import solve_ehl, solve_line_contact
 from .ehl_result import EHLResult, central_film, cubic, smallest
 from .elastic_shear import ElasticContact, disc_compliance, elastic_shear
-from .formulas import flooded_inlet, moes_film, starved_inlet
+from .formulas import flooded_inlet, moes_film, smallest_film, starved_inlet
 from .grid import UPWIND, face_weights, hat_kernel, node_positions, trapezoidal
 from .heat import (
     FAST_PECLET_NUMBER,

@@ -12,6 +12,9 @@ from .._base import validate
 # Factor of M^(-1/8) L^(3/4) in Grubin's film [-], by quadrature of the Hertz gap (Ertel and Grubin).
 ELASTIC_PIEZOVISCOUS = 1.311
 
+# Part by which the least film of a rigid contact is thinner than that which flows: 1 - 1/1.226, Reynolds' condition.
+REYNOLDS_THINNING = 0.184
+
 # Half-width of the dry contact over l at which it is half narrow [-] (`starved_share`, where the fit is described).
 NARROW = 0.085
 
@@ -43,6 +46,13 @@ def moes_film(m: float, l: float) -> float:
     larger = max(isoviscous, piezoviscous)
     smaller = min(isoviscous, piezoviscous)
     return larger * (1.0 + (smaller / larger) ** s) ** (1.0 / s)
+
+
+def smallest_film(film: float, length: float, half_width: float) -> float:
+    """Return the smallest film about a contact whose ``film`` is known where dp/dx = 0. ``length``: l = √(2 R h),
+    ``half_width``: b of the dry contact. ``h (1 - 0.184 l/(l + b))``: that of a rigid cylinder for a narrow contact, and h for
+    a wide one."""
+    return film * (1.0 - REYNOLDS_THINNING * length / (length + half_width))
 
 
 def thinned_share(number: float, exponent: float, slide_roll_ratio: float) -> float:

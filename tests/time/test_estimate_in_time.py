@@ -54,3 +54,18 @@ def test_a_run_takes_about_the_estimated_steps(plan):
     scene = PATCH.with_(motion={"entrainment_speed": 0.03})
     steps = lubfric.transient(scene.with_(transient=plan)).steps[-1]
     assert steps / 3 < estimated(plan, scene).steps < 3 * steps
+
+
+def test_a_narrow_contact_needs_the_strips_of_its_smallest_film():
+    """A starved piston ring: where its film flows it is 3.3 Sq thick, at its thinnest 2.7, where summits still meet it. The
+    run takes all 61 strips there are, at the fastest of its speeds."""
+    ring = lubfric.load_scene("paper").with_(
+        bodies={"radius": 0.03, "width": 0.27, "load": 180.0, "e_prime": 155e9},
+        lubricant={"viscosity": 4.5e-3, "pressure_viscosity_coefficient": 1.4e-8, "inlet_length": 3e-4},
+        motion={"entrainment_speed": 2.6, "slide_roll_ratio": 2},
+        surface={"sq": 3.1e-7, "correlation_length": 2e-5, "acf": "gaussian"},
+        contact={"shape": (128, 128), "spacing": 5e-6},
+    )
+    plan = Transient(0.03, outputs=2, speed=Harmonic(amplitude=2.6, frequency=16.7))
+    widest = estimated(plan, ring).widest
+    assert widest.speed == pytest.approx(2.6) and 61 / 5 < widest.strips <= 61

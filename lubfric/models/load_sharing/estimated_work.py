@@ -3,7 +3,7 @@ how long that takes. Nothing is solved."""
 
 import math
 
-from ...film import LineContact, flooded_inlet
+from ...film import LineContact, flooded_inlet, smallest_film
 from ...oil import shear_stress
 from ...samples import PIECE, Cells, Sample
 from ...scene import Scene, has_moving_roughness
@@ -140,16 +140,20 @@ def expected_sampling_error(scene: Scene, sample: Sample, sq: float, film: float
 
     The mean gap over a line of length L and half-width b scatters as a mean of L (2b + sqrt(pi) lx)/(pi lx ly)
     independent heights. The effect on f follows from the share of the load that the rigid film of the total load would
-    carry if it were as thick as the gap.
+    carry if it were as thick as the gap. Summits meet its smallest part.
     """
-    if not (speed and film <= CLEAR_OF_ASPERITIES * sq):
+    length = math.sqrt(2 * scene.bodies.radius * film)
+    smallest = smallest_film(film, length, scene.bodies.half_width)
+    if not (speed and smallest <= CLEAR_OF_ASPERITIES * sq):
         return 0.0
     (lx, ly) = sample.correlation_lengths
     first = sample.first_strips * sample.strip_length
     gap = expected_gap(film, sq)
     share = min(film / gap, 1.0)
     scatter = sq * math.sqrt(math.pi * lx * ly / (first * (2 * scene.bodies.half_width + math.sqrt(math.pi) * lx)))
-    return SCATTER * math.exp(-((film / (SEPARATED * sq)) ** 4)) * scatter / gap * share / (1 - share + FILM_FRICTION)
+    return (
+        SCATTER * math.exp(-((smallest / (SEPARATED * sq)) ** 4)) * scatter / gap * share / (1 - share + FILM_FRICTION)
+    )
 
 
 def _work_of_strips(

@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from ...film import flooded_inlet, hertz, starved_inlet
+from ...film import flooded_inlet, hertz, smallest_film, starved_inlet
 from ...oil import carried_stress, shear_stress
 from ...scene import Scene, has_moving_roughness
 from .checks_before import STRIP_NODES
@@ -55,9 +55,6 @@ REYNOLDS_RUPTURE = 0.475
 
 # Part of f by asperities below which the film makes it.
 LEAST_ASPERITY_PART = 0.1
-
-# Part by which the least film of a rigid contact is thinner than that which flows: 1 - 1/1.226, Reynolds' condition.
-REYNOLDS_THINNING = 0.184
 
 
 # Powers of the guess of s between which that of a result lies, and 0: the built-in contact, by three models, has those
@@ -249,7 +246,7 @@ def _parts(scene: Scene, sq: float, speed: float, times: float = 1.0) -> tuple[f
         begins = min(begins, starved_inlet(times, math.sqrt(2 * line.radius * line.expected_film), b))
     x = np.linspace(-begins, b + REYNOLDS_RUPTURE * rise, STRIP_NODES)
     shape = line.load_per_width, line.radius, line.e_prime
-    least = math.hypot(thickness * (1 - REYNOLDS_THINNING * rise / (rise + b)), GAP_IN_CONTACT * sq)
+    least = math.hypot(smallest_film(thickness, rise, b), GAP_IN_CONTACT * sq)
     gap = least + hertz.line_gap(x, *shape)
     with np.errstate(over="ignore"):
         pressure = hertz.line_pressure(x, *shape)
