@@ -498,7 +498,7 @@ def grid_of(
         return TablePlacement(across=across and known, steps=None, either=False, notes=tuple(notes))
     either = not known and not math.isclose(dx, dy, rel_tol=1e-9)
     if header.program:
-        notes.append(f"header of {header.program}")
+        notes.append(f"header in the form of {header.program}")
     pair = validate.spacing("spacing in the header", (dx, dy))
     return TablePlacement(across=across and known, steps=pair, either=either, notes=tuple(notes))
 

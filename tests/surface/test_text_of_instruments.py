@@ -91,6 +91,13 @@ def test_a_header_gives_the_spacing_the_unit_and_the_direction(tmp_path, name):
         read_surface(path, unit="mm", **RAW)
 
 
+def test_a_note_says_the_form_of_a_header_and_not_its_program(tmp_path):
+    """Other programs write the lines of Gwyddion's header as well."""
+    path = tmp_path / "map.txt"
+    path.write_text(gwyddion(rough()), encoding="utf-8")
+    assert "header in the form of Gwyddion" in read_surface(path, **RAW).notes
+
+
 def test_missing_points_are_marked_in_many_ways(tmp_path):
     z = rough()
     z[3, 4] = z[10, 0] = z[0, 2] = z[23, 9] = np.nan

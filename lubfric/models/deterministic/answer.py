@@ -402,7 +402,7 @@ def _violations(
         consequence = "a Newtonian film would be sheared above f_b p there; its stress was limited to that"
         recommendation = 'give lubricant.limiting_stress_coefficient (or "f_b" if that is meant) or eyring_stress'
         yield Violation(
-            what="share of the load on a saturated film",
+            what="share of the load on a saturated film, on the strips of the deterministic model,",
             value=cut,
             limit=CUT,
             unit="",
