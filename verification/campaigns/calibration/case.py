@@ -21,6 +21,9 @@ LAMBDA = (0.2, 3.0)  # Moes' film of the whole load over Sq
 RIDGE = 5.0  # length of ridges over their width
 CUT = 0.3  # Sq: height at which the summits of a plateau are cut off
 FINE = 0.1  # Sq of the fine roughness on a plateau
+UNIT = (
+    2.0**-23
+)  # m: Sq of the maps that are made, a power of two, so that they have the digits of those with an Sq of 1 m
 # cells in a correlation length, along x and y, at rest and where the roughness moves
 PER_LENGTH = {"rest": (5.0, 4.0), "rolling": (4.0, 2.5)}
 PER_HALF_WIDTH = 4.0  # cells in the Hertz half-width, at least
@@ -219,10 +222,10 @@ def _map(
     seed: int,
 ) -> Surface:
     """Return a periodic map of that lay with exactly this ``sq`` [m]."""
-    keys: Keywords = {"sq": 1.0, "correlation_length": lengths, "acf": acf}
-    made = lubfric.generate_surface(shape, spacing, seed=seed, **keys)
+    keys: Keywords = {"sq": UNIT, "correlation_length": lengths, "acf": acf}
+    heights = lubfric.generate_surface(shape, spacing, seed=seed, **keys).heights / UNIT
     if lay == "plateau":
-        fine = lubfric.generate_surface(shape, spacing, seed=seed + 1_000_003, **keys)
-        made = replace(made, heights=np.minimum(made.heights, CUT) + FINE * fine.heights, mask=None)
-    heights = made.heights - made.heights.mean()
+        fine = lubfric.generate_surface(shape, spacing, seed=seed + 1_000_003, **keys).heights / UNIT
+        heights = np.minimum(heights, CUT) + FINE * fine
+    heights = heights - heights.mean()
     return Surface(sq * heights / heights.std(), spacing, periodic_axes=(True, True))
