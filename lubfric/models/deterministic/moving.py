@@ -67,6 +67,12 @@ EXTRAPOLATED = 0.5
 # roller 38 and 59 instead of 19 and 13.
 SUDDEN = 2
 
+# Part of a Newton step that is taken in a step in time, whatever the gap of a cell says [-]. Where two bodies move at unlike
+# speeds, summits of both meet at its start, and single cells would limit seven of eight steps to 0.1 to 0.3. With 0.1, 0.3, 0.5 a
+# gear flank with a slide-roll ratio of 1.36 takes 18, 13, 11 s of counted work, six other rolling contacts 68, 58, 60 s; f moves
+# by up to 0.6, 1.5 %.
+LEAST_PART_IN_MOTION = 0.3
+
 # Relative difference up to which the lubricant passes one cell in a step [-]. A convention, far above rounding.
 SAME_STEP = 1e-9
 
@@ -140,6 +146,7 @@ def moments(
             "tolerance": tolerance,
             "most": MOST_STEP_FACTORISATIONS // 4,
             "linear_accuracy": linear_accuracy,
+            "least_part": LEAST_PART_IN_MOTION,
         }
         order = STEP_ORDERS[0]
         rate = EXTRAPOLATED if count > SUDDEN else 0.0

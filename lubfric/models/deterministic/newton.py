@@ -142,11 +142,12 @@ def newton(
     linear_accuracy: float = GMRES_RESIDUAL,
     patience: int = NEWTON_PATIENCE,
     ends_unsolved: bool = False,
+    least_part: float = LEAST_STEP_PART,
 ) -> NewtonResult:
     """Take at most ``most`` Newton steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
 
     Before every step each cell gets the equation that its state requires (`update_active_sets`). A step leaves every
-    cell at least a fifth of its gap, and is halved while the mass residual of the fluid cells grows. The method gives
+    cell at least a fifth of its gap, unless that is less than ``least_part`` of it, and is halved while the mass residual of the fluid cells grows. The method gives
     up after a step shorter than ``least`` of the whole; when a number is not finite; or when for ``patience`` steps
     neither the residual has fallen nor the residual that the full step would have led to. (The latter falls first,
     while a heavily loaded film finds its shape in short steps.) ``history``: of an implicit step in time (None: the
@@ -182,7 +183,7 @@ def newton(
         if ends_unsolved and iterations >= MOST_KRYLOV * CYCLES:
             return result
         is_damped = history is not None and _cycles(residual_history)
-        at, full_merit, length = _advanced(at, step, DAMPED_PART if is_damped else 1.0)
+        at, full_merit, length = _advanced(at, step, DAMPED_PART if is_damped else 1.0, least_part)
         promised.append(full_merit)
         if length < least:
             return result
@@ -198,26 +199,26 @@ def _cycles(history: list[float]) -> bool:
     return least < DAMPED_BELOW and len(history) - 1 - history.index(least) >= STEPS_BEFORE_DAMPING
 
 
-def _advanced(at: Iterate, step: Change, most: float) -> tuple[Iterate, float, float]:
+def _advanced(at: Iterate, step: Change, most: float, least: float) -> tuple[Iterate, float, float]:
     """Return the state after the longest part of ``step``, of ``most``, that is accepted, the merit of the longest part that
-    was tried, and the part that was accepted."""
+    was tried, and the part that was accepted. No gap limits it to less than ``least``."""
     apart = at.state.kind != TOUCHING
-    length = min(most, _longest(at, step))
+    length = min(most, _longest(at, step, least))
     before = _merit(at, apart)
     merits: list[float] = []
     for _ in range(STEP_HALVINGS):
         new = evaluated(at.problem, step.added(at.state, length), at.history)
         merits.append(_merit(new, apart))
-        if merits[-1] <= (RESIDUAL_GROWTH if length > LEAST_STEP_PART else SURGE) * before:
+        if merits[-1] <= (RESIDUAL_GROWTH if length > least else SURGE) * before:
             break
         length /= 2
     return new, merits[0], length
 
 
-def _longest(at: Iterate, step: Change) -> float:
+def _longest(at: Iterate, step: Change, least: float) -> float:
     lost = -step.gap - MOST_SINKING * at.problem.floor
     falling = (lost > 0) & (at.gap > at.problem.floor)
-    return float(max(LEAST_STEP_PART, ((1 - KEEP) * at.gap[falling] / lost[falling]).min(initial=1.0)))
+    return float(max(least, ((1 - KEEP) * at.gap[falling] / lost[falling]).min(initial=1.0)))
 
 
 def _merit(at: Iterate, apart: BoolArray) -> float:
