@@ -39,7 +39,7 @@ from ..scene import (
     given_tables,
     has_moving_roughness,
 )
-from ..units import number_of, numbers_of, with_interval
+from ..units import number_and_unit, number_of, numbers_of, with_interval
 from .commands import RepeatedRun, RunFolder, check_outputs, made, moment_reports, read_record, run_begun, say
 from .contact_pictures import compared_contact, drawn_contact, plot_contact
 from .describe import SceneEstimate
@@ -349,6 +349,10 @@ def _width(arguments: Namespace) -> float | None:
     if arguments.width is None:
         return None
     number = number_of("--width", arguments.width, "m")
+    if NARROWEST <= number / 1e3 <= WIDEST_PICTURE and re.search(r"[a-z]", arguments.width) is None:
+        said = f" = {number:g} m is out of range"
+        ways = f"did you mean '{number:g} mm'?"
+        raise InputError(said, "--width", f"{NARROWEST:g} to {WIDEST_PICTURE:g} m", ways)
     return validate.number("--width", number, "m", minimum=NARROWEST, maximum=WIDEST_PICTURE)
 
 
@@ -485,10 +489,24 @@ def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float =
         raise InputError(
             f"{option} {validate.shown(text)}: a comma separates values; write a point in decimals, {likely}"
         )
+    apart = text.split()
+    if len(words) == 1 and len(apart) > 1 and all(_is_number(word) for word in apart):
+        raise InputError(
+            f" {validate.shown(text)}", option, recommendation=f"separate values by commas, {','.join(apart)}"
+        )
     numbers = numbers_of(option, words, [unit] * len(words))
     for number in numbers:
         validate.number(option, number, unit, minimum=-most, maximum=most)
-    return numbers
+    once = list(studies.each_once(numbers))
+    if len(once) < len(numbers):
+        say(f"{option}: {counted(len(numbers) - len(once), 'values')} given twice, solved once")
+    return once
+
+
+def _is_number(word: str) -> bool:
+    """Return whether a ``word`` is a number without a unit."""
+    parts = number_and_unit(word)
+    return parts is not None and parts[1] == ""
 
 
 def in_percent(ratios: list[float]) -> list[float] | list[str]:

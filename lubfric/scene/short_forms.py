@@ -192,6 +192,8 @@ def resolve_oil(given: dict[str, Any], old: Lubricant | None) -> dict[str, Any]:
             return {"oil": None} | given
         if not {"temperature", "pressure_viscosity_coefficient", "conductivity"} & set(given):
             return given
+    if given.get("viscosity", "") is None:  # states that there is none, as an oil does
+        del given["viscosity"]
     if "viscosity" in given:
         both = "viscosity and an oil (grade, nu40, oil, ...)"
         raise InputError(f"[lubricant] has {both}, which say the same thing; give one of them")

@@ -10,6 +10,7 @@ import numpy as np
 
 from .._base import figures, read_columns, validate, with_default_errors
 from ..errors import InputError
+from ..quantities import worded_value
 from ..scene import Scene, refuse_far_value
 from ..units import check_all_have_units
 from .points import SPEED
@@ -259,7 +260,10 @@ def parameters_of(scene: Scene, bounds: Mapping[str, Any]) -> dict[str, Between]
             raise InputError(f"parameters[{key!r}] = {pair!r}; allowed: a pair (lowest, highest)")
         check_all_have_units(f"parameters[{key!r}]", pair, [unit_of(key)] * 2)
         low = validate.number(f"parameters[{key!r}] lowest", pair[0], unit_of(key))
-        high = validate.number(f"parameters[{key!r}] highest", pair[1], unit_of(key), above=low)
+        high = validate.number(f"parameters[{key!r}] highest", pair[1], unit_of(key))
+        if high <= low:
+            ends = f"lowest = {worded_value(key, low)} is not below highest = {worded_value(key, high)}"
+            raise InputError(f"parameters[{key!r}] {ends}; write the lower one first")
         for end, written in ((low, pair[0]), (high, pair[1])):
             scene.with_keys({key: end})
             refuse_far_value(f"parameters[{key!r}]", key, written)

@@ -47,7 +47,10 @@ class Between:
                 object.__setattr__(self, name, value)
         validate.choice("scale", self.scale, RANGE_SCALES)
         low = validate.number("low", self.low, "(of the key)", above=0.0 if self.scale == "log" else -math.inf)
-        validate.number("high", self.high, "(of the key)", above=low)
+        high = validate.number("high", self.high, "(of the key)")
+        if high <= low:
+            ways = f"write the lower one first, Between({high:g}, {low:g})" if high < low else "give two different ends"
+            raise InputError(f" = {low:g} is not below high = {high:g}", "low", recommendation=ways)
 
     def at(self, share: float) -> float | FloatArray:
         """Return values at ``share`` in [0, 1] of the range, a number or an array."""

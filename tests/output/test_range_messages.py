@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from lubfric import InputError, load_scene, traction
+from lubfric import Between, InputError, Measured, explain_fit, load_scene, traction
 from lubfric._base import validate
-from lubfric.output import in_percent, parse_ratios, parse_speeds
+from lubfric.output import in_percent, main, parse_ratios, parse_speeds
 
 
 @pytest.mark.parametrize(
@@ -57,3 +57,29 @@ def test_ratios_of_any_size_are_taken_with_their_unit(text, ratios):
     assert parse_ratios(text) == pytest.approx(ratios)
     given = in_percent(parse_ratios(text))
     np.testing.assert_allclose(validate.numbers("ratios", given, "-", 1e6), ratios)
+
+
+def test_values_apart_by_blanks_lead_to_commas_and_repeated_ones_are_told(capsys):
+    with pytest.raises(InputError, match="--speeds '0.1 0.2'; separate values by commas, 0.1,0.2"):
+        parse_speeds("--speeds", "0.1 0.2")
+    assert parse_speeds("--speeds", "0.1,0.2,0.1") == [0.1, 0.2]
+    assert "--speeds: 1 value given twice, solved once" in capsys.readouterr().err
+    assert parse_speeds("--speeds", "10 mm/s,20 mm/s") == pytest.approx([0.01, 0.02])
+
+
+@pytest.mark.parametrize(
+    "width, words", [("85", "did you mean '85 mm'"), ("85 m", "allowed: 0.05 to 0.6 m"), ("2", "0.6 m")]
+)
+def test_a_width_in_millimetres_is_questioned(tmp_path, capsys, width, words):
+    (tmp_path / "traction.csv").write_text("x [-]\n1\n")
+    assert main(["plot", str(tmp_path), "--contact", "0.1", "--width", width]) == 2
+    assert main(["plot", str(tmp_path), "--width", width]) == 2
+    assert words in capsys.readouterr().err
+
+
+def test_ends_that_are_exchanged_are_told():
+    with pytest.raises(InputError, match=r"low = 2 is not below high = 1; write the lower one first, Between\(1, 2\)"):
+        Between(2, 1)
+    data = Measured([0.1, 0.2, 0.3], [0.1, 0.1, 0.1])
+    with pytest.raises(InputError, match="lowest = 2 MPa is not below highest = 1 MPa; write the lower one first"):
+        explain_fit(load_scene("paper"), data, {"lubricant.eyring_stress": (2e6, 1e6)})

@@ -93,3 +93,11 @@ def test_a_file_in_place_of_a_generated_map_and_back(tmp_path: Path) -> None:
     generated = measured.with_(surface={"file": None, "sq": 2e-7, "correlation_length": 1e-5})
     assert generated.surface.file is None and generated.surface.spacing is None
     assert generated.surface.motion_axis == "x"
+
+
+def test_an_oil_takes_the_place_of_a_viscosity_that_is_none():
+    scene = lubfric.load_scene("paper")
+    oil = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 60}
+    assert scene.with_(lubricant=oil | {"viscosity": None}) == scene.with_(lubricant=oil)
+    with pytest.raises(lubfric.InputError, match="viscosity and an oil .* give one"):
+        scene.with_(lubricant=oil | {"viscosity": 0.1})

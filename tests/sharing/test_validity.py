@@ -70,6 +70,8 @@ def test_stress_that_no_oil_carries_by_its_share_of_f(share, severe):
 def test_bodies_and_maps_are_judged_before_anything_is_solved():
     wide = PAPER.with_(bodies={"radius": 0.01, "load": 3e5, "e_prime": 1e8, "width": 0.1, "hardness": None})
     assert [e.severe for e in violations_by_bodies(wide.bodies) if "no half-space" in e.text] == [True]
+    short = PAPER.with_(bodies={"width": 4e-6, "load": 0.01})
+    assert any("bodies.width, radius and load" in e.recommendation for e in violations_by_bodies(short.bodies))
     assert [[e.severe for e in violations_by_map(slope, 20)] for slope in (0.3, 0.7, 2.0)] == [[], [False], [True]]
     assert "Few asperities" in next(violations_by_map(0.1, 3)).text
 

@@ -174,7 +174,7 @@ def violations_by_bodies(bodies: Bodies) -> Iterator[Violation]:
             limit=1.0,
             unit="",
             consequence=why,
-            recommendation="check bodies.width and load",
+            recommendation="check bodies.width, radius and load",
         )
     peak = hertz.line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
     if bodies.hardness is None and peak > YIELDED:
