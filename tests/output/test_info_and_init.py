@@ -7,6 +7,7 @@ import re
 import numpy as np
 import pytest
 from instrument_files import write_x3p
+from small_study import SCENE as SMALL_SCENE
 
 import lubfric
 from lubfric.output import describe_scene, main
@@ -307,3 +308,17 @@ def test_the_report_divides_the_power_loss_of_a_rolling_contact(tmp_path, undraw
     page = (tmp_path / "out" / "report.html").read_text()
     stated = re.search(r"of which ([\d.]+) mW is rolling resistance", page)
     assert stated and float(stated[1]) == pytest.approx(1e3 * rolling, rel=5e-3) and rolling > 0
+
+
+def test_the_film_before_the_solve_is_the_full_load_film_of_the_result():
+    """A hot inlet halves the film: the estimate had twice that of the result, under the same name."""
+    scene = SMALL_SCENE.with_(
+        lubricant={"temperature": 313.15, "temperature_coefficient": 0.04},
+        motion={"speeds": (), "entrainment_speed": 3.0},
+        numerics={"model": "paper"},
+    )
+    point = lubfric.friction(scene, 3.0)
+    assert point.inlet_film_factor < 0.6
+    (row,) = (line.split() for line in describe_scene(scene).splitlines() if line.startswith("  3  "))
+    assert float(row[3]) == pytest.approx(1e9 * point.full_load_film, rel=1e-3)
+    assert float(row[4]) == pytest.approx(point.lambda_ratio, rel=5e-3)

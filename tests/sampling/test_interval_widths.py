@@ -149,6 +149,11 @@ CASES = [
         "(0.04900 to 0.05100 at 95 %); numerical 0.1 %, sampling 2 %, model-form not known (not included)",
     ),
     (
+        KNOWN | {"sampling": math.nan, "notes": ("one map is too short",)},
+        (math.nan, math.nan),
+        "model-form 5 %; no 95 % interval: one map is too short",
+    ),
+    (
         KNOWN | {"sampling": math.nan},
         (math.nan, math.nan),
         "f = 0.05; numerical 0.1 %, sampling not known, model-form 5 %",
