@@ -56,7 +56,7 @@ def test_a_run_takes_about_the_estimated_steps(plan):
     assert steps / 3 < estimated(plan, scene).steps < 3 * steps
 
 
-def test_a_narrow_contact_needs_the_strips_of_its_smallest_film():
+def test_a_starved_contact_needs_the_strips_of_its_smallest_film():
     """A starved piston ring: where its film flows it is 3.3 Sq thick, at its thinnest 2.7, where summits still meet it. The
     run takes all 61 strips there are, at the fastest of its speeds."""
     ring = lubfric.load_scene("paper").with_(
