@@ -17,7 +17,7 @@ from .arrays import FloatArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.axis import XAxis, YAxis
+    from matplotlib.axis import Axis
     from matplotlib.figure import Figure
     from matplotlib.image import AxesImage
 
@@ -34,6 +34,10 @@ LETTER = 3.8  # pt: width of a letter of that size, about
 TITLE_LETTER = 0.56  # width of a letter of a title over the size of its font, about
 GEOMETRIC = 3.0  # ratio of the largest to the smallest of numbers that may be spaced by factors
 CORRELATION_ROUNDING = 1e-9  # of a correlation coefficient
+PART_WIDTH = 2.0  # pt: of the dashed line of a part of f, wider than that of f, which it may cover
+NARROW_FIGURE = 4.5  # inch: a figure up to this width has small letters in its keys
+SMALL_KEY_SIZE = 6.0  # pt: of these letters
+WIDE_MAP = 0.6  # height over width of a map below which the label of its short side has one word
 SLENDER_MAP = 4.0  # ratio of the sides beyond which a map is not drawn to scale
 
 
@@ -123,7 +127,7 @@ def friction_lines(axes: Axes, x: FloatArray, parts: Sequence[FloatArray], **sty
     axes.plot(x, f, **{"color": BLUE, "label": "friction coefficient"} | style)
     for part, color, label in ((contact, RED, "asperity friction"), (film, GREEN, "fluid friction")):
         lone: dict[str, Any] = {"marker": "_", "ms": 20} if np.size(x) == 1 else {}
-        axes.plot(x, part, color=color, lw=1, ls=(0, (4, 4)), label=label, **lone)  # f shows through where it is all
+        axes.plot(x, part, color=color, lw=PART_WIDTH, ls=(0, (4, 4)), label=label, **lone)  # f shows through
 
 
 def widened(x: FloatArray, *values: FloatArray) -> tuple[FloatArray, ...]:
@@ -139,7 +143,7 @@ def load_shares(axes: Axes, x: FloatArray, share: FloatArray) -> None:
     axes.set(ylim=(0, 1), ylabel="load ratio (-)")
 
 
-def plain_ticks(axis: XAxis | YAxis) -> None:
+def plain_ticks(axis: Axis) -> None:
     """Write numbers such as 0.2 and 0.5 on a logarithmic ``axis`` (``ax.xaxis``) of less than two decades, where
     matplotlib would write every tick as a product, so that they overlap, or none around a lone point. Ticks set by hand
     stay."""
@@ -188,7 +192,9 @@ def key_above(axes: Axes, columns: int = 3) -> int:
     size = min(rcParams["legend.fontsize"], KEY_SIZE) if not isinstance(rcParams["legend.fontsize"], str) else KEY_SIZE
     figure = axes.get_figure(root=True)
     assert figure is not None
-    room = 72 * 0.8 * figure.get_figwidth() / (LETTER * size / KEY_SIZE)
+    if figure.get_figwidth() <= NARROW_FIGURE:
+        size = min(size, SMALL_KEY_SIZE)
+    room = 72 * axes.get_position().width * figure.get_figwidth() / (LETTER * size / KEY_SIZE)
     rows = -(-len(labels) // columns)
     count = len(labels)
     while rows < count and sum(9 + max(map(len, labels[i : i + rows])) for i in range(0, count, rows)) > room:
@@ -223,6 +229,8 @@ def field_image(
     bar = axes.figure.colorbar(image, ax=axes, label=label, extend=extend, location=place)
     if isinstance(image.norm, LogNorm):
         bar.long_axis.set_major_formatter("{x:g}")
+        plain_ticks(bar.long_axis)
     axes.set(xlabel="x (µm), along the motion")
-    axes.set(ylabel=f"y (µm), along the line{' (not to scale)' if slender else ''}")
+    along = "" if WIDE_MAP > ratio and not slender else ", along the line"
+    axes.set(ylabel=f"y (µm){along}{' (not to scale)' if slender else ''}")
     return image

@@ -11,6 +11,7 @@ import numpy as np
 
 from .._base import figures
 from ..models import ContactFields
+from ..units import worded
 from .picture_options import INCH, PictureOptions
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ MAP_WIDTHS = (1.6, 3.0)  # inch: of a map of fields
 MAP_BESIDE = 1.3  # inch beside a map: its bar of colours and the labels
 MAP_ABOVE = 1.0  # inch above and below a map: title and labels
 PICTURED_HALF_WIDTHS = 4.0  # half-widths of the Hertz strip around which a gap is drawn
+INLET_PRESSURE = 0.01  # of the largest mean pressure along the line, from which on an inlet is drawn
 SECTION_SIZE = (5.5, 5.0)  # inch: of a map of the contact pressure, and of the section beside it
 ASIDE = 0.6  # inch beside the maps of a picture whose width is chosen: labels of y
 CLOSE_GAP = 0.2  # of `PANEL_GAP`, between the panels of a picture whose width is chosen
@@ -90,7 +92,7 @@ def _deterministic_picture(contact: DrawnContact, options: PictureOptions) -> Fi
 
     fields = contact.fields
     assert fields is not None  # of the deterministic model
-    near = np.abs(fields.x) <= PICTURED_HALF_WIDTHS * contact.half_width
+    near = _near(fields, contact.half_width)
     x = fields.x[near]
     y = fields.y
     part = drawn_part(x, y, int(fields.pressure[near].max(axis=0).argmax()))
@@ -113,6 +115,16 @@ def _deterministic_picture(contact: DrawnContact, options: PictureOptions) -> Fi
     solve = "" if options.is_narrow else f"; {fields.solve}{part_in_words(y, part, 'this strip')}"
     _title(figure, f"U = {contact.speed:g} m/s{solve}; dashed: Hertz strip", options)
     return figure
+
+
+def _near(fields: ContactFields, half_width: float) -> np.ndarray:
+    """Return which of the places along x are drawn: those around the Hertz strip, and the inlet from where its pressure is
+    `INLET_PRESSURE` of the largest."""
+    usual = PICTURED_HALF_WIDTHS * half_width
+    mean = fields.pressure.mean(axis=1)
+    carries = fields.x[mean >= INLET_PRESSURE * mean.max()]
+    first = min(-usual, float(carries.min(initial=-usual)))
+    return (fields.x >= first) & (fields.x <= usual)
 
 
 def _layout(options: PictureOptions, *, compress: bool = False) -> LayoutEngine:
@@ -210,7 +222,7 @@ def _two_pressures(contact: DrawnContact, options: PictureOptions) -> Figure:
         _section(axes[-1], fields, row, touching=touching, columns=2 if options.width is None else 1)
         _hertz_strip(axes[-1], contact.half_width, options)
         if touching:
-            axes[-1].set_xlabel(f"x (µm) at y = {fields.y[row] * 1e6:.4g} µm (dotted)")
+            axes[-1].set_xlabel(f"x (µm) at y = {worded(float(fields.y[row]), 'm')} (dotted)")
     return figure
 
 

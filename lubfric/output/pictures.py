@@ -128,9 +128,10 @@ def plot_traction(
     _mark(figure, top, ratio, c["coefficient"], [violations[i] for i in order], options)
     figures.head(figure, title)
     top.set_ylabel(figures.FRICTION_LABEL)
+    line = "-" if ratio.size > 1 else "o"
     for bottom in others:
-        bottom.plot(ratio, c["flash_temperature_rise"], "-", color=figures.RED, label="surfaces (flash temperature)")
-        bottom.plot(ratio, c["film_temperature_rise"], "-", color=figures.GREEN, label="film, above the surfaces")
+        bottom.plot(ratio, c["flash_temperature_rise"], line, color=figures.RED, label="surfaces (flash temperature)")
+        bottom.plot(ratio, c["film_temperature_rise"], line, color=figures.GREEN, label="film, above the surfaces")
         bottom.set(ylabel="largest temperature rise (K)")
         figures.key_above(bottom)
     last = others[-1] if others else top

@@ -12,7 +12,9 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric._base.figures import field_image, new_figure
+from lubfric.models import ContactFields
 from lubfric.output import (
+    DrawnContact,
     PictureOptions,
     drawn_contact,
     fields_bytes,
@@ -24,7 +26,7 @@ from lubfric.output import (
     plot_surface,
     plot_traction,
 )
-from lubfric.studies import csv_bytes, interval_band, plot_map
+from lubfric.studies import csv_bytes, friction_over_speed, interval_band, plot_map
 
 UNITS = {  # of the columns of results, typed by hand
     **dict.fromkeys(
@@ -172,6 +174,41 @@ def test_a_traction_curve_is_drawn_by_its_table(figures):
     np.testing.assert_allclose(data(bottom, "surfaces (flash temperature)"), [[0.01, 0.1, 1.0], [3.0, 7.0, 21.0]])
     np.testing.assert_allclose(data(bottom, "film, above the surfaces"), [[0.01, 0.1, 1.0], [0.5, 1.0, 30.0]])
     assert "(K)" in bottom.get_ylabel() and "slide-roll ratio (-)" == bottom.get_xlabel()
+
+
+def test_one_ratio_shows_its_temperatures(figures):
+    plot_traction(
+        "x.png", {name: column[:1] for name, column in (COLUMNS | {"ratio": COLUMNS["speed"]}).items()}, "t", [()]
+    )
+    assert all(line.get_marker() == "o" for line in figures[0].axes[1].lines)
+
+
+def test_the_picture_of_a_starved_film_begins_where_its_pressure_does(figures):
+    x = np.linspace(-300e-6, 300e-6, 61)
+    y = np.arange(12) * 10e-6
+    pressure = np.repeat(np.where((x > -195e-6) & (x < 0), 2e6, 0.0)[:, None], 12, axis=1)
+    gap = np.full((61, 12), 6e-7)
+    gap[30] = 4e-7
+    fields = ContactFields(
+        solve="a strip", x=x, y=y, heights=gap, pressure=pressure, gap=gap, deflection=gap, film=gap, shear=pressure
+    )
+    contact = DrawnContact(speed=1.0, half_width=2e-5, fields=fields, is_deterministic=True, has_film=False)
+    plot_contact("x.png", contact)
+    low, high = figures[0].axes[0].get_xlim()
+    assert low == pytest.approx(-195, abs=1e-6) and high == pytest.approx(85, abs=1e-6)
+    figures[0].canvas.draw()
+    bar = next(axes for axes in figures[0].axes if axes.get_ylabel().startswith("gap"))
+    assert not any("times" in tick.get_text() for tick in bar.get_yticklabels(which="both"))
+    assert figures[0].axes[0].get_ylabel() == "y (µm)"  # shorter than its axis
+
+
+def test_the_key_of_a_narrow_figure_has_few_rows():
+    axes = new_figure(figsize=(85 / 25.4, 60 / 25.4)).subplots()
+    errors = {"model_error": np.full(4, 0.1), "sampling_error": np.full(4, 0.05)}
+    friction_over_speed(axes, COLUMNS | errors)
+    axes.figure.canvas.draw()
+    key = axes.get_legend()
+    assert len(key.get_texts()) == 6 and key.get_window_extent().height < 0.2 * axes.figure.bbox.height
 
 
 def test_a_band_ends_where_the_points_of_a_traction_curve_do_not_show_f(figures):

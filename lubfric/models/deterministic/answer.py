@@ -59,6 +59,7 @@ UNSOLVED_CELLS = (
     "cells; a larger numerics.max_work reduces it"
 )
 ONE_HEAT = "heat is computed on one strip"
+MIRRORED = ", mirrored along the line"
 BIASED = "a short patch, which balances the load by itself, is biased too: about lift-off f is some 10 % too low"
 # What rubs with f_b, by whether the lubricant is Newtonian: with a shear law a film at its limiting stress is no part of
 # the asperity load.
@@ -154,7 +155,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         ),
         recommendation=_recommendation(prepared, levels.pairs[0]),
         narrows_numerical=_narrows_numerical(prepared, levels.pairs[0]),
-        fields=fields_of(levels.finest, sample.in_words(1)),
+        fields=fields_of(levels.finest, sample.in_words(1) + MIRRORED * levels.pairs[0].mirrored),
         fine_fields=None if has_moving_roughness(scene) else partial(fine_fields_of, prepared, speed),
         details=levels.finest.result,
         at_inputs=lambda: _at_inputs(prepared, levels.finest, speed),
