@@ -87,6 +87,9 @@ def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[float, fl
     name = f"{section}.{key}"
     if name not in KEYS:
         return value, None
+    if name == "lubricant.inlet_length" and isinstance(value, (list, tuple, dict)):
+        said = f" = {validate.shown(value)}: one number serves both directions of motion, at all times"
+        raise InputError(said, name, "a length, such as '0.3 mm'")
     known = typical(name)
     words = {**known, AS_BOUNDARY: AS_BOUNDARY} if name == "lubricant.limiting_stress_coefficient" else known
     given = without_unit(name, validate.python_value(value), KEYS[name].unit, words)

@@ -202,3 +202,10 @@ def test_a_conductivity_given_later_is_kept_as_well():
     scene = PAPER.with_(lubricant=GIVEN_OIL).with_(lubricant={"conductivity": 0.2})
     for changed in ({}, {"temperature_celsius": 60}, {"density": 900}):
         assert scene.with_(lubricant=changed).lubricant.conductivity == 0.2
+
+
+@pytest.mark.parametrize("given", [["0.3 mm", "1 mm"], {"kind": "ramp", "start": 1e-4, "end": 1e-3}])
+def test_one_inlet_length_serves_both_directions(given):
+    with pytest.raises(lubfric.InputError, match="one number serves both directions of motion") as caught:
+        lubfric.load_scene("paper").with_(lubricant={"inlet_length": given})
+    assert caught.value.quantity == "lubricant.inlet_length"
