@@ -242,9 +242,9 @@ def plot_history(
     scale = 1.0 / converted(1.0, unit, "m")
     for name, label, style in (
         ("full_load_film", "full-load film thickness", {"color": figures.BLUE, "lw": 1}),
-        ("central_film", "central separation", {"color": figures.GREEN}),
-        ("min_film", "smallest film", {"color": figures.GREEN, "lw": 1, "ls": "--"}),
-        ("mean_gap", "mean separation over the Hertz strip", {"color": figures.GREY, "lw": 0.9, "ls": ":"}),
+        ("central_film", "central separation", {"color": figures.GREEN, "lw": 3.2, "alpha": 0.45}),
+        ("min_film", "smallest film", {"color": "k", "lw": 1, "ls": "--"}),
+        ("mean_gap", "mean separation over the Hertz strip", {"color": figures.RED, "lw": 1.2, "ls": ":"}),
     ):
         if name in c:
             second.plot(t, c[name] * scale, label=label, **style)

@@ -598,7 +598,9 @@ def _history_table(result: TransientResult) -> str:
         if not moving[index]:
             f = "at rest"
             interval = "-"
-        rows.append(_cells([*(_number(_rounded(shown[name], index)) for name in before), f, interval, *numbers, ratio]))
+        time = f"{shown['time'][index]:.5g}"  # two outputs differ
+        others = [_number(_rounded(shown[name], index)) for name in before if name != "time"]
+        rows.append(_cells([time, *others, f, interval, *numbers, ratio]))
     about = f"{len(rows)} of {counted(count, 'outputs')}, spread evenly, with the largest f and the largest power loss;"
     films = (
         " The full-load film is that of smooth surfaces under the total load; the smallest film is solved under the part "

@@ -192,6 +192,7 @@ def _plan(table: dict[str, Any], folder: Path) -> tuple[dict[str, Any], Transien
     histories = {
         n: history(f"transient.{n}", given.pop(n), UNITS_OF_HISTORIES[n], folder) for n in HISTORIES if n in given
     }
+    in_plan = set(histories)
     for name, (section, key) in places.items():
         value = table.get(section, {}).get(key)
         if value is None and name == "sliding":
@@ -204,7 +205,13 @@ def _plan(table: dict[str, Any], folder: Path) -> tuple[dict[str, Any], Transien
         return table, None
     if "duration" not in given:
         raise InputError("a scene with a history needs [transient] with duration in s")
-    plan = made_section("transient", {**given, **histories})
+    elsewhere = {f"transient.{name}": ".".join(places[name]) for name in histories if name not in in_plan}
+    try:
+        plan = made_section("transient", {**given, **histories})
+    except InputError as error:  # by the key that was written
+        word, space, rest = error.quantity.partition(" ")
+        error.quantity = f"{elsewhere.get(word, word)}{space}{rest}"
+        raise
     for name, (section, key) in places.items():
         if name in histories and name != "sliding" and key not in table.get(section, {}):
             value = histories[name].range(plan.duration)[1] if name == "load" else histories[name].before(0.0)

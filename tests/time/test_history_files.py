@@ -122,3 +122,17 @@ def test_bad_tables_of_a_scene_are_refused(tmp_path, table, words):
 def test_too_many_repetitions_are_refused():
     with pytest.raises(lubfric.InputError, match="repeated 1e"):
         Transient(1.0, speed=Table(times=(0.0, 1e-9), values=(0.0, 1.0), repeat=True))
+
+
+def test_a_message_names_the_key_that_was_written(tmp_path):
+    """A history in its own section is told by that key, one in [transient] by the one there."""
+    write(tmp_path, LINES)
+    text = lubfric.load_scene("paper").to_toml()
+    given = '{ kind = "file", file = "run.csv", column = "speed" }\n'
+    lines = [line for line in text.splitlines() if not line.startswith(("entrainment_speed", "speeds"))]
+    at = lines.index("[motion]") + 1
+    for place, name in ((f"entrainment_speed = {given}", "motion.entrainment_speed"), ("", "transient.speed")):
+        plan = "\n[transient]\nduration = 3.0\n" + ("" if place else f"speed = {given}")
+        (tmp_path / "s.toml").write_text("\n".join([*lines[:at], place, *lines[at:]]) + plan)
+        with pytest.raises(lubfric.InputError, match=f"{name}: the table ends at 1 s, the run lasts 3 s"):
+            lubfric.load_scene(tmp_path / "s.toml")

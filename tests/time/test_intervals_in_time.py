@@ -109,7 +109,7 @@ def test_a_reversal_is_reported_without_the_advice_on_percent():
     plan = Transient(0.02, outputs=20, speed=Harmonic(amplitude=0.05, frequency=50.0, phase=1.5), sliding=0.05)
     scene = paper_scene(numerics={"sampling": "patch"}).with_(transient=plan)
     text = " ".join(lubfric.transient(scene).validity)
-    assert "slide-roll ratio is" in text and "percent" not in text and "transient.sliding" in text
+    assert "slide-roll ratio is" in text and "percent" not in text and "motion.sliding_speed over the run" in text
     assert "slide-roll ratio: 2" not in describe_scene(scene)
 
 
@@ -124,7 +124,7 @@ def test_info_refuses_what_a_run_refuses(tmp_path, capsys):
 
 
 def test_the_report_of_a_run_has_budget_table_and_sources(tmp_path):
-    plan = Transient(0.01, outputs=10, speed=Harmonic(amplitude=0.05, frequency=100.0, phase=1.5))
+    plan = Transient(0.0125, outputs=10, speed=Harmonic(amplitude=0.05, frequency=100.0, phase=1.5))
     (tmp_path / "s.toml").write_text(paper_scene(numerics={"sampling": "patch"}).with_(transient=plan).to_toml())
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "out")]) in (0, 1)
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
@@ -132,6 +132,8 @@ def test_the_report_of_a_run_has_budget_table_and_sources(tmp_path):
     assert "<h2>Uncertainty budget</h2>" in page and "<h2>Operating points</h2>" in page
     answer = page.partition("<h2>Answer</h2>")[2].partition("<h2>")[0]
     assert "The load-sharing model answers at all times. At " in answer and "(numerics.model_tolerance)" in answer
+    times = re.findall(r'<td class="number" data-label="time[^"]*">([^<]*)<', page)
+    assert times[0] == "0" and "11.25" in times and len(set(times)) == len(times) > 5
     assert "The mean power loss is" in page and "Akchurin" in page.partition("Method and sources")[2]
     header = (tmp_path / "out" / "history.csv").read_text().splitlines()[0]
     assert "interval_low [-]" in header and "power_loss_high [W]" in header and "model_error_high [-]" in header

@@ -84,7 +84,8 @@ def violations_by_motion(scene: Scene, speed: float, thickness: float) -> Iterat
         )
         if scene.transient is not None:  # the ratio follows from the speeds of the moment
             advice = (
-                "give numerics.heat = 'off' if the sliding is meant; else check transient.speed and transient.sliding"
+                "give numerics.heat = 'off' if the sliding is meant; else check motion.entrainment_speed and "
+                "motion.sliding_speed over the run"
             )
         yield Violation(what=what, value=ratio, limit=OPPOSED, unit="", consequence=why, recommendation=advice)
     if math.isfinite(thickness) and thickness > 0:
@@ -158,7 +159,7 @@ def violations_by_pressure(scene: Scene, peak: float) -> Iterator[Violation]:
     if not peak > limit:
         return
     if is_local:
-        consequence += f"; it is a local peak, and the peak Hertz pressure is {hertz_peak / 1e9:.3g} GPa"
+        consequence += f"; it is a local peak on some cells of the film between asperities, and the peak Hertz pressure is {hertz_peak / 1e9:.3g} GPa"
     if is_limited and not severe:
         consequence += "; the limiting stress bounds the friction of the film"
     if scene.lubricant.density_law == "constant" and hertz_peak < limit:
