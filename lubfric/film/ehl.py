@@ -128,7 +128,8 @@ def _fed(full: FilmProblem, flow: float, effort: Effort, state: FilmState | None
         there = near.problem
         assert near.inlet is not None
         law = full.inlet_of(aim / known) - b, there.inlet_of(near.flux / known) - there.half_width
-        closer = (near.inlet - there.half_width) * law[0] / law[1]
+        share = law[0] / law[1] if min(law) > 0 else aim / near.flux  # the law ends at the dry contact
+        closer = (near.inlet - there.half_width) * share
         problem = replace(full, fed=aim, inlet=min(b + closer, furthest))
         return problem, warm(problem, effort if aim == flow else EFFORT_ON_THE_WAY, near)
 
