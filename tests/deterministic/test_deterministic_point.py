@@ -296,7 +296,7 @@ def test_a_starved_film_is_solved_from_a_cold_start():
     assert cold.coefficient > thicker.coefficient
 
 
-@pytest.mark.study
+@pytest.mark.slow
 def test_another_lift_of_the_dry_contact_is_the_last_way():
     """A bearing at 1 mm/s on 200 nm of roughness, where all others fail: load and flow are those of its fields."""
     problem = bearing(2e-7, 1e5, 1e-3)

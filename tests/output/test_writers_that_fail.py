@@ -106,7 +106,7 @@ def test_each_writer_of_a_study_may_fail(name, tmp_path, capsys, monkeypatch):
     assert lubfric.open_study(tmp_path / "out")["coefficient"].size == 2
 
 
-@pytest.mark.parametrize("name", ["_draw", "_record"])
+@pytest.mark.parametrize("name", ["plot_fit", "_record"])
 def test_each_writer_of_a_fit_may_fail(name, scene_file, tmp_path, capsys, monkeypatch):
     curve = lubfric.stribeck(SCENE, [0.01, 0.03, 0.1, 0.3])
     rows = "\n".join(f"{u},{f}" for u, f in zip(curve.speed, curve.coefficient))

@@ -201,6 +201,7 @@ def test_the_ends_of_an_input_are_those_of_the_quick_model():
     assert ranged.uncertainty.inputs == pytest.approx(spread, rel=0.1)
 
 
+@pytest.mark.slow
 def test_the_stress_of_an_oil_in_rolling_is_solved_in_motion_only_where_its_flow_matters(monkeypatch):
     """The shear of the moments that are solved gives what whole solves at the ends give, and continuations."""
     calls = []
