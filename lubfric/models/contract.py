@@ -102,7 +102,8 @@ class ModelAnswer:
 
     Attributes
     ----------
-    numbers : quantities of a point by name (`lubfric.quantities`), among them ``coefficient``; those omitted are NaN
+    numbers : quantities of a point by name (`lubfric.quantities`), among them ``coefficient``, ``speed`` and, where f_b
+        has a range, ``contact_load``; others that are omitted are NaN
     numerical : relative error of f by solver and grids, an estimate that the interval takes as a bound at 95 %
     sampling_error : relative standard error of f because the sample is finite; an error that is NaN is not known
     model_error : relative error of f by the model itself, at 95 %, towards 0 and away from it; NaN: not known
@@ -207,8 +208,8 @@ class SampleSolution(ABC):
     """What a model has solved of the first ``count`` strips of a sample. A model whose strips are of its own, as "quick",
     solves nothing before `completed`.
 
-    `lubfric.estimate` requests more strips or shorter cells until there are enough, then `corrected`, then, under "auto",
-    `completed`, and at last the `answer`.
+    `lubfric.estimate` requests more strips or shorter cells until there are enough, then `corrected` and `completed`,
+    and at last the `answer`.
 
     Attributes
     ----------
@@ -257,8 +258,8 @@ class SampleSolution(ABC):
     def completed(self) -> SampleSolution:
         """Solve what the answer needs and `Model.solve` left out; itself where that is nothing.
 
-        "auto" calls it where the solution `may_suffice`, and on the one that answers. Elsewhere `answer` does so itself, at
-        the cost of a solve at each call.
+        `lubfric.estimate` calls it once there are enough strips, and again on a solution that another model has adopted
+        (`Model.adopt`).
         """
         return self
 

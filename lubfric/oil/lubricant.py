@@ -117,7 +117,7 @@ class Lubricant(Shown):
         """Take `AS_BOUNDARY` out of the fields, so that they can be checked as numbers; return whether it was there."""
         if self.limiting_stress_coefficient != AS_BOUNDARY:
             return False
-        if self.eyring_stress is not None or self.carreau is not None:
+        if any(getattr(self, law.key) is not None for law in FLOW_LAWS):
             said = f" = {AS_BOUNDARY!r} is for a Newtonian lubricant, and this one has a law of its flow"
             raise InputError(said, LimitingStress.key, "a number, or leave eyring_stress and carreau out")
         object.__setattr__(self, LimitingStress.key, None)

@@ -25,7 +25,7 @@ from .._base import (
 from .._base.progress import progress_to, report_progress
 from ..contact import dent_by_pass, operator_under
 from ..errors import InputError, WorkLimitError
-from ..models import AUTO, model_named
+from ..models import AUTO, MODELS, model_named
 from ..samples import contact_maps, cylinder_of, is_measured, whole_maps
 from ..scene import Scene
 from ..surface import Surface
@@ -335,7 +335,8 @@ def _checked_wear(scene: Scene, distance: Any, coefficient: Any, hardness: Any) 
         model = scene.numerics.model
         if model != AUTO and not model_named(model).takes_wear:
             said = f" = {model!r}: wear takes its asperity pressure from the load-sharing model"
-            raise InputError(said, "numerics.model", "'paper' or 'auto' for wear")
+            takers = " or ".join(repr(name) for name in (AUTO, *(one.name for one in MODELS if one.takes_wear)))
+            raise InputError(said, "numerics.model", f"{takers} for wear")
     return {"distance": distance, "coefficient": coefficient, "hardness": hardness}
 
 

@@ -2,11 +2,13 @@
 
 The mean gap G of the rough surfaces is the mean film h of the smooth ones. Both follow from s = ln(F_H/F_C): where the film
 carries more, it is thinner, and the gap is wider. So the residual of the closure increases with s and has one root, which
-`balance` finds. Everything else meets the closure through an error of the gap at given load: cells (`CellEffect`), places
+`balance` finds. Errors meet the closure through an error of the gap at given load: cells (`CellEffect`), places
 (`Scatter`) and solvers state that error, and `log_load_ratio_per_gap` is how the division of the load reacts to it.
 
 Another closure of gap and film is another body of these six functions, and another first guess
-(`balance.predict_log_load_ratio` has the slope of this residual from powers of the loads). Runs in time take the residual
+(`balance.predict_log_load_ratio` has the slope of this residual from powers of the loads). That the gap is the film is also
+taken for granted in `Response.per_film`, `errors_of`, `scatter`, the film that is filled in `answer` and `lubfric.time.moment`, and
+`error_of_eq8` is the error of this closure alone. Runs in time take the residual
 from here, and step along s by their own rule, with this closure in their `Spring` (`lubfric.time.load_sharing_solver`).
 """
 
@@ -39,7 +41,8 @@ def closed(contact_state: ContactState, mean_film: float) -> ContactState:
 
 
 def log_load_ratio_per_gap(gap_rate: float, film_rate: float) -> float:
-    """Return ds/dG [1/m], the change of s by a change of the gap at given load, from the rates dG/ds and dh/ds [m].
+    """Return ds/dG [1/m], the change of s by a change of the gap at given load, from the rates dG/ds and dh/ds [m], of the gap and of
+    the gap that the closure demands.
 
     The closure remains: dG + dG/ds ds = dh/ds ds.
     """
