@@ -127,7 +127,7 @@ def friction_lines(axes: Axes, x: FloatArray, parts: Sequence[FloatArray], **sty
     axes.plot(x, f, **{"color": BLUE, "label": "friction coefficient"} | style)
     for part, color, label in ((contact, RED, "asperity friction"), (film, GREEN, "fluid friction")):
         lone: dict[str, Any] = {"marker": "_", "ms": 20} if np.size(x) == 1 else {}
-        axes.plot(x, part, color=color, lw=PART_WIDTH, ls=(0, (4, 4)), label=label, **lone)  # f shows through
+        axes.plot(x, part, color=color, lw=PART_WIDTH, ls=(0, (2.5, 2)), label=label, **lone)  # f shows through
 
 
 def widened(x: FloatArray, *values: FloatArray) -> tuple[FloatArray, ...]:

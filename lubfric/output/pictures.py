@@ -190,7 +190,8 @@ def _mark(
     counts = Counter(what for violated in violations for what in {violation.what for violation in violated})
     if counts:
         named = (
-            what if n == len(violations) else f"{what} ({n} of {len(violations)} points)" for what, n in counts.items()
+            what.rstrip(",") + ("" if n == len(violations) else f" ({n} of {len(violations)} points)")
+            for what, n in counts.items()
         )
         figure.supxlabel(f"warnings: {'; '.join(named)}", fontsize="small", color=figures.GREY, wrap=True)
     figures.key_above(axes)

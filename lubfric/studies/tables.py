@@ -308,7 +308,8 @@ def friction_over_speed(
     interval_band(axes, speed, c, line and line[:2], has_parts=has_parts)
     if line is None:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
-        figures.friction_lines(axes, speed, parts, **{"marker": "o", "ms": 4} | style)
+        joined: dict[str, Any] = {"marker": "o", "ms": 4, "ls": ":"}  # a dotted line joins the points, and is no curve
+        figures.friction_lines(axes, speed, parts, **joined | style)
     else:
         figures.friction_lines(axes, line[0], line[1:], **style)
         axes.plot(speed, c["coefficient"], "o", ms=4, color=style.get("color", figures.BLUE))

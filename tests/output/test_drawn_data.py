@@ -99,6 +99,8 @@ def test_a_curve_is_drawn_by_its_table(figures):
         ("fluid friction", [0.05 / 5, 0.05 / 5, 0.1 / 5]),
     ):
         np.testing.assert_allclose(data(top, label), [[0.01, 0.1, 1.0], expected], rtol=1e-12)
+    (joined,) = (line for line in top.lines if line.get_label() == "friction coefficient")
+    assert joined.get_linestyle() == ":"  # three points a decade apart show no curve
     np.testing.assert_allclose(
         edges(top, "95 % interval, without model-form error"),
         [[0.08, 0.04, 0.019], [0.1, 0.06, 0.022]],
