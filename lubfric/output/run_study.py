@@ -61,7 +61,7 @@ def run_study(arguments: Namespace) -> None:
             folder.draw("study.png", _picture, result)
         if result.with_warnings:
             where = f"{result.with_warnings} of {counted(result.solved, 'points')}"
-            say(f"warnings at {where}: column validity of study.csv")
+            say(f"warnings at {where}: report.html has them in full, study.csv in the column validity")
         rows: list[str] = []
         with folder.reporting("the smallest and the largest f were not reported"):
             rows = answer_lines(result)

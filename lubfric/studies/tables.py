@@ -38,6 +38,9 @@ NAMED = 10
 # Markers and dashes of the values of a second number that is varied, one pair for each; more values have none.
 STYLES = (("o", "-"), ("s", "--"), ("^", ":"), ("D", "-."), ("v", (0, (5, 1))), ("P", (0, (1, 1))), ("X", (0, (7, 3))))
 
+# Quantities of operating points that jump, or have a minimum, where the direction of sliding changes.
+OF_SLIDING = "coefficient", "power_loss"
+
 # Points of a line between solved ones.
 LINE_POINTS = 200
 
@@ -164,9 +167,11 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
     """Draw a number of the operating points of a study with its 95 % interval over their position, angle or time, or
     over their number; one line for each combination of what else is varied. Returns the axes.
 
-    Points without a position are not joined: rows of a table have no order. The line of f is broken where the direction
-    of sliding changes, as at the pitch point of a gear: f jumps there.
+    Points without a position are not joined: rows of a table have no order. The lines of f and of the power loss are broken where the
+    direction of sliding changes, as at the pitch point of a gear: f jumps there, and the power loss falls to that of rolling.
     """
+    from matplotlib.ticker import MaxNLocator
+
     axes = figures.axes_or_new(ax)
     coordinate = next((name for name in ("position", "angle", "time") if name in result.coords), None)
     count = result.status.shape[-1]
@@ -179,7 +184,7 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
     gaps: dict[str, Any] = {"color": figures.GREY, "alpha": 0.12, "lw": 0, "label": "the sliding changes its direction"}
     for index in indices:
         values = times * result[quantity][index][order]
-        breaks = _changes_of_direction(result, index)[order] if quantity == "coefficient" else np.zeros(0)
+        breaks = _changes_of_direction(result, index)[order] if quantity in OF_SLIDING else np.zeros(0)
         turns = np.flatnonzero(np.diff(breaks)) + 1  # before these points the direction changes
         ends = turns if coordinate else np.arange(1, count)  # before these a line ends
         for end in turns if coordinate and index == indices[0] else ():
@@ -197,6 +202,8 @@ def plot_points(result: Any, quantity: str = "coefficient", ax: Axes | None = No
             for alone in _lone(ends, order.size):  # no line or band shows the interval of such a point
                 axes.vlines(over[order][alone], low[alone], high[alone], color=line.get_color(), alpha=0.4, lw=3)
     axes.set(xlabel=label_over, ylabel=axis_label(quantity, unit))
+    if coordinate is None:
+        axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     figures.key_above(axes, 2)
     return axes
 

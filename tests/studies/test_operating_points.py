@@ -289,12 +289,12 @@ def test_the_mean_friction_is_that_of_its_magnitude(points):
 
 
 def test_the_line_of_f_ends_where_the_sliding_changes_its_direction(result):
-    """Point 2 of 3 rolls without slip: no line joins it to the others."""
-    axes = plot_points(result, "coefficient")
-    drawn = axes.lines[0].get_ydata()
-    np.testing.assert_array_equal(np.isnan(drawn), [False, True, False, True, False])
-    power = plot_points(result, "power_loss").lines[0].get_ydata()
-    assert np.isfinite(power).all() and power.size == 3
+    """Point 2 of 3 rolls without slip: no line joins it to the others, of f and of the power loss, but of the load."""
+    for quantity in ("coefficient", "power_loss"):
+        drawn = plot_points(result, quantity).lines[0].get_ydata()
+        np.testing.assert_array_equal(np.isnan(drawn), [False, True, False, True, False])
+    load = plot_points(result, "film_load").lines[0].get_ydata()
+    assert np.isfinite(load).all() and load.size == 3
 
 
 def test_a_ratio_that_follows_from_given_speeds_is_not_asked_for_its_unit():
