@@ -231,13 +231,14 @@ class Interpolant:
         first = max(candidates[0] - 1, 0)
         last = min(candidates[-1] + 1, speed.size - 1)
         ends = sorted((self.sense * float(speed[first]), self.sense * float(speed[last])))
+        is_inside = bool(first > 0 and last < speed.size - 1)
         return Minimum(
             speed=self.sense * float(speed[least]),
             coefficient=float(f[least]),
             interval=(float(np.nanmin(f - half)), highest),
             speeds=(ends[0], ends[1]),
-            is_inside=bool(first > 0 and last < speed.size - 1),
-            is_bracketed=bool(first > 0 and last < speed.size - 1 and speed[last] <= WIDEST_BRACKET * speed[first]),
+            is_inside=is_inside,
+            is_bracketed=bool(is_inside and speed[last] <= WIDEST_BRACKET * speed[first]),
         )
 
     @property
@@ -264,9 +265,8 @@ class Interpolant:
         changes = np.zeros(s.speed.size)
         for i in range(1, s.speed.size - 1):
             left = s.without(i)
-            knee = knee_of(left)
-            if self.lift_off is not None and self.is_lift_off_supported and 0 < left.contacts < left.speed.size:
-                knee = self.lift_off
+            has_knee = self.lift_off is not None and 0 < left.contacts < left.speed.size
+            knee = self.lift_off if has_knee and self.is_lift_off_supported else knee_of(left)
             value_without = Interpolant(left, knee).at(s.speed[i : i + 1])[0]
             at_point = s.boundary[i] + s.film[i]
             changes[i] = _distance(value_without, at_point) / max(abs(at_point), LEAST_POSITIVE)

@@ -11,7 +11,7 @@ from .tables import columns_of_study
 # Points with f from which shares are stated. A convention.
 LEAST_POINTS = 6
 
-# The same for each number that hardly repeats. A convention.
+# Points with f for each number that hardly repeats, from which shares are stated. A convention.
 POINTS_FOR_EACH = 6
 
 # Correlation of two inputs from which their shares are not told apart. A convention.
