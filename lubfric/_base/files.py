@@ -110,6 +110,12 @@ def saying(what: str) -> Iterator[None]:
         raise OutputError(f"{what}: {error.strerror or error}") from error
 
 
+def checksum_of_file(path: str | Path) -> str:
+    """Return the SHA-256, hexadecimal, of the file at ``path``."""
+    with saying(f"surface.file = {path} was not read"), open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
 def clear_parts(folder: Path) -> None:
     """Remove the half-written files of killed writers in ``folder``. Only the holder of its lock may do this."""
     for path in Path(folder).glob(f"{PART_PREFIX}*"):

@@ -3,7 +3,6 @@ replaced. A broken stream or an interrupt never costs what was computed."""
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 import platform
@@ -25,7 +24,18 @@ from typing import TYPE_CHECKING, Any, get_type_hints
 
 import numpy as np
 
-from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, figures, plain, read_json, validate
+from .._base import (
+    FolderLock,
+    OwnFiles,
+    __version__,
+    clear_checked,
+    clear_parts,
+    figures,
+    files,
+    plain,
+    read_json,
+    validate,
+)
 from .._base.processes import begin_beside
 from ..errors import InputError, OutputError
 from ..models import prepare
@@ -209,6 +219,7 @@ def run_begun(
         say(violation.text)
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)
+    checksums = map_checksums(scene)  # now: the files may change while the run goes on
     estimate = estimate_scene(scene, prepared.sample, prepared.surface, **places)
     for row in (
         *estimate.sections["surface"],
@@ -217,6 +228,7 @@ def run_begun(
         say(row)
     saying = keeping(kept) if kept else nullcontext()
     with saying, run_folder(arguments.out, begun, fingerprint_without_files(prepared, *key)) as folder:
+        folder.map_checksums = checksums
         begin_beside(figures.make_ready)  # while it is solved
         if folder.has_other_states and not folder.unfinished.is_dir():
             say(
@@ -322,8 +334,8 @@ class RepeatedRun:
 def map_checksums(scene: Scene) -> dict[str, str]:
     """Return the SHA-256 of each height map of ``scene`` by its path."""
     sections = (scene.surface, scene.counterface)
-    paths = [Path(part.file) for part in sections if part is not None and part.file is not None]
-    return {str(path): hashlib.sha256(path.read_bytes()).hexdigest() for path in paths}
+    paths = [part.file for part in sections if part is not None and part.file is not None]
+    return {str(path): files.checksum_of_file(path) for path in paths}
 
 
 class RunFolder:
@@ -331,6 +343,7 @@ class RunFolder:
     last says that the others are complete.
 
     ``unfinished`` has what an interrupted run of the same ``fingerprint`` saved. What others saved is left alone.
+    ``map_checksums``: of the height maps that were read, by path.
     """
 
     def __init__(self, path: Path, begun: float, fingerprint: str):
@@ -340,6 +353,7 @@ class RunFolder:
         self.unfinished = path / UNFINISHED / fingerprint[:16]
         self.contents: dict[str, bytes] = {}
         self.failures: list[str] = []
+        self.map_checksums: dict[str, str] = {}
 
     @property
     def has_other_states(self) -> bool:
@@ -424,7 +438,7 @@ class RunFolder:
         with self.reporting(f"{RESULT} has the numbers alone"):
             record = self._record(prepared, result, units, **numbers)
             record["command"] = again.command
-            record["map_sha256"] = map_checksums(prepared.scene)
+            record["map_sha256"] = self.map_checksums
         page = partial(report_page, record=record, contents=self.contents, estimate=estimate, given=given, law=law)
         self.add("report.html", page, prepared, result)
         record = {"files": sorted([*self.contents, RESULT])} | record

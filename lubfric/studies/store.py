@@ -213,8 +213,7 @@ def _counted(part: Any, name: str) -> Any:
     if (type(part).__name__, name) in LABELS:
         return None
     if (type(part).__name__, name) == FILE and value is not None:
-        with files.saying(f"surface.file = {value} was not read"), open(value, "rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
+        return files.checksum_of_file(value)
     return value
 
 

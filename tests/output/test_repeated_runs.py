@@ -12,7 +12,7 @@ import pytest
 from scene_text import BODIES_AND_OIL
 
 import lubfric
-from lubfric.output import main
+from lubfric.output import commands, main
 
 SCENE = BODIES_AND_OIL.replace("[lubricant]", "hardness = 6e9\n[lubricant]")
 SCENE += "[motion]\nentrainment_speed = 0.01\nspeeds = [0.001, 0.01, 0.3]\n"
@@ -42,3 +42,22 @@ def test_the_stated_command_repeats_the_run(option, tmp_path, monkeypatch):
     again = json.loads(Path("again/result.json").read_text())
     for name in ("speed", "coefficient", "contact_load"):
         assert [point[name] for point in again["points"]] == [point[name] for point in first["points"]]
+
+
+def test_a_map_that_is_gone_when_the_run_ends_costs_neither_page_nor_record(tmp_path, monkeypatch):
+    """The checksum is that of the map that was read."""
+    heights = lubfric.generate_surface((64, 64), 0.9e-6, sq=1e-7, correlation_length=4e-6, seed=7).heights
+    path = tmp_path / "map.npy"
+    np.save(path, heights)
+    checksum = hashlib.sha256(path.read_bytes()).hexdigest()
+    (tmp_path / "small.toml").write_text(SCENE)
+
+    def gone(*_):
+        path.unlink()
+        raise OSError("nothing to draw")
+
+    monkeypatch.setattr(commands, "plot_surface", gone)
+    assert main(["run", str(tmp_path / "small.toml"), "--out", str(tmp_path / "out"), "--speeds=0.01"]) == 2
+    record = json.loads((tmp_path / "out" / "result.json").read_text())
+    assert [*record["map_sha256"].values()] == [checksum]
+    assert checksum in (tmp_path / "out" / "report.html").read_text()
