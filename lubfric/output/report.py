@@ -65,7 +65,7 @@ BUDGET = {
     "not given": "boundary film (not given)",
     "input": "input (stated ranges)",
 }
-# The same of the quick answer (`lubfric.models.quick`).
+# Labels of the parts of the budget of the quick answer (`lubfric.models.quick`).
 BUDGET_ON_LONG_CELLS = BUDGET | {
     "numerical": "numerical (solvers)",
     "model-form": "model-form (equations, long cells)",

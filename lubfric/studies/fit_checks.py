@@ -15,7 +15,7 @@ from .._base import FloatArray
 # Probability of the residuals, if the fit describes the data, below which it is said not to.
 SIGNIFICANCE = 0.01
 
-# The same below which the residuals are said not to be random, and the fit perhaps not to describe the data.
+# Probability by chance below which the residuals are said not to be random, and the fit perhaps not to describe the data.
 DOUBTED = 0.05
 
 # Random residuals with which those of a fit are compared; fixed, so that a fit is repeatable.
