@@ -89,8 +89,16 @@ class Quantities(Generic[T]):
     boundary_force: T = quantity(
         "N", "friction force of the asperity contacts", "f_b F_C", error="split", note="zero in pure rolling"
     )
-    real_contact_area_fraction: T = quantity("-", "real contact area over nominal area", "A_c/A", error="area")
-    real_contact_area: T = quantity("m2", "real contact area", "A_c", error="area", note="on the whole line")
+    real_contact_area_fraction: T = quantity(
+        *("-", "contact area inside the Hertz strip over its area A", "A_i/A"),
+        error="area",
+        note="without the contacts beside the strip",
+    )
+    real_contact_area: T = quantity(
+        *("m2", "real contact area", "A_c"),
+        error="area",
+        note="inside and beside the Hertz strip, on the length of the line contact; by every model but that of the paper where the stress is f_b p",
+    )
     plastic_area_fraction: T = quantity("-", "plastic area over nominal area", "A_p/A", error="contacts")
     min_film: T = quantity(
         "m", "smallest film thickness", "h_min", error="film", note="under the load F_H; NaN at U = 0"

@@ -204,6 +204,13 @@ def key_above(axes: Axes, columns: int = 3) -> int:
     return rows
 
 
+def hertz_strip(axes: Axes, half_width: float) -> None:
+    """Draw the edges of a Hertz strip of this ``half_width`` [m] on axes in µm; none where it is not known."""
+    if np.isfinite(half_width):
+        for edge in (-half_width, half_width):
+            axes.axvline(edge * 1e6, color=GREY, lw=0.8, ls="--")
+
+
 def field_image(
     axes: Axes,
     x: FloatArray,

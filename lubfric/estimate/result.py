@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -138,16 +138,18 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         return self._field("gap")
 
     def plot_contact(self, ax: "Axes | None" = None, rows: slice = slice(None)) -> "Axes":
-        """Draw the pressure of the rough contact in the plane, in some ``rows`` along the line; returns the axes. Needs
-        ``fields=True``, and contact."""
+        """Draw the pressure of the rough contact in the plane, in some ``rows`` along the line, and the edges of the Hertz
+        strip, dashed; returns the axes. Needs ``fields=True``, and contact."""
         axes = figures.axes_or_new(ax)
         pressure, unit = figures.in_unit_for(self.pressure[:, rows], "Pa")
-        figures.field_image(axes, self.x, self.y[rows], pressure, "magma_r", f"contact pressure ({unit})", vmin=0)
+        label = "contact pressure" if self.deterministic is None else "film and contact pressure"
+        figures.field_image(axes, self.x, self.y[rows], pressure, "magma_r", f"{label} ({unit})", vmin=0)
+        figures.hertz_strip(axes, self._field("half_width"))
         share = self.contact_load / (self.contact_load + self.film_load)
         axes.set_title(f"U = {self.speed:.4g} m/s, $F_C/F_T$ = {share:.3g}", fontsize=10, wrap=True)
         return axes
 
-    def _field(self, name: str) -> np.ndarray:
+    def _field(self, name: str) -> Any:
         if self.fields is None:
             why = "it is separated" if self.contact_load == 0 else "it was not kept, or comes from a contact curve"
             raise InputError(f"this point has no {name} of its contact: {why}; solve one in contact with fields=True")

@@ -48,6 +48,7 @@ class ContactFields:
     deflection : of both bodies by the pressure [m], up to a constant; of a deterministic solve with its dents
     film : thickness of the smooth film [m], constant along y; by the deterministic model that of the rough gap
     shear : shear stress [Pa]; NaN where the solve has none
+    half_width : of the Hertz strip of the total load [m]; NaN without one
     """
 
     solve: str
@@ -59,6 +60,7 @@ class ContactFields:
     deflection: np.ndarray
     film: np.ndarray
     shear: np.ndarray
+    half_width: float = math.nan
 
     def __post_init__(self) -> None:
         shape = (self.x.size, self.y.size)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -244,9 +243,7 @@ def _panels(count: int, options: PictureOptions, *, slender: bool) -> tuple[Figu
 
 def _hertz_strip(axes: Axes, half_width: float, options: PictureOptions) -> None:
     """Draw the edges of the Hertz strip, and label the axis along the motion."""
-    if math.isfinite(half_width):
-        for edge in (-half_width, half_width):
-            axes.axvline(edge * 1e6, color=figures.GREY, lw=0.8, ls="--")
+    figures.hertz_strip(axes, half_width)
     axes.set_xlabel("x (µm)" if options.is_narrow else "x (µm), along the motion")
 
 

@@ -54,7 +54,8 @@ CURVES = {
     "history.png": "Speed, load, film and friction over time",
 }
 PICTURES = {
-    "contact.png": "The contact at one speed",
+    "contact.png": "The contact at one speed. Its title names the part of the surface and the cells, which may "
+    "not be those of f and of the warnings",
     "sharing.png": "The same contact by the load-sharing model: pressure, and film and surfaces on a section",
     "surface.png": "The rough surface",
 }

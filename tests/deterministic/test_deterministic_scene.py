@@ -33,6 +33,9 @@ def test_the_words_of_a_result_keep_their_meaning(point):
     rubbing = result.pressure[result.rubbing].sum() * dx * dy * b.width / (ny * dy)
     assert rubbing == pytest.approx(point.contact_load)
     assert point.real_contact_area == pytest.approx(result.rubbing.sum() * dx * dy * b.width / (ny * dy))
+    inside = np.abs(result.x) <= np.sqrt(8 * b.load / b.width * b.radius / (np.pi * b.e_prime))
+    assert point.real_contact_area_fraction == pytest.approx(result.rubbing[inside].mean())
+    assert result.rubbing[~inside].any()  # so that A_c over the area of the strip is another number
     assert point.balance is None and np.isnan(point.volume_residual) and point.report.converged
     assert point.decision.model == "deterministic" and "solved together with the contact" in point.report.notes[0]
 

@@ -290,6 +290,13 @@ def test_the_picture_of_a_contact_holds_its_fields(figures, solved):
     assert high < 1.6e9 * max(point.heights.max(), point.balance.film.film_thickness.min()) and low > -1e3
 
 
+def test_the_picture_of_a_contact_in_python_has_the_hertz_strip_too(solved):
+    axes = solved[1].plot_contact(new_figure().subplots())
+    dashed = sorted(line.get_xdata()[0] for line in axes.lines if line.get_linestyle() == "--")
+    half = 1e6 * np.sqrt(8 * 5.5 / 6e-3 * 2e-3 / (np.pi * 231e9))
+    assert dashed == pytest.approx([-half, half])
+
+
 @pytest.fixture
 def kept(solved, tmp_path):
     """A folder with the fields of a contact, as a run writes them."""

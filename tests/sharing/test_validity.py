@@ -223,7 +223,8 @@ def test_warnings_at_many_scattered_points_name_the_first_and_how_many_there_are
 def test_a_local_film_peak_is_distinguished_from_the_hertz_pressure():
     heavy = PAPER.with_(bodies={"hertz_pressure": 1.2e9, "hardness": None})
     (at_hertz,) = violations_by_pressure(heavy, 1.2e9)
-    (local,) = violations_by_pressure(heavy, 3e9)
+    (local,) = violations_by_pressure(heavy, 3e9, "of one film")
+    assert "a local peak of one film" in local.text
     assert "peak film pressure is 1.2 GPa" in at_hertz.text and "local" not in at_hertz.text
     assert "highest local film pressure is 3 GPa" in local.text and "the peak Hertz pressure is 1.2 GPa" in local.text
 

@@ -145,6 +145,7 @@ def fields_on(
         deflection=np.zeros(shape) if fields is None else fields.displacement,
         film=np.broadcast_to(film[:, None], shape),
         shear=np.where(pressure > 0, boundary, shear[:, None]),
+        half_width=scene.bodies.half_width,
     )
 
 

@@ -138,8 +138,8 @@ def peak_hertz_pressure(scene: Scene) -> float:
     return 4 / math.pi * scene.bodies.mean_hertz_pressure
 
 
-def violations_by_pressure(scene: Scene, peak: float) -> Iterator[Violation]:
-    """Yield the violations by the highest film pressure ``peak`` [Pa]."""
+def violations_by_pressure(scene: Scene, peak: float, place: str = "of the smooth film") -> Iterator[Violation]:
+    """Yield the violations by the highest film pressure ``peak`` [Pa]; ``place``: where it is, if it is a local one."""
     law = scene.lubricant.viscosity_law
     hertz_peak = peak_hertz_pressure(scene)
     limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(law, math.inf)
@@ -159,7 +159,7 @@ def violations_by_pressure(scene: Scene, peak: float) -> Iterator[Violation]:
     if not peak > limit:
         return
     if is_local:
-        consequence += f"; it is a local peak on some cells of the film between asperities, and the peak Hertz pressure is {hertz_peak / 1e9:.3g} GPa"
+        consequence += f"; it is a local peak {place}, and the peak Hertz pressure is {hertz_peak / 1e9:.3g} GPa"
     if is_limited and not severe:
         consequence += "; the limiting stress bounds the friction of the film"
     if scene.lubricant.density_law == "constant" and hertz_peak < limit:
