@@ -455,22 +455,26 @@ def _raise_if_failed(curve: studies.CurveResult) -> None:
 
 
 def _requested(scene: Scene, speeds: str | None, fields: str | None) -> tuple[Any, ...]:
-    """Return the speeds [m/s] to solve, or "auto", and those of them whose fields are drawn and written. The latter are
-    added where they are missing, in order if the others are in order; a line on stderr says so."""
-    chosen = parse_speeds("--fields", fields) or [scene.motion.entrainment_speed]
+    """Return the speeds [m/s] to solve, or "auto", and those of them whose fields are drawn and written: of ``fields``,
+    which are added where they are missing, in order if the others are in order, as a line on stderr says; else the one
+    nearest to the scene's own."""
+    own = scene.motion.entrainment_speed
+    chosen = parse_speeds("--fields", fields)
     if speeds == studies.AUTO_SPEEDS:
-        return studies.AUTO_SPEEDS, [abs(u) for u in chosen if u != 0]
-    requested = parse_speeds("--speeds", speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
+        return studies.AUTO_SPEEDS, [abs(u) for u in chosen or [own] if u != 0]
+    requested = parse_speeds("--speeds", speeds) or list(scene.motion.speeds) or [own]
+    validate.array("speeds", requested, "m/s", ndim=1)
+    if not chosen:
+        return requested, [min(requested, key=lambda speed: abs(speed - own))]
     solved = list(requested)
     with_fields = []
     for speed in chosen:
         near = [u for u in solved if math.isclose(u, speed, rel_tol=1e-9)]
         with_fields.append(near[0] if near else speed)
         solved += [] if near else [speed]
-    validate.array("speeds", solved, "m/s", ndim=1)
     added = [f"{speed:.4g}" for speed in solved[len(requested) :]]
     if added:
-        why = "whose fields are drawn (--fields)" if fields else "the scene's own speed, whose fields are drawn"
+        why = "whose fields are drawn (--fields)"
         say(f"{counted(len(requested), 'speeds')} requested; added: {', '.join(added)} m/s, {why}")
     return (sorted(solved) if requested == sorted(requested) else solved), with_fields
 

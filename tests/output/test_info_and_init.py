@@ -246,13 +246,26 @@ def test_the_peak_pressure_of_a_run_in_time_is_that_of_its_cycle():
     assert float(low) == pytest.approx(peak.min(), rel=2e-3) and float(high) == pytest.approx(peak.max(), rel=2e-3)
 
 
-def test_the_speed_that_a_command_adds_is_reported(tmp_path, capsys, undrawn):
-    text = SWINGING.with_(motion={"entrainment_speed": 0.05}, numerics={"model": "paper"}).to_toml()
-    (tmp_path / "scene.toml").write_text(text)
-    assert main(["run", str(tmp_path / "scene.toml"), "--speeds", "0.01,0.1", "--out", str(tmp_path / "o")]) == 0
-    errors = capsys.readouterr().err
-    assert "2 speeds requested; added: 0.05 m/s, the scene's own speed, whose fields are drawn" in errors
-    assert "all 3 speeds are solved" in (tmp_path / "o" / "report.html").read_text(encoding="utf-8")
+def test_the_speeds_of_a_command_are_those_solved_and_one_of_them_is_the_answer(tmp_path, capsys, undrawn):
+    """The scene's own speed is solved where no speed is given alone; --fields adds its speeds, and says so."""
+    scene = SWINGING.with_(motion={"entrainment_speed": 0.05, "speeds": ()}, numerics={"model": "paper"})
+    (tmp_path / "scene.toml").write_text(scene.to_toml())
+
+    def run(*options):
+        assert main(["run", str(tmp_path / "scene.toml"), *options, "--out", str(tmp_path / "o")]) == 0
+        with np.load(tmp_path / "o" / "fields.npz") as fields:
+            drawn = fields["speed"].tolist()
+        page = (tmp_path / "o" / "report.html").read_text(encoding="utf-8")
+        answer = page.partition('<p class="answer">')[2].partition("</p>")[0]
+        rows = (tmp_path / "o" / "stribeck.csv").read_text().splitlines()[1:]
+        return drawn, answer.partition(" m/s")[0].rpartition(" ")[2], [float(row.partition(",")[0]) for row in rows]
+
+    assert run("--speeds", "0.1") == ([0.1], "0.1", [0.1])
+    assert run("--speeds", "0.01,0.1") == ([0.01], "0.01", [0.01, 0.1])
+    assert run() == ([0.05], "0.05", [0.05])
+    assert "requested; added" not in capsys.readouterr().err
+    assert run("--speeds", "0.1", "--fields", "0.02") == ([0.02], "0.02", [0.02, 0.1])
+    assert "1 speed requested; added: 0.02 m/s, whose fields are drawn (--fields)" in capsys.readouterr().err
 
 
 def test_init_leaves_the_choice_of_the_model_to_the_program(tmp_path):

@@ -64,7 +64,8 @@ def test_speeds_fields_and_ratios(work):
     call = given(work, "run", "s.toml", "--speeds", "0.1,0.4", "--fields", "0.4")
     assert list(call[0][1]) == [0.1, 0.4] and call[1]["fields"] == [0.4]
     call = given(work, "run", "s.toml", "--speeds", "0.01:1:3")
-    assert call[0][1] == pytest.approx([0.01, 0.1, 0.2, 1.0])  # and the scene's own, whose fields are kept
+    assert call[0][1] == pytest.approx([0.01, 0.1, 1.0])
+    assert call[1]["fields"] == pytest.approx([0.1])  # nearest to the scene's own, 0.2
     assert given(work, "run", "s.toml", "--speeds", "auto")[0][1] == "auto"
     assert given(work, "run", "s.toml", "--ratios", "0.1,0.4")[0][1] == [0.1, 0.4]
 
