@@ -12,8 +12,8 @@ import lubfric
 from lubfric.errors import CONVERGED, Report
 from lubfric.models import MODELS, DeterministicModel, Model, ModelAnswer, PaperModel, QuickModel, SampleSolution
 from lubfric.models.shared import MAP_WIDTH, Decision, StandardError, Violation, contact_on_strips
-from lubfric.output import describe_scene, main
-from lubfric.quantities import CHOICES
+from lubfric.output import describe_scene, main, report, study_report
+from lubfric.quantities import CHOICES, COLUMNS
 from lubfric.samples import Cells, Sample
 
 PAPER = lubfric.load_scene("paper")
@@ -323,13 +323,28 @@ def test_a_registered_model_is_described_and_reported(named, tmp_path):
     (tmp_path / "scene.toml").write_text(scene + "[motion]\nslide_roll_ratio = 0.5\nentrainment_speed = 0.03\n")
     assert main(["info", str(tmp_path / "scene.toml")]) == 0
     assert main(["run", str(tmp_path / "scene.toml"), "--out", str(tmp_path / "run"), "--speeds", "0.01,0.03"]) == 0
-    report = (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
-    report = re.sub(r"base64,[^\"]*", "", report)  # letters of pictures
-    assert (
-        "The asperities carry 100 % of the load" in report
-        and "Motion of the roughness" in report
-        and "nan" not in report
-    )
+    page = (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
+    page = re.sub(r"base64,[^\"]*", "", page)  # letters of pictures
+    assert "The asperities carry 100 % of the load" in page and "Motion of the roughness" in page and "nan" not in page
+
+
+@pytest.mark.parametrize("given", [None, 1e9])
+def test_an_input_that_is_not_given_is_named_by_its_label(named, monkeypatch, tmp_path, given):
+    """Of a model that needs another one than the boundary film: in the page of a curve and in that of a study."""
+    key = "lubricant.shear_modulus"
+    answer = Highest.answer
+    missing = {key: (-0.1, 0.2)} if given is None else {}
+    monkeypatch.setattr(Highest, "answer", lambda self: replace(answer(self), not_given=missing))
+    monkeypatch.setattr("lubfric.scene.scene.ASSUMED_IN_A_RANGE", (key,))
+    scene = named.with_(lubricant={"shear_modulus": given})
+    curve = lubfric.stribeck(scene, [0.01, 0.03])
+    bars = report.budget_labels([curve.points[0]])
+    assert bars.get("not given") == (f"{COLUMNS[key].label} (not given)" if missing else None)
+    study = lubfric.study(scene, {}, speeds=[0.03])
+    page = study_report.study_page(study, {}, study_report.answer_lines(study)).decode()
+    assert ("elastic shear modulus of the film not given 20 %" in page) == bool(missing)
+    assert ("<th>elastic shear modulus of the film not given" in page) == bool(missing)
+    assert "boundary film not given" not in page
 
 
 def test_a_registered_model_without_a_run_in_time_says_so(named):

@@ -80,6 +80,6 @@ def _heat(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
         "inlet heat": use.inlet_heat,
         "film heat": use.film_heat,
         "flash": use.flash,
-        "hot Eyring stress": use.film_heat and lubricant.flow_law is not None,
+        "hot Eyring stress": use.film_heat and lubricant.eyring_stress is not None,
         "hot limiting stress": use.film_heat and lubricant.limit is not None,
     }

@@ -59,11 +59,12 @@ PICTURES = {
     "sharing.png": "The same contact by the load-sharing model: pressure, and film and surfaces on a section",
     "surface.png": "The rough surface",
 }
+# Parts of the uncertainty budget; that of an input that the scene does not give names it (`budget_labels`).
 BUDGET = {
     "numerical": "numerical (grids and solvers)",
     "sampling": "sampling (finite surface)",
     "model-form": "model-form (equations)",
-    "not given": "boundary film (not given)",
+    "not given": "{} (not given)",
     "input": "input (stated ranges)",
 }
 # Labels of the parts of the budget of the quick answer (`lubfric.models.quick`).
@@ -287,17 +288,27 @@ def _minimum(curve: StribeckResult) -> str:
     return f"The minimum of f lies between U = {low:.3g} and {high:.3g} m/s, or {outside} the speeds solved; {more}."
 
 
+def names_of_inputs(keys: Iterable[str]) -> str:
+    """Return the labels of the inputs of these ``keys`` (section.key), each once; "input" where there is none."""
+    labels = (COLUMNS[key].label if key in COLUMNS else key for key in keys)
+    return " and ".join(dict.fromkeys(labels)) or "input"
+
+
+def budget_labels(points: Sequence[FrictionResult], parts: dict[str, str] = BUDGET) -> dict[str, str]:
+    """Return what the ``parts`` of the uncertainty budget of ``points`` are called; inputs that the scene does not give by
+    their labels, and no such part where all are given."""
+    missing = [known.missing_input for known in (point.uncertainty for point in points) if known.not_given]
+    labels = {name: text.format(names_of_inputs(missing)) for name, text in parts.items()}
+    return {name: text for name, text in labels.items() if name != "not given" or missing}
+
+
 def _budget(
-    values: dict[str, float],
-    words: dict[str, str],
-    subject: str,
-    notes: Iterable[str],
-    labels: dict[str, str] = BUDGET,
+    values: dict[str, float], words: dict[str, str], subject: str, notes: Iterable[str], labels: dict[str, str]
 ) -> str:
     """Return the uncertainty budget of ``subject`` (`lubfric.estimate.Uncertainty.budget`) as bars of its parts, relative
     to f; ``words``: the parts as text; ``labels``: what each is called."""
     longest = max([value for value in values.values() if math.isfinite(value)], default=0.0) or 1.0
-    shown = {name: label for name, label in labels.items() if name in values and (name != "not given" or values[name])}
+    shown = {name: label for name, label in labels.items() if name in values}
     rows = "".join(
         f'<span>{label}</span><span><i style="width:{100 * min(values[name] / longest, 1.0):.1f}%"></i></span>'
         f"<span>{escape(words[name])}</span>"
@@ -320,7 +331,7 @@ def _budget(
 
 def _point_budget(point: FrictionResult, place: str) -> str:
     known = point.uncertainty
-    labels = BUDGET_ON_LONG_CELLS if point.decision.model == "quick" else BUDGET
+    labels = budget_labels([point], BUDGET_ON_LONG_CELLS if point.decision.model == "quick" else BUDGET)
     notes = (known.largest_part, *known.notes)
     return _budget(known.budget, known.budget_in_words, f"f {place}", notes, labels)
 
@@ -373,17 +384,19 @@ def _details(curve: CurveResult) -> str:
     """Return the uncertainty budget of every point and the model that solved it, folded."""
     swept = curve.SWEPT[0]
     unit = unit_of_largest(getattr(curve, swept).tolist(), COLUMNS[swept].unit)
+    labels = budget_labels([point for point in curve.points if point is not None])
     rows = []
     for value, point in zip(converted(getattr(curve, swept), COLUMNS[swept].unit, unit), curve.points):
         if point is not None:
-            parts = point.uncertainty.budget_in_words.values()
+            words = point.uncertainty.budget_in_words
+            parts = [words[name] for name in labels]
             forces = [point.contact_load, point.film_load, point.boundary_force, point.shear_force]
             lengths = [converted(getattr(point, name), "m", "nm") for name in ("mean_gap", "central_film", "min_film")]
             numbers = [_number(number) for number in (*forces, *lengths)]
             rows.append(_cells([f"{value:.4g}", *parts, *numbers, point.decision.model]))
     heads = [
         _heading(swept, unit),
-        *(label.partition(" (")[0] for label in BUDGET.values()),
+        *(label.partition(" (")[0] for label in labels.values()),
         "asperity load F_C [N]",
         "film load F_H [N]",
         "boundary force [N]",
@@ -562,7 +575,7 @@ def _history_budget(result: TransientResult) -> str:
     ]
     if math.isfinite(values["model-form"]):
         notes.insert(1, "Model-form: as in steady motion at the same film and the same asperity load ratio")
-    return _budget(values, words, "the mean friction coefficient", notes)
+    return _budget(values, words, "the mean friction coefficient", notes, BUDGET)
 
 
 def _history_table(result: TransientResult) -> str:

@@ -23,7 +23,7 @@ from ..models.shared import (
     unmodelled_effects,
 )
 from ..quantities import CHOICES, COLUMNS, counted, worded_value
-from ..scene import SLIDE_ROLL_RATIO_KEY, Scene
+from ..scene import SLIDE_ROLL_RATIO_KEY, Scene, missing_inputs
 from ..studies import (
     DURATION,
     INTERVAL_COLUMNS,
@@ -39,7 +39,7 @@ from ..studies import (
 )
 from ..units import ZERO_CELSIUS, converted, plain_number, printed, unit_of_largest, with_interval, worded
 from .inputs import INPUT_SECTIONS, inputs
-from .report import effects_table, picture, shortfalls, style_sheet, table
+from .report import effects_table, names_of_inputs, picture, shortfalls, style_sheet, table
 
 # Rows of the table of a report; study.csv has all.
 MOST_ROWS = 60
@@ -262,9 +262,16 @@ def _details(result: StudyResult, rows: int) -> str:
         cells += [percent(float(part[i])) if np.isfinite(part[i]) else "not known" for part in parts.values()]
         body.append("".join(f'<td class="number">{escape(text)}</td>' for text in cells))
     heads = ["no.", "peak Hertz pressure", "flash temperature rise [K]", "film temperature rise [K]"]
-    heads += ["boundary film not given" if name == "not given" else name for name in parts]
+    heads += [_part_name(name, [scenes[row] for row in picked]) for name in parts]
     about = "Pressure, temperature, and parts of the error of f at 95 %, of every point of the table"
     return f"<details><summary>{about}</summary>{table(heads, body)}</details>"
+
+
+def _part_name(name: str, scenes: list[Scene]) -> str:
+    """Return what a part of the uncertainty budget is called, with the inputs that the ``scenes`` do not give."""
+    if name != "not given":
+        return name
+    return f"{names_of_inputs(key for scene in scenes for key in missing_inputs(scene))} not given"
 
 
 def _picked(columns: dict[str, np.ndarray], rows: int) -> np.ndarray:
@@ -357,9 +364,10 @@ def _budget_line(result: StudyResult) -> list[str]:
     index = tuple(map(int, np.unravel_index(int(np.nanargmax(f)), f.shape)))
     parts = {name: float(result[f"uncertainty_{column}"][index]) for name, column in BUDGET_COLUMNS.items()}
     parts["sampling"] *= student(float(result["uncertainty_freedom"][index])) if parts["sampling"] else 1.0
-    names = {"not given": "boundary film not given"}
-    shown = {names.get(name, name): part for name, part in parts.items() if name != "not given" or part}
-    words = ", ".join(f"{name} {percent(part)}" for name, part in shown.items())
+    curves = result.plan.scenes
+    scene = curves[int(np.ravel_multi_index(index, f.shape)) * len(curves) // f.size]
+    shown = {name: part for name, part in parts.items() if name != "not given" or part}
+    words = ", ".join(f"{_part_name(name, [scene])} {percent(part)}" for name, part in shown.items())
     place = point_in_words(result, index).partition(":")[0]
     some = "" if np.isfinite(result["uncertainty_low"]).all() else " with an interval"
     return [f"The relative errors of the largest f{some}, at {place}, each at 95 %, are: {words}."]

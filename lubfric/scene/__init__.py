@@ -1,6 +1,7 @@
 """The scene: bodies, surfaces, lubricant, motion and numerics, from a file or from Python."""
 
 from .bodies import (
+    BOUNDARY_FILM_KEY,
     BOUNDARY_FRICTION_KEY,
     FASTEST,
     FRICTION_OVER,
@@ -27,7 +28,15 @@ from .plausible import (
     unusual_values,
 )
 from .roughness import Roughness, named
-from .scene import Scene, check_resolved_gap, has_moving_roughness, moving_bodies, value_of, why_gap_not_resolved
+from .scene import (
+    Scene,
+    check_resolved_gap,
+    has_moving_roughness,
+    missing_inputs,
+    moving_bodies,
+    value_of,
+    why_gap_not_resolved,
+)
 from .sections import ROUGH_SECTIONS, SECTIONS
 from .short_forms import MOST_SPEEDS, SOURCES, reduced_radius, short_keys, speeds_of_range
 from .transient import HISTORIES, UNITS_OF_HISTORIES, Transient, checked_history, read_history

@@ -13,6 +13,7 @@ from ..quantities import KEYS
 from ..units import without_unit
 
 # Keys of a scene that other rooms treat by themselves: f_b and the hardness, and the sliding in both of its forms.
+BOUNDARY_FILM_KEY = "bodies.boundary_film"
 BOUNDARY_FRICTION_KEY = "bodies.boundary_friction_coefficient"
 HARDNESS_KEY = "bodies.hardness"
 SLIDE_ROLL_RATIO_KEY = "motion.slide_roll_ratio"

@@ -15,7 +15,7 @@ from ..errors import InputError
 from ..film import LineContact
 from ..oil import Lubricant
 from ..quantities import worded_value
-from .bodies import Bodies, ContactDomain, Motion
+from .bodies import BOUNDARY_FILM_KEY, Bodies, ContactDomain, Motion
 from .history import History
 from .numerics import Numerics
 from .plausible import doubtful_values
@@ -34,6 +34,9 @@ VALUES_OF_RESOLVED_GAP = (  # key, the values that the deterministic model takes
     ("numerics.film_deflection", ("scaled", "hydrodynamic"), " (no smooth film is deflected)"),
     ("numerics.cavitated_shear", ("none",), ""),
 )
+# Keys that a scene may leave out, and models then take a value of their own in a range that counts in the interval of f
+# (`ModelAnswer.not_given`).
+ASSUMED_IN_A_RANGE = (BOUNDARY_FILM_KEY,)
 # Pa: least limit at ambient pressure in the deterministic model. Oils have some 1 MPa; with .1, .01 and .001 MPa f of the
 # scene "paper" at .03 m/s is .058, .064 and .071, and with 0 the inlet has no viscosity
 LEAST_OFFSET = 1e4
@@ -270,6 +273,11 @@ def value_of(scene: Scene, name: str) -> Any:
     """Return the value of the key ``name`` (section.key)."""
     section, _, key = name.partition(".")
     return getattr(getattr(scene, section), key)
+
+
+def missing_inputs(scene: Scene) -> tuple[str, ...]:
+    """Return the keys (section.key) of `ASSUMED_IN_A_RANGE` that ``scene`` does not give."""
+    return tuple(key for key in ASSUMED_IN_A_RANGE if value_of(scene, key) is None)
 
 
 def _stated_by(scene: Scene, name: str) -> tuple[Any, ...]:

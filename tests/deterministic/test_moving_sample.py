@@ -205,7 +205,7 @@ def test_cells_along_y_are_halved_where_their_error_is_large_and_the_work_is_not
     monkeypatch.setattr(levels, "solve_pair", solve_pair)
     monkeypatch.setattr(levels, "on_halved_cells", on_halved_cells)
     monkeypatch.setattr(levels, "surface_and_map_coarsening", lambda *_: (None, (1, 2)))
-    monkeypatch.setattr(levels, "cells_in_motion", lambda *_: cells_in_motion(film_ratio))
+    monkeypatch.setattr(levels, "cells_of_strips", lambda *_: cells_in_motion(film_ratio))
     monkeypatch.setattr(levels, "two_levels", lambda *_: (None, wanted))
     pairs = levels.solve_pairs(SimpleNamespace(scene=scene), 1.0, 2)
     assert pairs[0].has_halved_cells == halves and asked == [False, halves]

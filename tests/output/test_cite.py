@@ -68,7 +68,7 @@ def cites(scene):
         ("Klaus", PATCH.with_(lubricant=OIL), PATCH.with_(lubricant=OIL | {"alpha_estimate": "gold"})),
         ("Gold", PATCH.with_(lubricant=OIL | {"base": "pao"}), PATCH.with_(lubricant=OIL)),
         ("Gupta|Nahme|Jaeger", HOT, HOT.with_(numerics={"heat": "off"})),
-        ("H. Eyring", HOT, HOT.with_(lubricant={"eyring_stress": None})),
+        ("H. Eyring", HOT, HOT.with_(lubricant={"eyring_stress": None, "carreau": (5e6, 0.7)})),
         ("Houpert", HOT, HOT.with_(lubricant={"limiting_stress_coefficient": None})),
         ("Greenwood, J. B. P.", PATCH.with_(contact={"model": "summits"}), PATCH),
         ("Polonsky", PATCH, PATCH.with_(contact={"model": "summits"})),

@@ -1,7 +1,12 @@
 """The deterministic mixed-lubrication model: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
 from .answer import LARGEST_PART, answer_of
-from .cells_in_motion import CellsInMotion, cells_in_motion, film_exponent_of, film_ratio_of, sliding_share_of
+from .cells_in_motion import (
+    CellsInMotion,
+    cells_in_motion,
+    cells_of_strips,
+    film_exponent_of,
+)
 from .estimated_work import work_of_fine_fields, work_on_strips
 from .flow import derivatives, mass_balance
 from .heat import strip_heat, why_too_hot

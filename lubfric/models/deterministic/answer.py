@@ -11,7 +11,7 @@ import numpy as np
 from ...errors import ConvergenceError
 from ...quantities import depending_on
 from ...samples import is_measured
-from ...scene import HARDNESS_KEY, Scene, has_moving_roughness, value_of
+from ...scene import BOUNDARY_FILM_KEY, HARDNESS_KEY, Scene, has_moving_roughness, missing_inputs, value_of
 from ..contract import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
     Decision,
@@ -72,8 +72,6 @@ RUBS = {
 BY_FILM = "change of f with half the boundary film {:+.2g} %, with twice {:+.2g} %"
 BY_INLET = "without the heat of the inlet f would change by {:+.2g} %"
 BY_FLOW = "change of f with half the thinning of the flow at the limiting stress {:+.2g} %"
-# The input that a scene may leave out, whose range is half to twice lubfric's own value.
-BOUNDARY_FILM_KEY = "bodies.boundary_film"
 OF_LIMIT = "the limiting stress of the oil, which is not given: lubricant.limiting_stress_coefficient narrows it"
 LIMITED = ("coefficient", "at_least_limit", "at_most_limit")
 LARGER_TOLERANCE = "a larger numerics.tolerance"
@@ -116,6 +114,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         sampling_error = replace(sampling_error, value=math.nan)
     by_scatter = student(levels.difference_error.freedom) * levels.difference_error.value
     with_thinner, with_thicker = levels.by_film
+    by_missing_input = {BOUNDARY_FILM_KEY: (with_thinner, with_thicker)}
     parts_of_model = {
         "the difference of the models from place to place: a smaller numerics.model_tolerance narrows it": by_scatter,
         "the flow of a film at its limiting stress, on which published theories differ": abs(levels.by_flow),
@@ -133,7 +132,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         model_error=(math.hypot(model, by_limit[0]), math.hypot(model, by_limit[1])),
         by_limit=max(by_limit),
         largest_in_model=max(parts_of_model, key=lambda part: parts_of_model[part]),
-        not_given={} if scene.bodies.boundary_film is not None else {BOUNDARY_FILM_KEY: (with_thinner, with_thicker)},
+        not_given={key: by_missing_input[key] for key in missing_inputs(scene)},
         report=replace(results[0].report, notes=()),
         decision=_decision(scene, results, levels, heat),
         errors=errors | dict.fromkeys(reasons, math.nan),

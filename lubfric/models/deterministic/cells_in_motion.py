@@ -1,13 +1,15 @@
 """The effect of the cells on f where roughness moves: expected from measurements, because no shorter cells are solved."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from ..shared import Prepared, smooth_over_cells
 from .result import DeterministicResult
+from .rough_bodies import strip_surface
 from .strip import StripSolution
-from .strip_on_two_grids import surface_and_map_coarsening
 
 # The constants of the effect of the cells where roughness moves are fitted to `verification.campaigns.moving_cells`: f of
 # narrow strips of random contacts on cells half as long along both axes, extrapolated by second order. They are judged by
@@ -77,10 +79,36 @@ class CellsInMotion:
     coarse_x: float
     coarse_y: float
     coarse_b: float
-    by_longer: float
     follows_lubricant: bool
     is_smooth: bool
+    by_longer: float = 0.0
     sliding_share: float = 1.0
+
+    @classmethod
+    def on_cells(
+        cls,
+        cell: tuple[float, float],
+        *,
+        lengths: tuple[float, float],
+        half_width: float,
+        film_ratio: float,
+        follows_lubricant: bool,
+        is_smooth: bool,
+        by_longer: float = 0.0,
+        sliding_share: float = 1.0,
+    ) -> CellsInMotion:
+        """Return what is known of cells of the lengths ``cell`` [m] along x and y, of roughness with the correlation
+        ``lengths`` [m] in a contact of this Hertz ``half_width`` [m]; the others are fields."""
+        return cls(
+            film_ratio=film_ratio,
+            coarse_x=cell[0] / lengths[0],
+            coarse_y=cell[1] / lengths[1],
+            coarse_b=cell[0] / half_width,
+            follows_lubricant=follows_lubricant,
+            is_smooth=is_smooth,
+            by_longer=by_longer,
+            sliding_share=sliding_share,
+        )
 
     @property
     def film_exponent(self) -> float:
@@ -123,22 +151,33 @@ class CellsInMotion:
         return self.is_smooth and self.error > tolerance and reduces  # else shorter cells show new summits, along x too
 
 
-def cells_in_motion(prepared: Prepared, strips: Sequence[StripSolution], by_longer: float) -> CellsInMotion:
-    """Return what is known of the cells of ``strips`` whose roughness moves; ``by_longer``: the change of their f from cells
-    twice as long along y."""
+def cells_in_motion(
+    prepared: Prepared,
+    strips: Sequence[StripSolution],
+    cell: tuple[float, float],
+    *,
+    is_smooth: bool,
+    by_longer: float = 0.0,
+) -> CellsInMotion:
+    """Return what is known of cells of the lengths ``cell`` [m] along x and y, where the roughness of ``strips`` moves;
+    ``is_smooth``, ``by_longer``: fields."""
     results = [strip.result for strip in strips]
-    (dx, dy) = strips[0].problem.spacing
-    (lx, ly) = prepared.sample.correlation_lengths
-    return CellsInMotion(
+    return CellsInMotion.on_cells(
+        cell,
+        lengths=prepared.sample.correlation_lengths,
+        half_width=prepared.scene.bodies.half_width,
         film_ratio=film_ratio_of(results),
-        coarse_x=dx / lx,
-        coarse_y=dy / ly,
-        coarse_b=dx / prepared.scene.bodies.half_width,
-        by_longer=by_longer,
         follows_lubricant=all(strip.follows_lubricant for strip in strips),
-        is_smooth=smooth_over_cells(surface_and_map_coarsening(prepared, 0)[0].heights),
+        is_smooth=is_smooth,
+        by_longer=by_longer,
         sliding_share=sliding_share_of(results),
     )
+
+
+def cells_of_strips(prepared: Prepared, strips: Sequence[StripSolution], by_longer: float) -> CellsInMotion:
+    """Return what is known of the cells that ``strips`` are solved on; ``by_longer``: as of `CellsInMotion`."""
+    is_smooth = smooth_over_cells(strip_surface(prepared, 0).heights)
+    return cells_in_motion(prepared, strips, strips[0].problem.spacing, is_smooth=is_smooth, by_longer=by_longer)
 
 
 def film_exponent_of(film_ratio: float) -> float:

@@ -216,13 +216,11 @@ def _may_be_halved(scene: Scene, sample: Sample, surface: Surface, speed: float)
     if across % 2 or not least <= scene.line_contact(abs(speed)).moes_film / surface.sq <= most:
         return False
     (dx, dy) = sample.cells.spacing
-    (lx, ly) = sample.correlation_lengths
-    cells = CellsInMotion(
+    cells = CellsInMotion.on_cells(
+        (along * dx, across * dy),
+        lengths=sample.correlation_lengths,
+        half_width=scene.bodies.half_width,
         film_ratio=4.0**EXPECTED_STEEPNESS,
-        coarse_x=along * dx / lx,
-        coarse_y=across * dy / ly,
-        coarse_b=along * dx / scene.bodies.half_width,
-        by_longer=0.0,
         follows_lubricant=True,
         is_smooth=smooth_over_cells(surface.heights),
     )

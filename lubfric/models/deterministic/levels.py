@@ -39,7 +39,7 @@ from ..shared import (
     strips_for_error,
     student,
 )
-from .cells_in_motion import cells_in_motion, changed_as_expected
+from .cells_in_motion import cells_of_strips, changed_as_expected
 from .result import DeterministicResult
 from .rough_bodies import MOST_WORK_IN_AUTO, summit_control
 from .shorter_cells import (
@@ -213,7 +213,7 @@ def _first_pair(prepared: Prepared, speed: float) -> StripOnTwoGrids:
     pair = solve_pair(prepared, speed, None, 0)
     if not has_moving_roughness(prepared.scene) or surface_and_map_coarsening(prepared, 0)[1][1] % 2:
         return pair
-    cells = cells_in_motion(prepared, [pair.resolved], pair.change_by_cells)
+    cells = cells_of_strips(prepared, [pair.resolved], pair.change_by_cells)
     if not cells.shorter_ones_pay(prepared.scene.numerics.model_tolerance):
         return pair
     (_, wanted) = two_levels(prepared, (pair,), None)

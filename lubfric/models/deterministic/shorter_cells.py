@@ -25,7 +25,7 @@ from ..shared import (
     smooth_over_cells,
     speed_of,
 )
-from .cells_in_motion import cells_in_motion
+from .cells_in_motion import cells_of_strips
 from .problem import are_soft
 from .rough_bodies import (
     MOST_WORK_IN_AUTO,
@@ -146,7 +146,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     by_longer = sum(pair.change_by_cells for pair in pairs) / len(pairs)
     strips = [pair.resolved for pair in pairs]
     if is_moving:
-        cells = cells_in_motion(prepared, strips, by_longer)
+        cells = cells_of_strips(prepared, strips, by_longer)
         return ShorterCells(change=cells.change_of_sliding, error=max(cells.error, SOLVED))
     error = max(error_by_cells([by_longer]), SOLVED, error_of_soft_bodies(strips[0]))
     if _are_enough(prepared, error):

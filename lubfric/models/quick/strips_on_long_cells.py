@@ -13,14 +13,12 @@ from ...scene import Scene, has_moving_roughness
 from ..contract import ModelAnswer
 from ..deterministic import (
     LARGEST_PART,
-    CellsInMotion,
     Levels,
     StripOnTwoGrids,
     bodies_of,
-    film_ratio_of,
+    cells_in_motion,
     levels_of,
     sample_target,
-    sliding_share_of,
     strip_surface,
     two_levels,
 )
@@ -175,21 +173,11 @@ def _error_of_references(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -
     scene = prepared.scene
     if not has_moving_roughness(scene):
         return 0.0
-    results = [pair.resolved.result for pair in pairs]
-    half_width = scene.bodies.half_width
-    length = prepared.sample.correlation_lengths[0]
     (along, across) = CELLS_OF_REFERENCES
-    cell = min(length, half_width) / along
-    return CellsInMotion(
-        film_ratio=film_ratio_of(results),
-        coarse_x=cell / length,
-        coarse_y=1.0 / across,
-        coarse_b=cell / half_width,
-        by_longer=0.0,
-        follows_lubricant=all(pair.resolved.follows_lubricant for pair in pairs),
-        is_smooth=smooth_over_cells(prepared.surface.heights),
-        sliding_share=sliding_share_of(results),
-    ).error
+    (lx, ly) = prepared.sample.correlation_lengths
+    cell = min(lx, scene.bodies.half_width) / along, ly / across
+    is_smooth = smooth_over_cells(prepared.surface.heights)
+    return cells_in_motion(prepared, [pair.resolved for pair in pairs], cell, is_smooth=is_smooth).error
 
 
 def _features_of(prepared: Prepared, pair: StripOnTwoGrids) -> dict[str, float]:

@@ -135,14 +135,12 @@ def solved_case(row: dict[str, str], known: Sequence[dict[str, float]]) -> Solve
 def cells_of_reference(row: dict[str, str]) -> CellsInMotion:
     """Return what is known of the cells of the reference of a ``row`` whose roughness moves."""
     (half, twice) = (float(row[f"det_{name}_film"]) for name in ("half", "twice"))
-    (dx, dy) = (float(row[name]) for name in ("dx", "dy"))
     half_width = 4 * float(row["radius"]) * float(row["pressure"]) / float(row["e_prime"])
-    return CellsInMotion(
+    return CellsInMotion.on_cells(
+        (float(row["dx"]), float(row["dy"])),
+        lengths=(float(row["length_x"]), float(row["length_y"])),
+        half_width=half_width,
         film_ratio=twice / half,
-        coarse_x=dx / float(row["length_x"]),
-        coarse_y=dy / float(row["length_y"]),
-        coarse_b=dx / half_width,
-        by_longer=0.0,
         follows_lubricant=abs(float(row["slip"])) <= FAST,
         is_smooth=row["acf"] == "gaussian",
     )

@@ -23,7 +23,7 @@ from lubfric.models.deterministic import (
     DeterministicSolution,
     RoughBody,
     SampleTarget,
-    cells_in_motion,
+    cells_of_strips,
     effort_of,
     mean_over_blocks,
     solve_moving_strip,
@@ -112,7 +112,7 @@ def answer(contact: RollingContact, seed: int) -> PlainRow:
     assert places is not None  # the roughness moves
     strips = [pair.resolved for pair in pairs]
     by_longer = float(np.mean([pair.change_by_cells for pair in pairs]))
-    cells = cells_in_motion(solution.prepared, strips, by_longer)
+    cells = cells_of_strips(solution.prepared, strips, by_longer)
     return {
         "f": parts.numbers["coefficient"],
         "change": cells.change,
