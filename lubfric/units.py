@@ -223,7 +223,7 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
     allowed = f"{plain}, or one with a unit in quotes: {', '.join(examples)}"
     allowed += f", or a range [low, high], or a name: {', '.join(named)}" if named else ""
     if parts is None or not parts[1]:
-        none = " is no number with a unit, and no name that is known" if named else " is no number with a unit"
+        none = " is neither a number with a unit nor a known name" if named else " is not a number with a unit"
         comma = re.match(r"\s*[+-]?\d{1,40},\d{1,40}", value)
         none += f": write a point in decimals, {shown.replace(',', '.', 1).strip()}" if comma else ""
         said = " has no unit: leave the quotes out, or add one" if parts else none
@@ -235,7 +235,8 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
         if unit == "N" and other == "N/m":
             allowed += "; a load per length times the length of the line, bodies.width, is the load"
         hrc = given == "HRC" and "HV" in row
-        said = f"is in {written}, a unit of another kind ({other})" if other else f"has an unknown unit, {written!r}"
+        target = "a number without a unit" if unit == "-" else unit
+        said = f"is in {written}, which does not convert to {target}" if other else f"has an unknown unit, {written!r}"
         if unit == "Pa s" and other == "m2/s":
             allowed += "; a kinematic viscosity goes into nu40 (at 40 °C), together with nu100 or viscosity_index"
         said = "is no pressure: give HV; 57 HRC is 633 HV, 60: 697, 63: 772" if hrc else said

@@ -1,7 +1,7 @@
-"""``python -m verification``: run the studies, show the verdict, write the report.
+"""``python -m verification``: check lubfric against finite elements, closed forms and publications, and write a report.
 
-Linear algebra takes one thread, set before NumPy is loaded, unless the environment says otherwise. The studies solve
-many small systems, and threads that wait for each other there take 1.5 times as long.
+NumPy uses one thread, unless OMP_NUM_THREADS is set: the studies solve many small systems, for which several threads
+take 1.5 times as long.
 """
 
 import importlib
@@ -26,7 +26,7 @@ def main(argv: list[str] | None = None) -> int:
     argv = sys.argv[1:] if argv is None else list(argv)
     if argv and argv[0] in SUBCOMMANDS:
         return frame.main(importlib.import_module(SUBCOMMANDS[argv[0]]).COMMAND, argv[1:])
-    summary = f"{__doc__} Other commands: {', '.join(SUBCOMMANDS)}."
+    summary = f"{__doc__} Other commands, each with --help: {', '.join(SUBCOMMANDS)}."
     command = frame.Command("", summary, studies=STUDIES, out="out/verification", workers=min(2, os.cpu_count() or 1))
     if argv and not argv[0].startswith("-"):
         words = frame.did_you_mean(argv[0], SUBCOMMANDS)

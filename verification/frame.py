@@ -114,15 +114,23 @@ def parser(command: Command) -> argparse.ArgumentParser:
     p = argparse.ArgumentParser(command.program, description=command.summary)
     if len(command.levels) > 1:
         level = p.add_mutually_exclusive_group()
-        for name, words in (("quick", "small and few"), ("full", "the finest and all")):
+        for name, words in (("quick", "few cases on coarse grids"), ("full", "all cases, on the finest grids")):
             if name in command.levels:
                 level.add_argument(f"--{name}", dest="level", action="store_const", const=name, help=words)
-    p.add_argument("--only", nargs="+", metavar="NAME", help="run only these")
-    p.add_argument("--out", type=Path, default=Path(command.out), metavar="DIR", help="folder (default: %(default)s)")
-    p.add_argument("--list", action="store_true", help="name the parts and stop")
-    p.add_argument("--workers", type=int, default=command.workers, help="processes (default: %(default)s)")
+    p.add_argument("--only", nargs="+", metavar="NAME", help="run only these studies (--list has the names)")
+    p.add_argument(
+        "--out",
+        type=Path,
+        default=Path(command.out),
+        metavar="DIR",
+        help="folder for the report (default: %(default)s)",
+    )
+    p.add_argument("--list", action="store_true", help="list the studies and stop")
+    p.add_argument("--workers", type=int, default=command.workers, help="number of processes (default: %(default)s)")
     if command.campaign:
-        p.add_argument("--docs", type=Path, metavar="DIR", help="put its tables and pictures into the pages there")
+        p.add_argument(
+            "--docs", type=Path, metavar="DIR", help="write tables and pictures into the pages in this folder"
+        )
     command.add_options(p)
     p.set_defaults(level=command.levels[0])
     return p

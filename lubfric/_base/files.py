@@ -175,7 +175,7 @@ class FolderLock:
                 self.drop()
         if not stat.S_ISREG(os.fstat(self._file.fileno()).st_mode) or self._holder() is None:
             self.drop()
-            raise InputError(f"{self.path} is no lock of lubfric; move it away, or give another folder")
+            raise InputError(f"{self.path} is not a lock file of lubfric; move it away, or give another folder")
         with saying(f"{self.path} was not written"):
             self._file.truncate(0)
             self._file.write(f"lubfric {os.getpid()}")
@@ -277,7 +277,7 @@ class OwnFiles:
             if any(path.exists() and os.path.samefile(path, read) for read in inputs):
                 raise InputError(f"{path} is read by this command and would be replaced; give another folder")
             if os.path.lexists(path) and not self._owns(path.name):
-                message = f"{path} is no file that lubfric wrote, or was changed since, and would be replaced"
+                message = f"{path} was not written by lubfric, or was changed since; this command would replace it"
                 raise InputError(f"{message}; move it away, or give another folder")
 
     def replace(self, contents: dict[str, bytes], patterns: Iterable[str] = ()) -> None:

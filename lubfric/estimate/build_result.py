@@ -99,8 +99,9 @@ def beside_larger_part(violation: Violation, uncertainty: Uncertainty) -> Violat
     ``violation`` as it is."""
     if not violation.what.startswith(MODEL_ERROR) or uncertainty.is_largest_by_model or not uncertainty.largest_part:
         return violation
-    other = f"the interval of f has a larger part ({uncertainty.largest_part})"
-    return replace(violation, recommendation="; ".join(filter(None, (violation.recommendation, other))))
+    larger = uncertainty.largest_part.removeprefix("largest part: ")
+    other = f"A larger part of the interval of f is: {larger}"
+    return replace(violation, recommendation=". ".join(filter(None, (violation.recommendation, other))))
 
 
 def _power_loss(

@@ -23,7 +23,7 @@ from ..units import interval_in_words, with_interval
 RENAMED = {"spots": "effective_contacts", "fluid": "by_limit", "few_spots": "has_few_contacts"}
 
 
-# Part of the budget, relative, below which nothing is recommended that narrows it. A convention.
+# Part of the budget, relative, below which nothing is recommended that reduces it. A convention.
 SMALL_PART = 0.005
 
 # Model-form error, relative, that is stated as smaller than this: effects that it does not include may be larger. A
@@ -49,7 +49,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     notes : what a reader should know of these errors
     model_sides, not_given_sides, input_sides : ``model``, ``not_given`` and ``inputs`` towards 0 and away from it; NaN
         where only the larger is known
-    largest_in_model : what the largest part of ``model`` is, and what narrows it; "" where it has one part
+    largest_in_model : what the largest part of ``model`` is, and what reduces it; "" where it has one part
     narrows_numerical, narrows_sampling : what narrows ``numerical`` and ``sampling``, as text
     missing_input : the key of the input that the scene does not give, whose range changes f most ("": none)
     largest_input : the input whose range changes f most
@@ -64,8 +64,8 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     not_given_sides: tuple[float, float] = (math.nan, math.nan)
     input_sides: tuple[float, float] = (math.nan, math.nan)
     largest_in_model: str = ""
-    narrows_numerical: str = "a smaller numerics.tolerance narrows it"
-    narrows_sampling: str = "a smaller numerics.sampling_tolerance narrows it"
+    narrows_numerical: str = "a smaller numerics.tolerance reduces it"
+    narrows_sampling: str = "a smaller numerics.sampling_tolerance reduces it"
     missing_input: str = ""
     largest_input: str = ""
     _RENAMED = RENAMED
@@ -114,13 +114,13 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
 
     @property
     def largest_part(self) -> str:
-        """What the largest part of the budget is, and what narrows it; "" where that is not known."""
+        """What the largest part of the budget is, and what reduces it; "" where that is not known."""
         recommendations = {
             "numerical": self.narrows_numerical,
             "sampling": self.narrows_sampling,
-            "model-form": self.largest_in_model or "numerics.model = 'deterministic' narrows it",
-            "not given": f"a measured {self.missing_input} narrows it",
-            "input": f"a measured {self.largest_input or 'value'} narrows it",
+            "model-form": self.largest_in_model or "numerics.model = 'deterministic' reduces it",
+            "not given": f"a measured {self.missing_input} reduces it",
+            "input": f"a measured {self.largest_input or 'value'} reduces it",
         }
         known = {name: part for name, part in self.budget.items() if math.isfinite(part) and part > 0}
         if not known or not math.isfinite(self.sampling):
@@ -128,7 +128,12 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         name = max(known, key=lambda name: known[name])
         if known[name] < SMALL_PART:
             return f"largest part: {name} {self.budget_in_words[name]}"
-        return f"largest part: {name} {self.budget_in_words[name]}, {recommendations[name]}"
+        recommendation = recommendations[name]
+        source = ""
+        if name == "model-form":  # "what it is: what reduces it"
+            (source, _, recommendation) = recommendation.rpartition(": ")
+        source = f" ({source})" if source else ""
+        return f"largest part: {name} {self.budget_in_words[name]}{source}; {recommendation}"
 
     @property
     def has_few_contacts(self) -> bool:

@@ -15,8 +15,8 @@ AT_MOST = (
 )
 
 # What narrows the sampling error, by whether the sample has more strips.
-SMALLER_SAMPLING_TOLERANCE = "a smaller numerics.sampling_tolerance narrows it"
-LARGER_MAP = "a larger map narrows it"
+SMALLER_SAMPLING_TOLERANCE = "a smaller numerics.sampling_tolerance reduces it"
+LARGER_MAP = "a larger map reduces it"
 
 # Parts of the friction force that resist the sliding.
 SLIDING_FORCES = ("boundary_force", "couette_force")

@@ -139,7 +139,7 @@ class ModelAnswer:
     decision: Decision
     by_limit: float = 0.0
     largest_in_model: str = ""
-    narrows_numerical: str = "a smaller numerics.tolerance narrows it"
+    narrows_numerical: str = "a smaller numerics.tolerance reduces it"
     most_rolling_ratio: float = 2.0
     not_given: dict[str, tuple[float, float]] = field(default_factory=dict)
     errors: dict[str, float] = field(default_factory=dict)

@@ -144,7 +144,8 @@ def init(arguments: Namespace) -> None:
     from ..scene import write_template
 
     write_template(arguments.file)
-    say(f"wrote {arguments.file}; 'lubfric info {arguments.file}' explains it, 'lubfric run' computes it")
+    name = arguments.file
+    say(f"wrote {name}; 'lubfric info {name}' shows what will be solved, 'lubfric run {name}' computes the friction")
 
 
 def oils(_: Namespace) -> None:

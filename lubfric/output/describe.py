@@ -44,6 +44,9 @@ SOME = 25
 TABLE_SPEEDS = 6
 
 TABLE_CAPTION = "estimate with closed forms: full-load film, asperity contact, and cost"
+# Sections of ``lubfric info`` before and after that table: first what a user looks for.
+BEFORE_TABLE = ("model", "transient", "validity")
+AFTER_TABLE = ("bodies", "lubricant", "motion", "surface", "contact", "effects not modelled")
 # How the deterministic model takes part where the roughness is at rest, and where it moves.
 DETERMINISTIC_IN_WORDS = (
     "load-sharing model, corrected by the deterministic model on some strips,",
@@ -98,12 +101,15 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
         surface = sample.first_map()
         check_map(scene, surface)
     estimate = estimate_scene(scene, sample, surface, speeds)
-    sections = {name: [*input_rows(scene, name), *FACTS[name](scene)] for name in FACTS} | estimate.sections
-    rows = [f"  {name}\n" + "\n".join(f"    {text}" for text in texts) for name, texts in sections.items() if texts]
+    sections = {name: [*FACTS[name](scene), *input_rows(scene, name)] for name in FACTS} | estimate.sections
+    before, after = (
+        [f"  {name}\n" + "\n".join(f"    {text}" for text in sections[name]) for name in names if sections[name]]
+        for names in (BEFORE_TABLE, AFTER_TABLE)
+    )
     widths = [max(map(len, column)) for column in zip(*estimate.table)]
     table = ["  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)) for row in estimate.table]
     first = [violation.text for violation in violations_by_unusual_inputs(scene)]
-    return "\n".join([*first, f"scene {scene.name}", *rows, f"  {TABLE_CAPTION}", *map(str.rstrip, table)])
+    return "\n".join([*first, f"scene {scene.name}", *before, f"  {TABLE_CAPTION}", *map(str.rstrip, table), *after])
 
 
 def estimate_scene(
@@ -149,8 +155,8 @@ def estimate_scene(
         includes_motion=any(model.includes_motion for model in models_that_may_answer(scene.numerics.model)),
     )
     changes = [
-        f"likely changes of f at {scene_speed:.4g} m/s, estimated by closed forms before the solve, as ranges over the "
-        "asperity load ratios that the result may have; the report has those of the result:",
+        f"likely changes of f at {scene_speed:.4g} m/s, estimated with closed forms. Each range covers the asperity load "
+        "ratios that the result may have; the report has the changes of the result.",
         *map(effect_in_words, effects),
     ]
     sections = {
@@ -158,8 +164,10 @@ def estimate_scene(
         "surface": [*sample.described(surface), *notes, slopes_in_words(scene_map)],
         "contact": [f"{_plan(scene, surface)}; {over}"],
         "model": model,
-        "effects not modelled": changes if effects else ["none that would change f by more than its tolerance"],
-        "validity": _doubts(at) or ["no assumption of the model fails before the solve"],
+        "effects not modelled": changes
+        if effects
+        else ["none of the known effects would change f by more than its tolerance"],
+        "validity": _doubts(at) or ["no limit of the model is exceeded before the solve"],
     }
     return SceneEstimate(
         sections=sections,
@@ -188,10 +196,10 @@ def _doubts(at: list[tuple[float | None, Violation]]) -> list[str]:
 
 
 def _plan(scene: Scene, surface: Surface) -> str:
-    what = {"flat": "a periodic contact", "cylinder": "a contact that is periodic along the line"}[
+    what = {"flat": "periodic flat contact", "cylinder": "line contact, periodic along the line,"}[
         scene.contact.geometry
     ]
-    on = "strips of the roughness" if takes_strips(scene) else "{} x {} cells".format(*surface.shape)
+    on = "strips of the rough surface" if takes_strips(scene) else "{} x {} cells".format(*surface.shape)
     return f"{what} on {on}; target of the numerical error of f: {100 * scene.numerics.tolerance:g} %"
 
 

@@ -31,7 +31,7 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
         alike = {word: ends for word, (middle, *ends) in typical(key).items() if middle == value}
         ends = " to ".join(worded(end, quantity.unit) for end in next(iter(alike.values()), ()))
         note = (
-            f", taken as exact (the name {' or '.join(map(repr, alike))} in its place gives the typical range, {ends})"
+            f", taken as exact; the name {' or '.join(map(repr, alike))} gives the typical range, {ends}"
             if alike
             else ""
         )
@@ -132,7 +132,7 @@ def _lubricant(scene: Scene) -> list[str]:
     known = oil.heats and oil.temperature_coefficient is not None
     heat = "isothermal, because the temperature coefficient of the viscosity is not given"
     if known:
-        heat = "film and inlet, where it changes f by more than its part of the tolerance"
+        heat = "in film and inlet, where it changes f by more than its share of the tolerance"
         heat = "isothermal (numerics.heat = 'off')" if scene.numerics.heat == "off" else heat
     return [*rows, f"heat: {heat}"]
 

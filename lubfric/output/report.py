@@ -493,7 +493,9 @@ def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
     first = float(result.time[0])
     last = float(result.time[-1])
     span = worded(last, "s") if first == 0.0 else f"the time from {worded(first, 's')} to {worded(last, 's')}"
-    when = f"over {span}" if mean.in_motion == 1 else f"over the {100 * mean.in_motion:.3g} % in motion of {span}"
+    when = (
+        f"over {span}" if mean.in_motion == 1 else f"while the surfaces move ({100 * mean.in_motion:.3g} % of {span})"
+    )
     head = "" if complete else "The run has no valid answer. Its outputs so far show: "
     film = plain_number(float(np.nanmin(result.min_film)), "m")
     deterministic = "deterministic model" in result.methods
@@ -509,14 +511,14 @@ def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
         loss = with_interval(mean.power_loss, *mean.power_loss_interval, unit="W")
         sentences.append(f"The mean power loss is {loss}, the largest {plain_number(float(np.nanmax(power)), 'W')}.")
     sentences.append(
-        f"The smallest film is {film}."
+        f"The smallest film thickness is {film}."
         if deterministic
-        else f"The smallest film, under the part of the load that it carries, is {film} thick."
+        else f"The smallest film thickness, under the film load, is {film}."
     )
     ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio)]
     if ratio.size:
         sentences.append(
-            f"The lambda ratio, of the film that would carry the total load by itself, lies between {_number(_rounded(ratio, int(ratio.argmin())))} and "
+            f"The lambda ratio (full-load film thickness over Sq) lies between {_number(_rounded(ratio, int(ratio.argmin())))} and "
             f"{_number(float(ratio.max()))}."
         )
     return sentences
@@ -550,8 +552,8 @@ def _model_of_run(scene: Scene, result: TransientResult) -> str:
         return answers
     return (
         f"{answers} At {counted(int(wide.sum()), 'outputs')} its model-form error is above {100 * target:g} % "
-        "(numerics.model_tolerance); for a steady point at the values of such a moment (a scene without [transient]) "
-        "lubfric then takes the deterministic model where it can, with a narrower interval."
+        "(numerics.model_tolerance). A steady point with the values of such a moment (a scene without [transient]) has a "
+        "narrower interval where the deterministic model applies."
     )
 
 
@@ -638,7 +640,7 @@ def effects_table(effects: Sequence[UnmodelledEffect | ExpectedEffect], place: s
         f"<td>{escape(sentence(advice))}</td>"
         for what, *changes, advice in effects
     ]
-    head = f"<p>Likely changes of f {escape(place)}, estimated by closed forms.</p>"
+    head = f"<p>Likely changes of f {escape(place)}, estimated with closed forms.</p>"
     return head + table(["effect", "change of f", "recommendation"], rows)
 
 
@@ -647,7 +649,7 @@ def _warnings(validity: Iterable[str]) -> str:
     warnings = [shown for text, shown in texts.items() if not is_note_text(text)]
     notes = [shown for text, shown in texts.items() if is_note_text(text)]
     heading = "<h3>Notes</h3>" if notes else ""
-    return _list(warnings, "Every assumption that is checked holds.", "warning") + heading + _list(notes)
+    return _list(warnings, "No checked limit of the model is exceeded.", "warning") + heading + _list(notes)
 
 
 def _without_head(text: str) -> str:

@@ -99,7 +99,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
         workers = _default_workers(scene, speeds)
     speeds_apart = speeds != studies.AUTO_SPEEDS and len(speeds) >= max(2, workers)  # else the parts of each point are
     if speeds_apart and workers > 1:
-        say(f"{workers} processes solve the speeds beside each other: points end in any order, and their times overlap")
+        say(f"{workers} processes solve the speeds in parallel: points end in any order, and their times overlap")
     with (
         ProgressLine("speeds") as shown,
         studies.pool(workers) as executor,
@@ -431,8 +431,8 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
     if noted:
         at, worst = max(noted, key=lambda p: p[1].sampling if math.isfinite(p[1].sampling) else math.inf)
         others = counted(len(noted) - 1, f"more {plural}")
-        more = f" (the largest; result.json has {others})" if len(noted) > 1 else ""
-        said.append(f"uncertainty of f {at_value(at, unit, plural)}: {'; '.join(worst.notes)}{more}")
+        more = f", where its sampling error is largest (result.json has {others})" if len(noted) > 1 else ""
+        said.append(f"uncertainty of f {at_value(at, unit, plural)}{more}: {'; '.join(worst.notes)}")
         if few and few != [at]:
             where = ", ".join(at_value(value, unit, plural) for value in few)
             said.append(f"few asperity contacts carry the load {where}: these intervals are too narrow")

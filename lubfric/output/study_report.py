@@ -106,7 +106,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         status=escape(study_status(result)),
         answer="".join(f'<p class="{"answer" if i == 0 else ""}">{escape(line)}</p>' for i, line in enumerate(answer)),
         pictures="".join(picture(content, CAPTION) for name, content in contents.items() if name.endswith(".png")),
-        warnings=(_list(warnings) if warnings else "<p>Every assumption that is checked holds.</p>")
+        warnings=(_list(warnings) if warnings else "<p>No checked limit of the model is exceeded.</p>")
         + (f"<h3>Notes</h3>{_list(notes)}" if notes else ""),
         about=about,
         table=_table(result, rows) + _details(result, rows) + _effects_at_largest(result),
@@ -405,7 +405,7 @@ def _slides(result: StudyResult, index: tuple[int, ...]) -> bool:
 def _mean_lines(result: StudyResult) -> list[str]:
     """Return the mean power loss and f over the operating points in a sentence, for each combination of what else is
     varied (at most `MOST_MEANS`)."""
-    weighed = "weighed by the duration" if "duration" in result.coords else "all with the same weight"
+    weighed = "weighted by the duration" if "duration" in result.coords else "all with the same weight"
     rows = []
     for index in list(np.ndindex(*result.status.shape[:-1]))[:MOST_MEANS]:
         where = f" for {place}" if (place := label(result.plan, (*index, slice(None)))) else ""

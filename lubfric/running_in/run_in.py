@@ -343,7 +343,7 @@ def _checked_wear(scene: Scene, distance: Any, coefficient: Any, hardness: Any) 
 def _whole(scene: Scene, surface: Surface | None) -> Surface:
     """Return the map to run in, checked."""
     if scene.bodies.hardness is None:
-        said = " is not given: nothing yields in an elastic contact, and no surface runs in"
+        said = " is not given: an elastic contact does not yield, so its surface does not run in"
         raise InputError(said, "bodies.hardness", "1 to 1e14 Pa (hardened steel: about 6e9 to 8e9 Pa)")
     if surface is None:
         if scene.counterface is not None:

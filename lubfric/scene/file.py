@@ -31,7 +31,7 @@ from .transient import HISTORIES, UNITS_OF_HISTORIES, Transient, history
 MOST_SCENE_BYTES = 2**24  # of a scene
 LONGEST_PATH = 300  # characters of a path that is compared with the files there
 NEAR_FILE = 0.6  # likeness of two file names, 0 to 1, from which one may be meant by the other
-TOML_NUMBERS = "numbers have a decimal point; one with a unit is in quotes, '12 mm', and so is a name: 'mineral'"
+TOML_NUMBERS = "write numbers with a decimal point; put names and numbers with a unit in quotes: 'mineral', '12 mm'"
 TOML_TWICE = "this section or key is there for the second time; put the keys of both into one, and remove the other"
 TOML_FAULTS = {  # begin of what Python's reader of TOML says: what it means, and what to do
     "Illegal character '\\n'": "a text has no closing quotation mark; add it",
@@ -251,7 +251,7 @@ def write_template(path: Path) -> None:
     already."""
     path = validate.folder("file", path)
     if os.path.lexists(path):
-        raise InputError(f"{path} exists; give another name, so that no scene is lost")
+        raise InputError(f"{path} exists already; give another name (init replaces no file)")
     if not path.parent.is_dir():
         raise InputError(f"{path.parent} is no folder; give a file in an existing one")
     write_whole(path, (resources.files(__package__) / "template.toml").read_bytes())

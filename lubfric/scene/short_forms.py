@@ -196,7 +196,7 @@ def resolve_oil(given: dict[str, Any], old: Lubricant | None) -> dict[str, Any]:
         del given["viscosity"]
     if "viscosity" in given:
         both = "viscosity and an oil (grade, nu40, oil, ...)"
-        raise InputError(f"[lubricant] has {both}, which say the same thing; give one of them")
+        raise InputError(f"[lubricant] has {both}, which give the same quantity; give one of them")
     oil = _oil({key: given.pop(key) for key in SOURCES if key in given}, before)
     changed = {name: given.pop(key) for key, name in OF_AN_OIL.items() if key in given}
     temperature = given.pop("temperature", getattr(old, "temperature", None))
@@ -217,7 +217,7 @@ def _check_temperature(given: dict[str, Any], old: Lubricant | None) -> None:
     if old.temperature is None and given.get("temperature_coefficient", old.temperature_coefficient):
         return  # from now on the heat of the film can be found
     ways = "give the viscosity there as well, or an oil (grade, nu40 and nu100, oil, viscosity_table) in place of it"
-    raise InputError(f"[lubricant] temperature moves no viscosity that is given as a number; {ways}")
+    raise InputError(f"[lubricant] temperature does not change a viscosity that is given as a number; {ways}")
 
 
 def fields_of(oil: Oil, temperature: float) -> dict[str, Any]:
@@ -285,7 +285,7 @@ def only_one(section: str, given: dict[str, Any], *keys: str) -> None:
     given_keys = [key for key in keys if any(k in given for k in key.split("+"))]
     if len(given_keys) > 1:
         names = " and ".join(given_keys)
-        raise InputError(f"[{section}] has {names}, which say the same thing; give one of {', '.join(keys)}")
+        raise InputError(f"[{section}] has {names}, which give the same quantity; give one of {', '.join(keys)}")
 
 
 def together(section: str, given: dict[str, Any], *keys: str) -> bool:

@@ -116,7 +116,7 @@ class ResidualTests:
             return ""
         said = " and ".join(how) if self.systematic else how[0].replace("they are", "the residuals are")
         return (
-            f"the fit does not describe the data: {said}. The intervals do not hold. Choose other parameters, wider "
+            f"the fit does not describe the data: {said}. The intervals are not valid. Choose other parameters, wider "
             "bounds or another model, or check the data"
             + ("; state their deviations if they are known" if self.too_far else "")
         )
@@ -133,7 +133,7 @@ class ResidualTests:
                 f"the residuals are not random: probability by chance {self.chance:.1g}{self._cause}; the fit may not "
                 "describe the data, and the intervals, which assume random residuals, may be too narrow"
             )
-        return f"the intervals assume random residuals, which these may be: probability by chance {self.chance:.2g}"
+        return f"the intervals assume random residuals; the residuals may be random (probability by chance {self.chance:.2g})"
 
     @property
     def _cause(self) -> str:

@@ -235,12 +235,12 @@ def _quantity(name: str, unit: str | None) -> tuple[str, Quantity]:
     if key not in KEYS and "." not in key:
         if re.search(r"\bload\b.*\bper\b|line ?load", plain.lower()):
             raise InputError(
-                f": {plain!r} is no column of operating points", "points", recommendation=OTHER_LOAD["N/m"]
+                f": {plain!r} is not a column of operating points", "points", recommendation=OTHER_LOAD["N/m"]
             )
         near = validate.nearest(plain, [*COLUMN_NAMES, TEMPERATURE, *NAMED_COLUMNS])
         known = ", ".join([*COLUMN_NAMES, *RADII_OF_SURFACES, TEMPERATURE, *SPEEDS_OF_SURFACES, *COORDINATES])
         raise InputError(
-            f"points: {plain!r} is no column of operating points{near}", allowed=f"{known}, or section.key"
+            f"points: {plain!r} is not a column of operating points{near}", allowed=f"{known}, or section.key"
         )
     return key, KEYS.get(key, Quantity("-", key))
 
@@ -361,7 +361,7 @@ INTERVAL_COLUMNS = {
 
 
 def mean_over_cycle(values: np.ndarray, durations: np.ndarray) -> float:
-    """Return the mean of ``values`` (n,) weighed by the ``durations`` (n,); NaN where one that counts is not known."""
+    """Return the mean of ``values`` (n,) weighted by the ``durations`` (n,); NaN where one that counts is not known."""
     counted = durations > 0
     total = float(durations.sum())
     return float(np.sum(values[counted] * durations[counted])) / total if total > 0 else math.nan

@@ -256,7 +256,7 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
     speeds = table.get("speeds")
     if "speed_range" in table:
         if speeds is not None:
-            raise InputError(f"{path.name} has speeds and speed_range, which say the same thing; give one of them")
+            raise InputError(f"{path.name} has speeds and speed_range, which give the same quantity; give one of them")
         speeds = speeds_of_range("speed_range", table["speed_range"])
     if points is None and "points" in table:
         points = table["points"]

@@ -166,7 +166,7 @@ class StudyResult(Shown):
         return place_in_words(self.plan, index, float(speed))
 
     def mean(self, name: str) -> np.ndarray | float:
-        """Return the mean of a number over the operating points, weighed by their ``duration`` (or all alike, if they
+        """Return the mean of a number over the operating points, weighted by their ``duration`` (or all alike, if they
         have none): an array over the other axes. ``study.mean("power_loss")`` is the power loss of a duty cycle [W].
         NaN where a point that counts failed."""
         if not self.paired:

@@ -217,7 +217,9 @@ def check_temperature(what: str, scene: Scene, keys: set[str]) -> None:
     given = keys & TEMPERATURES
     if given and scene.lubricant.oil is None and not keys.intersection(VISCOSITIES):
         oils = "an oil (grade, nu40 and nu100, oil, viscosity_table), or vary lubricant.viscosity together with it"
-        raise InputError(f"{what}: {min(given)} moves no viscosity that is given as a number; give the scene {oils}")
+        raise InputError(
+            f"{what}: {min(given)} does not change a viscosity that is given as a number; give the scene {oils}"
+        )
 
 
 def _listed(name: str, keys: tuple[str, ...], values: Any) -> Axis:

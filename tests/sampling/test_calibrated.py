@@ -271,7 +271,7 @@ def test_a_loose_model_tolerance_lets_auto_answer_on_long_cells():
 
 
 def test_bounds_widen_outside_the_campaign_and_info_and_result_say_so():
-    text = "outside the range of the contacts behind"
+    text = "not calibrated for such contacts"
     quick_paper = PAPER.with_(numerics={"model": "quick"})
     thin = lubfric.friction(quick_paper, 1e-5)
     assert [entry.what for entry in thin.validity if text in entry.consequence] == ["lambda ratio by Moes' formula"]

@@ -173,9 +173,9 @@ def test_the_largest_part_of_an_interval_is_named_with_what_narrows_it():
     known = Uncertainty(numerical=0.01, sampling=0.02, freedom=4.0, model=0.03, interval=(0.9, 1.1))
     assert known.largest_part.startswith("largest part: sampling 5.6 %")  # Student's t of four degrees: 2.78
     by_input = replace(known, inputs=0.2, largest_input="lubricant.eyring_stress")
-    assert by_input.largest_part == "largest part: input 20 %, a measured lubricant.eyring_stress narrows it"
-    by_model = replace(known, model=0.3, largest_in_model="the boundary film: bodies.boundary_film narrows it")
-    assert by_model.largest_part == "largest part: model-form 30 %, the boundary film: bodies.boundary_film narrows it"
+    assert by_input.largest_part == "largest part: input 20 %; a measured lubricant.eyring_stress reduces it"
+    by_model = replace(known, model=0.3, largest_in_model="the boundary film: bodies.boundary_film reduces it")
+    assert by_model.largest_part == "largest part: model-form 30 % (the boundary film); bodies.boundary_film reduces it"
     assert not replace(known, sampling=math.nan).largest_part
 
 
@@ -185,14 +185,17 @@ def test_a_large_model_error_is_reported_beside_a_part_that_is_larger():
     assert beside_larger_part(of_model, known) == of_model
     film = replace(known, not_given=0.53, missing_input="bodies.boundary_film")
     said = beside_larger_part(of_model, film).recommendation
-    assert said.startswith("shorter cells; ") and "not given 53 %, a measured bodies.boundary_film narrows it" in said
+    assert (
+        said.startswith("shorter cells. A larger part")
+        and "not given 53 %; a measured bodies.boundary_film reduces it" in said
+    )
     other = replace(of_model, what="film over radius")
     assert beside_larger_part(other, film) == other
 
 
 def test_the_numerical_part_says_what_narrows_it():
     known = Uncertainty(numerical=0.2, sampling=0.01, freedom=20.0, interval=(0.04, 0.06))
-    assert known.largest_part == "largest part: numerical 20 %, a smaller numerics.tolerance narrows it"
+    assert known.largest_part == "largest part: numerical 20 %; a smaller numerics.tolerance reduces it"
     assert replace(known, narrows_numerical="shorter cells narrow it").largest_part.endswith(
-        ", shorter cells narrow it"
+        "; shorter cells narrow it"
     )

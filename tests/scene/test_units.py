@@ -112,12 +112,12 @@ def test_a_table_of_viscosities_takes_the_units_of_its_columns():
 @pytest.mark.parametrize(
     "key, given, words",
     [
-        ("bodies.width", "12 kN", r"bodies.width = '12 kN' is in kN, a unit of another kind \(N\).*'20 mm'"),
+        ("bodies.width", "12 kN", r"bodies.width = '12 kN' is in kN, which does not convert to m.*'20 mm'"),
         ("bodies.width", "12 furlong", "unknown unit, 'furlong'.*a plain number in m"),
         ("bodies.hardness", "60 HRC", "give HV.*60: 697"),
         ("bodies.width", "60 HRC", "unknown unit, 'HRC'"),
         ("bodies.width", "12", "no unit: leave the quotes out"),
-        ("bodies.width", "1,2 mm", "no number with a unit"),
+        ("bodies.width", "1,2 mm", "not a number with a unit"),
         ("bodies.load", "9e999999999999999999999 N", "bodies.load.*out of range"),
         ("bodies.load", "1e400 N", "bodies.load.*out of range"),
         ("bodies.radii", ["6 mm", "2 N"], "bodies.radii = '2 N'"),

@@ -192,7 +192,7 @@ def test_a_warning_of_several_speeds_gives_the_smallest_and_the_largest_value_wi
     points = [(0.1, (entry(8.69),)), (0.3, (entry(6.0),)), (3.0, (entry(5.2),)), (4.0, ())]
     (text,) = gathered(points)
     assert text == (
-        "at 3 speeds, 0.1 to 3 m/s: warning: slip is 5.2 (at 3 m/s) to 8.69 (at 0.1 m/s) %, above 5 %. It slides. "
+        "at 3 speeds, 0.1 to 3 m/s: warning: slip is 5.2 % (at 3 m/s) to 8.69 % (at 0.1 m/s), above 5 %. It slides. "
         "Recommendation: less."
     )
     (alike,) = gathered([(0.1, (entry(8.0),)), (0.3, (entry(8.0),))])
@@ -281,7 +281,7 @@ def test_a_sample_that_ends_asks_for_a_larger_map():
     assert "numerics.sampling_tolerance" in few.narrows_sampling
     surface = lubfric.generate_surface((64, 400), 1.8e-6, sq=1e-7, correlation_length=8e-6, seed=2)
     given = lubfric.friction(lubfric.prepare(wide, surface), 0.03).uncertainty
-    assert given.narrows_sampling == "a larger map narrows it"
+    assert given.narrows_sampling == "a larger map reduces it"
 
 
 def test_a_former_name_of_the_recommendation_names_that_of_today():

@@ -153,7 +153,7 @@ def test_rows_that_repeat_are_solved_once_and_a_cut_study_goes_on(tmp_path, monk
         (3, "a file, a list of rows"),
         ({"speed": [0.1, 0.2], "load": [1.0]}, "different lengths"),
         ([{"speed": 0.1}, {"load": 1.0}], "row 1: load is missing"),
-        ({"sped": [0.1]}, "'sped' is no column of operating points .did you mean 'speed'"),
+        ({"sped": [0.1]}, "'sped' is not a column of operating points .did you mean 'speed'"),
         ({"u1": [0.1]}, "both u1 and u2"),
         ({"R1": [0.01]}, "both R1 and R2.*or radius"),
         ({"R1": [0.01], "R2": [0.02], "radius": [0.01]}, "leave radius out"),
@@ -202,7 +202,7 @@ def test_the_command_takes_a_scene_with_a_table_and_writes_a_report(tmp_path, ca
     mean = sum(p.power_loss * row[-1] for p, row in zip(points, ROWS)) / 4
     ends = [float(sum(p.power_loss_interval[i] * row[-1] for p, row in zip(points, ROWS)) / 4) for i in (0, 1)]
     mean_text = with_interval(mean, *ends, unit="W")
-    assert f"The mean power loss of the operating points, weighed by the duration, is {mean_text}" in said
+    assert f"The mean power loss of the operating points, weighted by the duration, is {mean_text}" in said
     largest = max(points, key=lambda point: point.power_loss)
     largest_text = with_interval(largest.power_loss, *largest.power_loss_interval, unit="W")
     assert f"The largest power loss is {largest_text}" in said

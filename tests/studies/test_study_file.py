@@ -36,7 +36,7 @@ def test_a_study_file_takes_units_as_a_scene_does(tmp_path):
         for slow, width, low in (("'1 cm/s'", "'6 mm', '7 mm'", "'2 N'"), (0.01, "0.006, 0.007", 2.0))
     )
     assert words == plain
-    with pytest.raises(lubfric.InputError, match="low = '2 K' is in K, a unit of another kind"):
+    with pytest.raises(lubfric.InputError, match="low = '2 K' is in K, which does not convert to "):
         read(tmp_path, "speeds = [0.1]\n[sample]\ncount = 2\nbodies.load = { low = '2 K', high = 4.0 }\n")
 
 

@@ -34,7 +34,7 @@ def parser(package: str, description: str | None, table: Path | None = None) -> 
 
 def add_processes(result: argparse.ArgumentParser) -> None:
     """Add to a parser the options of a campaign whose rows are solved in several processes."""
-    result.add_argument("--workers", type=int, default=1, help="processes (default: %(default)s)")
+    result.add_argument("--workers", type=int, default=1, help="number of processes (default: %(default)s)")
     result.add_argument(
         "--seconds", type=float, default=BUDGET, help="elapsed time after which it ends [s] (default: %(default)s)"
     )

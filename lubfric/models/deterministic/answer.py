@@ -72,7 +72,7 @@ RUBS = {
 BY_FILM = "change of f with half the boundary film {:+.2g} %, with twice {:+.2g} %"
 BY_INLET = "without the heat of the inlet f would change by {:+.2g} %"
 BY_FLOW = "change of f with half the thinning of the flow at the limiting stress {:+.2g} %"
-OF_LIMIT = "the limiting stress of the oil, which is not given: lubricant.limiting_stress_coefficient narrows it"
+OF_LIMIT = "the limiting stress of the oil, which is not given: lubricant.limiting_stress_coefficient reduces it"
 LIMITED = ("coefficient", "at_least_limit", "at_most_limit")
 LARGER_TOLERANCE = "a larger numerics.tolerance"
 SMALLER_SOLVE_TOLERANCE = "a smaller numerics.tolerance"
@@ -116,7 +116,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     with_thinner, with_thicker = levels.by_film
     by_missing_input = {BOUNDARY_FILM_KEY: (with_thinner, with_thicker)}
     parts_of_model = {
-        "the difference of the models from place to place: a smaller numerics.model_tolerance narrows it": by_scatter,
+        "the difference of the models from place to place: a smaller numerics.model_tolerance reduces it": by_scatter,
         "the flow of a film at its limiting stress, on which published theories differ": abs(levels.by_flow),
         "heat, of whose effect half is counted as error": error_by_heat(heat, levels.by_inlet),
     }
@@ -328,7 +328,7 @@ def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
 def _narrows_numerical(prepared: Prepared, pair: StripOnTwoGrids) -> str:
     """Return what narrows the numerical error, as text: where roughness moves no tolerance does."""
     is_moving = has_moving_roughness(prepared.scene)
-    return f"{shorter_cells_in_motion(prepared, pair) if is_moving else SMALLER_SOLVE_TOLERANCE} narrows it"
+    return f"{shorter_cells_in_motion(prepared, pair) if is_moving else SMALLER_SOLVE_TOLERANCE} reduces it"
 
 
 def _sample_notes(prepared: Prepared, error: StandardError, length: float) -> tuple[str, ...]:
@@ -401,7 +401,7 @@ def _violations(
         )
     cut = mean(result.split.capped / result.load for result in results)
     if cut > CUT:
-        consequence = "a Newtonian film would be sheared above f_b p there; its stress was limited to that"
+        consequence = "the shear stress of a Newtonian film would exceed f_b p there; it is limited to f_b p"
         recommendation = 'give lubricant.limiting_stress_coefficient (or "f_b" if that is meant) or eyring_stress'
         yield Violation(
             what="share of the load on a saturated film, on the strips of the deterministic model,",

@@ -19,10 +19,7 @@ from ..._base import packaged
 from ...scene import Scene, has_moving_roughness
 from ..shared import Violation, peak_hertz_pressure
 
-OUTSIDE = (
-    "this is outside the range of the contacts behind the calibration of the quick answer, so that its model-form "
-    "error is widened, at most three times"
-)
+OUTSIDE = "the quick answer is not calibrated for such contacts; its model-form error is increased, at most three times"
 
 # Distance in ln, below which the bounds widen by so little that nothing is reported: a hundredth of their width.
 NEGLIGIBLE_DISTANCE = 0.01

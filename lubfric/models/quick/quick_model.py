@@ -40,13 +40,13 @@ from .strips_on_long_cells import LEAST_TOLERANCE, StripsOnLongCells, quick_answ
 EXPECTED_STRIPS = 2
 
 ELASTIC = "elastic shear (lubricant.shear_modulus) is not calibrated: friction by Eq. (9)"
-NOT_FLOODED = (
-    "f of Eq. (9) with the error of load sharing: the campaign behind the calibration has flooded contacts only"
-)
+NOT_FLOODED = "friction by Eq. (9), with the error of the load-sharing model: the quick answer is calibrated for flooded contacts only"
 THICK_FILM_NOTE = (
-    "f of Eq. (9): the film is thick and touches no asperity, where the error of load sharing is the smaller one"
+    "friction by Eq. (9): the film is thick and touches no asperity, so the error of the load-sharing model is smaller"
 )
-STRIPS_NOT_SOLVED = "f of Eq. (9) with the error of load sharing: the strips on long cells were not solved ({})"
+STRIPS_NOT_SOLVED = (
+    "friction by Eq. (9), with the error of the load-sharing model: the strips on long cells were not solved ({})"
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -198,7 +198,7 @@ class QuickModel(Model):
 
     def described(self, scene: Scene) -> str:
         unknown = "; its model-form error is not known and not in the interval" if why_gap_not_resolved(scene) else ""
-        return f"deterministic model on long cells, calibrated (numerics.model): fast, with the error of solved cases{unknown}"
+        return f"quick answer (numerics.model): the deterministic model on long cells, with a calibrated error{unknown}"
 
     def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:
         known = error_model_of(scene).range

@@ -63,7 +63,7 @@ LEAST_TOLERANCE = 0.1
 LEAST_CONTRAST = 0.05
 
 NARROWER = "numerics.model = 'deterministic' reduces the error of f, at the cost that `lubfric info` estimates"
-NARROWED_BY_DETERMINISTIC = "take numerics.model = 'deterministic', which has no such part; the others are {}"
+NARROWED_BY_DETERMINISTIC = "use numerics.model = 'deterministic', which has no such part; the other parts are {}"
 CELLS_IN_MODEL_ERROR = "the error of the long cells is in the model-form error, not in the numerical one"
 OF_CELLS = "the error of long cells, calibrated on {} contacts: numerics.model = 'deterministic' reduces it"
 

@@ -207,8 +207,8 @@ def violations_by_inlet(scene: Scene, line: LineContact, flow: float, friction_f
         keys = ("inlet_length", "inlet_film")
         given = " and ".join(f"lubricant.{key}" for key in keys if getattr(oil, key) is not None)
         consequence = f"the inlet is starved by {given}, on which f depends"
-        what = "film over that of a fully flooded inlet (Moes)"
-        advice = f"keep it where the contact is starved; for a flooded inlet omit {given}"
+        what = "film thickness over that of a fully flooded inlet (Moes)"
+        advice = f"keep {given} if the contact is starved; omit it for a flooded inlet"
         yield Violation(
             what=what, value=flow / flooded, limit=1.0, unit="", consequence=consequence, recommendation=advice
         )
@@ -329,7 +329,7 @@ def violations_by_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
                 unit="",
                 consequence=f"the film is between {heat.inlet.factor:.2g} and {heat.inlet.other:.2g} times as thick as the "
                 "isothermal one; neither factor was derived for such sliding",
-                recommendation="a measured film; numerics.heat = 'off' gives the isothermal bound",
+                recommendation="measure the film; numerics.heat = 'off' gives the isothermal bound",
             )
     if heat.is_slow and heat.change > tolerance:
         yield Violation(

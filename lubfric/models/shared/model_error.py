@@ -15,7 +15,7 @@ def violations_by_model_error(
 ) -> Iterator[Violation]:
     """Yield a violation where the model-form ``error`` of ``f``, relative, is above ``numerics.model_tolerance``.
 
-    ``consequence``: where it comes from; ``recommendation``: what narrows it ("": nothing that a user may give).
+    ``consequence``: where it comes from; ``recommendation``: what reduces it ("": nothing that a user may give).
     Where f is near 0, the warning states the error in f itself.
     """
     tolerance = prepared.scene.numerics.model_tolerance

@@ -142,10 +142,10 @@ def _all_effects(
     ends = 2 * bodies.half_width / bodies.width
     effects.append(
         (
-            "the ends of the line, edge pressure and misalignment",
+            "edges of the line contact: edge pressure and misalignment",
             ends,
-            "the change is the part of the line that lies within half a contact width of an end; a three-dimensional contact "
-            "model includes it",
+            "the change is the part of the line within half a contact width of its ends; a three-dimensional contact model "
+            "includes it",
         )
     )
     return effects
@@ -179,7 +179,11 @@ def _of_film(
     for end, other in _at_ends_of_alpha(scene).items():
         words = f"the pressure-viscosity coefficient, which is estimated, at {end} of measured oils"
         effects.append(
-            (words, change(other, sq), "give lubricant.pressure_viscosity_coefficient; the interval is without it")
+            (
+                words,
+                change(other, sq),
+                "give lubricant.pressure_viscosity_coefficient; the interval of f does not contain this",
+            )
         )
     words = f"oil in the inlet {WARMER:g} K warmer than the given temperature"
     effects.append((words, change(warm, sq), "give lubricant.temperature at the inlet of the contact"))
@@ -209,7 +213,7 @@ def _at_ends_of_alpha(scene: Scene) -> dict[str, Scene]:
         return {}
     return {
         f"{1e9 * end:.3g} 1/GPa, the {word}": scene.with_(lubricant={"pressure_viscosity_coefficient": end})
-        for word, end in {"least": alpha.low, "most": alpha.high}.items()
+        for word, end in {"lowest": alpha.low, "highest": alpha.high}.items()
     }
 
 

@@ -58,7 +58,7 @@ class Violation(Renamed):
     def text(self) -> str:
         """Three sentences: the violated assumption, what that does, what to do. The first begins with "warning: ", "note: "
         or "not valid: "."""
-        return self.text_of(self.value_in_words)
+        return self.text_of(f"{self.value_in_words}{self.spaced_unit}")
 
     @property
     def kind(self) -> tuple[str, bool, bool, bool]:
@@ -72,17 +72,22 @@ class Violation(Renamed):
         return self._beside_limit[0]
 
     @property
+    def spaced_unit(self) -> str:
+        """The unit with a blank before it; "" where there is none."""
+        return f" {self.unit}" if self.unit not in ("", "-") else ""
+
+    @property
     def _beside_limit(self) -> tuple[str, str]:
         """The value and the limit as texts that differ."""
         return distinct_texts(self.value, self.limit, _in_digits, least=3)
 
     def text_of(self, values: str) -> str:
-        """Return the `text` with ``values`` in place of the value, such as "5.2 (at 0.1 m/s) to 8.69 (at 3 m/s)"."""
+        """Return the `text` with ``values`` in place of the value and its unit, such as "5.2 % (at 0.1 m/s) to 8.69 % (at
+        3 m/s)"."""
         head = "not valid" if self.severe else "note" if self.is_note else "warning"
-        unit = f" {self.unit}" if self.unit not in ("", "-") else ""
         side = "above" if self.value > self.limit else "below"
-        limit = f", {side} {self._beside_limit[1]}{unit}" if math.isfinite(self.limit) else ""
-        numbers = f"{values}{unit}{limit}"
+        limit = f", {side} {self._beside_limit[1]}{self.spaced_unit}" if math.isfinite(self.limit) else ""
+        numbers = f"{values}{limit}"
         last = f" Recommendation: {self.recommendation}." if self.recommendation else ""
         return f"{head}: {self.what} is {numbers}. {sentence(self.consequence)}{last}"
 
@@ -154,7 +159,7 @@ def gathered(
 def _from_to(group: list[tuple[float, Violation]], unit: str) -> str:
     """Return the smallest and the largest value of a ``group`` with their places, or the one value of all."""
     least, most = (find(group, key=lambda pair: pair[1].value) for find in (min, max))
-    ends = [violation.value_in_words for _, violation in (least, most)]
+    ends = [f"{violation.value_in_words}{violation.spaced_unit}" for _, violation in (least, most)]
     if ends[0] == ends[1]:
         return ends[0]
     places = [f"at {place:.4g} {unit}".rstrip() for place, _ in (least, most)]
