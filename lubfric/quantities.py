@@ -137,7 +137,8 @@ class Quantities(Generic[T]):
         kinds."""
         if name not in NUMBERS:
             raise InputError(f" = {name!r} is no number of a result", "name", ", ".join(NUMBERS))
-        return converted(getattr(self, name), _OF_POINT[name].unit, unit)
+        number: T = converted(getattr(self, name), _OF_POINT[name].unit, unit)
+        return number
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)

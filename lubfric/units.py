@@ -287,4 +287,5 @@ def number_of(name: str, text: str, unit: str) -> float:
         return float(text)
     if text.strip().lower() in ("nan", "inf", "+inf", "-inf", "infinity", "-infinity"):
         return float(text)  # refused with its name by what takes the number
-    return without_unit(name, text, unit)
+    number: float = without_unit(name, text, unit)
+    return number

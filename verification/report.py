@@ -68,7 +68,8 @@ class Report:
         """Return plain types for report.json; a number that is not finite becomes null."""
         shown = ("passed", "complete", "verdict", "level", "selected", "started", "seconds", "environment")
         values = {"format": FORMAT} | {name: getattr(self, name) for name in shown}
-        return finite(values | {"studies": [outcome_dict(o) for o in self.outcomes]})
+        plain: PlainRow = finite(values | {"studies": [outcome_dict(o) for o in self.outcomes]})
+        return plain
 
 
 def outcome_dict(outcome: Outcome) -> PlainRow:

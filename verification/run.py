@@ -143,7 +143,8 @@ def run_one(
 def load(study: Study) -> Callable[..., Iterable[Item]]:
     """Return the function behind ``study.target``."""
     module, _, function = study.target.partition(":")
-    return getattr(importlib.import_module(module), function)
+    study_function: Callable[..., Iterable[Item]] = getattr(importlib.import_module(module), function)
+    return study_function
 
 
 def explain(exc: BaseException) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -144,16 +144,17 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         pressure, unit = figures.in_unit_for(self.pressure[:, rows], "Pa")
         label = "contact pressure" if self.deterministic is None else "film and contact pressure"
         figures.field_image(axes, self.x, self.y[rows], pressure, "magma_r", f"{label} ({unit})", vmin=0)
-        figures.hertz_strip(axes, self._field("half_width"))
+        figures.hertz_strip(axes, float(self._field("half_width")))
         share = self.contact_load / (self.contact_load + self.film_load)
         axes.set_title(f"U = {self.speed:.4g} m/s, $F_C/F_T$ = {share:.3g}", fontsize=10, wrap=True)
         return axes
 
-    def _field(self, name: str) -> Any:
+    def _field(self, name: str) -> np.ndarray:
         if self.fields is None:
             why = "it is separated" if self.contact_load == 0 else "it was not kept, or comes from a contact curve"
             raise InputError(f"this point has no {name} of its contact: {why}; solve one in contact with fields=True")
-        return getattr(self.fields, name)
+        values: np.ndarray = getattr(self.fields, name)
+        return values
 
 
 def _interval(interval: tuple[float, float]) -> str:

@@ -248,7 +248,8 @@ def _law(curve: studies.CurveResult) -> studies.Law | str:
 
 def _drawable(columns: Columns) -> np.ndarray:
     """Return which rows of the table of a curve its picture can show: f is known, and over speeds something moves."""
-    return np.isfinite(columns["coefficient"]) & ("ratio" in columns or columns["speed"] != 0)
+    drawable: np.ndarray = np.isfinite(columns["coefficient"]) & ("ratio" in columns or columns["speed"] != 0)
+    return drawable
 
 
 def _point(curve: studies.CurveResult, index: int) -> dict[str, Any]:
@@ -390,7 +391,7 @@ def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
 
 def _points_of(source: Path, columns: Columns, record: dict[str, Any]) -> list[dict[str, Any]]:
     """Return the points of a ``record`` that belong to the table ``source``, of which something can be drawn."""
-    points = record.get("points", [])
+    points: list[dict[str, Any]] = record.get("points", [])
     count = columns["coefficient"].size
     if len(points) != count:
         raise InputError(f"{source} has {count} rows and result.json {len(points)} points; run 'lubfric run' again")
@@ -569,7 +570,8 @@ def _range(option: str, words: list[str], unit: str, most: float, *, linear: boo
             f", or {low:g} for one value" if count == 1 else ""
         )
         raise InputError(f" {text} has {count:g} values", option, recommendation=recommendation)
-    return (np.linspace if linear else np.geomspace)(low, high, int(count)).tolist()
+    values: list[float] = (np.linspace if linear else np.geomspace)(low, high, int(count)).tolist()
+    return values
 
 
 def _progress(place: str, *, is_total_known: bool = True) -> Callable[..., Any]:

@@ -101,7 +101,8 @@ class Cells:
         transform."""
         from scipy.fft import next_fast_len
 
-        return ROWS_MULTIPLE * next_fast_len(max(1, round(length / (ROWS_MULTIPLE * self.spacing[1]))), real=True)
+        rows = max(1, round(length / (ROWS_MULTIPLE * self.spacing[1])))
+        return ROWS_MULTIPLE * int(next_fast_len(rows, real=True))
 
     def axis(self, coarsening: tuple[int, int] | None = None) -> np.ndarray:
         """Return the cell centres [m] along x of these cells, or of those of another ``coarsening`` that share columns

@@ -23,8 +23,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import fields, replace
 from typing import Self
 
-import numpy as np
-
+from .._base import FloatArray
 from ..contact import HalfSpace, RoughContact
 from ..scene import Numerics, Scene
 from ..surface import Surface
@@ -108,9 +107,9 @@ class Sample(ABC):
         these are solved anyway."""
         return (1, 1) if self.refines_in_place else self.cells.coarsening_to_look_at(half_width)
 
-    def distinct_rows(self, heights: np.ndarray) -> int:
+    def distinct_rows(self, heights: FloatArray) -> int:
         """Return how many of the rows of ``heights`` (nx, ny), a strip or some joined, are not the image of others."""
-        return heights.shape[1]
+        return int(heights.shape[1])
 
     def tolerance_between(self, numerics: Numerics) -> float:
         """Return the tolerance on f between two points: neighbours may be solved on different numbers of strips."""

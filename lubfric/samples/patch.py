@@ -8,9 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-import numpy as np
-
-from .._base import FieldsOnly
+from .._base import FieldsOnly, FloatArray
 from ..contact import HalfSpace, RoughContact, centred_axis
 from ..scene import Numerics, Scene
 from ..surface import Surface
@@ -28,8 +26,8 @@ class OnlyMap(Sample):
     represents_more = False
     refines_in_place = True
 
-    def distinct_rows(self, heights: np.ndarray) -> int:
-        return heights.shape[1] // (2 if mirrored(heights) else 1)
+    def distinct_rows(self, heights: FloatArray) -> int:
+        return int(heights.shape[1]) // (2 if mirrored(heights) else 1)
 
     def tolerance_between(self, numerics: Numerics) -> float:
         return numerics.tolerance

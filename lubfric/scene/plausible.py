@@ -32,12 +32,14 @@ def typical(name: str) -> dict[str, list[float]]:
 
 def source_of(name: str, word: str) -> str:
     """Return where the `typical` value of the key ``name`` for ``word`` was seen in print."""
-    return _rows(name)[word][-1]
+    source: str = _rows(name)[word][-1]
+    return source
 
 
 def _rows(name: str) -> dict[str, list[Any]]:
     section, _, key = name.partition(".")
-    return packaged(__package__, "typical.toml").get(section, {}).get(key, {})
+    rows: dict[str, list[Any]] = packaged(__package__, "typical.toml").get(section, {}).get(key, {})
+    return rows
 
 
 # A plain number in percent below this, or a plain ratio from `LARGE_RATIO` to `MOST_RATIO`, is as likely of the other

@@ -94,7 +94,7 @@ def reduced_radius(radii: Any) -> float:
         if isinstance(radius, bool) or not isinstance(radius, (int, float)) or radius == 0 or math.isnan(radius):
             recommendation = "give radii in m, inf for a plane, negative for a hollow"
             raise InputError(f" has {validate.shown(radius)}", "bodies.radii", recommendation=recommendation)
-    curvature = 1 / first + 1 / second
+    curvature: float = 1 / first + 1 / second
     if curvature <= 0:
         allowed = "1/R1 + 1/R2 > 0 (inf for a plane, negative for a hollow that is wider than the other body)"
         raise InputError(f" = [{first:g}, {second:g}] m do not touch along one line", "bodies.radii", allowed)

@@ -109,7 +109,8 @@ def history(name: str, given: Any, unit: str | None = None, folder: Path = Path(
     try:
         if kind == "file":
             return read_history(folder / _word("file", table.pop("file")), **table, unit=unit)
-        return HISTORY_KINDS[kind](**table)
+        history: History = HISTORY_KINDS[kind](**table)
+        return history
     except InputError as error:
         error.quantity = f"{name}: {error.quantity}"
         raise

@@ -42,7 +42,7 @@ class Surface(FrozenArrays, Shown):
         no point, a spacing that is not positive
     """
 
-    heights: np.ndarray
+    heights: FloatArray
     spacing: tuple[float, float]
     _: KW_ONLY
     mask: np.ndarray | None = None

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..._base import FloatArray
 from .statistics import StandardError
 
 
@@ -18,16 +19,17 @@ class ControlVariate:
     sampling_error : relative, of f on the line
     """
 
-    by_place: np.ndarray
+    by_place: FloatArray
     numbers: dict[str, np.ndarray]
     sampling_error: StandardError
 
     @property
     def count(self) -> int:
         """Number of its strips."""
-        return self.by_place.shape[0]
+        return len(self.by_place)
 
-    def deviations(self, index: int, places: int) -> np.ndarray:
+    def deviations(self, index: int, places: int) -> FloatArray:
         """Return the differences of f at so many ``places`` along strip ``index`` (places,), with a mean of 0."""
-        values = self.by_place[index].reshape(places, -1).mean(axis=1)
-        return values - values.mean()
+        values: FloatArray = self.by_place[index].reshape(places, -1).mean(axis=1)
+        deviations: FloatArray = values - values.mean()
+        return deviations

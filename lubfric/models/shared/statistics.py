@@ -118,10 +118,11 @@ def block_error(
     return StandardError(math.sqrt(square / (freedom * count * (1 - SHARED_LENGTH / length))), freedom)
 
 
-def means_of_blocks(values: np.ndarray, count: int) -> np.ndarray:
+def means_of_blocks(values: FloatArray, count: int) -> FloatArray:
     """Return the means of ``values`` over ``count`` blocks of equal length; a remainder at the end is omitted."""
     size = values.size // count
-    return values[: size * count].reshape(count, size).mean(axis=1)
+    means: FloatArray = values[: size * count].reshape(count, size).mean(axis=1)
+    return means
 
 
 def add_errors(*parts: StandardError) -> StandardError:
