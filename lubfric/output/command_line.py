@@ -127,16 +127,24 @@ def run(arguments: Namespace) -> None:
 
 
 def info(arguments: Namespace) -> None:
-    """Say what a scene is."""
-    from .describe import describe_scene
+    """Say what a scene is. Then raise what 'lubfric run' would, where it is certain to refuse the scene."""
+    from ..models.shared import refused, violations_by_unusual_inputs
+    from .describe import described_scene
     from .run_curve import parse_speeds
 
     scene = scene_of(arguments)
     speeds = arguments.speeds
     if speeds is not None and scene.transient is not None:
         raise InputError("--speeds is for a curve, and this is a scene with [transient]; omit it")
-    description = describe_scene(scene, speeds if speeds == "auto" else parse_speeds("--speeds", speeds))
+    (description, estimate) = described_scene(scene, speeds if speeds == "auto" else parse_speeds("--speeds", speeds))
     answer(description + "\n")
+    refused(violations_by_unusual_inputs(scene), accept=scene.numerics.accept)
+    if scene.transient is not None:
+        refused(estimate.severe, accept=scene.numerics.accept)
+    elif estimate.severe and not scene.numerics.accept:
+        raise ConvergenceError(
+            f"'lubfric run' would refuse a result (--accept keeps it, marked): {estimate.severe[0].text}"
+        )
 
 
 def init(arguments: Namespace) -> None:

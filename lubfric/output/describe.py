@@ -77,6 +77,7 @@ class SceneEstimate:
     table : of some speeds, their headings first: expected film, whether it separates the surfaces, what the sample
         costs
     refusals : assumptions that fail by what is known so far, so that f means nothing, or may mean nothing
+    severe : those of them for which 'lubfric run' certainly refuses a result
     effects : effects that are not modelled (`lubfric.models.shared.expected_effects`)
     run : steps and time of a run in time; None of any other scene
     """
@@ -87,6 +88,7 @@ class SceneEstimate:
     command_seconds: float
     table: list[tuple[str, ...]]
     refusals: list[str]
+    severe: tuple[Violation, ...]
     effects: tuple[ExpectedEffect, ...]
     run: RunEstimate | None = None
 
@@ -94,6 +96,11 @@ class SceneEstimate:
 def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
     """Return inputs, regime numbers (Hertz, Moes M and L, lambda at its speeds) and the plan, as text. Nothing is
     solved. ``speeds`` [m/s]: instead of those of the scene; "auto": about those that a curve would choose."""
+    return described_scene(scene, speeds)[0]
+
+
+def described_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> tuple[str, SceneEstimate]:
+    """Return the text of `describe_scene`, and what it states."""
     with hint_unusual_values(scene):
         if scene.transient is not None:
             check_run(scene)
@@ -109,7 +116,8 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
     widths = [max(map(len, column)) for column in zip(*estimate.table)]
     table = ["  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)) for row in estimate.table]
     first = [violation.text for violation in violations_by_unusual_inputs(scene)]
-    return "\n".join([*first, f"scene {scene.name}", *before, f"  {TABLE_CAPTION}", *map(str.rstrip, table), *after])
+    lines = [*first, f"scene {scene.name}", *before, f"  {TABLE_CAPTION}", *map(str.rstrip, table), *after]
+    return "\n".join(lines), estimate
 
 
 def estimate_scene(
@@ -176,6 +184,7 @@ def estimate_scene(
         command_seconds=seconds + beside,
         table=_speed_table(scene, sample, surface, speeds),
         refusals=refusals,
+        severe=tuple(violation for _, violation in at if violation.severe),
         effects=effects,
         run=run,
     )

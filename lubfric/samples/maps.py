@@ -9,7 +9,7 @@ from scipy.fft import next_fast_len
 
 from .._base import validate
 from ..errors import InputError
-from ..scene import ContactDomain, Roughness, Scene, named
+from ..scene import Bodies, ContactDomain, Roughness, Scene, named
 from ..surface import Surface, check_slopes, generate_surface, outliers, read_surface, shorter_in_words
 from ..units import worded
 from .cells import no_cells
@@ -107,6 +107,10 @@ def _facing(scene: Scene, second: Surface) -> Surface:
     return replace(second, heights=second.heights[:, ::-1], mask=mask, notes=(*second.notes, note))
 
 
+# What may be wrong where the Hertz strip has an unlikely width.
+CHECK_LOAD = "check the load: it is that of the whole width, in N"
+
+
 def domain_over(surface: Surface, domain: ContactDomain) -> ContactDomain:
     """Return ``domain`` with a grid that covers ``surface``, on the spacing of ``domain`` or, if it has none, of
     ``surface``."""
@@ -126,8 +130,11 @@ def check_map(scene: Scene, surface: Surface) -> None:
     length = surface.size[0]
     if step > half_width:
         raise InputError(
-            f"contact.spacing = {step:.3g} m along x does not resolve the Hertz strip; allowed: at most "
-            f"its half-width {half_width:.3g} m"
+            f" = {worded(step, 'm')} along x does not resolve the Hertz strip: {load_in_words(scene.bodies)}",
+            "contact.spacing",
+            f"at most the half-width, {worded(half_width, 'm')}",
+            CHECK_LOAD,
+            also=("bodies.load",),
         )
     if length < 2 * half_width:
         (name, file) = limiting_map(scene, surface, 0)
@@ -138,8 +145,16 @@ def check_map(scene: Scene, surface: Surface) -> None:
             ways = f"a longer map, {_ways_with_short_map(name)}"
         raise InputError(
             f"{what} is {worded(length, 'm')} long in x, the direction of motion; allowed: at least the Hertz strip, "
-            f"{worded(2 * half_width, 'm')}: {ways}"
+            f"{worded(2 * half_width, 'm')}: {ways}; {load_in_words(scene.bodies)}; {CHECK_LOAD}"
         )
+
+
+def load_in_words(bodies: Bodies) -> str:
+    """Return which Hertz half-width the load gives, and that load per width, as text."""
+    return (
+        f"bodies.load = {worded(bodies.load, 'N')} on bodies.width = {worded(bodies.width, 'm')} is "
+        f"{worded(bodies.load / bodies.width, 'N/m')}, with a Hertz half-width of {worded(bodies.half_width, 'm')}"
+    )
 
 
 def _ways_with_short_map(name: str) -> str:

@@ -57,6 +57,28 @@ def test_info_reports_beforehand_what_friction_refuses():
     assert "Did you mean 8 mm (0.008 m)?" in describe_scene(HEAVY.with_(bodies={"radius": 8.0, "load": 1.0}))
 
 
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {},
+        {"bodies": {"radius": 8.0, "load": 1.0}},  # mm were meant
+        {"numerics": {"accept": True}},
+        {"lubricant": {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.07}},
+    ],
+    ids=["oil without a limit", "radius", "accepted", "mended"],
+)
+def test_info_ends_with_the_code_of_run(changed, tmp_path, capsys, undrawn):
+    """After all that it says of the scene."""
+    patch = {"model": "paper", "sampling": "patch", "heat": "off", "tolerance": 0.2}
+    scene = HEAVY.with_(motion={"speeds": ()}, numerics=patch, contact={"shape": (128, 32)}).with_(**changed)
+    (tmp_path / "s.toml").write_text(scene.to_toml())
+    code = main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o")])
+    capsys.readouterr()
+    assert main(["info", str(tmp_path / "s.toml")]) == code
+    stated = capsys.readouterr()
+    assert "estimate with closed forms" in stated.out and ("lubfric: " in stated.err) == (code != 0)
+
+
 def test_info_looks_at_what_is_solved():
     """A patch of few asperities is no doubt about a scene that is solved on a long line of its roughness."""
     small = lubfric.load_scene("paper").with_(contact={"shape": (100, 100)})

@@ -200,7 +200,7 @@ def test_instrument_files_from_scene_command_and_reader(tmp_path, capsys, instru
         z[30, 40] = 5e-6
     (write_sur if name == "spikes.sur" else write_sdf)(path, z, rough.spacing)
     sq = lubfric.read_surface(path).sq
-    wide = SCENE.replace("radius = 2e-3", "radius = 2.0").replace("load = 5.5", "load = 300.0")
+    wide = SCENE.replace("radius = 2e-3", 'radius = "2 m"').replace("load = 5.5", "load = 300.0")
     text = f"[surface]\nfile = '{path}'\n[contact]\ngeometry = 'flat'\n"
     (tmp_path / "scene.toml").write_text(wide + text)
     if name.endswith(".sur"):

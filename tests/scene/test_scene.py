@@ -128,8 +128,8 @@ def test_another_surface_keeps_its_own_grid(tmp_path):
     "changes, words",
     [
         ({"spacing": 0.4}, ["rms slope", "check the unit of the heights"]),
-        ({"spacing": 9e-6}, ["contact.spacing", "half-width"]),
-        ({"shape": (8, 200), "spacing": 0.9e-6}, ["Hertz strip"]),
+        ({"spacing": 9e-6}, ["contact.spacing", "half-width of 4.496 µm", "bodies.load = 5.5 N", "check the load"]),
+        ({"shape": (8, 200), "spacing": 0.9e-6}, ["Hertz strip", "bodies.load = 5.5 N", "check the load"]),
     ],
 )
 def test_a_grid_that_cannot_hold_the_contact_is_an_error(changes, words):
