@@ -74,7 +74,7 @@ class Quantities(Generic[T]):
     contact_load: T = quantity(
         *("N", "load carried by the rough contact", "F_C"),
         error="split",
-        note="by every model but that of the paper the load where the stress is f_b p: saturated films of a Newtonian oil too",
+        note="except by load sharing alone the load where the shear stress is f_b p, with saturated films of a Newtonian oil",
     )
     film_load: T = quantity("N", "load carried by the film", "F_H", error="split")
     shear_force: T = quantity("N", "shear force of the film", "F_sh", error="shear", note="of both parts")
@@ -162,12 +162,12 @@ class PointQuantities(Quantities[T]):
     boundary_film_load: T = quantity(
         "N",
         "load on gaps below the boundary film",
-        note="asperity load, first part: rubs with f_b; by load sharing alone the load of the rough contact",
+        note="at boundary friction f_b; by load sharing alone the load of the rough contact",
     )
     saturated_film_load: T = quantity(
         "N",
         "load on thicker films whose shear stress is at its limit",
-        note="asperity load, second part: the limit of the oil, or f_b p of a Newtonian one; NaN by load sharing alone",
+        note="the limit of the oil, or f_b p of a Newtonian one, where it is part of the asperity load; NaN by load sharing alone",
     )
 
 
@@ -189,10 +189,10 @@ class UncertaintyQuantities(Generic[T]):
         "-", "relative standard deviation of f between lines as wide as that of the scene", default=math.nan
     )
     effective_contacts: T = quantity(
-        "-", "effective number of asperity contacts: so many equal ones would scatter as much", default=math.nan
+        "-", "effective number of asperity contacts: as many equal ones would scatter as much", default=math.nan
     )
     length: T = quantity("m", "length of the line of rough surface", column="line_length", default=math.nan)
-    area_needed: T = quantity("-", "how many times more of a measured map is needed", note="1: enough", default=1.0)
+    area_needed: T = quantity("-", "required area of a measured map over its own", note="1: enough", default=1.0)
     model: T = quantity("-", "relative error of f by the model, at 95 %", column="model_error", default=math.nan)
     by_limit: T = quantity(
         "-",
@@ -251,7 +251,7 @@ OF_MOMENT = {  # of a run in time, in the order of its table
     "mass_residual": Quantity("-", "what is missing in the balance of the lubricant over the flow"),
     "steps": Quantity("-", "steps taken so far"),
     "mean_film": Quantity("m", "mean film thickness over A"),
-    "wet_from": Quantity("m", "begin of the pressurised film"),
+    "wet_from": Quantity("m", "start of the pressurised film"),
     "wet_to": Quantity("m", "end of the pressurised film"),
     "max_pressure": Quantity("Pa", "largest pressure of the film"),
     "net_inflow": Quantity("m2/s", "flow into the film per unit width"),

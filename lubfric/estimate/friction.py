@@ -37,24 +37,24 @@ def friction(
 ) -> FrictionResult:
     """Return the friction coefficient of a scene at one entrainment speed, with its uncertainty.
 
-    A sample of the rough surface represents the infinite line contact: strips of it, solved by a model until the
-    sampling error is within its tolerance. The models are the load-sharing model, in which film and rough contact share
-    one load by Eq. (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z), with the friction of the paper, and the
-    deterministic model, which solves the film between the rough surfaces, on long cells with a calibrated error or on
-    short ones. By default the cheapest one answers whose model-form error is within ``numerics.model_tolerance`` (docs/models.md). Without entrainment the contact
-    carries the total load. Where the film is thicker than the highest asperities, no contact is solved.
+    Strips of the rough surface represent the infinite line contact. More strips are solved until the sampling error is
+    within its tolerance. In the load-sharing model (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z) film and rough
+    contact share the load by Eq. (8). The deterministic model solves the film between the rough surfaces, on short cells,
+    or on long cells with a calibrated error. By default the cheapest model answers whose model-form error is within
+    ``numerics.model_tolerance`` (docs/models.md). Without entrainment the contact carries the total load. Where the film
+    is thicker than the highest asperities, no contact is solved.
 
     Parameters
     ----------
     scene : from `lubfric.load_scene`, or from `lubfric.prepare` for many speeds
     speed : entrainment speed U [m/s]; None: the scene's own
-    tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need (docs/levels.md)
+    tolerance : relative, of f; None: ``numerics.tolerance``. Grids and cells follow from it (docs/levels.md)
     model : "paper", Eqs. (8) and (9); "quick", the deterministic model on long cells with a calibrated error;
         "deterministic"; or "auto": the cheapest that is good enough; None: the scene's. Or a `lubfric.models.Model` of
         your own
-    fields : on which cells ``result.fields`` are. False: on those that the tolerance needs; True: on native ones, where
-        one patch is solved by load sharing, else as False; "fine": a part of the surface is solved once more, on some
-        40 cells across the Hertz strip
+    fields : cells of ``result.fields``. False: those that the tolerance requires; True: native cells, if one patch is
+        solved by load sharing, else as False; "fine": a part of the surface is solved again, with some 40 cells across
+        the Hertz strip
     raise_on_failure : False: return a result even if unbalanced or refused. A failed film or contact still raises
     workers : processes that solve strips of the surface and ends of input ranges side by side, where there are
         several. The numbers do not depend on it. A script that requests more than one needs ``if __name__ ==
@@ -66,7 +66,7 @@ def friction(
     ------
     InputError : before any work
     ConvergenceError : a part did not converge; carries report and result
-    ValidityError : f means nothing, because an assumption fails, and ``numerics.accept`` is false; carries the result
+    ValidityError : f has no meaning, because an assumption fails, and ``numerics.accept`` is false; carries the result
     """
     begun = time.perf_counter()
     prepared = prepared_with(scene, tolerance, None if isinstance(model, Model) else model)

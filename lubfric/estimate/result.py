@@ -39,13 +39,14 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     uncertainty : of the coefficient: from solvers and grids, because a finite surface represents all of it, and from
         the model (`Uncertainty`, docs/uncertainty.md)
     errors : relative errors of every other number (`NumberErrors`), for example ``errors.contact_load``
-    decision : how much was modelled, and the numbers it was judged by; ``decision.text`` describes it
+    decision : which model answered, what was solved, and why; ``decision.text`` describes it
     power_loss_interval : 95 % interval of the power loss [W], (low, high)
     validity : the assumptions that do not hold (`lubfric.Violation`). A severe one is there only where it was accepted
-    unmodelled_effects : effects that are not modelled, the likely change of f by it (relative; NaN: not known), and
-        what to do, the largest first; nothing that would change f by less than the tolerance
+    unmodelled_effects : effects that are not modelled, each with the likely change of f (relative; NaN: not known) and
+        a
+        recommendation, the largest first; without those that would change f by less than the tolerance
         (`lubfric.models.shared.unmodelled_effects`)
-    methods : names of the methods that it rests on, where a paper is behind them. ``cite()`` gives the papers
+    methods : names of the published methods used; ``cite()`` gives the publications
     fields : the fields of one solve (`lubfric.models.ContactFields`); None where there are none
     compared_fields : those of the cheapest model on the same strips, where it was solved beside the answer
     details : what each model keeps of its solve, by its name
@@ -79,7 +80,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
 
     @property
     def not_in_interval(self) -> str:
-        """What changes f that neither f nor its interval has, as text; "" for nothing."""
+        """Effects on f that neither f nor its interval includes, as text; "" if there are none."""
         heat = [violation for violation in self.validity if violation.what == OMITTED_HEAT]
         return (
             f"f and its interval are without the heat of the film, which lowers f by up to {heat[0].value_in_words} %"
@@ -88,19 +89,19 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         )
 
     def cite(self, format: str = "text") -> str:
-        """Return the papers behind what was used for this result, the model's first: one a line, or with ``format``
+        """Return the publications of the methods used for this result, the model's first: one a line, or with
+        ``format``
         "bibtex" as BibTeX entries."""
         return cited(self.methods, format)
 
     @property
     def balance(self) -> Balance | None:
-        """The balance of film and contact by Eq. (8): of "paper", and of what answers beside it or by Eq. (9); else
-        None."""
+        """The balance of film and contact by Eq. (8), where it was solved; else None."""
         return cast("Balance | None", self._kept("balance"))
 
     @property
     def deterministic(self) -> DeterministicResult | None:
-        """What deterministic strips gave, where they give the answer: of "deterministic" and of "quick"; else None."""
+        """The results of the deterministic strips, where they give the answer ("deterministic", "quick"); else None."""
         return cast("DeterministicResult | None", self._kept("deterministic"))
 
     def _kept(self, kind: str) -> ModelDetails | None:

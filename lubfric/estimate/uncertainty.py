@@ -46,7 +46,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     interval : 95 % interval of f, (low, high), from ``numerical``, ``sampling`` and ``model`` where that is known; by
         Student's t with ``freedom`` degrees of freedom
     tolerance : relative requested standard error
-    notes : what a reader should know of these errors
+    notes : remarks on these errors
     model_sides, not_given_sides, input_sides : ``model``, ``not_given`` and ``inputs`` towards 0 and away from it; NaN
         where only the larger is known
     largest_in_model : what the largest part of ``model`` is, and what reduces it; "" where it has one part
@@ -72,8 +72,8 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
 
     @property
     def budget(self) -> dict[str, float]:
-        """The uncertainty budget: the half of the 95 % interval that each part by itself would leave, relative to f, by
-        the names "numerical", "sampling", "model-form", "not given" and "input". NaN where a part is not known.
+        """The uncertainty budget: half of the width of the 95 % interval by each part alone, relative to f, by the
+        names "numerical", "sampling", "model-form", "not given" and "input". NaN where a part is not known.
 
         That of sampling is its standard error (``sampling``) times Student's t.
         """

@@ -119,7 +119,7 @@ class ModelAnswer:
         that number; the model-form error is not included
     why_no_error, reasons : why an error is not known: of those not in ``errors``, and of some by name
     length, effective_contacts, area_needed : of the sample (`lubfric.estimate.Uncertainty`)
-    notes : what a reader should know of these errors
+    notes : remarks on these errors
     report, decision : of the solve; what was modelled
     violations : limits of the model that are exceeded
     recommendation : what to do where the numerical error exceeds the tolerance

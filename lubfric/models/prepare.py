@@ -41,8 +41,8 @@ def prepare(
     surface : a height map to use unchanged, with its grid, instead of the scene's own. Under a cylinder it is taken as
         periodic along y, for a flat contact along x and y (`Surface.periodic` makes it so). Without one, a scene with
         ``numerics.sampling = "strips"`` gets strips of its roughness (docs/uncertainty.md)
-    counterface : the map of the other body, measured out of it, for a scene whose [counterface] is rough
-        (`Surface.combined`). Without it, ``surface`` is what the roughness of both bodies makes up
+    counterface : the map of the other body, heights pointing out of it, for a scene whose [counterface] is rough
+        (`Surface.combined`). Without it, ``surface`` is the sum of the roughness of both bodies
     like : another prepared scene with the same surface, contact and E', whose map is used again
     contact : a rough contact other than lubfric's own (`lubfric.contact.RoughContact`)
 

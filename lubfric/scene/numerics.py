@@ -15,7 +15,7 @@ FORMER_NAME_OF_QUICK = "load-sharing"
 
 @dataclass(frozen=True, repr=False)
 class Numerics(Shown):
-    """How exactly a scene is solved, and what is modelled. Tolerances are relative.
+    """Tolerances, models and methods of a solve. Tolerances are relative.
 
     Attributes
     ----------
@@ -24,8 +24,8 @@ class Numerics(Shown):
     film_tolerance, contact_tolerance, balance_tolerance : of the parts; None: from ``tolerance``
     sampling : the surface that is solved: "strips", as many of the scene's roughness as ``sampling_tolerance`` needs
         (docs/uncertainty.md); "patch", the one patch of ``contact.shape``
-    sampling_tolerance : standard error of f that a finite surface may leave
-    model_tolerance : relative error of f that the model may leave, at 95 %
+    sampling_tolerance : target of the relative standard error of f by the finite sample of the surface
+    model_tolerance : target of the relative model-form error of f, at 95 %
     film_deflection : which pressure deforms the film: the total load, by Johnson's scaled modulus E' F_H/F_T
         ("scaled"); its own ("hydrodynamic", the paper)
     model : "paper": film and contact share the load, Eq. (8), with the friction of Eq. (9) on a smooth film;
@@ -33,13 +33,13 @@ class Numerics(Shown):
         long cells, with a calibrated error, beside the line of Eq. (8);
         "auto": the cheapest that is within ``model_tolerance`` (docs/uncertainty.md)
     grid : "auto": cells of the contact as long as the tolerance allows; "given": the scene's own
-    heat : whether the heat of inlet, film and surfaces is modelled: "auto" (if it matters, and the lubricant says how
+    heat : whether the heat of inlet, film and surfaces is modelled: "auto" (if it matters, and the lubricant states how
         its viscosity falls with the temperature), "on", "off"
     accept : True: results outside the range of the model are returned and marked, instead of refused
     cavitated_shear : "none", or "striated": shear of the streamers behind the rupture
     max_work : counted work [s of a usual core] that one point may take. A point that would take more is answered by
         load sharing, with its interval, where the model is "auto", and refused otherwise. A run in time, or
-        `lubfric.run_in`, ends there with what it has reached. None: ten times the estimate of `lubfric info`, at least
+        `lubfric.run_in`, ends there with its results so far. None: ten times the estimate of `lubfric info`, at least
         120 s; no limit for `lubfric.run_in`
     workers : threads of the Fourier transforms
     """

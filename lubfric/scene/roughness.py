@@ -25,7 +25,7 @@ SAME_SQ = 1e-9  # relative difference of two Sq that are one
 class Roughness(Shown):
     """Where the height map of a body comes from: a file, or a generated surface.
 
-    The keys of a file act in the order in which they follow.
+    The keys of a file are applied in the order given here.
 
     Attributes
     ----------

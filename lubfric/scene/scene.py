@@ -44,7 +44,7 @@ LEAST_OFFSET = 1e4
 
 @dataclass(frozen=True, repr=False)
 class Scene(Shown):
-    """One problem, complete: `lubfric.friction` and `lubfric.stribeck` take nothing else.
+    """The complete description of a contact, for `lubfric.friction` and `lubfric.stribeck`.
 
     Attributes
     ----------
@@ -54,8 +54,9 @@ class Scene(Shown):
     transient : what changes in time, a `lubfric.Transient`, or None
     name : for titles
     ranges : (section.key, lowest, highest) of the values that are known to a range only; f is reported for both ends
-    doubtful : (section.key, value as written) of what is outside its usual range, and of a sliding that may be of the
-        other convention, percent or ratio. It changes no number
+    doubtful : (section.key, value as written) of values outside their usual range, and of a sliding that may be meant
+        in
+        the other convention, percent or ratio. It changes no number
     """
 
     bodies: Bodies

@@ -44,7 +44,7 @@ class CurveResult(Renamed, Shown):
 
     @property
     def uncertainty(self) -> UncertaintyCurve:
-        """How sure f is at every point: arrays of the numbers of `Uncertainty`, ``interval`` (n, 2)."""
+        """The uncertainty of f at every point: arrays of the numbers of `Uncertainty`, ``interval`` (n, 2)."""
         return curve_of([None if point is None else point.uncertainty for point in self.points])
 
     @property
@@ -71,7 +71,7 @@ class CurveResult(Renamed, Shown):
         return gathered([(value, self.violations(i)) for i, value in enumerate(values)], unit, plural)
 
     def cite(self, format: str = "text") -> str:
-        """Return the papers behind what was used at any of the points, the model's first: one a line, or with
+        """Return the publications of the methods used at any of the points, the model's first: one a line, or with
         ``format`` "bibtex" as BibTeX entries."""
         return cite_together((point for point in self.points if point is not None), format)
 

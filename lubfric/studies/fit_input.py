@@ -43,7 +43,7 @@ class Measured:
     branch : number of the ramp to which each point belongs, (n,), 0, 1, ...: rising and falling speeds measured one
         after the other. None: one ramp. Points of different ramps may be at one speed
     rolling : whether the coefficients hold the rolling part of the friction of the film, as the force on one body does.
-        False: it is taken out, as a rig does that averages over both signs of slip
+        False: it is excluded, as by rigs that average over both signs of slip
     """
 
     x: np.ndarray
@@ -124,7 +124,7 @@ class Measured:
 
     @property
     def scale(self) -> np.ndarray:
-        """What misfits are counted in: the deviations, or the coefficients themselves, (n,)."""
+        """The scale of misfits: the deviations, or the coefficients themselves, (n,)."""
         return self.coefficient if self.deviation is None else self.deviation
 
     def draw(self, axes: "Axes") -> None:

@@ -153,8 +153,9 @@ class StudyResult(Shown):
 
     @property
     def lift_off(self) -> np.ndarray:
-        """The speed [m/s], over the axes and in the direction of the curves, at which the film lifts the surfaces off
-        each other; NaN if a curve does not reach it, or if its speeds around it differ by more than a factor of 2."""
+        """The lift-off speed [m/s], over the axes and in the direction of the curves, above which the film separates
+        the
+        surfaces; NaN if a curve does not reach it, or if its speeds around it differ by more than a factor of 2."""
         self._check_curves()
         shape = self.status.shape[:-1]
         speeds = [np.nan if (curve := self.curve(i)) is None else curve.lifted for i in np.ndindex(*shape)]
@@ -251,7 +252,7 @@ def study(
 
     Parameters
     ----------
-    scene : from `lubfric.load_scene`; or a plan from `lubfric.plan_study`, whose ``explain()`` says points and cost
+    scene : from `lubfric.load_scene`; or a plan from `lubfric.plan_study`, whose ``explain()`` reports points and cost
     vary : {"section.key": [values]}, any key of a scene; {("section.key", "other.key"): [(value, value), ...]} for
         keys that change together (`lubfric.sample` makes random and Sobol samples of them); {"surface": [{...},
         {...}]} for complete sections, such as several height maps

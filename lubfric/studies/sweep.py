@@ -74,8 +74,9 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
 
     @property
     def lift_off(self) -> float | None:
-        """The speed [m/s], in the direction of the curve, at which the film lifts the surfaces off each other; None if
-        the curve does not reach it. NaN where the solved speeds around it differ by more than a factor of 2:
+        """The lift-off speed [m/s], in the direction of the curve, above which the film separates the surfaces; None if
+        the
+        curve does not reach it. NaN where the solved speeds around it differ by more than a factor of 2:
         ``lift_off_range`` has these."""
         return None if self._curve.lift_off is None else self._curve.lifted
 
@@ -141,8 +142,8 @@ def stribeck(
 ) -> StribeckResult:
     """Solve the Stribeck curve of a scene: friction over the entrainment speed.
 
-    Every point is solved from the scene alone, as `lubfric.friction` does it, so a curve has the same bits whatever
-    other speeds it has. A point that fails leaves NaN, and its exception in ``errors``. A fault of the program is
+    Every point depends on the scene and its own speed alone, as in `lubfric.friction`: other speeds change no bit of
+    it. A point that fails leaves NaN, and its exception in ``errors``. A fault of the program is
     raised unchanged, with the points so far as its ``result``.
 
     Parameters
@@ -153,7 +154,7 @@ def stribeck(
         is the root sum of squares of the tolerance and the sampling tolerance
     executor : any `concurrent.futures.Executor`
     tolerance, model, fields : as in `lubfric.friction`; or fields: the speeds [m/s] whose film and contact are kept
-    fine_fields : whether the kept fields are solved once more on cells fine enough to look at, as ``fields="fine"`` of
+    fine_fields : whether the kept fields are solved again on cells fine enough for a picture, as ``fields="fine"`` of
         `lubfric.friction`
     store : a folder that receives every point as it ends. The same call, or one with other speeds, continues from
         there
@@ -295,14 +296,16 @@ def traction(
 ) -> TractionResult:
     """Solve the traction curve of a scene: friction over the slide-roll ratio, at one entrainment speed.
 
-    The ratio changes the shear of the film, its heat, and the heat of the inlet. f holds the rolling part of the film's
-    force, which remains without slip; ``curve.without_rolling`` is f without it, as rigs measure it that average over
-    both signs of slip. A point that fails leaves NaN, and its exception in ``errors``; the others are still solved.
+    The ratio changes the shear of the film, its heat, and the heat of the inlet. f contains the rolling part of
+    the film's force, which remains without slip. ``curve.without_rolling`` is f without it, as measured by rigs that
+    average over both signs of slip. A point that fails leaves NaN, and its exception in ``errors``; the others are
+    still solved.
 
     Parameters
     ----------
     scene : from `lubfric.load_scene` or `lubfric.prepare`
-    ratios : slide-roll ratios (u2 - u1)/U [-], (n,), or with a unit, ["5 %"]; refused where all are as percentages are
+    ratios : slide-roll ratios (u2 - u1)/U [-], (n,), or with a unit, ["5 %"]; refused if all of them look like
+        percentages
     speed : entrainment speed [m/s]; None: the scene's own
     tolerance, model : as in `lubfric.friction`
     on_point : called as on_point(done, total, ratio, outcome) as points end

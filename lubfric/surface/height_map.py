@@ -82,7 +82,7 @@ class Surface(FrozenArrays, Shown):
 
     @property
     def missing_fraction(self) -> float:
-        """Share of the points that was not measured (whether filled since or not)."""
+        """Fraction of the points that were not measured, whether filled since or not."""
         return 0.0 if self.mask is None else 1.0 - np.count_nonzero(self.mask) / self.mask.size
 
     @property

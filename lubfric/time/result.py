@@ -99,7 +99,7 @@ class TransientResult(Renamed, Shown):
     not_in : inputs, as text, whose ranges are not in ``uncertainty``: a run is solved with their values alone
     requested : the output times [s] of the run, whether or not they were reached
     model_form_unknown : why the model-form error of f is not known and not in ``uncertainty``; "" where it is
-    methods : names of the methods that it rests on, where a paper is behind them. ``cite()`` gives the papers
+    methods : names of the published methods used; ``cite()`` gives the publications
     line_length, width, renewal : length of the line of rough surface, width of the contact, and the distance that a
         surface moves until other asperity contacts carry the load (the Hertz strip and a correlation length) [m]; NaN
         if not known

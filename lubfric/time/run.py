@@ -55,8 +55,8 @@ def transient(
     scene : with a `lubfric.Transient` in ``scene.transient``; or, with ``times``, without one: then nothing changes
     times : output times [s], increasing, >= 0; a step ends at each. None: the scene's own
     checkpoint : folder that receives the state after every step, a store as that of `lubfric.study`. An interrupted run
-        of the same scene and times continues from there; the states of others are left alone. What is kept is removed
-        when the run ends well
+        of the same scene and times continues from there; states of other runs are not changed. The saved state is
+        removed when the run ends without error
     on_step : called as on_step(time, duration, row) after every step; ``row``: the numbers of an output, or None
     raise_on_failure : False returns what was computed, with its report
 
@@ -68,7 +68,7 @@ def transient(
     ------
     InputError : before any work
     ConvergenceError : the shortest step failed; carries the rows so far as its result
-    ValidityError : at some time an assumption is violated so badly that f means nothing, and ``numerics.accept`` is
+    ValidityError : at some time an assumption is violated so far that f has no meaning, and ``numerics.accept`` is
         false; carries the complete result
 
     Notes

@@ -34,12 +34,12 @@ class Prepared(FieldsOnly, Renamed, Shown):
     Attributes
     ----------
     scene : the scene
-    surface : the height map whose statistics hold: of strips those that are solved first, joined; of a patch all of it, on
-        native cells
+    surface : the height map for statistics: the strips that are solved first, joined, or the complete patch, on native
+        cells
     rough_contact : the rough contact that is solved first, on the cells of ``sample``
     violations : assumptions of the model that bodies and map violate, known before any solve
     sample : what represents the infinite rough line contact
-    is_given : whether a map or a contact was given to `lubfric.prepare`, so that there is no more of it
+    is_given : whether a map or a contact was given to `lubfric.prepare`, so that it cannot be extended
     """
 
     scene: Scene

@@ -36,7 +36,7 @@ class Violation(Renamed):
     value, limit : its value, and the limit of the model, both in ``unit``
     consequence : what that does to the result
     recommendation : what to change
-    severe : True: the coefficient means nothing, and a `ValidityError` is raised unless accepted. False: a warning
+    severe : True: the coefficient has no meaning, and a `ValidityError` is raised unless accepted. False: a warning
     is_note : the interval of f covers it, or nothing is to be done: a note instead of a warning
     """
 
