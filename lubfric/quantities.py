@@ -109,20 +109,27 @@ class Quantities(Generic[T]):
         note="film at the centre under the load F_H: the central film thickness where F_C = 0; NaN at U = 0",
     )
     mean_gap: T = quantity("m", "mean separation", error="film", note="mean gap of the rough surfaces over A")
-    film_to_roughness_ratio: T = quantity("-", "central separation over Sq", error="film")
+    film_to_roughness_ratio: T = quantity(
+        *("-", "central separation over Sq", "h_c/Sq"),
+        error="film",
+        note="lambda ratio of the solved film where F_C = 0",
+    )
     inlet_film_factor: T = quantity(
         *("-", "factor on the film by the heat of its inlet"),
         error="heat",
         note="1 where it is too small to matter; NaN where it was not computed",
     )
     flash_temperature_rise: T = quantity(
-        "K", "largest temperature rise of the surfaces", error="heat", note="NaN where it was not computed"
+        *("K", "largest temperature rise of the surfaces"),
+        error="heat",
+        note="mean along the line, of both surfaces alike; NaN where it was not computed",
     )
     film_temperature_rise: T = quantity(
         "K",
         "largest mean temperature rise of the film over the surfaces",
         error="heat",
-        note="mean across the film; NaN where it was not computed",
+        note="mean across the film and along the line; by the deterministic model of one strip at one moment, between which "
+        "it scatters; NaN where it was not computed",
     )
     power_loss: T = quantity(
         "W",
@@ -158,7 +165,9 @@ class PointQuantities(Quantities[T]):
     full_load_film: T = quantity(
         "m", "full-load film thickness", "h_F", note="central film of smooth surfaces under F_T, by Moes' formula"
     )
-    lambda_ratio: T = quantity("-", "lambda ratio", "Λ", note="full-load film thickness over Sq")
+    lambda_ratio: T = quantity(
+        *("-", "lambda ratio", "Λ"), note="full-load film thickness over Sq; in time of steady motion as at that moment"
+    )
     boundary_film_load: T = quantity(
         "N",
         "load on gaps below the boundary film",
@@ -221,7 +230,6 @@ NOT_IN_TIME = {
     "saturated_film_load",
     "shear_force",
     "real_contact_area",
-    "film_to_roughness_ratio",
     "clearance",
     "steepness",
     "seconds",

@@ -518,8 +518,14 @@ def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
     ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio)]
     if ratio.size:
         sentences.append(
-            f"The lambda ratio (full-load film thickness over Sq) lies between {_number(_rounded(ratio, int(ratio.argmin())))} and "
-            f"{_number(float(ratio.max()))}."
+            "The lambda ratio (full-load film thickness in steady motion over Sq) lies between "
+            f"{_number(_rounded(ratio, int(ratio.argmin())))} and {_number(float(ratio.max()))}."
+        )
+    solved = result.film_to_roughness_ratio[np.isfinite(result.film_to_roughness_ratio)]
+    if solved.size:
+        sentences.append(
+            f"The solved central separation lies between {_number(float(solved.min()))} and {_number(float(solved.max()))} "
+            "times Sq."
         )
     return sentences
 

@@ -96,9 +96,10 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
     wet = setting.grid.x[t.P > 0.0] * p.length_unit
     central_film = t.H[setting.grid.n // 2] * p.film_unit
     sq = float(model.prepared.surface.sq)
+    film_to_roughness_ratio = central_film / sq if sq else math.inf
     model_error = moment_model_error(
         scene,
-        film_to_roughness_ratio=central_film / sq if sq else math.inf,
+        film_to_roughness_ratio=film_to_roughness_ratio,
         share=contact_step.load / total,
         boundary=sense * boundary / total,  # along the sliding
         shear=sense * shear.total / total,
@@ -139,7 +140,8 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         "edge_load": model.patch.on_the_ends(state) if touches else math.nan,
         "load_residual": (film_load + contact_step.load) / total - 1.0,
         "volume_residual": volume_residual(state) if touches else math.nan,
-        **_full_load_in_time(scene, speed, sq, film_factor, central_film, touches=touches),
+        "film_to_roughness_ratio": film_to_roughness_ratio,
+        **full_load_numbers(scene, speed, sq, film_factor),
         **_mass(model, solution),
         "steps": now.steps,
     }
@@ -175,16 +177,6 @@ def _violated(
         )
     if row["contact_load"] > 0:
         yield from violations_by_deflection(scene, row["mean_gap"], STEADY_ONLY)
-
-
-def _full_load_in_time(
-    scene: Scene, speed: float, sq: float, film_factor: float, central_film: float, *, touches: bool
-) -> dict[str, float]:
-    """Return the numbers of `full_load_numbers` at a moment whose solved film at the centre is ``central_film`` [m]: that
-    film where it carries the total load, and otherwise the one of the closed forms, which is not above it."""
-    numbers = full_load_numbers(scene, speed, sq, film_factor)
-    film = min(numbers["full_load_film"], central_film) if touches else central_film
-    return {"full_load_film": film, "lambda_ratio": film / sq if sq > 0 else math.inf}
 
 
 def _mass(model: LoadSharingSolver, solution: Step) -> dict[str, float]:

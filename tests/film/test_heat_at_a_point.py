@@ -85,3 +85,10 @@ def test_what_is_omitted_is_part_of_the_numerical_error(model):
     for name in ("flash_temperature_rise", "film_temperature_rise"):  # none was computed: nothing is known of its error
         assert np.isnan(getattr(auto, name)) and "less than the tolerance" in auto.errors.reasons[name]
         assert getattr(on, name) > 0 and 0 < getattr(on.errors, name) < 0.1
+
+
+def test_the_temperatures_do_not_depend_on_which_surface_is_the_faster_one(model):
+    """Of two bodies of one material: both surfaces are as hot, and the film has one temperature."""
+    ahead, behind = (at(model, 1.0, ratio=ratio) for ratio in (0.4, -0.4))
+    for name in ("film_temperature_rise", "flash_temperature_rise", "inlet_film_factor"):
+        assert getattr(ahead, name) == pytest.approx(getattr(behind, name), rel=1e-9) and getattr(ahead, name) > 0

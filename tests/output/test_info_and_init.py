@@ -93,7 +93,7 @@ def test_info_looks_at_what_is_solved():
     patch = small.with_(numerics={"sampling": "patch", "model": "auto"})
     assert lubfric.friction(patch).decision.model == "deterministic" and "deterministic model" in describe_scene(patch)
     smaller = small.with_(contact={"shape": (64, 64)})  # too small to be generated, which it need not be
-    assert lubfric.friction(smaller).coefficient > 0 and "strips of the roughness" in describe_scene(smaller)
+    assert lubfric.friction(smaller).coefficient > 0 and "strips of the rough surface" in describe_scene(smaller)
 
 
 def test_init_writes_a_scene_that_runs_and_overwrites_nothing(tmp_path, capsys):

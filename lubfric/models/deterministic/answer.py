@@ -58,7 +58,7 @@ UNSOLVED_CELLS = (
     "shorter cells did not converge within the work of a point: the numerical error is twice the estimate from longer "
     "cells; a larger numerics.max_work reduces it"
 )
-ONE_HEAT = "heat is computed on one strip"
+ONE_HEAT = "heat is computed on one strip, where roughness moves at one moment; between these it scatters"
 MIRRORED = ", mirrored along the line"
 BIASED = "a short patch, which balances the load by itself, is biased too: about lift-off f is some 10 % too low"
 # Where a local peak of the film pressure is. The picture of the contact is of another solve, with the contacts.
