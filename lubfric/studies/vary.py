@@ -42,7 +42,7 @@ class Between:
             (low, unit) = in_si("low", self.low)
             (high, other) = in_si("high", self.high)
             if unit != other:
-                raise InputError(f" = {self.high!r} is of another kind than low, which is in {unit}", "high")
+                raise InputError(f" = {self.high!r} does not convert to {unit}, the unit of low", "high")
             for name, value in (("low", low), ("high", high), ("unit", unit)):
                 object.__setattr__(self, name, value)
         validate.choice("scale", self.scale, RANGE_SCALES)

@@ -165,7 +165,7 @@ def test_another_word_for_the_same_thing_takes_its_place():
     )
     oil = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 80}
     assert scene.with_(lubricant=oil | {"nu40": None, "temperature": None}) == scene.with_(lubricant=oil)
-    with pytest.raises(InputError, match="same thing"):
+    with pytest.raises(InputError, match="same quantity"):
         scene.with_(surface={"ra": 8e-8, "sq": 1e-7})
     with pytest.raises(InputError, match="sq|correlation"):
         scene.with_(surface={"sq": None})

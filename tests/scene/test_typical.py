@@ -78,6 +78,6 @@ def test_half_of_what_heat_does_is_more_than_the_range_of_the_conductivity():
 
 @pytest.mark.parametrize("key, word", [("eyring_stress", "ester"), ("limiting_stress_coefficient", "ester")])
 def test_a_name_that_is_not_known_is_refused_with_what_to_give(key, word):
-    with pytest.raises(lubfric.InputError, match=r"no name that is known.*\[low, high\].*mineral") as refused:
+    with pytest.raises(lubfric.InputError, match=r"nor a known name.*\[low, high\].*mineral") as refused:
         QUICK.with_(lubricant={key: word})
     assert "number in -" not in str(refused.value)

@@ -36,7 +36,7 @@ def test_a_wrong_key_leads_to_the_right_one(section, key, meant):
 def test_a_number_that_has_to_be_positive_is_told_so():
     with pytest.raises(lubfric.InputError, match="load = -800 N is out of range, as it has to be positive"):
         scene(bodies={"load": "-800 N"})()
-    with pytest.raises(lubfric.InputError, match="another kind .*a load per length times .*bodies.width"):
+    with pytest.raises(lubfric.InputError, match="does not convert to N.*a load per length times .*bodies.width"):
         scene(bodies={"load": "80 N/mm"})()
 
 
@@ -129,9 +129,9 @@ BROKEN = {  # text of a scene: what the message says of it
     "[bodies]\nload = 2\n[bodies]\nwidth = 1\n": "line 3: this section or key is there for the second time",
     "bodies = {load = 2}\nbodies = {width = 1}\n": "line 2: this section or key is there for the second time",
     "[bodies]\nload = [2\n": "a list has no closing bracket; add ]",
-    "[lubricant]\neyring_stress = mineral\n": "line 2: numbers have a decimal point; one with a unit is in quotes, '12 mm', "
-    "and so is a name: 'mineral'",
-    "[bodies]\nload = 0,06\n": "line 2: numbers have a decimal point",
+    "[lubricant]\neyring_stress = mineral\n": "line 2: write numbers with a decimal point; put names and numbers with a unit in quotes: "
+    "'mineral', '12 mm'",
+    "[bodies]\nload = 0,06\n": "line 2: write numbers with a decimal point",
 }
 
 

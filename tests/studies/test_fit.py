@@ -335,7 +335,7 @@ def test_bad_files(tmp_path, text, names, words):
         ({"numerics.tolerance": (0.1, 0.2)}, "unknown key 'numerics' in parameters"),
         ({"motion.entrainment_speed": (0.1, 0.2)}, "is what a curve is over"),
         ({"bodies.load": (-1.0, 2.0)}, "bodies.load"),
-        ({"lubricant.temperature": (300.0, 350.0)}, "moves no viscosity"),
+        ({"lubricant.temperature": (300.0, 350.0)}, "does not change a viscosity"),
     ],
 )
 def test_what_cannot_be_fitted_is_said_before_any_work(parameters, words):

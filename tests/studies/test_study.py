@@ -62,11 +62,11 @@ def test_keys_of_several_dimensions_act_together(first):
 @pytest.mark.parametrize(
     "vary, words",
     [
-        ({"bodies.load": [3.0, 5.5], "bodies.hertz_pressure": [1e8]}, "say the same thing"),
-        ({"motion.slip_percent": [10.0], "motion.slide_roll_ratio": [0.1, 2.0]}, "say the same thing"),
+        ({"bodies.load": [3.0, 5.5], "bodies.hertz_pressure": [1e8]}, "give the same quantity"),
+        ({"motion.slip_percent": [10.0], "motion.slide_roll_ratio": [0.1, 2.0]}, "give the same quantity"),
         ({"motion.surface_speeds": [(0.0, 0.1), (0.0, 0.2)]}, "give speeds"),
         ({"motion.speed_range": [(0.1, 1.0, 3)]}, "give speeds"),
-        ({"lubricant.temperature_celsius": [40.0, 80.0]}, "moves no viscosity"),
+        ({"lubricant.temperature_celsius": [40.0, 80.0]}, "does not change a viscosity"),
     ],
 )
 def test_keys_of_which_one_would_do_nothing_are_refused(vary, words):
@@ -244,9 +244,9 @@ def test_a_range_with_units_is_that_of_its_key():
     keys = ("bodies.load", "lubricant.temperature_celsius")
     (axis,), (same,) = (lubfric.plan_study(scene, {keys: values}, [0.1]).axes for values in (drawn, plain))
     assert np.array(axis.values) == pytest.approx(np.array(same.values), rel=1e-12)
-    with pytest.raises(lubfric.InputError, match="another kind"):
+    with pytest.raises(lubfric.InputError, match="does not convert"):
         lubfric.Between("1 N", "2 m")
-    with pytest.raises(lubfric.InputError, match="another kind"):
+    with pytest.raises(lubfric.InputError, match="does not convert"):
         lubfric.plan_study(SCENE, {"bodies.radius": [v for v, _ in drawn]}, [0.1])
 
 
