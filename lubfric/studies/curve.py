@@ -160,6 +160,6 @@ def numbers_of(curve: CurveResult) -> dict[str, np.ndarray]:
 
 def csv_bytes(curve: CurveResult) -> bytes:
     """Return the table of a curve: one row a point, one column a quantity, the unit in the heading; then as text which
-    assumptions are violated there, and the uncertainty of f."""
-    named = {heading(name): values for name, values in numbers_of(curve).items()}
+    assumptions are violated there, and the uncertainty of f. Its bytes follow from the inputs: it has no times."""
+    named = {heading(name): values for name, values in numbers_of(curve).items() if name != "seconds"}
     return table_bytes(named | {"validity": curve.validity_cells, "uncertainty": list(curve.uncertainty.text)})

@@ -86,8 +86,10 @@ def to_netcdf(result: Any, path: str | Path) -> None:
 
 
 def to_csv(result: Any, path: str | Path) -> None:
-    """Write one row for each point, with units in the headings; nothing beyond the standard library is needed."""
-    write_whole(path, table_bytes({heading(name): values for name, values in columns_of_study(result).items()}))
+    """Write one row for each point, with units in the headings; nothing beyond the standard library is needed. The bytes
+    follow from the inputs: the times of the solves are in the other tables."""
+    columns = {name: values for name, values in columns_of_study(result).items() if name != "seconds"}
+    write_whole(path, table_bytes({heading(name): values for name, values in columns.items()}))
 
 
 def columns_of_study(result: Any) -> dict[str, np.ndarray]:

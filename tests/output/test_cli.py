@@ -52,8 +52,10 @@ def test_csv_equals_json_and_the_library(run):
     curve.to_csv(run.parent / "own.csv")
     own, command = (read_table(path) for path in (run.parent / "own.csv", run / "stribeck.csv"))
     assert list(own) == list(command)
-    for name in set(own) - {"seconds"}:
+    for name in own:
         assert np.array_equal(own[name], command[name], equal_nan=own[name].dtype.kind == "f"), name
+    assert (run.parent / "own.csv").read_bytes() == (run / "stribeck.csv").read_bytes()  # no times in it
+    assert all(point["seconds"] > 0 for point in record["points"])
 
 
 def test_a_map_where_a_gap_is_expected_is_distinguished():

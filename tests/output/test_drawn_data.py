@@ -35,7 +35,7 @@ UNITS = {  # of the columns of results, typed by hand
     ),
     **dict.fromkeys(("min_film", "central_film", "mean_gap", "full_load_film"), "m"),
     **dict.fromkeys(("flash_temperature_rise", "film_temperature_rise"), "K"),
-    **{"speed": "m/s", "real_contact_area": "m2", "seconds": "s", "line_length": "m"},
+    **{"speed": "m/s", "real_contact_area": "m2", "line_length": "m"},
     **{"rolling_resistance": "N", "power_loss": "W", "power_loss_low": "W", "power_loss_high": "W"},
 }
 SCENE = paper_scene(
