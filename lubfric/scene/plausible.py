@@ -54,10 +54,10 @@ NO_ROUGHNESS = 1e-3
 # it was meant in that. Not measured: a convention. Light loads of microscopic contacts are further below than others.
 FAR_ABOVE = 10.0
 FAR_BELOW = 1000.0
-# The same of the radii, of which a plain number in mm is a few times the usual ones in m: 2 to 30 mm are common. A convention.
+# Key of the radii of both bodies.
+RADII_KEY = "bodies.radii"
+# The same of them: of rollers of 6 to 30 mm a plain number is less than `FAR_ABOVE` times the usual one in m. A convention.
 FAR_ABOVE_OF_RADII = 2.0
-# Keys of radii.
-RADII_KEYS = ("bodies.radius", "bodies.radii")
 # Part of a table or of a period that a run shows, below which a time is likely in another unit: ms for s are 1e-3. A
 # convention.
 LEAST_PART_OF_HISTORY = 0.02
@@ -239,7 +239,7 @@ def _unusual(key: str, written: Any) -> UnusualValue | None:
         written=_read_as(written, q.unit),
         question=question,
         advice="check the value and its unit",
-        is_refused=_is_far(value, q.usual, above=FAR_ABOVE_OF_RADII if key in RADII_KEYS else FAR_ABOVE)
+        is_refused=_is_far(value, q.usual, above=FAR_ABOVE_OF_RADII if key == RADII_KEY else FAR_ABOVE)
         and bool(question)
         and not isinstance(written, str)
         and _is_as_written(value),

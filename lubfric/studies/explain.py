@@ -82,7 +82,9 @@ def _in_sentences(violations: Sequence[Sequence[Violation]], plural: str) -> lis
         ordered = sorted(group.values(), key=lambda violation: violation.value)
         values = dict.fromkeys(violation.value_in_words for violation in (ordered[0], ordered[-1]))
         some = f"in {len(group)} of {len(violations)} {plural}: " if len(group) < len(violations) else ""
-        lines.append(f"{some}{ordered[-1].text_of(' to '.join(values) + ordered[-1].spaced_unit)}")
+        differ = len({(violation.consequence, violation.recommendation) for violation in ordered}) > 1
+        place = "where it is largest" if differ else ""
+        lines.append(f"{some}{ordered[-1].text_of(' to '.join(values) + ordered[-1].spaced_unit, place)}")
     return lines
 
 

@@ -164,8 +164,7 @@ def test_what_is_unusual_begins_the_description_of_a_scene():
         ("bodies", {"radii": [6, 30]}, True),
         ("bodies", {"radii": [6, 8]}, True),  # twice the usual ones
         ("bodies", {"radii": ["6 m", "8 m"]}, False),  # the unit was written
-        ("bodies", {"radius": 1.9}, False),
-        ("bodies", {"radius": 5.0}, True),
+        ("bodies", {"radius": 2.0}, False),  # twice the usual one
         ("bodies", {"load": 4e6, "width": 9.0, "hardness": None}, False),  # nine times the usual one
         ("bodies", {"radius": 900.0}, True),
         ("lubricant", {"limiting_stress_coefficient": 0.6}, False),  # no unit explains it

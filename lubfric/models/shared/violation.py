@@ -81,15 +81,16 @@ class Violation(Renamed):
         """The value and the limit as texts that differ."""
         return distinct_texts(self.value, self.limit, _in_digits, least=3)
 
-    def text_of(self, values: str) -> str:
+    def text_of(self, values: str, place: str = "") -> str:
         """Return the `text` with ``values`` in place of the value and its unit, such as "5.2 % (at 0.1 m/s) to 8.69 % (at
-        3 m/s)"."""
+        3 m/s)"; ``place``: where the consequence holds as it is stated, if not everywhere."""
         head = "not valid" if self.severe else "note" if self.is_note else "warning"
         side = "above" if self.value > self.limit else "below"
         limit = f", {side} {self._beside_limit[1]}{self.spaced_unit}" if math.isfinite(self.limit) else ""
         numbers = f"{values}{limit}"
         last = f" Recommendation: {self.recommendation}." if self.recommendation else ""
-        return f"{head}: {self.what} is {numbers}. {sentence(self.consequence)}{last}"
+        consequence = f"{place}: {self.consequence}" if place else self.consequence
+        return f"{head}: {self.what} is {numbers}. {sentence(consequence)}{last}"
 
 
 def sentence(text: str) -> str:
@@ -146,13 +147,15 @@ def gathered(
             groups.setdefault(violation.kind, []).append((value, violation))
     lines = []
     for group in groups.values():
-        worst = max((violation for _, violation in group), key=_distance)
+        (at_worst, worst) = max(group, key=lambda pair: _distance(pair[1]))
         values = sorted(value for value, _ in group)
         if len(group) == 1:
             lines.append(f"{at_value(values[0], unit, name)}: {worst.text}")
         else:
             ends = f"{values[0]:.4g} to {values[-1]:.4g} {unit}".rstrip()
-            lines.append(f"at {len(group)} {name}, {ends}: {worst.text_of(_from_to(group, unit))}")
+            differ = len({(violation.consequence, violation.recommendation) for _, violation in group}) > 1
+            place = at_value(at_worst, unit, name) if differ else ""
+            lines.append(f"at {len(group)} {name}, {ends}: {worst.text_of(_from_to(group, unit), place)}")
     return tuple(lines)
 
 
@@ -182,6 +185,11 @@ def gathered_texts(cells: Sequence[str]) -> list[str]:
         if len(values) == len(group):
             least = values[0][1]
             (_, most, text) = values[-1]
+        (head, _, consequence) = text.partition(". ")
+        if len({each.partition(". ")[2] for each in group.values()}) > 1:
+            place = next(number for number, each in group.items() if each == text)
+            text = f"{head}. At point {place}: {consequence}"
+        if len(values) == len(group):
             if least != most:
                 text = text.replace(f" is {most}", f" is {least} to {most}", 1)
         lines.append(f"{_numbers_in_words(sorted(group), len(cells))}: {text.removeprefix('warning: ')}")
