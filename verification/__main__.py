@@ -21,12 +21,15 @@ SUBCOMMANDS = {"published": "verification.fem.published"} | {
 }
 
 
+SUMMARY = "Check lubfric against finite elements, closed forms and publications, and write a report."
+
+
 def main(argv: list[str] | None = None) -> int:
     """Run the command that ``argv`` asks for, and return its exit code (see `verification.frame.main`)."""
     argv = sys.argv[1:] if argv is None else list(argv)
     if argv and argv[0] in SUBCOMMANDS:
         return frame.main(importlib.import_module(SUBCOMMANDS[argv[0]]).COMMAND, argv[1:])
-    summary = f"{__doc__} Other commands, each with --help: {', '.join(SUBCOMMANDS)}."
+    summary = f"{SUMMARY} Other commands, each with --help: {', '.join(SUBCOMMANDS)}."
     command = frame.Command("", summary, studies=STUDIES, out="out/verification", workers=min(2, os.cpu_count() or 1))
     if argv and not argv[0].startswith("-"):
         words = frame.did_you_mean(argv[0], SUBCOMMANDS)

@@ -164,7 +164,7 @@ class FolderLock:
 
     def __enter__(self) -> FolderLock:
         while self._file is None:
-            with saying(f"{self.path.parent} cannot be used"):
+            with saying(f"the folder {self.path.parent} cannot be used, give another one"):
                 self.path.parent.mkdir(parents=True, exist_ok=True)
                 if self.path.is_symlink():
                     raise InputError(f"{self.path} is a link; remove it, or give another folder")

@@ -106,7 +106,7 @@ def widened(old: Uncertainty, f: float, changes_of_f: dict[str, tuple[float, ...
     low, high = old.interval
     notes = []
     for name, ends in changes_of_f.items():
-        begin = f"{name.partition('.')[2]} in its range: "
+        begin = f"range of {name.partition('.')[2]}: "
         if isinstance(ends, str):
             notes.append(f"{begin}not in the interval, as {ends}")
         elif not f:

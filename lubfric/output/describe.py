@@ -307,7 +307,7 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
     steady = scene.transient is None
     sampled = steady and sample.is_resolved
     table: list[tuple[str, ...]] = [("U [m/s]", "M", "L", "film [nm]", "lambda ratio", "asperity contact")]
-    chosen = ("of them deterministic",) * (scene.numerics.model == AUTO)
+    chosen = ("deterministic strips",) * (scene.numerics.model == AUTO)
     table[0] += ("strips", *chosen, "length of the line [mm]", "processor time [s]") * sampled
     scene_speeds = (scene.motion.entrainment_speed,) if steady else ()
     for speed in sorted({*speeds[:: max(1, len(speeds) // TABLE_SPEEDS)], *scene_speeds, speeds[-1]}):

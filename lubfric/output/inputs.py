@@ -29,7 +29,7 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
         if not key.startswith(f"{section}.") or value is None or value == ():
             continue
         alike = {word: ends for word, (middle, *ends) in typical(key).items() if middle == value}
-        ends = " to ".join(worded(end, quantity.unit) for end in next(iter(alike.values()), ()))
+        ends = range_in_words(*next(iter(alike.values()), (0.0, 0.0)), quantity.unit)
         note = (
             f", taken as exact; the name {' or '.join(map(repr, alike))} gives the typical range, {ends}"
             if alike
@@ -49,7 +49,7 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
         for name, *known in scene.ranges:
             if name == key:
                 words = [word for word, usual in alike.items() if usual == known]
-                note = f", known to lie in {' to '.join(worded(end, quantity.unit) for end in known)}"
+                note = f", range {range_in_words(*known, quantity.unit)}"
                 note += f", typical of {' or '.join(words)} ({source_of(key, words[0])})" if words else ""
         table = scene.bodies.boundary_friction_table
         if table is not None and key == BOUNDARY_FRICTION_KEY:

@@ -135,9 +135,9 @@ def explain(plan: Any, store: Path | None = None) -> str:
     about = "about " if plan.chooses_speeds else ""
     lines = [f"study of {plan.scene.name}: {about}{counted(plan.points, 'points')}"]
     for axis in plan.axes:
-        shown = ", ".join(f"{key} {_range(key, column)}" for key, column in zip(axis.keys, zip(*axis.values)))
+        shown = "; ".join(f"{key} {_range(key, column)}" for key, column in zip(axis.keys, zip(*axis.values)))
         if axis.name == POINT:
-            shown = ", ".join(filter(None, (shown, f"speed {_range('speed', plan.point_speeds)}")))
+            shown = "; ".join(filter(None, (shown, f"speed {_range('speed', plan.point_speeds)}")))
         lines.append(f"  {len(axis.values):6d} x {shown}")
     if plan.paired:
         lines.append(f"  other    inputs are those of the scene {plan.scene.name}")

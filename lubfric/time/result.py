@@ -381,7 +381,7 @@ def collect(
     by_load = columns["contact_load"] / columns["load"] * (columns["sliding_speed"] != 0)
     low, high = ends.pop(BOUNDARY_FRICTION_KEY, (0.0, 0.0))
     inputs = np.outer((-low, high), by_load)
-    not_in = tuple(f"{name.partition('.')[2]} in its range: {NOT_IN}" for name in ends)
+    not_in = tuple(f"range of {name.partition('.')[2]}: {NOT_IN}" for name in ends)
     report = report_of("run in time", plan, progress, f"{model.cells}; surface: {surface}", residuals, most_work)
     columns["largest_friction"] = largest_friction_in_time(prepared.scene, columns)
     return TransientResult(

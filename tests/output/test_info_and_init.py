@@ -53,7 +53,10 @@ def test_info_reports_beforehand_what_friction_refuses():
     assert "not valid" in stated and "Newtonian" in stated.partition("validity")[2]
     mended = HEAVY.with_(lubricant={"eyring_stress": 5e6, "limiting_stress_coefficient": 0.07})
     assert "not valid" not in describe_scene(mended)
-    assert "no limit of the model is exceeded" in describe_scene(lubfric.load_scene("paper"))
+    paper = describe_scene(lubfric.load_scene("paper"))
+    assert "no limit of the model is exceeded" in paper
+    places = [paper.index(word) for word in ("  model\n", "processor time", "lambda ratio", "Hertz", "  lubricant\n")]
+    assert places == sorted(places)  # what a user looks for comes first
     assert "Did you mean 8 mm (0.008 m)?" in describe_scene(HEAVY.with_(bodies={"radius": 8.0, "load": 1.0}))
 
 

@@ -53,8 +53,8 @@ def test_load_that_rubs_is_the_same_in_the_answer_and_in_the_method(newtonian):
 
 
 def test_a_named_model_has_no_column_of_another():
-    assert "of them deterministic" not in row_of_table(describe_scene(ROLLING))
-    assert "of them deterministic" in row_of_table(describe_scene(ROLLING.with_(numerics={"model": "auto"})))
+    assert "deterministic strips" not in row_of_table(describe_scene(ROLLING))
+    assert "deterministic strips" in row_of_table(describe_scene(ROLLING.with_(numerics={"model": "auto"})))
 
 
 def test_picture_of_a_part_counts_whole_cells():

@@ -57,7 +57,7 @@ def test_an_end_that_is_not_solved_does_not_lose_the_point(monkeypatch):
     monkeypatch.setattr("lubfric.models.load_sharing.answer.solve_balance", fails)
     known = f(SMALL.with_(bodies={HARDNESS: [1.2e9, 6e9]})).uncertainty
     assert np.isfinite(known.interval).all() and math.isnan(known.inputs)
-    assert "hardness in its range: not in the interval" in known.text
+    assert "range of hardness: not in the interval" in known.text
 
 
 @pytest.mark.parametrize("key, ends", [(FRICTION, (0.07, 0.1)), (HARDNESS, (1.2e9, 6e9))])
@@ -103,7 +103,7 @@ def test_the_deterministic_answer_has_its_ranges_too():
     known = f(scene.with_(lubricant={EYRING: [5e6, 1e6, 2e7]}), 0.03)
     ends = [f(scene.with_(lubricant={EYRING: end}), 0.03).coefficient / known.coefficient - 1 for end in (1e6, 2e7)]
     assert known.uncertainty.inputs == pytest.approx(max(map(abs, ends)), rel=0.1) and min(map(abs, ends)) > 0.01
-    assert f"{EYRING} in its range: f -1" in known.uncertainty.text  # two digits, the first of which is sure
+    assert f"range of {EYRING}: f -1" in known.uncertainty.text  # two digits, the first of which is sure
     by_friction = f(scene.with_(bodies={FRICTION: [0.08, 0.1]}), 0.03)
     share = 0.01 * by_friction.contact_load / scene.bodies.load / by_friction.coefficient
     assert by_friction.uncertainty.inputs == pytest.approx(share)
@@ -115,7 +115,7 @@ def test_a_range_is_stated_from_its_lowest_to_its_highest_f():
     plain = replace(known.uncertainty, notes=())
     changes = {"bodies.hardness": (-0.0005, -0.001), "lubricant.eyring_stress": (0.002, -0.001)}
     notes = widened(plain, 0.1, changes).notes
-    assert notes == ("hardness in its range: f -1 to 0 %", "eyring_stress in its range: f -1 to +2 %")
+    assert notes == ("range of hardness: f -1 to 0 %", "range of eyring_stress: f -1 to +2 %")
 
 
 @pytest.mark.parametrize("motion", [{}, {"slide_roll_ratio": 0.3}])
@@ -181,9 +181,7 @@ def test_a_contact_of_the_users_own_is_kept_at_the_ends():
     )
     assert plain.uncertainty.inputs > 0 and math.isnan(known.uncertainty.inputs)
     assert known.uncertainty.interval == pytest.approx(plain.uncertainty.interval, nan_ok=True)
-    assert (
-        "hardness in its range: not in the interval, as the contact was given by the caller" in known.uncertainty.text
-    )
+    assert "range of hardness: not in the interval, as the contact was given by the caller" in known.uncertainty.text
 
 
 def test_a_range_is_in_the_columns_of_a_curve():
@@ -228,8 +226,8 @@ def test_info_and_report_tell_ranges_and_tables():
     ):
         rows = inputs(SMALL.with_(bodies=given), "bodies")
         stated |= {key.partition(".")[2] + str(len(given)): note for _, _, key, note in rows}
-    assert stated[FRICTION + "2"] == ", known to lie in 0.1 to 0.14" and stated[HARDNESS + "1"] == ""
-    assert stated[HARDNESS + "2"] == ", known to lie in 5 GPa to 7 GPa"
+    assert stated[FRICTION + "2"] == ", range 0.1 to 0.14" and stated[HARDNESS + "1"] == ""
+    assert stated[HARDNESS + "2"] == ", range 5 to 7 GPa"
     assert stated[FRICTION + "1"] == ", by a table over sliding_speed: 0.15 at 0 m/s, 0.1 at 2 m/s"
 
 
@@ -254,9 +252,7 @@ def test_a_run_in_time_has_the_range_of_f_b_and_tells_the_others():
     assert run.uncertainty.inputs == pytest.approx(run.inputs[1] / run.coefficient) and not run.not_in
     both = lubfric.transient(scene.with_(bodies={FRICTION: [0.09, 0.08, 0.12], HARDNESS: [6e9, 5e9, 7e9]}))
     assert np.isnan(both.uncertainty.inputs).all() and both.uncertainty.text[0].endswith(both.not_in[0])
-    assert (
-        both.not_in[0].startswith("hardness in its range: not in the interval") and both.not_in[0] in both.report.notes
-    )
+    assert both.not_in[0].startswith("range of hardness: not in the interval") and both.not_in[0] in both.report.notes
 
 
 def test_a_run_in_time_takes_a_range_and_a_table_that_begins_above_zero():

@@ -114,7 +114,7 @@ def test_a_given_pressure_viscosity_coefficient_is_exact():
     (estimated, exact) = (
         " ".join(what for what, *_ in unmodelled_effects(scene, SQ, 1.0)) for scene in (ROLLER, given)
     )
-    assert "which is estimated" in estimated and "which is estimated" not in exact
+    assert "in place of the estimate" in estimated and "in place of the estimate" not in exact
 
 
 def test_a_starved_inlet_is_reported_where_the_asperities_carry_most():

@@ -114,3 +114,9 @@ def test_a_scene_in_place_of_a_study_is_named_as_one(tmp_path):
     (tmp_path / "s.toml").write_text(lubfric.load_scene("paper").to_toml())
     with pytest.raises(lubfric.InputError, match="is a scene, not a study.*--points"):
         load_study(tmp_path / "s.toml")
+
+
+def test_a_table_in_place_of_a_study_is_named_as_one(tmp_path):
+    (tmp_path / "points.csv").write_text("load [N],speed [m/s]\n5,0.1\n")
+    with pytest.raises(lubfric.InputError, match="is a table, not a study.*--points points.csv"):
+        load_study(tmp_path / "points.csv")

@@ -142,7 +142,7 @@ def _all_effects(
     ends = 2 * bodies.half_width / bodies.width
     effects.append(
         (
-            "edges of the line contact: edge pressure and misalignment",
+            "the edges of the line contact (edge pressure, misalignment)",
             ends,
             "the change is the part of the line within half a contact width of its ends; a three-dimensional contact model "
             "includes it",
@@ -177,7 +177,7 @@ def _of_film(
         size = math.nan if narrow and alone else change(scene, sq, STARVED_EXAMPLE)  # the rolling part may fall by more
         effects.append((f"a starved inlet (film x {STARVED_EXAMPLE:g})", size, words))
     for end, other in _at_ends_of_alpha(scene).items():
-        words = f"the pressure-viscosity coefficient, which is estimated, at {end} of measured oils"
+        words = f"a pressure-viscosity coefficient of {end} of measured oils, in place of the estimate"
         effects.append(
             (
                 words,
