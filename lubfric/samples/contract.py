@@ -135,7 +135,7 @@ class Sample(ABC):
 
     def map_in_words(self, surface: Surface) -> str:
         """Return the map that the scene has, of which ``surface`` is solved first, in words."""
-        return f"{surface.source}, on as many strips as the tolerance requires"
+        return f"{surface.source}, as an infinite line contact, of which strips are solved"
 
     def ends_after(self, count: int) -> bool:
         """Return whether the surface itself, not the work on it, ends after ``count`` strips."""

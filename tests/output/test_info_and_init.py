@@ -3,6 +3,7 @@
 import csv
 import math
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from instrument_files import write_x3p
 from small_study import SCENE as SMALL_SCENE
 
 import lubfric
+from lubfric.models.quick.strips_on_long_cells import solve_on_long_cells
 from lubfric.output import describe_scene, main
 from lubfric.scene import Harmonic, Ramp, Table
 
@@ -80,6 +82,36 @@ def test_info_ends_with_the_code_of_run(changed, tmp_path, capsys, undrawn):
     assert main(["info", str(tmp_path / "s.toml")]) == code
     stated = capsys.readouterr()
     assert "estimate with closed forms" in stated.out and ("lubfric: " in stated.err) == (code != 0)
+
+
+@pytest.mark.parametrize(("ratio", "strips"), [(2.0, "one to 4 strips"), (0.1, "one strip")], ids=["rests", "moves"])
+def test_info_states_on_how_many_strips_the_quick_answer_is_solved(ratio, strips, monkeypatch):
+    """As many as are solved, whatever the tolerance asks for."""
+    scene = lubfric.load_scene("paper").with_(
+        motion={"slide_roll_ratio": ratio}, numerics={"model": "quick", "sampling_tolerance": 1e-3}
+    )
+    assert strips in describe_scene(scene) and "tolerance requires" not in describe_scene(scene)
+    solved: list[int] = []
+    strip = SimpleNamespace(work=0.0, slope=0.0)
+
+    def solve(prepared, speed, index, slope):
+        solved.append(index)
+        return SimpleNamespace(resolved=strip)
+
+    class Solved(Exception):
+        pass
+
+    def stop(*_):
+        raise Solved
+
+    home = "lubfric.models.quick.strips_on_long_cells."
+    monkeypatch.setattr(f"{home}_solve_pair", solve)
+    monkeypatch.setattr(f"{home}_sampling_error", lambda *_: 1e-4)
+    monkeypatch.setattr(f"{home}two_levels", lambda *_: (None, 1000))
+    monkeypatch.setattr(f"{home}_features_of", stop)
+    with pytest.raises(Solved):
+        solve_on_long_cells(lubfric.prepare(scene), 0.03)
+    assert len(solved) == int(strips.split()[-2].replace("one", "1"))
 
 
 def test_info_looks_at_what_is_solved():

@@ -34,7 +34,7 @@ from ..shared import (
 )
 from .calibrated_error import error_model_of, out_of_range, reported, widening
 from .long_cells import CELLS_OF_THIN_FILM, map_coarsening_at_rest, map_coarsening_in_motion
-from .strips_on_long_cells import LEAST_TOLERANCE, StripsOnLongCells, quick_answer_of, solve_on_long_cells
+from .strips_on_long_cells import LEAST_TOLERANCE, MOST_STRIPS, StripsOnLongCells, quick_answer_of, solve_on_long_cells
 
 # Strips at rest, about, on which an estimate of the work rests: at most there are `MOST_STRIPS`.
 EXPECTED_STRIPS = 2
@@ -198,7 +198,11 @@ class QuickModel(Model):
 
     def described(self, scene: Scene) -> str:
         unknown = "; its model-form error is not known and not in the interval" if why_gap_not_resolved(scene) else ""
-        return f"quick answer (numerics.model): the deterministic model on long cells, with a calibrated error{unknown}"
+        strips = "one strip" if has_moving_roughness(scene) else f"one to {MOST_STRIPS} strips"
+        return (
+            f"quick answer (numerics.model): the deterministic model on {strips} with long cells, and a calibrated "
+            f"error{unknown}"
+        )
 
     def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:
         known = error_model_of(scene).range
