@@ -49,7 +49,7 @@ def test_the_likely_size_is_that_of_the_scene_that_has_it_to_a_factor_of_three(s
         "viscosity": ROLLER.lubricant.viscosity * math.exp(-10 * ROLLER.lubricant.temperature_coefficient),
     }
     alpha = ROLLER.lubricant.oil.pressure_viscosity_coefficient(ROLLER.lubricant.temperature)
-    for word, end in {"the least": alpha.low, "the most": alpha.high}.items():
+    for word, end in {"the lowest": alpha.low, "the highest": alpha.high}.items():
         there = ROLLER.with_(lubricant={"pressure_viscosity_coefficient": end})
         change = lubfric.friction(there, speed).coefficient / result.coefficient - 1
         assert told(result.unmodelled_effects, word) == pytest.approx(change, rel=0.4), word
