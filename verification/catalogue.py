@@ -49,7 +49,7 @@ def study(name: str, title: str, levels: tuple[str, ...] = LEVELS, grade: str = 
 def wiring(part: str, title: str) -> Study:
     """Return a study of whether the options of a scene arrive."""
     target = f"verification.campaigns.wiring.{part}:wiring_{part}"
-    return Study(f"wiring_{part}", target, title=f"Every option reaches the number: {title}")
+    return Study(f"wiring_{part}", target, title=f"Every option changes the result: {title}")
 
 
 def published(name: str, title: str) -> Study:
@@ -83,15 +83,15 @@ STUDIES: tuple[Study, ...] = (
     study("ehl_grid", "Smooth film of lubfric on ever finer grids", grade="B"),
     study("friction", "Friction of lubfric: grid, patch, area, tolerance"),
     study("load_sharing", "Load sharing, both halves by finite elements"),
-    study("deterministic", "One gap, one pressure: limits, and the film in the same gap by finite elements"),
-    study("starved", "A smooth film whose inlet starves by finite elements"),
-    study("rough_strip", "A rough strip with one gap and one pressure by finite elements, at rest and moving"),
-    study("touching_strip", "Touching bodies with one gap and one pressure by finite elements, at rest and moving"),
+    study("deterministic", "Deterministic model: limits, and the film in the same gap by finite elements"),
+    study("starved", "Starved smooth film by finite elements"),
+    study("rough_strip", "Deterministic model: a rough strip by finite elements, at rest and moving"),
+    study("touching_strip", "Deterministic model: touching bodies by finite elements, at rest and moving"),
     study("sharing_cases", "Load sharing by finite elements: other oils, sliding, yielding, flat, a measured map"),
     DRY,
     OILS,
     HEAT,
-    study("sampling", "Surfaces as a sample: their statistics, and the scatter of f"),
+    study("sampling", "Samples of the surface: statistics, and the scatter of f"),
     study("formulations", "Contact formulations of the paper against the default"),
     wiring("film", "film and shear"),
     wiring("contact", "contact"),

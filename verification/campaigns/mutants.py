@@ -338,5 +338,7 @@ def _own(part: str, options: Namespace) -> Keywords:
     return {"places": options.places, "seconds": options.seconds, "file": options.file}
 
 
-PARTS: list[tuple[str, str, str, Keywords]] = [("mutants", "mutants:mutants", "Mistakes in the text of lubfric", {})]
+PARTS: list[tuple[str, str, str, Keywords]] = [
+    ("mutants", "mutants:mutants", "Errors put into the text of lubfric", {})
+]
 COMMAND = frame.campaign("mutants", __doc__, PARTS, add_options=_options, more_keywords=_own)

@@ -83,7 +83,7 @@ def summary(level: str, run: Run = Run()) -> Iterator[Item]:
         )
     columns = (
         *("roughness", "cases", "rms error, Eq. (9)", "rms error", "median error"),
-        *("median half-width", "within (by kind)", "CPU s, median (9 of 10)"),
+        *("median half-width", "inside (by kind)", "CPU s, median (9 of 10)"),
     )
     yield Table("calibration", "The quick answer: its error of ln f, and kinds left out", columns, rows)
 

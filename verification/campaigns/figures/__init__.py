@@ -1,4 +1,4 @@
-"""``python -m verification figures``: Figs. 2 to 10 of the paper, each as data, picture and a verdict.
+"""``python -m verification figures``: Figs. 2 to 10 of the paper, each as data, picture and assessment.
 
 The paper is A. Akchurin, R. Bosman, P. M. Lugt, M. van Drogen, Tribol. Lett. 59:19 (2015),
 doi:10.1007/s11249-015-0536-z. Each figure yields its checks, its data and its picture, with a verdict that is written

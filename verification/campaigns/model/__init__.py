@@ -17,6 +17,6 @@ PARTS: tuple[tuple[str, str, str, Keywords], ...] = (
     ("rolling", "model.rolling:rolling", "load sharing compared with roughness that moves", {}),
     ("running-in", "model.running_in:running_in", "Running-in over the distance, compared with published ranges", {}),
     ("moving-points", "model.random_moving:random_moving", "Random contacts under moving roughness", {}),
-    ("grids", "model.film:grids", "One gap, one pressure on ever smaller cells", {}),
+    ("grids", "model.film:grids", "Deterministic model on smaller and smaller cells", {}),
 )
 COMMAND = frame.campaign("model", __doc__, PARTS)

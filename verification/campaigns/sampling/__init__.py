@@ -1,4 +1,4 @@
-"""``python -m verification sampling``: does the interval cover the friction of an endless line?
+"""``python -m verification sampling``: does the interval contain the friction of an infinite line contact?
 
 Every case is solved many times, with seeds of its own. The exit code is 1 when coverage, reported error over scatter,
 or bias of a case is out of its bounds (`verification.campaigns.sampling.coverage`).

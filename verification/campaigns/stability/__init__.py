@@ -21,7 +21,7 @@ from ...types import PlainRow, PlainValue
 if TYPE_CHECKING:
     from .cell import Cell
 
-MAPS = {"film": "Smooth film", "contact": "Dry contact", "sharing": "Load sharing", "whole": "One gap, one pressure"}
+MAPS = {"film": "Smooth film", "contact": "Dry contact", "sharing": "Load sharing", "whole": "Deterministic model"}
 PARTS = (
     *((name, "stability:stability_map", title, {"name": name}) for name, title in MAPS.items()),
     ("bad-inputs", "hostile:bad_inputs", "Bad input", {}),

@@ -8,6 +8,7 @@ measurement, with the command, the date, the version and the machine below it. T
 import inspect
 from argparse import ArgumentParser
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 
 from ... import frame
@@ -20,9 +21,12 @@ TABLES: dict[str, Callable[[], Cells]] = measured.TABLES | studies.TABLES
 
 
 def caption(name: str) -> str:
-    """The first sentence on a table, by its function."""
-    function = getattr(TABLES[name], "func", TABLES[name])
-    return (inspect.getdoc(function) or name).split("\n")[0]
+    """Return what a table shows: the title of its study, or the first line on its function."""
+    table = TABLES[name]
+    if isinstance(table, partial):
+        return studies.title_of(table)
+    first_line = (inspect.getdoc(table) or name).split("\n")[0].removeprefix("Return ").rstrip(".")
+    return first_line[:1].upper() + first_line[1:] if not first_line.startswith("f ") else first_line
 
 
 def written(level: str, name: str, run: Run = Run()) -> Iterator[Item]:

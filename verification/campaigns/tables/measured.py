@@ -33,8 +33,8 @@ def roughness() -> Cells:
         "built-in scene": {},
         "Sq 200 nm": {"sq": 200e-9},
         "Sq 50 nm": {"sq": 50e-9},
-        "16 µm": {"correlation_length": 16e-6},
-        "4 µm": {"correlation_length": 4e-6},
+        "correlation length 16 µm": {"correlation_length": 16e-6},
+        "correlation length 4 µm": {"correlation_length": 4e-6},
         "lay along the motion, 16 x 4 µm": {"correlation_length": (16e-6, 4e-6)},
         "lay across the motion, 4 x 16 µm": {"correlation_length": (4e-6, 16e-6)},
     }

@@ -29,10 +29,16 @@ def ran(name: str, *, published: bool = False) -> Outcome:
     return outcome
 
 
+def title_of(table: "partial[Cells]") -> str:
+    """Return the title of the study, or the part of `python -m verification published`, behind a ``table``."""
+    is_published = table.func is publications_of or "published" in table.keywords
+    return next(study for study in (PUBLISHED if is_published else STUDIES) if study.name == table.args[0]).title
+
+
 def table_of(study: str, name: str, *, published: bool = False) -> Cells:
     """Return a table of a study without changes."""
     table = next(t for t in ran(study, published=published).tables if t.name == name)
-    return table.columns, [[str(cell) for cell in row] for row in table.rows]
+    return table.columns, [["-" if str(cell) == "nan" else str(cell) for cell in row] for row in table.rows]
 
 
 def on_finest_grid(study: str, name: str) -> Cells:
@@ -63,7 +69,7 @@ def load_sharing() -> Cells:
 
 
 def transient() -> Cells:
-    """What runs in time were held against: of the worst checks of every kind the ten nearest to their limits."""
+    """Return the ten checks of runs in time that are nearest to their limits, one of each kind."""
     worst: dict[str, tuple[float, Check]] = {}
     checks = ran("transient").checks + ran("transient_mixed").checks
     for check in (c for c in checks if c.decisive and c.unit != "s"):
@@ -109,7 +115,7 @@ def publications_of(part: str) -> Cells:
                 origin,
             ]
         )
-    columns = ["publication", "agree", "deviation (%)", "published bound (%)", "own bound (%)"]
+    columns = ["publication", "agree", "deviation (%)", "published bound (%)", "lubfric bound (%)"]
     return [*columns, "origin of the published values"], rows
 
 
@@ -131,9 +137,14 @@ def mixed_values() -> Cells:
     return ["quantity", "published", "lubfric", "difference over both bounds"], rows
 
 
+# What lies behind a difference, as the table names it.
+CAUSE_IN_WORDS = {"theirs": "publication", "ours": "lubfric", "both": "both", "unknown": "unknown"}
+
+
 def differing() -> Cells:
-    """Return values of `python -m verification published` that differ by more than both bounds, with the cause: all of a
-    publication, or the two that differ least and most."""
+    """Return the published values that differ by more than both bounds, with the cause.
+
+    Of each publication these are all, or the two that differ least and most."""
     sources = {source.text: source for source in SOURCES.values()}
     of_source: dict[str, list[Check]] = {}
     for check in (c for part in PUBLISHED for c in ran(part.name, published=True).checks if not c.passed):
@@ -149,7 +160,7 @@ def differing() -> Cells:
                 [
                     name,
                     *values,
-                    check.listed.cause if check.listed else "unknown",
+                    CAUSE_IN_WORDS[check.listed.cause] if check.listed else "unknown",
                     f"{authors(sources[source])}: {len(checks)}",
                 ]
             )
