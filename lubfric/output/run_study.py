@@ -292,7 +292,7 @@ def run_fit(arguments: Namespace) -> None:
         )
     say(fitted.explain())
     with run_folder(arguments.out, begun) as folder:
-        folder.add("fitted.toml", lambda: fitted.scene.to_toml().encode())
+        folder.add("fitted.toml", lambda: fitted.to_toml().encode())
         folder.draw("fit.png", plot_fit, drawn_record(fitted))
         folder.add("fit.json", lambda: json.dumps(plain(_record(fitted)), indent=1).encode())
         folder.put()

@@ -147,6 +147,21 @@ class FitResult(Renamed, Shown):
         """The scene with the values found."""
         return self.base.with_keys(self.values)
 
+    def to_toml(self) -> str:
+        """Return `scene` as the text of a scene file, with a comment on each parameter at its head: its 95 % interval, or
+        that the data do not determine it."""
+        lines = [f"# Fit to {self.measured.source}."]
+        if not self.describes_data:
+            lines.append("# The fit does NOT describe the data: the values below mean nothing.")
+        for key, ends in self.intervals.items():
+            value, low, high = (worded_value(key, number) for number in (self.values[key], *ends))
+            said = f"fitted, {value}, 95 % interval {low} to {high}"
+            if key in self.undetermined:
+                said = f"NOT DETERMINED by the data. Any value from {low} to {high} fits; {value} is one of them"
+            on_bound = "; it is on its bound" if key in self.at_bounds else ""
+            lines.append(f"# {key}: {said}{on_bound}.")
+        return "\n".join([*lines, "", self.scene.to_toml()])
+
     @property
     def band(self) -> tuple[np.ndarray, np.ndarray]:
         """(low, high): the 95 % band of the computed curve at the measured points."""

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.studies import Candidate, are_parted, flat_parameters, follow, with_minimum
+from lubfric.errors import Report
+from lubfric.studies import Between, Candidate, FitResult, are_parted, flat_parameters, follow, with_minimum
 
 # Slip of the points: f rises with its logarithm, up to a limit.
 LOGARITHM = np.linspace(0.0, 1.0, 12)
@@ -94,3 +95,28 @@ def test_a_minimum_on_the_same_flat_is_not_another_one():
         and lowest.misfit < 0.035
         and [each.is_separate for each in others] == [False, False, True]
     )
+
+
+def test_a_parameter_that_the_data_do_not_determine_does_not_look_determined_in_its_file(tmp_path):
+    """Of two parameters f does not change with the second."""
+    x = np.array([0.01, 0.02, 0.04, 0.08])
+    result = FitResult(
+        base=lubfric.load_scene("paper"),
+        measured=lubfric.Measured(x, np.full(4, 0.1)),
+        parameters={
+            "bodies.boundary_friction_coefficient": Between(low=0.05, high=0.15, scale="linear"),
+            "surface.sq": Between(low=1e-8, high=1e-6, scale="log"),
+        },
+        unit=np.array([0.5, 0.5]),
+        unit_covariance=np.diag([1e-6, 1e3]),
+        predicted=np.full(4, 0.1),
+        slopes=np.stack([np.full(4, 0.1), np.zeros(4)], axis=1),
+        report=Report("fit", "converged", iterations=1, residual=0.0, tolerance=1.0),
+    )
+    assert result.undetermined == ("surface.sq",)
+    (tmp_path / "fitted.toml").write_text(result.to_toml(), encoding="utf-8")
+    head = [line for line in result.to_toml().splitlines() if line.startswith("#")]
+    (friction, roughness) = head[1:]
+    assert "boundary_friction_coefficient: fitted, 0.1, 95 % interval 0.099" in friction and "NOT" not in friction
+    assert "surface.sq: NOT DETERMINED by the data. Any value from 10 nm to 1 µm fits" in roughness
+    assert lubfric.load_scene(tmp_path / "fitted.toml") == result.scene
