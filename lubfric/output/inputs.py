@@ -86,7 +86,7 @@ def _bodies(scene: Scene) -> list[str]:
         peak = hertz.line_peak_pressure(b.load / b.width, b.radius, b.e_prime)
         rows = [
             f"Hertz: half-width {worded(b.half_width, 'm')}, mean pressure {worded(b.mean_hertz_pressure, 'Pa')}, "
-            f"peak {worded(peak, 'Pa')}; {worded(b.load / b.width, 'N/m')}"
+            f"peak {worded(peak, 'Pa')}; load per length {worded(b.load / b.width, 'N/m')}"
         ]
     else:
         low, high, time = _cycle_peak_pressure(scene)

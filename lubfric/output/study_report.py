@@ -333,9 +333,10 @@ def answer_lines(result: StudyResult) -> list[str]:
             low, high = (float(result[end][index]) for end in (low_name, high_name))
             shown = with_interval(float(values[index]), low, high, unit=COLUMNS[name].unit)
             unknown = "" if np.isfinite(low) else " (interval not known)"
+            why = ""
             if name == "coefficient" and not _slides(result, index):
-                unknown += ", the rolling resistance of one surface, without sliding"
-            rows.append(f"The {word} {what} is {shown}{unknown}, at {point_in_words(result, index)}.")
+                why = ". Nothing slides there: it is the rolling resistance of one surface"
+            rows.append(f"The {word} {what} is {shown}{unknown}, at {point_in_words(result, index)}{why}.")
     return [*rows, *_budget_line(result), *_main_effects_line(result)]
 
 

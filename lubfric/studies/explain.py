@@ -157,7 +157,7 @@ def explain(plan: Any, store: Path | None = None) -> str:
     kept = Store(store)
     others = 0 if plan.chooses_speeds else kept.count - held - kept.has(PLAN)
     if others > 0:
-        lines.append(f"  other    {counted(others, 'points')} of other scenes stay in {store}, and do not count here")
+        lines.append(f"  other    {counted(others, 'points')} of other scenes are in {store} too; they are not used")
     if not any(True for _ in table.left()):
         lines += [f"  {text}" for text in warnings_of(plan)]
         return "\n".join([*lines, "  time     nothing is left to solve"])

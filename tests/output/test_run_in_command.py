@@ -32,7 +32,7 @@ def test_the_files_hold_what_the_function_returns(folder):
     last = dict(zip(table[0].split(","), table[-1].split(",")))
     assert float(last["sq [m]"]) == result.wear.sq[-1] and float(last["distance [m]"]) == 1e-3
     assert float(last["lift_off_speed [m/s]"]) == pytest.approx(result.wear.lift_off_speed[-1], nan_ok=True)
-    assert {what for what, _, _ in steps} == {"pass", "wear", "distances of wear with their friction"}
+    assert {what for what, _, _ in steps} == {"pass", "wear", "friction at distances of wear"}
     assert ("wear", 100, 100) in steps
     assert json.loads((folder / "out" / "run_in.json").read_text())["passes"]["shaken_down"] is True
 

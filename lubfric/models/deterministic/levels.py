@@ -106,7 +106,7 @@ PART_OF_WORK_LEFT = 0.5
 STRIPS_FOR_SCATTER = 3
 
 CORRECTED_BY_SUMMITS = (
-    "f corrected by {:+.2g} %, because the summits of the sample differ from those of the endless surface"
+    "f corrected by {:+.2g} %, because the summits of the sample differ from those of the infinite surface"
 )
 CORRECTED_BY_CELLS = "f corrected by {:+.2g} % for shorter cells, as estimated from its change by the boundary film"
 OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
