@@ -79,7 +79,7 @@ SLIPS = {  # name: (changes to GOOD by section; None removes a key, words of the
         },
         "mirror",
     ),
-    "unit behind a number": ({"bodies": {"load": "200 N"}}, "is in quotes"),
+    "unit behind a number": ({"bodies": {"load": "200 N"}}, "numbers with a unit in quotes"),
     "decimal comma": ({"bodies": {"width": "0,01"}}, "decimal point"),
 }
 

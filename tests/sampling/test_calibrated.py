@@ -325,7 +325,7 @@ def test_of_two_answers_to_a_thick_film_on_moving_roughness_that_with_the_smalle
     (by_equation, quick) = (lubfric.friction(scene.with_(numerics={"model": name}), 0.5) for name in ("paper", "quick"))
     assert by_equation.contact_load == 0 and by_equation.film_to_roughness_ratio > 5
     assert quick.coefficient == by_equation.coefficient and quick.uncertainty.model == by_equation.uncertainty.model
-    assert "where the error of load sharing is the smaller one" in quick.uncertainty.text
+    assert "the error of the load-sharing model is smaller" in quick.uncertainty.text
 
 
 def test_the_bounds_grow_where_no_case_is_alike():
