@@ -35,6 +35,9 @@ SECTION_SIZE = (5.5, 5.0)  # inch: of a map of the contact pressure, and of the 
 ASIDE = 0.6  # inch beside the maps of a picture whose width is chosen: labels of y
 CLOSE_GAP = 0.2  # of `PANEL_GAP`, between the panels of a picture whose width is chosen
 PANEL_RATIO = 0.9  # height over width of a panel of a narrow picture
+STACKED_RATIO = 0.5  # height over width of a map, below which maps are below each other
+STACKED_WIDTH = 6.5  # inch: of a map of these
+STACKED_ABOVE = 0.45  # inch above and below each of them: labels
 ABOVE_BAR = 1.3  # inch above and below such maps: title, bar of colours, labels
 
 
@@ -97,8 +100,10 @@ def _deterministic_picture(contact: DrawnContact, options: PictureOptions) -> Fi
     part = drawn_part(x, y, int(fields.pressure[near].max(axis=0).argmax()))
     size = size_of_maps(x, y[part], 3) if options.width is None else _size_below_bars(x, y[part], 3, options.width)
     figure = figures.new_figure(figsize=size, layout=_layout(options, compress=True))
+    stacked = options.width is None and are_stacked(x, y[part])
+    rows = 3 if stacked else 1
     for axes, (label, unit, field, colours, norm) in zip(
-        figure.subplots(1, 3, sharey=True),
+        figure.subplots(rows, 3 // rows, sharex=stacked, sharey=True),
         (
             ("pressure", "Pa", fields.pressure, "magma_r", None),
             ("gap", "m", fields.gap, "viridis", LogNorm()),
@@ -144,9 +149,11 @@ def _title(figure: Figure, text: str, options: PictureOptions) -> None:
 
 
 def size_of_maps(x: np.ndarray, y: np.ndarray, count: int) -> tuple[float, float]:
-    """Return width and height [inch] of a figure with so many maps of x and y beside each other, each with its bar of
-    colours, without room that nothing fills."""
+    """Return width and height [inch] of a figure with so many maps of x and y beside each other, or wide ones below each
+    other (`are_stacked`), each with its bar of colours, without room that nothing fills."""
     ratio = _drawn_ratio(x, y)
+    if are_stacked(x, y):
+        return STACKED_WIDTH + MAP_BESIDE, count * (STACKED_WIDTH * ratio + STACKED_ABOVE) + MAP_ABOVE - STACKED_ABOVE
     width = float(np.clip(MAP_HEIGHT / ratio, *MAP_WIDTHS))
     return count * (width + MAP_BESIDE), width * ratio + MAP_ABOVE
 
@@ -158,9 +165,15 @@ def _size_below_bars(x: np.ndarray, y: np.ndarray, count: int, width: float) -> 
     return whole, (whole - ASIDE) / count * _drawn_ratio(x, y) + ABOVE_BAR
 
 
+def are_stacked(x: np.ndarray, y: np.ndarray) -> bool:
+    """Return whether maps of x and y are so wide that they are below each other."""
+    return _drawn_ratio(x, y) < STACKED_RATIO
+
+
 def _drawn_ratio(x: np.ndarray, y: np.ndarray) -> float:
-    """Return the height over the width of a map of x and y; one too slender is not drawn to scale."""
-    ratio = float(np.ptp(y) / np.ptp(x))
+    """Return the height over the width of a map of cells at x and y; one too slender is not drawn to scale."""
+    (length, width) = (np.ptp(axis) * axis.size / (axis.size - 1) for axis in (y, x))
+    ratio = float(length / width)
     is_to_scale = 1 / figures.SLENDER_MAP <= ratio <= figures.SLENDER_MAP
     return ratio if is_to_scale else MAP_HEIGHT / MAP_WIDTHS[1]
 
@@ -197,10 +210,15 @@ def _two_pressures(contact: DrawnContact, options: PictureOptions) -> Figure:
     panels = [touching or not in_section, in_section]
     part = slice(None)
     slender = False
+    wide = False
     if fields is not None and touching:
         part = drawn_part(fields.x, fields.y, row)
         slender = bool(np.ptp(fields.y[part]) > SLENDER_PICTURE * np.ptp(fields.x))
+        if options.width is None and are_stacked(fields.x, fields.y[part]):
+            wide = True
     (figure, axes) = _panels(sum(panels), options, slender=slender)
+    if fields is not None and wide:
+        (figure, axes) = _stacked(sum(panels), _drawn_ratio(fields.x, fields.y[part]), options)
     title = f"{'' if options.is_narrow else 'load-sharing model: '}U = {contact.speed:g} m/s"
     if fields is not None and touching:
         pressure, unit = figures.in_unit_for(fields.pressure[:, part], "Pa")
@@ -239,6 +257,13 @@ def _panels(count: int, options: PictureOptions, *, slender: bool) -> tuple[Figu
     else:
         shown = figure.subplots(1, count, squeeze=False, width_ratios=ratios)
     return figure, list(shown.flat)
+
+
+def _stacked(count: int, ratio: float, options: PictureOptions) -> tuple[Figure, list[Axes]]:
+    """Return a figure of a map whose height over width is the ``ratio``, and, where ``count`` is 2, a section below it."""
+    heights = [STACKED_WIDTH * ratio + MAP_ABOVE, SECTION_SIZE[1]][:count]
+    figure = figures.new_figure(figsize=(STACKED_WIDTH + MAP_BESIDE, sum(heights)), layout=_layout(options))
+    return figure, list(figure.subplots(count, 1, squeeze=False, height_ratios=heights).flat)
 
 
 def _hertz_strip(axes: Axes, half_width: float, options: PictureOptions) -> None:

@@ -13,7 +13,7 @@ from .._base import FloatArray, figures
 from ..studies import friction_over_speed, gaps_of, interval_band
 from ..time import band_label, friction_over_time, in_motion, time_scale
 from ..units import converted, printed, unit_for, worded
-from .contact_pictures import PANEL_GAP, drawn_part, part_in_words, size_of_maps
+from .contact_pictures import PANEL_GAP, are_stacked, drawn_part, part_in_words, size_of_maps
 from .picture_options import PANELS, PictureOptions
 
 if TYPE_CHECKING:
@@ -205,12 +205,16 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
     x, y = (np.arange(count) * step for count, step in zip(surface.shape, surface.spacing))
     part = drawn_part(x, y, 0)
     higher = np.linspace(0.0, 1.0, QUANTILES)
-    width = size_of_maps(x, y[part], 1)[0]
+    (width, height) = size_of_maps(x, y[part], 1)
     from matplotlib.layout_engine import ConstrainedLayoutEngine
 
     engine = ConstrainedLayoutEngine(w_pad=PANEL_GAP)
-    figure = figures.new_figure(figsize=(width + BEARING_WIDTH, 4.5), layout=engine)
-    above, bearing = figure.subplots(1, 2, width_ratios=(width, BEARING_WIDTH))
+    if are_stacked(x, y[part]):
+        figure = figures.new_figure(figsize=(width, height + BEARING_WIDTH), layout=engine)
+        above, bearing = figure.subplots(2, 1, height_ratios=(height, BEARING_WIDTH))
+    else:
+        figure = figures.new_figure(figsize=(width + BEARING_WIDTH, 4.5), layout=engine)
+        above, bearing = figure.subplots(1, 2, width_ratios=(width, BEARING_WIDTH))
     surface.cropped((x.size, y[part].size), (0, 0)).plot(above)
     above.set_title(above.get_title() + part_in_words(y, part, "the map"), fontsize=10)
     heights = 1e9 * (np.quantile(surface.measured, 1 - higher) - surface.measured.mean())
@@ -224,11 +228,14 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
 def plot_history(
     path: Path, columns: dict[str, np.ndarray], title: str, options: PictureOptions = PictureOptions()
 ) -> None:
-    """Draw speed and load, film, load ratios and f over time, from the columns of history.csv."""
+    """Draw speed and load, film, load ratios, f and, where it is known, the power loss over time, from the columns of
+    history.csv."""
     c = columns
     t = c["time"] * time_scale(c["time"][-1])[0]
-    figure = figures.new_figure(figsize=options.size([2.2, 2.2, 2.2, 2.6]))
-    first, second, third, fourth = figure.subplots(4, 1, sharex=True)
+    has_power = "power_loss" in c and bool(np.any(c["power_loss"] > 0))
+    heights = [2.2, 2.2, 2.2, 2.6, *[2.2] * has_power]
+    figure = figures.new_figure(figsize=options.size(heights))
+    first, second, third, fourth, *others = figure.subplots(len(heights), 1, sharex=True)
     first.plot(t, c["entrainment_speed"], color="k")
     first.axhline(0.0, color=figures.GREY, lw=0.6)
     first.set_ylabel("entrainment speed U (m/s)")
@@ -257,10 +264,26 @@ def plot_history(
     if np.isfinite(low).any():
         fourth.fill_between(t, low, high, color=figures.BLUE, alpha=0.2, lw=0, label=band_label(c))
     friction_over_time(fourth, c)
+    for fifth in others:
+        _power_over_time(fifth, t, c)
+        fifth.set_xlabel(fourth.get_xlabel())
+        fourth.set_xlabel("")
     fourth.set_xlim(t[0], t[-1])
     options.scale(fourth, friction=fourth, f=c["coefficient"])
     options.thin(figure)
     figure.savefig(path)
+
+
+def _power_over_time(axes: Axes, t: np.ndarray, c: dict[str, np.ndarray]) -> None:
+    """Draw the power loss over the times ``t`` of an axis, with the band of its intervals."""
+    low, high = (c.get(f"power_loss_{end}", np.full(t.shape, np.nan)) for end in ("low", "high"))
+    unit = unit_for(c["power_loss"].tolist(), "W")
+    if np.isfinite(low).any():
+        (below, above) = (converted(end, "W", unit) for end in (low, high))
+        axes.fill_between(t, below, above, color=figures.RED, alpha=0.2, lw=0, label=band_label(c))
+    axes.plot(t, converted(c["power_loss"], "W", unit), color=figures.RED, lw=1.2, label="power loss")
+    axes.set(ylabel=f"power loss P ({printed(unit)})", ylim=(0.0, None))
+    figures.key_above(axes)
 
 
 @figures.styled

@@ -51,7 +51,7 @@ HISTORY_ROWS = 13
 CURVES = {
     "stribeck.png": "Friction, load ratios and film over the entrainment speed",
     "traction.png": "Friction over the slide-roll ratio",
-    "history.png": "Speed, load, film and friction over time",
+    "history.png": "Speed, load, film, friction and power loss over time",
 }
 PICTURES = {
     "contact.png": "The contact at one speed. Its title names the part of the surface and the cells, which may "

@@ -251,6 +251,15 @@ def test_a_history_is_drawn_by_its_table(figures):
     np.testing.assert_allclose(edges(third, "asperity load $F_C/F_T$")[1], [0.2, 0.5, 0.25])
     np.testing.assert_allclose(data(fourth, "fluid friction"), [[0, 10, 20], 0.05 / columns["load"]])
     assert "(nm)" in second.get_ylabel() and fourth.get_xlabel() == "time (ms)" and "(N)" in load.get_ylabel()
+    power = np.array([2e-3, 5e-3, 4e-3])
+    ends = {"power_loss_low": 0.9 * power, "power_loss_high": 1.2 * power}
+    plot_history("x.png", columns | ends | {"power_loss": power}, "title")
+    (*_, above, last, _) = figures[1].axes
+    np.testing.assert_allclose(data(last, "power loss"), [[0, 10, 20], [2, 5, 4]])
+    np.testing.assert_allclose(
+        edges(last, "95 % interval, without model-form error"), [[1.8, 4.5, 3.6], [2.4, 6.0, 4.8]]
+    )
+    assert last.get_ylabel() == "power loss P (mW)" and last.get_xlabel() == "time (ms)" and not above.get_xlabel()
 
 
 def test_a_map_is_seen_from_above_in_micrometres():
@@ -288,6 +297,31 @@ def test_the_picture_of_a_contact_holds_its_fields(figures, solved):
     assert "(nm)" in section.get_ylabel()
     low, high = section.get_ylim()
     assert high < 1.6e9 * max(point.heights.max(), point.balance.film.film_thickness.min()) and low > -1e3
+
+
+@pytest.mark.parametrize("rows", [16, 24, 30])
+@pytest.mark.parametrize("is_deterministic", [True, False], ids=["deterministic", "load sharing"])
+def test_a_picture_of_a_wide_contact_is_not_blank(figures, rows, is_deterministic):
+    """Panels and their labels fill the height: maps of 64 cells along x by 16, 24 and 30."""
+    x = 1e-6 * (np.arange(64) - 31.5)
+    field = 1e6 + np.random.default_rng(1).random((64, rows))
+    names = ("heights", "pressure", "gap", "deflection", "film", "shear")
+    fields = ContactFields(solve="a strip", x=x, y=1e-6 * np.arange(rows), **dict.fromkeys(names, field))
+    plot_contact(
+        "x.png",
+        DrawnContact(
+            speed=1.0, half_width=2e-5, fields=fields, is_deterministic=is_deterministic, has_film=not is_deterministic
+        ),
+    )
+    (figure,) = figures
+    figure.draw_without_rendering()
+    filled = np.zeros(1000, bool)
+    for axes in figure.axes:
+        box = axes.get_tightbbox()
+        filled[slice(*np.clip(1000 * np.array([box.y0, box.y1]) / figure.bbox.height, 0, 1000).astype(int))] = True
+    maps = [axes for axes in figure.axes if axes.images]
+    width = max(axes.get_window_extent().width for axes in maps)
+    assert filled.mean() > 0.75 and width > 0.6 * figure.bbox.width
 
 
 def test_the_picture_of_a_contact_in_python_has_the_hertz_strip_too(solved):
