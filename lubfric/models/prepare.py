@@ -21,6 +21,7 @@ from .shared import (
     operator_on,
     scene_of,
     violations_by_form,
+    violations_by_strips,
 )
 
 
@@ -89,7 +90,10 @@ def _on_sample(scene: Scene, sample: Sample, *, is_given: bool, has_given_maps: 
     memo = Memo()
     rough_contact = sample.contact(scene, sample.first_strips, partial(operator_on, memo, scene))
     memo.put(JoinedKey(sample.cells.coarsening, sample.first_strips), rough_contact, cells_of_contact(rough_contact))
-    by_form = violations_by_form(scene, sample.own_maps, is_given=has_given_maps)
+    by_form = (
+        *violations_by_form(scene, sample.own_maps, is_given=has_given_maps),
+        *violations_by_strips(*sample.sq_deviation(surface)),
+    )
     prepared = Prepared(
         scene=scene,
         surface=surface,

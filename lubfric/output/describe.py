@@ -21,6 +21,7 @@ from ..models.shared import (
     gathered,
     inlet_at,
     violations_by_form,
+    violations_by_strips,
     violations_by_unusual_inputs,
 )
 from ..quantities import counted
@@ -151,6 +152,7 @@ def estimate_scene(
     at = [
         *((None, violation) for violation in beforehand(scene, surface)),
         *((None, violation) for violation in violations_by_form(scene, sample.own_maps, is_given=False)),
+        *((None, violation) for violation in violations_by_strips(*sample.sq_deviation(surface))),
         *first_model.expected_violations(scene, sorted(set(speeds))),
     ]
     refusals = _doubts([pair for pair in at if pair[1].severe or IF_ALL in pair[1].consequence])

@@ -67,6 +67,12 @@ WINDOW_DISTANCE = 4.0
 # Windows from which on none has to reach over the ends of the map: their scatter is known to 1/sqrt(14) = 27 %.
 ENOUGH_WINDOWS = 8
 
+# Deviation of the Sq of strips from that of their map, relative, below which it is not stated. A convention.
+SMALL_DEVIATION = 0.02
+
+# Half of the 95 % interval of a normal distribution over its standard deviation.
+NORMAL_REACH = 1.96
+
 # Stream of seeds of strips.
 STRIPS = 0
 
@@ -187,6 +193,30 @@ class MeasuredStrips(Sample):
 
     def map_in_words(self, surface: Surface) -> str:
         return self.surface.describe()
+
+    def described(self, surface: Surface) -> list[str]:
+        (deviation, explained) = self.sq_deviation(surface)
+        lines = super().described(surface)
+        if abs(deviation) < SMALL_DEVIATION:
+            return lines
+        side = "above" if deviation > 0 else "below"
+        return [
+            *lines,
+            f"Sq of the strips is {100 * abs(deviation):.2g} % {side} that of the map (a sample of this size differs by up to "
+            f"{100 * explained:.2g} % at 95 %)",
+        ]
+
+    def sq_deviation(self, surface: Surface) -> tuple[float, float]:
+        """Return the same as `Sample.sq_deviation`. The variance of heights over an area A scatters by (Sku - 1)/N, and falls
+        short by that of their mean, 2/N or less, where A has N = A/(π lx ly/2) independent places: the integral of the
+        squared autocorrelation, of a Gaussian and of an exponential one alike (Bendat and Piersol, Random Data, ch. 8)."""
+        whole = self.surface
+        if whole.sq == 0 or surface.sq == 0:
+            return 0.0, 0.0
+        area = min(math.prod(surface.size), math.prod(whole.size))  # windows overlap
+        part = 0.5 * math.pi * math.prod(self.correlation_lengths) / area
+        scatter = 0.5 * math.sqrt(max(whole.sku - 1.0, 0.0) * part)
+        return surface.sq / whole.sq - 1.0, NORMAL_REACH * scatter + part
 
     def ends_after(self, count: int) -> bool:
         return count >= self.available_strips

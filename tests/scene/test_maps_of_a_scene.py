@@ -1,6 +1,7 @@
 """Measured maps in scenes: two bodies, short maps, spikes, keys that do not apply; what a scene keeps is its own."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,10 +9,11 @@ from instrument_files import write_sdf, write_sur
 from scene_text import BODIES_AND_OIL, paper_scene
 
 import lubfric
-from lubfric.models.shared import why_sample_too_short
+from lubfric.models.shared import violations_by_strips, why_sample_too_short
 from lubfric.output import main
 from lubfric.samples import (
     contact_maps,
+    sample_of,
     whole_maps,
 )
 from lubfric.scene import ContactDomain, Roughness
@@ -306,3 +308,28 @@ def test_the_refusal_of_outliers_counts_what_their_mask_takes(tmp_path):
     (note,) = (n for n in whole_maps(loaded(tmp_path, f"{text}'mask'\n"))[0].notes if "outliers masked" in n)
     assert "2 isolated points are above their neighbours" in str(caught.value)
     assert note.startswith("outliers masked: 5 ") and "2 above and 3 below" in note and note in str(caught.value)
+
+
+@pytest.mark.parametrize("acf", ["gaussian", "exponential"])
+def test_the_sq_of_a_strip_is_stated_beside_that_of_its_map_with_what_sampling_explains(acf, tmp_path):
+    """Of 20 maps that are alike everywhere one lies outside; a strip on the smooth side of a map always does."""
+    np.savetxt(tmp_path / "m.txt", np.zeros((4, 4)))
+    rough = {"file": str(tmp_path / "m.txt"), "spacing": 1e-6, "unit": "nm", "sq": None, "correlation_length": None}
+    scene = lubfric.load_scene("paper").with_(surface=rough, contact={"shape": None, "spacing": None})
+    inside = 0
+    for seed in range(20):
+        made = lubfric.generate_surface((300, 150), 1e-6, sq=1e-7, correlation_length=6e-6, acf=acf, seed=seed)
+        made = replace(made, periodic_axes=(False, False))
+        sample = sample_of(scene, read=(made,))
+        strips = sample.first_map()
+        deviation, explained = sample.sq_deviation(strips)
+        assert deviation == pytest.approx(strips.heights.std() / made.heights.std() - 1)
+        inside += abs(deviation) <= explained
+    assert inside >= 17
+    half = replace(made, heights=made.heights * np.where(np.arange(300) < 150, 0.2, 1.0)[:, None])
+    sample = sample_of(scene, read=(half,))
+    smooth = min((sample.strip(index) for index in range(sample.available_strips)), key=lambda strip: strip.sq)
+    (warning,) = violations_by_strips(*sample.sq_deviation(smooth))
+    assert warning.text.startswith("warning: difference of Sq between the strips that are solved first and the map is ")
+    assert "smoother than the map" in warning.text
+    assert any(line.startswith("Sq of the strips is ") and "below" in line for line in sample.described(smooth))

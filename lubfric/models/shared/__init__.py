@@ -35,6 +35,7 @@ from .checks_before import (
     violations_by_bodies,
     violations_by_form,
     violations_by_map,
+    violations_by_strips,
     violations_by_unusual_inputs,
     why_sample_too_short,
 )

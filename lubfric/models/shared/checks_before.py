@@ -56,6 +56,12 @@ MOST_OF_FORM = 90.0
 # Begin of the name of that share.
 FORM_SHARE = "share of the form"
 
+# Name of the deviation of the Sq of strips from that of their map.
+STRIP_SQ = "difference of Sq between the strips that are solved first and the map"
+
+# Such a deviation, at most, that is no violation whatever the sample explains. A convention.
+LEAST_STRIP_DEVIATION = 0.05
+
 # Peak Hertz pressure [Pa] that hard steel does not carry elastically: static ratings of bearings allow 4.0 to 4.6 GPa
 # (ISO 76).
 YIELDED = 4.5e9
@@ -111,6 +117,21 @@ def violations_by_form(scene: Scene, maps: Sequence[Surface], *, is_given: bool)
         )
 
 
+def violations_by_strips(deviation: float, explained: float) -> Iterator[Violation]:
+    """Yield the violations by strips whose Sq is, relative, ``deviation`` above that of their map, of which a sample of their
+    size may differ by the ``explained`` part."""
+    if abs(deviation) > max(explained, LEAST_STRIP_DEVIATION):
+        yield Violation(
+            what=STRIP_SQ,
+            value=100 * abs(deviation),
+            limit=100 * max(explained, LEAST_STRIP_DEVIATION),
+            unit="%",
+            consequence=f"the strips that are solved are {'rougher' if deviation > 0 else 'smoother'} than the map by more than "
+            "their size explains: it has a form, or is not alike everywhere",
+            recommendation="take the form off (form), or cut the map to the part that is in contact",
+        )
+
+
 def stated_sq(scene: Scene) -> float | None:
     """Return the Sq [m] of all roughness of ``scene``, if it states that of each body."""
     parts = [rough.sq for rough in (scene.surface, scene.counterface) if rough is not None]
@@ -118,8 +139,8 @@ def stated_sq(scene: Scene) -> float | None:
 
 
 def is_by_form(violation: Violation) -> bool:
-    """Return whether a violation is one of `violations_by_form`, which depends on the map alone."""
-    return violation.what.startswith(FORM_SHARE)
+    """Return whether a violation is one of `violations_by_form` or `violations_by_strips`, which depend on the map alone."""
+    return violation.what.startswith((FORM_SHARE, STRIP_SQ))
 
 
 def violations_by_unusual_inputs(scene: Scene) -> tuple[Violation, ...]:
