@@ -21,5 +21,5 @@ from .power import power_of_forces
 from .ranges import widened
 from .result import FrictionResult, cite_together, cited
 from .solve_to_tolerance import solve_to_tolerance
-from .uncertainty import Uncertainty, UncertaintyCurve, curve_of, interval
+from .uncertainty import PARTS, Uncertainty, UncertaintyCurve, curve_of, interval
 from .work_of_point import PointWorkEstimate, estimated_work_of_point, seconds_of_points

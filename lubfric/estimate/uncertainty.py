@@ -23,6 +23,15 @@ from ..units import interval_in_words, with_interval
 RENAMED = {"spots": "effective_contacts", "fluid": "by_limit", "few_spots": "has_few_contacts"}
 
 
+# What the parts of the uncertainty budget are called, and the quantity of each (`lubfric.quantities`).
+PARTS = {
+    "numerical": "numerical",
+    "sampling": "sampling",
+    "model-form": "model",
+    "not given": "not_given",
+    "input": "inputs",
+}
+
 # Part of the budget, relative, below which nothing is recommended that reduces it. A convention.
 SMALL_PART = 0.005
 
@@ -73,17 +82,12 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     @property
     def budget(self) -> dict[str, float]:
         """The uncertainty budget: half of the width of the 95 % interval by each part alone, relative to f, by the
-        names "numerical", "sampling", "model-form", "not given" and "input". NaN where a part is not known.
+        names of `PARTS`. NaN where a part is not known.
 
         That of sampling is its standard error (``sampling``) times Student's t.
         """
-        return {
-            "numerical": self.numerical,
-            "sampling": student(self.freedom) * self.sampling if self.sampling else self.sampling,
-            "model-form": self.model,
-            "not given": self.not_given,
-            "input": self.inputs,
-        }
+        parts = {name: getattr(self, field) for name, field in PARTS.items()}
+        return parts | {"sampling": student(self.freedom) * self.sampling if self.sampling else self.sampling}
 
     @property
     def budget_in_words(self) -> dict[str, str]:

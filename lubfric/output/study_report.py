@@ -10,6 +10,7 @@ from string import Template
 import numpy as np
 
 from .._base import __version__
+from ..estimate import PARTS
 from ..models import models_that_may_answer
 from ..models.shared import (
     MODEL_ERROR,
@@ -53,15 +54,6 @@ REPORTED_NUMBERS: dict[str, tuple[str, str] | None] = {
     "full_load_film": None,
     "lambda_ratio": None,
     ASPERITY_LOAD_RATIO: None,
-}
-
-# Parts of the uncertainty budget, and their columns of a study.
-BUDGET_COLUMNS = {
-    "numerical": "numerical",
-    "sampling": "sampling",
-    "model-form": "model",
-    "not given": "not_given",
-    "input": "inputs",
 }
 
 # Where an operating point lies.
@@ -251,7 +243,7 @@ def _details(result: StudyResult, rows: int) -> str:
     columns = columns_of_study(result)
     picked = _picked(columns, rows)
     scenes = _scene_of_each(result)
-    parts = {name: columns[f"uncertainty_{column}"][picked] for name, column in BUDGET_COLUMNS.items()}
+    parts = {name: columns[f"uncertainty_{field}"][picked] for name, field in PARTS.items()}
     freedom = columns["uncertainty_freedom"][picked]
     parts["sampling"] = [error * student(n) if error else error for error, n in zip(parts["sampling"], freedom)]
     rises = [columns[name][picked] for name in ("flash_temperature_rise", "film_temperature_rise")]
@@ -363,7 +355,7 @@ def _budget_line(result: StudyResult) -> list[str]:
     if not np.isfinite(f).any():
         return []
     index = tuple(map(int, np.unravel_index(int(np.nanargmax(f)), f.shape)))
-    parts = {name: float(result[f"uncertainty_{column}"][index]) for name, column in BUDGET_COLUMNS.items()}
+    parts = {name: float(result[f"uncertainty_{field}"][index]) for name, field in PARTS.items()}
     parts["sampling"] *= student(float(result["uncertainty_freedom"][index])) if parts["sampling"] else 1.0
     curves = result.plan.scenes
     scene = curves[int(np.ravel_multi_index(index, f.shape)) * len(curves) // f.size]

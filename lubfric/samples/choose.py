@@ -23,11 +23,19 @@ def sample_of(
     contact: RoughContact | None = None,
     read: tuple[Surface, ...] = (),
 ) -> Sample:
-    """Return the sample of ``scene``.
+    """Return the sample of ``scene``, on native cells if ``numerics.grid`` is "given".
 
     ``maps``: heights given to `lubfric.prepare`, of all and of each body; ``contact``: given to it; None: lubfric's own;
     ``read``: the maps of the scene, if `whole_maps` read them before.
     """
+    sample = _on_chosen_cells(scene, maps, contact, read)
+    return sample.native() if scene.numerics.grid == "given" else sample
+
+
+def _on_chosen_cells(
+    scene: Scene, maps: tuple[Surface, ...], contact: RoughContact | None, read: tuple[Surface, ...]
+) -> Sample:
+    """Return the sample on the cells that its kind takes first; arguments as of `sample_of`."""
     if not maps and contact is None and takes_strips(scene):
         return strips_of(scene, read)
     surface, *bodies = contact_maps(scene, maps, read=read)

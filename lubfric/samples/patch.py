@@ -133,5 +133,4 @@ def single_patch(
     cells = cells_of_a_box(
         surface.spacing, lengths=lengths, half_width=scene.bodies.half_width, shape=surface.shape, first=first
     )
-    patch = SinglePatch(cells=cells, correlation_lengths=lengths, surface=surface, bodies=bodies)
-    return patch.native() if scene.numerics.grid == "given" else patch
+    return SinglePatch(cells=cells, correlation_lengths=lengths, surface=surface, bodies=bodies)

@@ -260,11 +260,9 @@ class MeasuredStrips(Sample):
 
 
 def strips_of(scene: Scene, read: tuple[Surface, ...] = ()) -> Sample:
-    """Return strips of the scene's surface, generated or measured; on native cells if ``numerics.grid`` is given.
-    ``read``: the measured maps, if `whole_maps` read them before."""
-    sample: Sample
-    sample = measured_strips(scene, *(read or whole_maps(scene))) if is_measured(scene) else generated_strips(scene)
-    return sample.native() if scene.numerics.grid == "given" else sample
+    """Return strips of the scene's surface, generated or measured. ``read``: the measured maps, if `whole_maps` read them
+    before."""
+    return measured_strips(scene, *(read or whole_maps(scene))) if is_measured(scene) else generated_strips(scene)
 
 
 def generated_strips(scene: Scene) -> GeneratedStrips:

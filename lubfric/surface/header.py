@@ -30,7 +30,6 @@ WIDTH_WORDS = {"width", "šířka", "breite", "anchura", "largeur", "larghezza",
 HEIGHT = {"height", "výška", "höhe", "altura", "hauteur", "altezza", "高さ", "높이", "высота"}
 VALUE_UNIT = {"value", "values", "hodnot", "einheiten", "unités", "valore", "値の単位", "값", "valor", "измерения"}
 UNIT = {"unit", "units", "einheit", "단위", "単位"}
-CHANNEL = {"channel", "kanál", "kanal", "canal", "canale", "チャネル", "채널", "канал"}
 STEP_WORDS = {
     "step",
     "steps",

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..contact import ContactState, RoughContact
 from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError
-from ..models.load_sharing import volume_residual
+from ..models.load_sharing import film_under, gap_per_film, volume_residual
 from ..models.shared import Prepared
 from ..scene import Scene
 from .film_equations import Spring
@@ -72,7 +72,7 @@ class LoadSharingSolver:
         """Return the solution at ``time`` [s]; its payload is the `ContactStep`.
 
         A `Spring` represents the contact in the film's load balance. Then the contact is solved at the load of the
-        spring, and its gap gives the next spring (a secant in ln load), until |gap - film|/(gap + film) <= tolerance.
+        spring, and its gap gives the next spring (a secant in ln load), until the `volume_residual` is within the tolerance.
         """
         touch = past.load
         softness = past.softness
@@ -84,7 +84,9 @@ class LoadSharingSolver:
         for _ in range(MOST_TRIALS):
             spring = None
             if touch > 0.0:
-                spring = Spring(self.mean_row, mean, touch / self.setting.load_unit, softness)
+                film_in_gap = film_under(mean)
+                length = softness * (film_in_gap / gap_per_film(film_in_gap))
+                spring = Spring(self.mean_row, film_in_gap, touch / self.setting.load_unit, length)
             solution = self.setting.solve(time, memory, z, spring)
             if solution.status != CONVERGED:
                 return solution

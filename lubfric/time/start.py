@@ -12,7 +12,7 @@ from ..contact import HalfSpaceContact
 from ..errors import CONVERGED, ConvergenceError, InputError, LubfricError, WorkLimitError
 from ..estimate import solve_to_tolerance
 from ..models import prepare
-from ..models.load_sharing import BalancedSample, PaperModel, PaperSolution, solve_balance, volume_residual
+from ..models.load_sharing import BalancedSample, PaperModel, PaperSolution, film_under, solve_balance, volume_residual
 from ..models.shared import Prepared, contact_on_strips, scene_of
 from ..samples import (
     Sample,
@@ -143,7 +143,7 @@ def _resting(model: TransientLoadSharing) -> Step:
     load = model.setting.line_history.load.before(0.0)
     state = patch.close(patch.x**2 / (2.0 * setting.line_history.radius.before(0.0)), load)
     touching = setting.undeformed(0.0).terms.H
-    film = state.mean_gap - float(model.mean_row @ touching)
+    film = film_under(state.mean_gap) - float(model.mean_row @ touching)
     if film <= 0.0:
         said = "at rest the contact leaves no room for a film under the undeformed cylinder"
         ways = "initial = 'steady' with an entrainment speed, or transient.initial_film"

@@ -9,9 +9,11 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.estimate import Uncertainty, beside_larger_part, interval
+from lubfric.estimate import PARTS, Uncertainty, beside_larger_part, interval
 from lubfric.models.load_sharing import load_sharing_error, summit_radius, undetected_load
 from lubfric.models.shared import MODEL_ERROR, StandardError, Violation, add_errors
+from lubfric.output import report
+from lubfric.quantities import OF_UNCERTAINTY
 
 E_PRIME = 2.3e11
 WIDTH = 6e-3
@@ -199,3 +201,8 @@ def test_the_numerical_part_says_what_narrows_it():
     assert replace(known, narrows_numerical="shorter cells narrow it").largest_part.endswith(
         "; shorter cells narrow it"
     )
+
+
+def test_the_report_shows_every_part_of_the_budget():
+    assert set(report.BUDGET) == set(report.BUDGET_ON_LONG_CELLS) == set(PARTS) == set(Uncertainty().budget)
+    assert set(PARTS.values()) <= set(OF_UNCERTAINTY)

@@ -20,7 +20,7 @@ from ..shared import (
 )
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
-from .closure import volume_residual
+from .closure import gap_per_film, open_gap, volume_residual
 from .decision import decision_of
 from .error_of_eq8 import OF_ROLLING
 from .errors_of import errors_of
@@ -213,7 +213,7 @@ def _numbers(balanced: BalancedSample) -> dict[str, float]:
         "film_to_roughness_ratio": numbers["central_film"] / sq if sq > 0 else math.inf,
         "load_residual": (sum(loads) - scene.bodies.load) / scene.bodies.load,
         "volume_residual": 0.0 if film is None or separated else volume_residual(balanced.raw_balance.contact_state),
-        "clearance": (contact_state.mean_film - contact_state.mean_gap) / max(sq, 1e-12) if separated else math.nan,
+        "clearance": -open_gap(contact_state) / max(sq, 1e-12) if separated else math.nan,
         "steepness": _steepness(balanced),
     }
 
@@ -227,4 +227,4 @@ def _steepness(balanced: BalancedSample) -> float:
         return math.nan
     scene = balanced.prepared.scene
     line = replace(scene.line_contact(balanced.speed), load_per_width=balance.film_load / scene.bodies.width)
-    return -exponents(line)[2] * response.log_load_ratio_per_gap * balance.contact_state.mean_film
+    return -exponents(line)[2] * response.log_load_ratio_per_gap * gap_per_film(balance.contact_state.mean_film)

@@ -10,7 +10,7 @@ from ...film import EHLResult
 from ...scene import Scene, budget
 from ..contract import ModelDetails
 from ..shared import exponents, meaningless
-from .closure import residual_slope, volume_residual
+from .closure import gap_under, residual_slope, volume_residual
 from .forces import Forces, forces_of
 from .point import (
     Point,
@@ -426,7 +426,7 @@ def _needed(point: Point, balance: Balance) -> Settings:
                 allowed, (budget.MOST_MOVED if now.correctable else OWN_RESPONSE) / abs(response.log_load_ratio_per_gap)
             )
         closed = min(0.5 * allowed, budget.LOOSEST_VOLUME * min(mean_film, balance.film.central_film))
-        volume = _tightened(volume, max(closed / mean_film, budget.TIGHTEST_VOLUME))
+        volume = _tightened(volume, max(closed / gap_under(mean_film), budget.TIGHTEST_VOLUME))
     contact_tolerance = _contact_tolerance(point, balance.contact_state, volume)
     return Settings(
         film_tolerance=film,

@@ -244,7 +244,7 @@ class BalancedSample:
             if moved > MOST_CORRECTED_LOG_RATIO and part * math.expm1(min(moved, 30.0)) > allowed:
                 return True
             return response.relative("coefficient", self.second_order) > allowed
-        clearance = raw_balance.contact_state.mean_film - raw_balance.contact_state.mean_gap
+        clearance = -open_gap(raw_balance.contact_state)
         if self.count > sample.first_strips or clearance > LARGE_CLEARANCE * self.prepared.surface.sq:
             return False
         depth = lost_summits(self.prepared, self.point, raw_balance, sample) - clearance

@@ -16,6 +16,7 @@ from ..shared import (
 )
 from .balance import Balance
 from .balanced_sample import BalancedSample
+from .closure import gap_per_film
 from .error_of_eq8 import least_error, load_sharing_error, starved_error
 from .forces import Forces
 from .response import contact_length
@@ -173,7 +174,9 @@ def _contact_errors(balanced: BalancedSample, solver: SolverErrors) -> dict[str,
     response = balanced.response
     assert response is not None
     scattered = balanced.gap_scatter.value if math.isfinite(balanced.gap_scatter.value) else 0.0
-    gap_error = math.hypot(scattered, solver.gap_error + solver.film_error * balance.contact_state.mean_film)
+    gap_error = math.hypot(
+        scattered, solver.gap_error + solver.film_error * gap_per_film(balance.contact_state.mean_film)
+    )
     errors = {name: response.relative(name, gap_error) for name in response.rates or ()}
     errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
     for name, at_given_load in _given_load(balance.forces, solver.film_error).items():

@@ -9,7 +9,7 @@ import numpy as np
 from ...contact import ContactState, RoughContact, weighted_mean
 from ...film import EHLResult
 from ...scene import Scene
-from .closure import gap_under, log_load_ratio_per_gap
+from .closure import gap_per_film, gap_under, log_load_ratio_per_gap
 from .forces import Forces, forces_of
 
 # Step of ln(F_H/F_C), each way, for the rates of the film. Half and twice as much change f by less than 0.01 %
@@ -74,7 +74,7 @@ class Response:
     def per_film(self, forces: Forces, mean_film: float) -> float:
         """Return the relative change of f per relative change of the film, of mean thickness ``mean_film`` [m], at
         most."""
-        return self.per_gap("coefficient") * mean_film + forces.film_sensitivity
+        return self.per_gap("coefficient") * gap_per_film(mean_film) + forces.film_sensitivity
 
     def relative(self, name: str, gap_error: float) -> float:
         """Return the relative error [-] of quantity ``name`` for an error of the gap [m]; 0 without a film.
@@ -150,9 +150,9 @@ def respond(
 
     low = at(log_load_ratio - LOG_RATIO_STEP)
     high = at(log_load_ratio + LOG_RATIO_STEP)
-    film_rate = (high["mean_gap"] - low["mean_gap"]) / (2 * LOG_RATIO_STEP)
+    demanded_rate = (high["mean_gap"] - low["mean_gap"]) / (2 * LOG_RATIO_STEP)
     gap_rate = -slopes.gap * load * film_load / (total * width)
-    per_gap = log_load_ratio_per_gap(gap_rate, film_rate)
+    per_gap = log_load_ratio_per_gap(gap_rate, demanded_rate)
     return Response(slopes, per_gap, {name: _log_rate(low[name], high[name]) for name in low}, film_load / load)
 
 

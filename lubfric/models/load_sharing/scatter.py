@@ -22,6 +22,7 @@ from ..shared import StandardError, block_error, means_of_blocks
 from .balance import (
     Balance,
 )
+from .closure import gap_per_film
 
 # Windows of a measured map whose scatter states an error.
 FEWEST_WINDOWS = 3
@@ -186,7 +187,7 @@ def moment_error(
     influence_error = block_error(values, rough_contact.spacing[1], correlation_length)
     shares = contact_load / total, film_load / total
     log_ratio_error = influence_error.value / (
-        softness * shares[1] + film_load_exponent * contact_state.mean_film * shares[0]
+        softness * shares[1] + film_load_exponent * gap_per_film(contact_state.mean_film) * shares[0]
     )
     return (
         abs((viscous * shares[0] - boundary * shares[1]) / friction_force) * log_ratio_error

@@ -52,7 +52,6 @@ STEPS = 40  # of Newton's method for ln σ
 ROUNDS = 40  # of bias and σ in turn
 CLOSE = 1e-6  # change of a coefficient after which the fit ends
 CONFIDENCE = 0.95  # of the interval that the fit is made for
-LEAST_SLIP = 0.003  # slide-roll ratio of a rolling case that counts: below, f is a small difference
 QUARTERS = 4  # kinds of load, and of slide-roll ratio
 EDGES = (0.005, 0.995)  # quantiles of the cases: the range of the campaign
 ROLLING = 0.95  # quantile of the error of the part of f by the gradient of the pressure
