@@ -80,6 +80,12 @@ SMALL_ROLLING_PART = 0.01
 # Asperity load ratio up to which the solved film is that of the total load, and is stated beside the formula. A convention.
 FULL_FILM_PART = 0.01
 
+# Ratio of the solved speeds on both sides of a point, up to which they show how f changes there. A convention.
+MOST_STEP = 10.0
+
+# Factor on the speed, of which the change of f is stated.
+FASTER = 1.1
+
 # Largest error of f between the solved speeds that is stated: beyond it f is not known there. A convention.
 LARGEST_BETWEEN = 0.5
 
@@ -239,7 +245,39 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding
         largest = _place(curve, solved[f[solved].argmax()])
         ends = f"from {plain_number(f[solved].min())} {least} to {plain_number(f[solved].max())} {largest}"
         sentences.append(f"Over the {counted(solved.size, curve.SWEPT[3])} solved, f goes {ends}.")
-    return [*sentences, *_lift_off(curve, point)]
+    return [*sentences, *_by_speed(curve, point), *_lift_off(curve, point)]
+
+
+def _by_speed(curve: CurveResult, point: FrictionResult) -> list[str]:
+    """Return in a sentence how f and the lambda ratio of a ``point`` in mixed lubrication change with the speed, between the
+    solved speeds on both sides of it; none for other points, or where these are far apart.
+
+    At the same slide-roll ratio the equations of film and shear contain the viscosity in the product with the speed alone,
+    but for the heat and for the pressure-viscosity coefficient, which is held.
+    """
+    if not isinstance(curve, StribeckResult) or point.contact_load <= FULL_FILM_PART * (
+        point.contact_load + point.film_load
+    ):
+        return []
+    good = np.flatnonzero((curve["coefficient"] > 0) & (curve["lambda_ratio"] > 0) & (curve.speed * point.speed > 0))
+    size = np.abs(curve.speed)
+    slower = [index for index in good if size[index] < abs(point.speed)]
+    faster = [index for index in good if size[index] > abs(point.speed)]
+    if not slower or not faster:
+        return []
+    ends = [max(slower, key=lambda index: size[index]), min(faster, key=lambda index: size[index])]
+    (low, high) = size[ends]
+    if high > MOST_STEP * low:
+        return []
+    by_factor = math.log(FASTER) / math.log(high / low)
+    changes = []
+    for name in ("coefficient", "lambda_ratio"):
+        (first, last) = curve[name][ends]
+        changes.append(f"{100 * ((last / first) ** by_factor - 1):+.2g} %")
+    return [
+        f"Between U = {low:.4g} and {high:.4g} m/s, {100 * (FASTER - 1):.0f} % more speed changes f by {changes[0]} and the "
+        f"lambda ratio by {changes[1]}. That much more viscosity does the same, but for the heat."
+    ]
 
 
 def _lift_off(curve: CurveResult, point: FrictionResult) -> list[str]:

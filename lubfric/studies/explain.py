@@ -83,8 +83,8 @@ def _in_sentences(violations: Sequence[Sequence[Violation]], plural: str) -> lis
         values = dict.fromkeys(violation.value_in_words for violation in (ordered[0], ordered[-1]))
         some = f"in {len(group)} of {len(violations)} {plural}: " if len(group) < len(violations) else ""
         differ = len({(violation.consequence, violation.recommendation) for violation in ordered}) > 1
-        place = "where it is largest" if differ else ""
-        lines.append(f"{some}{ordered[-1].text_of(' to '.join(values) + ordered[-1].spaced_unit, place)}")
+        where = "where it is largest" if differ else ""
+        lines.append(f"{some}{ordered[-1].text_of(' to '.join(values) + ordered[-1].spaced_unit, where)}")
     return lines
 
 

@@ -391,3 +391,22 @@ def test_the_film_before_the_solve_is_the_full_load_film_of_the_result():
     (row,) = (line.split() for line in describe_scene(scene).splitlines() if line.startswith("  3  "))
     assert float(row[3]) == pytest.approx(1e9 * point.full_load_film, rel=1e-3)
     assert float(row[4]) == pytest.approx(point.lambda_ratio, rel=5e-3)
+
+
+def test_the_report_states_how_speed_and_viscosity_change_f_in_mixed_lubrication(tmp_path, undrawn):
+    """As points at a tenth more speed, and of a tenth more viscosity, have it."""
+    scene = SWINGING.with_(motion={"entrainment_speed": 0.01, "speeds": ()}, numerics={"model": "paper"})
+    (tmp_path / "s.toml").write_text(scene.to_toml())
+    assert main(["run", str(tmp_path / "s.toml"), "--speeds", "0.008,0.01,0.0125", "--out", str(tmp_path / "o")]) == 0
+    page = (tmp_path / "o" / "report.html").read_text(encoding="utf-8")
+    (of_f, of_lambda) = map(
+        float, re.findall(r"10 % more speed changes f by (\S+) % and the lambda ratio by (\S+) %", page)[0]
+    )
+    thicker = scene.with_(lubricant={"viscosity": 1.1 * scene.lubricant.viscosity})
+    middle = lubfric.friction(scene, 0.01)
+    assert 0.05 < middle.contact_load / scene.bodies.load < 0.95
+    for other in (lubfric.friction(scene, 0.011), lubfric.friction(thicker, 0.01)):
+        assert 100 * (other.coefficient / middle.coefficient - 1) == pytest.approx(of_f, rel=0.15)
+        assert 100 * (other.lambda_ratio / middle.lambda_ratio - 1) == pytest.approx(of_lambda, rel=0.1)
+    assert main(["run", str(tmp_path / "s.toml"), "--speeds", "0.01", "--out", str(tmp_path / "o")]) == 0
+    assert "more speed changes f" not in (tmp_path / "o" / "report.html").read_text(encoding="utf-8")
