@@ -29,7 +29,8 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
         if not key.startswith(f"{section}.") or value is None or value == ():
             continue
         alike = {word: ends for word, (middle, *ends) in typical(key).items() if middle == value}
-        ends = range_in_words(*next(iter(alike.values()), (0.0, 0.0)), quantity.unit)
+        lowest, highest = next(iter(alike.values()), (0.0, 0.0))
+        ends = range_in_words(lowest, highest, quantity.unit)
         note = (
             f", taken as exact; the name {' or '.join(map(repr, alike))} gives the typical range, {ends}"
             if alike
@@ -46,10 +47,10 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
         if changing:
             note = f" over the run: transient.{changing[0]}"
             text = over_the_run(scene, changing[0], value, quantity.unit)
-        for name, *known in scene.ranges:
+        for name, low, high in scene.ranges:
             if name == key:
-                words = [word for word, usual in alike.items() if usual == known]
-                note = f", range {range_in_words(*known, quantity.unit)}"
+                words = [word for word, usual in alike.items() if usual == [low, high]]
+                note = f", range {range_in_words(low, high, quantity.unit)}"
                 note += f", typical of {' or '.join(words)} ({source_of(key, words[0])})" if words else ""
         table = scene.bodies.boundary_friction_table
         if table is not None and key == BOUNDARY_FRICTION_KEY:
