@@ -92,12 +92,12 @@ class Quantities(Generic[T]):
     real_contact_area_fraction: T = quantity(
         *("-", "contact area inside the Hertz strip over its area A", "A_i/A"),
         error="area",
-        note="without the contacts beside the strip",
+        note="without the contacts outside the strip",
     )
     real_contact_area: T = quantity(
         *("m2", "real contact area", "A_c"),
         error="area",
-        note="inside and beside the Hertz strip, on the length of the line contact; by every model but that of the paper where the stress is f_b p",
+        note="inside and outside the Hertz strip, on the length of the line contact; except by load sharing alone where the stress is f_b p",
     )
     plastic_area_fraction: T = quantity("-", "plastic area over nominal area", "A_p/A", error="contacts")
     min_film: T = quantity(
@@ -143,7 +143,7 @@ class Quantities(Generic[T]):
         """Return the number ``name`` in another unit, ``result.in_unit("min_film", "nm")``; `InputError` for other
         kinds."""
         if name not in NUMBERS:
-            raise InputError(f" = {name!r} is no number of a result", "name", ", ".join(NUMBERS))
+            raise InputError(f" = {name!r} is not a number of a result", "name", ", ".join(NUMBERS))
         number: T = converted(getattr(self, name), _OF_POINT[name].unit, unit)
         return number
 

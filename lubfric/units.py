@@ -75,7 +75,7 @@ def converted(value: Any, unit: str, to: str) -> Any:
     unit, to = spelled(unit), spelled(to)
     row = UNITS[kind_of(unit)]
     if to not in row:
-        raise InputError(f" = {to!r} is no unit of a number in {unit}", "unit", ", ".join(filter(None, row)))
+        raise InputError(f" = {to!r} is not a unit of a number in {unit}", "unit", ", ".join(filter(None, row)))
     if to == unit:
         return value
     exact = isinstance(value, Decimal)
@@ -226,7 +226,7 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
         none = " is neither a number with a unit nor a known name" if named else " is not a number with a unit"
         comma = re.match(r"\s*[+-]?\d{1,40},\d{1,40}", value)
         none += f": write a point in decimals, {shown.replace(',', '.', 1).strip()}" if comma else ""
-        said = " has no unit: leave the quotes out, or add one" if parts else none
+        said = " has no unit: omit the quotes, or add one" if parts else none
         raise InputError(f" = {shown!r}{said}", name, allowed)
     (digits, written) = parts
     given = spelled(written)
@@ -239,7 +239,7 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
         said = f"is in {written}, which does not convert to {target}" if other else f"has an unknown unit, {written!r}"
         if unit == "Pa s" and other == "m2/s":
             allowed += "; a kinematic viscosity goes into nu40 (at 40 °C), together with nu100 or viscosity_index"
-        said = "is no pressure: give HV; 57 HRC is 633 HV, 60: 697, 63: 772" if hrc else said
+        said = "is not a pressure; give HV: 57 HRC is 633 HV, 60: 697, 63: 772" if hrc else said
         raise InputError(f" = {shown!r} {said}", name, allowed)
     try:
         return float(converted(Decimal(digits, _EXACT), given, unit))

@@ -52,7 +52,7 @@ def read_json(path: Path, recommendation: str) -> Any:
     """Return what is in a JSON file. Raises `InputError`, which ends with the ``recommendation``, if it cannot be read, is cut
     off, nested too deeply or binary."""
     if not Path(path).is_file():  # nor is one waited for that is no file, such as a pipe
-        raise InputError(f"{path} is no file; {recommendation}")
+        raise InputError(f"{path} is not a file; {recommendation}")
     try:
         return json.loads(Path(path).read_bytes().decode("utf-8"))
     except (OSError, ValueError, RecursionError, MemoryError) as problem:
@@ -94,7 +94,7 @@ def read_table(path: Path, content: bytes | None = None) -> Columns:
         columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
         return Columns({n: np.array(c, str if n in IN_WORDS else float) for n, c in columns.items()})
     except (ValueError, IndexError, csv.Error) as problem:
-        said = f"{path} is no table of numbers, or torn ({shown(str(problem))})"
+        said = f"{path} is not a complete table of numbers ({shown(str(problem))})"
         raise InputError(f"{said}; give a table that 'lubfric run' wrote") from None
 
 
@@ -266,7 +266,7 @@ def _rows(path: Path, names: Sequence[str]) -> list[tuple[int, list[str]]]:
         separator = _separator(lines[0][1])
         rows = [(n, _fields(line, separator)) for n, line in lines]
     except csv.Error as problem:
-        raise InputError(f"file {path.name} is no table ({problem}); give a CSV file") from None
+        raise InputError(f"file {path.name} is not a table ({problem}); give a CSV file") from None
     if separator == ",":
         return rows
     return rows[:1] + [(n, [field.replace(",", ".") for field in row]) for n, row in rows[1:]]

@@ -261,7 +261,7 @@ def folder(name: str, value: Any) -> Path:
             path = Path(value).expanduser()
             path.exists()
             return path
-    raise InputError(f" = {shown(value)} is no path", name, "a string or a pathlib.Path that the file system takes")
+    raise InputError(f" = {shown(value)} is not a path", name, "a string or a pathlib.Path that the file system takes")
 
 
 def real_array(name: str, value: Any, unit: str) -> np.ndarray:

@@ -114,7 +114,7 @@ def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -
     if counterface is None:
         return () if surface is None else (surface,)
     if surface is None or scene.counterface is None or scene.counterface.sq == 0:
-        raise InputError("counterface needs a surface beside it, the maps of both bodies, and a rough [counterface]")
+        raise InputError("counterface needs surface as well (the maps of both bodies), and a rough [counterface]")
     return combined_maps(surface, counterface)
 
 

@@ -93,7 +93,7 @@ def grade_viscosity(grade: str) -> float:
     match = re.fullmatch(r"\s*(?:iso[\s-]*)?(?:vg[\s-]*)?(\d+(?:\.\d+)?)\s*", str(grade), re.IGNORECASE)
     if not match or float(match[1]) not in GRADES:
         names = ", ".join(f"{g:g}" for g in GRADES)
-        hint = "; an SAE grade is no ISO grade: give nu40 and nu100" if "sae" in str(grade).lower() else ""
+        hint = "; an SAE grade is not an ISO grade: give nu40 and nu100" if "sae" in str(grade).lower() else ""
         raise InputError(f" = {grade!r} is not an ISO viscosity grade", "grade", f"'ISO VG n' with n of {names}{hint}")
     return GRADES[float(match[1])] * 1e-6
 

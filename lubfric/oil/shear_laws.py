@@ -42,7 +42,7 @@ class ShearLaw:
 
     def critical(self, pressure: ArrayLike) -> tuple[Any, Any]:
         """Return tau_c [Pa] at each pressure [Pa], and its change with the pressure [-]; both numbers if that is 0."""
-        self.refuse("critical", "everything", "leave the key out")
+        self.refuse("critical", "everything", "omit the key")
 
     def warmth(self, temperature: ArrayLike) -> FloatArray:
         """Return tau_c at a temperature [K] over that at the temperature of the lubricant."""
@@ -61,7 +61,7 @@ class ShearLaw:
 
     def f(self, s: float | np.ndarray) -> FloatArray:
         """Return tau/tau_c, odd in s."""
-        self.refuse("f", "everything", "leave the key out")
+        self.refuse("f", "everything", "omit the key")
 
     def tangent(self, s: float | np.ndarray) -> tuple[FloatArray, FloatArray]:
         """Return Φ = 1/f' and s dΦ/ds, at s >= 0."""

@@ -158,7 +158,7 @@ def keeping(what: Callable[[], str]) -> Iterator[None]:
         yield
     except KeyboardInterrupt as error:
         kept = what()
-        said = f"interrupted; {kept}: the same command goes on from there"
+        said = f"interrupted; {kept}: the same command continues from there"
         if not kept:
             said = "interrupted; nothing is solved so far that could be kept: the same command begins again"
         raise KeyboardInterrupt(said, *error.args[1:] or (INTERRUPTED,)) from None
@@ -243,7 +243,7 @@ def read_record(folder: Path) -> dict[str, Any]:
     path = folder / RESULT
     again = "give a folder that 'lubfric run' wrote, or run it again"
     if not os.path.lexists(path):
-        raise InputError(f"{folder} holds no {RESULT}; {again}")
+        raise InputError(f"{folder} has no {RESULT}; {again}")
     record = read_json(path, again)
     for violation in _violations_of(record):
         violation.setdefault("recommendation", violation.pop("remedy", None))  # as records of version 1.0.0 have it

@@ -62,14 +62,14 @@ def read_contact(path: Path, speed: float) -> DrawnContact:
     """
     again = "run 'lubfric run' again"
     if not path.is_file():
-        raise InputError(f"{path.parent} holds no {path.name}; {again}")
+        raise InputError(f"{path.parent} has no {path.name}; {again}")
     try:
         with open(path, "rb") as stream, np.load(stream) as file:
             arrays = dict(file)
     except (OSError, ValueError, EOFError, KeyError, BadZipFile, zlib.error) as error:
         raise InputError(f"{path} is damaged ({error}); {again}") from error
     if "half_width" not in arrays or "speed" not in arrays:
-        raise InputError(f"{path} does not hold the contact of a steady run by this version; {again}")
+        raise InputError(f"{path} does not contain the contact of a steady run by this version; {again}")
     speeds = arrays["speed"]
     near = np.flatnonzero(np.isclose(speeds, speed, rtol=SAME_SPEED, atol=0.0))
     if near.size == 0:

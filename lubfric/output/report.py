@@ -455,7 +455,7 @@ def _law(law: Law | str, curve: CurveResult) -> str:
         off, within = (f"{100 * error:.2g} %" for error in (law.largest, curve.between))
         fastest = law.ranges["speed"][1]
         text = (
-            "<p>The formula serves simulations of a machine; law.json and, in C, law.c hold it too. It deviates by at "
+            "<p>The formula is for simulations of a machine; law.json and law.c (in C) contain it. It deviates by at "
             f"most {off} from the curve through the solved points, which is known within {within} between them. Check "
             f"value: f = {law(fastest):.4g} at U = {fastest:.4g} m/s.</p><pre>{escape(law.text)}</pre>"
         )

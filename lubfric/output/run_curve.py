@@ -288,9 +288,9 @@ def plot_again(arguments: Namespace) -> None:
         _plot_fit_again(arguments)
         return
     if name is None:
-        raise InputError(f"{folder} holds no stribeck.csv; give a folder that 'lubfric run' or 'lubfric fit' wrote")
+        raise InputError(f"{folder} has no stribeck.csv; give a folder that 'lubfric run' or 'lubfric fit' wrote")
     if given and name != "stribeck":
-        raise InputError(f"--measured is drawn with a Stribeck curve, and {folder} holds {TABLES[name]}")
+        raise InputError(f"--measured is drawn with a Stribeck curve, and {folder} has {TABLES[name]}")
     options = _picture_options(arguments, name)
     columns = read_table(folder / f"{name}.csv")
     record = read_record(folder)
@@ -315,7 +315,7 @@ def _plot_fit_again(arguments: Namespace) -> None:
     of_curves = ("measured", "speed", "coefficient", "panels", "without")
     given = next((name for name in of_curves if getattr(arguments, name) is not None), None)
     if given is not None:
-        raise InputError(f"--{given} is for the picture of a run, and {arguments.folder} holds a fit; omit it")
+        raise InputError(f"--{given} is for the picture of a run, and {arguments.folder} has a fit; omit it")
     options = _picture_options(arguments, "fit")
     _write_picture(arguments, "fit", partial(plot_fit, record=read_fit(arguments.folder / FIT), options=options))
 
@@ -438,7 +438,7 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
             where = ", ".join(at_value(value, unit, plural) for value in few)
             said.append(f"few asperity contacts carry the load {where}: these intervals are too narrow")
     if scene.numerics.accept and any(e.severe for i in range(len(curve.points)) for e in curve.violations(i)):
-        said.append("accepted outside the range of the model (--accept): the coefficients that are marked mean nothing")
+        said.append("accepted outside the range of the model (--accept): the marked coefficients have no meaning")
     return said
 
 

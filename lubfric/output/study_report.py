@@ -343,8 +343,8 @@ def _main_effects_line(result: StudyResult) -> list[str]:
         for key, effect in effects.items()
     ]
     return [
-        f"Of the variance of ln f over the points, the inputs have, each by itself: {'; '.join(words)}. The rest is "
-        "that of combinations."
+        f"Parts of the variance of ln f over the points, by each input alone: {'; '.join(words)}. The remaining part comes "
+        "from combinations of inputs."
     ]
 
 

@@ -325,7 +325,7 @@ def _checked_wear(scene: Scene, distance: Any, coefficient: Any, hardness: Any) 
     if distance > 0 and coefficient > 0:
         if scene.motion.slide_roll_ratio == 0:
             said = " = 0: in pure rolling no surface point slides, and nothing wears by Archard's law"
-            raise InputError(said, "motion.slide_roll_ratio", "a value other than 0, or leave distance out")
+            raise InputError(said, "motion.slide_roll_ratio", "a value other than 0, or omit distance")
         if scene.motion.entrainment_speed == 0:
             said = " = 0 m/s: wear needs the film at the speed of the running-in"
             raise InputError(said, "motion.entrainment_speed", "a speed other than 0 m/s")

@@ -321,8 +321,8 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
     count = len(starts)
     if length < COLUMNS_MULTIPLE * cells.spacing[1] * (1 - 1e-9):
         raise InputError(
-            f"the map is {surface.shape[1]} cells wide along y, across the motion: no line can be made of that; give a "
-            f"wider one, or numerics.sampling = 'patch' (its rows go on along y as they are)"
+            f"the map is {surface.shape[1]} cells wide along y, across the motion, too few for a line contact; give a "
+            f"wider one, or numerics.sampling = 'patch' (periodic along y)"
         )
     most = max(1, min(count, int(MOST_JOINED_CELLS * cells.spacing[1] / (cells.columns * length))))
     first = min(most, max(1, math.ceil(FIRST_LENGTHS * lengths[1] / length * (1 - 1e-9))))

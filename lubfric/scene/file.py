@@ -253,5 +253,5 @@ def write_template(path: Path) -> None:
     if os.path.lexists(path):
         raise InputError(f"{path} exists already; give another name (init replaces no file)")
     if not path.parent.is_dir():
-        raise InputError(f"{path.parent} is no folder; give a file in an existing one")
+        raise InputError(f"{path.parent} is not a folder; give a file in an existing one")
     write_whole(path, (resources.files(__package__) / "template.toml").read_bytes())

@@ -128,7 +128,7 @@ class Table(History):
         if self.repeat and first != 0.0:
             raise InputError(f" start at {first:g} s", name, "0 s for the start of a table that repeats")
         if np.any(times[2:] == times[:-2]):
-            raise InputError(" hold the same time three times", name, "at most twice (a jump)")
+            raise InputError(" contain the same time three times", name, "at most twice (a jump)")
 
     def at(self, time: float) -> float:
         return self._value(time, "right")

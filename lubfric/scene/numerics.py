@@ -88,5 +88,5 @@ def refuse_dropped(given: dict[str, Any]) -> None:
         recommendation = dropped.get(f"{key} = {validate.shown(value)}") or dropped.get(key)
         if recommendation:
             raise InputError(
-                f" = {validate.shown(value)} is not there any more", f"numerics.{key}", recommendation=recommendation
+                f" = {validate.shown(value)} was removed", f"numerics.{key}", recommendation=recommendation
             )

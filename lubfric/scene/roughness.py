@@ -93,7 +93,7 @@ class Roughness(Shown):
             object.__setattr__(self, "file", os.fspath(self.file))
         if self.file is not None and (not isinstance(self.file, str) or "\0" in self.file):
             raise InputError(
-                f" = {validate.shown(self.file)} is no path", "surface.file", recommendation="write it in quotes"
+                f" = {validate.shown(self.file)} is not a path", "surface.file", recommendation="write it in quotes"
             )
         for name, check in _CHECKS.items():
             value = getattr(self, name)
@@ -113,7 +113,7 @@ class Roughness(Shown):
             return 0.0
         sq = honed_sq(self.sk, self.spk, self.svk)
         if self.sq is not None and abs(self.sq - sq) > SAME_SQ * sq:
-            said = f" = {validate.shown(self.sq)} does not go with sk, spk and svk, from which Sq {sq:.4g} m follows"
+            said = f" = {validate.shown(self.sq)} cannot be combined with sk, spk and svk, from which Sq {sq:.4g} m follows"
             raise InputError(said, "surface.sq", recommendation="give sq, or sk, spk and svk (the others None)")
         return sq
 
@@ -136,7 +136,7 @@ def check_fields(given: dict[str, Any]) -> None:
     for name, value in given.items():
         if name not in ("file", "sq", *PER_SQ) and (name in GENERATED) != generated:
             said = f" = {validate.shown(value)} applies to {this}, and this one is {other}"
-            raise InputError(said, f"surface.{name}", recommendation="leave it out")
+            raise InputError(said, f"surface.{name}", recommendation="omit it")
 
 
 @contextmanager

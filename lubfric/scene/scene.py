@@ -88,12 +88,12 @@ class Scene(Shown):
         length = self.lubricant.inlet_length
         half_width = self.bodies.half_width
         if self.transient is not None and self.lubricant.shear_modulus is not None:
-            said = f" = {self.lubricant.shear_modulus:g} Pa does not go with [transient]"
+            said = f" = {self.lubricant.shear_modulus:g} Pa cannot be combined with [transient]"
             raise InputError(
-                said, "lubricant.shear_modulus", recommendation="leave it out: runs in time have no elastic shear"
+                said, "lubricant.shear_modulus", recommendation="omit it: runs in time have no elastic shear"
             )
         if self.transient is not None and self.lubricant.inlet_film is not None:
-            said = " does not go with lubricant.inlet_film"
+            said = " cannot be combined with lubricant.inlet_film"
             raise InputError(
                 said,
                 "transient",
@@ -313,7 +313,7 @@ def check_resolved_gap(scene: Scene, *, is_joint: bool = False) -> None:
     """Raise `InputError` for keys that the deterministic model does not take. ``is_joint``: as in
     `why_gap_not_resolved`."""
     for name, value, instead in _not_taken(scene, is_joint=is_joint):
-        said = f" = {value!r} does not go with numerics.model = 'deterministic'"
+        said = f" = {value!r} cannot be combined with numerics.model = 'deterministic'"
         raise InputError(said, name, f"{instead}, or numerics.model = 'paper'")
 
 

@@ -166,7 +166,7 @@ def _of_heights(key: str, per_sq: float) -> Callable[..., dict[str, Any]]:
     def plain(height: float, given: dict[str, float | str | None], old: Roughness | None) -> dict[str, float]:
         if given.get("file", getattr(old, "file", None)) is not None:
             said = " is for generated maps, and this one is read from a file"
-            raise InputError(said, f"surface.{key}", recommendation="leave it out, or scale the map by sq")
+            raise InputError(said, f"surface.{key}", recommendation="omit it, or scale the map by sq")
         return {"sq": validate.nonnegative(f"surface.{key}", height, "m", maximum=1.0) / per_sq}
 
     return plain

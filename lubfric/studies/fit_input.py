@@ -89,7 +89,7 @@ class Measured:
         for number in self.branches:
             x = self.x if self.branch is None else self.x[self.branch == number]
             if np.unique(x).size < x.size:
-                raise InputError("x holds a value twice; average repeated measurements")
+                raise InputError("x has a value twice; average repeated measurements")
 
     @property
     def branches(self) -> tuple[int, ...]:

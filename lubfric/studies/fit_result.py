@@ -152,7 +152,7 @@ class FitResult(Renamed, Shown):
         that the data do not determine it."""
         lines = [f"# Fit to {self.measured.source}."]
         if not self.describes_data:
-            lines.append("# The fit does NOT describe the data: the values below mean nothing.")
+            lines.append("# The fit does NOT describe the data: the values below have no meaning.")
         for key, ends in self.intervals.items():
             value, low, high = (worded_value(key, number) for number in (self.values[key], *ends))
             said = f"fitted, {value}, 95 % interval {low} to {high}"

@@ -97,7 +97,7 @@ def operating_points(scene: Scene, table: Any) -> OperatingPoints:
         raise InputError("points: too many rows", allowed=f"up to {MOST_COMBINATIONS:.0e}")
     coordinates = {name: tuple(columns.pop(name)) for name in COORDINATES if name in columns}
     if any(value < 0 for value in coordinates.get(DURATION, ())):
-        raise InputError("points: duration holds a negative value; give durations in s")
+        raise InputError("points: duration has a negative value; give durations in s")
     of_surfaces = SPEEDS_OF_SURFACES | RADII_OF_SURFACES
     coordinates |= {name: tuple(columns[name]) for name in of_surfaces if name in columns}
     columns = _with_radius(_with_speeds(columns))
@@ -143,7 +143,7 @@ def _columns(table: Any) -> tuple[dict[str, list[Any]], tuple[str, ...]]:
         name, unit = name_and_unit(str(heading))
         key, quantity = _quantity(name, unit)
         if key in columns:
-            raise InputError(f"points: two columns give {key}; leave one of them out")
+            raise InputError(f"points: two columns give {key}; omit one of them")
         if in_file:
             columns[key] = list(values)
         else:
@@ -296,7 +296,7 @@ def _with_both_radii(given: dict[str, list[Any]]) -> dict[str, list[Any]]:
         for place, name in enumerate(RADII_OF_SURFACES):
             name = name if unit is None else f"{name} [{unit}]"
             if name in given:
-                raise InputError(f"points: {heading} and {name} both give the radii; leave one of them out")
+                raise InputError(f"points: {heading} and {name} both give the radii; omit one of them")
             columns[name] = [pair[place] for pair in pairs]
     return columns
 
@@ -311,7 +311,7 @@ def _with_radius(columns: dict[str, list[Any]]) -> dict[str, list[Any]]:
     if first is None or second is None:
         raise InputError(f"points: {BOTH_RADII}, or radius, the reduced radius R1 R2/(R1 + R2)")
     if RADIUS in columns:
-        raise InputError("points: R1 and R2 give the radius; leave radius out")
+        raise InputError("points: R1 and R2 give the radius; omit radius")
     columns[RADIUS] = []
     for row, radii in enumerate(zip(first, second), 1):
         try:
@@ -325,7 +325,7 @@ def _with_speeds(columns: dict[str, list[Any]]) -> dict[str, list[Any]]:
     """Return the columns with speed and slide-roll ratio in place of the speeds of the surfaces."""
     columns = dict(columns)
     if SLIP_KEY in columns and SLIDE_ROLL_RATIO_KEY in columns:
-        raise InputError("points: slip_percent and slide_roll_ratio both give the sliding; leave one of them out")
+        raise InputError("points: slip_percent and slide_roll_ratio both give the sliding; omit one of them")
     pair = [columns.pop(name, None) for name in (U1, U2)]
     sliding = columns.pop(SLIDING_COLUMN, None)
     if (pair[0] is None) != (pair[1] is None):

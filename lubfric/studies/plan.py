@@ -173,7 +173,7 @@ def plan_study(
             notes=notes,
         )
     if speeds is not None:
-        raise InputError("points and speeds both give speeds; leave speeds out, and give a column speed in points")
+        raise InputError("points and speeds both give speeds; omit speeds, and give a column speed in points")
     table = operating_points(scene, points)
     varied = {key for axis in axes for key in axis.keys}
     twice = varied.intersection(table.axis.keys)

@@ -393,7 +393,7 @@ def open_study(folder: str | Path) -> StudyResult:
     plan = None if stored is None else StudyPlan(**dict(zip(PLAN_FIELDS, stored)))
     if plan is None or len(plan.keys) != math.prod(plan.curve_shape):
         recommendation = "give the folder of one, or run the study again in this folder, which writes its plan anew"
-        raise InputError(f"{folder} holds no study, or its plan is damaged; {recommendation}")
+        raise InputError(f"{folder} has no study, or its plan is damaged; {recommendation}")
     table = StudyTable(plan)
     table.read(store)
     return result_of_table(table)

@@ -194,7 +194,7 @@ def _refuse_key(what: str, scene: Scene, key: Any, sections: Iterable[str]) -> N
     candidates = alike or nearest or near[:1]
     meant = f" (did you mean {' or '.join(map(repr, candidates))}?)" if candidates else ""
     raise InputError(
-        f"{what}: {validate.shown(key)} is no key of a scene{meant}",
+        f"{what}: {validate.shown(key)} is not a key of a scene{meant}",
         recommendation="write a key as 'section.key', such as 'bodies.load'; keys that change together are a tuple of such "
         "names, ('bodies.load', 'bodies.radius'), with a tuple of values for each point",
     )

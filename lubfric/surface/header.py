@@ -274,7 +274,7 @@ def _refuse_inverted(header: Header, statement: Statement) -> None:
     spoken = words - set(UNIT_WORDS)
     inverted = words & INVERTED and (words & TRUE or statement.numbers == (1.0,))
     if inverted or "positive" in words and words & DOWN or spoken == {"depth"} and not statement.numbers:
-        said = f"file {header.name}: {statement.worded()} leaves the sign of the heights open"
+        said = f"file {header.name}: {statement.worded()} does not define the sign of the heights"
         recommendation = "remove the line where heights rise out of the material; else change their sign and remove it"
         raise InputError(said, recommendation=recommendation)
 
@@ -486,7 +486,7 @@ def grid_of(
                 step = by_extent
             elif not by_extent * (1 - SAME_LENGTH) <= step <= length / max(count - 1, 1) * (1 + SAME_LENGTH):
                 parts = f"{header.stated['d' + axis].worded()} and {header.stated[extent].worded()}"
-                said = f"file {header.name}: {count} points along {axis} do not go with {parts}"
+                said = f"file {header.name}: {count} points along {axis} do not agree with {parts}"
                 raise InputError(said, recommendation="remove the wrong line")
         steps.append(step)
     dx, dy = steps

@@ -199,7 +199,7 @@ class Surface(FrozenArrays, Shown):
             for name, index in (("s_filter", s), ("l_filter", l))
         )
         if s is not None and l is not None and s >= l:
-            said = f"s_filter = {s:g} m and l_filter = {l:g} m leave no wave"
+            said = f"s_filter = {s:g} m and l_filter = {l:g} m remove all waves"
             raise InputError(said, recommendation="give an s_filter below l_filter")
         new = self
         if s is not None:

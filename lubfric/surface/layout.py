@@ -40,7 +40,7 @@ def kind_of_table(name: str, table: np.ndarray) -> str:
     if min(lines, columns) == 1 and max(lines, columns) >= PROFILE_LINES:
         return "profile"
     if lines < columns and lines <= 3 and columns >= LONG_LIST:
-        said = f"file {name} has {lines} lines of {columns} numbers, which is no map"
+        said = f"file {name} has {lines} lines of {columns} numbers, which is not a map"
         if _rises(table[0]):
             said += ": the first line rises like a coordinate"
         raise InputError(said, recommendation="give points as three columns x y z, a profile as generate_surface says")
@@ -49,7 +49,7 @@ def kind_of_table(name: str, table: np.ndarray) -> str:
             return "profile"
         if lines >= LONG_LIST:
             raise InputError(
-                f"file {name} has {lines} lines of two numbers, which is no map", allowed="a map of heights"
+                f"file {name} has {lines} lines of two numbers, which is not a map", allowed="a map of heights"
             )
     if columns >= 3 and columns <= MOST_COLUMNS and lines >= POINT_LINES:
         for first in range(columns - 2):
@@ -71,9 +71,9 @@ def _explain_points(name: str, table: np.ndarray) -> None:
         for axis, column in zip("xy", range(2)):
             grid_lines(axis, table[:, column])
     except InputError as problem:
-        said = f"file {name} has three columns, and they are no points x y z on a grid: {problem.said}"
+        said = f"file {name} has three columns, and they are not points x y z on a grid: {problem.said}"
         raise InputError(said, allowed=problem.allowed) from None
-    said = f"file {name} has {len(table)} lines of three numbers, and they are no points x y z on a grid"
+    said = f"file {name} has {len(table)} lines of three numbers, and they are not points x y z on a grid"
     raise InputError(said, allowed="each point of the grid once, with most of them")
 
 
@@ -131,7 +131,7 @@ def border_of(table: np.ndarray) -> tuple[Border | None, np.ndarray]:
 def refuse_profile(name: str, table: np.ndarray, header: Header | None, units: tuple[str, str, str] | None) -> None:
     """Raise `InputError` for a profile, with the statistics that make a surface of it."""
     values = table.ravel() if min(table.shape) == 1 else table[:, 1]
-    said = f"file {name} holds a profile of {values.size} points, not a map of heights"
+    said = f"file {name} contains a profile of {values.size} points, not a map of heights"
     recommendation = (
         "measure a map; or generate a surface with the statistics of the profile: [surface] sq and correlation_length = "
         "[along, across the motion] in place of file"

@@ -172,7 +172,7 @@ def _plain(path: Path, suffix: str, spacing: Any, unit: Any, decimal: str | None
         if kind == "profile":
             refuse_profile(path.name, heights, None, units)
         if kind == "points":
-            said = f"path = {str(path)!r} holds points x y z on a grid, not a map of heights"
+            said = f"path = {str(path)!r} contains points x y z on a grid, not a map of heights"
             raise InputError(said, recommendation="write them as text with the suffix .xyz")
         if missing_value is not None and heights.dtype.kind == "f":
             missing_value = float(heights.dtype.type(missing_value))  # in the precision of the file
@@ -194,8 +194,8 @@ def _plain(path: Path, suffix: str, spacing: Any, unit: Any, decimal: str | None
 def _refuse(suffix: str, **given: Any) -> None:
     for name, value in given.items():
         if value is not None:
-            said = f" = {value!r} is given, and this {suffix} file carries its own or has none"
-            raise InputError(said, name, recommendation="leave it out")
+            said = f" = {value!r} is given, and this {suffix} file states its own or has none"
+            raise InputError(said, name, recommendation="omit it")
 
 
 def _masked(

@@ -250,7 +250,7 @@ def _refuse_unreconciled(path: Path, unread: list[Statement], counts: tuple[int,
             is_length = any(abs(number * u / length - 1) < SAME_SPACING for u in units for length in lengths)
             if not (is_count or is_length):
                 said = f"does not agree with a map of {nx} x {ny} points, {steps[0]:.4g} x {steps[1]:.4g} m each"
-                advice = "correct the line or the spacing; or write '#' before it if it says nothing of the map"
+                advice = "correct the line or the spacing; or write '#' before it if it does not describe the map"
                 raise _wrong(path, statement.line, statement.text, f"{said}; {advice}")
 
 
@@ -307,7 +307,7 @@ def _same_spacing(path: Path, given: tuple[float, float], steps: tuple[float, fl
     if _all_near(given, steps) or either and _all_near(given, steps[::-1]):
         return
     said = f"spacing = {given[0]:g}, {given[1]:g} m is given, and file {path.name} states {steps[0]:g}, {steps[1]:g} m"
-    raise InputError(said, recommendation="leave spacing out, or remove the wrong line from the file")
+    raise InputError(said, recommendation="omit spacing, or remove the wrong line from the file")
 
 
 def _height_scale(path: Path, table: NumberTable, units: Units) -> tuple[float, tuple[str, ...]]:
@@ -318,7 +318,7 @@ def _height_scale(path: Path, table: NumberTable, units: Units) -> tuple[float, 
     if stated is not None:
         if units is not None and LENGTH_UNITS[units[2]] != stated.value:
             said = f"unit = {units[2]!r} is given, and file {path.name} says {stated.unit}: {stated.worded()}"
-            raise InputError(said, recommendation="leave unit out, or remove the wrong line from the file")
+            raise InputError(said, recommendation="omit unit, or remove the wrong line from the file")
         return stated.value * factor, (f"heights in {stated.unit} by {stated.worded()}",)
     if units is None:
         _refuse_unit_words(path, table)
@@ -362,7 +362,7 @@ def _points(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
     if named is not None:
         if units is not None and [LENGTH_UNITS[unit] for unit in units] != [LENGTHS[unit] for unit in named[0]]:
             said = f"unit = {', '.join(units)} is given, and file {path.name} says {', '.join(named[0])}: {named[1]!r}"
-            raise InputError(said, recommendation="leave unit out, or correct the headings")
+            raise InputError(said, recommendation="omit unit, or correct the headings")
         scales = [LENGTHS[unit] for unit in named[0]]
         notes += (f"columns in {', '.join(named[0])} by {named[1][:60]!r}",)
     elif {"z unit", "xy unit"} & set(table.header.stated):
@@ -387,7 +387,7 @@ def _stated_scales(path: Path, table: NumberTable, units: Units) -> list[float]:
         given = None if unit is None else LENGTH_UNITS[unit]
         if statement is not None and given is not None and statement.value != given:
             said = f"unit = {unit!r} is given, and file {path.name} says {statement.unit}: {statement.worded()}"
-            raise InputError(said, recommendation="leave unit out, or remove the wrong line from the file")
+            raise InputError(said, recommendation="omit unit, or remove the wrong line from the file")
         scale = given if statement is None else statement.value
         if scale is None:
             said = f"file {path.name} does not state the unit of {'the heights' if place == 2 else 'x and y'}"
@@ -407,7 +407,7 @@ def _wyko(path: Path, text: str, units: Units, spacing: Pair) -> TextMap:
     """
     if units is not None:
         raise InputError(
-            f"unit = {units[2]!r} is given, and a Wyko file has its own (nm, mm)", recommendation="leave it out"
+            f"unit = {units[2]!r} is given, and a Wyko file has its own (nm, mm)", recommendation="omit it"
         )
     rows = text.splitlines()
     flags = rows[0].removeprefix(WYKO).split()
@@ -535,9 +535,9 @@ def _table(path: Path, text: str, decimal: str | None) -> NumberTable:
         cells = [(number, [cell.strip() for cell in line.split(separator)]) for number, line in lines]
         if empty := sum(row.count("") for _, row in cells):
             lines = [(number, separator.join(cell or "nan" for cell in row)) for number, row in cells]
-            notes.append(f"{counted(empty, 'empty cells')} taken for unmeasured")
+            notes.append(f"{counted(empty, 'empty cells')} treated as unmeasured")
     if marked:
-        notes.append(f"{counted(marked, 'marks')} of missing points taken for unmeasured")
+        notes.append(f"{counted(marked, 'marks')} of missing points treated as unmeasured")
     numbers = _numbers(path, lines, separator)
     return NumberTable(
         numbers=numbers, header=header, titles=titles, comments=comments, own_spacing=own_spacing, notes=tuple(notes)

@@ -63,7 +63,7 @@ def read_zygo(
         notes: tuple[str, ...] = (f"points of Zygo, heights in {units[2]} as given",)
     else:
         if units is not None:
-            raise InputError(f"unit = {units[2]!r} is given, and {name} carries its own", recommendation="leave it out")
+            raise InputError(f"unit = {units[2]!r} is given, and {name} carries its own", recommendation="omit it")
         waves = COUNTS_OF_A_WAVE.get(resolution)
         scale = optics[1] * optics[2] * optics[4]
         if waves is None or not scale > 0:
@@ -110,7 +110,7 @@ def _phases(name: str, lines: list[str], before: int, intensities: int, shape: t
     try:
         phases = np.array(" ".join(lines).split(), float)
     except ValueError:
-        raise InputError(f"{name} has phases that are no numbers") from None
+        raise InputError(f"{name} has phases that are not numbers") from None
     if phases.size != shape[0] * shape[1] or before > (intensities > 0):
         raise InputError(f"{name} has {phases.size} phases, and states {shape[0]} x {shape[1]}")
     return np.where(phases >= UNMEASURED_PHASE, np.nan, phases).reshape(shape[1], shape[0]).T

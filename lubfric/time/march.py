@@ -216,7 +216,7 @@ def report_of(
             status = WORK_LIMIT
             why = f"What is left needs more work than numerics.max_work = {most_work:.4g} s allows"
             advice = (
-                "raise numerics.max_work (a run with a checkpoint goes on from there), or loosen transient.tolerance"
+                "raise numerics.max_work (a run with a checkpoint continues from there), or loosen transient.tolerance"
             )
         done = int(np.searchsorted(plan.times, now.time, side="right"))
         summary = (

@@ -172,7 +172,7 @@ def _violated(
             value=shear_error,
             limit=scene.numerics.tolerance,
             unit="",
-            consequence="the grid of a run in time does not hold the pressure spike, or the film is ruptured where it shears most",
+            consequence="the grid of a run in time does not resolve the pressure spike, or the film is ruptured where it shears most",
             recommendation="a tighter numerics.film_tolerance; the steady f at the same speed (lubfric.friction) resolves the spike",
         )
     if row["contact_load"] > 0:

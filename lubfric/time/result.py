@@ -138,7 +138,7 @@ class TransientResult(Renamed, Shown):
         if any(severe):
             return (
                 f"Refused: all {count} outputs to t = {end} are solved, but at {sum(severe)} of them an assumption "
-                "fails so badly that f means nothing (see the warnings)."
+                "fails so far that f has no meaning (see the warnings)."
             )
         return f"Converged: all {count} outputs to t = {end} are solved, and every residual is within its tolerance."
 

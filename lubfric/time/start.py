@@ -145,7 +145,7 @@ def _resting(model: TransientLoadSharing) -> Step:
     touching = setting.undeformed(0.0).terms.H
     film = film_under(state.mean_gap) - float(model.mean_row @ touching)
     if film <= 0.0:
-        said = "at rest the contact leaves no room for a film under the undeformed cylinder"
+        said = "at rest there is no gap for a film under the undeformed cylinder"
         ways = "initial = 'steady' with an entrainment speed, or transient.initial_film"
         raise InputError(f"{said}; give {ways}")
     undeformed = setting.undeformed(film)

@@ -371,7 +371,7 @@ def deterministic_moment(
     lost = max(heat.change, 1 - heat.inlet.factor if heat.inlet else 0.0)
     if lost > scene.numerics.tolerance:
         recommendation = (
-            "numerics.model = 'paper', which has the heat in time; heat = 'off' leaves heat out without this warning"
+            "numerics.model = 'paper', which models heat in time; heat = 'off' neglects heat without this warning"
         )
         violations.append(
             Violation(

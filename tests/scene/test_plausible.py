@@ -138,7 +138,7 @@ def test_a_key_in_capitals_is_the_key_itself():
 
 
 def test_a_grade_that_is_none_is_refused_before_its_index_is_missed():
-    with pytest.raises(lubfric.InputError, match="an SAE grade is no ISO grade"):
+    with pytest.raises(lubfric.InputError, match="an SAE grade is not an ISO grade"):
         lubfric.load_scene("paper").with_(lubricant={"grade": "SAE 10W-30", "temperature": 343.15})
 
 

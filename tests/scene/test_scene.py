@@ -190,10 +190,10 @@ def test_contact_keys_that_would_do_nothing_are_refused(contact, words):
 @pytest.mark.parametrize(
     "numerics, recommendation",
     [
-        ({"closure": "one-way"}, "leave it out, or give numerics.model = 'deterministic'"),
+        ({"closure": "one-way"}, "omit it, or give numerics.model = 'deterministic'"),
         ({"closure": "separation"}, "lubfric.paper"),
-        ({"closure": "load"}, "leave it out"),
-        ({"film_level": "ehl"}, "leave it out"),
+        ({"closure": "load"}, "omit it"),
+        ({"film_level": "ehl"}, "omit it"),
         ({"contact_level": "flat"}, "contact.geometry"),
         ({"model": "full"}, "numerics.tolerance a smaller value"),
         ({"film_deflection": "auto"}, "'scaled'"),

@@ -116,7 +116,7 @@ def test_a_table_of_viscosities_takes_the_units_of_its_columns():
         ("bodies.width", "12 furlong", "unknown unit, 'furlong'.*a plain number in m"),
         ("bodies.hardness", "60 HRC", "give HV.*60: 697"),
         ("bodies.width", "60 HRC", "unknown unit, 'HRC'"),
-        ("bodies.width", "12", "no unit: leave the quotes out"),
+        ("bodies.width", "12", "no unit: omit the quotes"),
         ("bodies.width", "1,2 mm", "not a number with a unit"),
         ("bodies.load", "9e999999999999999999999 N", "bodies.load.*out of range"),
         ("bodies.load", "1e400 N", "bodies.load.*out of range"),

@@ -144,7 +144,7 @@ def test_a_fit_takes_a_scene_a_measured_curve_and_known_starts():
     for call, words in (
         (lambda: lubfric.fit(lubfric.prepare(SCENE), measured, BOUNDS), "not lubfric.prepare"),
         (lambda: lubfric.fit(SCENE, 0.1, BOUNDS), "measured = 0.1"),
-        (lambda: lubfric.fit(SCENE, measured, BOUNDS, start={"bodies.load": 3.0}), "no parameter"),
+        (lambda: lubfric.fit(SCENE, measured, BOUNDS, start={"bodies.load": 3.0}), "not a parameter"),
         (lambda: lubfric.fit(SCENE, measured, BOUNDS, executor=1), "executor = 1"),
     ):
         with pytest.raises(lubfric.InputError, match=words):

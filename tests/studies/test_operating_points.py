@@ -156,7 +156,7 @@ def test_rows_that_repeat_are_solved_once_and_a_cut_study_goes_on(tmp_path, monk
         ({"sped": [0.1]}, "'sped' is not a column of operating points .did you mean 'speed'"),
         ({"u1": [0.1]}, "both u1 and u2"),
         ({"R1": [0.01]}, "both R1 and R2.*or radius"),
-        ({"R1": [0.01], "R2": [0.02], "radius": [0.01]}, "leave radius out"),
+        ({"R1": [0.01], "R2": [0.02], "radius": [0.01]}, "omit radius"),
         ({"R1": [0.01, 0.01], "R2": [0.02, -0.005]}, "row 2: .*do not touch"),
         ({"R1": [10.0], "R2": [20.0]}, r"heading R1 \[mm\]"),
         ({"radii": [0.01]}, "a pair of radii in each row"),

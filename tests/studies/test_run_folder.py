@@ -173,7 +173,7 @@ def test_an_interrupt_is_one_line_that_says_what_is_kept(tmp_path, whole, monkey
     monkeypatch.setattr("lubfric.studies.points.friction", signalling(sent, 4))
     assert main(["run", written(tmp_path), "--out", str(out)]) == code
     said = capsys.readouterr().err.splitlines()
-    assert said[-1] == f"lubfric: interrupted; 3 of 5 points are kept in {out}: the same command goes on from there"
+    assert said[-1] == f"lubfric: interrupted; 3 of 5 points are kept in {out}: the same command continues from there"
     assert not (out / "result.json").exists()
     monkeypatch.setattr("lubfric.studies.points.friction", signalling(sent, 3))
     assert main(["run", written(tmp_path), "--out", str(out)]) == 0  # two points were left
@@ -201,7 +201,7 @@ def test_a_command_that_ends_takes_its_processes_along_and_keeps_their_points(tm
     text = process.communicate(timeout=600)[1]  # the ends of its pipes that its processes hold are closed
     assert process.returncode == code
     if sent == signal.SIGINT:
-        assert text == f"lubfric: interrupted; 3 of 5 points are kept in {out}: the same command goes on from there\n"
+        assert text == f"lubfric: interrupted; 3 of 5 points are kept in {out}: the same command continues from there\n"
     again = start(written(tmp_path), out)
     assert again.communicate()[0].count("solved") == 2
     same(out, whole)

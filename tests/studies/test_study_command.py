@@ -172,7 +172,7 @@ def test_an_interrupt_is_one_line_and_the_command_goes_on(tmp_path, sent, code):
         time.sleep(0.05)
     process.send_signal(sent)
     said = process.communicate()[1].splitlines()
-    assert process.returncode == code and "kept in" in said[-1] and "goes on from there" in said[-1], said
+    assert process.returncode == code and "kept in" in said[-1] and "continues from there" in said[-1], said
     assert not any("Traceback" in line for line in said)
     result = lubfric.open_study(out)
     assert 0 < result.missing < result.status.size

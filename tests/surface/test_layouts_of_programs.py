@@ -210,11 +210,11 @@ def test_heights_that_may_fall_out_of_the_material_are_refused(line, heights, tm
     """Valleys for peaks carry no load: such a map has to be turned by whoever knows it."""
     head = ["# Width: 48 um", "# Height: 72 um", "# Value units: nm"]
     path = write(tmp_path / "a.txt", [*head, line, *rows(heights, 1e-9)])
-    with pytest.raises(InputError, match="line 4 .* leaves the sign of the heights open"):
+    with pytest.raises(InputError, match="line 4 .* does not define the sign of the heights"):
         read_surface(path)
     write(path, [*head, "# Inverted: No", "# Depth of field: 3 um", *rows(heights, 1e-9)])
     assert np.allclose(read_surface(path, **RAW).heights, heights, atol=1e-12, equal_nan=True)
-    with pytest.raises(InputError, match="'Depth .um.' leaves the sign"):
+    with pytest.raises(InputError, match="'Depth .um.' does not define the sign"):
         read_surface(write(path, ["Depth [um]", *rows(heights, 1e-6)]), spacing=STEPS)
 
 

@@ -157,7 +157,7 @@ def test_the_first_of_several_blocks_is_read(tmp_path):
         (("# Width: 12.000 µm", "# Width: 12.000 µm\n# Width: 120.000 µm"), "contradicts itself about width"),
         (("# Value units: m", "# Value units: m\n# z-unit: nm"), "contradicts itself about z unit"),
         (("# Width: 12.000 µm", "# Width: 12.000 µm\n# x-pixels = 512"), "header line 3 '# x-pixels = 512'"),
-        (("# Width: 12.000 µm", "# Width: 12.000 µm\n# Step X: 5 µm"), "do not go with"),
+        (("# Width: 12.000 µm", "# Width: 12.000 µm\n# Step X: 5 µm"), "do not agree with"),
         (("# Value units: m", "# Value units: V"), "values are in 'V'"),
         (("# Value units: m", "# Value units: deg"), "values are in 'deg'"),
     ],
@@ -235,7 +235,7 @@ def test_triplets_are_no_map(tmp_path):
             read_surface(path, spacing=1e-6)
     scattered = np.random.default_rng(1).random((60, 3)) * 1e-6
     path.write_text(rows(scattered, "%.9e"))
-    with pytest.raises(InputError, match="no points x y z on a grid"):
+    with pytest.raises(InputError, match="not points x y z on a grid"):
         read_surface(path, spacing=1e-6)
     for array in (triplets(z), scattered, triplets(z).T, scattered.T):
         np.save(tmp_path / "map.npy", array)

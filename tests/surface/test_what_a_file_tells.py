@@ -32,7 +32,7 @@ def test_an_empty_cell_is_unmeasured(tmp_path, text, found):
     np.testing.assert_allclose(surface.heights * 1e3, found, rtol=1e-14)
     np.testing.assert_array_equal(surface.mask, np.isfinite(found))
     count = int(np.isnan(found).sum())
-    assert f"{count} empty cell{'s' * (count > 1)} taken for unmeasured" in surface.notes
+    assert f"{count} empty cell{'s' * (count > 1)} treated as unmeasured" in surface.notes
 
 
 @pytest.mark.parametrize(

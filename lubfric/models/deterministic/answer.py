@@ -60,7 +60,7 @@ UNSOLVED_CELLS = (
 )
 ONE_HEAT = "heat is computed on one strip, where roughness moves at one moment; between these it scatters"
 MIRRORED = ", mirrored along the line"
-BIASED = "a short patch, which balances the load by itself, is biased too: about lift-off f is some 10 % too low"
+BIASED = "a single short patch also has a bias: near the lift-off speed f is some 10 % too low"
 # Where a local peak of the film pressure is. The picture of the contact is of another solve, with the contacts.
 FILM_OF_STRIPS = "of the film between asperity contacts, on the cells of f (contact.png has others)"
 # What rubs with f_b, by whether the lubricant is Newtonian: with a shear law a film at its limiting stress is no part of
@@ -414,10 +414,10 @@ def _violations(
     share = mean(result.share_given_off for result in results)
     if share > MOST_GIVEN_OFF:
         consequence = (
-            "almost no lubricant passes through the contact, and f changes by about 1 % with the gap of 1 nm that the model "
-            "leaves between touching cells"
+            "almost no lubricant passes through the contact, and f changes by about 1 % with the assumed gap of 1 nm "
+            "between touching cells"
         )
-        recommendation = "count at least 2 % as the error of f"
+        recommendation = "assume an error of f of at least 2 %"
         yield Violation(
             what="share of the lubricant that comes from touching cells",
             value=share,

@@ -71,6 +71,6 @@ def why_too_hot(heat: Heat | None) -> str:
     if factor >= LEAST_FILM and change <= MOST_CHANGE:
         return ""
     return (
-        f"heat leaves {factor:.2g} of the film and takes {100 * change:.2g} % of f; the deterministic model "
-        f"was checked to {LEAST_FILM:g} and {100 * MOST_CHANGE:g} %"
+        f"heat reduces the film to {factor:.2g} of its thickness, and f by {100 * change:.2g} %; the deterministic "
+        f"model was checked down to {LEAST_FILM:g}, and up to {100 * MOST_CHANGE:g} %"
     )

@@ -109,7 +109,7 @@ def violations_by_motion(scene: Scene, speed: float, thickness: float) -> Iterat
                 severe=reynolds > TURBULENT,
             )
         elif inertia > INERTIA:
-            why = "Reynolds' equation leaves inertia out"
+            why = "Reynolds' equation neglects inertia"
             what = "inertia over viscous forces in the film"
             yield Violation(
                 what=what,
@@ -356,7 +356,7 @@ def violations_by_typical_heat(scene: Scene, change: float) -> Iterator[Violatio
             consequence="heat is not included, because the viscosity is a number; this is its effect, at most, on a typical oil, whose "
             f"viscosity falls by {100 * coefficient:.2g} % per K, at {temperature - CELSIUS:.0f} °C",
             recommendation="give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); numerics.heat = "
-            "'off' leaves heat out without this warning",
+            "'off' neglects heat without this warning",
         )
 
 

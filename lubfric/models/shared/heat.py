@@ -163,7 +163,7 @@ def film_lubricant(scene: Scene, speed: float) -> Lubricant:
         return scene.lubricant
     if inlet.factor <= 0:
         raise InputError(
-            f"heat of the inlet: thermal number eta0 beta U²/k = {inlet.thermal_number:.3g} at {abs(speed):.4g} m/s leaves no film by the "
+            f"heat of the inlet: thermal number eta0 beta U²/k = {inlet.thermal_number:.3g} at {abs(speed):.4g} m/s gives no film by the "
             f"factor of Gupta et al. (1992); allowed: up to about {MOST_THERMAL_LOADING:g}, or numerics.heat = 'off' (speed, "
             "viscosity, temperature_coefficient and their units?)"
         )
