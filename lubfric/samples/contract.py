@@ -69,7 +69,8 @@ class Sample(ABC):
 
     @abstractmethod
     def joined(self, indices: Sequence[int]) -> Surface:
-        """Join the strips of these numbers along y, the last to the first: one map on `cells`, periodic along y."""
+        """Join the strips of these numbers along y, the last to the first: one map on `cells`, periodic along y, whose
+        ``source`` says in words what the surface is."""
 
     @abstractmethod
     def piece(self, index: int, length: float = PIECE) -> Surface:
