@@ -58,8 +58,10 @@ ELSEWHERE = (
     "; elsewhere the load-sharing model, and the quick answer where heat changes f by more than 20 % or the film by more "
     "than 30 %"
 )
-# Processor seconds of ``lubfric run`` beside its solves: 1.0 to start, the others for pictures and files.
+# Processor seconds of ``lubfric run`` beside its solves: 1.0 to start, and those of pictures and files.
 COMMAND_SECONDS = 2.4
+# Processor seconds of pictures and files, of these.
+FILES_SECONDS = 1.4
 # Whether asperities touch, by the estimate.
 ASPERITIES = {"touching": "yes", "none or a few summits": "few or none", "none": "no"}
 

@@ -11,6 +11,7 @@ from ..scene import Scene, given_tables
 from ..studies import in_words
 from ..time import TransientResult, raise_if_failed, run_in_time
 from . import commands
+from .describe import FILES_SECONDS
 from .fields import npz_bytes
 from .pictures import animate, plot_history
 from .progress import ProgressLine
@@ -100,9 +101,10 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
 
 def _time_left(part: float, first: float, seconds: float) -> str:
     """Return the time left of a run, as text, when the ``part`` [-] of its expected steps is done, and all after ``first``
-    took so many ``seconds``; "" where that is too little to know it."""
+    took so many ``seconds``, pictures and files included; "" where that is too little to know it."""
     done = part - first
-    return f", about {in_words(seconds * (1.0 - part) / done)} left" if done >= PART_OF_TIME_LEFT else ""
+    left = seconds * (1.0 - part) / max(done, PART_OF_TIME_LEFT) + FILES_SECONDS
+    return f", about {in_words(left)} left" if done >= PART_OF_TIME_LEFT else ""
 
 
 def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, *, animation: bool) -> None:

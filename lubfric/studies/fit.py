@@ -1,5 +1,6 @@
 """`fit`: bounded least squares of a scene to a measured curve, and how well the data determine its parameters."""
 
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
@@ -257,13 +258,22 @@ class _Progress:
         self.fine = fine
         self.on_progress = on_progress
         self.least: dict[int, tuple[float, np.ndarray]] = {}
+        self.elapsed = dict.fromkeys(self.curves, 0.0)
+        self.reported = time.perf_counter()
 
     def begin(self) -> None:
         """Report that the fit begins, from one more minimum: it takes as many curves as the first was expected to."""
         self.expected[id(self.fine)] = self.fine.count + self.expected_of_fit
 
     def report(self, curves: FitCurves) -> None:
-        """Report the last of ``curves``."""
+        """Report the last of ``curves``.
+
+        A curve takes what those of its kind took with their maps; of a kind that has none yet what was estimated, times the
+        ratio of what the others took to their estimates.
+        """
+        now = time.perf_counter()
+        self.elapsed[id(curves)] += now - self.reported
+        self.reported = now
         unit = curves.last
         misfit = curves.misfit(unit)
         if misfit < self.least.get(id(curves), (np.inf, unit))[0]:
@@ -271,11 +281,14 @@ class _Progress:
         done = sum(kind.count for kind, _ in self.curves.values())
         total = done
         left = 0.0
+        taken = {id(kind): max(kind.spent, self.elapsed[id(kind)]) for kind, _ in self.curves.values()}
+        expected_so_far = sum(kind.count * estimated for kind, estimated in self.curves.values())
+        slower = sum(taken.values()) / expected_so_far if expected_so_far > 0 else 1.0
         for kind, estimated in self.curves.values():
             expected = self.expected[id(kind)]
             ended = kind is not self.fine and self.fine.count > 0
             remaining = 0 if ended else max(expected - kind.count, 1 if kind is self.fine else 0)
-            each = kind.spent / kind.count if kind.count else estimated
+            each = taken[id(kind)] / kind.count if kind.count else slower * estimated
             total += remaining
             left += remaining * each
         least, position = self.least[id(self.fine if self.fine.count else curves)]

@@ -84,7 +84,7 @@ def test_the_time_left_of_a_run_in_time_is_stated_when_it_is_known():
     assert _time_left(0.05, 0.0, 60.0) == ""
     assert _time_left(0.55, 0.5, 60.0) == ""  # a run that continues
     assert _time_left(0.25, 0.0, 60.0) == ", about 3 min left"
-    assert _time_left(0.75, 0.5, 60.0) == ", about 60 s left"
+    assert _time_left(0.75, 0.5, 60.0) == ", about 61 s left"  # pictures and files included
 
 
 def test_a_run_in_time_says_how_far_it_is_before_its_first_output(monkeypatch, tmp_path, capsys):

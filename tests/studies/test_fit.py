@@ -3,6 +3,8 @@
 import json
 import time
 from concurrent.futures import ThreadPoolExecutor
+from importlib import import_module
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -478,3 +480,29 @@ def test_a_misspelt_parameter_of_the_command_is_named_before_its_unit(tmp_path, 
     assert "did you mean 'eyring_stress'?" in capsys.readouterr().err
     assert main([*command, f"{EYRING}=1:20"]) == 2
     assert "did you mean 1 MPa" in capsys.readouterr().err
+
+
+def test_the_time_left_of_a_fit_corrects_the_estimates_by_the_clock(monkeypatch):
+    """Curves of the search that took three times their estimate: those of the fit, of which none is solved yet, count
+    three times too; after one that took less they count as that."""
+    fit_module = import_module("lubfric.studies.fit")
+    clock = [100.0]
+    monkeypatch.setattr(fit_module.time, "perf_counter", lambda: clock[0])
+    kinds = [
+        SimpleNamespace(count=0, spent=0.0, last=np.array([0.5]), misfit=lambda _: 0.1, parameters={}) for _ in "12"
+    ]
+    (coarse, fine) = kinds
+    estimates = {id(coarse): 2.0, id(fine): 5.0}
+    monkeypatch.setattr(fit_module, "_usual_seconds", lambda kind, _: estimates[id(kind)])
+    stated = []
+    progress = fit_module._Progress(coarse, fine, np.array([0.5]), 4, lambda *what: stated.append(what[2]))
+    searched = progress.expected[id(coarse)]
+    for kind, seconds in ((coarse, 6.0), (coarse, 6.0), (fine, 10.0)):
+        clock[0] += seconds
+        kind.count += 1
+        kind.spent += 0.9 * seconds
+        progress.report(kind)
+    fitted = progress.expected_of_fit
+    assert stated == pytest.approx(
+        [6 * (searched - 1) + 15 * fitted, 6 * (searched - 2) + 15 * fitted, 10 * (fitted - 1)]
+    )
