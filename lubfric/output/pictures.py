@@ -249,7 +249,7 @@ def plot_history(
     unit = unit_for(c["central_film"].tolist(), "m")
     scale = 1.0 / converted(1.0, unit, "m")
     for name, label, style in (
-        ("full_load_film", "full-load film thickness", {"color": figures.BLUE, "lw": 1}),
+        ("full_load_film", "full-load film in steady motion", {"color": figures.BLUE, "lw": 1}),
         ("central_film", "central separation", {"color": figures.GREEN, "lw": 3.2, "alpha": 0.45}),
         ("min_film", "smallest film", {"color": "k", "lw": 1, "ls": "--"}),
         ("mean_gap", "mean separation over the Hertz strip", {"color": figures.RED, "lw": 1.2, "ls": ":"}),
