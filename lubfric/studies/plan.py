@@ -232,12 +232,13 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
     path = Path(path)
     if points is not None and (not path.is_file() or "scene" not in read_toml(path, "study")):
         return plan_study(load_scene(path if path.is_file() else str(path)), points=points)
-    if path.suffix.lower() == ".csv":
-        raise InputError(
-            f"{path.name} is a table, not a study",
-            recommendation=f"give a scene, and the table by --points {path.name}",
-        )
-    table = read_toml(path, "study")
+    try:
+        table = read_toml(path, "study")
+    except InputError as error:
+        if path.suffix.lower() != ".csv":
+            raise
+        recommendation = f"give a scene, and the table by --points {path.name}"
+        raise InputError(f"{path.name} is a table, not a study", recommendation=recommendation) from error
     if "scene" not in table and not SCENE_SECTIONS.isdisjoint(table):
         raise InputError(
             f"{path.name} is a scene, not a study",

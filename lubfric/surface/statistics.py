@@ -39,7 +39,7 @@ LEAST_RZ_POINTS = 20
 
 
 def sa(surface: Surface) -> float:
-    """Return the mean absolute height [m]."""
+    """Return the arithmetic mean height Sa [m]."""
     z = surface.measured
     return float(np.abs(z - z.mean()).mean())
 

@@ -82,7 +82,7 @@ def test_inputs_stand_as_they_were_given_beside_the_values_used(tmp_path):
     (tmp_path / "s.toml").write_text(scene + SMALL_PATCH.replace("sq = 1e-7", 'ra = "80 nm"') + "sampling = 'patch'\n")
     assert main(["run", str(tmp_path / "s.toml"), "--speeds", "0.3", "--out", str(tmp_path / "out")]) == 0
     page = unescape((tmp_path / "out" / "report.html").read_text(encoding="utf-8"))
-    row = re.search(r"<tr>(?:(?!</tr>).)*root mean square roughness.*?</tr>", page)[0]
+    row = re.search(r"<tr>(?:(?!</tr>).)*root mean square height Sq.*?</tr>", page)[0]
     assert (
         "radii = [.4 mm., .4 mm.]" in page.replace(chr(39), ".")
         and "100.3 nm" in row

@@ -364,7 +364,7 @@ def test_netcdf_and_parquet_round_trips(serial, tmp_path):
 
 
 def test_folders_that_are_no_store(tmp_path):
-    with pytest.raises(lubfric.InputError, match="holds no study"):
+    with pytest.raises(lubfric.InputError, match="has no study"):
         lubfric.open_study(tmp_path)
     (tmp_path / "points").mkdir()
     (tmp_path / "points" / "plan.bin").write_text("[]")
