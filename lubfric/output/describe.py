@@ -147,7 +147,7 @@ def estimate_scene(
         run = estimated_run(scene, sample, surface)
         seconds = run.seconds
         cost, lines = _course(scene, run, speeds)
-        changing = [*_histories(scene), cost, *lines]
+        changing = [cost, *_histories(scene), *lines]
     elif cost:
         model.append(f"cost: {cost}; 'lubfric run' takes {in_words(beside)} more for start, pictures and files")
     first_model = models_that_may_answer(scene.numerics.model)[0]
