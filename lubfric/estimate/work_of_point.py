@@ -60,7 +60,8 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
     is_alone = estimates[last].seconds > 0 and not models[last].takes_control(scene, sample)
     solved: Collection[int] = {last} if is_alone else {0, last}
     if scene.numerics.model == AUTO:
-        solved = range(min(enough, default=last) + 1)
+        last = min(enough, default=last)
+        solved = [k for k in range(last + 1) if k == last or not _waits(estimates, k)]
     with_line = [k for k in solved if estimates[k].strips and math.isfinite(estimates[k].length)]
     line = estimates[max(with_line, default=0)]
     with_slow_strips = [k for k, model in enumerate(models) if model.has_slow_strips]
@@ -77,6 +78,11 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
         slow_strip_seconds=max((estimates[k].strip_seconds for k in with_slow_strips), default=0.0),
         longest_strip_seconds=max((estimates[k].longest_strip_seconds for k in with_slow_strips), default=0.0),
     )
+
+
+def _waits(estimates: Sequence[WorkEstimate], k: int) -> bool:
+    """Return whether "auto" leaves model number ``k`` unsolved, because the next one is solved in its place."""
+    return estimates[k].waits_for_next and estimates[k + 1].seconds > 0
 
 
 def seconds_of_points(

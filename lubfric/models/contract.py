@@ -183,6 +183,7 @@ class WorkEstimate:
     ----------
     strips : number of strips that the tolerances need; 0: the model is not asked
     seconds : processor time [s] of all of it, beyond that of the cheaper models
+    waits_for_next : whether "auto" spends them only where the next model is not solved (`SampleSolution.may_suffice`)
     shared : the parts of these seconds that other points are spared
     fine_fields_seconds : processor time [s] of fields on cells fine enough to look at, if they are requested
     strip_seconds : processor time [s] of one strip, where its roughness moves; 0 where it does not, or has little
@@ -190,18 +191,21 @@ class WorkEstimate:
     longest_strip_seconds : the same if that strip has to be solved again on shorter cells
     length : of the strips [m]; NaN: there is one patch
     expected_sampling_error : relative standard error of f after the first strips; NaN: there is one patch
+    expected_strip_scatter : relative standard deviation of f between strips that are solved one by one; NaN: as that error
     expected_model_error : relative model-form error of f
     touching : whether asperities touch: "touching", "none or a few summits", or "none"
     """
 
     strips: int
     seconds: float
+    waits_for_next: bool = False
     shared: tuple[SharedWork, ...] = ()
     fine_fields_seconds: float = 0.0
     strip_seconds: float = 0.0
     longest_strip_seconds: float = 0.0
     length: float = math.nan
     expected_sampling_error: float = math.nan
+    expected_strip_scatter: float = math.nan
     expected_model_error: float = math.nan
     touching: str = ""
 

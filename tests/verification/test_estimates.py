@@ -95,6 +95,26 @@ def test_a_film_far_above_the_summits_is_estimated_and_solved_without_a_contact(
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(
+    "keys", [{"lubricant": {"inlet_film": 120e-9}}, {"bodies": {"e_prime": 5e9}}], ids=["starved", "soft"]
+)
+def test_a_starved_and_a_soft_contact_are_estimated_within_three(keys):
+    """A thin film between light bodies takes few steps, however little arrives; a thick one between soft bodies too."""
+    scene = lubfric.load_scene("paper").with_(**keys, numerics={"accept": True})
+    with limited_work(math.inf) as meter:
+        lubfric.friction(scene, 0.03)
+    assert meter.spent / 3 <= of_scene(scene, [0.03]) <= 3 * meter.spent
+
+
+def test_auto_is_estimated_without_the_model_that_it_passes_over():
+    """Below a tolerance of .1 the quick model waits: what "auto" solves at rest is what "deterministic" solves."""
+    scenes = [PAPER.with_(numerics={"model": model}) for model in ("auto", "deterministic")]
+    (by_auto, by_name) = (of_scene(scene, [0.03]) for scene in scenes)
+    loose = of_scene(scenes[0].with_(numerics={"model_tolerance": 0.2}), [0.03])
+    assert by_auto == pytest.approx(by_name) and loose != pytest.approx(by_auto)
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", [3.0, 0.3])
 def test_a_heavy_roller_at_rest_is_estimated_within_two(speed):
     """A film of 2.3 and of 0.46 Sq at 1 GPa; all of the short strip is solved on shorter cells."""

@@ -10,15 +10,13 @@ from ..contract import WorkEstimate
 from ..shared import FREEDOM_NOT_COUNTED, STRIPS_SAFETY, peak_hertz_pressure, smooth_over_cells, student
 from .cells_in_motion import CellsInMotion
 from .counted_work import work_of_steps
-from .levels import DIFFERENCE_SHARE, HALVED_WORK
+from .expected_steps import AGAIN, STRIP_STEPS, ExpectedSteps, expected_steps
+from .levels import DIFFERENCE_SHARE, HALVED_WORK, STRIPS_GROWTH
 from .linear import HIGH_PRESSURE
 from .problem import are_soft, reach
 from .rough_bodies import MOST_WORK_IN_AUTO, moving_point_work
-from .shorter_cells import LAST_PIECE, SHORT
+from .shorter_cells import LAST_PIECE, PIECES_SHARE, SHORT, SOFT_CELL_ERROR
 from .strip_on_two_grids import sample_coarsening_of
-
-# Newton steps on a strip, about.
-STRIP_STEPS = 9
 
 # Newton steps on cells half as long, which begin there.
 FINER_STEPS = 6
@@ -36,29 +34,35 @@ LAST_STEPS = 10
 # with the iterations of GMRES: 19 and 3, and 12 iterations in each, in a random point of .9 GPa.
 HEAVY_LONG_CELL_STEPS = 32
 
-# Newton steps on a strip whose neighbour is solved: at an end of the range of an input.
-AGAIN = 4
-
 # Factor on the work at rest where the heights are not smooth over a cell: cells a quarter as long, and more steps on all
 # (3 to 5 in four of five points of `python -m verification.campaigns.estimates`).
 ROUGH_WORK = 3.5
 
-# Factor on the work at rest where the bodies are soft (`are_soft`): Newton's method often does not converge from the dry contact,
-# and steps in time take 60 to 500 factorisations, where a steel contact takes 5 to 20. Five points of E' 1.5 to 19 GPa took 1.5
-# to 90 times what they would otherwise be estimated to, in the middle 13.
-SOFT_WORK = 13.0
+# Work on longer and longer cells before, over that on those of a strip or a piece: a quarter, and a little more.
+ON_LONGER_CELLS = 0.3
 
-# Pieces of such bodies on cells half as long.
-SOFT_PIECES = 2
+# Part of the strips that a sampling error needs below which the first is enough: of 25 random points 10 of 11 below and none of 14
+# above it.
+ENOUGH_ALONE = 0.3
 
-# Newton steps on a piece of such bodies on shorter cells: from 20 to 263.
-SOFT_PIECE_STEPS = 65
+# Pieces on cells half as long where more than one strip is solved: 1 to 7, 2.8 in the mean, in 13 of 14 of these points.
+PIECES_OF_MORE_STRIPS = 3.0
 
-# Factor on the work at rest where a given film arrives at the inlet: 60 nm on 80 nm of roughness took 6 to 9 times as long.
-STARVED_WORK = 8.0
+# The same where one strip is enough and a film below `RUBBED_FILM` changes f little, whatever the cells: 2 of 9 of these points, and
+# all others, solve one.
+PIECES_OF_RUBBED = 0.25
 
-# Processor time of roughness at rest over its counted work [-]: six speeds of a roller took .55 of their estimate.
-AT_REST = 0.6
+# Film of the smooth contact over Sq below which f is nearly f_b [-].
+RUBBED_FILM = 0.25
+
+# Newton steps of the second solve of a strip, at a load 3 % larger, over those of one whose neighbour is solved [-].
+OF_SLOPE = 0.5
+
+# Part of these points that solve a piece on cells a quarter as long, where one strip is enough, and where more are solved.
+LAST_LEVEL = (0.2, 0.4)
+
+# Processor time of roughness at rest over its counted work [-]: .5 to .86 in ten runs of ``verification.campaigns.estimates``.
+AT_REST = 0.64
 
 # Processor time of moving roughness over its counted work [-]: .38 to .66 in seven random points, for their matrices have
 # cuts one cell wide and omit what is small; less where fewer steps are needed than are counted. A pass takes .79 of what it
@@ -128,11 +132,15 @@ def estimated_work(
         return NO_WORK
     if cheaper is not None and math.isfinite(cheaper.expected_sampling_error):
         scatter = cheaper.expected_sampling_error * math.sqrt(sample.first_strips)
+    is_other = has_moving_roughness(scene) or are_soft(scene.line_contact(abs(speed)), sq)
+    if cheaper is not None and not is_other and math.isfinite(cheaper.expected_strip_scatter):
+        scatter = cheaper.expected_strip_scatter
     allowed = math.hypot(
         DIFFERENCE_SHARE * numerics.model_tolerance / student(FREEDOM_NOT_COUNTED), numerics.sampling_tolerance
     )
     unlike = UNLIKE_IN_MOTION if has_moving_roughness(scene) else UNLIKE
-    count = min(max(1, math.ceil(STRIPS_SAFETY * (unlike * scatter / allowed) ** 2)), sample.available_strips)
+    wanted = STRIPS_SAFETY * (unlike * scatter / allowed) ** 2
+    count = min(max(1, math.ceil(wanted)), sample.available_strips)
     if has_moving_roughness(scene):
         strip_seconds = longest = _seconds_in_motion(scene, sample, sq=sq, speed=speed, work=one_strip)
         if one_strip > MOST_WORK_IN_AUTO and numerics.model == "auto":
@@ -148,11 +156,16 @@ def estimated_work(
             longest_strip_seconds=longest,
             length=sample.line_length(count),
         )
+    if wanted > ENOUGH_ALONE:
+        count = min(max(count, int(STRIPS_GROWTH[0])), sample.available_strips)
     ends = 2 * sum(name != BOUNDARY_FRICTION_KEY for name, *_ in scene.ranges)
     is_smooth = smooth_over_cells(surface.heights)
+    work = _work_at_rest(scene, sample, sq=sq, speed=speed, count=count, ends=ends, is_smooth=is_smooth)
+    if numerics.max_work is not None:
+        work = min(work, numerics.max_work)  # which ends it
     return WorkEstimate(
         strips=count,
-        seconds=AT_REST * _work_at_rest(scene, sample, sq=sq, speed=speed, count=count, ends=ends, is_smooth=is_smooth),
+        seconds=AT_REST * work,
         fine_fields_seconds=work_of_fine_fields(scene, sample, sq, speed),
     )
 
@@ -165,29 +178,68 @@ def _work_at_rest(
     (fx, fy) = sample_coarsening_of(scene, sample)
     (dx, dy) = sample.cells.spacing
     (ux, uy) = sample.cells.coarsening
+    steps = expected_steps(scene, sq, speed)
     cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * sample.strip_length / (fy * dy)
     if sample.refines_in_place:  # it may be solved down to its own cells, and the ends on the same
         finer = 0.5 * cells * fx * fy * ux * uy
         again = work_of_steps(finer, AGAIN) * (ends + (ends > 0))
         return work_of_steps(cells, STRIP_STEPS) + work_of_steps(finer, FINER_STEPS) + again
-    is_piece = (
-        sample.strip_length < SHORT * sample.correlation_lengths[1]
-    )  # all of a short strip is solved on shorter cells
-    finer = (1.0 if is_piece else 0.5) * cells * fx * fy
-    again = work_of_steps(cells, AGAIN) * (1 + ends + (ends > 0))  # once for the slope
-    short = is_piece and fx * ux >= 4 <= fy * uy
-    shorter = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if short else 0.0
-    seconds = count * work_of_steps(cells, STRIP_STEPS) + work_of_steps(finer, _finer_steps(scene, sq, speed)) + again
-    if are_soft(scene.line_contact(abs(speed)), sq):  # the error by few cells demands pieces on shorter ones
-        lengths = sample.correlation_lengths[1] / sample.strip_length
-        pieces = [(SOFT_PIECES, 4 * PIECE, fx * ux), (1, 16 * LAST_PIECE, fx * ux / 2)]
-        on_pieces = sum(
-            n * work_of_steps(times * lengths * cells, SOFT_PIECE_STEPS) for n, times, left in pieces if left >= 2
+    lengths = sample.correlation_lengths[1] / sample.strip_length
+    if lengths * SHORT > 1:
+        return _work_of_short_strip(
+            scene, sample, steps, cells=cells, sq=sq, speed=speed, count=count, ends=ends, is_smooth=is_smooth
         )
-        return SOFT_WORK * seconds + on_pieces
-    if scene.lubricant.inlet_film is not None:
-        return STARVED_WORK * seconds + shorter
-    return seconds + shorter if is_smooth or short else ROUGH_WORK * seconds
+    strips = count * (1 + ON_LONGER_CELLS) * steps.work(cells, steps.first)
+    again = steps.work(cells, steps.again) * (OF_SLOPE + ends + (ends > 0))
+    left = fx * ux, fy * uy
+    pieces = 0.0
+    if max(left) >= 2:
+        finer = min(left[0], 2) * min(left[1], 2) * PIECE * lengths * cells
+        is_rubbed = is_smooth and scene.line_contact(abs(speed)).moes_film < RUBBED_FILM * sq
+        number = PIECES_OF_MORE_STRIPS if count > 1 else PIECES_OF_RUBBED if is_rubbed else 1.0
+        pieces += number * (1 + ON_LONGER_CELLS) * steps.work(finer, max(steps.first, _finer_steps(scene, sq, speed)))
+    if max(left) >= 4:
+        finest = min(left[0], 4) * min(left[1], 4) * LAST_PIECE * lengths * cells
+        part = _part_of_last_level(scene, sq=sq, speed=speed, cell=0.5 * fx * dx, count=count)
+        pieces += part * (1 + ON_LONGER_CELLS) * steps.work(finest, steps.first)
+    if scene.numerics.max_work is not None:
+        pieces = min(pieces, PIECES_SHARE * max(scene.numerics.max_work - strips, 0.0))
+    return strips + pieces + again
+
+
+def _part_of_last_level(scene: Scene, *, sq: float, speed: float, cell: float, count: int) -> float:
+    """Return the part of points of ``count`` strips that solve the last level: all or none of soft bodies, by the length of the
+    ``cell`` [m] of the level before (`error_of_soft_bodies`)."""
+    line = scene.line_contact(abs(speed))
+    if are_soft(line, sq):
+        return float(SOFT_CELL_ERROR * (cell / line.half_width) ** 2 > scene.numerics.tolerance)
+    return LAST_LEVEL[count > 1]
+
+
+def _work_of_short_strip(
+    scene: Scene,
+    sample: Sample,
+    steps: ExpectedSteps,
+    *,
+    cells: float,
+    sq: float,
+    speed: float,
+    count: int,
+    ends: int,
+    is_smooth: bool,
+) -> float:
+    """Return the same as `_work_at_rest` of strips that are shorter than `SHORT` correlation lengths: all of one is solved on
+    shorter ``cells``."""
+    (fx, fy) = sample_coarsening_of(scene, sample)
+    (ux, uy) = sample.cells.coarsening
+    again = work_of_steps(cells, AGAIN) * (1 + ends + (ends > 0))
+    is_coarse = fx * ux >= 4 <= fy * uy
+    shorter = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if is_coarse else 0.0
+    finer = work_of_steps(cells * fx * fy, _finer_steps(scene, sq, speed))
+    is_usual = scene.lubricant.inlet_film is None and not are_soft(scene.line_contact(abs(speed)), sq)
+    times = 1.0 if is_usual else steps.first / STRIP_STEPS  # `FINER_STEPS_HEAVY` has what thin films take
+    seconds = times * (count * work_of_steps(cells, STRIP_STEPS) + finer + again) + shorter
+    return seconds if is_smooth or is_coarse else ROUGH_WORK * seconds
 
 
 def _finer_steps(scene: Scene, sq: float, speed: float) -> int:
@@ -257,6 +309,10 @@ def work_on_strips(
     length = sum(reach(scene.line_contact(abs(speed)), sq))
     cells = length / (fx * dx) * sample.strip_length / (fy * dy)
     ends = 2 * sum(name != BOUNDARY_FRICTION_KEY for name, *_ in scene.ranges)
+    steps = expected_steps(scene, sq, speed)
+    number = ends + (ends > 0)
+    if are_soft(scene.line_contact(abs(speed)), sq):
+        return AT_REST * (count * steps.work(cells, steps.first) + number * steps.work(cells, steps.again))
     thickened = scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene)
-    steps = HEAVY_LONG_CELL_STEPS if thickened > HIGH_PRESSURE else STRIP_STEPS
-    return count * work_of_steps(cells, steps) + work_of_steps(cells, AGAIN) * (ends + (ends > 0))
+    first = HEAVY_LONG_CELL_STEPS if thickened > HIGH_PRESSURE else STRIP_STEPS
+    return count * work_of_steps(cells, first) + number * work_of_steps(cells, AGAIN)

@@ -224,7 +224,8 @@ class QuickModel(Model):
             return replace(alone, seconds=alone.seconds if is_named else 0.0)
         is_shared = is_named and _may_answer_by_equation(scene, surface.sq, speed)
         seconds = alone.seconds if is_shared else 0.0
-        if speed and surface.sq and sample.is_resolved and scene.transient is None:
+        solves_strips = speed and surface.sq and sample.is_resolved and not _why_not_calibrated(scene)
+        if solves_strips and scene.transient is None:
             count = 1 if has_moving_roughness(scene) else EXPECTED_STRIPS
             seconds += work_on_strips(
                 scene,
@@ -234,6 +235,7 @@ class QuickModel(Model):
                 sample_coarsening=sample_coarsening_of_long_cells(scene, sample),
                 count=count,
             )
+        alone = replace(alone, waits_for_next=scene.numerics.model_tolerance < LEAST_TOLERANCE)
         if has_moving_roughness(scene):
             return replace(alone, strips=1, length=sample.line_length(1), seconds=seconds, shared=())
         fine_fields = work_of_fine_fields(scene, sample, surface.sq, speed) if seconds else 0.0
