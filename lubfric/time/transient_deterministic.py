@@ -21,8 +21,8 @@ from ..models import prepare
 from ..models.deterministic import (
     BOUNDARY_FILM,
     FACTORISATIONS_IN_A_STEP,
+    FLUID,
     KRYLOV_IN_A_STEP,
-    RUPTURED,
     TOUCHING,
     Iterate,
     Problem,
@@ -189,7 +189,7 @@ class TransientDeterministic:
         if plan.initial_film is None and not (plan.initial == "rest" or plan.initial == "auto" and still):
             return self._step(evaluated(problem, solve_point(problem, tolerance=RUN_STEP_RESIDUAL).state), back)
         nothing = np.zeros_like(problem.heights)
-        kind = np.full(problem.heights.shape, RUPTURED, np.int8)
+        kind = np.full(problem.heights.shape, FLUID, np.int8)
         state = State(
             pressure=nothing,
             fill=nothing + 1.0,
@@ -203,7 +203,7 @@ class TransientDeterministic:
             p = dry.pressure
             yielded = dry.pressure >= problem.hardness
             dent = np.where(yielded, np.maximum(-dry.gap, 0.0), 0.0)
-            touching = np.where(p > 0, TOUCHING, RUPTURED).astype(np.int8)
+            touching = np.where(p > 0, TOUCHING, FLUID).astype(np.int8)
             state = State(
                 pressure=p.copy(),
                 fill=nothing + 1.0,

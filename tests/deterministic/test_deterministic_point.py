@@ -323,4 +323,4 @@ def test_an_attempt_between_soft_bodies_ends_at_a_system_that_is_not_solved():
     beyond, more = attempt(most=work.factorisations + 3)
     assert work.krylov - solved.krylov == MOST_KRYLOV * CYCLES
     assert ended.residual == before.residual and np.array_equal(ended.at.gap, before.at.gap)
-    assert more.factorisations > work.factorisations and beyond.residual > 10 * ended.residual
+    assert more.factorisations > work.factorisations and beyond.residual > ended.residual

@@ -44,7 +44,7 @@ from .rough_bodies import (
     strip_surface,
 )
 from .solve import dry_contact, solve_point
-from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, residuals, update_active_sets
+from .state import FLUID, RUPTURED, TOUCHING, Iterate, State, TimeHistory, admissible, evaluated, residuals
 from .strip import (
     StripSolution,
     change_by_flow,

@@ -161,35 +161,19 @@ def evaluated(problem: Problem, state: State, history: TimeHistory | None = None
     return at if history is None else replace(at, residual=flows.residual + stored(at.mass, history)[0])
 
 
-def update_active_sets(at: Iterate) -> Iterate:
-    """Return ``at`` with the equation in every cell that its state requires; evaluated again only if more than the kinds of
-    cells changes."""
-    state = _resorted(at)
-    names = ("pressure", "fill", "dent")
-    is_same = all(np.array_equal(getattr(state, name), getattr(at.state, name)) for name in names)
-    new = replace(at, state=state) if is_same else evaluated(at.problem, state, at.history)
-    fluid = (new.state.kind == FLUID) & (at.state.kind == FLUID)  # cells that just opened begin at the floor
-    closed = fluid & (new.gap < at.problem.floor)  # by a pressure that was cut to P_u
-    kind = np.where(closed, TOUCHING, new.state.kind).astype(np.int8)
-    return replace(new, state=replace(new.state, kind=kind))
+def admissible(problem: Problem, state: State) -> State:
+    """Return ``state`` without suction, overfilled cells, pressures above P_u and negative dents: each such cell obeys the
+    equation of its other kind.
 
-
-def _resorted(at: Iterate) -> State:
-    """Give every cell the equation that its pressure, gap and residual require.
-
-    - A fluid cell under suction ruptures if no neighbour is under much stronger suction. A ruptured cell that is full carries pressure again.
-    - A fluid cell closer than the floor touches. A touching cell under suction opens (`_opened`).
+    - A fluid cell under suction ruptures if no neighbour is under much stronger suction. So does a touching cell under suction.
+      A ruptured cell that is full carries pressure again.
     - A cell with a pressure above P_u yields. One whose dent would vanish stops yielding.
     """
-    problem = at.problem
-    state = at.state
     kind = state.kind.copy()
     fluid, ruptured, touching = (kind == k for k in (FLUID, RUPTURED, TOUCHING))
     p = _without_weak_suction(state.pressure, fluid)
     kind[ruptured & (state.fill > 1)] = FLUID
     kind[fluid & (p < 0)] = RUPTURED
-    kind[(fluid & (p >= 0) | ruptured) & (at.gap < problem.floor)] = TOUCHING
-    kind[_opened(touching, -at.residual, _pull(problem))] = FLUID
     kind[touching & (p <= 0)] = RUPTURED
     above_limit = (p > problem.hardness) & ~state.yielded
     yielded = (state.yielded & (state.dent >= 0) | above_limit) & (kind != RUPTURED)
@@ -202,6 +186,20 @@ def _resorted(at: Iterate) -> State:
         kind=kind,
         yielded=yielded,
     )
+
+
+def update_active_sets(at: Iterate) -> Iterate:
+    """Return ``at``, whose state is `admissible`, with cells that touch or open as its gap and residual require.
+
+    - A cell closer than the floor touches, unless it has just ruptured: its gap rises by the suction that it has lost.
+    - A touching cell with a surplus of inflow opens (`_opened`).
+    """
+    kind = at.state.kind.copy()
+    touching = kind == TOUCHING
+    just_ruptured = (kind == RUPTURED) & (at.state.fill == 1.0)  # any other ruptured cell is not full
+    kind[~touching & ~just_ruptured & (at.gap < at.problem.floor)] = TOUCHING
+    kind[_opened(touching, -at.residual, _pull(at.problem))] = FLUID
+    return replace(at, state=replace(at.state, kind=kind))
 
 
 def _without_weak_suction(pressure: FloatArray, fluid: BoolArray) -> np.ndarray:
