@@ -132,7 +132,8 @@ def estimated_work(
         return NO_WORK
     if cheaper is not None and math.isfinite(cheaper.expected_sampling_error):
         scatter = cheaper.expected_sampling_error * math.sqrt(sample.first_strips)
-    is_other = has_moving_roughness(scene) or are_soft(scene.line_contact(abs(speed)), sq)
+    is_flattened = scene.bodies.half_width**2 / (2 * scene.bodies.radius) > sq  # no summit is left above a thick film
+    is_other = has_moving_roughness(scene) or is_flattened
     if cheaper is not None and not is_other and math.isfinite(cheaper.expected_strip_scatter):
         scatter = cheaper.expected_strip_scatter
     allowed = math.hypot(

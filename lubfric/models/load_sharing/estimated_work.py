@@ -80,7 +80,7 @@ SCATTER = 1.8
 SEPARATED = 2.6
 
 # The same of strips that are solved one by one by the deterministic model, whose highest summits touch below a thicker film:
-# 16, 24, 1 strips are solved at 3.3, 3.7, 4.5 between steel bodies.
+# 16, 24, 1 strips are solved at 3.3, 3.7, 4.5 between bodies that flatten by less than Sq.
 STRIP_SEPARATED = 4.0
 
 # Part of the film of the whole load by which it is wider, about.
