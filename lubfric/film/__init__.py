@@ -25,7 +25,7 @@ from .heat import (
     isothermal_heat,
     viscosity_at,
 )
-from .hertz import HasLineContact, LineContact, composite_modulus
+from .hertz import HasLineContact, LineContact, composite_modulus, line_peak_pressure
 from .nested import Effort
 from .problem import FilmProblem, film_problem
 from .reduced import true_pressure

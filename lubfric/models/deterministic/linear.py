@@ -19,7 +19,7 @@ from scipy.sparse import csc_matrix, csr_matrix
 from scipy.sparse.linalg import splu
 
 from ..._base import FloatArray, IntArray
-from ...film.hertz import line_peak_pressure
+from ...film import line_peak_pressure
 from .flow import Stencil, derivatives
 from .problem import Problem
 from .state import RUPTURED, TOUCHING, Iterate, State, stored

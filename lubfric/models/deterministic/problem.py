@@ -23,8 +23,7 @@ import numpy as np
 
 from ...contact import HalfSpace, half_space
 from ...errors import InputError
-from ...film import HasLineContact, LineContact
-from ...film.hertz import line_peak_pressure
+from ...film import HasLineContact, LineContact, line_peak_pressure
 from ...oil import Lubricant
 from ...surface import Surface
 
