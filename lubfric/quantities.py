@@ -154,7 +154,11 @@ class PointQuantities(Quantities[T]):
 
     speed: T = quantity("m/s", "entrainment speed", "U")
     load_residual: T = quantity("-", "relative residual of the load balance", note="(F_C + F_H - F_T)/F_T")
-    volume_residual: T = quantity("-", "relative residual of the volume balance", note="(gap - film)/(gap + film)")
+    volume_residual: T = quantity(
+        "-",
+        "relative residual of the volume balance",
+        note="(gap - g)/(gap + g), g: that demanded by the closure, by Eq. (8) the film",
+    )
     clearance: T = quantity(
         "-", "gap between the film and the highest asperities over Sq", note="NaN where they touch, or without a film"
     )

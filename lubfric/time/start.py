@@ -131,7 +131,7 @@ def _flying(model: TransientLoadSharing, film: float) -> Step:
     state = step.payload.state
     if volume_residual(state) > 0.0:
         said = f": the surfaces touch at {state.mean_film:g} m of mean film"
-        raise InputError(said, "transient.initial_film", f"above {state.mean_gap:g} m, or initial = 'rest'")
+        raise InputError(said, "transient.initial_film", f"above {film_under(state.mean_gap):g} m, or initial = 'rest'")
     return step
 
 

@@ -1,5 +1,6 @@
 """The closure of load sharing is three functions: others of these hold in a point and in time."""
 
+import re
 import sys
 
 import pytest
@@ -28,12 +29,9 @@ def demand(monkeypatch):
         }
         for name, function in others.items():
             old = getattr(closure, name)
-            for module in [
-                module for key, module in sys.modules.items() if key.startswith("lubfric.models.load_sharing")
-            ]:
-                if getattr(module, name, None) is old:
+            for module in [module for key, module in sys.modules.items() if key.startswith("lubfric.")]:
+                if vars(module).get(name) is old:
                     monkeypatch.setattr(module, name, function)
-            monkeypatch.setattr("lubfric.time.load_sharing_solver." + name, function, raising=False)
 
     return narrower_by
 
@@ -49,6 +47,21 @@ def test_another_closure_holds_in_a_point_and_in_time(demand):
     run = lubfric.transient(SMALL, times=[1e-5])
     assert run.mean_gap[-1] == pytest.approx(FACTOR * run.mean_film[-1], rel=1e-3)
     assert run.coefficient[-1] == pytest.approx(point.coefficient, rel=1e-3)
+
+
+def test_the_film_that_clears_the_summits_at_a_start_is_that_of_the_closure(demand):
+    """A run that begins with a film in the air is refused while summits touch: the film that clears them is thinner where
+    the closure demands a wider gap."""
+
+    def allowed():
+        touching = SMALL.with_(transient=lubfric.Transient(1e-4, initial_film=1e-9))
+        with pytest.raises(lubfric.InputError) as refused:
+            lubfric.transient(touching)
+        return float(re.search(r"above (\S+) m", str(refused.value))[1])
+
+    by_paper = allowed()
+    demand(0.0)
+    assert allowed() == pytest.approx(by_paper / FACTOR, rel=1e-5)
 
 
 def test_the_response_is_the_change_of_the_load_ratio_by_the_gap(demand):
