@@ -18,8 +18,9 @@ from .friction import LEAST_LIMIT, TIMES_ESTIMATE, friction
 from .full_load import full_load_numbers
 from .methods import MethodUse, methods_of
 from .power import power_of_forces
-from .ranges import widened
+from .ranges import with_input_ranges
 from .result import FrictionResult, cite_together, cited
 from .solve_to_tolerance import solve_to_tolerance
 from .uncertainty import PARTS, Uncertainty, UncertaintyCurve, curve_of, interval
+from .uncertainty_of_f import uncertainty_of
 from .work_of_point import PointWorkEstimate, estimated_work_of_point, seconds_of_points

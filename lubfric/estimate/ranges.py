@@ -9,7 +9,7 @@ from ..errors import ConvergenceError
 from ..models import ModelAnswer
 from ..models.shared import Prepared
 from ..scene import BOUNDARY_FRICTION_KEY, HARDNESS_KEY, Scene, value_of
-from .uncertainty import Uncertainty
+from .uncertainty import Uncertainty, with_part
 
 # Change of f over f by the range of an input below which no note reports it: 0.05 %. Not measured: a convention.
 LEAST_REPORTED_CHANGE = 5e-4
@@ -72,21 +72,20 @@ def _or_nan(coefficient: Callable[[Scene], float], scene: Scene) -> float:
         return math.nan
 
 
-def with_missing_inputs(old: Uncertainty, f: float, relative_changes: dict[str, tuple[float, float]]) -> Uncertainty:
-    """Return ``old`` of ``f`` with the ``relative_changes`` of f at both ends of the range of inputs that the scene does not
+def with_missing_inputs(old: Uncertainty, relative_changes: dict[str, tuple[float, float]]) -> Uncertainty:
+    """Return ``old`` with the ``relative_changes`` of f at both ends of the range of inputs that the scene does not
     give, by their keys (`lubfric.models.ModelAnswer.not_given`). They add up as squares, towards 0 and away from it for
     themselves."""
     if not any(any(ends) for ends in relative_changes.values()):
         return old
+    f = old.coefficient
     towards, away = (math.hypot(*(side(0.0, *ends) for ends in relative_changes.values())) for side in (min, max))
-    below, above = (towards, away) if f >= 0 else (away, towards)
-    low, high = old.interval
+    (below, above) = (towards, away) if f >= 0 else (away, towards)
     return replace(
-        old,
+        with_part(old, abs(f) * below, abs(f) * above),
         not_given=max(towards, away),
         not_given_sides=(towards, away),
         missing_input=max(relative_changes, key=lambda name: max(map(abs, relative_changes[name]))),
-        interval=(f - math.hypot(f - low, f * below), f + math.hypot(high - f, f * above)),
     )
 
 
@@ -95,15 +94,15 @@ def _signed(percentage: float) -> str:
     return f"{percentage:+.{2 + (abs(percentage) >= 99.5)}g}" if percentage else "0"
 
 
-def widened(old: Uncertainty, f: float, changes_of_f: dict[str, tuple[float, ...] | str]) -> Uncertainty:
-    """Return ``old`` of ``f`` with the ``changes_of_f`` [-] by the two ends of inputs, by name (`changes_by_ranges`).
+def with_input_ranges(old: Uncertainty, changes_of_f: dict[str, tuple[float, ...] | str]) -> Uncertainty:
+    """Return ``old`` with the ``changes_of_f`` [-] by the two ends of inputs, by name (`changes_by_ranges`).
 
     Those of several inputs add up as squares, below and above f for themselves. One that is not known leaves ``inputs`` NaN,
     and a note.
     """
+    f = old.coefficient
     moved = {name: ends for name, ends in changes_of_f.items() if not isinstance(ends, str)}
     below, above = (math.hypot(*(side(0.0, *ends) for ends in moved.values())) for side in (min, max))
-    low, high = old.interval
     notes = []
     for name, ends in changes_of_f.items():
         begin = f"range of {name.partition('.')[2]}: "
@@ -118,10 +117,9 @@ def widened(old: Uncertainty, f: float, changes_of_f: dict[str, tuple[float, ...
     complete = len(moved) == len(changes_of_f)
     towards, away = (below, above) if f >= 0 else (above, below)
     return replace(
-        old,
+        with_part(old, below, above),
         inputs=relative if complete else math.nan,
         input_sides=(towards / abs(f), away / abs(f)) if f and complete else (math.nan, math.nan),
-        interval=(f - math.hypot(f - low, below), f + math.hypot(high - f, above)),
         notes=(*old.notes, *notes),
         largest_input=max(moved, key=lambda name: max(map(abs, moved[name])), default=""),
     )

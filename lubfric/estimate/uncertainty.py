@@ -1,8 +1,10 @@
 """`Uncertainty`: what is known about the error of a friction coefficient."""
 
+from __future__ import annotations
+
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -23,13 +25,41 @@ from ..units import interval_in_words, with_interval
 RENAMED = {"spots": "effective_contacts", "fluid": "by_limit", "few_spots": "has_few_contacts"}
 
 
-# What the parts of the uncertainty budget are called, and the quantity of each (`lubfric.quantities`).
+@dataclass(frozen=True, kw_only=True)
+class BudgetPart:
+    """A part of the uncertainty budget.
+
+    Attributes
+    ----------
+    quantity : its name in `lubfric.quantities`, which is a field of `Uncertainty`
+    sides : the field of `Uncertainty` with both of its sides, towards 0 and away from it; "": it has one value
+    recommendation : what reduces it, as text
+    """
+
+    quantity: str
+    sides: str = ""
+    recommendation: Callable[[Uncertainty], str]
+
+
+# The parts of the uncertainty budget, by what they are called.
 PARTS = {
-    "numerical": "numerical",
-    "sampling": "sampling",
-    "model-form": "model",
-    "not given": "not_given",
-    "input": "inputs",
+    "numerical": BudgetPart(quantity="numerical", recommendation=lambda known: known.narrows_numerical),
+    "sampling": BudgetPart(quantity="sampling", recommendation=lambda known: known.narrows_sampling),
+    "model-form": BudgetPart(
+        quantity="model",
+        sides="model_sides",
+        recommendation=lambda known: known.largest_in_model or "numerics.model = 'deterministic' reduces it",
+    ),
+    "not given": BudgetPart(
+        quantity="not_given",
+        sides="not_given_sides",
+        recommendation=lambda known: f"a measured {known.missing_input} reduces it",
+    ),
+    "input": BudgetPart(
+        quantity="inputs",
+        sides="input_sides",
+        recommendation=lambda known: f"a measured {known.largest_input or 'value'} reduces it",
+    ),
 }
 
 # Part of the budget, relative, below which nothing is recommended that reduces it. A convention.
@@ -86,14 +116,16 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
 
         That of sampling is its standard error (``sampling``) times Student's t.
         """
-        parts = {name: getattr(self, field) for name, field in PARTS.items()}
+        parts = {name: getattr(self, part.quantity) for name, part in PARTS.items()}
         return parts | {"sampling": student(self.freedom) * self.sampling if self.sampling else self.sampling}
 
     @property
     def budget_in_words(self) -> dict[str, str]:
         """The `budget` as text, by the same names: "42 %", and "-29 to +42 %" where the two sides differ; in f itself, as
         "-0.0004 to +0.0025", where it `is_near_zero`."""
-        sides = {"model-form": self.model_sides, "not given": self.not_given_sides, "input": self.input_sides}
+        sides: dict[str, tuple[float, float]] = {
+            name: getattr(self, part.sides) for name, part in PARTS.items() if part.sides
+        }
         unknown = (math.nan, math.nan)
         if self.is_near_zero:
             return {
@@ -119,20 +151,13 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     @property
     def largest_part(self) -> str:
         """What the largest part of the budget is, and what reduces it; "" where that is not known."""
-        recommendations = {
-            "numerical": self.narrows_numerical,
-            "sampling": self.narrows_sampling,
-            "model-form": self.largest_in_model or "numerics.model = 'deterministic' reduces it",
-            "not given": f"a measured {self.missing_input} reduces it",
-            "input": f"a measured {self.largest_input or 'value'} reduces it",
-        }
         known = {name: part for name, part in self.budget.items() if math.isfinite(part) and part > 0}
         if not known or not math.isfinite(self.sampling):
             return ""
         name = max(known, key=lambda name: known[name])
         if known[name] < SMALL_PART:
             return f"largest part: {name} {self.budget_in_words[name]}"
-        recommendation = recommendations[name]
+        recommendation = PARTS[name].recommendation(self)
         source = ""
         if name == "model-form":  # "what it is: what reduces it"
             (source, _, recommendation) = recommendation.rpartition(": ")
@@ -215,6 +240,14 @@ def number_errors_of(known: dict[str, float], why: str, reasons: dict[str, str] 
     errors = {name: value if math.isfinite(value) else math.nan for name, value in errors.items()}
     unknown = [name for name, value in errors.items() if math.isnan(value)]
     return NumberErrors(**errors, reasons={name: (reasons or {}).get(name, why) for name in unknown})
+
+
+def with_part(uncertainty: Uncertainty, below: float, above: float) -> Uncertainty:
+    """Return ``uncertainty`` with another part in its interval, which moves f [-] so far ``below`` and ``above`` it at 95 %:
+    parts add up as squares, on each side for themselves."""
+    f = uncertainty.coefficient
+    low, high = uncertainty.interval
+    return replace(uncertainty, interval=(f - math.hypot(f - low, below), f + math.hypot(high - f, above)))
 
 
 def interval(

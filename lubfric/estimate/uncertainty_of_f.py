@@ -6,13 +6,15 @@ from dataclasses import replace
 from ..models import ModelAnswer
 from ..models.shared import Prepared, largest_sliding_friction
 from ..scene import SLIDE_ROLL_RATIO_KEY, Scene
-from .ranges import changes_by_ranges, widened, with_missing_inputs
+from .ranges import changes_by_ranges, with_input_ranges, with_missing_inputs
 from .uncertainty import Uncertainty, interval
 
 AT_MOST = (
     "the interval ends at the largest f that the limits of the shear stress allow, {} by sliding: f_b, or the stress of the oil "
     "in the thinnest film"
 )
+
+RESISTS_SLIDING = "the interval begins at {:.3g}, the smallest f whose sliding part resists the sliding"
 
 # What narrows the sampling error, by whether the sample has more strips.
 SMALLER_SAMPLING_TOLERANCE = "a smaller numerics.sampling_tolerance reduces it"
@@ -48,9 +50,9 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
         else SMALLER_SAMPLING_TOLERANCE,
         notes=answer.notes,
     )
-    known = with_missing_inputs(of_solve, f, answer.not_given)
-    with_inputs = widened(known, f, changes_by_ranges(prepared, answer)) if scene.ranges else known
-    return _not_driving(scene, answer, within_stress_limits(scene, answer, with_inputs))
+    known = with_missing_inputs(of_solve, answer.not_given)
+    with_inputs = with_input_ranges(known, changes_by_ranges(prepared, answer)) if scene.ranges else known
+    return _resisting_sliding(scene, answer, within_stress_limits(scene, answer, with_inputs))
 
 
 def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Uncertainty:
@@ -67,7 +69,7 @@ def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncerta
     return replace(uncertainty, interval=ends, notes=(*uncertainty.notes, AT_MOST.format(f"{sliding:.3g}")))
 
 
-def _not_driving(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Uncertainty:
+def _resisting_sliding(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Uncertainty:
     """Return ``uncertainty`` with an interval of f that is not below what the rolling part of the force leaves, where the
     surfaces slide.
 
@@ -81,7 +83,7 @@ def _not_driving(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) ->
     low, high = uncertainty.interval
     if not (_always_slides(scene) and low < least):
         return uncertainty
-    return replace(uncertainty, interval=(least, high))
+    return replace(uncertainty, interval=(least, high), notes=(*uncertainty.notes, RESISTS_SLIDING.format(least + 0.0)))
 
 
 def _always_slides(scene: Scene) -> bool:

@@ -243,7 +243,7 @@ def _details(result: StudyResult, rows: int) -> str:
     columns = columns_of_study(result)
     picked = _picked(columns, rows)
     scenes = _scene_of_each(result)
-    parts = {name: columns[f"uncertainty_{field}"][picked] for name, field in PARTS.items()}
+    parts = {name: columns[f"uncertainty_{part.quantity}"][picked] for name, part in PARTS.items()}
     freedom = columns["uncertainty_freedom"][picked]
     parts["sampling"] = [error * student(n) if error else error for error, n in zip(parts["sampling"], freedom)]
     rises = [columns[name][picked] for name in ("flash_temperature_rise", "film_temperature_rise")]
@@ -355,7 +355,7 @@ def _budget_line(result: StudyResult) -> list[str]:
     if not np.isfinite(f).any():
         return []
     index = tuple(map(int, np.unravel_index(int(np.nanargmax(f)), f.shape)))
-    parts = {name: float(result[f"uncertainty_{field}"][index]) for name, field in PARTS.items()}
+    parts = {name: float(result[f"uncertainty_{part.quantity}"][index]) for name, part in PARTS.items()}
     parts["sampling"] *= student(float(result["uncertainty_freedom"][index])) if parts["sampling"] else 1.0
     curves = result.plan.scenes
     scene = curves[int(np.ravel_multi_index(index, f.shape)) * len(curves) // f.size]

@@ -8,7 +8,15 @@ from .film_setting import LineHistory, make_setting
 from .march import Memory, Progress, Step, advance, plan_of, report_of, steps
 from .model import Start, TimeModel
 from .registry import check_run, estimated_run, run_model_of
-from .result import TransientResult, band_label, friction_over_time, in_motion, time_scale
+from .result import (
+    PARTS_NOT_IN_TIME,
+    TransientResult,
+    band_label,
+    errors_in_time,
+    friction_over_time,
+    in_motion,
+    time_scale,
+)
 from .run import raise_if_failed, run_in_time, transient
 from .scene_in_time import sampled_times, scene_at
 from .start import speeds_of_run

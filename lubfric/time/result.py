@@ -32,6 +32,9 @@ if TYPE_CHECKING:
 MANY_BLOCKS = 30  # blocks less one: of a strip
 NOT_IN = "not in the interval, as a run in time is solved with its value alone; solve it with both ends to see"
 TINY = 1e-30  # no f is divided by less
+# Parts of the uncertainty budget (`lubfric.estimate.PARTS`) that a run in time does not have: the effect of an input
+# that the scene does not give is not computed.
+PARTS_NOT_IN_TIME = ("not given",)
 POWER = ("power_loss", "power_loss_low", "power_loss_high")  # columns whose means are those of the whole run
 
 # Difference of speeds and load, over the largest, below which two moments have the same conditions.

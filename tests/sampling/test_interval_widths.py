@@ -14,6 +14,7 @@ from lubfric.models.load_sharing import load_sharing_error, summit_radius, undet
 from lubfric.models.shared import MODEL_ERROR, StandardError, Violation, add_errors
 from lubfric.output import report
 from lubfric.quantities import OF_UNCERTAINTY
+from lubfric.time import PARTS_NOT_IN_TIME, errors_in_time
 
 E_PRIME = 2.3e11
 WIDTH = 6e-3
@@ -205,4 +206,17 @@ def test_the_numerical_part_says_what_narrows_it():
 
 def test_the_report_shows_every_part_of_the_budget():
     assert set(report.BUDGET) == set(report.BUDGET_ON_LONG_CELLS) == set(PARTS) == set(Uncertainty().budget)
-    assert set(PARTS.values()) <= set(OF_UNCERTAINTY)
+    assert {part.quantity for part in PARTS.values()} <= set(OF_UNCERTAINTY)
+
+
+def test_the_largest_part_of_any_kind_is_named_with_what_reduces_it():
+    for name, part in PARTS.items():
+        known = Uncertainty(**{"sampling": 0.0, "missing_input": "a.b", "freedom": 9.0, part.quantity: 0.4})
+        assert known.largest_part.startswith(f"largest part: {name} ")
+        assert known.largest_part.endswith("reduces it")
+        assert not part.sides or len(getattr(known, part.sides)) == 2
+
+
+def test_a_run_in_time_has_the_same_parts_of_the_budget():
+    columns = {"coefficient": np.full(2, 0.05), "sampling_error": np.full(2, 0.1)}
+    assert set(errors_in_time(columns, np.zeros(2), np.zeros(2))) == set(PARTS) - set(PARTS_NOT_IN_TIME)

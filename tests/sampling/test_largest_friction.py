@@ -1,6 +1,7 @@
 """The largest f that the limits of the shear stress allow."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,6 +10,8 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 import lubfric
+from lubfric.estimate import interval, uncertainty_of
+from lubfric.models.load_sharing import PaperModel
 from lubfric.models.shared import largest_of_oil, largest_sliding_friction, peak_hertz_pressure
 
 PAPER = lubfric.load_scene("paper")
@@ -79,3 +82,15 @@ def test_no_interval_reaches_beyond_f_b_where_asperities_carry_nearly_all(model)
         result.coefficient * (1 + math.hypot(result.uncertainty.model, result.uncertainty.inputs)) > 0.14 + rolling
     )
     assert ("limits of the shear stress" in result.uncertainty.text) == reaches
+
+
+@pytest.mark.parametrize(("numerical", "is_cut"), [(0.01, False), (50.0, True)])
+def test_an_interval_says_where_it_is_cut(numerical, is_cut):
+    """At the stress that the oil and f_b allow, and at the f whose sliding part is 0."""
+    prepared = lubfric.prepare(PAPER)
+    answer = replace(PaperModel().solve(prepared, prepared.sample, 1, 0.03).answer(), numerical=numerical)
+    errors = {"sampling_error": answer.sampling_error, "model_error": answer.model_error}
+    low, high = interval(answer.numbers["coefficient"], numerical=numerical, **errors)
+    known = uncertainty_of(prepared, answer)
+    assert (known.interval[0] > low) == ("resists the sliding" in known.text) == is_cut
+    assert (known.interval[1] < high) == ("limits of the shear stress" in known.text) == is_cut

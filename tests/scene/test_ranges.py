@@ -9,7 +9,7 @@ from scene_text import paper_scene
 from toys import Spring
 
 import lubfric
-from lubfric.estimate import widened
+from lubfric.estimate import with_input_ranges
 from lubfric.output.inputs import inputs
 from lubfric.scene import Table
 
@@ -114,7 +114,7 @@ def test_a_range_is_stated_from_its_lowest_to_its_highest_f():
     known = f(SMALL.with_(numerics={"model": "paper"}))
     plain = replace(known.uncertainty, notes=())
     changes = {"bodies.hardness": (-0.0005, -0.001), "lubricant.eyring_stress": (0.002, -0.001)}
-    notes = widened(plain, 0.1, changes).notes
+    notes = with_input_ranges(replace(plain, coefficient=0.1), changes).notes
     assert notes == ("range of hardness: f -1 to 0 %", "range of eyring_stress: f -1 to +2 %")
 
 
