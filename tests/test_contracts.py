@@ -1,4 +1,4 @@
-"""Each contract, as any implementation has to keep it: `Sample`, `RoughContact.close`, `Model`, and a third model."""
+"""Each contract, as any implementation has to keep it: `Sample`, `RoughContact.close`, `Model`, and a further model."""
 
 import math
 import re
@@ -108,10 +108,10 @@ class TestSample:
         distance = sample.renewal_length(half_width)
         if not sample.represents_more:
             assert sample.distinct_rows(heights) == 6 and math.isnan(distance) and sample.in_words(1) == "the patch"
-            assert sample.for_fields().cells.is_native and sample.coarsening_to_look_at(half_width) == (1, 1)
+            assert sample.on_field_cells().cells.is_native and sample.coarsening_to_look_at(half_width) == (1, 1)
         else:
             assert sample.distinct_rows(heights) == 12 and distance > 2 * half_width
-            assert sample.for_fields() is sample and "2 strips" in sample.in_words(2)
+            assert sample.on_field_cells() is sample and "2 strips" in sample.in_words(2)
             assert "statistics of" in sample.described(prepared.surface)[1]
 
 
@@ -239,7 +239,7 @@ class Highest(SampleSolution):
 
 
 class HighestSummit(Model):
-    """A third model, of no physics."""
+    """A further model, of no physics."""
 
     name = "highest summit"
 
@@ -247,7 +247,7 @@ class HighestSummit(Model):
         return Highest(prepared=prepared, sample=sample, count=count, speed=speed)
 
 
-def test_a_third_model_answers_through_the_same_contract():
+def test_a_further_model_answers_through_the_same_contract():
     """The estimate takes strips until the standard error of their mean is as small as asked, and says so."""
     for tolerance in (0.05, 0.02):
         prepared = lubfric.prepare(PAPER.with_(numerics={"sampling_tolerance": tolerance}))
@@ -291,7 +291,7 @@ def test_a_short_sample_is_a_warning_where_f_depends_on_it(monkeypatch, scatter,
 
 @pytest.fixture
 def named(monkeypatch) -> lubfric.Scene:
-    """A scene that names the third model, which is registered as the most expensive one."""
+    """A scene that names the further model, which is registered as the most expensive one."""
     monkeypatch.setattr("lubfric.models.registry.MODELS", (*MODELS, HighestSummit()))
     monkeypatch.setitem(CHOICES, "numerics.model", (*CHOICES["numerics.model"], HighestSummit.name))
     return PAPER.with_(
@@ -360,7 +360,7 @@ def test_a_registered_model_without_a_run_in_time_says_so(named):
         lubfric.run_in(named.with_(bodies={"hardness": 8e9}), distance=1.0, wear_coefficient=1e-4)
 
 
-def test_a_third_model_has_no_paper_and_no_error_of_another(monkeypatch):
+def test_a_further_model_has_no_paper_and_no_error_of_another(monkeypatch):
     """Its rolling resistance, whose model-form error nobody stated, is as uncertain as f; alone it has no papers."""
     scene = PAPER.with_(numerics={"sampling_tolerance": 0.05}, motion={"slide_roll_ratio": 0.5})
     result = lubfric.friction(scene, 0.03, model=HighestSummit())

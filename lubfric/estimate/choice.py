@@ -41,7 +41,7 @@ def choose(prepared: Prepared, speed: float, requested: str | Model, *, for_fiel
 
     Where the requested model has no answer (`Model.why_unable`), the most expensive of the cheaper ones that has one
     answers in its place, and `Choice.why` says so. ``for_fields``: on the cells on which a sample shows its fields
-    (`Sample.for_fields`). Raises `ConvergenceError`.
+    (`Sample.on_field_cells`). Raises `ConvergenceError`.
     """
     if isinstance(requested, Model):
         return Choice(model=requested, solution=solve_to_tolerance(prepared, speed, requested, for_fields=for_fields))

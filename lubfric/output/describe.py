@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import InputError
 from ..estimate import estimated_work_of_point, seconds_of_points
 from ..models import AUTO, model_named, models_that_may_answer
-from ..models.deterministic import MOST_WORK_IN_AUTO
+from ..models.deterministic import MOST_WORK_OF_POINT
 from ..models.shared import (
     IF_ALL,
     ExpectedEffect,
@@ -262,7 +262,7 @@ def _model(
         if not any(model.includes_motion for model in models_that_may_answer(name)):
             takes = f"moving roughness is treated as stationary; {takes}"
         if name == AUTO:
-            takes += f"; above {MOST_WORK_IN_AUTO:g} s of counted work, the quick answer replaces it"
+            takes += f"; above {MOST_WORK_OF_POINT:g} s of counted work, the quick answer replaces it"
         rows.append(takes)
     many = len(ratios) or len(moving)
     return rows, seconds_of_points(forecasts, many)

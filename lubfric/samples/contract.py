@@ -99,7 +99,7 @@ class Sample(ABC):
         made = operator(surface.shape, surface.spacing)
         return half_space_contact_of(scene, heights, surface.spacing, operator=made, x=self.cells.axis())
 
-    def for_fields(self) -> Self:
+    def on_field_cells(self) -> Self:
         """Return this sample on the cells on which its fields are shown: native ones if these show the same strip."""
         return self.native() if self.refines_in_place else self
 

@@ -223,11 +223,11 @@ class MeasuredStrips(Sample):
 
     def joined(self, indices: Sequence[int]) -> Surface:
         fx, fy = self.cells.coarsening
-        pieces = [self._columns(self.starts[index])[fx // 2 :: fx] for index in indices]
-        heights = joined_maps(pieces, self._blend)
+        windows = [self._columns(self.starts[index])[fx // 2 :: fx] for index in indices]
+        heights = joined_maps(windows, self._blend)
         rows = self._rows(heights.shape[1]) * fy
         shape = f"{self.cells.columns * fx} x {self.surface.shape[1]} cells"
-        note = f"{counted(len(pieces), 'windows')} of {shape}, joined along y"
+        note = f"{counted(len(windows), 'windows')} of {shape}, joined along y"
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.spacing, note)
 
     def piece(self, index: int, length: float = PIECE) -> Surface:

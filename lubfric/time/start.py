@@ -253,7 +253,7 @@ def _needs(prepared: Prepared, sample: Sample, speeds: list[float]) -> np.ndarra
         corrected = balanced.corrected_balance.contact_state.plastic_area_fraction
         area = balanced.effect.area_factor if balanced.response is not None else math.nan
         same = balanced.sample.cells.coarsening == sample.cells.coarsening
-        by_cells = balanced.change("gap_change") if same else math.inf
+        by_cells = balanced.relative_change(balanced.effect.gap_change) if same else math.inf
         rows.append((balanced.count, by_cells, area, corrected / plastic if plastic else math.nan))
     return np.array(rows, dtype=float).T
 

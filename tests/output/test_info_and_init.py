@@ -106,7 +106,7 @@ def test_info_states_on_how_many_strips_the_quick_answer_is_solved(ratio, strips
 
     home = "lubfric.models.quick.strips_on_long_cells."
     monkeypatch.setattr(f"{home}_solve_pair", solve)
-    monkeypatch.setattr(f"{home}_sampling_error", lambda *_: 1e-3)
+    monkeypatch.setattr(f"{home}_sampling_target", lambda *_: 1e-3)
     monkeypatch.setattr(f"{home}two_levels", lambda *_: (None, 1000))
     monkeypatch.setattr(f"{home}_features_of", stop)
     with pytest.raises(Solved):

@@ -109,7 +109,7 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
         assert bool(result.shortest) == (order < 2)
         assert abs(result.numbers["coefficient"] / truth - 1) <= 1.1 * result.numerical <= 1.1 * most
     spent = sum(strip.work for piece in result.pieces for strip in piece) + sum(p.resolved.work for p in result.pairs)
-    monkeypatch.setattr(shorter, "MOST_WORK_IN_AUTO", spent + 3 * solved.work)
+    monkeypatch.setattr(shorter, "MOST_WORK_OF_POINT", spent + 3 * solved.work)
     for rows in (100, 25):  # a piece of 22 correlation lengths; of 6, which is no longer than the last one
         solved = replace(
             pair.resolved,
@@ -170,7 +170,7 @@ def test_rolling_roughness_moves_or_gets_load_sharing_and_the_reason(monkeypatch
     moved, shared = (lubfric.friction(small, 0.01, model=model) for model in ("auto", "paper"))
     assert moved.decision.model == "deterministic" and "the roughness moves at 0.0085 m/s" in moved.decision.text
     assert abs(shared.coefficient / moved.coefficient - 1) < shared.uncertainty.model < 1.5
-    monkeypatch.setattr("lubfric.models.deterministic.rough_bodies.MOST_WORK_IN_AUTO", 0.1)
+    monkeypatch.setattr("lubfric.models.deterministic.rough_bodies.MOST_WORK_OF_POINT", 0.1)
     costly = lubfric.friction(small, 0.01)
     assert costly.decision.model == "quick"
     assert "s of counted work, more than 0.1 s" in costly.decision.text

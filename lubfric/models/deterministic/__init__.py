@@ -37,7 +37,7 @@ from .problem import BOUNDARY_FILM, Problem, lay_out, reach, shifted
 from .result import DeterministicResult, assemble
 from .rheology import mean_fluidity, thinning
 from .rough_bodies import (
-    MOST_WORK_IN_AUTO,
+    MOST_WORK_OF_POINT,
     bodies_of,
     maps_of,
     moving_point_work,

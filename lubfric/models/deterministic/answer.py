@@ -42,7 +42,7 @@ from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
 from .levels import Levels, mean
 from .problem import BOUNDARY_FILM
 from .result import DeterministicResult, stress_with_oil
-from .rough_bodies import MOST_WORK_IN_AUTO, map_of, strip_surface
+from .rough_bodies import MOST_WORK_OF_POINT, map_of, strip_surface
 from .strip import StripSolution, change_by_flow, solve_strip
 from .strip_on_two_grids import StripOnTwoGrids, halved_along_y, sample_coarsening_of
 
@@ -274,8 +274,15 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     by_film = BY_FILM.format(*(100 * change for change in levels.by_film))
     by_flow = (BY_FLOW.format(100 * levels.by_flow),) if levels.by_flow else ()
     by_inlet = (BY_INLET.format(100 * levels.by_inlet),) if levels.by_inlet else ()
-    sample = (levels.note,) if levels.note else ()
-    notes = (*by_inlet, _division(scene, levels.numbers, results), by_film, *by_flow, *results[0].report.notes, *sample)
+    of_levels = (levels.note,) if levels.note else ()
+    notes = (
+        *by_inlet,
+        _division(scene, levels.numbers, results),
+        by_film,
+        *by_flow,
+        *results[0].report.notes,
+        *of_levels,
+    )
     words = _words_of_levels(levels)
     tolerance = scene.numerics.tolerance
     known = heat.text(tolerance)
@@ -318,7 +325,7 @@ def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
         cost = f"some {float(f'{times:.2g}'):g} times the work of a strip"
         if work > LONGEST_WORK:
             return f"a map on longer cells with numerics.grid = 'given' (on these cells {cost})"
-        with_model = "" if work <= MOST_WORK_IN_AUTO else " and numerics.model = 'deterministic'"
+        with_model = "" if work <= MOST_WORK_OF_POINT else " and numerics.model = 'deterministic'"
         return f"numerics.grid = 'given'{with_model} for shorter cells ({cost})"
     if prepared.is_given or is_measured(scene):
         return "a map with shorter cells and numerics.grid = 'given'"

@@ -14,7 +14,7 @@ from .expected_steps import AGAIN, STRIP_STEPS, ExpectedSteps, expected_steps
 from .levels import DIFFERENCE_SHARE, HALVED_WORK, STRIPS_GROWTH
 from .linear import HIGH_PRESSURE
 from .problem import are_soft, reach
-from .rough_bodies import MOST_WORK_IN_AUTO, moving_point_work
+from .rough_bodies import MOST_WORK_OF_POINT, moving_point_work
 from .shorter_cells import LAST_PIECE, PIECES_SHARE, SHORT, SOFT_CELL_ERROR
 from .strip_on_two_grids import sample_coarsening_of
 
@@ -144,10 +144,10 @@ def estimated_work(
     count = min(max(1, math.ceil(wanted)), sample.available_strips)
     if has_moving_roughness(scene):
         strip_seconds = longest = _seconds_in_motion(scene, sample, sq=sq, speed=speed, work=one_strip)
-        if one_strip > MOST_WORK_IN_AUTO and numerics.model == "auto":
+        if one_strip > MOST_WORK_OF_POINT and numerics.model == "auto":
             return WorkEstimate(strips=0, seconds=0.0, strip_seconds=strip_seconds)
-        count = min(count, max(1, int(MOST_WORK_IN_AUTO / one_strip)))  # no more are solved
-        if count * HALVED_WORK * one_strip <= MOST_WORK_IN_AUTO and _may_be_halved(scene, sample, surface, speed):
+        count = min(count, max(1, int(MOST_WORK_OF_POINT / one_strip)))  # no more are solved
+        if count * HALVED_WORK * one_strip <= MOST_WORK_OF_POINT and _may_be_halved(scene, sample, surface, speed):
             longest = (1.0 + HALVED_WORK) * strip_seconds
             strip_seconds *= MAY_BE_HALVED
         return WorkEstimate(

@@ -41,7 +41,7 @@ from ..shared import (
 )
 from .cells_in_motion import cells_of_strips, changed_as_expected
 from .result import DeterministicResult
-from .rough_bodies import MOST_WORK_IN_AUTO, summit_control
+from .rough_bodies import MOST_WORK_OF_POINT, summit_control
 from .shorter_cells import (
     NO_SHORTER_CELLS,
     changed_by_pieces,
@@ -209,7 +209,7 @@ def solve_pairs(
 def _first_pair(prepared: Prepared, speed: float) -> StripOnTwoGrids:
     """Solve the first strip; where roughness moves, once more on cells half as long along y if the error by the cells is
     above ``numerics.model_tolerance`` and the shorter ones reduce it (`CellsInMotion.shorter_ones_pay`), where as many strips as the sample needs
-    stay within `MOST_WORK_IN_AUTO`."""
+    stay within `MOST_WORK_OF_POINT`."""
     pair = solve_pair(prepared, speed, None, 0)
     if not has_moving_roughness(prepared.scene) or surface_and_map_coarsening(prepared, 0)[1][1] % 2:
         return pair
@@ -217,7 +217,7 @@ def _first_pair(prepared: Prepared, speed: float) -> StripOnTwoGrids:
     if not cells.shorter_ones_pay(prepared.scene.numerics.model_tolerance):
         return pair
     (_, wanted) = two_levels(prepared, (pair,), None)
-    if wanted * HALVED_WORK * pair.resolved.work > min(MOST_WORK_IN_AUTO, PART_OF_WORK_LEFT * work_left()):
+    if wanted * HALVED_WORK * pair.resolved.work > min(MOST_WORK_OF_POINT, PART_OF_WORK_LEFT * work_left()):
         return pair
     try:
         return on_halved_cells(prepared, speed, pair)
@@ -236,11 +236,11 @@ def two_levels(
 
     Strips are needed until the standard error of f is within ``numerics.sampling_tolerance``. With the first level, the
     difference of the models may leave a half-width of `DIFFERENCE_SHARE` times ``numerics.model_tolerance`` beside it. No
-    more are wanted than `MOST_WORK_IN_AUTO` allows. ``numerics``: whose tolerances count (None: those of the scene).
+    more are wanted than `MOST_WORK_OF_POINT` allows. ``numerics``: whose tolerances count (None: those of the scene).
     """
     numerics = prepared.scene.numerics if numerics is None else numerics
     count = len(pairs)
-    most = max(1, min(prepared.sample.available_strips, int(MOST_WORK_IN_AUTO / pairs[0].resolved.work)))
+    most = max(1, min(prepared.sample.available_strips, int(MOST_WORK_OF_POINT / pairs[0].resolved.work)))
 
     def required(estimate: TwoLevelEstimate) -> int:
         return estimate.strips_for_tolerances(numerics, count=count, most=most)

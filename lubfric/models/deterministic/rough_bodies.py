@@ -24,9 +24,9 @@ from .problem import (
 )
 from .summits import SummitControl, control_of
 
-# Counted work [s] of a point from which "auto" leaves it to the quick answer, and that of its strips, at most
-# (docs/models.md).
-MOST_WORK_IN_AUTO = 120.0
+# Counted work [s] of the strips of a point and of their shorter cells, at most, whether the model is named or chosen; "auto"
+# leaves a point whose first strip takes more to the quick answer (docs/models.md).
+MOST_WORK_OF_POINT = 120.0
 
 # Slide-roll ratio from which the ends of the stress of an oil are expected to be solved in motion [-]: a gear flank at 1.07 had
 # them, a needle roller at 0.01 and a bearing at 0.03 had not.
@@ -126,10 +126,10 @@ def why_too_costly(prepared: Prepared, speed: float, sample_coarsening: tuple[fl
         if has_moving_roughness(scene)
         else 0.0
     )
-    if work <= MOST_WORK_IN_AUTO:
+    if work <= MOST_WORK_OF_POINT:
         return ""
     return (
         "not the deterministic model: the roughness moves, and one strip by the deterministic model would take about "
-        f"{float(f'{work:.2g}'):g} s of counted work, more than {MOST_WORK_IN_AUTO:g} s; numerics.model = 'deterministic' "
+        f"{float(f'{work:.2g}'):g} s of counted work, more than {MOST_WORK_OF_POINT:g} s; numerics.model = 'deterministic' "
         "solves it"
     )

@@ -28,7 +28,7 @@ from ..shared import (
 from .cells_in_motion import cells_of_strips
 from .problem import are_soft
 from .rough_bodies import (
-    MOST_WORK_IN_AUTO,
+    MOST_WORK_OF_POINT,
     map_of,
 )
 from .strip import (
@@ -55,7 +55,7 @@ PIECES_SAMPLING_SHARE = 0.7
 # Pieces, at most [-]. Half and twice change nothing.
 MOST_SOLVED_PIECES = 32
 
-# Counted work [s] of pieces beyond which no more are solved: a quarter of `MOST_WORK_IN_AUTO`. Half and twice change
+# Counted work [s] of pieces beyond which no more are solved: a quarter of `MOST_WORK_OF_POINT`. Half and twice change
 # nothing.
 PIECES_WORK = 30.0
 
@@ -134,7 +134,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
 
     - The third level is needed where the estimated error by the cells of the strips is above the tolerance, or where the
       heights are not smooth over a cell. Where it is not solved, the error is `UNSOLVED_FACTOR` times the estimate.
-    - The fourth level is needed where the third leaves more than the tolerance, and solved where `MOST_WORK_IN_AUTO`
+    - The fourth level is needed where the third leaves more than the tolerance, and solved where `MOST_WORK_OF_POINT`
       allows it. What it estimates from one short piece may be off by half.
     - A single patch has one piece: all of it, on shorter and shorter cells. Raises `ConvergenceError` if that does not
       converge.
@@ -220,12 +220,12 @@ def _third_level(
 
 
 def _is_costly(sample: Sample, pairs: Sequence[StripOnTwoGrids], pieces: Sequence[Piece]) -> bool:
-    """Return whether the fourth level would take a point beyond `MOST_WORK_IN_AUTO`."""
+    """Return whether the fourth level would take a point beyond `MOST_WORK_OF_POINT`."""
     finest = pieces[0][-1]
     spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
     length = finest.result.load_at.size * finest.result.spacing[1]
     share = min(LAST_PIECE * sample.correlation_lengths[1] / length, 1.0)  # a short map is all of both pieces
-    return spent + 4 * share * finest.work > MOST_WORK_IN_AUTO
+    return spent + 4 * share * finest.work > MOST_WORK_OF_POINT
 
 
 def _by_boundary_film(strips: Sequence[StripSolution]) -> float:

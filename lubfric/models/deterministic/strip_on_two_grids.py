@@ -105,9 +105,8 @@ def solve_pair(
         bodies = bodies_of(prepared, index, speed)
         longer = strip_at_rest(scene, bodies, speed, map_coarsening=longer_cells)
         target = sample_target(prepared, MOVING_SAMPLE * scene.numerics.sampling_tolerance)
-        strip = moving = solve_moving_strip(
-            scene, bodies, speed, map_coarsening=map_coarsening, start=longer, target=target
-        )
+        moving = solve_moving_strip(scene, bodies, speed, map_coarsening=map_coarsening, start=longer, target=target)
+        strip = moving
         if longer_cells[1] > map_coarsening[1]:
             with suppress(ConvergenceError):  # then the change at rest is all that is known
                 longer = solve_moving_strip(

@@ -37,10 +37,10 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
     scene = balanced.prepared.scene
     numbers = _numbers(balanced)
     errors = errors_of(balanced)
-    sample = {
+    of_sample = {
         "coarsening": balanced.sample.cells.coarsening,
         "strips": balanced.count,
-        "change_by_cells": balanced.change("gap_change"),
+        "change_by_cells": balanced.relative_change(balanced.effect.gap_change),
     }
     oil = scene.lubricant.oil
     temperature = scene.lubricant.temperature
@@ -53,9 +53,11 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         model_error=errors.model_error,
         most_rolling_ratio=OF_ROLLING if has_moving_roughness(scene) else 2.0,
         report=replace(report, notes=(*report.notes, *estimated)),
-        decision=decision_of(scene, balanced.rough_contact, balanced.corrected_balance, numbers["clearance"], **sample),
+        decision=decision_of(
+            scene, balanced.rough_contact, balanced.corrected_balance, numbers["clearance"], **of_sample
+        ),
         errors=errors.errors,
-        why_no_error=errors.why_not,
+        why_no_error=errors.why_no_error,
         reasons=errors.reasons,
         length=balanced.scatter.length,
         effective_contacts=balanced.scatter.effective_contacts,
@@ -70,7 +72,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
                 if scene.numerics.model == "auto"
                 else ()
             ),
-            *_finer(balanced.change("finer_grid_change"), scene.numerics.tolerance),
+            *_finer(balanced.relative_change(balanced.effect.finer_grid_change), scene.numerics.tolerance),
         ),
         recommendation=SMALLER_TOLERANCE,
         fields=fields_of(balanced),

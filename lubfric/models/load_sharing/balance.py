@@ -207,7 +207,7 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
     if near.last is None and alone is not None:
         unloaded = point.rough_contact.close(alone.film_at(point.rough_contact.x), 0.0)
         near = replace(near, last=Trial(film=alone, contact_state=unloaded, film_load=0.0, contact_load=0.0))
-    closed: Balance | None = None
+    converged: Balance | None = None
     response: Response | None = None
     response_at = math.nan  # its ln(F_H/F_C)
     if start is not None and start.film is not None and start.film.entrainment_speed == point.speed:
@@ -222,7 +222,7 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
             response = _response(point, trial)
             response_at = root.x
         balance = _balance(point, root, response)
-        closed = balance if root.status == CONVERGED else closed
+        converged = balance if root.status == CONVERGED else converged
         settings = _needed(point, balance)
         if settings == point.settings or root.status != CONVERGED:
             break
@@ -230,7 +230,7 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
         value = root.value if same == point.settings else None
         point = replace(point, settings=settings)
         near = RootStart(log_load_ratio=root.x, slope=balance.slope, last=trial, value=value)
-    return closed or balance
+    return converged or balance
 
 
 def _response(point: Point, trial: Trial) -> Response:
@@ -274,8 +274,8 @@ def _beginning(point: Point, sq: float, start: Balance | None) -> RootStart:
     is two Sq thick."""
     if start is None or start.film is None or start.response is None:
         thickness = max(2 * sq, 1e-12)
-        share = min(point.line(point.scene.bodies.load).rigid_film / thickness, MOST_FILM_SHARE)
-        return RootStart(log_load_ratio=math.log(share / (1 - share)), step=FIRST_RATIO_STEP)
+        film_share = min(point.line(point.scene.bodies.load).rigid_film / thickness, MOST_FILM_SHARE)
+        return RootStart(log_load_ratio=math.log(film_share / (1 - film_share)), step=FIRST_RATIO_STEP)
     trial = Trial(
         film=start.film,
         contact_state=start.contact_state,
@@ -414,19 +414,19 @@ def _needed(point: Point, balance: Balance) -> Settings:
     film = now.film_tolerance
     volume = now.balance_tolerance
     if numerics.film_tolerance is None:
-        share = budget.FILM_GRID * numerics.tolerance / max(response.per_film(balance.forces, mean_film), 1e-12)
-        film = _tightened(film, max(min(share, budget.FIRST_FILM), budget.TIGHTEST_FILM))
+        enough = budget.FILM_GRID * numerics.tolerance / max(response.per_film(balance.forces, mean_film), 1e-12)
+        film = _tightened(film, max(min(enough, budget.FIRST_FILM), budget.TIGHTEST_FILM))
     if numerics.balance_tolerance is None:
-        share = budget.CORRECTED if now.correctable else budget.BALANCE
-        allowed = response.gap_for("coefficient", share * numerics.tolerance)
+        part = budget.CORRECTED if now.correctable else budget.BALANCE
+        allowed = response.gap_for("coefficient", part * numerics.tolerance)
         if now.correctable:
             allowed /= budget.SLOPE
         if response.log_load_ratio_per_gap:  # f may be anything farther off
             allowed = min(
                 allowed, (budget.MOST_MOVED if now.correctable else OWN_RESPONSE) / abs(response.log_load_ratio_per_gap)
             )
-        closed = min(0.5 * allowed, budget.LOOSEST_VOLUME * min(mean_film, balance.film.central_film))
-        volume = _tightened(volume, max(closed / gap_under(mean_film), budget.TIGHTEST_VOLUME))
+        open_length = min(0.5 * allowed, budget.LOOSEST_VOLUME * min(mean_film, balance.film.central_film))
+        volume = _tightened(volume, max(open_length / gap_under(mean_film), budget.TIGHTEST_VOLUME))
     contact_tolerance = _contact_tolerance(point, balance.contact_state, volume)
     return Settings(
         film_tolerance=film,
@@ -467,13 +467,13 @@ def _report(
         residuals["film"] = film.report.residual
     if contact_state.fields is not None:
         residuals["contact"] = contact_state.fields.report.residual
-    tolerance, steps = scene.numerics.tolerance_of("balance") if tolerance is None else tolerance, len(history)
+    steps = len(history)
     return Report(
         "load sharing",
         status,
         iterations=steps,
         residual=min(history),
-        tolerance=tolerance,
+        tolerance=scene.numerics.tolerance_of("balance") if tolerance is None else tolerance,
         residuals=residuals,
         history=tuple(history),
         evaluations=steps,

@@ -167,9 +167,9 @@ class BalancedSample:
         makes. No more was seen, but for one of 25 scenes (1.4 times that, beside a scatter of 17 %)."""
         return 0.0 if self.response is None else abs(self.response.log_load_ratio_per_gap) * self.corrected_gap**2
 
-    def change(self, name: str) -> float:
-        """Return the relative change of f by the gap [m] that the `CellEffect` has under ``name``."""
-        return 0.0 if self.response is None else self.response.relative("coefficient", getattr(self.effect, name))
+    def relative_change(self, gap_change: float) -> float:
+        """Return the relative change of f by a ``gap_change`` [m] at given load."""
+        return 0.0 if self.response is None else self.response.relative("coefficient", gap_change)
 
     @property
     def point(self) -> Point:

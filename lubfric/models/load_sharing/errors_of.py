@@ -46,7 +46,7 @@ class PointErrors:
     sampling_error : of f, because the sample is finite
     model_error : of f, by the model, at 95 %, towards 0 and away from it
     errors : of all numbers, by name
-    why_not : why an error is not known
+    why_no_error : why an error is not known
     reasons : why that of some numbers is not, by name
     notes : what a reader should know of them
     area_needed : as in `lubfric.estimate.Uncertainty`
@@ -56,7 +56,7 @@ class PointErrors:
     sampling_error: StandardError
     model_error: tuple[float, float]
     errors: dict[str, float]
-    why_not: str
+    why_no_error: str
     reasons: dict[str, str]
     notes: tuple[str, ...]
     area_needed: float
@@ -125,7 +125,7 @@ def errors_of(balanced: BalancedSample) -> PointErrors:
         sampling_error=StandardError(sampling, error.freedom),
         model_error=of_model,
         errors=errors | {"coefficient": both},
-        why_not=why,
+        why_no_error=why,
         reasons=left_out,
         notes=(*notes, *unknown),
         area_needed=_area_needed(balanced),

@@ -184,19 +184,19 @@ def _work_of_strips(
     if count > sample.first_strips:
         work += SOLVES_ON_MORE * (one_film + CELL_SECONDS * strip * count)
     work *= _times_by_shorter_cells(sample, surface, film)
-    pieces = 0.0
+    pieces_seconds = 0.0
     if not cells.is_native:
         native = cells.columns * fx * cells.rows(PIECE * ly) * fy
-        pieces = PIECE_SECONDS * cells_of_pieces(cells, native)
+        pieces_seconds = PIECE_SECONDS * cells_of_pieces(cells, native)
         made = GENERATED_SECONDS * native
         shared = (SharedWork(what=f"pieces on {cells.coarsening}", seconds=made, of_surface_alone=True),)
     reference = nearest_reference(film / sq)
     if reference is not None and scene.lubricant.inlet_film is None:
-        there = SOLVES_OF_REFERENCE * (one_film + CELL_SECONDS * strip * sample.first_strips) + pieces
+        there = SOLVES_OF_REFERENCE * (one_film + CELL_SECONDS * strip * sample.first_strips) + pieces_seconds
         name = f"reference point at {reference} Sq on {cells.coarsening}"
         shared = (*shared, SharedWork(what=name, seconds=there, of_surface_alone=False))
-        pieces *= OWN_PIECES
-    return POINT_SECONDS + work + pieces + sum(part.seconds for part in shared), shared
+        pieces_seconds *= OWN_PIECES
+    return POINT_SECONDS + work + pieces_seconds + sum(part.seconds for part in shared), shared
 
 
 def _times_by_shorter_cells(sample: Sample, surface: Surface, film: float) -> float:

@@ -143,7 +143,7 @@ def solve_on_long_cells(prepared: Prepared, speed: float) -> StripsOnLongCells:
     pairs = [_solve_pair(prepared, speed, 0, None)]
     numerics = replace(
         scene.numerics,
-        sampling_tolerance=_sampling_error(prepared, pairs[0]),
+        sampling_tolerance=_sampling_target(prepared, pairs[0]),
         model_tolerance=max(scene.numerics.model_tolerance, LEAST_TOLERANCE),
     )
     most = 1 if has_moving_roughness(scene) else MOST_STRIPS
@@ -187,7 +187,7 @@ def _features_of(prepared: Prepared, pair: StripOnTwoGrids) -> dict[str, float]:
     return features(numbers, prepared.scene.bodies.boundary_friction_coefficient)
 
 
-def _sampling_error(prepared: Prepared, pair: StripOnTwoGrids, part: float = OF_BOUNDS) -> float:
+def _sampling_target(prepared: Prepared, pair: StripOnTwoGrids, part: float = OF_BOUNDS) -> float:
     """Return the relative standard error of f by the sample that strips are solved for: this ``part`` of the bounds at the
     features of the first ``pair``."""
     bounds = min(error_model_of(prepared.scene).log_half_width(_features_of(prepared, pair)), 1.0)
@@ -208,7 +208,7 @@ def _solve_pair(prepared: Prepared, speed: float, index: int, slope: float | Non
         )
     cells = long_cells_in_motion(scene, bodies_of(prepared, index, speed), speed, lengths)
     part = OF_NARROW_BOUNDS if cells.per_length == CELLS_OF_THIN_FILM else OF_BOUNDS
-    target = sample_target(prepared, _sampling_error(prepared, StripOnTwoGrids(cells.rest, cells.rest), part))
+    target = sample_target(prepared, _sampling_target(prepared, StripOnTwoGrids(cells.rest, cells.rest), part))
     return replace(solve_moving(scene, cells, speed, target), mirrored=is_mirrored)
 
 

@@ -49,18 +49,19 @@ class StripKey(Key[HalfSpaceContact]):
 
 @dataclass(frozen=True)
 class PieceMapKey(Key[Surface]):
-    """The map of piece ``index``, some ``length`` correlation lengths long, on native cells."""
+    """The map of piece ``index``, some ``length`` correlation lengths long, on native cells; ``strip_coarsening``: length of the
+    cells of the strips, in native ones."""
 
-    coarsening_of_sample: tuple[int, int]
+    strip_coarsening: tuple[int, int]
     index: int
     length: float
 
 
 @dataclass(frozen=True)
 class PieceKey(Key[HalfSpaceContact]):
-    """The contact on piece ``index``, on ``coarsening`` so many native ones long."""
+    """The contact on piece ``index``, on cells of this ``coarsening``, beside strips on cells of the ``strip_coarsening``."""
 
-    coarsening_of_sample: tuple[int, int]
+    strip_coarsening: tuple[int, int]
     index: int
     length: float
     coarsening: tuple[int, int]

@@ -126,17 +126,17 @@ def contact_on_piece(
     prepared: Prepared, sample: Sample, index: int, *, coarsening: tuple[int, int], length: float = PIECE
 ) -> HalfSpaceContact:
     """Return the contact on piece ``index`` of ``sample`` (`Sample.piece`), on cells of this ``coarsening``."""
-    coarsening_of_sample = sample.cells.coarsening
+    strip_coarsening = sample.cells.coarsening
 
     def make() -> HalfSpaceContact:
         surface = remembered(
-            prepared, sample, PieceMapKey(coarsening_of_sample, index, length), lambda: sample.piece(index, length)
+            prepared, sample, PieceMapKey(strip_coarsening, index, length), lambda: sample.piece(index, length)
         )
         heights = sample.cells.thinned(surface.heights, coarsening)
         spacing = surface.spacing[0] * coarsening[0], surface.spacing[1] * coarsening[1]
         return _contact(prepared, heights, spacing, sample.cells.axis(coarsening))
 
-    key = PieceKey(coarsening_of_sample, index, length, coarsening)
+    key = PieceKey(strip_coarsening, index, length, coarsening)
     return remembered(prepared, sample, key, make, lambda contact: contact.heights.size)
 
 
