@@ -72,7 +72,8 @@ def kind_of(unit: str) -> str:
 def converted(value: Any, unit: str, to: str) -> Any:
     """Return ``value`` (a number, an array, or a `Decimal`, which stays one) in the unit ``to`` instead of ``unit``,
     both in one row of the table. Raises `InputError` for a unit that is not in the row of the other."""
-    unit, to = spelled(unit), spelled(to)
+    unit = spelled(unit)
+    to = spelled(to)
     row = UNITS[kind_of(unit)]
     if to not in row:
         raise InputError(f" = {to!r} is not a unit of a number in {unit}", "unit", ", ".join(filter(None, row)))

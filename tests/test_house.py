@@ -52,17 +52,24 @@ def allowed(package: str, kind: str) -> int:
 
 
 def is_packed(node: ast.AST) -> bool:
-    """Return whether a statement binds several names to as many unrelated values.
+    """Return whether a statement binds several names: to as many unrelated values, or one after the other to one value.
 
-    A swap, or a step of a recurrence, reads what it binds. The results of one call are no tuple in the source."""
-    if not (isinstance(node, ast.Assign) and isinstance(node.value, ast.Tuple)):
+    In a swap, or a step of a recurrence, a value reads the name of another. The results of one call are no tuple in the
+    source."""
+    if not isinstance(node, ast.Assign):
         return False
-    read = {ast.unparse(n) for n in ast.walk(node.value) if isinstance(n, (ast.Name, ast.Attribute))}
-    for target in node.targets:
-        if isinstance(target, ast.Tuple) and len(target.elts) == len(node.value.elts) > 1:
-            if not {ast.unparse(name) for name in target.elts} & read:
-                return True
-    return False
+    if len(node.targets) > 1:
+        return True
+    target = node.targets[0]
+    values = node.value
+    if not (isinstance(target, ast.Tuple) and isinstance(values, ast.Tuple) and len(target.elts) == len(values.elts)):
+        return False
+    names = [ast.unparse(name) for name in target.elts]
+    for index, value in enumerate(values.elts):
+        read = {ast.unparse(n) for n in ast.walk(value) if isinstance(n, (ast.Name, ast.Attribute))}
+        if read & {name for other, name in enumerate(names) if other != index}:
+            return False
+    return len(names) > 1
 
 
 def bound_names(node: ast.AST) -> Iterator[str]:
@@ -78,7 +85,11 @@ def test_one_statement_binds_one_thing(package):
     assert [f"{path}:{node.lineno}" for path, node in nodes(package) if is_packed(node)] == []
 
 
-@pytest.mark.parametrize("text, packed", [("a, b = 1, 2", True), ("a, b = b, a", False), ("a, b = f()", False)])
+@pytest.mark.parametrize(
+    "text, packed",
+    [("a, b = 1, 2", True), ("a, b = b, a", False), ("a, b = f()", False)]
+    + [("a, b = 1 if a else 2, 3", True), ("a, b = b, a + b", False), ("a = b = f()", True), ("(a,) = (1,)", False)],
+)
 def test_a_packed_statement_is_seen(text, packed):
     assert is_packed(ast.parse(text).body[0]) == packed
 

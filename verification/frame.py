@@ -182,7 +182,8 @@ def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Name
         reports.save(report, out)
         return report
 
-    so_far, interrupted = save(so_far), False
+    so_far = save(so_far)
+    interrupted = False
     workers = 1 if command.campaign else options.workers
     try:
         for outcome in run(studies, level, tell_check, partial(tell_study, names=so_far.selected), workers):

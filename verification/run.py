@@ -110,7 +110,9 @@ def run_one(
     announce(study)
     results: dict[type, list[Any]] = {kind: [] for kind in (Check, Table, Figure, Field)}
     start = time.perf_counter()
-    description = error = trace = ""
+    description = ""
+    error = ""
+    trace = ""
     try:
         function = load(study)
         description = inspect.getdoc(function) or ""

@@ -95,7 +95,8 @@ def _bracket(
     search: _Search, x: float, step: float, bounds: tuple[float, float], slope: float | None
 ) -> tuple[tuple[float, float], tuple[float, float]] | None:
     """Return points (upper, lower) of both signs; None if the search ended before they were found."""
-    lower = upper = None
+    lower = None
+    upper = None
     point = search.points[0] if search.points else search.at(x)
     while not search.done:
         if point[1] < 0:

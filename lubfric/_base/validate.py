@@ -125,7 +125,8 @@ def positive(name: str, value: Any, unit: str, *, minimum: float = 0.0, maximum:
 
 def _within(name: str, value: float, unit: str, above: float, minimum: float, maximum: float, least: float) -> float:
     largest = SANE.get(unit, (SMALLEST_NUMBER, LARGEST_NUMBER))[1]
-    minimum, maximum = max(minimum, -largest), min(maximum, largest)
+    minimum = max(minimum, -largest)
+    maximum = min(maximum, largest)
     low = f"above {above:g}, up to" if above >= minimum else f"{minimum:g} to"
     shown_unit = "" if unit == "-" else f" {unit}"
     allowed = f"{low} {maximum:g}{shown_unit}"

@@ -223,5 +223,6 @@ def _closest(
             bounds = (before, approach)
             root = increasing_root(excess, middle, step=step, bounds=bounds, tolerance=tolerance)
             return root.payload, scanned, root.history
-        before, best = approach, max(best, result, key=lambda at: at.load)
+        before = approach
+        best = max(best, result, key=lambda at: at.load)
     return best, len(TRIAL_APPROACHES), ()

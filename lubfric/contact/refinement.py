@@ -133,7 +133,8 @@ def length_scale(
 
 def contact_residuals(pressure: np.ndarray, gap: np.ndarray, scale: float, hardness: float) -> dict[str, float]:
     """Return complementarity and penetration residuals, dimensionless; see `ContactResult` for formulas."""
-    loaded, gap = np.flatnonzero(pressure > 0), gap.ravel()
+    loaded = np.flatnonzero(pressure > 0)
+    gap = gap.ravel()
     carried = pressure.ravel()[loaded]
     apart = np.abs(gap[loaded])
     yielded = carried >= hardness
@@ -197,7 +198,8 @@ def refine(
             search = _begun(problem, state, load, pace, exact=wasted > 0)
             del state  # the search holds what it needs
             search.run(goal, problem.max_iterations - iterations)
-            iterations, pace = iterations + search.iterations, pace if wasted else search.pace
+            iterations += search.iterations
+            pace = pace if wasted else search.pace
             history += search.history[:-1]
             convolutions += search.convolutions
             new_pressure = search.new_pressure(pressure, problem.hardness)

@@ -102,8 +102,12 @@ class CandidateSearch:
         self.gap = cells.take(state.gap, np.float32, 1 / scale)
         self.change, self.known, self.direction, self.before = (np.zeros_like(self.gap) for _ in range(4))
         self.weight, self.residue, self.trial = (np.empty_like(self.gap) for _ in range(3))
-        self.power = self.level = self.overlap = 0.0
-        self.iterations = self.convolutions = self.count = 0
+        self.power = 0.0
+        self.level = 0.0
+        self.overlap = 0.0
+        self.iterations = 0
+        self.convolutions = 0
+        self.count = 0
         self.history: list[float] = []
         factor = operator.e_prime / 4 / self.compliance
         if exact:

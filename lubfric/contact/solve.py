@@ -174,7 +174,8 @@ def _load_searched(problem: ContactProblem, mean_gap: float, guess: float, start
         nonlocal spent, iterations
         mean = math.exp(log_pressure)
         search = _solved(exact, last.state.pressure if last else start, mean, mean_pressure=mean)
-        spent, iterations = spent + search.convolutions, iterations + search.iterations
+        spent += search.convolutions
+        iterations += search.iterations
         return (mean_gap - search.state.mean_gap) / min(mean_gap, search.state.scale), search
 
     if start is not None and start.any():

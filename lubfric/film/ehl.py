@@ -150,7 +150,9 @@ def _fed(full: FilmProblem, flow: float, effort: Effort, state: FilmState | None
         problem, fed = fed_from(near, aim, known)
         if aim == flow or not sound(fed):
             break
-        near, aim, spent = solution_state(problem, fed[-1], 0.0), max(flow, LESS * aim), spent + fed
+        near = solution_state(problem, fed[-1], 0.0)
+        aim = max(flow, LESS * aim)
+        spent = spent + fed
     if sound(fed) or flow < HALF * flooded:
         return problem, fed, spent, notes
     return _searched_inlet(problem, effort, solution_state(full, levels[-1], 0.0), furthest, spent + fed, notes)

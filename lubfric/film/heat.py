@@ -284,7 +284,8 @@ def heated_stress(
         middle = 0.5 * (low + high)
         tau = np.exp(middle)
         above = _too_high(lubricant, p, h, speed, tau, log_eta, beta, wall + tau * per_stress)
-        low, high = np.where(above, low, middle), np.where(above, middle, high)
+        low = np.where(above, low, middle)
+        high = np.where(above, middle, high)
     tau = np.exp(0.5 * (low + high))
     return np.copysign(tau, sliding), tau * per_stress
 

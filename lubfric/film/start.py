@@ -97,9 +97,11 @@ def warm_start(grid: Grid, problem: FilmProblem, state: FilmState) -> tuple[np.n
         P = np.append(0.0, np.interp(grid.xi[1:], state.nodes, P, left=0.0))
         H = (bend + 0.5 * grid.xi**2 + (ratio - 1.0) * state.flux) / ratio
     while H.size > grid.n + 1:
-        P, H = P[::2], H[::2]
+        P = P[::2]
+        H = H[::2]
     while H.size < grid.n + 1:
-        P, H = with_midpoints(P), with_midpoints(H)
+        P = with_midpoints(P)
+        H = with_midpoints(H)
     e = state.rupture * (_expected_rupture(problem) / _expected_rupture(state.problem))
     P = P * (problem.M / (grid.weights @ P))
     z = np.append(P[:-1], [0.0, state.flux * ratio, e])

@@ -28,7 +28,8 @@ def from_viscosities(nu40: float, nu100: float, **properties: Any) -> Oil:
 
     ``properties``: fields of `Oil` (base, density, alpha, ...). Raises `InputError` for values out of range.
     """
-    nu40, nu100 = _viscosity("nu40", nu40), _viscosity("nu100", nu100)
+    nu40 = _viscosity("nu40", nu40)
+    nu100 = _viscosity("nu100", nu100)
     return _through(nu40, nu100, {"nu40": nu40, "nu100": nu100}, properties)
 
 

@@ -100,7 +100,8 @@ class Oil(Shown):
         low = temperature - TEMPERATURE_STEP
         high = temperature + TEMPERATURE_STEP
         if isinstance(self.viscosity_law, ViscosityTable):
-            low, high = max(low, self.viscosity_law.temperatures[0]), min(high, self.viscosity_law.temperatures[-1])
+            low = max(low, self.viscosity_law.temperatures[0])
+            high = min(high, self.viscosity_law.temperatures[-1])
         return math.log(self.viscosity(low) / self.viscosity(high)) / (high - low)
 
     def pressure_viscosity_coefficient(self, temperature: float) -> Estimate:

@@ -100,7 +100,8 @@ def gold(nu: float, base: str) -> Estimate:
     aromatic ester 1.9, a polypropylene glycol 1.7 times. The range stated is 0.85 to 1.65 times (ester 2.1, polyglycol
     1.75).
     """
-    nu, base = validate.positive("nu", nu, "m²/s", maximum=1.0), validate.choice("base", base, BASES)
+    nu = validate.positive("nu", nu, "m²/s", maximum=1.0)
+    base = validate.choice("base", base, BASES)
     s, t = BASES[base]["gold"]
     value = s * (nu * 1e6) ** t * 1e-9
     low, high = BASES[base]["measured"]

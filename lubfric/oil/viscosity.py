@@ -132,7 +132,8 @@ def viscosity_index(nu40: float, nu100: float) -> float:
     Raises `InputError` for viscosities that are not positive, a nu100 below 2 mm²/s (not defined there) or not below
     nu40.
     """
-    nu40, nu100 = validate.positive("nu40", nu40, "m²/s"), validate.positive("nu100", nu100, "m²/s")
+    nu40 = validate.positive("nu40", nu40, "m²/s")
+    nu100 = validate.positive("nu100", nu100, "m²/s")
     if nu100 < LEAST_VISCOSITY_AT_100 * (1 - 1e-12):
         least = f"from 2e-6 m²/s (2 mm²/s), the viscosity index is not defined below{_millimetres(nu40, nu100)}"
         raise InputError(f" = {nu100:g} m²/s is out of range", "nu100", least)

@@ -118,7 +118,8 @@ def paced() -> Callable[..., bool]:
 
 def moment_reports(interval: float = PROGRESS_SECONDS) -> Callable[[str, int, int], None]:
     """Return what writes how far a point is, and the time left for this part of it, every ``interval`` [s] at most."""
-    begun = last = time.monotonic()
+    begun = time.monotonic()
+    last = begun
 
     def report(what: str, done: int, total: int) -> None:
         nonlocal begun, last

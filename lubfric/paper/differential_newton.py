@@ -61,7 +61,8 @@ def near_solver(mesh: Mesh, problem: FilmProblem, t: DifferentialTerms) -> Calla
     if info != 0:
         return None
     border = np.zeros((2 * n, 2), order="F")
-    border[1, 0] = border[-1, 1] = 1.0
+    border[1, 0] = 1.0
+    border[-1, 1] = 1.0
     border, _ = dgbtrs(lu, lower, upper, border, pivots, overwrite_b=1)
     rows = np.stack([equations.tilt_row(mesh), equations.load_row(mesh, problem)])
     closing = rows @ border[0::2] + [[1.0, -1.0], [0.0, 0.0]]
@@ -157,7 +158,8 @@ def newton(
         z, count = newton_step(mesh, t, near)
         solves += count
         length = step_length(z[0::2] * t.slope, float(np.max(-z[1::2] / H)))
-        P, H = P + length * z[0::2], H + length * z[1::2]
+        P = P + length * z[0::2]
+        H = H + length * z[1::2]
         P[t.last + 1 :] = 0.0  # and no tension behind the peak
         peak = int(np.argmax(P))
         P[peak:] = np.maximum(P[peak:], 0.0)

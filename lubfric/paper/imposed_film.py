@@ -188,7 +188,8 @@ def _alternated(contact: ImposedFilm, pressure: FloatArray, update: str) -> Sear
         """Return (film - volume)/min(L, film), which rises with epsilon, and the pressure."""
         nonlocal state, spent
         search = refine(tight, state.pressure.copy(), level=offset)
-        state, spent = search.state, spent + search.convolutions
+        state = search.state
+        spent += search.convolutions
         return contact.surplus(state), (state.pressure, offset)
 
     if update == "root":

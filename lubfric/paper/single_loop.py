@@ -113,7 +113,8 @@ def _printed(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
         p = np.clip(p, 0.0, problem.hardness)
         last = power
         keep = 0.0 if overlapping.any() else 1.0
-        displacement, convolutions = apply(p), convolutions + 2
+        displacement = apply(p)
+        convolutions += 2
         offset = contact.lubricated_offset(displacement, p)
 
 
@@ -152,7 +153,9 @@ def _consistent(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
                 residue = r
                 kept = step > 0
             before, p = p.sum(), np.clip(p + step * d, 0.0, hardness)
-            displacement, convolutions, more = apply(p), convolutions + 2, p.sum() - before
+            displacement = apply(p)
+            convolutions += 2
+            more = p.sum() - before
         above = problem.gap0 + displacement - (offset + shared * more)  # epsilon has taken over the bulk deflection
         offset = contact.offset(displacement, np.where(p >= hardness, np.maximum(-above, 0.0), 0.0))
 

@@ -247,7 +247,8 @@ def run_in(
             if not ended:
                 ends = tuple(run_in(other, before, **how).surface for pair in others for other in pair)
     except WorkLimitError:
-        after = dented = _run_in_map(scene, before, done)
+        after = _run_in_map(scene, before, done)
+        dented = after
         ended = f"{len(done.deepest)} of at most {passes} passes are done"
     result = RunIn(
         before=before,
@@ -357,7 +358,8 @@ def _whole(scene: Scene, surface: Surface | None) -> Surface:
             surface = surface if spacing is None else surface.resampled(spacing=spacing)
             surface = surface.periodic(axes=(scene.contact.geometry == "flat", True))
     validate.instance("surface", surface, Surface, "a lubfric.Surface")
-    surface, half_width = contact_maps(scene, (surface,))[0], scene.bodies.half_width
+    surface = contact_maps(scene, (surface,))[0]
+    half_width = scene.bodies.half_width
     if surface.spacing[0] > half_width:
         raise InputError(
             f"spacing of the map = {surface.spacing[0]:.3g} m along x does not resolve the Hertz strip; allowed: at "

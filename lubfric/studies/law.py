@@ -108,9 +108,11 @@ class Law(Shown):
         for name, (low, high) in self.ranges.items():
             if given[name] is None:
                 given[name] = 0.5 * (low + high)
-            values = given[name] = validate.real_array(name, given[name], SYMBOLS[name][1])
+            values = validate.real_array(name, given[name], SYMBOLS[name][1])
+            given[name] = values
             if name == "speed":
-                low, values = 0.0, np.abs(values)
+                low = 0.0
+                values = np.abs(values)
             outside = values[(values < low * (1 - ROUNDED)) | (values > high * (1 + ROUNDED))]
             if outside.size and not extrapolate:
                 unit = SYMBOLS[name][1]

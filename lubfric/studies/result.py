@@ -63,9 +63,13 @@ class StudyResult(Shown):
     status: np.ndarray
     validity: np.ndarray
 
-    plot, law = plot, law_of_study
-    to_csv, to_frame, to_parquet = to_csv, to_frame, to_parquet
-    to_xarray, to_netcdf = to_xarray, to_netcdf
+    plot = plot
+    law = law_of_study
+    to_csv = to_csv
+    to_frame = to_frame
+    to_parquet = to_parquet
+    to_xarray = to_xarray
+    to_netcdf = to_netcdf
 
     @property
     def chosen(self) -> bool:

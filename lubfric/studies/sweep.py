@@ -167,7 +167,8 @@ def stribeck(
     """
     validate.called_back("on_point", on_point, "done, total, speed, outcome")
     requested, kept = _requested(speeds, fields, scene_of(scene))
-    executor, prepared = checked_executor(executor), prepared_with(scene, tolerance, model)
+    executor = checked_executor(executor)
+    prepared = prepared_with(scene, tolerance, model)
     if not requested:
         span(prepared.scene, prepared.surface.sq)  # raises where there is no range to choose from
     if checked_workers(workers, executor) > 1:

@@ -113,7 +113,8 @@ def surface_generator(
     What all seeds share is made once."""
     from scipy import fft
 
-    shape, spacing = pair("shape", shape), validate.spacing("spacing", spacing)
+    shape = pair("shape", shape)
+    spacing = validate.spacing("spacing", spacing)
     points("shape", shape)
     check_spacing(spacing)
     lengths = validate.spacing("correlation_length", correlation_length)

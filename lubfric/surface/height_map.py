@@ -171,7 +171,8 @@ class Surface(FrozenArrays, Shown):
         while more:
             filled = prepare.harmonic_fill(self.heights, mask, self.spacing)
             outlying = prepare.outliers(filled, mask, self.periodic_axes) != 0
-            mask, more = mask & ~outlying, outlying.any()
+            mask = mask & ~outlying
+            more = outlying.any()
         was_measured = np.isfinite(self.heights) if self.mask is None else self.mask  # filled points are no outliers
         lost = self.heights[was_measured & ~mask]
         count = lost.size
@@ -270,7 +271,8 @@ class Surface(FrozenArrays, Shown):
     def patch(self, shape: tuple[int, int], spacing: float | tuple[float, float] | None = None) -> Surface:
         """Return exactly ``shape`` points at ``spacing`` [m] (default: its own) for a contact grid. Axes that are
         periodic are repeated as often as needed; others are cut, and must be long enough."""
-        shape, new = regrid.pair("shape", shape), self._filled("patch")
+        shape = regrid.pair("shape", shape)
+        new = self._filled("patch")
         if spacing is not None:
             new = new.resampled(spacing=spacing)
         for axis in range(2):

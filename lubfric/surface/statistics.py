@@ -171,7 +171,8 @@ def autocorrelation(surface: Surface, axis: int = 0) -> tuple[np.ndarray, np.nda
     if mask is None or mask.all():
         pairs = np.full(n // 2 + 1, n) if periodic else n - np.arange(n // 2 + 1)
     else:
-        z, pairs = np.where(mask, z, 0.0), np.maximum(np.rint(lagged_products(mask.astype(float))), 1.0)
+        z = np.where(mask, z, 0.0)
+        pairs = np.maximum(np.rint(lagged_products(mask.astype(float))), 1.0)
     products = lagged_products(z)
     if products[0] <= 0:
         raise InputError("sq of the surface = 0 m: no autocorrelation; allowed: above 0 m")

@@ -31,7 +31,8 @@ from .film_grid import FixedGrid
 from .march import Memory
 
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(24)
-_POINTS, _WEIGHTS = 0.5 * (_POINTS + 1.0), 0.5 * _WEIGHTS
+_POINTS = 0.5 * (_POINTS + 1.0)
+_WEIGHTS = 0.5 * _WEIGHTS
 
 
 # relative distance from the inlet within which a node lies on it

@@ -244,7 +244,9 @@ def solve_step(equations: StepEquations, z: np.ndarray, *, tolerance: float = 1e
             staged = replace(equations, load=first * (equations.load / first) ** goal)
             solution = _iterated(staged, z, tolerance, max_steps)
             if solution.status == CONVERGED:
-                done, stage, z = goal, 1.5 * stage, solution.z
+                done = goal
+                stage = 1.5 * stage
+                z = solution.z
             else:
                 stage *= 0.4
     return solution

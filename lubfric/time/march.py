@@ -119,7 +119,8 @@ def plan_of(
     """Return the plan of a run up to the last of ``times`` [s] in which ``histories`` change. Steps end at ``more`` [s]
     too, which rise, unless a stop is close. Times that differ only by rounding become one, because no step is as short
     as that."""
-    histories, end = tuple(histories), float(times[-1])
+    histories = tuple(histories)
+    end = float(times[-1])
     jumps = _onto(times, [t for h in histories for t in h.jumps(end)])
     stops = np.union1d(times, jumps)
     stops = np.union1d(stops, _onto(stops, [t for h in histories for t in h.stops(end)]))
@@ -255,12 +256,14 @@ def advance(now: Progress, until: float, solver: Solver, tolerance: float, short
         end = now.time + planned if planned < left else until
         attempt = (_bdf2 if len(now.levels) > 1 else _pair)(now, end, solver)
         if attempt is None:
-            step, rejected = FAILED * planned, rejected + 1
+            step = FAILED * planned
+            rejected += 1
             continue
         levels, solution, error, order = attempt
         change = max(TIME_STEP_SAFETY * (tolerance / max(error, 1e-30)) ** (1 / (order + 1)), LEAST_TIME_STEP_RATIO)
         if error <= tolerance:
-            step, error = planned * min(change, TIME_STEP_GROWTH), error / tolerance
+            step = planned * min(change, TIME_STEP_GROWTH)
+            error = error / tolerance
             worst = max(now.worst, error)
             return Progress(
                 levels=levels,
@@ -272,7 +275,8 @@ def advance(now: Progress, until: float, solver: Solver, tolerance: float, short
                 solution=solution,
                 error=error,
             )
-        step, rejected = planned * min(change, 0.9), rejected + 1
+        step = planned * min(change, 0.9)
+        rejected += 1
     return None
 
 

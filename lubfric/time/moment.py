@@ -296,7 +296,8 @@ def _tails(model: LoadSharingSolver, time: float, drags: np.ndarray, solution: S
     p = setting.problem
     grid = setting.grid
     now = setting.equations(time)
-    couette = rolling = 0.0
+    couette = 0.0
+    rolling = 0.0
     for end, sign, drag in ((0, 1.0, drags[0]), (-1, -1.0, drags[1])):
         if t.P[end] > 0.0:
             a = abs(grid.x[end])

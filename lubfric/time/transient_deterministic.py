@@ -293,7 +293,8 @@ def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
     if len(maps) == 1 and plan.sliding is not None and len(moving_bodies(scene)) > 1:
         raise InputError(" moves two rough bodies apart", "transient.sliding", "a map of each (lubfric.prepare)")
     if not maps:  # smooth
-        surface, map_coarsening = replace(surface, heights=surface.heights[:, :1], mask=None), (map_coarsening[0], 1)
+        surface = replace(surface, heights=surface.heights[:, :1], mask=None)
+        map_coarsening = (map_coarsening[0], 1)
     speed = plan.speed or Constant(scene.motion.entrainment_speed)
     low, high = speed.range(plan.duration)
     line = scene.line_contact(max(abs(low), abs(high)) or scene.bodies.half_width / plan.duration)

@@ -84,7 +84,8 @@ def aspher_solver(
         import aspher
     except ImportError:
         return None
-    n = coarsest = len(heights)
+    n = len(heights)
+    coarsest = n
     while coarsest % 2 == 0 and coarsest > COARSEST:
         coarsest //= 2
     gap = heights.max() - heights

@@ -67,7 +67,8 @@ class Sphere:
 
     def gap(self, r: FloatArray | float) -> FloatArray:
         """Return gap in m at a distance r from the axis."""
-        a, r = self.contact_radius, np.maximum(r, self.contact_radius)
+        a = self.contact_radius
+        r = np.maximum(r, self.contact_radius)
         inside = (2 * a**2 - r**2) * np.arcsin(a / r) + a * np.sqrt(r**2 - a**2)
         return r**2 / (2 * self.radius) - self.approach + inside / (math.pi * self.radius)
 

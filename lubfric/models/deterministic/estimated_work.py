@@ -143,7 +143,8 @@ def estimated_work(
     wanted = STRIPS_SAFETY * (unlike * scatter / allowed) ** 2
     count = min(max(1, math.ceil(wanted)), sample.available_strips)
     if has_moving_roughness(scene):
-        strip_seconds = longest = _seconds_in_motion(scene, sample, sq=sq, speed=speed, work=one_strip)
+        strip_seconds = _seconds_in_motion(scene, sample, sq=sq, speed=speed, work=one_strip)
+        longest = strip_seconds
         if one_strip > MOST_WORK_OF_POINT and numerics.model == "auto":
             return WorkEstimate(strips=0, seconds=0.0, strip_seconds=strip_seconds)
         count = min(count, max(1, int(MOST_WORK_OF_POINT / one_strip)))  # no more are solved

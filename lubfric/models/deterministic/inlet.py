@@ -74,7 +74,9 @@ def inlet(problem: Problem, pressure: FloatArray, thickness: FloatArray) -> Inle
     thickness = thickness - x * dx / (2 * radius) + dx**2 / (8 * radius)
     start = -(x - dx / 2)
     begins = 0.0 if lubricant.inlet_length is None else start / lubricant.inlet_length
-    t, weight, integral = begins + (1 - begins) * t, (1 - begins) * weight, (1 - begins) * integral
+    t = begins + (1 - begins) * t
+    weight = (1 - begins) * weight
+    integral = (1 - begins) * integral
     stretch = start / t**2
     shape = (start / t) ** 2 / (2 * radius) - start**2 / (2 * radius) + problem.edge_log * np.log(t)
     gap = thickness[:, None] + shape

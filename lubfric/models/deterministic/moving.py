@@ -134,7 +134,9 @@ def moments(
     problem = problem_at(0.0)
     count = 0
     imbalance: np.ndarray | None = None
-    at = before = earlier = evaluated(problem, solve_point(problem).state if start is None else start)
+    at = evaluated(problem, solve_point(problem).state if start is None else start)
+    before = at
+    earlier = at
     smooth = max(1, round(SMOOTHED_HALF_WIDTHS * film_half_width(problem.line) / problem.spacing[0]))
     yield Moment(0.0, at, Work(0))
     while True:

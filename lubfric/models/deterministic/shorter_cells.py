@@ -96,6 +96,9 @@ UNSOLVED_FACTOR = 2.0
 # a roller of E' 19 GPa give f of .00652, .00682, .00590, .00574 at Λ 1.0, and .01114, .01029, .01001, .01000 at Λ 2.2.
 SOFT_CELL_ERROR = 1.5
 
+# Quantities that shorter cells leave: inputs, residuals, what small differences make, and what follows from others.
+UNCHANGED_BY_CELLS = ("speed", "load_residual", "rolling_force", "rolling_resistance", "film_to_roughness_ratio")
+
 # A piece of the surface, solved on shorter and shorter cells.
 Piece = tuple[StripSolution, ...]
 
@@ -245,8 +248,7 @@ def changed_by_pieces(
     before, after = ({name: float(np.mean([row[name] for row in level])) for name in numbers} for level in rows)
     new = {name: value * after[name] / before[name] if before[name] else value for name, value in numbers.items()}
     load = prepared.scene.bodies.load
-    kept = ("speed", "load_residual", "rolling_force", "rolling_resistance", "film_to_roughness_ratio")
-    new |= {name: numbers[name] for name in kept}
+    new |= {name: numbers[name] for name in UNCHANGED_BY_CELLS}
     load_ratio = new["contact_load"] / new["film_load"] if new["film_load"] > 0 else math.inf
     new["contact_load"] = load / (1 + 1 / load_ratio) if load_ratio else 0.0
     new["film_load"] = load - new["contact_load"]
@@ -300,7 +302,8 @@ def _pieces(prepared: Prepared, speed: float, first: StripOnTwoGrids | None) -> 
     ):
         slope = pieces[0][1].slope if pieces else None
         pieces.append(_refined(prepared, speed, len(pieces), None if pieces else first, slope))
-        error, spent = _error(pieces, sample), spent + sum(strip.work for strip in pieces[-1])
+        error = _error(pieces, sample)
+        spent += sum(strip.work for strip in pieces[-1])
     return tuple(pieces), error
 
 

@@ -115,7 +115,8 @@ def summit_radius(heights: FloatArray, spacing: tuple[float, float]) -> float:
     z = heights
     (dx, dy) = spacing
     i, j = np.unravel_index(int(z[1:-1].argmax()), z[1:-1].shape)
-    i, columns = i + 1, z.shape[1]
+    i += 1
+    columns = z.shape[1]
     along = (2 * z[i, j] - z[i - 1, j] - z[i + 1, j]) / dx**2
     across = (2 * z[i, j] - z[i, j - 1] - z[i, (j + 1) % columns]) / dy**2
     return 1.0 / math.sqrt(max(along, 1e-3) * max(across, 1e-3))

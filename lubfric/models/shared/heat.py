@@ -293,7 +293,8 @@ def _nodes(scene: Scene, film: EHLResult, contact_state: ContactState, contact_l
 def surroundings(scene: Scene, speed: float, wet: FloatArray, boundary_stress: FloatArray) -> Surroundings:
     """Return what is around the nodes of a film at U = ``speed`` [m/s]: ``wet``, the share of the width that it covers, and
     the ``boundary_stress`` [Pa] of the asperity contacts beside it, each (n,)."""
-    speed, ratio = abs(speed), scene.motion.slide_roll_ratio
+    speed = abs(speed)
+    ratio = scene.motion.slide_roll_ratio
     surfaces = (speed * abs(1 - 0.5 * ratio), speed * abs(1 + 0.5 * ratio))
     carried = sum(e * math.sqrt(u) for e, u in zip(scene.bodies.effusivity, surfaces))
     return Surroundings(carried, ratio * speed, wet, boundary_stress * abs(ratio * speed))

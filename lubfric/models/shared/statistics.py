@@ -112,7 +112,8 @@ def block_error(
         known = means_of_blocks(exact, count)
         known -= known.mean()
         if (square := float(known @ known)) > 0:
-            means, freedom = means - known * (float(known @ means) / square), count - 2
+            means = means - known * (float(known @ means) / square)
+            freedom = count - 2
     square = float(np.sum((means - means.mean()) ** 2))
     length = values.size // count * step / correlation_length
     return StandardError(math.sqrt(square / (freedom * count * (1 - SHARED_LENGTH / length))), freedom)

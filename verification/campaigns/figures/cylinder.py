@@ -58,7 +58,8 @@ def friction_by_model(case: tuple[tuple[str, float, int], FloatArray, str]) -> l
     models = list(MODELS.values())
     if axis:
         rough = Roughness(file=str(real_surface()), sq=100e-9, motion_axis=axis)
-        scene, models = PAPER.with_(surface=rough, contact={"shape": None, "spacing": None}), models[:3]
+        scene = PAPER.with_(surface=rough, contact={"shape": None, "spacing": None})
+        models = models[:3]
     return [lubfric.stribeck(scene.with_(**change), speeds).coefficient.tolist() for change in models]
 
 

@@ -38,7 +38,9 @@ def friction_force(scene: Scene, sides: Sides, contact_load: float, speed: float
     p = film.pressure[order]
     h = film.film_thickness[order]
     wet = x <= sign * film.rupture + 1e-12 * film.half_width
-    x, p, h = x[wet], p[wet], h[wet]
+    x = x[wet]
+    p = p[wet]
+    h = h[wet]
     cells = 1 - _touched(sign * x, sides)
     if scene.contact.geometry == "flat":
         cells = 1 - sides.touching[0] * _inside(x, bodies.half_width)

@@ -260,7 +260,8 @@ def _bracketed(judge: Judge, here: float) -> tuple[tuple[float, float], float]:
 
     if surplus(40.0) <= 0:
         return judge.coefficient(40.0, judge.sides(40.0)), 0.0
-    low = high = here
+    low = here
+    high = low
     step = 0.1
     while surplus(low) > 0:
         low, step = low - step, 3 * step

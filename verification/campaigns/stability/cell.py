@@ -65,7 +65,8 @@ def check_cell(
     except Exception as failure:
         if not (isinstance(failure, LubfricError) or type(failure).__name__ in ("SolveError", "InputError")):
             raise
-        note = refused = f"{type(failure).__name__}: {failure}"[:300]
+        note = f"{type(failure).__name__}: {failure}"[:300]
+        refused = note
         seconds = time.perf_counter() - begun
     else:
         seconds = time.perf_counter() - begun

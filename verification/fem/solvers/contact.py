@@ -117,7 +117,8 @@ def checked(
     tolerance: float,
 ) -> ContactProblem:
     """Return the problem, or `InputError`."""
-    weights, gap0 = np.array(weights, dtype=float), np.array(gap0, dtype=float)
+    weights = np.array(weights, dtype=float)
+    gap0 = np.array(gap0, dtype=float)
     fits = gap0.ndim == 1 and gap0.size > 0 and bool(np.all(np.isfinite(gap0)))
     require(fits, f"gap0 has shape {gap0.shape} or is not finite", "one finite length in m per node")
     fits = weights.shape == gap0.shape and bool(np.all(weights > 0))
@@ -166,7 +167,8 @@ def active_set(
         fewest, patience = (count, PATIENCE) if count < fewest else (fewest, patience - 1)
         if patience < 0:
             moved &= np.arange(moved.size) == np.flatnonzero(moved)[-1]
-        touching, saturated = np.where(moved, wanted, touching), np.where(moved, more, saturated)
+        touching = np.where(moved, wanted, touching)
+        saturated = np.where(moved, more, saturated)
         touching = enough(problem, gap, touching, saturated)
     return force, (max_iterations, history, ITERATION_LIMIT)
 
@@ -226,7 +228,9 @@ def equilibrium(
         push = root * direction
         move = problem.displacement(push)
         step = rho / (push @ move)
-        force, misfit, used = force + step * push, misfit + step * move, used + 1
+        force = force + step * push
+        misfit = misfit + step * move
+        used += 1
         residual = shift(root * misfit, root, root2)
         rho, before = residual @ residual, rho
         direction = rho / before * direction - residual

@@ -167,5 +167,6 @@ def refined_displacement(coarse: Body, fine: Body, displacement: np.ndarray) -> 
     if away.max() > NEAR * np.ptp(points[1]):
         raise AssertionError("the fine mesh is not the uniform refinement of the coarse one")
     component = np.zeros(fine.basis.N, dtype=int)
-    component[fine.basis.nodal_dofs[1]] = component[fine.basis.facet_dofs[1]] = 1
+    component[fine.basis.nodal_dofs[1]] = 1
+    component[fine.basis.facet_dofs[1]] = 1
     return values[component, nearest][fine.free]

@@ -159,7 +159,8 @@ def cell_loads(strip: HarmonicStrip, mesh: MeshTri, basis: Basis) -> sp.csr_matr
     top = mesh.facets_satisfying(lambda x: np.abs(x[1]) < 1e-9 * np.abs(mesh.p[1]).max(), boundaries_only=True)
     ends = mesh.p[0, mesh.facets[:, top]]
     inside = np.abs(ends.mean(axis=0)) < strip.half
-    top, ends = top[inside], ends[:, inside]
+    top = top[inside]
+    ends = ends[:, inside]
     cell = np.floor((ends.mean(axis=0) + strip.half) / strip.spacing[0]).astype(int)
     edges = (cell[None] + np.array([[0], [1]])) * strip.spacing[0] - strip.half
     overhang = max(np.max(edges[0] - ends.min(axis=0)), np.max(ends.max(axis=0) - edges[1]))

@@ -96,7 +96,8 @@ def march(
             by_H = flow.by_H + a[0] / step * stored_H
             dP, dH0 = newton_change(body, P, held, lost, load, by_P, by_H)
             share = step_length(film, P, dP, H, dH0 + compliance @ dP)
-            P, H0 = P + share * dP, H0 + share * dH0
+            P = P + share * dP
+            H0 = H0 + share * dH0
         else:
             raise SolveError(f"wave in time: T = {time:g} b/U, error {error:.1e} after {max_iterations} steps")
         before, now = now, then

@@ -75,7 +75,10 @@ class GivenGap:
         t = y / self.dy - 0.5
         i = np.floor(s).astype(int)
         j = np.floor(t).astype(int)
-        s, t, j0, j1 = s - i, t - j, j % ny, (j + 1) % ny
+        s = s - i
+        t = t - j
+        j0 = j % ny
+        j1 = (j + 1) % ny
         return (1 - s) * ((1 - t) * field[i, j0] + t * field[i, j1]) + s * (
             (1 - t) * field[i + 1, j0] + t * field[i + 1, j1]
         )

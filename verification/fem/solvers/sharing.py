@@ -202,7 +202,9 @@ def root(f: Callable[[float], float], done: Callable[[], bool], guess: float, st
         fb = f(b)
         if fa * fb <= 0:
             break
-        a, fa, step = b, fb, 2 * step
+        a = b
+        fa = fb
+        step = 2 * step
     while not done():
         c = b - fb * (b - a) / (fb - fa)
         fc = f(c)

@@ -203,7 +203,8 @@ def stepped(
         by_H = pace * flow.by_H + rates[0] / step * stored_H
         dP, dH0 = newton_change(body, P, held, lost, load, by_P, by_H)
         part = step_length(film, P, dP, H, dH0 + body.compliance @ dP)
-        P, H0 = P + part * dP, H0 + part * dH0
+        P = P + part * dP
+        H0 = H0 + part * dH0
     raise SolveError(f"film in time: error {error:.1e} after {max_iterations} steps of Newton's method")
 
 

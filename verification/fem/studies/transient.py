@@ -230,7 +230,8 @@ def reversal() -> Iterator[Item]:
 def jumps(level: str) -> Iterator[Item]:
     """Tenfold jumps, with first steps over four decades: the steady state, or a reported failure."""
     rows: list[TableRow] = []
-    wrong = failed = 0
+    wrong = 0
+    failed = 0
     for (M, L), name, factor in itertools.product(MATRIX[level], ("entrainment_speed", "load_per_width"), (0.1, 10.0)):
         loaded = name == "load_per_width"
         if loaded and factor > 1 and M >= 10:
