@@ -582,4 +582,4 @@ def test_two_numbers_that_are_varied_are_told_apart_in_the_picture_of_a_study(fi
     curves = [line for line in axes.lines if len(line.get_xdata())]
     assert len({(line.get_marker(), str(line.get_color())) for line in curves}) == len(curves) == 12
     assert len({line.get_marker() for line in curves}) == 3
-    assert {"50 nm", "100 nm", "150 nm"} <= {line.get_label().rpartition("roughness ")[2] for line in axes.lines}
+    assert {"50 nm", "100 nm", "150 nm"} <= {line.get_label().rpartition("Sq ")[2] for line in axes.lines}
