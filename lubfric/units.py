@@ -18,6 +18,7 @@ from decimal import (
     InvalidOperation,
     localcontext,
 )
+from difflib import get_close_matches
 from importlib.resources import files
 from statistics import median
 from typing import Any
@@ -238,6 +239,10 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
         hrc = given == "HRC" and "HV" in row
         target = "a number without a unit" if unit == "-" else unit
         said = f"is in {written}, which does not convert to {target}" if other else f"has an unknown unit, {written!r}"
+        if named and not other:
+            near = get_close_matches(value, [*named], n=3)
+            meant = f" (did you mean {' or '.join(map(repr, near))}?)" if near else ""
+            said = f"is no known name{meant}, and no number with a known unit"
         if unit == "Pa s" and other == "m2/s":
             allowed += "; a kinematic viscosity goes into nu40 (at 40 °C), together with nu100 or viscosity_index"
         said = "is not a pressure; give HV: 57 HRC is 633 HV, 60: 697, 63: 772" if hrc else said

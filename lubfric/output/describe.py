@@ -64,6 +64,9 @@ COMMAND_SECONDS = 2.4
 FILES_SECONDS = 1.4
 # Whether asperities touch, by the estimate.
 ASPERITIES = {"touching": "yes", "none or a few summits": "few or none", "none": "no"}
+# Lambda ratio below which a film near the height of the highest summit does not exclude that asperities carry load: the usual
+# limit of full-film lubrication (Hamrock, Schmid, Jacobson: Fundamentals of Fluid Film Lubrication, 2004).
+FULL_FILM_LAMBDA = 3.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -323,7 +326,7 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
             thickness = line.expected_film * (inlet.factor if is_used and inlet is not None else 1.0)
             ratio = thickness / surface.sq if surface.sq > 0 else math.inf
             numbers = f"{line.M:.3g}", f"{line.L:.3g}", f"{thickness * 1e9:.4g}", f"{ratio:.3g}"
-            film = *numbers, ASPERITIES[one.touching]
+            film = *numbers, asperities_in_words(one.touching, ratio)
         counts = (
             f"{one.strips}",
             *(f"{one.slow_strips}" for _ in chosen),
@@ -332,6 +335,13 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
         )
         table.append((f"{speed:.4g}", *film, *counts * sampled))
     return table
+
+
+def asperities_in_words(touching: str, lambda_ratio: float) -> str:
+    """Return whether asperities touch, as the table says it. ``touching``: by the height of the highest summit, one of
+    `ASPERITIES`. What that does not decide is likely below the `FULL_FILM_LAMBDA`."""
+    is_open = touching == "none or a few summits"
+    return "likely" if is_open and lambda_ratio < FULL_FILM_LAMBDA else ASPERITIES[touching]
 
 
 def slopes_in_words(surface: Surface) -> str:

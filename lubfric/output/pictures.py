@@ -216,6 +216,7 @@ def plot_surface(path: Path, prepared: Prepared) -> None:
         figure = figures.new_figure(figsize=(width + BEARING_WIDTH, 4.5), layout=engine)
         above, bearing = figure.subplots(1, 2, width_ratios=(width, BEARING_WIDTH))
     surface.cropped((x.size, y[part].size), (0, 0)).plot(above)
+    above.set_xlabel("x (µm), along the motion")
     above.set_title(above.get_title() + part_in_words(y, part, "the map"), fontsize=10)
     heights = 1e9 * (np.quantile(surface.measured, 1 - higher) - surface.measured.mean())
     bearing.plot(100 * higher, heights, color=figures.BLUE)

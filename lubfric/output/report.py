@@ -306,22 +306,23 @@ def _lift_off(curve: CurveResult, point: FrictionResult) -> list[str]:
         between = "Between some of the solved speeds f is not known."
     else:
         between = f"Between the solved speeds f is interpolated within {percent(curve.between)}."
-    return [f"{first} {between} {_minimum(curve)}"]
+    return [f"{first} {between} {minimum_in_words(curve)}"]
 
 
-def _minimum(curve: StribeckResult) -> str:
-    """Return in a sentence where f is least between the solved speeds, as far as these bracket it."""
+def minimum_in_words(curve: StribeckResult) -> str:
+    """Return in a sentence between which of the solved speeds f is least, as far as these bracket it."""
     minimum = curve.minimum
-    low, high = minimum.speeds
+    solved = np.sort(curve.speed[np.isfinite(curve.coefficient) & (curve.speed != 0)])
+    low = float(solved[solved <= minimum.speeds[0]].max(initial=solved[0]))
+    high = float(solved[solved >= minimum.speeds[1]].min(initial=solved[-1]))
     if minimum.is_bracketed:
         f = with_interval(minimum.coefficient, *minimum.interval, " by the interpolation")
         return f"The minimum of f is {f}, between U = {low:.3g} and {high:.3g} m/s."
     more = "solve more speeds there, or let --speeds auto choose them"
     if minimum.is_inside:
         return f"The minimum of f lies between U = {low:.3g} and {high:.3g} m/s; {more}."
-    ends = np.sort(curve.speed[np.isfinite(curve.coefficient) & (curve.speed != 0)])
     outside = " and ".join(
-        name for name, reached in (("below", low <= ends[0]), ("above", high >= ends[-1])) if reached
+        name for name, reached in (("below", low <= solved[0]), ("above", high >= solved[-1])) if reached
     )
     return f"The minimum of f lies between U = {low:.3g} and {high:.3g} m/s, or {outside} the speeds solved; {more}."
 

@@ -101,13 +101,14 @@ class Surface(FrozenArrays, Shown):
         (nx, ny) = self.shape
         (rz, length) = statistics.rz(self)
         curve = self.bearing()
-        rz_in_words = f"{rz * 1e9:.4g} nm (mean over lengths of {length * 1e3:.3g} mm)"
+        waves = ", without longer waves" if rz < 2 * self.sa else ""  # of one evaluation Rz is at least 2 Ra
+        rz_in_words = f"{rz * 1e9:.4g} nm (mean height within lengths of {length * 1e3:.3g} mm{waves})"
         if math.isnan(rz):
             rz_in_words = f"not known (the spacing is too long for a sampling length of {length * 1e3:.3g} mm)"
         skewness = f"Ssk {self.ssk:.3g}, " if self.sq > 0 else ""
         text = (
             f"{nx} x {ny} points, {lx * 1e6:.4g} x {ly * 1e6:.4g} µm, Sq {self.sq * 1e9:.4g} nm, "
-            f"Ra {self.sa * 1e9:.4g} nm, Rz {rz_in_words}, {skewness}"
+            f"Ra {self.sa * 1e9:.4g} nm (whole map), Rz {rz_in_words}, {skewness}"
             f"Sk {curve.sk * 1e9:.4g} nm, Spk {curve.spk * 1e9:.4g} nm, Svk {curve.svk * 1e9:.4g} nm, "
             f"max |z|/Sq {self.largest_ratio:.3g}, {100 * self.missing_fraction:.3g} % missing"
         )
@@ -127,6 +128,8 @@ class Surface(FrozenArrays, Shown):
         clipped = least < ends["vmin"], most > ends["vmax"]
         extend = {(True, True): "both", (True, False): "min", (False, True): "max"}.get(clipped, "neither")
         figures.field_image(axes, x, y, z, "cividis", "height (nm)", extend, **ends)
+        axes.set_xlabel("x (µm)")
+        axes.set_ylabel(axes.get_ylabel().replace(", along the line", ""))
         ends_in_words = f"\nlowest {least:.4g}, highest {most:.4g} nm" if any(clipped) else ""
         axes.set_title(f"Sq = {self.sq * 1e9:.4g} nm{ends_in_words}")
         return axes

@@ -488,6 +488,7 @@ def test_a_spike_does_not_take_the_colours_of_a_map_and_is_reported():
     low, high = axes.images[0].get_clim()
     assert -500 < low < -200 and 200 < high < 500 and "highest 499" in axes.get_title()
     assert axes.get_aspect() == 1.0  # to scale
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("x (µm)", "y (µm)")  # no motion is chosen
     low, high = surface.plot(axes.figure.subplots()).images[0].get_clim()
     z = 1e9 * (surface.heights - surface.heights.mean())
     assert (low, high) == pytest.approx((z.min(), z.max()), rel=0.2)
@@ -501,6 +502,7 @@ def test_a_picture_for_a_paper_is_a_vector_graphic(tmp_path):
     for kind, begin in (("pdf", b"%PDF"), ("svg", b"<?xml")):
         assert main(["plot", str(out), "--format", kind, "--width", "85 mm"]) == 0
         assert (out / f"stribeck.{kind}").read_bytes().startswith(begin)
+    assert b"/Type3" not in (out / "stribeck.pdf").read_bytes()  # letters that journals reject
     assert "friction coefficient" in (out / "stribeck.svg").read_text()  # letters, not their outlines
     for options, dots in ((["--width", "85 mm"], 300), (["--width", "85 mm", "--dpi", "600"], 600), ([], 150)):
         assert main(["plot", str(out), *options]) == 0

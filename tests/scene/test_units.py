@@ -116,6 +116,7 @@ def test_a_table_of_viscosities_takes_the_units_of_its_columns():
         ("bodies.width", "12 furlong", "unknown unit, 'furlong'.*a plain number in m"),
         ("bodies.hardness", "60 HRC", "give HV.*60: 697"),
         ("bodies.width", "60 HRC", "unknown unit, 'HRC'"),
+        ("bodies.hardness", "100CrMo7", "no known name .did you mean '100Cr6'.*no number with a known unit"),
         ("bodies.width", "12", "no unit: omit the quotes"),
         ("bodies.width", "1,2 mm", "not a number with a unit"),
         ("bodies.load", "9e999999999999999999999 N", "bodies.load.*out of range"),
@@ -197,9 +198,18 @@ def test_ra_and_rz_of_every_map_are_reported():
         lines = heights.reshape(5, 800, 400)
         rz = np.mean(np.nanmax(lines, 1) - np.nanmin(lines, 1))
         ra = np.nanmean(abs(heights - np.nanmean(heights)))
-        stated = f"Ra {1e9 * ra:.4g} nm, Rz {1e9 * rz:.4g} nm (mean over lengths of 0.8 mm)"
+        stated = f"Ra {1e9 * ra:.4g} nm (whole map), Rz {1e9 * rz:.4g} nm (mean height within lengths of 0.8 mm)"
         surface = lubfric.Surface(heights, 1e-6, mask=mask)
         assert stated in repr(surface) and stated in surface.describe()
+
+
+def test_a_wave_longer_than_the_sampling_length_is_in_ra_and_not_in_rz_and_the_line_says_so():
+    """Of a map of one evaluation Rz is at least 2 Ra."""
+    x = 1e-6 * np.arange(2000)
+    wave = np.repeat(1e-8 * np.sin(2 * np.pi * x / 2e-3)[:, None], 4, axis=1)  # 2 mm; Ra 6.4 nm has lengths of 0.08 mm
+    assert "without longer waves)" in lubfric.Surface(wave, 1e-6).describe()
+    ripple = np.repeat(1e-8 * np.sin(2 * np.pi * x / 2e-5)[:, None], 4, axis=1)
+    assert "longer waves" not in lubfric.Surface(ripple, 1e-6).describe()
 
 
 @pytest.mark.parametrize("section", ["surface", "counterface"])

@@ -1,10 +1,14 @@
 """The stated error of f between the solved speeds holds for few and widely spaced speeds, and a minimum of f is stated
 only where they bracket it."""
 
+import re
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from test_adaptive import Made
 
+from lubfric.output.report import minimum_in_words
 from lubfric.studies.choose import between
 from lubfric.studies.interpolate import through
 
@@ -84,3 +88,21 @@ def test_more_speeds_make_the_error_smaller():
     made = Made(0.05, 0.8)
     errors = [between(made.through(np.geomspace(1e-3, 1.0, count))) for count in (4, 8, 16, 32)]
     assert errors[0] > 0.1 and errors[-1] < 0.02 and sorted(errors, reverse=True) == errors
+
+
+@pytest.mark.parametrize(
+    "speeds, stated",
+    [
+        ((3.59, 5.0), "U = 2 and 5 m/s, or above the"),
+        ((0.05, 0.3), "U = 0.05 and 2 m/s, or below the"),
+        ((0.3, 4.0), "U = 0.05 and 5 m/s"),
+    ],
+)
+@pytest.mark.parametrize("sign", [1, -1])
+def test_the_sentence_on_the_minimum_names_solved_speeds_only(speeds, stated, sign):
+    ends = tuple(sorted(sign * speed for speed in speeds))
+    minimum = SimpleNamespace(speeds=ends, is_inside=False, is_bracketed=False)
+    curve = SimpleNamespace(speed=sign * np.array([0.05, 2.0, 5.0]), coefficient=np.ones(3), minimum=minimum)
+    if sign > 0:
+        assert stated in minimum_in_words(curve)
+    assert {abs(float(text)) for text in re.findall(r"-?\d[\d.]*", minimum_in_words(curve))} <= {0.05, 2.0, 5.0}

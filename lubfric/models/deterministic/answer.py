@@ -62,7 +62,7 @@ ONE_HEAT = "heat is computed on one strip, where roughness moves at one moment; 
 MIRRORED = ", mirrored along the line"
 BIASED = "a single short patch also has a bias: near the lift-off speed f is some 10 % too low"
 # Where a local peak of the film pressure is. The picture of the contact is of another solve, with the contacts.
-FILM_OF_STRIPS = "of the film between asperity contacts, on the cells of f (contact.png has others)"
+FILM_OF_STRIPS = "of the film between asperity contacts, on the cells that f is solved on"
 # What rubs with f_b, by whether the lubricant is Newtonian: with a shear law a film at its limiting stress is no part of
 # the asperity load.
 RUBS = {

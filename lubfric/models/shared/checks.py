@@ -364,7 +364,7 @@ def violations_by_numerical_error(error: float | None, tolerance: float, recomme
     """Yield a note if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known): the
     interval of f has it."""
     if error is not None and error > tolerance:
-        why = "numerics.tolerance requests less; the interval of f includes this error"
+        why = "this is more than the limit that numerics.tolerance sets; the interval of f includes it"
         yield Violation(
             what=NUMERICAL_ERROR,
             is_note=True,
