@@ -7,7 +7,7 @@ usual.
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
@@ -222,8 +222,15 @@ def _of_convention(key: str, written: Any) -> UnusualValue | None:
 
 
 def _unusual(key: str, written: Any) -> UnusualValue | None:
-    """Return what is unusual of the value ``written`` for a ``key``; None where it is in its usual range."""
+    """Return what is unusual of the value ``written`` for a ``key``; None where it is in its usual range. A tuple: plain
+    numbers that were likely all meant in the unit of the first unusual one (`_are_in_one_unit`)."""
     q = KEYS[key]
+    if isinstance(written, tuple):
+        of_part = next(filter(None, (_unusual(key, part) for part in written)))
+        unit = printed(likely_unit(key, of_part.value))
+        read = " and ".join(f"{part:.4g} {printed(q.unit)}" for part in written)
+        meant = " and ".join(f"{part:.4g} {unit}" for part in written)
+        return replace(of_part, written=f"{[*written]} is read as {read}", question=f"did you mean {meant}?")
     question = slip(key, written)
     value = _in_si(key, written)
     if question is None or value is None:
@@ -301,10 +308,25 @@ def doubtful_values(section: str, given: Any) -> tuple[tuple[str, Any], ...]:
     doubtful: list[tuple[str, Any]] = []
     for key, value in given.items() if isinstance(given, dict) else ():
         name = f"{section}.{key}"
+        if name == RADII_KEY and _are_in_one_unit(name, value):
+            doubtful.append((name, tuple(value)))
+            continue
         for part in value if isinstance(value, (list, tuple)) else (value,):
             if other_convention(name, [part]) or slip(name, part) is not None:
                 doubtful.append((name, part))
     return tuple(doubtful)
+
+
+def _are_in_one_unit(name: str, value: Any) -> bool:
+    """Return whether a ``value`` for the key ``name`` is a list of plain numbers, some unusual, that are all usual in the
+    unit that was likely meant of the first such one."""
+    if not isinstance(value, (list, tuple)):
+        return False
+    if not all(type(part) in (int, float) and math.isfinite(part) for part in value):
+        return False
+    unit = next(filter(None, (likely_unit(name, part) for part in value)), "")
+    low, high = KEYS[name].usual
+    return bool(unit) and all(low <= abs(converted(part, unit, KEYS[name].unit)) <= high for part in value)
 
 
 def _index(scene: Any) -> float | None:

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lubfric
+from lubfric.estimate.full_load import full_load_numbers
 from lubfric.models.deterministic import (
     RoughBody,
     continued_strip,
@@ -32,7 +33,8 @@ from lubfric.models.quick import (
     solve_on_long_cells,
     widening,
 )
-from lubfric.models.shared import speed_of
+from lubfric.models.quick.calibrated_error import out_of_range
+from lubfric.models.shared import inlet_at, speed_of
 from lubfric.output import describe_scene, main
 from verification.campaigns.calibration import fit
 from verification.campaigns.calibration.case import drawn
@@ -268,6 +270,24 @@ def test_a_loose_model_tolerance_lets_auto_answer_on_long_cells():
     assert lubfric.friction(loose, 0.1).decision.model == "quick"
     tight = loose.with_(numerics={"model_tolerance": 0.05})
     assert lubfric.friction(tight, 0.1).decision.model == "deterministic"
+
+
+def test_a_lambda_ratio_outside_the_campaign_is_that_of_the_result():
+    """Full-load films by another way: starved or heated, as far from the limit as Moes' film is from the campaign's."""
+    oil = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": "70 °C"}
+    largest = error_models()["rest"].range["moes_ratio"][1]
+    for changed in (oil, {"inlet_length": 3e-5}):
+        scene = PAPER.with_(lubricant=changed)
+        speed = 20.0
+        inlet, is_used = inlet_at(scene, speed)
+        factor = inlet.factor if is_used else math.nan
+        expected = full_load_numbers(scene, speed, scene.surface.sq, factor)["lambda_ratio"]
+        moes = scene.line_contact(speed).moes_film / scene.surface.sq
+        known = {name: (0.0, math.inf) for name in error_models()["rest"].range} | {"moes_ratio": (0.0, largest)}
+        (part,) = out_of_range(scene, scene.surface.sq, speed, known)
+        assert part.value == pytest.approx(expected, rel=1e-12) and expected < 0.99 * moes
+        assert math.log(part.value / part.limit) == pytest.approx(math.log(moes / largest), rel=1e-9)
+        assert part.distance == pytest.approx(math.log(moes / largest), rel=1e-9)
 
 
 def test_bounds_widen_outside_the_campaign_and_info_and_result_say_so():

@@ -114,7 +114,8 @@ def test_a_height_in_another_unit_is_questioned_by_the_key_that_was_written():
     [
         ("surface", {"correlation_length": "10 mm"}, "surface.correlation_length", "did you mean 10 µm (1e-05 m)?"),
         ("surface", {"ra": "0.15 mm"}, "surface.ra", "did you mean 0.15 µm (1.5e-07 m)?"),
-        ("bodies", {"radii": [3, 30]}, "bodies.radii", "did you mean 30 mm (0.03 m)?"),
+        ("bodies", {"radii": [3, 30]}, "bodies.radii", "did you mean 3 mm and 30 mm?"),
+        ("bodies", {"radii": [0.01, 30]}, "bodies.radii", "did you mean 30 mm (0.03 m)?"),
         ("lubricant", {"eyring_stress": 5}, "lubricant.eyring_stress", "did you mean 5 MPa (5e+06 Pa)?"),
     ],
 )
@@ -147,7 +148,9 @@ def test_a_number_in_another_unit_is_refused_before_any_work(tmp_path, capsys, m
     (tmp_path / "scene.toml").write_text(text + SMALL_PATCH)
     monkeypatch.setattr("lubfric.output.commands.prepare", None)  # no map is made
     assert main(["run", str(tmp_path / "scene.toml"), "--out", str(tmp_path / "out")]) == 2
-    assert "not valid: bodies.radii" in capsys.readouterr().err and not (tmp_path / "out").exists()
+    said = capsys.readouterr().err
+    assert "not valid: bodies.radii" in said and "Did you mean 3 mm and 30 mm?" in said
+    assert not (tmp_path / "out").exists()
 
 
 def test_what_is_unusual_begins_the_description_of_a_scene():

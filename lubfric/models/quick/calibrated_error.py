@@ -17,7 +17,7 @@ import numpy as np
 
 from ..._base import packaged
 from ...scene import Scene, has_moving_roughness
-from ..shared import Violation, peak_hertz_pressure
+from ..shared import Violation, inlet_at, peak_hertz_pressure
 
 OUTSIDE = "the quick answer is not calibrated for such contacts; its model-form error is increased, at most three times"
 
@@ -83,7 +83,8 @@ def error_model_of(scene: Scene) -> ErrorModel:
 class Outside:
     """A number of a contact that is outside of the range of the campaign.
 
-    what, value, limit, unit : as of `lubfric.models.shared.Violation`; distance : in ln, from the range
+    what, value, limit, unit : as of `lubfric.models.shared.Violation`; distance : in ln, from the range. A lambda ratio and
+        its limit are both as starvation, shear thinning and the heat of the inlet make them, as the result has it
     """
 
     what: str
@@ -127,8 +128,17 @@ def out_of_range(
         # less sliding than in any case changes the stress by little; the part of rolling is counted apart
         is_slow = name == "slip" and value < low
         distance = low - value if is_slow else abs(math.log(value / limit))
-        outside.append(Outside(what=what, value=value, limit=limit, unit=unit, distance=distance))
+        factor = _full_load_factor(scene, speed) if name == "moes_ratio" else 1.0
+        outside.append(Outside(what=what, value=factor * value, limit=factor * limit, unit=unit, distance=distance))
     return tuple(outside)
+
+
+def _full_load_factor(scene: Scene, speed: float) -> float:
+    """Return the full-load film of a result at ``speed`` [m/s] over Moes' film, by which the campaign has its range."""
+    line = scene.line_contact(abs(speed))
+    inlet, is_used = inlet_at(scene, speed)
+    heat = inlet.factor if is_used and inlet is not None else 1.0
+    return heat * line.expected_film / line.moes_film
 
 
 def reported(outside: Iterable[Outside]) -> Iterator[Outside]:
