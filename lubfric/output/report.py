@@ -12,6 +12,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..estimate import FrictionResult
+from ..models.deterministic import FLOOR
 from ..models.shared import (
     NUMERICAL_ERROR,
     ExpectedEffect,
@@ -46,6 +47,10 @@ OF_OUTPUT = {
     "min_film": "after",
 }
 
+# What a smallest film of `FLOOR` is.
+GAP_OF_TOUCHING = "the gap that the deterministic model assumes where asperities touch, not a computed film"
+# Relative rounding error of that gap as a mean over strips.
+FLOOR_ROUNDING = 1e-6
 # Rows of the table of a run in time, about.
 HISTORY_ROWS = 13
 CURVES = {
@@ -445,7 +450,14 @@ def _details(curve: CurveResult) -> str:
         "smallest film [nm]",
         "model",
     ]
-    return f"<details><summary>Details of every point</summary>{table(heads, rows)}</details>" if rows else ""
+    at_floor = any(point is not None and is_gap_of_touching(point.min_film) for point in curve.points)
+    note = f"<p>{sentence(f'a smallest film of 1 nm is {GAP_OF_TOUCHING}')}</p>" if at_floor else ""
+    return f"<details><summary>Details of every point</summary>{note}{table(heads, rows)}</details>" if rows else ""
+
+
+def is_gap_of_touching(film: float) -> bool:
+    """Return whether a smallest ``film`` [m] is the gap that the deterministic model gives to touching cells."""
+    return math.isclose(film, FLOOR, rel_tol=FLOOR_ROUNDING)
 
 
 def _law(law: Law | str, curve: CurveResult) -> str:
@@ -538,6 +550,7 @@ def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
     head = "" if complete else "The run has no valid answer. Its outputs so far show: "
     film = plain_number(float(np.nanmin(result.min_film)), "m")
     deterministic = "deterministic model" in result.methods
+    at_floor = f": {GAP_OF_TOUCHING}" if is_gap_of_touching(float(np.nanmin(result.min_film))) else ""
     level = " at 95 %" + (", without the model-form error, which is not known" if result.model_form_unknown else "")
     mean_text = with_interval(mean.coefficient, *mean.interval, level)
     sentences = [sentence(f"{head}the mean friction coefficient {when} is {mean_text}.")]
@@ -550,7 +563,7 @@ def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
         loss = with_interval(mean.power_loss, *mean.power_loss_interval, unit="W")
         sentences.append(f"The mean power loss is {loss}, the largest {plain_number(float(np.nanmax(power)), 'W')}.")
     sentences.append(
-        f"The smallest film thickness is {film}."
+        f"The smallest film thickness is {film}{at_floor}."
         if deterministic
         else f"The smallest film thickness, under the film load, is {film}."
     )

@@ -68,6 +68,8 @@ def test_the_report_stands_alone_and_holds_the_numbers(run):
     for words in ("a < b & c", "360 mPa s", "231 GPa", lubfric.__version__):
         assert words in text, words
     assert "at 95 %" in text and "Uncertainty budget" in text
+    touching = any(abs(film - 1e-9) < 1e-12 for film in curve.min_film)
+    assert touching == ("A smallest film of 1 nm is the gap that the deterministic model assumes" in text)
 
 
 def test_the_page_states_lift_off_the_formula_and_what_is_omitted(tmp_path, undrawn):

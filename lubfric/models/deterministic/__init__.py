@@ -33,7 +33,7 @@ from .moving_strip import (
 )
 from .newton import Work, march, newton
 from .pictures import animate_moments, plot_moments, plot_passing
-from .problem import BOUNDARY_FILM, Problem, lay_out, reach, shifted
+from .problem import BOUNDARY_FILM, FLOOR, Problem, lay_out, reach, shifted
 from .result import DeterministicResult, assemble
 from .rheology import mean_fluidity, thinning
 from .rough_bodies import (
