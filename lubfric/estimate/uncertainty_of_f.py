@@ -10,8 +10,8 @@ from .ranges import changes_by_ranges, with_input_ranges, with_missing_inputs
 from .uncertainty import Uncertainty, interval
 
 AT_MOST = (
-    "the interval ends at the largest f that the limits of the shear stress allow, {} by sliding: f_b, or the stress of the oil "
-    "in the thinnest film"
+    "the interval ends at the largest f that the limits of the shear stress allow, {} by sliding (f_b, or the stress of the oil "
+    "in the thinnest film) and {} by rolling"
 )
 
 RESISTS_SLIDING = "the interval begins at {:.3g}, the smallest f whose sliding part resists the sliding"
@@ -61,12 +61,15 @@ def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncerta
     f = answer.numbers["coefficient"]
     rolling = abs(answer.numbers.get("rolling_force", 0.0)) / scene.bodies.load
     sliding = largest_sliding_friction(scene, answer.numbers["speed"])
-    most = max(sliding + answer.most_rolling_ratio * (0.0 if math.isnan(rolling) else rolling), abs(f))
+    by_rolling = answer.most_rolling_ratio * (0.0 if math.isnan(rolling) else rolling)
+    most = max(sliding + by_rolling, abs(f))
     low, high = uncertainty.interval
     if not (high > most or low < -most):
         return uncertainty
     ends = max(low, -most), min(high, most)
-    return replace(uncertainty, interval=ends, notes=(*uncertainty.notes, AT_MOST.format(f"{sliding:.3g}")))
+    return replace(
+        uncertainty, interval=ends, notes=(*uncertainty.notes, AT_MOST.format(f"{sliding:.3g}", f"{by_rolling:.2g}"))
+    )
 
 
 def _resisting_sliding(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Uncertainty:

@@ -1,6 +1,7 @@
 """The largest f that the limits of the shear stress allow."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -94,3 +95,6 @@ def test_an_interval_says_where_it_is_cut(numerical, is_cut):
     known = uncertainty_of(prepared, answer)
     assert (known.interval[0] > low) == ("resists the sliding" in known.text) == is_cut
     assert (known.interval[1] < high) == ("limits of the shear stress" in known.text) == is_cut
+    if is_cut:
+        (parts,) = re.findall(r"allow, ([0-9.e-]+) by sliding .* and ([0-9.e-]+) by rolling", known.text)
+        assert sum(map(float, parts)) == pytest.approx(known.interval[1], rel=0.01)
