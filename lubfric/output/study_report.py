@@ -56,6 +56,12 @@ REPORTED_NUMBERS: dict[str, tuple[str, str] | None] = {
     ASPERITY_LOAD_RATIO: None,
 }
 
+# What f is at a point where nothing slides, and why the power loss there is not f times a speed.
+IN_PURE_ROLLING = (
+    "Nothing slides there: f is the rolling part of the force on one surface. The power loss is that of the rolling resistance "
+    "of both surfaces together, in which the pressure on the flanks of moving roughness (in f by the deterministic model) cancels"
+)
+
 # Where an operating point lies.
 COORDINATE = ("position", "angle", "time")
 
@@ -327,7 +333,7 @@ def answer_lines(result: StudyResult) -> list[str]:
             unknown = "" if np.isfinite(low) else " (interval not known)"
             why = ""
             if name == "coefficient" and not _slides(result, index):
-                why = ". Nothing slides there: it is the rolling resistance of one surface"
+                why = f". {IN_PURE_ROLLING}"
             rows.append(f"The {word} {what} is {shown}{unknown}, at {point_in_words(result, index)}{why}.")
     return [*rows, *_budget_line(result), *_main_effects_line(result)]
 

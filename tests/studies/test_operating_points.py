@@ -50,6 +50,13 @@ def test_every_row_is_the_point_of_its_scene(result, points):
     np.testing.assert_allclose(result["power_loss_high"], [p.power_loss_interval[1] for p in points], rtol=1e-12)
 
 
+def test_where_nothing_slides_the_power_is_the_resistance_of_both_surfaces(result):
+    """Point 2 rolls without slip: P = (F_1 + F_2) U, and the sentence with its f says so."""
+    assert result["power_loss"][1] == pytest.approx(result["rolling_resistance"][1] * 0.015, rel=1e-12)
+    (text,) = [line for line in answer_lines(result) if "Nothing slides" in line]
+    assert "at point 2" in text and "rolling resistance of both surfaces together" in text
+
+
 def test_the_mean_of_a_cycle_weighs_by_the_duration(result, points):
     energy = sum(point.power_loss * row[-1] for point, row in zip(points, ROWS))
     assert result.mean("power_loss") == pytest.approx(energy / 4.0, rel=1e-12)
