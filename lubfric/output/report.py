@@ -611,7 +611,7 @@ def _model_of_run(scene: Scene, result: TransientResult) -> str:
     return (
         f"{answers} At {counted(int(wide.sum()), 'outputs')} its model-form error is above {100 * target:g} % "
         "(numerics.model_tolerance). A steady point with the values of such a moment (a scene without [transient]) has a "
-        "narrower interval where the deterministic model applies."
+        "narrower interval where the deterministic model applies and heat causes the smaller part of this error."
     )
 
 
@@ -634,7 +634,7 @@ def _history_budget(result: TransientResult) -> str:
         *(f"Not included: {text}" for text in result.not_in),
     ]
     if math.isfinite(values["model-form"]):
-        notes.insert(1, "Model-form: as in steady motion at the same film and the same asperity load ratio")
+        notes.insert(1, "Model-form: as in steady motion at the same film, asperity load ratio and heat")
     return _budget(values, words, "the mean friction coefficient", notes, BUDGET)
 
 

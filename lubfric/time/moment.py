@@ -15,10 +15,16 @@ from ..estimate import (
     power_of_forces,
 )
 from ..film import ShearForce, above_carried, rolling_error, smallest, spike_error
-from ..models.load_sharing import moment_error, moment_model_error, volume_residual
+from ..models.load_sharing import (
+    moment_error,
+    moment_film_sensitivity,
+    moment_model_error,
+    volume_residual,
+)
 from ..models.shared import (
     Heat,
     Violation,
+    error_by_heat,
     inlet_at,
     point_heat,
     typical_heat,
@@ -92,6 +98,15 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         parts=parts,
         film_load_exponent=film_exponent,
     )
+    of_moment = replace(heat, inlet=inlet, is_used=film_factor < 1.0)
+    film_sensitivity = moment_film_sensitivity(
+        state,
+        loads=loads,
+        softness=contact_step.softness,
+        parts=parts,
+        film_load_exponent=film_exponent,
+        shear_magnitude=shear.magnitude,
+    )
     touches = contact_step.load > 0.0
     wet = setting.grid.x[t.P > 0.0] * p.length_unit
     central_film = t.H[setting.grid.n // 2] * p.film_unit
@@ -104,6 +119,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         boundary=sense * boundary / total,  # along the sliding
         shear=sense * shear.total / total,
         rolling=sense * shear.rolling / total,
+        by_heat=error_by_heat(of_moment, 1 - of_moment.film_factor**film_sensitivity),
     )
     row = {
         "time": time,
@@ -146,7 +162,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         "steps": now.steps,
     }
     peclet = heat.peclet if heat.heated else math.inf
-    heat = replace(heat, inlet=inlet, is_used=film_factor < 1.0, heated=None, peclet=peclet)
+    heat = replace(of_moment, heated=None, peclet=peclet)
     return row, tuple([*_violated(model, scene, row, shear, heat), *violations_by_typical_heat(scene, heat.typical)])
 
 
@@ -264,7 +280,8 @@ def _summed(
         tau = stress(x, pressure, h)
         middle = stress(*(_halfway(a) for a in (x, pressure, h)))
     ratio, excess = above_carried(pressure, np.where(pressure > 0.0, tau, 0.0), full)
-    rolls = 0.5 * _halfway(h) * np.diff(pressure) * free
+    rolls = 0.5 * _halfway(h) * np.diff(pressure)
+    taken = float(np.sum(rolls * (1.0 - free)))  # by the asperity contacts
     wet = np.flatnonzero(pressure > 0.0)
     off = 2 / 3 * abs(float(np.sum((middle - _halfway(tau)) * full)))
     if wet.size > 4:
@@ -276,9 +293,9 @@ def _summed(
     width = model.setting.line_history.width
     return ShearForce(
         couette=width * (float(np.sum(_halfway(tau) * full)) + more),
-        rolling=width * (float(np.sum(rolls)) + rolling),
+        rolling=width * (float(np.sum(rolls * free)) + rolling),
         quadrature=width * off,
-        rolling_parts=width * max(float(np.sum(rolls[rolls > 0])), -float(np.sum(rolls[rolls < 0]))),
+        rolling_parts=width * (abs(float(np.sum(rolls))) + abs(taken)),
         excess=width * excess,
         stress_ratio=ratio,
     )

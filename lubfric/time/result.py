@@ -221,7 +221,7 @@ class TransientResult(Renamed, Shown):
         """Uncertainty budget and 95 % interval of f at every time.
 
         It has the finite surface, the range of f_b, the sum of the film's shear stress, and the model-form error of
-        steady motion at the same film and asperity load ratio, where that is known.
+        steady motion at the same film, asperity load ratio and heat, where that is known.
         """
         f = self.coefficient
         error = self.sampling_error

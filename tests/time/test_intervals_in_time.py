@@ -1,14 +1,18 @@
 """Runs in time: the interval and the power loss of every output and of the mean, against steady answers and sums."""
 
+import math
 import re
 from dataclasses import replace
 from html import unescape
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scene_text import paper_scene
+from scipy.optimize import brentq
 
 import lubfric
+from lubfric.models.load_sharing import moment_film_sensitivity
 from lubfric.output import describe_scene, main
 from lubfric.output.report import history_answer
 from lubfric.scene import Harmonic, Transient
@@ -31,6 +35,51 @@ def test_a_steady_contact_has_the_model_form_error_of_the_steady_answer(held):
     np.testing.assert_allclose(
         [held.power_loss_low[-1], held.power_loss_high[-1]], steady.power_loss_interval, rtol=0.03
     )
+
+
+def test_the_model_form_error_by_heat_is_that_of_the_steady_answer():
+    """A thick film with a hot inlet: without heat the error is less than half as large."""
+    hot = paper_scene(
+        motion={"entrainment_speed": 2.0},
+        lubricant={"grade": "ISO VG 220", "viscosity_index": 95, "temperature_celsius": 60},
+        numerics={"sampling": "patch", "film_deflection": "hydrodynamic", "accept": True},
+    )
+    steady = lubfric.friction(hot)
+    run = lubfric.transient(hot.with_(transient=Transient(1e-4, outputs=1)))
+    sides = [run.model_error_low[-1], run.model_error_high[-1]]
+    np.testing.assert_allclose(sides, steady.uncertainty.model_sides, rtol=0.01)
+    assert 3.2 / run.film_to_roughness_ratio[-1] ** 2 < 0.5 * min(sides)
+
+
+@pytest.mark.parametrize("contact_load", [0.4, 2.0, 5.0])
+def test_the_sensitivity_of_f_at_a_moment_is_that_of_a_balance_solved_again(contact_load):
+    """G = G0 - softness ln F_C and h = c F_H^-n meet; the film is changed by a millionth, and friction forces are
+    proportional to the loads. The shear stress of a given division adds its own part."""
+    total = 5.5
+    softness = 6e-8
+    exponent = 0.8
+    film = 2e-7
+    boundary = 0.1 * contact_load
+    viscous = 0.02 * (total - contact_load)
+
+    def friction(change):
+        def excess(load):
+            gap = film - softness * math.log(load / contact_load)
+            return gap - film * (1 + change) * ((total - load) / (total - contact_load)) ** -exponent
+
+        load = brentq(excess, 0.9 * contact_load, min(1.1 * contact_load, 0.999 * total), xtol=1e-15, rtol=1e-14)
+        return 0.1 * load + 0.02 * (total - load)
+
+    by_division = (friction(1e-6) - friction(-1e-6)) / (2e-6 * (boundary + viscous))
+    sensitivity = moment_film_sensitivity(
+        SimpleNamespace(mean_film=film),
+        loads=(contact_load, total - contact_load),
+        softness=softness,
+        parts=(boundary, viscous),
+        film_load_exponent=exponent,
+        shear_magnitude=viscous,
+    )
+    assert sensitivity == pytest.approx(abs(by_division) + viscous / (boundary + viscous), rel=1e-5)
 
 
 def test_the_mean_is_the_integral_over_the_cycle_and_its_interval_that_of_the_ends(held):

@@ -20,5 +20,5 @@ from .methods import methods_of_load_sharing
 from .paper_model import PaperModel, PaperSolution
 from .point import Point
 from .response import Response, Slopes, quantities
-from .scatter import effective_contacts, moment_error
+from .scatter import effective_contacts, moment_error, moment_film_sensitivity
 from .undetected import summit_radius, undetected_load

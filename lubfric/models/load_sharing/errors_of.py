@@ -278,12 +278,19 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
 
 
 def moment_model_error(
-    scene: Scene, *, film_to_roughness_ratio: float, share: float, boundary: float, shear: float, rolling: float
+    scene: Scene,
+    *,
+    film_to_roughness_ratio: float,
+    share: float,
+    boundary: float,
+    shear: float,
+    rolling: float,
+    by_heat: float,
 ) -> tuple[float, float]:
     """Return the relative model-form error of f at a moment of a run in time, at 95 %, towards 0 and away from it.
 
-    It is that of steady motion with the same film, asperity load ratio ``share``, and parts of f. NaN where it is not
-    known (`why_moment_unknown`).
+    It is that of steady motion with the same film, asperity load ratio ``share``, parts of f, and error ``by_heat``
+    (`lubfric.models.shared.error_by_heat`). NaN where it is not known (`why_moment_unknown`).
     """
     if why_moment_unknown(scene):
         return UNKNOWN
@@ -292,7 +299,7 @@ def moment_model_error(
         film_to_roughness_ratio, share=share, boundary=boundary, shear=shear, rolling=moving
     )
     least = least_error(film_to_roughness_ratio) if 0 < share < 1 and math.isfinite(film_to_roughness_ratio) else 0.0
-    return min(max(towards, least), 1.0), max(away, least)
+    return math.hypot(min(max(towards, least), 1.0), by_heat), math.hypot(max(away, least), by_heat)
 
 
 def why_moment_unknown(scene: Scene) -> str:

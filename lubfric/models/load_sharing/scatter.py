@@ -174,23 +174,61 @@ def moment_error(
     assumed to have time to divide the load anew (`lubfric.models.load_sharing.response.respond`). A film that is
     squeezed follows more slowly, and the error is smaller then.
     """
-    contact_load, film_load = loads
-    boundary, viscous = parts
-    total = contact_load + film_load
-    friction_force = boundary + viscous
-    if contact_load <= 0 or friction_force == 0:
+    contact_load, _ = loads
+    if contact_load <= 0 or sum(parts) == 0:
         return 0.0
     if contact_state.fields is None or not math.isfinite(correlation_length):
         return math.nan
     slope = -softness / (contact_load / width)
     values = gap_influence(hertz_mean_gap(rough_contact, contact_state), line_load(rough_contact, contact_state), slope)
     influence_error = block_error(values, rough_contact.spacing[1], correlation_length)
-    shares = contact_load / total, film_load / total
-    log_ratio_error = influence_error.value / (
-        softness * shares[1] + film_load_exponent * gap_per_film(contact_state.mean_film) * shares[0]
+    per_gap = _moment_change_per_gap(
+        contact_state, loads=loads, softness=softness, parts=parts, film_load_exponent=film_load_exponent
     )
-    return (
-        abs((viscous * shares[0] - boundary * shares[1]) / friction_force) * log_ratio_error
-        if influence_error.freedom
-        else math.nan
+    return per_gap * influence_error.value if influence_error.freedom else math.nan
+
+
+def moment_film_sensitivity(
+    contact_state: ContactState,
+    *,
+    loads: tuple[float, float],
+    softness: float,
+    parts: tuple[float, float],
+    film_load_exponent: float,
+    shear_magnitude: float,
+) -> float:
+    """Return the relative change of f at one moment by a relative change of the film, at most.
+
+    In steady motion it is that of `lubfric.models.load_sharing.response.Response.per_film`, which solves films at other loads;
+    here each friction force is proportional to its load.
+
+    ``shear_magnitude``: the sum of the absolute parts of the film's shear force [N]; other arguments as of `moment_error`.
+    """
+    friction_force = abs(sum(parts))
+    if friction_force == 0:
+        return 0.0
+    at_given_loads = shear_magnitude / friction_force
+    if loads[0] <= 0:
+        return at_given_loads
+    per_gap = _moment_change_per_gap(
+        contact_state, loads=loads, softness=softness, parts=parts, film_load_exponent=film_load_exponent
+    )
+    return per_gap * gap_per_film(contact_state.mean_film) + at_given_loads
+
+
+def _moment_change_per_gap(
+    contact_state: ContactState,
+    *,
+    loads: tuple[float, float],
+    softness: float,
+    parts: tuple[float, float],
+    film_load_exponent: float,
+) -> float:
+    """Return the relative change of f per change of the gap [1/m], where contact and film divide the load anew; arguments
+    as of `moment_error`."""
+    contact_share, film_share = (load / sum(loads) for load in loads)
+    boundary, viscous = parts
+    per_log_ratio = abs((viscous * contact_share - boundary * film_share) / (boundary + viscous))
+    return per_log_ratio / (
+        softness * film_share + film_load_exponent * gap_per_film(contact_state.mean_film) * contact_share
     )
