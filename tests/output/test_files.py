@@ -68,8 +68,14 @@ def test_the_report_stands_alone_and_holds_the_numbers(run):
     for words in ("a < b & c", "360 mPa s", "231 GPa", lubfric.__version__):
         assert words in text, words
     assert "at 95 %" in text and "Uncertainty budget" in text
-    touching = any(abs(film - 1e-9) < 1e-12 for film in curve.min_film)
-    assert touching == ("A smallest film of 1 nm is the gap that the deterministic model assumes" in text)
+
+
+@pytest.mark.parametrize("speed, touches", [(0.001, True), (0.3, False)])
+def test_the_page_says_what_a_smallest_film_of_1_nm_is(tmp_path, undrawn, speed, touches):
+    (tmp_path / "s.toml").write_text(SCENE)
+    assert main(["run", str(tmp_path / "s.toml"), "--speeds", str(speed), "--out", str(tmp_path / "o")]) == 0
+    page = (tmp_path / "o" / "report.html").read_text(encoding="utf-8")
+    assert ("A smallest film of 1 nm is the gap that the deterministic model assumes" in page) == touches
 
 
 def test_the_page_states_lift_off_the_formula_and_what_is_omitted(tmp_path, undrawn):
