@@ -2,7 +2,6 @@
 
 import json
 from dataclasses import replace
-from importlib import import_module
 from itertools import islice
 
 import numpy as np
@@ -266,29 +265,6 @@ def test_a_step_that_newtons_method_does_not_solve_is_taken_in_parts(monkeypatch
     was_part, (first, *_, last, end) = zip(*tried[-5:])
     assert was_part == (True, True, True, True, False)
     assert np.abs(last - end).max() < 1e-15 < 1e-10 < np.abs(first - end).max()
-
-
-def test_cells_that_rupture_and_refill_in_turn_are_damped(monkeypatch):
-    """Damped Newton steps find the film that full ones only find from another start: they change the way, no equation."""
-    line = LineContact(
-        load_per_width=8e4,
-        radius=2.73e-3,
-        e_prime=2.3e11,
-        entrainment_speed=0.05,
-        lubricant=Lubricant(9.4e-3, 17e-9, eyring_stress=5e6),
-    )
-    surface = generate_surface((32, 12), (5e-6, 7.5e-6), sq=0.2e-6, correlation_length=15e-6, acf="gaussian", seed=16)
-    passing = travelling(lay_out(surface, line, sliding=5e-4, boundary_friction=0.12), [RoughBody(surface, 0.05)])
-    how = {"tolerance": 0.017, "carries_imbalance": True, "linear_accuracy": 0.1, "shift": 1}
-
-    def last():
-        return next(islice(moments(passing, 5e-6 / 0.05, **how), 4, None))
-
-    damped = last()
-    monkeypatch.setitem(vars(import_module("lubfric.models.deterministic.newton")), "DAMPED_BELOW", 0.0)
-    full = last()
-    assert damped.work.factorisations < 0.5 * full.work.factorisations
-    assert damped.result.coefficient == pytest.approx(full.result.coefficient, rel=3e-4)
 
 
 def test_a_step_that_is_not_solved_by_third_order_is_taken_by_a_lower_one(monkeypatch):

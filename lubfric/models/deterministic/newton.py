@@ -39,18 +39,6 @@ RESIDUAL_GROWTH = 1.05
 # Newton steps; with them in steps in time a roller of 1 GPa takes 22 % more.
 SURGE = 2.0
 
-# Residual, below which a step in time whose residual no longer falls is damped [-]: above it full steps sort the cells.
-DAMPED_BELOW = 1.0
-
-# Newton steps without a new least residual, after which the steps of a step in time are damped [-]. Where asperities carry most
-# of the load, one or two cells at the end of the film rupture and refill in turn, in full steps without end. 27 steps in time
-# of the quick answer to a needle roller at 0.05 m/s took 487 Newton steps, of which 155 led nowhere; with 3, 2 they take 325,
-# 309, and all end.
-STEPS_BEFORE_DAMPING = 2
-
-# Part of a Newton step that is taken then [-]. The same with 0.3, 0.5, 0.7: 317 (with 3 steps before), 309, 322.
-DAMPED_PART = 0.5
-
 # Steps in which the residual has to fall [-]. Half and twice change nothing.
 NEWTON_PATIENCE = 20
 
@@ -155,7 +143,7 @@ def newton(
     up after a step shorter than ``least`` of the whole; when a number is not finite; or when for ``patience`` steps
     neither the residual has fallen nor the residual that the full step would have led to. (The latter falls first,
     while a heavily loaded film finds its shape in short steps.) ``history``: of an implicit step in time (None: the
-    film is steady), whose Newton steps are damped where cells change their kind in turn (`DAMPED_PART`); ``linear_accuracy``: of
+    film is steady); ``linear_accuracy``: of
     the linear system of a step (`System.solve`). ``ends_unsolved``: whether the method also gives up at a linear system that
     takes all iterations of GMRES: between soft bodies it is nearly singular, and the steps that follow lead nowhere. Of twelve
     films between bodies of 19 and 0.26 GPa and 21 MPa seven meet such systems. They take 32 to 68 % less work so; f stays the
@@ -186,8 +174,7 @@ def newton(
             return result
         if ends_unsolved and iterations >= MOST_KRYLOV * CYCLES:
             return result
-        is_damped = history is not None and _cycles(residual_history)
-        at, full_merit, length = _advanced(at, step, DAMPED_PART if is_damped else 1.0, least_part)
+        at, full_merit, length = _advanced(at, step, least_part)
         promised.append(full_merit)
         if length < least:
             return result
@@ -197,17 +184,11 @@ def _stalled(history: list[float], patience: int) -> bool:
     return len(history) > patience and not min(history[-patience:]) <= PROGRESS * min(history[:-patience])
 
 
-def _cycles(history: list[float]) -> bool:
-    """Return whether the least of these residuals is small, and `STEPS_BEFORE_DAMPING` steps ago or more."""
-    least = min(history)
-    return least < DAMPED_BELOW and len(history) - 1 - history.index(least) >= STEPS_BEFORE_DAMPING
-
-
-def _advanced(at: Iterate, step: Change, most: float, least: float) -> tuple[Iterate, float, float]:
-    """Return the `admissible` state after the longest part of ``step``, of ``most``, that is accepted, the merit of the longest
+def _advanced(at: Iterate, step: Change, least: float) -> tuple[Iterate, float, float]:
+    """Return the `admissible` state after the longest part of ``step`` that is accepted, the merit of the longest
     part that was tried, and the part that was accepted. No gap limits it to less than ``least``."""
     apart = at.state.kind != TOUCHING
-    length = min(most, _longest(at, step, least))
+    length = _longest(at, step, least)
     before = _merit(at, apart)
     merits: list[float] = []
     for _ in range(STEP_HALVINGS):
