@@ -194,10 +194,10 @@ def _advanced(at: Iterate, step: Change, least: float) -> tuple[Iterate, float, 
     for _ in range(STEP_HALVINGS):
         tried = admissible(at.problem, step.added(at.state, length))
         new = evaluated(at.problem, tried, at.history)
-        counted = apart if at.history is not None else apart & (tried.kind == at.state.kind)
-        merits.append(_merit(new, counted))
+        of_all = _merit(new, apart)
+        merits.append(of_all if at.history is not None else _merit(new, apart & (tried.kind == at.state.kind)))
         growth = RESIDUAL_GROWTH if length > least else SURGE
-        if merits[-1] <= growth * before and _merit(new, apart) <= SURGE * before:
+        if merits[-1] <= growth * before and of_all <= SURGE * before:
             break
         length /= 2
     return new, merits[0], length
