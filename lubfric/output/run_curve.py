@@ -475,8 +475,9 @@ def _requested(scene: Scene, speeds: str | None, fields: str | None) -> tuple[An
         solved += [] if near else [speed]
     added = [f"{speed:.4g}" for speed in solved[len(requested) :]]
     if added:
-        why = "whose fields are drawn (--fields)"
-        say(f"{counted(len(requested), 'speeds')} requested; added: {', '.join(added)} m/s, {why}")
+        say(
+            f"{counted(len(requested), 'speeds')} requested; added: {', '.join(added)} m/s, whose fields are drawn (--fields)"
+        )
     return (sorted(solved) if requested == sorted(requested) else solved), with_fields
 
 

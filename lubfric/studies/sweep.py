@@ -75,8 +75,7 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     @property
     def lift_off(self) -> float | None:
         """The lift-off speed [m/s], in the direction of the curve, above which the film separates the surfaces; None if
-        the
-        curve does not reach it. NaN where the solved speeds around it differ by more than a factor of 2:
+        the curve does not reach it. NaN where the solved speeds around it differ by more than a factor of 2:
         ``lift_off_range`` has these."""
         return None if self._curve.lift_off is None else self._curve.lifted
 
