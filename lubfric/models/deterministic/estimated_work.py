@@ -18,38 +18,38 @@ from .rough_bodies import MOST_WORK_OF_POINT, moving_point_work
 from .shorter_cells import LAST_PIECE, PIECES_SHARE, SHORT, SOFT_CELL_ERROR
 from .strip_on_two_grids import sample_coarsening_of
 
-# Newton steps on cells half as long, which begin there.
+# Newton steps on cells half as long, which begin at the solution on longer ones [-].
 FINER_STEPS = 6
 
-# Newton steps on cells half as long where the pressure is high: above each film of the smooth contact over Sq, so many. A
+# Newton steps on cells half as long where the pressure is high [-]: above each film of the smooth contact over Sq, so many. A
 # thick film does not need them; of a thin one asperities carry the load, and they begin at the dry contact. A roller of 1 GPa
 # takes 0, 9, 8, 16, 18, 47 at 5.3, 2.3, 1.1, 0.46, 0.21, 0.09 times Sq.
 FINER_STEPS_HEAVY = ((4.0, 0), (0.7, 9), (0.15, 18), (0.0, 45))
 
-# Newton steps on cells a quarter as long, on which a map shorter than a piece is solved as a whole: 20, in half of the
-# points.
+# Newton steps on cells a quarter as long, on which a map shorter than a piece is solved as a whole [-]: 20, in half of
+# the points.
 LAST_STEPS = 10
 
 # Newton steps on a strip of long cells where the pressure is high, with those on cells twice as long from which it starts, and
-# with the iterations of GMRES: 19 and 3, and 12 iterations in each, in a random point of .9 GPa.
+# with the iterations of GMRES [-]: 19 and 3, and 12 iterations in each, in a random point of .9 GPa.
 HEAVY_LONG_CELL_STEPS = 32
 
-# Factor on the work at rest where the heights are not smooth over a cell: cells a quarter as long, and more steps on all
+# Factor on the work at rest where the heights are not smooth over a cell [-]: cells a quarter as long, and more steps on all
 # (3 to 5 in four of five points of `python -m verification.campaigns.estimates`).
 ROUGH_WORK = 3.5
 
-# Work on longer and longer cells before, over that on those of a strip or a piece: a quarter, and a little more.
+# Work on longer and longer cells before, over that on those of a strip or a piece [-]: a quarter, and a little more.
 ON_LONGER_CELLS = 0.3
 
-# Part of the strips that a sampling error needs below which the first is enough: of 25 random points 10 of 11 below and none of 14
-# above it.
+# Part of the strips that a sampling error needs, below which the first is enough [-]: of 25 random points 10 of 11 below and none of
+# 14 above it.
 ENOUGH_ALONE = 0.3
 
-# Pieces on cells half as long where more than one strip is solved: 1 to 7, 2.8 in the mean, in 13 of 14 of these points.
+# Pieces on cells half as long where more than one strip is solved [-]: 1 to 7, 2.8 in the mean, in 13 of 14 of these points.
 PIECES_OF_MORE_STRIPS = 3.0
 
-# The same where one strip is enough and a film below `RUBBED_FILM` changes f little, whatever the cells: 2 of 9 of these points, and
-# all others, solve one.
+# Such pieces where one strip is enough and a film below `RUBBED_FILM` changes f little, whatever the cells [-]: 2 of 9 of these points,
+# and all others, solve one.
 PIECES_OF_RUBBED = 0.25
 
 # Film of the smooth contact over Sq below which f is nearly f_b [-].
@@ -58,7 +58,7 @@ RUBBED_FILM = 0.25
 # Newton steps of the second solve of a strip, at a load 3 % larger, over those of one whose neighbour is solved [-].
 OF_SLOPE = 0.5
 
-# Part of these points that solve a piece on cells a quarter as long, where one strip is enough, and where more are solved.
+# Part of these points that solve a piece on cells a quarter as long, where one strip is enough, and where more are solved [-].
 LAST_LEVEL = (0.2, 0.4)
 
 # Processor time of roughness at rest over its counted work [-]: .5 to .86 in ten runs of ``verification.campaigns.estimates``.
@@ -92,17 +92,17 @@ MIXED_FILMS = (0.3, 1.7)
 # the weight of a fourth. It did in 2 of 31 contacts of verification.campaigns.moving_coverage.
 MAY_BE_HALVED = 1.4
 
-# Scatter of the difference between the models over that of f.
+# Scatter of the difference between the models over that of f [-].
 UNLIKE = 0.65
 
-# Scatter of f with its control over that without where roughness moves: attenuated summits leave 12 to 20 % of the variance
+# Scatter of f with its control over that without where roughness moves [-]: attenuated summits leave 12 to 20 % of the variance
 # (docs/design-notes.md).
 UNLIKE_IN_MOTION = 0.45
 
-# Half-widths of the Hertz strip along y that are solved again for a picture.
+# Half-widths of the Hertz strip along y that are solved again for a picture [-].
 PICTURED_LENGTH = 10.0
 
-# Correlation lengths along y of the same, at least.
+# Correlation lengths along y of such a picture, at least [-].
 LEAST_PICTURED_LENGTH = 8.0
 
 # What is not solved takes nothing.
