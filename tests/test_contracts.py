@@ -394,8 +394,8 @@ def test_two_given_maps_are_known_whose_they_are():
         scene, surface.periodic(axes=(False, True)), counterface=counterface.periodic(axes=(False, True))
     )
     assert [model.why_unable(prepared, 0.03) for model in MODELS] == [""] * len(MODELS)
-    joint = lubfric.prepare(scene, surface.periodic(axes=(False, True)))
-    assert any("second rough body" in model.why_unable(joint, 0.03) for model in MODELS)
+    undivided = lubfric.prepare(scene, surface.periodic(axes=(False, True)))
+    assert any("second rough body" in model.why_unable(undivided, 0.03) for model in MODELS)
 
 
 def test_a_gap_that_the_given_film_does_not_fill_is_not_without_entrainment():

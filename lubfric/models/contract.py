@@ -319,10 +319,10 @@ class Model(ABC):
         `ConvergenceError`.
         """
 
-    def check(self, scene: Scene, *, is_joint: bool) -> None:
+    def check(self, scene: Scene, *, has_one_map_for_all_bodies: bool) -> None:
         """Raise `InputError` for a ``scene`` that names this model and has keys it does not take. Nothing is solved.
 
-        ``is_joint``: one map was given to `lubfric.prepare`, for all its bodies.
+        ``has_one_map_for_all_bodies``: whether one map was given to `lubfric.prepare` for all bodies.
         """
 
     def described(self, scene: Scene) -> str:

@@ -57,7 +57,10 @@ def prepare(
     """
     validate.instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
     maps = _given(scene, surface, counterface)
-    check_by_model(scene, is_joint=len(maps) == 1 or isinstance(like, Prepared) and like.is_joint)
+    check_by_model(
+        scene,
+        has_one_map_for_all_bodies=len(maps) == 1 or isinstance(like, Prepared) and like.has_one_map_for_all_bodies,
+    )
     if like is not None:
         validate.instance("like", like, Prepared, "what lubfric.prepare returned")
         _check_likeness(scene, like.scene, maps, contact)
@@ -78,7 +81,7 @@ def prepare(
 def prepare_on_maps(scene: Scene, read: tuple[Surface, ...]) -> Prepared:
     """Return ``scene`` made ready on the maps that `lubfric.samples.whole_maps` ``read`` for it, which are not read
     again."""
-    check_by_model(scene, is_joint=False)
+    check_by_model(scene, has_one_map_for_all_bodies=False)
     with hint_unusual_values(scene):
         return _on_sample(scene, sample_of(scene, read=read), is_given=False, has_given_maps=False)
 

@@ -38,7 +38,7 @@ def models_that_may_answer(name: str) -> tuple[Model, ...]:
     return MODELS if name == AUTO else (model_named(name),)
 
 
-def check_by_model(scene: Scene, *, is_joint: bool) -> None:
+def check_by_model(scene: Scene, *, has_one_map_for_all_bodies: bool) -> None:
     """Raise `InputError` for a ``scene`` that the model it names refuses (`Model.check`)."""
     if scene.numerics.model != AUTO:
-        model_named(scene.numerics.model).check(scene, is_joint=is_joint)
+        model_named(scene.numerics.model).check(scene, has_one_map_for_all_bodies=has_one_map_for_all_bodies)

@@ -294,10 +294,10 @@ def as_ranges(ends: dict[str, Any]) -> tuple[tuple[str, float, float], ...]:
     return tuple((name, *ends[name]) for name in sorted(ends) if ends[name] is not None)
 
 
-def why_gap_not_resolved(scene: Scene, *, is_joint: bool = False) -> str:
+def why_gap_not_resolved(scene: Scene, *, has_one_map_for_all_bodies: bool = False) -> str:
     """Return the first key of ``scene`` that the deterministic model does not take, and what it takes, as text; "" if
-    it takes all. ``is_joint``: one map was given to `lubfric.prepare`, for all its bodies."""
-    refusals = _not_taken(scene, is_joint=is_joint)
+    it takes all. ``has_one_map_for_all_bodies``: whether one map was given to `lubfric.prepare` for all bodies."""
+    refusals = _not_taken(scene, has_one_map_for_all_bodies=has_one_map_for_all_bodies)
     return next(
         (f"{_stated(name, value)} (the deterministic model allows {instead})" for name, value, instead in refusals), ""
     )
@@ -309,10 +309,10 @@ def _stated(name: str, value: Any) -> str:
     return f"{name} = {worded_value(name, value) if is_number else repr(value)}"
 
 
-def check_resolved_gap(scene: Scene, *, is_joint: bool = False) -> None:
-    """Raise `InputError` for keys that the deterministic model does not take. ``is_joint``: as in
+def check_resolved_gap(scene: Scene, *, has_one_map_for_all_bodies: bool = False) -> None:
+    """Raise `InputError` for keys that the deterministic model does not take. ``has_one_map_for_all_bodies``: as in
     `why_gap_not_resolved`."""
-    for name, value, instead in _not_taken(scene, is_joint=is_joint):
+    for name, value, instead in _not_taken(scene, has_one_map_for_all_bodies=has_one_map_for_all_bodies):
         said = f" = {value!r} cannot be combined with numerics.model = 'deterministic'"
         raise InputError(said, name, f"{instead}, or numerics.model = 'paper'")
 
@@ -330,7 +330,7 @@ def has_moving_roughness(scene: Scene) -> bool:
     return any(speed != 0 for _, speed in moving_bodies(scene))
 
 
-def _not_taken(scene: Scene, *, is_joint: bool) -> Iterator[tuple[str, Any, str]]:
+def _not_taken(scene: Scene, *, has_one_map_for_all_bodies: bool) -> Iterator[tuple[str, Any, str]]:
     for name, allowed, why in VALUES_OF_RESOLVED_GAP:
         section, _, key = name.partition(".")
         value = getattr(getattr(scene, section), key)
@@ -348,7 +348,7 @@ def _not_taken(scene: Scene, *, is_joint: bool) -> Iterator[tuple[str, Any, str]
         )
         yield "lubricant.limiting_stress_offset", offset, instead
     bodies = moving_bodies(scene)
-    if len({u for _, u in bodies}) > 1 and is_joint:
+    if len({u for _, u in bodies}) > 1 and has_one_map_for_all_bodies:
         yield "counterface", "a second rough body", "at a slide-roll ratio other than 0 a map of its own"
     lubricant = scene.lubricant
     if lubricant.shear_modulus is not None:

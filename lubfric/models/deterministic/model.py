@@ -83,8 +83,8 @@ class DeterministicModel(Model):
     def includes_motion(self) -> bool:
         return True
 
-    def check(self, scene: Scene, *, is_joint: bool) -> None:
-        check_resolved_gap(scene, is_joint=is_joint)
+    def check(self, scene: Scene, *, has_one_map_for_all_bodies: bool) -> None:
+        check_resolved_gap(scene, has_one_map_for_all_bodies=has_one_map_for_all_bodies)
 
     def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:
         return expected_on_hertz(scene)
@@ -133,7 +133,9 @@ class DeterministicModel(Model):
         return why_no_rough_film(prepared, speed)
 
     def why_declined(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
-        why = why_gap_not_resolved(prepared.scene, is_joint=prepared.is_joint) or why_too_hot(cheaper.heat())
+        scene = prepared.scene
+        why = why_gap_not_resolved(scene, has_one_map_for_all_bodies=prepared.has_one_map_for_all_bodies)
+        why = why or why_too_hot(cheaper.heat())
         if why:
             return f"not the deterministic model: {why}"
         return why_too_costly(prepared, speed, sample_coarsening_of(prepared.scene, prepared.sample))

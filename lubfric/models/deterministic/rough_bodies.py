@@ -64,7 +64,7 @@ def maps_of(prepared: Prepared, index: int) -> dict[str, Surface]:
     """Return the map of each rough body on strip ``index``, by its section."""
     moving = [name for name, _ in moving_bodies(prepared.scene)]
     sample = prepared.sample
-    if len(moving) < 2 or prepared.is_joint:  # of a joint map all is that of surface 1
+    if len(moving) < 2 or prepared.has_one_map_for_all_bodies:  # the only map is that of surface 1
         return dict.fromkeys(moving[:1], strip_surface(prepared, index))
     return {name: sample.of_body(k).strip(index) for k, name in enumerate(moving)}
 

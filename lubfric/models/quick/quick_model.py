@@ -249,7 +249,10 @@ class QuickModel(Model):
         return rolling_model_error(lambda_ratio)
 
     def why_unable(self, prepared: Prepared, speed: float) -> str:
-        return why_no_rough_film(prepared, speed) or why_gap_not_resolved(prepared.scene, is_joint=prepared.is_joint)
+        if why := why_no_rough_film(prepared, speed):
+            return why
+        scene = prepared.scene
+        return why_gap_not_resolved(scene, has_one_map_for_all_bodies=prepared.has_one_map_for_all_bodies)
 
     def adopt(self, cheaper: SampleSolution) -> QuickSolution | None:
         return _with_known(cheaper) if isinstance(cheaper, PaperSolution) else None

@@ -56,8 +56,8 @@ class Prepared(FieldsOnly, Renamed, Shown):
         return isinstance(self.rough_contact, OWN_CONTACTS)
 
     @property
-    def is_joint(self) -> bool:
-        """Whether one map was given for all bodies, and nobody knows what of it is whose."""
+    def has_one_map_for_all_bodies(self) -> bool:
+        """Whether one map was given to `lubfric.prepare` for all bodies, so that the part of each in it is not known."""
         return self.is_given and not self.sample.bodies
 
     @cached_property
