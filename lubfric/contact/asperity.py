@@ -66,9 +66,9 @@ def find_asperities(
     validate.choice("definition", definition, DEFINITIONS)
     if hardness is not None:
         hardness = validate.positive("hardness", hardness, "Pa")
-    closed = validate.pair("periodic", periodic, validate.boolean, "True or False")
+    is_periodic = validate.pair("periodic", periodic, validate.boolean, "True or False")
     spacing = validate.spacing("spacing", spacing)
-    find = FINDERS[definition](heights, spacing, closed)
+    find = FINDERS[definition](heights, spacing, is_periodic)
     map_area = heights.size * spacing[0] * spacing[1]
 
     def at(separation: FloatArray) -> AsperityResult:

@@ -40,8 +40,8 @@ class DifferentialSolution:
 def near_solver(mesh: Mesh, problem: FilmProblem, t: DifferentialTerms) -> Callable[..., Any] | None:
     """Return the equations with near weights, factorised; None if the matrix is singular.
 
-    The function returned takes the right sides: (N,) of the balances and of the second differences, (2,) of the closing
-    equations. It gives the changes (2N,) of P and H of a node side by side. The two films at the ends are a border of
+    The function returned takes the right sides: (N,) of the balances and of the second differences, (2,) of the conditions
+    at the ends. It gives the changes (2N,) of P and H of a node side by side. The two films at the ends are a border of
     the banded matrix.
     """
     from scipy.linalg.lapack import dgbtrf, dgbtrs
@@ -65,12 +65,12 @@ def near_solver(mesh: Mesh, problem: FilmProblem, t: DifferentialTerms) -> Calla
     border[-1, 1] = 1.0
     border, _ = dgbtrs(lu, lower, upper, border, pivots, overwrite_b=1)
     rows = np.stack([equations.tilt_row(mesh), equations.load_row(mesh, problem)])
-    closing = rows @ border[0::2] + [[1.0, -1.0], [0.0, 0.0]]
+    end_matrix = rows @ border[0::2] + [[1.0, -1.0], [0.0, 0.0]]
 
     def solve(balance: FloatArray, bend: FloatArray, ends: FloatArray) -> FloatArray:
         right = np.column_stack([balance, bend]).ravel()
         z, _ = dgbtrs(lu, lower, upper, right, pivots, overwrite_b=1)
-        return z + border @ np.linalg.solve(closing, ends - rows @ z[0::2])
+        return z + border @ np.linalg.solve(end_matrix, ends - rows @ z[0::2])
 
     return solve
 

@@ -75,8 +75,8 @@ class Numerics(Shown):
 
     def tolerance_of(self, part: str) -> float:
         """Return the relative tolerance of a part, as given or as it follows from ``tolerance``: of the EHL "film" (its
-        error enters F_H, and so f, about one to one), of the "contact" solve, and of the "balance", the closing of load
-        and volume."""
+        error enters F_H, and so f, about one to one), of the "contact" solve, and of the "balance" of load and
+        volume."""
         share, most = budget.OF_PARTS[part]
         return getattr(self, f"{part}_tolerance") or min(share * self.tolerance, most)
 

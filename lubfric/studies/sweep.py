@@ -236,14 +236,15 @@ def _collected(requested: list[float], outcomes: dict[float, Outcome], prepared:
         return curve
     error = curve.between
     tolerance = tolerance_between(prepared)
-    close = error <= tolerance
+    is_close_enough = error <= tolerance
     report_between = replace(  # its residual is the estimated error between the points
         report,
-        status=report.status if close else ITERATION_LIMIT,
+        status=report.status if is_close_enough else ITERATION_LIMIT,
         residual=error,
         tolerance=tolerance,
         residuals={"interpolation": error, "points": report.residual},
-        advice=report.advice or ("" if close else "solve more speeds of your own, or loosen numerics.tolerance"),
+        advice=report.advice
+        or ("" if is_close_enough else "solve more speeds of your own, or loosen numerics.tolerance"),
     )
     return replace(curve, report=report_between)
 

@@ -253,8 +253,10 @@ class Surface(FrozenArrays, Shown):
                 raise InputError(said, f"shape[{axis}]", f"within 0..{self.shape[axis]}")
         cut = tuple(slice(s, s + n) for s, n in zip(first, shape))
         mask = None if self.mask is None else self.mask[cut]
-        closed = tuple(p and n == m for p, n, m in zip(self.periodic_axes, self.shape, shape))
-        return self._with(self.heights[cut], f"cropped to {shape} from {first}", mask=mask, periodic_axes=closed)
+        periodic_axes_left = tuple(p and n == m for p, n, m in zip(self.periodic_axes, self.shape, shape))
+        return self._with(
+            self.heights[cut], f"cropped to {shape} from {first}", mask=mask, periodic_axes=periodic_axes_left
+        )
 
     def resampled(
         self, *, shape: tuple[int, int] | None = None, spacing: float | tuple[float, float] | None = None

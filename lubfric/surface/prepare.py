@@ -151,9 +151,9 @@ def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool,
     where = np.nonzero(far if mask is None else far & mask)
     parts = [tuple(at[i : i + CHUNK] for at in where) for i in range(0, where[0].size, CHUNK)]
     padded = heights
-    for axis, closed in enumerate(periodic):  # wrapped where periodic, mirrored at open ends
+    for axis, is_periodic in enumerate(periodic):  # wrapped where periodic, mirrored at open ends
         width = [(WINDOW // 2, WINDOW // 2) if axis == other else (0, 0) for other in range(2)]
-        padded = np.pad(padded, width, mode="wrap" if closed else "symmetric")
+        padded = np.pad(padded, width, mode="wrap" if is_periodic else "symmetric")
     windows = np.lib.stride_tricks.sliding_window_view(padded, (WINDOW, WINDOW))
     around = [np.median(windows[part], axis=(1, 2)) for part in parts]
     off = (heights[where] - np.concatenate([np.empty(0), *around])) / deviation

@@ -41,7 +41,7 @@ def changed(
     note: str,
     *,
     step: float | None = None,
-    closed: bool | None = None,
+    is_periodic: bool | None = None,
     mask: np.ndarray | None = None,
 ) -> Surface:
     """Return a copy with new heights along one axis, and whatever else changes with them."""
@@ -49,7 +49,7 @@ def changed(
     periodic = list(surface.periodic_axes)
     notes = (*surface.notes, note)
     spacing[axis] = spacing[axis] if step is None else step
-    periodic[axis] = periodic[axis] if closed is None else closed
+    periodic[axis] = periodic[axis] if is_periodic is None else is_periodic
     return replace(
         surface,
         heights=heights,
@@ -64,19 +64,19 @@ def mirrored(surface: Surface, axis: int) -> Surface:
     """Return ``surface`` made periodic along ``axis``: its points, followed by their mirror image."""
     heights = np.concatenate([surface.heights, np.flip(surface.heights, axis)], axis)
     mask = None if surface.mask is None else np.concatenate([surface.mask, np.flip(surface.mask, axis)], axis)
-    return changed(surface, axis, heights, f"made periodic along {'xy'[axis]}: mirror", closed=True, mask=mask)
+    return changed(surface, axis, heights, f"made periodic along {'xy'[axis]}: mirror", is_periodic=True, mask=mask)
 
 
 def resampled(surface: Surface, axis: int, count: int | None, step: float | None) -> Surface:
     """Return ``surface`` on ``count`` points along ``axis``, or on points ``step`` [m] apart; see `resample_axis`."""
     n = surface.shape[axis]
     old = surface.spacing[axis]
-    closed = surface.periodic_axes[axis]
+    is_periodic = surface.periodic_axes[axis]
     if count is None:
         assert step is not None  # one of the two is given
         exact = n * old / step
         count = int(np.floor(min(exact, 1e15) * (1 + 1e-9)))
-        closed = closed and abs(exact - round(exact)) < 1e-6
+        is_periodic = is_periodic and abs(exact - round(exact)) < 1e-6
     else:
         step = n * old / count
     if count < 1:
@@ -84,11 +84,11 @@ def resampled(surface: Surface, axis: int, count: int | None, step: float | None
     points(f"points along {'xy'[axis]} and the other axis", (count, surface.shape[1 - axis]))
     if count == n and abs(step / old - 1) < 1e-9:
         return surface
-    heights = resample_axis(surface.heights, axis, count, step / old, periodic=closed)
+    heights = resample_axis(surface.heights, axis, count, step / old, periodic=is_periodic)
     note = f"resampled along {'xy'[axis]} from {n} points at {old:.4e} m to {count} at {step:.4e} m"
     if surface.mask is not None:
         note += f" (mask dropped, {100 * surface.missing_fraction:.3g} % was unmeasured)"
-    return changed(surface, axis, heights, note, step=step, closed=closed)
+    return changed(surface, axis, heights, note, step=step, is_periodic=is_periodic)
 
 
 def fitted(surface: Surface, axis: int, count: int) -> Surface:
@@ -101,7 +101,7 @@ def fitted(surface: Surface, axis: int, count: int) -> Surface:
         pick = np.arange(count) % n
         mask = None if surface.mask is None else np.take(surface.mask, pick, axis)
         note = f"{'repeated' if count > n else 'cut'} along {'xy'[axis]} from {n} to {count} points"
-        return changed(surface, axis, np.take(surface.heights, pick, axis), note, closed=count % n == 0, mask=mask)
+        return changed(surface, axis, np.take(surface.heights, pick, axis), note, is_periodic=count % n == 0, mask=mask)
     if count > n:
         extent = f"{count} points along {'xy'[axis]} ({count * surface.spacing[axis]:g} m)"
         allowed = f"up to {n} ({surface.size[axis]:g} m), or a periodic map"
@@ -133,7 +133,7 @@ def combined(first: Surface, second: Surface) -> Surface:
     parts = [_cut_to_common(pair_of, spacing) for pair_of in ((first, second), (second, first))]
     _check_size(parts, spacing)
     parts = [surface.resampled(spacing=spacing) for surface in parts]
-    shape, closed = zip(*(_common(axis, *parts) for axis in range(2)))
+    shape, periodic_axes = zip(*(_common(axis, *parts) for axis in range(2)))
     shorter = [_shorter(axis, *parts) for axis in range(2)]
     parts = [part.patch(shape) for part in parts]
     heights = sum(part.heights - part.heights.mean() for part in parts)
@@ -144,7 +144,7 @@ def combined(first: Surface, second: Surface) -> Surface:
     both = f"Sq {worded(first.sq, 'm')} and {worded(second.sq, 'm')}"
     notes.append(f"sum of surface and counterface, {both}, the counterface turned over about x")
     notes += [shorter_in_words(axis, name) for axis, name in enumerate(shorter) if name]
-    return replace(parts[0], heights=heights, mask=mask, periodic_axes=closed, source=source, notes=tuple(notes))
+    return replace(parts[0], heights=heights, mask=mask, periodic_axes=periodic_axes, source=source, notes=tuple(notes))
 
 
 def _cut_to_common(pair_of: tuple[Surface, Surface], spacing: tuple[float, float]) -> Surface:
@@ -196,11 +196,11 @@ def shorter_in_words(axis: int, name: str) -> str:
 def _common(axis: int, first: Surface, second: Surface) -> tuple[int, bool]:
     """Return (points, whether periodic) of the sum along ``axis``; both maps have the same spacing here."""
     lengths = [s.size[axis] for s in (first, second)]
-    closed = [s.periodic_axes[axis] for s in (first, second)]
+    are_periodic = [s.periodic_axes[axis] for s in (first, second)]
     same = abs(lengths[0] / lengths[1] - 1) < EQUAL_LENGTHS
-    if all(closed) and same:
+    if all(are_periodic) and same:
         return first.shape[axis], True
-    open_lengths = [length for length, periodic in zip(lengths, closed) if not periodic]
+    open_lengths = [length for length, periodic in zip(lengths, are_periodic) if not periodic]
     return int(min(open_lengths or lengths) / first.spacing[axis] * (1 + EQUAL_LENGTHS)), False
 
 

@@ -94,35 +94,36 @@ class LoadSharingSolver:
             if spring is not None and load < LAST_TOUCH * total:
                 load = 0.0
             film = self.to_patch @ solution.terms.H
-            closed = self._close(film, load, state)
-            if closed is None:
+            contact_state = self._contact_at(film, load, state)
+            if contact_state is None:
                 break
             if load == 0.0:
-                if volume_residual(closed) <= 0.0:
+                if volume_residual(contact_state) <= 0.0:
                     if spring is None:
-                        return replace(solution, payload=ContactStep(0.0, closed, softness))
+                        return replace(solution, payload=ContactStep(0.0, contact_state, softness))
                     touch = 0.0
                     z = solution.z
-                    state = closed
+                    state = contact_state
                     seen = None
                     continue
                 load = min(FIRST_TOUCH * total, max(touch, LAST_TOUCH * total))
-                touching = closed.mean_gap
-                closed = self._close(film, load, state)
-                if closed is None:
+                touching = contact_state.mean_gap
+                contact_state = self._contact_at(film, load, state)
+                if contact_state is None:
                     break
-                softness = max(touching - closed.mean_gap, 1e-3 * touching)
-            elif abs(volume_residual(closed)) <= self.tolerance:
-                return replace(solution, payload=ContactStep(load, closed, _softness(softness, seen, load, closed)))
-            softness = _softness(softness, seen, load, closed)
-            seen = (load, closed.mean_gap)
+                softness = max(touching - contact_state.mean_gap, 1e-3 * touching)
+            elif abs(volume_residual(contact_state)) <= self.tolerance:
+                softness = _softness(softness, seen, load, contact_state)
+                return replace(solution, payload=ContactStep(load, contact_state, softness))
+            softness = _softness(softness, seen, load, contact_state)
+            seen = (load, contact_state.mean_gap)
             touch = load
-            mean = closed.mean_gap
-            state = closed
+            mean = contact_state.mean_gap
+            state = contact_state
             z = solution.z
         return replace(solution, status=ITERATION_LIMIT)
 
-    def _close(self, film: np.ndarray, load: float, start: ContactState) -> ContactState | None:
+    def _contact_at(self, film: np.ndarray, load: float, start: ContactState) -> ContactState | None:
         """Return the contact at ``load`` [N] under ``film`` [m]; None if it cannot be solved."""
         if film.min() <= 0.0 and load == 0.0:
             return None
@@ -132,9 +133,9 @@ class LoadSharingSolver:
             return None
 
 
-def _softness(old: float, seen: tuple[float, float] | None, load: float, closed: ContactState) -> float:
+def _softness(old: float, seen: tuple[float, float] | None, load: float, contact_state: ContactState) -> float:
     """Return the secant of the gap over the logarithm of the load, if it is meaningful."""
     if seen is None or abs(math.log(load / seen[0])) < 1e-6:
         return old
-    slope = (seen[1] - closed.mean_gap) / math.log(load / seen[0])
+    slope = (seen[1] - contact_state.mean_gap) / math.log(load / seen[0])
     return min(max(slope, 0.3 * old), 3.0 * old) if slope > 0.0 else old

@@ -47,7 +47,7 @@ def transient(
 
     The film obeys Eq. (6) with its squeeze term (`lubfric.time.film_equations`: Swift-Stieber complementarity, either
     side may rupture, no entrainment needed), by variable-step BDF2 with error control. At every step film and rough
-    contact share the load of that moment, and close the volume of Eq. (8) over A, the strip of ``bodies.load``
+    contact share the load of that moment, and satisfy the balance of volume, Eq. (8), over A, the strip of ``bodies.load``
     (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). With a deterministic model there is one rough gap.
 
     Parameters

@@ -44,7 +44,7 @@ def validated(name):
 
 
 def test_a_sample_of_the_soak_is_answered_right():
-    """Random scenes, each closed again by the independent judge."""
+    """Random scenes, each balance solved again by the independent judge."""
     row = soak.chunk(7, range(5))
     assert all(c.passed for c in soak.summarized([row]) if hasattr(c, "passed"))
     ended = [one["ended"] for one in row["scenes"]]

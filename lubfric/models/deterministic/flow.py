@@ -32,8 +32,8 @@ def pressure_flow(problem: Problem, fluid: CellFluid, p: FloatArray, h: FloatArr
     """Return the pressure flow through the faces behind the cells along ``axis``: along x behind all but the last row,
     along y behind all (periodic)."""
 
-    def closed(f: FloatArray) -> FloatArray:
-        """Return ``f``, along y with its first column behind the last."""
+    def continued(f: FloatArray) -> FloatArray:
+        """Return ``f``; along y with its first column once more behind the last, because it is periodic."""
         return f if axis == 0 else np.concatenate([f, f[:, :1]], axis=1)
 
     def before(f: FloatArray) -> FloatArray:
@@ -42,13 +42,13 @@ def pressure_flow(problem: Problem, fluid: CellFluid, p: FloatArray, h: FloatArr
     def behind(f: FloatArray) -> FloatArray:
         return f[1:] if axis == 0 else f[:, 1:]
 
-    p = closed(p)
-    h = closed(h)
-    density_at = closed(fluid.density)
-    log_viscosity = closed(fluid.log_viscosity)
-    log_slope = closed(fluid.log_slope)
-    density_slope = closed(fluid.density_slope)
-    laws = [tuple(closed(f) if np.ndim(f) else f for f in law) for law in fluid.critical]
+    p = continued(p)
+    h = continued(h)
+    density_at = continued(fluid.density)
+    log_viscosity = continued(fluid.log_viscosity)
+    log_slope = continued(fluid.log_slope)
+    density_slope = continued(fluid.density_slope)
+    laws = [tuple(continued(f) if np.ndim(f) else f for f in law) for law in fluid.critical]
 
     def mean(f: FloatArray) -> FloatArray:
         return 0.5 * (before(f) + behind(f))

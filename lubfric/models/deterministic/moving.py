@@ -3,7 +3,7 @@
     div( U rho θ h - rho h³ Φ/(12 eta) grad p ) + d(rho θ h)/dt = 0
 
 In a step the lubricant passes one cell, and the step is BDF3, of third order: (11 m - 18 m1 + 9 m2 - 2 m3)/(6 dt),
-with m the mass rho θ h, and mn that of n moments ago, n cells upstream; limited where a summit closes a cell
+with m the mass rho θ h, and mn that of n moments ago, n cells upstream; limited where a summit fills a gap
 (`state.stored`). A step that Newton's method does not solve is taken by second order, or else by first. Along the way of
 the lubricant both first terms of the balance are one, d(rho θ h)/dt. Waves that go with it lose nothing, and of a film at
 rest that is third-order upwind. (In steps and cells that are at rest, waves of 12 cells lost half of their height in a

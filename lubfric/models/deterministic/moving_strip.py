@@ -509,8 +509,8 @@ def cells_in_a_step(bodies: Sequence[RoughBody], step: float, cell: float) -> in
 
     Pressure and cells of both bodies start a step there. With the speed of the fastest, 2 cells instead of 1, a gear flank of
     1.1 GPa with two equal maps and a slide-roll ratio of 1.28 took 25 instead of 5 Newton steps for a step in time.
-    With a ratio of 2 the maps move by 0 and 2 cells. Then summits of both meet in the start: 160 to 210 of 6,528 cells begin
-    closed, Newton steps are 0.1 to 0.5 of their length, and a step in time takes 12 to 25. Pressing such cells apart first
+    With a ratio of 2 the maps move by 0 and 2 cells. Then summits of both meet in the start: 160 to 210 of 6,528 cells touch
+    from the start, Newton steps are 0.1 to 0.5 of their length, and a step in time takes 12 to 25. Pressing such cells apart first
     took a third more.
     """
     weights = [body.surface.sq**2 for body in bodies]

@@ -19,7 +19,7 @@ from .state import TOUCHING, Iterate, State, TimeHistory, admissible, evaluated,
 # on a soft film.
 KEEP = 0.2
 
-# Floors by which a cell may nevertheless sink below the floor in a step [-]: closed cells would stop all others. Half takes
+# Floors by which a cell may nevertheless sink below the floor in a step [-]: cells at the floor would stop all others. Half takes
 # 2 % less work (15 % less on a soft film), twice changes nothing.
 MOST_SINKING = 3.0
 
@@ -221,7 +221,7 @@ def march(problem: Problem, state: State, work: Work, *, tolerance: float, most:
     imbalance of mass is <= ``tolerance``; at most ``most`` factorisations.
 
     Each step is solved to a part of the steady imbalance of mass that it begins with: the way there need not be exact.
-    Behind closed furrows it is long, because valleys fill by what leaks in.
+    Behind furrows that asperity contacts shut off it is long, because valleys fill by what leaks in.
     """
     unit = problem.spacing[0] / problem.speed
     step = FIRST_TIME_STEP * unit

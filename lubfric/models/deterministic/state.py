@@ -143,7 +143,7 @@ def extrapolated_mass(
     steps are equal), by `MOST_EXTRAPOLATED` of itself, or that part, at most. With the moment ``earlier`` than that, `CURVATURE` of the second
     difference is added: the differences of such masses from step to step are those of BDF3.
 
-    So the Couette flow is limited in space. Without the limit a cell that a summit closes would give off more than it
+    So the Couette flow is limited in space. Without the limit a cell whose gap a summit fills would give off more than it
     has.
     """
     change = part * (mass - before)
@@ -191,7 +191,7 @@ def admissible(problem: Problem, state: State) -> State:
 def update_active_sets(at: Iterate) -> Iterate:
     """Return ``at``, whose state is `admissible`, with cells that touch or open as its gap and residual require.
 
-    - A cell closer than the floor touches, unless it has just ruptured: its gap rises by the suction that it has lost.
+    - A cell whose gap is below the floor touches, unless it has just ruptured: its gap rises by the suction that it has lost.
     - A touching cell with a surplus of inflow opens (`_opened`).
     """
     kind = at.state.kind.copy()
@@ -216,7 +216,7 @@ def _opened(touching: np.ndarray, surplus: np.ndarray, pull: float | np.ndarray)
     them that it reaches. It is handed on along x, and what a cell gives off is taken from it.
 
     Along a furrow that the film wets, cells would otherwise open one by one. A cell that is opened although it gives
-    off more than it is handed would sink below the floor, and close all that were opened with it, for ever.
+    off more than it is handed would sink below the floor, and all that were opened with it would touch again, for ever.
     """
     if not touching.any():
         return touching
@@ -245,13 +245,13 @@ def residuals(at: Iterate) -> dict[str, float]:
     r = at.residual
     flow = at.mean_flow * r.shape[1] / problem.spacing[0]
     touching = state.kind == TOUCHING
-    closed = np.abs(at.gap[touching] - problem.floor).max(initial=0.0)
+    off_floor = np.abs(at.gap[touching] - problem.floor).max(initial=0.0)
     pierced = (problem.floor - at.gap[~touching]).max(initial=0.0)
     top = float(state.pressure.max())
     return {
         "mass": float(np.abs(r[~touching]).sum()) / flow,
         "load": abs(at.load_error) / problem.load,
-        "gap": float(max(closed, pierced) / max(np.maximum(at.gap, 0).mean(), problem.floor)),
+        "gap": float(max(off_floor, pierced) / max(np.maximum(at.gap, 0).mean(), problem.floor)),
         "suction": float(np.maximum(-r[touching] - _pull(problem), 0.0).sum()) / flow,
         "fill": float(max(-state.fill.min(), state.fill.max() - 1, 0.0)),
         "pressure": max(-float(state.pressure.min()), top - problem.hardness, 0.0) / max(top, 1.0),

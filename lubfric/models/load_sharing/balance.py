@@ -1,4 +1,4 @@
-"""Load sharing: one bracketed root closes F_T = F_C + F_H and the balance of lubricant volume, Eq. (8)."""
+"""Load sharing: film and contact that carry F_T = F_C + F_H together, at the one root of the closure, Eq. (8)."""
 
 import math
 from dataclasses import dataclass, replace
@@ -200,7 +200,7 @@ def _certainly_touching(scene: Scene, speed: float, rough_contact: RoughContact)
 def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult | None) -> Balance:
     """Return film and contact in balance, solved again until the settings are those that the balance shows to be needed.
 
-    ``alone``: the film of the total load, if it is solved. Where a balance cannot be closed as tightly as needed, because
+    ``alone``: the film of the total load, if it is solved. Where a root cannot be found as closely as needed, because
     f jumps with single cells, the last one is kept and its error reported.
     """
     near = _beginning(point, sq, start)

@@ -40,7 +40,7 @@ from .cell_effect import (
     effect_of_cells,
     lost_summits,
 )
-from .closure import closed, open_gap
+from .closure import open_gap, with_gap_of_closure
 from .forces import forces_of
 from .point import (
     Point,
@@ -269,7 +269,7 @@ class BalancedSample:
         plastic = max(state.plastic_area_fraction + effect.plastic_change, 0.0)
         state = with_contact_area_scaled(replace(state, plastic_area_fraction=plastic), effect.area_factor * by_load)
         mean = weighted_mean(film.film_at(self.rough_contact.x), self.rough_contact.weight) + effect.film_change
-        state = closed(state, mean)
+        state = with_gap_of_closure(state, mean)
         corrected_balance = replace(
             raw_balance,
             film_load=loads[0],

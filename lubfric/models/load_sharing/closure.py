@@ -45,7 +45,7 @@ def open_gap(contact_state: ContactState) -> float:
     return contact_state.mean_gap - gap_under(contact_state.mean_film)
 
 
-def closed(contact_state: ContactState, mean_film: float) -> ContactState:
+def with_gap_of_closure(contact_state: ContactState, mean_film: float) -> ContactState:
     """Return ``contact_state`` with the gap that the closure demands under ``mean_film`` [m]."""
     return replace(contact_state, mean_gap=gap_under(mean_film), mean_film=mean_film)
 

@@ -43,10 +43,10 @@ def summarized(chunks: list[PlainRow]) -> Iterator[Item]:
     """Checks and tables of the chunks."""
     scenes = [entry for row in chunks for entry in row["scenes"]]
     ended = Counter(entry["ended"] for entry in scenes)
-    closed = [entry for entry in scenes if entry["ratio"] is not None]
+    solved_again = [entry for entry in scenes if entry["ratio"] is not None]
     none: Keywords = {"ratio": math.inf, "words": "nothing was judged"}
-    worst = max(closed, key=lambda entry: entry["ratio"], default=none)
-    wrong = [entry["words"] for entry in closed if not entry["ratio"] <= 1]
+    worst = max(solved_again, key=lambda entry: entry["ratio"], default=none)
+    wrong = [entry["words"] for entry in solved_again if not entry["ratio"] <= 1]
     raw = [entry["words"] for entry in scenes if entry["ended"] == RAW]
     yield Check(
         "raw errors", len(raw), expected=0, tolerance=0, source="none is allowed", kind=AT_MOST, note="; ".join(raw[:3])
@@ -72,7 +72,9 @@ def summarized(chunks: list[PlainRow]) -> Iterator[Item]:
     yield Check(
         "growth of memory", growth(chunks), expected=MOST_GROWTH, tolerance=0, source="flat", kind=AT_MOST, unit="MiB"
     )
-    words = f"{len(scenes)} scenes: {ended[ANSWERED]} answered, {ended[REFUSED]} refused, {len(closed)} closed again"
+    words = (
+        f"{len(scenes)} scenes: {ended[ANSWERED]} answered, {ended[REFUSED]} refused, {len(solved_again)} solved again"
+    )
     why = Counter(entry["words"] for entry in scenes if entry["ended"] == REFUSED)
     yield Table("soak", words, ("why", "refused"), why.most_common(12))
     features = Counter(feature for entry in scenes for feature in entry["features"])

@@ -34,7 +34,7 @@ BY_PIECES = 0.5  # of the stated standard error: what other pieces may change
 LOOSE = 2e-3  # tolerance of a film
 TIGHT = 1e-4  # tolerance of a film whose friction is a small difference, or feels the pressure spike
 CANCELS = 0.2  # f over the sum of the sizes of its parts below which they cancel
-ROOT = 2e-4  # of ln(F_H/F_C), to which a bracketed root is closed
+ROOT = 2e-4  # of ln(F_H/F_C), to which a bracketed root is found
 ACROSS = 8001  # points of a film over a flat strip
 BESIDE = 0.05  # of ln(F_H/F_C): distance of the second division of the load from the first
 NEAR = 0.4  # of ln(F_H/F_C): as far is a secant of both divisions trusted
@@ -158,7 +158,7 @@ class Judge:
 
 
 def judge_of(prepared: Prepared, result: FrictionResult) -> Judge:
-    """Return what closes ``result`` of ``prepared`` anew: a patch on its own cells, or the strips of the result."""
+    """Return what solves the balance of ``result`` of ``prepared`` anew: a patch on its own cells, or the strips of the result."""
     scene = prepared.scene
     parts = abs(result.couette_force) + abs(result.rolling_force) + result.boundary_force
     cancels = abs(result.coefficient) * scene.bodies.load < CANCELS * parts

@@ -58,7 +58,7 @@ def random_scene(rng: np.random.Generator, *, any_material: bool = False) -> lub
             "speeds": (),
         },
         numerics={
-            "model": "paper",  # which the judge closes
+            "model": "paper",  # whose balance the judge solves
             "accept": False,
             "tolerance": float(rng.choice(OTHER_TOLERANCES if any_material else (0.01, 0.01, 0.05))),
             "sampling": "strips" if strips else "patch",

@@ -5,7 +5,7 @@ not.
 
 in the Hertz variables of the load at time 0 at a speed U0 (`ehl`). The rough strip is pressed with F_T(T) - F_H under
 the shape of the film of the moment (`sharing.Bodies.under`). F_H is the root at which the mean gap of the contact is the
-mean film over the Hertz strip of the load at time 0, closed in every step by `sharing.root`. Steps in time are BDF2, the
+mean film over the Hertz strip of the load at time 0, balanced in every step by `sharing.root`. Steps in time are BDF2, the
 first one Euler's.
 """
 
