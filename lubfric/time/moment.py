@@ -14,11 +14,13 @@ from ..estimate import (
     full_load_numbers,
     power_of_forces,
 )
+from ..errors import ConvergenceError
 from ..film import ShearForce, above_carried, rolling_error, smallest, spike_error
 from ..models.load_sharing import (
     moment_error,
     moment_film_sensitivity,
     moment_model_error,
+    slopes_of,
     volume_residual,
 )
 from ..models.shared import (
@@ -88,11 +90,12 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
     film_factor = math.nan if inlet is None else inlet.factor if heated_inlet else 1.0
     length = model.correlation_length
     film_exponent = film_load_exponent(scene, film_load)
+    softness = contact_softness(model, solution)
     finite = moment_error(
         cast(HalfSpaceContact, model.patch),
         state,
         loads=loads,
-        softness=contact_step.softness,
+        softness=softness,
         width=scene.bodies.width,
         correlation_length=length,
         parts=parts,
@@ -102,7 +105,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
     film_sensitivity = moment_film_sensitivity(
         state,
         loads=loads,
-        softness=contact_step.softness,
+        softness=softness,
         parts=parts,
         film_load_exponent=film_exponent,
         shear_magnitude=shear.magnitude,
@@ -214,6 +217,27 @@ def _mass(model: LoadSharingSolver, solution: Step) -> dict[str, float]:
         "mass_residual": abs(stored - inflow) / through,
         "cavity_growth": float(np.sum(t.r[1:-1][t.P[1:-1] <= 0.0])) * unit,
     }
+
+
+def contact_softness(model: LoadSharingSolver, solution: Step) -> float:
+    """Return -dG/d ln F_C [m] of the contact in ``solution``, by `lubfric.models.load_sharing.slopes_of`; 0 without
+    contact, NaN where the contact at another load was not solved. (`ContactStep.softness` is that with which a step began:
+    its iterations need no more.)"""
+    contact_step = solution.payload
+    if contact_step.load <= 0:
+        return 0.0
+    width = model.scene.bodies.width
+    try:
+        slopes = slopes_of(
+            model.patch,
+            contact_step.state,
+            load=contact_step.load,
+            width=width,
+            thickness=model.to_patch @ solution.terms.H,
+        )
+    except ConvergenceError:
+        return math.nan
+    return -slopes.gap * contact_step.load / width
 
 
 def film_shear(

@@ -15,7 +15,7 @@ import lubfric
 from lubfric.models.load_sharing import moment_film_sensitivity
 from lubfric.output import describe_scene, main
 from lubfric.output.report import history_answer
-from lubfric.scene import Harmonic, Transient
+from lubfric.scene import Harmonic, Ramp, Transient
 
 STRIPS = paper_scene(motion={"entrainment_speed": 0.02}, bodies={"boundary_friction_coefficient": 0.09})
 
@@ -80,6 +80,16 @@ def test_the_sensitivity_of_f_at_a_moment_is_that_of_a_balance_solved_again(cont
         shear_magnitude=viscous,
     )
     assert sensitivity == pytest.approx(abs(by_division) + viscous / (boundary + viscous), rel=1e-5)
+
+
+def test_the_sampling_error_of_a_moment_does_not_depend_on_how_it_was_reached():
+    """A film of constant speed, and one that has come to this speed slowly from a lower one."""
+    scene = lubfric.load_scene("paper").with_(motion={"entrainment_speed": 0.03}, numerics={"model": "paper"})
+    slow_start = Ramp(start=0.02, end=0.03, until=0.02)
+    plans = (Transient(duration=0.03, outputs=1), Transient(duration=0.03, outputs=1, speed=slow_start))
+    held, slowed = (lubfric.transient(scene.with_(transient=plan)) for plan in plans)
+    assert slowed.coefficient[-1] == pytest.approx(held.coefficient[-1], rel=1e-3)
+    assert slowed.uncertainty.sampling[-1] == pytest.approx(held.uncertainty.sampling[-1], rel=0.01)
 
 
 def test_the_mean_is_the_integral_over_the_cycle_and_its_interval_that_of_the_ends(held):

@@ -108,6 +108,26 @@ def load_growth(moved: float, load_ratio: float) -> float:
     return ((1 + load_ratio) / (1 + math.exp(-moved) * load_ratio) - 1) * (1 + load_ratio) / (moved * load_ratio)
 
 
+def slopes_of(
+    rough_contact: RoughContact,
+    contact_state: ContactState,
+    *,
+    load: float,
+    width: float,
+    thickness: np.ndarray,
+    shape: np.ndarray | None = None,
+) -> Slopes:
+    """Return the `Slopes` of ``rough_contact``, which is in ``contact_state`` at ``load`` [N] on the ``width`` [m] under
+    ``thickness`` and ``shape`` [m] (nx,): secants to a load 5 % larger, or smaller where the contact carries no more."""
+    step = LOAD_STEP * load * (1 if rough_contact.capacity > (1 + LOAD_STEP) * load else -1)
+    more = rough_contact.close(thickness, load + step, contact_state, shape)
+    return Slopes(
+        (more.mean_gap - contact_state.mean_gap) * width / step,
+        (more.real_contact_area_fraction - contact_state.real_contact_area_fraction) * width / step,
+        (contact_length(more) - contact_length(contact_state)) * width / step,
+    )
+
+
 def respond(
     scene: Scene,
     rough_contact: RoughContact,
@@ -121,18 +141,11 @@ def respond(
     """Return the `Response` of ``rough_contact``, which is in ``contact_state`` at ``load`` [N] under ``thickness`` and
     ``shape`` [m] (nx,).
 
-    Slopes are secants to a load 5 % larger (smaller where the contact carries no more). ``film_of``: the film that
-    carries a load [N], where one shares the load. Its rates come from films at two other divisions of the load; no
+    ``film_of``: the film that carries a load [N], where one shares the load. Its rates come from films at two other divisions of the load; no
     contact is solved for them. The rate of the gap is dG/ds = dG/dP dP/ds, with dP/ds = -P F_H/F_T.
     """
     width = scene.bodies.width
-    step = LOAD_STEP * load * (1 if rough_contact.capacity > (1 + LOAD_STEP) * load else -1)
-    more = rough_contact.close(thickness, load + step, contact_state, shape)
-    slopes = Slopes(
-        (more.mean_gap - contact_state.mean_gap) * width / step,
-        (more.real_contact_area_fraction - contact_state.real_contact_area_fraction) * width / step,
-        (contact_length(more) - contact_length(contact_state)) * width / step,
-    )
+    slopes = slopes_of(rough_contact, contact_state, load=load, width=width, thickness=thickness, shape=shape)
     total = scene.bodies.load
     film_load = total - load
     if film_of is None or film_load <= 0:  # 0 where the film carries less than the rounding error of the load
