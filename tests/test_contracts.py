@@ -52,10 +52,10 @@ class TestSample:
 
     def test_a_longer_sample_contains_a_shorter_one(self, sample):
         if sample.available_strips > 1:
-            stack = sample.first_joined(2).heights
+            stack = sample.joined(range(2)).heights
             middle = slice(sample.rows // 2, sample.rows - sample.rows // 4)  # away from where strips are joined
             assert np.allclose(stack[:, middle], sample.strip(0).heights[:, middle], atol=1e-15)
-        assert sample.first_joined(1).shape[1] == sample.rows_of(1)
+        assert sample.joined(range(1)).shape[1] == sample.rows_of(1)
 
     def test_native_cells_are_those_of_the_scene(self, sample):
         native = sample.native()
@@ -96,7 +96,7 @@ class TestSample:
         contact = sample.contact(prepared.scene, sample.first_strips, operator)
         assert type(contact) is type(prepared.rough_contact) and np.array_equal(contact.x, prepared.rough_contact.x)
         if requested:
-            first = sample.first_joined(sample.first_strips)
+            first = sample.joined(range(sample.first_strips))
             assert requested == [(first.shape, first.spacing)]
             assert np.array_equal(contact.heights, first.heights - first.heights.mean())
 
@@ -165,7 +165,7 @@ class TestModel:
     @pytest.mark.parametrize("model", [PaperModel(), QuickModel(), DeterministicModel()], ids=lambda model: model.name)
     def test_a_solution_says_all_that_the_estimate_needs(self, model):
         prepared = lubfric.prepare(PAPER)
-        count = model.first_strips(prepared.sample)
+        count = model.strips_to_begin_with(prepared.sample)
         solution = model.solve(prepared, prepared.sample, count, 0.03)
         assert isinstance(solution, SampleSolution) and solution.count == count
         assert solution.required_strips() >= count and solution.sampling_error.value >= 0
@@ -189,7 +189,7 @@ class TestModel:
             cheaper = None
             seconds = []
             for model in MODELS:
-                cheaper = model.estimate_work(scene, sample, sample.first_map(), 0.03, cheaper)
+                cheaper = model.estimate_work(scene, sample, sample.stated_map(), 0.03, cheaper)
                 seconds.append(cheaper.seconds)
                 assert cheaper.strips >= 1
             if scene is PAPER:

@@ -33,7 +33,7 @@ def _on_enough_strips(
     prepared: Prepared, sample: Sample, speed: float, model: Model, control: ControlVariate | None
 ) -> SampleSolution:
     """Return the solution on as many strips as it needs, or on fewer where the cells are too long for it anyway."""
-    count = model.first_strips(sample)
+    count = model.strips_to_begin_with(sample)
     solution = model.solve(prepared, sample, count, speed, control=control)
     while True:
         count = solution.required_strips()

@@ -46,8 +46,7 @@ class PointWorkEstimate:
 
 
 def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, speed: float) -> PointWorkEstimate:
-    """Return what a point of ``scene`` at ``speed`` [m/s] will take on ``sample``; ``surface``: the map that is solved
-    first."""
+    """Return what a point of ``scene`` at ``speed`` [m/s] will take on ``sample``; ``surface``: its `Sample.stated_map`."""
     models = models_up_to(AUTO)
     estimates: list[WorkEstimate] = []
     for model in models:

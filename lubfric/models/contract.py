@@ -349,8 +349,9 @@ class Model(ABC):
         """Whether a scene that names it may wear: the asperity pressure of wear is that of the load-sharing model."""
         return False
 
-    def first_strips(self, sample: Sample) -> int:
-        """Return the number of strips that are solved first."""
+    def strips_to_begin_with(self, sample: Sample) -> int:
+        """Return the number of strips that this model solves before its error says how many it needs: those on which a line is
+        solved first, or one where it solves each strip by itself."""
         return sample.first_strips
 
     def estimate_work(
@@ -358,10 +359,10 @@ class Model(ABC):
     ) -> WorkEstimate:
         """Return what a point at ``speed`` [m/s] will take, without a solve.
 
-        ``surface``: the map that is solved first; ``cheaper``: what the next cheaper model will take; None: there is
-        none. A model that says nothing about its work takes the first strips in no time.
+        ``surface``: the `Sample.stated_map`; ``cheaper``: what the next cheaper model will take; None: there is none. A
+        model that says nothing about its work takes the first strips in no time.
         """
-        return WorkEstimate(strips=self.first_strips(sample), seconds=0.0)
+        return WorkEstimate(strips=self.strips_to_begin_with(sample), seconds=0.0)
 
     def why_unable(self, prepared: Prepared, speed: float) -> str:
         """Return why the model has no answer at ``speed`` [m/s], as text; "" if it has one."""

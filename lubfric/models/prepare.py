@@ -88,13 +88,13 @@ def prepare_on_maps(scene: Scene, read: tuple[Surface, ...]) -> Prepared:
 
 def _on_sample(scene: Scene, sample: Sample, *, is_given: bool, has_given_maps: bool) -> Prepared:
     """Return ``scene`` made ready on ``sample``, with the contact on its first strips."""
-    surface = sample.first_map()
+    surface = sample.stated_map()
     check_map(scene, surface)
     memo = Memo()
     rough_contact = sample.contact(scene, sample.first_strips, partial(operator_on, memo, scene))
     memo.put(JoinedKey(sample.cells.coarsening, sample.first_strips), rough_contact, cells_of_contact(rough_contact))
     by_form = (
-        *violations_by_form(scene, sample.own_maps, is_given=has_given_maps),
+        *violations_by_form(scene, sample.maps_before_extension, is_given=has_given_maps),
         *violations_by_strips(*sample.sq_deviation(surface)),
     )
     prepared = Prepared(

@@ -111,7 +111,7 @@ def described_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> tuple[s
         if scene.transient is not None:
             check_run(scene)
         sample = sample_of(scene)
-        surface = sample.first_map()
+        surface = sample.stated_map()
         check_map(scene, surface)
     estimate = estimate_scene(scene, sample, surface, speeds)
     sections = {name: [*FACTS[name](scene), *input_rows(scene, name)] for name in FACTS} | estimate.sections
@@ -156,12 +156,12 @@ def estimate_scene(
     first_model = models_that_may_answer(scene.numerics.model)[0]
     at = [
         *((None, violation) for violation in beforehand(scene, surface)),
-        *((None, violation) for violation in violations_by_form(scene, sample.own_maps, is_given=False)),
+        *((None, violation) for violation in violations_by_form(scene, sample.maps_before_extension, is_given=False)),
         *((None, violation) for violation in violations_by_strips(*sample.sq_deviation(surface))),
         *first_model.expected_violations(scene, sorted(set(speeds))),
     ]
     refusals = _doubts([pair for pair in at if pair[1].severe or IF_ALL in pair[1].consequence])
-    scene_map = sample.map
+    scene_map = sample.whole_map
     notes = [note for note in scene_map.notes if "nm as measured" in note]
     effects = expected_effects(
         _fastest_moment(scene),

@@ -201,7 +201,7 @@ def _mark(
 def plot_surface(path: Path, prepared: Prepared) -> None:
     """Draw the map that the scene of ``prepared`` has, to scale, of a long line the beginning; and the bearing
     (Abbott-Firestone) curve of the whole of it."""
-    surface = prepared.sample.map
+    surface = prepared.sample.whole_map
     x, y = (np.arange(count) * step for count, step in zip(surface.shape, surface.spacing))
     part = drawn_part(x, y, 0)
     higher = np.linspace(0.0, 1.0, QUANTILES)

@@ -43,7 +43,7 @@ class Sample(ABC):
     cells : cells of a strip along x, and their length in native cells, those of the scene
     correlation_lengths : correlation lengths [m] at 1/e along x and y
     strip_length : what one strip adds to the line [m], along y
-    first_strips, available_strips : number of strips that are solved first, and that there are
+    first_strips, available_strips : number of strips on which a line is solved first, and that there are
     available_pieces : number of pieces that there are
     has_exact_sq : whether every strip has the Sq of the surface
     is_homogeneous : whether all strips are parts of one random surface; False: windows of a measured map
@@ -94,7 +94,7 @@ class Sample(ABC):
 
         ``operator``: makes the half-space operator of a grid, or finds it, from its shape and its spacing [m].
         """
-        surface = self.first_joined(count)
+        surface = self.joined(range(count))
         heights = surface.heights - surface.heights.mean()
         made = operator(surface.shape, surface.spacing)
         return half_space_contact_of(scene, heights, surface.spacing, operator=made, x=self.cells.axis())
@@ -130,17 +130,17 @@ class Sample(ABC):
         return "a piece of the surface"
 
     def described(self, surface: Surface) -> list[str]:
-        """Return the map that the scene has, and ``surface``, the part of it whose statistics are stated, in words."""
+        """Return in words the map that the scene has, and ``surface``, its `stated_map`."""
         joined = f"{self.first_strips} strips, joined along the line" if self.first_strips > 1 else "one strip"
         return [self.map_in_words(surface), f"statistics of {joined}: {replace(surface, source='').describe()}"]
 
     def sq_deviation(self, surface: Surface) -> tuple[float, float]:
-        """Return by how much, relative, the Sq of ``surface``, the strips that are solved first, is above that of the map that
-        the scene has, and the difference that a sample of this size explains, at 95 %. Zeros: there is no other map."""
+        """Return by how much, relative, the Sq of ``surface``, the `stated_map`, is above that of the `whole_map`, and the
+        difference that a sample of this size explains, at 95 %. Zeros: both are the same map."""
         return 0.0, 0.0
 
     def map_in_words(self, surface: Surface) -> str:
-        """Return the map that the scene has, of which ``surface`` is solved first, in words."""
+        """Return in words the map that the scene has, of which ``surface`` is the `stated_map`."""
         return f"{surface.source}, as an infinite line contact, of which strips are solved"
 
     def ends_after(self, count: int) -> bool:
@@ -162,27 +162,24 @@ class Sample(ABC):
         """The number of cells along y of one strip."""
         return self.rows_of(1)
 
-    def first_joined(self, count: int) -> Surface:
-        """Join the first ``count`` strips."""
-        return self.joined(range(count))
-
     def strip(self, index: int) -> Surface:
         """Return strip ``index`` alone, its last rows passing into its first."""
         return self.joined([index])
 
-    @property
-    def map(self) -> Surface:
-        """The map that the scene has: of a measured one the whole, else what is solved first."""
-        return self.first_map()
+    def stated_map(self) -> Surface:
+        """Return the map whose statistics are stated, as Sq: the `first_strips`, joined on `cells`; of a single patch all of it,
+        on native cells. A prepared scene has it as its surface."""
+        return self.joined(range(self.first_strips))
 
     @property
-    def own_maps(self) -> tuple[Surface, ...]:
-        """The map of each rough body, or of all, as it is before it is continued by its mirror image."""
-        return self.bodies or (self.map,)
+    def whole_map(self) -> Surface:
+        """The map that the scene has: a measured one, of which strips are windows; else the `stated_map`."""
+        return self.stated_map()
 
-    def first_map(self) -> Surface:
-        """Return the map that is solved first; of a single patch on native cells."""
-        return self.first_joined(self.first_strips)
+    @property
+    def maps_before_extension(self) -> tuple[Surface, ...]:
+        """The map of each rough body, or the only one of all, before it is continued by its mirror image."""
+        return self.bodies or (self.whole_map,)
 
     def is_on_surface_of(self, other: Sample) -> bool:
         """Return whether this sample is the ``other`` one, on the same cells or on others: `halved`, `native`."""

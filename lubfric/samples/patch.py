@@ -66,7 +66,7 @@ class SinglePatch(OnlyMap):
     def piece(self, index: int, length: float = PIECE) -> Surface:
         return self.surface
 
-    def first_map(self) -> Surface:
+    def stated_map(self) -> Surface:
         return self.surface
 
     def of_body(self, body: int) -> SinglePatch:

@@ -1,7 +1,7 @@
 """Samples of strips, each some 90 correlation lengths long across the motion: of an endless generated surface, or
 windows of a measured map.
 
-`Sample.first_joined` joins the first strips to one line, which is solved as one contact with one film and one approach.
+`Sample.joined` joins the first strips to one line, which load sharing solves as one contact with one film and one approach.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ WIDE_HALF_WIDTH = 5.0
 # pass through the contact in time. Not measured: the sampling error is reported with a strip of any length.
 MOVING_STRIP_LENGTHS = 30.0
 
-# Correlation lengths that are solved first: 20 blocks, whose scatter is known to 1/sqrt(38) = 16 %. Half and twice as
+# Correlation lengths of the `Sample.first_strips`: 20 blocks, whose scatter is known to 1/sqrt(38) = 16 %. Half and twice as
 # many change f by up to 1.7 %, within the sampling tolerance of 2 % (the command in models/shared/statistics.py).
 FIRST_LENGTHS = 180.0
 
@@ -161,8 +161,7 @@ class MeasuredStrips(Sample):
     """Windows of a measured ``surface``, on its own cells or on every second, fourth, ... of them.
 
     ``starts``: first columns of the windows that the map holds independently. They are used in this order, so that any
-    number of them is spread over the map. Beyond its ends the map is continued by its mirror image. ``maps_alone``: of
-    each body, or of all, before that.
+    number of them is spread over the map. Beyond its ends the map is continued by its mirror image.
     """
 
     cells: Cells
@@ -174,7 +173,7 @@ class MeasuredStrips(Sample):
     surface: Surface
     starts: tuple[int, ...]
     bodies: tuple[Surface, ...] = ()
-    maps_alone: tuple[Surface, ...] = ()
+    maps_before_extension: tuple[Surface, ...] = ()
     is_homogeneous: bool = False
 
     def rows_of(self, count: int) -> int:
@@ -184,12 +183,8 @@ class MeasuredStrips(Sample):
         return replace(self, surface=self.bodies[body])
 
     @property
-    def map(self) -> Surface:
+    def whole_map(self) -> Surface:
         return self.surface
-
-    @property
-    def own_maps(self) -> tuple[Surface, ...]:
-        return self.maps_alone
 
     def map_in_words(self, surface: Surface) -> str:
         return self.surface.describe()
@@ -337,7 +332,7 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
         surface=surface,
         starts=tuple(starts),
         bodies=tuple(parts),
-        maps_alone=tuple(maps[1:] or maps),
+        maps_before_extension=tuple(maps[1:] or maps),
     )
 
 

@@ -24,7 +24,7 @@ class RunModel:
     ----------
     start : makes a scene ready, and returns the `TimeModel` with its state at t = 0
     check : raises `InputError` for a scene that the run does not take, and solves nothing
-    estimate_work : steps and processor time of a run, with its sample and the map that is solved first
+    estimate_work : steps and processor time of a run, with its sample and the `Sample.stated_map`
     described : what computes the run of a scene, and which model-form error its interval has, as text
     moves_roughness : whether the roughness moves through the film
     """

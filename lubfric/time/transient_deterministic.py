@@ -33,7 +33,7 @@ from ..models.deterministic import (
     dry_contact,
     evaluated,
     lay_out,
-    maps_of,
+    maps_of_bodies,
     newton,
     numbers_of,
     reach,
@@ -289,7 +289,7 @@ def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
         raise InputError(" needs a contact of cells under a cylinder", "numerics.model")
     check_deterministic(scene)
     surface, map_coarsening = surface_and_map_coarsening(prepared, 0)
-    maps = maps_of(prepared, 0)
+    maps = maps_of_bodies(prepared, 0)
     if len(maps) == 1 and plan.sliding is not None and len(moving_bodies(scene)) > 1:
         raise InputError(" moves two rough bodies apart", "transient.sliding", "a map of each (lubfric.prepare)")
     if not maps:  # smooth

@@ -19,7 +19,7 @@ from lubfric.models.deterministic import (
     continued_strip,
     lay_out,
     linear,
-    maps_of,
+    maps_of_bodies,
     moments,
     moving,
     plot_moments,
@@ -206,12 +206,12 @@ def test_two_measured_maps_are_together_what_the_contact_sees(two_files, samplin
     """In strips and in a patch; those given are those of the files. The counterface lies turned over about x."""
     scene, maps = two_files
     prepared = lubfric.prepare(scene.with_(numerics={"model": "deterministic", "sampling": sampling}))
-    result = maps_of(prepared, 0)
+    result = maps_of_bodies(prepared, 0)
     whole = prepared.sample.strip(0)
     heights = sum(one.heights - one.heights.mean() for one in result.values())
     np.testing.assert_allclose(heights, whole.heights - whole.heights.mean(), atol=1e-14)
     assert min(one.sq for one in result.values()) > 0.3 * whole.sq
-    given = maps_of(lubfric.prepare(scene, maps[0], counterface=maps[1]), 0)
+    given = maps_of_bodies(lubfric.prepare(scene, maps[0], counterface=maps[1]), 0)
     assert given["counterface"].sq == pytest.approx(maps[1].sq, rel=0.1)
     if sampling == "patch":
         for name, one in result.items():
@@ -222,7 +222,7 @@ def test_two_measured_maps_move_each_at_its_own_speed(two_files):
     scene, _ = two_files
     patch = {"model": "deterministic", "sampling": "patch", "grid": "given", "accept": True}
     scene = scene.with_(numerics=patch, contact={"spacing": 2 * CELL})
-    maps = maps_of(lubfric.prepare(scene), 0)
+    maps = maps_of_bodies(lubfric.prepare(scene), 0)
     result = lubfric.friction(scene, 0.3)
     bodies = [RoughBody(maps["surface"], 0.15), RoughBody(maps["counterface"], 0.45, upper=True)]
     assert result.coefficient == pytest.approx(solve_moving_strip(scene, bodies, 0.3).result.coefficient, rel=1e-3)

@@ -16,18 +16,18 @@ PAPER = paper_scene()
 
 def test_a_strip_is_always_the_same_and_like_no_other():
     strips = lubfric.prepare(PAPER).sample
-    one = strips.first_joined(1)
-    both = strips.first_joined(2)
+    one = strips.joined(range(1))
+    both = strips.joined(range(2))
     length = one.shape[1]
     assert both.shape[1] == 2 * length and one.size[1] == pytest.approx(90 * strips.correlation_lengths[1], rel=0.05)
-    np.testing.assert_array_equal(strips.first_joined(2).heights, both.heights)
+    np.testing.assert_array_equal(strips.joined(range(2)).heights, both.heights)
     middle = slice(length // 4, length)
     np.testing.assert_array_equal(one.heights[:, middle], both.heights[:, middle])
     first = both.heights[:, :length].ravel()
     second = both.heights[:, length:].ravel()
     assert abs(np.corrcoef(first, second)[0, 1]) < 0.1
     assert both.sq == pytest.approx(PAPER.surface.sq, rel=0.03)
-    other = lubfric.prepare(PAPER.with_(surface={"seed": 2})).sample.first_joined(1)
+    other = lubfric.prepare(PAPER.with_(surface={"seed": 2})).sample.joined(range(1))
     assert abs(np.corrcoef(one.heights.ravel(), other.heights.ravel())[0, 1]) < 0.1
 
 
@@ -54,7 +54,7 @@ def test_a_measured_map_gives_its_own_columns_no_more_than_it_holds():
     )
     assert strips.rows == strips.strip(0).shape[1]
     assert np.diff(sorted(strips.starts)).min() * 0.45e-6 >= 4 * 3.5e-6
-    line = strips.first_joined(strips.available_strips)
+    line = strips.joined(range(strips.available_strips))
     assert line.size[1] == pytest.approx(strips.available_strips * strips.strip_length, rel=0.05)
     own = surface.heights[strips.starts[0] + fx // 2 : strips.starts[0] + wide : fx, fy // 2 :: fy]
     np.testing.assert_array_equal(line.heights[:, 20:40], own[:, 20:40])

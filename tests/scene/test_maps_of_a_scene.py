@@ -291,7 +291,7 @@ def test_the_shorter_of_two_maps_is_named(maps):
     assert re.match(r"the map of the counterface \(.*short.npy\) is 7.2 µm long in x", str(caught.value))
     assert "counterface.extension = 'mirror'" in str(caught.value)
     mirrored = scene.with_(counterface={"extension": "mirror"})
-    words = why_sample_too_short(mirrored, 5.0, lubfric.prepare(mirrored).sample.map)
+    words = why_sample_too_short(mirrored, 5.0, lubfric.prepare(mirrored).sample.whole_map)
     assert "omit counterface.extension" in words and "for [counterface], in place of short.npy" in words
 
 
@@ -321,7 +321,7 @@ def test_the_sq_of_a_strip_is_stated_beside_that_of_its_map_with_what_sampling_e
         made = lubfric.generate_surface((300, 150), 1e-6, sq=1e-7, correlation_length=6e-6, acf=acf, seed=seed)
         made = replace(made, periodic_axes=(False, False))
         sample = sample_of(scene, read=(made,))
-        strips = sample.first_map()
+        strips = sample.stated_map()
         deviation, explained = sample.sq_deviation(strips)
         assert deviation == pytest.approx(strips.heights.std() / made.heights.std() - 1)
         inside += abs(deviation) <= explained

@@ -39,9 +39,9 @@ from .rheology import mean_fluidity, thinning
 from .rough_bodies import (
     MOST_WORK_OF_POINT,
     bodies_of,
-    maps_of,
+    map_of_strip,
+    maps_of_bodies,
     moving_point_work,
-    strip_surface,
 )
 from .solve import dry_contact, solve_point
 from .state import FLUID, RUPTURED, TOUCHING, Iterate, State, TimeHistory, admissible, evaluated, residuals

@@ -42,7 +42,7 @@ from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
 from .levels import Levels, mean
 from .problem import BOUNDARY_FILM
 from .result import DeterministicResult, stress_with_oil
-from .rough_bodies import MOST_WORK_OF_POINT, map_of, strip_surface
+from .rough_bodies import MOST_WORK_OF_POINT, map_of_contact, map_of_strip
 from .strip import StripSolution, change_by_flow, solve_strip
 from .strip_on_two_grids import StripOnTwoGrids, halved_along_y, sample_coarsening_of
 
@@ -197,7 +197,7 @@ def fine_fields_of(prepared: Prepared, speed: float) -> ContactFields:
     coarsening = sample.coarsening_to_look_at(half_width)
     length = pictured_length(prepared.scene, sample)
     rough_contact = contact_on_piece(prepared, sample, 0, coarsening=coarsening, length=length)
-    strip = solve_strip(prepared.scene, map_of(prepared, rough_contact), speed)
+    strip = solve_strip(prepared.scene, map_of_contact(prepared, rough_contact), speed)
     where = sample.piece_in_words()
     return fields_of(
         strip, f"{where}, on cells of {rough_contact.spacing[0] * 1e6:.3g} x {rough_contact.spacing[1] * 1e6:.3g} µm"
@@ -261,7 +261,7 @@ def _at_end(prepared: Prepared, strip: StripSolution, speed: float, scene: Scene
     These are the cells of the answer, because the change of f by the stress of an oil is up to three times as large on
     cells twice as long.
     """
-    surface = partial(strip_surface, prepared, 0)
+    surface = partial(map_of_strip, prepared, 0)
     return _with_heat(scene, strip.at_inputs(scene, speed, surface))
 
 
@@ -343,7 +343,7 @@ def _sample_notes(prepared: Prepared, error: StandardError, length: float) -> tu
     sample = prepared.sample
     tolerance = prepared.scene.numerics.sampling_tolerance
     if math.isnan(error.value):
-        return why_sample_too_short(prepared.scene, length / sample.correlation_lengths[1], sample.map), BIASED
+        return why_sample_too_short(prepared.scene, length / sample.correlation_lengths[1], sample.whole_map), BIASED
     if error.value <= WORTH_A_NOTE * tolerance:
         return ()
     (stated, target) = percent_beside(error.value, tolerance)

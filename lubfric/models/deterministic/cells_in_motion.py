@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from ..shared import Prepared, smooth_over_cells
 from .result import DeterministicResult
-from .rough_bodies import strip_surface
+from .rough_bodies import map_of_strip
 from .strip import StripSolution
 
 # The constants of the effect of the cells where roughness moves are fitted to `verification.campaigns.moving_cells`: f of
@@ -176,7 +176,7 @@ def cells_in_motion(
 
 def cells_of_strips(prepared: Prepared, strips: Sequence[StripSolution], by_longer: float) -> CellsInMotion:
     """Return what is known of the cells that ``strips`` are solved on; ``by_longer``: as of `CellsInMotion`."""
-    is_smooth = smooth_over_cells(strip_surface(prepared, 0).heights)
+    is_smooth = smooth_over_cells(map_of_strip(prepared, 0).heights)
     return cells_in_motion(prepared, strips, strips[0].problem.spacing, is_smooth=is_smooth, by_longer=by_longer)
 
 

@@ -89,7 +89,7 @@ class DeterministicModel(Model):
     def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:
         return expected_on_hertz(scene)
 
-    def first_strips(self, sample: Sample) -> int:
+    def strips_to_begin_with(self, sample: Sample) -> int:
         return 1
 
     def estimate_work(

@@ -39,15 +39,16 @@ CONTROL_STRIPS = 48
 CONTROL_CELLS = 4_000_000
 
 
-def strip_surface(prepared: Prepared, index: int) -> Surface:
-    """Return the map of strip ``index``; of a patch at rest all of it, on its own cells."""
+def map_of_strip(prepared: Prepared, index: int) -> Surface:
+    """Return the map of strip ``index`` alone, which the deterministic model solves by itself: on the cells of the sample; of a
+    patch at rest all of it, on native cells."""
     if prepared.sample.refines_in_place and not has_moving_roughness(prepared.scene):
         return prepared.surface
-    return map_of(prepared, contact_on_strip(prepared, prepared.sample, index))
+    return map_of_contact(prepared, contact_on_strip(prepared, prepared.sample, index))
 
 
-def map_of(prepared: Prepared, rough_contact: HalfSpaceContact) -> Surface:
-    """Return the map of ``rough_contact``, a strip or a piece."""
+def map_of_contact(prepared: Prepared, rough_contact: HalfSpaceContact) -> Surface:
+    """Return the heights of ``rough_contact``, of a strip or a piece, as a map."""
     return replace(prepared.surface, heights=rough_contact.heights, spacing=rough_contact.spacing, mask=None)
 
 
@@ -55,17 +56,17 @@ def bodies_of(prepared: Prepared, index: int, speed: float) -> list[RoughBody]:
     """Return the rough bodies of strip ``index``. In pure rolling two are one: surface 1."""
     moving = moving_bodies(prepared.scene)
     if len({ratio for _, ratio in moving}) == 1:
-        return [RoughBody(strip_surface(prepared, index), abs(speed) * moving[0][1], moving[0][0] == "counterface")]
-    maps = maps_of(prepared, index)
+        return [RoughBody(map_of_strip(prepared, index), abs(speed) * moving[0][1], moving[0][0] == "counterface")]
+    maps = maps_of_bodies(prepared, index)
     return [RoughBody(maps[name], abs(speed) * ratio, name == "counterface") for name, ratio in moving]
 
 
-def maps_of(prepared: Prepared, index: int) -> dict[str, Surface]:
+def maps_of_bodies(prepared: Prepared, index: int) -> dict[str, Surface]:
     """Return the map of each rough body on strip ``index``, by its section."""
     moving = [name for name, _ in moving_bodies(prepared.scene)]
     sample = prepared.sample
     if len(moving) < 2 or prepared.has_one_map_for_all_bodies:  # the only map is that of surface 1
-        return dict.fromkeys(moving[:1], strip_surface(prepared, index))
+        return dict.fromkeys(moving[:1], map_of_strip(prepared, index))
     return {name: sample.of_body(k).strip(index) for k, name in enumerate(moving)}
 
 

@@ -29,7 +29,7 @@ from .cells_in_motion import cells_of_strips
 from .problem import are_soft
 from .rough_bodies import (
     MOST_WORK_OF_POINT,
-    map_of,
+    map_of_contact,
 )
 from .strip import (
     StripSolution,
@@ -332,7 +332,7 @@ def _refined(
         coarsening = tuple(m * n for m, n in zip(map_coarsening, sample.cells.coarsening))
         last = max(1, coarsening[0] // times), max(1, coarsening[1] // times)
         map_coarsening = coarsening[0] // last[0], coarsening[1] // last[1]
-        surface = map_of(prepared, contact_on_piece(prepared, sample, index, coarsening=last, length=length))
+        surface = map_of_contact(prepared, contact_on_piece(prepared, sample, index, coarsening=last, length=length))
         longer: StripSolution | None = None
         with suppress(ConvergenceError):  # it is a start only, and cells so long may have no solution
             longer = solve_strip(

@@ -12,7 +12,7 @@ from ...surface import Surface
 from ..shared import Prepared
 from .moving_strip import SampleTarget, compared_moments, solve_moving_strip, strip_at_rest
 from .result import DeterministicResult
-from .rough_bodies import bodies_of, strip_surface, summit_control
+from .rough_bodies import bodies_of, map_of_strip, summit_control
 from .strip import StripSolution, solve_strip
 
 # Cells in a correlation length, at least.
@@ -75,7 +75,7 @@ def surface_and_map_coarsening(prepared: Prepared, index: int) -> tuple[Surface,
     sample = prepared.sample
     (sx, sy) = sample_coarsening_of(prepared.scene, sample)
     (rx, ry) = (1, 1) if has_moving_roughness(prepared.scene) else sample.refinement
-    return strip_surface(prepared, index), (sx * rx, sy * ry)
+    return map_of_strip(prepared, index), (sx * rx, sy * ry)
 
 
 def longer_than(surface: Surface, map_coarsening: tuple[int, int], *, moving: bool = False) -> tuple[int, int]:

@@ -97,7 +97,7 @@ CERTAIN_FACTOR = 2.0
 
 
 def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float) -> WorkEstimate:
-    """Return what a point at ``speed`` [m/s] will take; ``surface``: the map that is solved first."""
+    """Return what a point at ``speed`` [m/s] will take; ``surface``: the `Sample.stated_map`."""
     film = scene.line_contact(speed).expected_film if speed else 0.0
     sq = surface.sq
     touching = _touching_in_words(film, float(surface.heights.max() - surface.heights.mean()))

@@ -18,8 +18,8 @@ from ..deterministic import (
     bodies_of,
     cells_in_motion,
     levels_of,
+    map_of_strip,
     sample_target,
-    strip_surface,
     two_levels,
 )
 from ..deterministic import answer_of as deterministic_answer
@@ -198,7 +198,7 @@ def _solve_pair(prepared: Prepared, speed: float, index: int, slope: float | Non
     """Return strip ``index`` on long cells."""
     scene = prepared.scene
     sample = prepared.sample
-    surface = strip_surface(prepared, index)
+    surface = map_of_strip(prepared, index)
     lengths = sample.correlation_lengths
     is_mirrored = sample.distinct_rows(surface.heights) < surface.shape[1]
     if not has_moving_roughness(scene):

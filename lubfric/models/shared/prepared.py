@@ -34,9 +34,8 @@ class Prepared(FieldsOnly, Renamed, Shown):
     Attributes
     ----------
     scene : the scene
-    surface : the height map for statistics: the strips that are solved first, joined, or the complete patch, on native
-        cells
-    rough_contact : the rough contact that is solved first, on the cells of ``sample``
+    surface : the map whose statistics are stated (`Sample.stated_map`): the first strips, joined; a patch on native cells
+    rough_contact : the contact on the first strips, on the cells of ``sample``; of a patch too
     violations : assumptions of the model that bodies and map violate, known before any solve
     sample : what represents the infinite rough line contact
     is_given : whether a map or a contact was given to `lubfric.prepare`, so that it cannot be extended

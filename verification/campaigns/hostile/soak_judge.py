@@ -175,7 +175,7 @@ def judge_of(prepared: Prepared, result: FrictionResult) -> Judge:
     else:
         while sample.cells.coarsening != result.decision.coarsening:
             sample = sample.halved()
-        strip = _strip(sample.first_joined(result.decision.strips), sample.cells.axis())
+        strip = _strip(sample.joined(range(result.decision.strips)), sample.cells.axis())
         if not sample.cells.is_native:
             pairs = tuple(_pair(sample, i) for i in range(min(PIECES, sample.available_pieces)))
     return Judge(
