@@ -22,7 +22,7 @@ from ..estimate import FrictionResult
 from ..quantities import KEYS, axis_label, counted, worded_value
 from ..units import ZERO_CELSIUS, converted, number_and_unit, numbers_of, unit_for, with_interval, worded
 from .command_line import scene_of
-from .commands import answer, check_outputs, keeping, made, moment_reports, paced, run_folder, say
+from .commands import RESOLVED_SCENE, answer, check_outputs, keeping, made, moment_reports, paced, run_folder, say
 from .fit_picture import drawn_record, plot_fit
 from .progress import ProgressLine
 from .study_report import answer_lines, planned_point_in_words, study_page
@@ -44,7 +44,7 @@ def run_study(arguments: Namespace) -> None:
     studies.check_tools(netcdf=arguments.netcdf, parquet=arguments.parquet)
     wanted = {"csv": True, "nc": arguments.netcdf, "parquet": arguments.parquet}
     names = [f"study.{kind}" for kind, given in wanted.items() if given]
-    check_outputs(arguments, arguments.out, [*names, "study.png", "report.html"])
+    check_outputs(arguments, arguments.out, [*names, "study.png", "report.html", RESOLVED_SCENE, RESOLVED_STUDY])
     say(plan.explain(arguments.out))
     begun = time.perf_counter()
     workers_of = studies.pool(workers) if arguments.cluster is None else studies.cluster(arguments.cluster)
@@ -66,6 +66,8 @@ def run_study(arguments: Namespace) -> None:
         with folder.reporting("the smallest and the largest f were not reported"):
             rows = answer_lines(result)
         folder.add("report.html", study_page, result, folder.contents, rows)
+        folder.add(RESOLVED_SCENE, lambda: plan.scene.to_toml(arguments.out).encode())
+        folder.add(RESOLVED_STUDY, lambda: plan.to_toml(RESOLVED_SCENE).encode())
         folder.put()
     for row in rows:
         say(row)
@@ -76,6 +78,9 @@ def run_study(arguments: Namespace) -> None:
         said = f"{result.failed} of {counted(result.solved, 'points')} failed; first: {result.failures[0]}"
         raise ConvergenceError(said, report, result)
 
+
+# The file of a study folder that says what was solved: with the scene, all that `lubfric study` needs to repeat it.
+RESOLVED_STUDY = "resolved_study.toml"
 
 # Time between two points up to which a process handed them over together [s].
 SECONDS_OF_A_BATCH = 0.2

@@ -34,6 +34,7 @@ from .scene import (
     has_moving_roughness,
     missing_inputs,
     moving_bodies,
+    toml_value,
     value_of,
     why_gap_not_resolved,
 )

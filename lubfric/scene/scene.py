@@ -199,7 +199,7 @@ class Scene(Shown):
         with its complete path, or relative to the ``folder`` of the scene file where that is given; and an oil as it was
         given, instead of its numbers at the temperature. Raises `InputError` for a history that scene files do not have.
         """
-        lines = [f"name = {_toml(self.name)}"]
+        lines = [f"name = {toml_value(self.name)}"]
         for section in SECTIONS:
             part = getattr(self, section)
             if part is None:
@@ -220,7 +220,9 @@ class Scene(Shown):
                     keys[name.partition(".")[2]] = (value_of(self, name), low, high)
             if "file" in keys:
                 keys["file"] = _map_in_words(keys["file"], folder)
-            lines += [f"{key} = {_toml(value)}" for key, value in keys.items() if value is not None and value != ()]
+            lines += [
+                f"{key} = {toml_value(value)}" for key, value in keys.items() if value is not None and value != ()
+            ]
         return "\n".join(lines) + "\n"
 
     def _facts(self) -> dict[str, str]:
@@ -250,13 +252,14 @@ def _map_in_words(file: str | Path, folder: str | Path | None) -> str:
     return str(Path(file).absolute())
 
 
-def _toml(value: Any) -> str:
+def toml_value(value: Any) -> str:
+    """Return ``value`` as TOML has it, a history as the table of its fields. Raises `InputError` for what has no form there."""
     if isinstance(value, History):
         kind = next((kind for kind, known in HISTORY_KINDS.items() if type(value) is known), None)
         if kind is None:
             said = f"a history of type {type(value).__name__} has no form in a scene file"
             raise InputError(said, allowed=", ".join(HISTORY_KINDS))
-        return _toml({"kind": kind} | vars(value))
+        return toml_value({"kind": kind} | vars(value))
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (int, float)):
@@ -266,8 +269,8 @@ def _toml(value: Any) -> str:
             raise InputError(f"{ascii(value)} is not Unicode, and a scene file cannot hold it; rename it")
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")  # the one control that JSON lets stand
     if isinstance(value, dict):
-        return f"{{ {', '.join(f'{name} = {_toml(part)}' for name, part in value.items())} }}"
-    return f"[{', '.join(_toml(part) for part in value)}]"
+        return f"{{ {', '.join(f'{name} = {toml_value(part)}' for name, part in value.items())} }}"
+    return f"[{', '.join(toml_value(part) for part in value)}]"
 
 
 def value_of(scene: Scene, name: str) -> Any:

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from .points import SPEED
 from .tables import columns_of_study
 
 # Points with f from which shares are stated. A convention.
@@ -41,13 +42,14 @@ def main_effects(result: Any) -> dict[str, MainEffect]:
     The share is the variance of the mean of ln |f| at each value of the input over that of ln |f| (the first-order index
     of Sobol); of a number that hardly repeats, that of a parabola in the number, or in its logarithm where it varies by
     more than a factor of 3. Empty where f is known at too few points, does not vary, or where the inputs vary
-    together, as do those of operating points.
+    together, as those along a path of contact do. What only says where an operating point lies is no input.
     """
     columns = columns_of_study(result)
     f = np.abs(columns["coefficient"])
     known = np.isfinite(f) & (f > 0)
-    keys = [key for key in result.coords if np.unique(columns[key][known]).size > 1]
-    if result.paired or result.chosen or len(keys) < 2 or known.sum() < LEAST_POINTS:
+    inputs = {SPEED, *(key for axis in result.plan.axes for key in axis.keys)}
+    keys = [key for key in result.coords if key in inputs and np.unique(columns[key][known]).size > 1]
+    if result.chosen or len(keys) < 2 or known.sum() < LEAST_POINTS:
         return {}
     scattered = [key for key in keys if _is_scattered(columns[key][known])]
     if known.sum() < POINTS_FOR_EACH * len(scattered):

@@ -22,6 +22,7 @@ from .explain import explain, warnings_of
 from .operating_points import POINT, operating_points
 from .points import SPEED, scene_key
 from .store import digest
+from .study_file import study_toml
 from .vary import VARIED_SLIDING, Axis, Between, axes_of, notes_of_sliding, sample, unit_of
 
 STUDY_KEYS = ("scene", "speeds", "speed_range", "points", "vary", "together", "sample")
@@ -126,6 +127,7 @@ class StudyPlan(FieldsOnly):
 
     explain = explain
     warnings = warnings_of
+    to_toml = study_toml
 
 
 def scenes_of(scene: Scene, axes: tuple[Axis, ...]) -> Iterator[Scene]:

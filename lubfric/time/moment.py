@@ -10,11 +10,11 @@ import numpy as np
 
 from .._base import FloatArray
 from ..contact import HalfSpaceContact
+from ..errors import ConvergenceError
 from ..estimate import (
     full_load_numbers,
     power_of_forces,
 )
-from ..errors import ConvergenceError
 from ..film import ShearForce, above_carried, rolling_error, smallest, spike_error
 from ..models.load_sharing import (
     moment_error,

@@ -46,7 +46,11 @@ def command(*arguments, **options):
 def test_a_study_file_is_carried_out(tmp_path, capsys):
     assert main(["study", written(tmp_path), "--out", str(tmp_path / "out")]) == 0
     said = capsys.readouterr().err
-    assert "12 points" in said and "[12/12]" in said and "wrote report.html, study.csv" in said
+    assert (
+        "12 points" in said
+        and "[12/12]" in said
+        and "wrote report.html, resolved.toml, resolved_study.toml, study.csv" in said
+    )
     result = lubfric.open_study(tmp_path / "out")
     scene = lubfric.load_scene(tmp_path / "small.toml")
     pairs = [(1, 1e-7), (2, 1.2e-7)]
@@ -66,6 +70,7 @@ def test_a_study_file_is_carried_out(tmp_path, capsys):
     rows = (tmp_path / "out" / "study.csv").read_text().splitlines()
     assert len(rows) == 13 and rows[0].startswith("bodies.load [N],surface.seed,surface.sq [m],speed [m/s],")
     assert not [p for p in (tmp_path / "out").rglob("*") if p.name.startswith(".part")]
+    assert studies.load_study(tmp_path / "out" / "resolved_study.toml").keys == result.plan.keys
 
 
 @pytest.mark.parametrize("vary", [{}, {"bodies.load": [3.0, 5.5]}, {"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}])
@@ -108,6 +113,20 @@ def test_inputs_that_vary_together_have_no_shares_of_their_own():
     pairs = [(load, load / 10) for load in (1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0)]
     result = numbered({("bodies.load", "lubricant.viscosity"): pairs}, lambda scene: scene.bodies.load)
     assert not studies.main_effects(result)
+
+
+def test_shares_of_a_table_of_points_are_those_of_its_columns():
+    """Loads and speeds in all combinations, as rows; the place of a point is no input."""
+    pairs = [(load, speed) for load in (1.0, 2.0, 4.0) for speed in (0.1, 0.2, 0.4)]
+    rows = [{"load [N]": load, "speed [m/s]": speed, "position [m]": load} for load, speed in pairs]
+    plan = lubfric.plan_study(SMALL, points=rows)
+    f = np.array([load**-1.0 * speed**0.5 for load, speed in pairs])
+    columns = lubfric.study(SMALL, {}, [0.3]).columns
+    columns = dict.fromkeys(columns, np.zeros(f.shape)) | {"coefficient": f}
+    result = studies.StudyResult(plan, columns, np.full(f.shape, "converged"), np.full(f.shape, ""))
+    effects = studies.main_effects(result)
+    assert list(effects) == ["bodies.load", "speed"]
+    assert [effect.share for effect in effects.values()] == pytest.approx([0.8, 0.2])
 
 
 def test_a_grade_that_is_varied_is_no_common_input():
