@@ -175,10 +175,9 @@ class TestModel:
         assert 0 < answer.numbers["coefficient"] < 0.1 and answer.numerical > 0 and answer.sampling_error.value > 0
         assert answer.report.converged
         assert answer.fields.heights.shape == answer.fields.shear.shape == answer.fields.pressure.shape
-        again = model.solve(prepared, prepared.sample, count, 0.03, start=solution)
-        assert again.answer().numbers["coefficient"] == pytest.approx(
-            solution.answer().numbers["coefficient"], rel=1e-3
-        )
+        again = model.solve(prepared, prepared.sample, count, 0.03, start=solution).corrected().completed()
+        f = answer.numbers["coefficient"]
+        assert again.answer().numbers["coefficient"] == pytest.approx(f, rel=1e-3)
 
     def test_a_model_estimates_its_work_before_any_solve(self, monkeypatch):
         """Each beyond the cheaper ones; at an order of magnitude that a tighter tolerance raises."""

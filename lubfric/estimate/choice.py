@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 
 from .._base import limited_work, work_left
@@ -44,12 +44,13 @@ def choose(prepared: Prepared, speed: float, requested: str | Model, *, for_fiel
     (`Sample.on_field_cells`). Raises `ConvergenceError`.
     """
     if isinstance(requested, Model):
-        return Choice(model=requested, solution=solve_to_tolerance(prepared, speed, requested, for_fields=for_fields))
+        solution = solve_to_tolerance(prepared, speed, requested, for_fields=for_fields)
+        return _completed(Choice(model=requested, solution=solution))
     models = models_up_to(requested)
     able = [model for model in models if not model.why_unable(prepared, speed)]
     if requested == AUTO:
         return _completed(_cheapest(prepared, speed, able, for_fields=for_fields))
-    return _most_expensive(prepared, speed, able, models[-1], for_fields=for_fields)
+    return _completed(_most_expensive(prepared, speed, able, models[-1], for_fields=for_fields))
 
 
 def work_for_an_answer() -> float:
@@ -93,7 +94,7 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
     choice = Choice(model=models[0], solution=first)
     for model in models[1:]:
         if choice.solution.may_suffice():
-            choice = replace(choice, solution=choice.solution.completed())
+            choice = _completed(choice)
         why = choice.solution.why_sufficient()
         means_nothing = not why and any(violation.severe for violation in choice.solution.violations())
         if not why and not means_nothing:
@@ -112,13 +113,15 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
 
 
 def _completed(choice: Choice) -> Choice:
-    """Return ``choice`` with its solution completed.
+    """Return ``choice`` with its solution completed (`SampleSolution.completed`): all that its answer needs is solved.
 
     After a more expensive model was tried in vain, that may take what is left of the work, or `LEAST_WORK_OF_CHEAPEST`; where
     it is not enough, the solution stays as it is.
     """
-    if not choice.gave_up:
-        return replace(choice, solution=choice.solution.completed())
-    with suppress(WorkLimitError), limited_work(work_for_an_answer()):
-        return replace(choice, solution=choice.solution.completed())
-    return choice
+    try:
+        with limited_work(work_for_an_answer()) if choice.gave_up else nullcontext():
+            return replace(choice, solution=choice.solution.completed())
+    except WorkLimitError:
+        if choice.gave_up:
+            return choice
+        raise

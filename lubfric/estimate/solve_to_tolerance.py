@@ -19,13 +19,14 @@ def solve_to_tolerance(
 
     More strips follow until the standard error of f is within ``numerics.sampling_tolerance``; shorter cells, each
     time half as long, until their effect can be corrected for. ``for_fields``: on the cells on which a sample shows its
-    fields (`Sample.on_field_cells`); ``control``: what a cheaper model knows of these strips. Raises `ConvergenceError`.
+    fields (`Sample.on_field_cells`); ``control``: what a cheaper model knows of these strips. What the answer needs beyond
+    these strips is not solved (`SampleSolution.completed`). Raises `ConvergenceError`.
     """
     sample = prepared.sample.on_field_cells() if for_fields else prepared.sample
     while True:
         solution = _on_enough_strips(prepared, sample, speed, model, control)
         if sample.cells.is_native or not solution.is_too_coarse():
-            return solution.corrected().completed()
+            return solution.corrected()
         sample = sample.halved()
 
 

@@ -236,7 +236,7 @@ class SampleSolution(ABC):
 
     @abstractmethod
     def answer(self) -> ModelAnswer:
-        """Return all that the model says of this point."""
+        """Return all that the model says of this point. `completed` comes before it."""
 
     def required_strips(self) -> int:
         """Return the number of strips that the tolerances need: `count` if these are enough."""
@@ -264,8 +264,8 @@ class SampleSolution(ABC):
     def completed(self) -> SampleSolution:
         """Solve what the answer needs and `Model.solve` left out; itself where that is nothing.
 
-        `lubfric.estimate` calls it once there are enough strips, and again on a solution that another model has adopted
-        (`Model.adopt`).
+        `lubfric.estimate.choice` calls it: once there are enough strips, whether of `Model.solve` or adopted from another
+        model (`Model.adopt`), and before it asks for the answer.
         """
         return self
 

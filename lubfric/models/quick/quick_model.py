@@ -99,24 +99,32 @@ class QuickSolution(SampleSolution):
         solved."""
         if self.on_long_cells is not None or self.why_by_equation:
             return self
-        solution = self
-        scene = self.prepared.scene
-        why = _why_not_calibrated(scene)
-        of_thick_films = _error_of_thick_films(scene, self.prepared.surface.sq, self.speed)
-        if not why and of_thick_films > 0:
-            solution = solution._with_paper_solution()
-            why = THICK_FILM_NOTE if solution._is_separated_within(of_thick_films) else ""
-        if not why:
-            try:
-                with_strips = replace(solution, on_long_cells=solve_on_long_cells(self.prepared, self.speed))
-            except ConvergenceError as error:
-                why = STRIPS_NOT_SOLVED.format(error)
-            else:
-                error_of_strips = max(with_strips.answer().model_error)
-                if not (of_thick_films > 0 and solution._is_separated_within(error_of_strips)):
-                    return with_strips
-                why = THICK_FILM_NOTE
-        return replace(solution._with_paper_solution(), why_by_equation=why)
+        of_thick_films = _error_of_thick_films(self.prepared.scene, self.prepared.surface.sq, self.speed)
+        solution = self._with_paper_solution() if of_thick_films > 0 else self
+        completed = solution._with_strips_or_why(of_thick_films)
+        if isinstance(completed, QuickSolution):
+            return completed
+        return replace(solution._with_paper_solution(), why_by_equation=completed)
+
+    def _with_strips_or_why(self, of_thick_films: float) -> QuickSolution | str:
+        """Return this solution with its strips on long cells; where they cannot answer, why load sharing does, as text.
+
+        ``of_thick_films``: least error of long cells under a film that is thicker than in all solved cases; 0: it is not, and
+        load sharing need not be solved.
+        """
+        is_thick = of_thick_films > 0
+        if why := _why_not_calibrated(self.prepared.scene):
+            return why
+        if is_thick and self._is_separated_within(of_thick_films):
+            return THICK_FILM_NOTE
+        try:
+            with_strips = replace(self, on_long_cells=solve_on_long_cells(self.prepared, self.speed))
+        except ConvergenceError as error:
+            return STRIPS_NOT_SOLVED.format(error)
+        error_of_strips = max(with_strips.answer().model_error)
+        if is_thick and self._is_separated_within(error_of_strips):
+            return THICK_FILM_NOTE
+        return with_strips
 
     def _with_paper_solution(self) -> QuickSolution:
         """Solve the joined strips by load sharing, if they are not solved."""
@@ -145,11 +153,11 @@ class QuickSolution(SampleSolution):
         return f"its model-form error, {stated}, is within numerics.model_tolerance, {target}"
 
     def answer(self) -> ModelAnswer:
-        return self.completed()._answer
+        return self._answer
 
     @cached_property
     def _answer(self) -> ModelAnswer:
-        """The answer of a completed solution, of which `why_sufficient` takes the error."""
+        """The answer, which is made once: `why_sufficient` takes its error."""
         if self.on_long_cells is not None:
             return quick_answer_of(self.prepared, self.speed, self.on_long_cells)
         assert self.paper_solution is not None
