@@ -57,7 +57,7 @@ def plot_stribeck(
     speed = np.abs(c["speed"])
     if "friction" in axes:
         top = axes["friction"]
-        friction_over_speed(top, columns, has_parts=options.has_parts)
+        friction_over_speed(top, columns, has_parts=options.has_parts, as_bars=options.has_bars)
         if measured is not None:
             measured.draw(top)
             top.set_ylim(bottom=min(top.get_ylim()[0], 1.1 * measured.coefficient.min()))
@@ -121,7 +121,7 @@ def plot_traction(
     numbers = {name: column for name, column in c.items() if np.asarray(column).dtype.kind in "fiu"}
     broken = type(columns)((name, np.insert(column.astype(float), gaps, np.nan)) for name, column in numbers.items())
     along = broken["ratio"]
-    interval_band(top, along, broken, has_parts=options.has_parts)
+    interval_band(top, along, broken, has_parts=options.has_parts, as_bars=options.has_bars)
     shown = (c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load)
     parts = [np.insert(part, gaps, np.nan) for part in shown]
     figures.friction_lines(top, along, parts, marker="o", ms=4)

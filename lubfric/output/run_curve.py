@@ -54,6 +54,7 @@ if TYPE_CHECKING:
 
 
 AXIS_SCALES = ("linear", "log")  # of an axis
+INTERVAL_FORMS = ("band", "bars")  # of the intervals of a curve in its picture
 LEFT_OUT = ("warnings", "parts")  # of a picture, where a user does not want them
 FORMATS = ("png", "pdf", "svg")  # of a picture that is drawn again
 NARROWEST = 0.05  # m: width of a picture
@@ -312,7 +313,7 @@ def plot_again(arguments: Namespace) -> None:
 
 def _plot_fit_again(arguments: Namespace) -> None:
     """Draw the picture of a fit again."""
-    of_curves = ("measured", "speed", "coefficient", "panels", "without")
+    of_curves = ("measured", "speed", "coefficient", "panels", "without", "interval")
     given = next((name for name in of_curves if getattr(arguments, name) is not None), None)
     if given is not None:
         raise InputError(f"--{given} is for the picture of a run, and {arguments.folder} has a fit; omit it")
@@ -322,7 +323,7 @@ def _plot_fit_again(arguments: Namespace) -> None:
 
 def _plot_contact_again(arguments: Namespace) -> None:
     """Draw the picture of the contact at the speed ``arguments.contact`` again."""
-    of_curves = ("measured", "speed", "coefficient", "panels", "x_scale", "y_scale", "without")
+    of_curves = ("measured", "speed", "coefficient", "panels", "x_scale", "y_scale", "without", "interval")
     given = next((name for name in of_curves if getattr(arguments, name) is not None), None)
     if given is not None:
         option = given.replace("_", "-")
@@ -335,8 +336,14 @@ def _plot_contact_again(arguments: Namespace) -> None:
 
 
 def _write_picture(arguments: Namespace, name: str, draw: Callable[..., Any]) -> None:
-    """Put what ``draw(path)`` draws into the folder of ``lubfric plot``, as ``name`` in the format of the ``arguments``."""
+    """Put what ``draw(path)`` draws into the folder of ``lubfric plot``, as ``name``, or as the ``arguments`` name it, in the
+    format that they say."""
     folder = arguments.folder
+    if arguments.name is not None:
+        name = arguments.name
+        if Path(name).name != name or name.startswith("."):
+            recommendation = "give a name without a folder; the picture is written to the folder of the run"
+            raise InputError(f" = {name!r} is not the name of a file", "--name", recommendation=recommendation)
     file = f"{name}.{validate.choice('--format', arguments.format, FORMATS)}"
     check_outputs(arguments, folder, [file])
     content = made(file, draw)
@@ -377,6 +384,11 @@ def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
     for option, scale in scales.items():
         if scale is not None:
             validate.choice(f"--{option.replace('_', '-')}", scale, AXIS_SCALES)
+    form = INTERVAL_FORMS[0]
+    if arguments.interval is not None:
+        if name == "history":
+            raise InputError(f"--interval is for a curve, and this is {TABLES[name]}; omit it")
+        form = validate.choice("--interval", arguments.interval, INTERVAL_FORMS)
     words = [] if arguments.without is None else arguments.without.split(",")
     left_out = [validate.choice("--without", word.strip(), LEFT_OUT) for word in words]
     return PictureOptions(
@@ -386,6 +398,7 @@ def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
         **scales,
         has_warnings="warnings" not in left_out,
         has_parts="parts" not in left_out,
+        has_bars=form == "bars",
     )
 
 

@@ -262,10 +262,11 @@ def interval_band(
     line: Sequence[FloatArray] | None = None,
     *,
     has_parts: bool = True,
+    as_bars: bool = False,
 ) -> None:
     """Draw the intervals of f as one band ``over`` speeds or ratios, if ``columns`` have them, with thin lines for what
-    the model and the finite surface leave by themselves, unless not ``has_parts``. ``line``: (speeds, f) of a smooth
-    curve to draw them about."""
+    the model and the finite surface leave by themselves, unless not ``has_parts``; ``as_bars``: as a bar at each point
+    instead. ``line``: (speeds, f) of a smooth curve to draw the band about."""
     unknown = np.full(over.shape, np.nan)
     f = columns["coefficient"]
     x, y = (over, f) if line is None else line
@@ -285,6 +286,10 @@ def interval_band(
     band = BAND + (
         "" if known.all() else ", model-form error where known" if known.any() else ", without model-form error"
     )
+    if as_bars:
+        lengths = f - columns["interval_low"], columns["interval_high"] - f
+        ax.errorbar(over, f, yerr=lengths, fmt="none", ecolor=figures.BLUE, elinewidth=0.8, capsize=2.5, label=band)
+        return
     ends = y * (1 + low), y * (1 + high)
     wide, *sides = figures.widened(x, *ends)
     ax.fill_between(wide, sides[0], sides[1], color=figures.BLUE, alpha=0.2, lw=0, label=band)
@@ -303,10 +308,10 @@ def interval_band(
 
 
 def friction_over_speed(
-    axes: Axes, columns: dict[str, np.ndarray], *, has_parts: bool = True, **style: Any
+    axes: Axes, columns: dict[str, np.ndarray], *, has_parts: bool = True, as_bars: bool = False, **style: Any
 ) -> np.ndarray:
-    """Draw friction over the magnitude of the speed with its parts and the band of its intervals (``has_parts``: and of
-    their parts), by the ``columns`` of a `lubfric.StribeckResult`; between its points where f is `DRAWN_ERROR` there. Returns the indices of the points
+    """Draw friction over the magnitude of the speed with its parts and its intervals (``has_parts``, ``as_bars``: as of
+    `interval_band`), by the ``columns`` of a `lubfric.StribeckResult`; between its points where f is `DRAWN_ERROR` there. Returns the indices of the points
     drawn, in order: those that failed, and rest, are omitted."""
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
@@ -314,7 +319,7 @@ def friction_over_speed(
     speed = np.abs(c["speed"])
     load = c["contact_load"] + c["film_load"]
     line = _line(c)
-    interval_band(axes, speed, c, line and line[:2], has_parts=has_parts)
+    interval_band(axes, speed, c, line and line[:2], has_parts=has_parts, as_bars=as_bars)
     if line is None:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
         joined: dict[str, Any] = {"marker": "o", "ms": 4, "ls": ":"}  # a dotted line joins the points, and is no curve

@@ -137,7 +137,12 @@ def test_the_band_between_the_points_has_no_bulges():
 def test_a_picture_is_drawn_as_the_command_says(figures, tmp_path, monkeypatch):
     """Panels, scales of the axes, and a width for the column of a journal."""
     requested = []
-    monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", lambda *_, **__: requested.append(_[-1]))
+
+    def draw(path, *arguments, **_):
+        requested.append(arguments[-1])
+        path.write_bytes(b"a picture")
+
+    monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", draw)
     scene = tmp_path / "s.toml"
     scene.write_text(SCENE.with_(motion={"entrainment_speed": 0.1}).to_toml())
     out = str(tmp_path / "out")
@@ -152,7 +157,16 @@ def test_a_picture_is_drawn_as_the_command_says(figures, tmp_path, monkeypatch):
     assert requested[-1].has_warnings and requested[-1].has_parts
     main(["plot", out, "--without", "parts, warnings"])
     assert not requested[-1].has_warnings and not requested[-1].has_parts
-    wrong_words = (["--panels", "torque"], ["--y-scale", "cubic"], ["--without", "curve"])
+    main(["plot", out, "--interval", "bars", "--name", "figure_3", "--format", "svg"])
+    assert requested[-1].has_bars and (tmp_path / "out" / "figure_3.svg").is_file()
+    plot_stribeck("x.png", COLUMNS, "title", [()] * 4, options=requested[-1])
+    (bars,) = figures[-1].axes[0].collections
+    ends = np.array([bar[:, 1] for bar in bars.get_segments()])
+    order = np.argsort(COLUMNS["speed"])
+    good = order[np.isfinite(COLUMNS["coefficient"][order])]
+    np.testing.assert_allclose(ends, np.column_stack([COLUMNS["interval_low"], COLUMNS["interval_high"]])[good])
+    wrong_words = (["--panels", "torque"], ["--y-scale", "cubic"], ["--without", "curve"], ["--interval", "box"])
+    assert main(["plot", out, "--name", "../figure"]) == 2
     for wrong in (["--format", "bmp"], ["--width", "1 mm"], *wrong_words):
         assert main(["plot", out, *wrong]) == 2
 
