@@ -52,7 +52,7 @@ class ResidualTests:
     times_stated : root mean square residual over the stated deviations, with n - p degrees of freedom
     order : probability that neighbouring residuals are so alike (von Neumann's ratio)
     shape : probability that a constant offset and a factor of the measured f explain so much of them (F test)
-    chance : probability of both (Fisher's combination)
+    chance : probability of the clearest sign, of order, shape or both together
     offset : the constant offset of the measured f that makes the sum of squares least, to first order [-]
     explained : share of the sum of squares that this offset explains
     small : whether the residuals are within the numerical error of f, so that their order means nothing
@@ -199,8 +199,9 @@ def chance_of(residuals: FloatArray, axes: FloatArray, further: FloatArray) -> t
 
     They are those among random residuals (normal, alike at all points) without what the parameters follow: the order by
     the sum of the products of neighbours over the sum of squares (J. von Neumann, Ann. Math. Statist. 12 (1941) 367-395,
-    doi:10.1214/aoms/1177731677), the further axes by the F test of two nested models, and both by the product of the two
-    probabilities (R. A. Fisher), whose distribution is that among the random residuals as well, as the two are not
+    doi:10.1214/aoms/1177731677), and the further axes by the F test of two nested models. The probability of both is that
+    of the least of three: these two, and that of their product (R. A. Fisher), so that neither one clear sign nor two weak
+    ones are missed. The distribution of this least is that among the random residuals as well, as the three are not
     independent.
 
     Parameters
@@ -232,8 +233,10 @@ def chance_of(residuals: FloatArray, axes: FloatArray, further: FloatArray) -> t
     ratio = explained / further.shape[1] / np.maximum((1.0 - explained) / left, np.finfo(float).tiny)
     of_shape = f.sf(ratio, further.shape[1], left)
     product = np.log(of_order) + np.log(np.maximum(of_shape, np.finfo(float).tiny))
-    of_both = float(np.mean(product <= product[0]))
-    return float(of_order[0]), float(of_shape[0]), of_both
+    of_product = rankdata(product, method="max") / every.shape[0]
+    least = np.minimum.reduce([of_order, of_shape, of_product])
+    chance = float(np.mean(least <= least[0]))
+    return float(of_order[0]), float(of_shape[0]), chance
 
 
 def _axes_of(jacobian: FloatArray, error: float) -> FloatArray:

@@ -225,7 +225,7 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
     - ``points``: a table of operating points: a text file relative to this one, or [[points]] with a table for each.
     - [vary]: keys with lists of values.
     - [[together]]: keys whose lists go together.
-    - [sample]: keys with {low, high, scale}, and count, sampler, seed.
+    - [sample]: keys with {low, high, scale}, and count, sampler, seed; with "speed" among the keys its points are operating points.
 
     ``points``: a file of operating points, instead of those of the study file; then ``path`` may also be a scene.
 
@@ -259,14 +259,21 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
             lengths = ", ".join(f"{key} with {len(values)}" for key, values in lists.items()) or "none"
             raise InputError(f"[[together]] of {path.name} needs lists of one length; found {lengths}")
         _add(vary, tuple(lists), list(zip(*lists.values())))
-    if "sample" in table:
-        _add(vary, *_sampled(table["sample"], path.name))
     speeds = table.get("speeds")
+    if "sample" in table:
+        (keys, drawn) = _sampled(table["sample"], path.name)
+        if SPEED in keys:
+            if points is not None or "points" in table:
+                said = f"[sample] of {path.name} has speeds, and points has them too"
+                raise InputError(said, recommendation="give them in one of both")
+            points = {key: list(column) for key, column in zip(keys, zip(*drawn))}
+        else:
+            _add(vary, keys if len(keys) > 1 else keys[0], drawn)
     if "speed_range" in table:
         if speeds is not None:
             raise InputError(f"{path.name} has speeds and speed_range, which give the same quantity; give one of them")
         speeds = speeds_of_range("speed_range", table["speed_range"])
-    if points is None and "points" in table:
+    if "points" in table and points is None:
         points = table["points"]
         points = path.parent / points if isinstance(points, str) else _flat_rows(points)
     return plan_study(scene, vary, speeds, points)
@@ -319,8 +326,8 @@ def _lists(table: Any, where: str, folder: Path) -> dict[str, list[Any]]:
     return lists
 
 
-def _sampled(table: Any, file: str) -> tuple[Any, Any]:
-    """Return the key, or the keys, of [sample], and their values."""
+def _sampled(table: Any, file: str) -> tuple[tuple[str, ...], list[Any]]:
+    """Return the keys of [sample], and what is drawn: their values at each point, of one key the value."""
     validate.instance("[sample]", table, dict, "a table")
     options: dict[str, Any] = {key: table.pop(key) for key in SAMPLE_KEYS if key in table}
     if "count" not in options:
@@ -329,7 +336,8 @@ def _sampled(table: Any, file: str) -> tuple[Any, Any]:
     for key, given in ranges.items():
         if not isinstance(given, dict) or not {"low", "high"} <= set(given) <= {"low", "high", "scale"}:
             raise InputError(f"[sample] {key} = {given!r}; allowed: {{ low = , high = , scale = 'linear' or 'log' }}")
-        ends = {end: validate.in_plain(f"[sample] {key} {end}", given[end], unit_of(key)) for end in ("low", "high")}
+        unit = "m/s" if key == SPEED else unit_of(key)
+        ends = {end: validate.in_plain(f"[sample] {key} {end}", given[end], unit) for end in ("low", "high")}
         ranges[key] = given | ends
     drawn = sample([Between(**given) for given in ranges.values()], **options)
-    return (*ranges,) if len(ranges) > 1 else [*ranges][0], drawn
+    return (*ranges,), drawn

@@ -18,7 +18,14 @@ from ..units import check_all_have_units, in_si, without_unit
 SAMPLERS = ("sobol", "random")
 RANGE_SCALES = ("linear", "log")
 MOST_COMBINATIONS = 1_000_000  # combinations of a study, and points of a sample
-SPEED_KEYS = ("motion.speeds", "motion.entrainment_speed", "motion.surface_speeds", "motion.speed_range")
+SPEED_KEYS = (
+    "speed",
+    "speeds",
+    "motion.speeds",
+    "motion.entrainment_speed",
+    "motion.surface_speeds",
+    "motion.speed_range",
+)
 TEMPERATURES = {"lubricant.temperature", "lubricant.temperature_celsius"}
 VISCOSITIES = {f"lubricant.{key}" for key in (*SOURCES, "viscosity")} | {"lubricant"}
 FITTED = ("bodies", "lubricant", "motion", "surface")  # sections that have what a measurement may tell
@@ -161,6 +168,12 @@ def check_key(
     section, _, field = str(key).partition(".")
     if isinstance(key, str) and section in Scene.__dataclass_fields__:
         validate.keys(what, [section], sections)
+    if key == "motion" or key in SPEED_KEYS:
+        ways = (
+            "give speeds = [...] in m/s, or a column speed of operating points (a fit takes those of the measurement)"
+        )
+        said = f"{what}: {key!r} is what a curve is over"
+        raise InputError(said, recommendation=f"{ways}; motion.slide_roll_ratio is a key")
     if not isinstance(key, str) or section not in sections:
         _refuse_key(what, scene, key, sections)
     part = getattr(scene, section) or Roughness  # a body without roughness has its keys all the same
@@ -170,10 +183,6 @@ def check_key(
     ):
         _refuse_key(what, scene, key, sections)
     validate.keys(f"{what}: [{section}]", [field] * bool(field), allowed)
-    if key == "motion" or key in SPEED_KEYS:
-        ways = "give speeds = [...] in m/s (a fit takes those of the measurement)"
-        said = f"{what}: {key!r} is what a curve is over"
-        raise InputError(said, recommendation=f"{ways}; motion.slide_roll_ratio is a key")
     if key in seen:
         raise InputError(f"{what}: {key!r} is given twice; give it once")
 

@@ -101,6 +101,21 @@ def test_random_residuals_are_doubted_as_often_as_stated():
         assert np.mean(np.array(found) < 0.5) == pytest.approx(0.5, abs=0.13)
 
 
+def test_one_clear_sign_is_not_hidden_by_the_other():
+    """By Bonferroni's bound the probability of the least of three signs is at most three times the least; noise of which the
+    further axes explain next to nothing, and slow waves, have one sign alone."""
+    rng = np.random.default_rng(8)
+    x = np.linspace(0.0, 1.0, 12)
+    axes = np.full((12, 1), 12**-0.5)
+    further = ((x - x.mean()) / np.linalg.norm(x - x.mean()))[:, None]
+    for slow in (0.0, 1.0, 2.0):
+        residuals = rng.standard_normal(12) + slow * np.cos(2 * np.pi * x)
+        residuals -= further @ (further.T @ residuals)
+        order, shape, chance = chance_of(residuals, axes, further)
+        assert shape > 0.99
+        assert chance <= 3 * order + 5e-4
+
+
 def test_the_probability_of_an_offset_is_that_of_the_test_of_two_models():
     """Two models in one another, as a t test of the further parameter has it."""
     x = np.arange(8.0)

@@ -1,6 +1,8 @@
 """A plan written as a study file is read back to the same points, by their keys: hashes of all that they depend on."""
 
+import numpy as np
 import pytest
+from scipy.stats import qmc
 
 import lubfric
 from lubfric.studies import load_study, plan_study
@@ -46,3 +48,24 @@ def test_what_a_file_cannot_hold_is_refused():
     plan = plan_study(PAPER, {"surface": [PAPER.surface]}, [0.1])
     with pytest.raises(lubfric.InputError, match=r"surface: a section of a scene as an object.*a dict of its keys"):
         plan.to_toml("resolved.toml")
+
+
+def test_a_sample_with_speeds_has_operating_points(tmp_path):
+    """The points of the sequence itself, within the ranges: speeds by their logarithm."""
+    (tmp_path / "study.toml").write_text(
+        'scene = "paper"\n[sample]\ncount = 4\nseed = 3\nbodies.load = { low = "3 N", high = "5 N" }\n'
+        'speed = { low = "10 mm/s", high = "1 m/s", scale = "log" }\n'
+    )
+    plan = load_study(tmp_path / "study.toml")
+    shares = qmc.Sobol(2, seed=3).random(4)
+    assert plan.point_speeds == pytest.approx(0.01 * 100 ** shares[:, 1])
+    np.testing.assert_allclose(plan.coords["bodies.load"][1], 3 + 2 * shares[:, 0])
+    assert plan.points == 4
+    with (tmp_path / "study.toml").open("a") as file:
+        file.write("[[points]]\nspeed = 0.1\n")
+    with pytest.raises(lubfric.InputError, match=r"\[sample\] of study.toml has speeds, and points has them too"):
+        load_study(tmp_path / "study.toml")
+    with pytest.raises(
+        lubfric.InputError, match="'speed' is what a curve is over; .* a column speed of operating points"
+    ):
+        plan_study(PAPER, {"speed": [0.1]})
