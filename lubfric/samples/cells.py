@@ -31,7 +31,7 @@ ACROSS = 40
 CELLS_PER_LENGTH = 4.0
 
 # Cells in the Hertz half-width along x, at least. Half as many change f of the scene "paper" by nothing, where the
-# correlation length decides (the command in models/shared/statistics.py).
+# correlation length decides (`python -m verification.campaigns.constants`).
 CELLS_PER_HALF_WIDTH = 2.0
 
 # Cells along x come in multiples of this number, so that their transforms are fast and pieces can be thinned.

@@ -48,7 +48,7 @@ WIDE_HALF_WIDTH = 5.0
 MOVING_STRIP_LENGTHS = 30.0
 
 # Correlation lengths of the `Sample.first_strips`: 20 blocks, whose scatter is known to 1/sqrt(38) = 16 %. Half and twice as
-# many change f by up to 1.7 %, within the sampling tolerance of 2 % (the command in models/shared/statistics.py).
+# many change f by up to 1.7 %, within the sampling tolerance of 2 % (`python -m verification.campaigns.constants`).
 FIRST_LENGTHS = 180.0
 
 # Correlation lengths, at most: 512 strips. A sample that needs more is stated with the error it has.

@@ -1,8 +1,8 @@
 """What the models have in common: the scene made ready, heat, limits of validity, effects that are not modelled.
 
 `prepared` has a scene made ready, and the contact on its strips and pieces, with `memo`; `statistics` has the standard
-errors of means along a line and the number of strips that they need. `load_sharing` and `deterministic` do not import
-each other, `quick` imports both, and all import this one.
+errors of means along a line and the number of strips that they need; `wording` writes errors as text. `load_sharing` and
+`deterministic` do not import each other, `quick` imports both, and all import this one.
 """
 
 from .checks import (
@@ -69,12 +69,7 @@ from .statistics import (
     add_errors,
     block_error,
     has_too_few_contacts,
-    is_near_zero,
     means_of_blocks,
-    percent,
-    percent_beside,
-    percent_of_sides,
-    sides_in_f,
     smooth_over_cells,
     strips_for_error,
     student,
@@ -101,3 +96,4 @@ from .violation import (
     violations_of,
     warnings_in_cell,
 )
+from .wording import is_near_zero, percent, percent_beside, percent_of_sides, sides_in_f

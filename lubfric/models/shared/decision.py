@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from ..._base import Renamed
-from .statistics import percent
+from .wording import percent
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 
 from .prepared import Prepared
-from .statistics import is_near_zero
 from .violation import Violation
+from .wording import is_near_zero
 
 MODEL_ERROR = "model-form error of f"
 MODEL_ERROR_NEAR_ZERO = f"{MODEL_ERROR} near 0, in f itself,"

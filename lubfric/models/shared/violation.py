@@ -10,7 +10,7 @@ from typing import Any
 
 from ..._base import Renamed
 from ...errors import ValidityError
-from .statistics import distinct_texts
+from .wording import distinct_texts
 
 # The value in the text of a violation.
 _VALUE_IN_TEXT = re.compile(r" is (-?[0-9.]+(?:e[-+]?[0-9]+)?)")
