@@ -337,7 +337,7 @@ def test_cells_along_ridges_do_not_matter():
             scene_of(slide_roll_ratio=0.5), body, 0.3, effort=ECONOMICAL, most_steps=steps, map_coarsening=(1, 2)
         )
         assert longer.times == pytest.approx(strip.times[: longer.times.size]) and longer.discarded == strip.discarded
-        changes.append(StripOnTwoGrids(strip, longer).change_by_cells)
+        changes.append(StripOnTwoGrids(resolved=strip, longer=longer).change_by_cells)
         ratio = strip.series["coefficient"][strip.discarded :][:steps].mean() / longer.result.coefficient
         assert changes[-1] >= abs(1 - 1 / ratio) * (1 - 1e-9)
     assert changes[0] < 1e-3 and changes[1] > 0.01

@@ -91,7 +91,7 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
     """f = .05 (1 + (dx/18 µm)^p) on every strip and piece, on cells from 7.2 to 0.9 µm; the scene's own are .45 µm."""
     prepared = lubfric.prepare(FINE)
     solved = solve_strip(FINE, prepared.sample.strip(0), 0.1, map_coarsening=(4, 4))
-    pair = StripOnTwoGrids(solved, solved, None)
+    pair = StripOnTwoGrids.on_one_grid(solved)
     for order, most in ((3.0, 0.01), (1.0, 0.06), (0.5, 0.13)):
 
         def on(dx, order=order):
@@ -319,7 +319,7 @@ def synthetic(rng, strips, places=40, between=0.0):
         result = type("Result", (), {"coefficient": float(resolved.mean()), "load": 1.0})()
         problem = type("Problem", (), {"spacing": (18e-6, 18e-6)})()
         strip = type("Strip", (), {"result": result, "deviations": resolved - resolved.mean(), "problem": problem})()
-        pairs.append(StripOnTwoGrids(strip, strip))
+        pairs.append(StripOnTwoGrids.on_one_grid(strip))
     differences = common - common.mean()
     of_strips = differences.mean(axis=1)
     error = StandardError(np.std(of_strips, ddof=1) / math.sqrt(strips), strips - 1)

@@ -1,5 +1,7 @@
 """One strip of the surface by the deterministic model, on two lengths of cells."""
 
+from __future__ import annotations
+
 import math
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -27,7 +29,7 @@ MOVING_SAMPLE = 0.6
 PER_LENGTH_IN_MOTION = 4.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class StripOnTwoGrids:
     """One strip of the sample, on two lengths of cells.
 
@@ -44,6 +46,16 @@ class StripOnTwoGrids:
     longer: StripSolution
     mirrored: bool = False
     has_halved_cells: bool = False
+
+    @classmethod
+    def on_one_grid(cls, strip: StripSolution) -> StripOnTwoGrids:
+        """Return ``strip`` as a pair where it has no solution on longer cells: both are this one."""
+        return cls(resolved=strip, longer=strip)
+
+    @property
+    def is_on_one_grid(self) -> bool:
+        """Whether there is no solution on longer cells."""
+        return self.longer is self.resolved
 
     @property
     def change_by_cells(self) -> float:
@@ -123,7 +135,7 @@ def solve_pair(
         strip = solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + longer.work)
     is_mirrored = prepared.sample.distinct_rows(surface.heights) < surface.shape[1]
-    return StripOnTwoGrids(strip, longer, is_mirrored, has_halved_cells)
+    return StripOnTwoGrids(resolved=strip, longer=longer, mirrored=is_mirrored, has_halved_cells=has_halved_cells)
 
 
 def halved_along_y(coarsening: tuple[int, int]) -> tuple[int, int]:

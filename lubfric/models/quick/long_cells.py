@@ -222,7 +222,9 @@ def solve_at_rest(
     strip = solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=longer, find_slope=slope is None)
     if slope is not None:
         strip = replace(strip, slope=slope)
-    return StripOnTwoGrids(strip, strip if longer is None else longer)
+    if longer is None:
+        return StripOnTwoGrids.on_one_grid(strip)
+    return StripOnTwoGrids(resolved=strip, longer=longer)
 
 
 def solve_moving(
@@ -240,7 +242,7 @@ def solve_moving(
         effort=cells.effort,
         start=cells.rest,
     )
-    return StripOnTwoGrids(strip, strip.rest)
+    return StripOnTwoGrids(resolved=strip, longer=strip.rest)
 
 
 def numbers_of_strip(pair: StripOnTwoGrids, length: float, *, is_smooth: bool) -> dict[str, float]:
@@ -259,7 +261,8 @@ def numbers_of_strip(pair: StripOnTwoGrids, length: float, *, is_smooth: bool) -
         half = result.sliding_at_half_film + rolling
         twice = result.sliding_at_twice_film + rolling
     before = longer.coefficient - longer.rolling / longer.load
-    change = math.log(sliding / before) if sliding > 0 < before and pair.longer is not pair.resolved else math.nan
+    is_known = sliding > 0 < before and not pair.is_on_one_grid
+    change = math.log(sliding / before) if is_known else math.nan
     return {
         "coefficient": result.coefficient,
         "rolling": rolling,

@@ -208,7 +208,8 @@ def _solve_pair(prepared: Prepared, speed: float, index: int, slope: float | Non
         )
     cells = long_cells_in_motion(scene, bodies_of(prepared, index, speed), speed, lengths)
     part = OF_NARROW_BOUNDS if cells.per_length == CELLS_OF_THIN_FILM else OF_BOUNDS
-    target = sample_target(prepared, _sampling_target(prepared, StripOnTwoGrids(cells.rest, cells.rest), part))
+    at_rest = StripOnTwoGrids.on_one_grid(cells.rest)  # all that is known before the motion
+    target = sample_target(prepared, _sampling_target(prepared, at_rest, part))
     return replace(solve_moving(scene, cells, speed, target), mirrored=is_mirrored)
 
 
