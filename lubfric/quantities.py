@@ -18,7 +18,9 @@ T = TypeVar("T")  # float, or an array over operating points
 
 class Quantity(NamedTuple):
     """``unit`` ("-" without one), ``label`` (long name), ``symbol``; ``error``: what its error depends on ("" where
-    none is estimated); ``column``: its name in tables where that is not its own; ``note``: what a reader should know.
+    none is estimated); ``column``: its name in tables where that is not its own; ``note``: what a reader should know;
+    ``is_friction``: whether it is a part of the friction force, which is against the sliding in steady motion, and in time along
+    the motion, on the upper surface.
 
     Of the key of a scene (keys.toml): the ``least`` and the ``most`` that it may be, or ``above`` which it has to be;
     its ``usual`` range, whether 0 is usual too (``zero``), and the units that are mistaken for its own (``meant``).
@@ -30,6 +32,7 @@ class Quantity(NamedTuple):
     error: str = ""
     column: str = ""
     note: str = ""
+    is_friction: bool = False
     least: float = -math.inf
     above: float = -math.inf
     most: float = math.inf
@@ -44,7 +47,8 @@ class Quantity(NamedTuple):
 
 
 def quantity(unit: str, label: str, symbol: str = "", **more: Any) -> Any:
-    """Return a field of a dataclass that is a `Quantity`. ``more``: ``error``, ``column``, ``note`` of it, ``default``."""
+    """Return a field of a dataclass that is a `Quantity`. ``more``: ``error``, ``column``, ``note``, ``is_friction`` of it,
+    ``default``."""
     default = {"default": more.pop("default")} if "default" in more else {}
     return field(metadata={"quantity": Quantity(unit, label, symbol, **more)}, **default)
 
@@ -77,9 +81,11 @@ class Quantities(Generic[T]):
         note="except by load sharing alone the load where the shear stress is f_b p, with saturated films of a Newtonian oil",
     )
     film_load: T = quantity("N", "load carried by the film", "F_H", error="split")
-    shear_force: T = quantity("N", "shear force of the film", "F_sh", error="shear", note="of both parts")
-    couette_force: T = quantity("N", "sliding part of the shear force", error="shear")
-    rolling_force: T = quantity("N", "rolling part of the shear force", error="shear")
+    shear_force: T = quantity(
+        *("N", "shear force of the film", "F_sh"), error="shear", note="of both parts", is_friction=True
+    )
+    couette_force: T = quantity("N", "sliding part of the shear force", error="shear", is_friction=True)
+    rolling_force: T = quantity("N", "rolling part of the shear force", error="shear", is_friction=True)
     rolling_resistance: T = quantity(
         "N",
         "rolling resistance of both surfaces together, against the entrainment",
@@ -87,7 +93,10 @@ class Quantities(Generic[T]):
         note="moment of the load about the middle over R; that of the smooth film where roughness moves",
     )
     boundary_force: T = quantity(
-        "N", "friction force of the asperity contacts", "f_b F_C", error="split", note="zero in pure rolling"
+        *("N", "friction force of the asperity contacts", "f_b F_C"),
+        error="split",
+        note="zero in pure rolling",
+        is_friction=True,
     )
     real_contact_area_fraction: T = quantity(
         *("-", "contact area inside the Hertz strip over its area A", "A_i/A"),
@@ -228,6 +237,7 @@ _OF_POINT = quantities(PointQuantities)
 NUMBERS = ("speed", *(name for name in _OF_POINT if name != "speed"))  # of a result, in the order of its tables
 QUANTITIES = {name: _OF_POINT[name] for name in NUMBERS[1:]}
 ESTIMATED = tuple(quantities(Quantities))  # those with an error of their own
+FRICTION_FORCES = tuple(name for name, q in QUANTITIES.items() if q.is_friction)
 OF_UNCERTAINTY = quantities(UncertaintyQuantities)
 NOT_IN_TIME = {
     "boundary_film_load",

@@ -61,3 +61,20 @@ def test_another_quantity_that_depends_on_the_area_has_its_error(monkeypatch):
     errors = PaperModel().solve(prepared, prepared.sample, 2, 0.0).answer().errors
     assert errors["another area"] == errors["real_contact_area_fraction"] > 0
     assert errors["real_contact_area"] > 0
+
+
+def test_a_number_is_corrected_by_the_control_or_said_here_not_to_be():
+    """So a new quantity with an error of its own cannot be forgotten where strips are compared with their line."""
+    left = {"power_loss", "plastic_area_fraction", *q.depending_on("area"), *q.depending_on("heat")}
+    left |= {"min_film", "central_film", "film_to_roughness_ratio"}  # those of a smooth film
+    prepared = lubfric.prepare(lubfric.load_scene("paper"))
+    control = PaperModel().solve(prepared, prepared.sample, prepared.sample.first_strips, 0.01).control()
+    assert set(control.numbers) | left == set(q.ESTIMATED) and not set(control.numbers) & left
+
+
+def test_a_force_is_a_load_a_part_of_friction_or_resists_the_entrainment():
+    """In time only parts of friction have the sign of the force on the upper surface: a new force says whether it is one."""
+    forces = {name for name, row in q.QUANTITIES.items() if row.unit == "N"}
+    loads = {name for name in forces if name.endswith("_load")}
+    assert forces == {*loads, *q.FRICTION_FORCES, "rolling_resistance"}
+    assert {"boundary_force", "couette_force", "rolling_force", "shear_force"} <= set(q.FRICTION_FORCES)

@@ -45,7 +45,7 @@ from ..models.deterministic import (
     work_of_steps,
 )
 from ..models.shared import Prepared, Violation, block_error, violations_by_motion, violations_by_thickness
-from ..quantities import OF_MOMENT
+from ..quantities import FRICTION_FORCES, OF_MOMENT
 from ..scene import Constant, Scene, moving_bodies
 from .film_setting import WET_PRESSURE
 from .march import Memory, Progress, Step
@@ -345,7 +345,7 @@ def deterministic_moment(
     scatter = block_error(places, solver.base.spacing[1], solver.correlation_length).value
     wet = solver.x[now.solution.payload.pressure.mean(axis=1) > 0]
     row = {name: numbers.get(name, math.nan) for name in OF_MOMENT} | {
-        **{name: sense * numbers[name] for name in ("boundary_force", "couette_force", "rolling_force")},
+        **{name: sense * numbers[name] for name in FRICTION_FORCES if name in OF_MOMENT},
         "time": now.time,
         "entrainment_speed": speed,
         "sliding_speed": sliding,

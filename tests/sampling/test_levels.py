@@ -371,6 +371,7 @@ def test_a_line_knows_how_its_strips_differ_when_each_is_balanced_alone(prepared
         stated = line.numbers[name]
         assert abs(stated.mean()) < 0.02 * np.std(stated)
         assert np.std(alone - stated) < 0.4 * np.std(alone)
+    assert set(line.numbers) == {*names, "shear_force", "couette_force", "rolling_force", "rolling_resistance"}
     total = line.numbers["boundary_force"] + line.numbers["couette_force"] + line.numbers["rolling_force"]
     assert total == pytest.approx(scene.bodies.load * line.numbers["coefficient"], rel=1e-9)
 

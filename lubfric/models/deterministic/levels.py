@@ -39,6 +39,7 @@ from ..shared import (
     block_error,
     strips_for_error,
     student,
+    with_forces_of_film,
 )
 from .cells_in_motion import cells_of_strips, changed_as_expected
 from .result import DeterministicResult
@@ -393,8 +394,7 @@ def _estimate_in_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) ->
             numbers[name] *= times
         numbers["film_load"] = load - contact_load
     numbers["coefficient"] = friction.value
-    numbers["shear_force"] = load * friction.value - numbers["boundary_force"]
-    numbers["couette_force"] = numbers["shear_force"] - numbers["rolling_force"]
+    numbers = with_forces_of_film(numbers, load)
     between = friction.plain.value * math.sqrt(len(pairs))
     note = CORRECTED_BY_SUMMITS.format(100 * friction.correction / friction.value) if friction.correction else ""
     return TwoLevelEstimate(

@@ -24,6 +24,7 @@ from ..shared import (
     contact_on_piece,
     smooth_over_cells,
     speed_of,
+    with_forces_of_film,
 )
 from .cells_in_motion import cells_of_strips
 from .problem import are_soft
@@ -254,8 +255,7 @@ def changed_by_pieces(
     new["film_load"] = load - new["contact_load"]
     if numbers["contact_load"] > 0:
         new["boundary_force"] = numbers["boundary_force"] * new["contact_load"] / numbers["contact_load"]
-    new["shear_force"] = load * new["coefficient"] - new["boundary_force"]
-    new["couette_force"] = new["shear_force"] - new["rolling_force"]
+    new = with_forces_of_film(new, load)
     if prepared.surface.sq > 0:
         new["film_to_roughness_ratio"] = new["central_film"] / prepared.surface.sq
     return new

@@ -11,20 +11,27 @@ import math
 
 import numpy as np
 
+from ...quantities import depending_on
 from ..shared import (
     FREEDOM_NOT_COUNTED,
     ControlVariate,
     Prepared,
     StandardError,
     contact_on_strip,
+    with_forces_of_film,
 )
 from .balanced_sample import BalancedSample
+from .response import quantities
 from .scatter import (
     friction_influence,
     gap_influence,
     hertz_mean_gap,
     line_load,
 )
+
+# Quantities that the control corrects beside f: all that change with the division of the load, and the mean gap, which is
+# that of rough surfaces by both models. The other numbers of films are those of a smooth one here.
+CONTROLLED = (*depending_on("split"), *depending_on("shear"), "mean_gap")
 
 
 def control_for(solution: BalancedSample) -> ControlVariate | None:
@@ -42,7 +49,6 @@ def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlV
     """Return the differences of the strips of ``balanced`` from their line. Where nothing touches, strips do not differ."""
     raw_balance = balanced.raw_balance
     response = balanced.response
-    load = prepared.scene.bodies.load
     rough_contact = balanced.on_cells
     assert rough_contact is not None  # as there are strips
     rows = contact_on_strip(prepared, prepared.sample, 0).heights.shape[1]
@@ -60,17 +66,14 @@ def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlV
     gap, loads = (of(rough_contact, raw_balance.contact_state) for of in (hertz_mean_gap, line_load))
     influence = gap_influence(gap, loads, response.slopes.gap)
     moved = response.log_load_ratio_per_gap * of_strips(influence).mean(axis=1)  # of ln(F_H/F_C)
-    for name, value in (
-        ("contact_load", raw_balance.contact_load),
-        ("film_load", raw_balance.film_load),
-        ("boundary_force", raw_balance.forces.boundary),
-        ("rolling_force", raw_balance.forces.shear.rolling),
-        ("rolling_resistance", raw_balance.forces.shear.resistance),
-        ("mean_gap", raw_balance.contact_state.mean_gap),
-    ):
-        numbers[name] = value * response.rates[name] * moved
-    numbers["shear_force"] = load * numbers["coefficient"] - numbers["boundary_force"]
-    numbers["couette_force"] = numbers["shear_force"] - numbers["rolling_force"]
+    values = quantities(
+        raw_balance.forces,
+        raw_balance.film,
+        (raw_balance.film_load, raw_balance.contact_load),
+        raw_balance.contact_state.mean_gap,
+    )
+    numbers |= {name: values[name] * response.rates[name] * moved for name in CONTROLLED}
+    numbers = with_forces_of_film(numbers, prepared.scene.bodies.load)
     return ControlVariate(
         places, numbers, StandardError(balanced.sampling_error.value, balanced.friction_scatter.freedom)
     )

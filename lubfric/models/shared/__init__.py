@@ -39,7 +39,7 @@ from .checks_before import (
     violations_by_unusual_inputs,
     why_sample_too_short,
 )
-from .control_variate import ControlVariate
+from .control_variate import ControlVariate, with_forces_of_film
 from .decision import Decision
 from .film_speed import exponents, speed_of
 from .heat import Heat, error_by_heat, film_lubricant, inlet_at, peclet_at, point_heat, surroundings, typical_heat
