@@ -250,6 +250,8 @@ def _details(result: StudyResult, rows: int) -> str:
     picked = _picked(columns, rows)
     scenes = _scene_of_each(result)
     parts = {name: columns[f"uncertainty_{part.quantity}"][picked] for name, part in PARTS.items()}
+    if not np.any(parts["not given"]):
+        del parts["not given"]
     freedom = columns["uncertainty_freedom"][picked]
     parts["sampling"] = [error * student(n) if error else error for error, n in zip(parts["sampling"], freedom)]
     rises = [columns[name][picked] for name in ("flash_temperature_rise", "film_temperature_rise")]
