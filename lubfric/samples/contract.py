@@ -27,6 +27,7 @@ from .._base import FloatArray
 from ..contact import HalfSpace, RoughContact
 from ..scene import Numerics, Scene
 from ..surface import Surface
+from ..units import worded
 from .cells import Cells
 from .contacts import half_space_contact_of
 
@@ -141,7 +142,8 @@ class Sample(ABC):
 
     def map_in_words(self, surface: Surface) -> str:
         """Return in words the map that the scene has, of which ``surface`` is the `stated_map`."""
-        return f"{surface.source}, as an infinite line contact, of which strips are solved"
+        length = worded(self.line_length(1), "m")
+        return f"{surface.source}, as an infinite line contact; each speed solves as many strips of {length} as its sampling error needs"
 
     def ends_after(self, count: int) -> bool:
         """Return whether the surface itself, not the work on it, ends after ``count`` strips."""
