@@ -11,7 +11,7 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 import lubfric
 from lubfric.errors import CONVERGED, Report
 from lubfric.models import MODELS, DeterministicModel, Model, ModelAnswer, PaperModel, QuickModel, SampleSolution
-from lubfric.models.shared import MAP_WIDTH, Decision, StandardError, Violation, contact_on_strips
+from lubfric.models.shared import Assumption, Decision, StandardError, Violation, contact_on_strips
 from lubfric.output import describe_scene, main, report, study_report
 from lubfric.quantities import CHOICES, COLUMNS
 from lubfric.samples import Cells, Sample
@@ -272,10 +272,9 @@ class Scattered(Highest):
         return StandardError(self.scatter, self.count - 1)
 
     def answer(self) -> ModelAnswer:
-        known = dict(
-            what=MAP_WIDTH, value=5.0, limit=10.0, unit="", consequence="few asperities", recommendation="more"
-        )
-        return replace(super().answer(), violations=(Violation(**known),))
+        known = {"value": 5.0, "limit": 10.0, "unit": "", "consequence": "few asperities", "recommendation": "more"}
+        short = Violation(assumption=Assumption.LONG_SAMPLE, what="length", **known)
+        return replace(super().answer(), violations=(short,))
 
 
 @pytest.mark.parametrize(("scatter", "matters"), [(0.01, True), (1e-6, False), (math.nan, True)])
@@ -285,7 +284,7 @@ def test_a_short_sample_is_a_warning_where_f_depends_on_it(monkeypatch, scatter,
 
     monkeypatch.setattr(HighestSummit, "solve", solve)
     result = lubfric.friction(PAPER, 0.03, model=HighestSummit())
-    assert (MAP_WIDTH in [violation.what for violation in result.validity]) == matters
+    assert (Assumption.LONG_SAMPLE in [violation.assumption for violation in result.validity]) == matters
 
 
 @pytest.fixture

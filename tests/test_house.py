@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 
 import lubfric
+from lubfric.models.shared import Assumption
 
 ROOT = Path(__file__).parents[1]
 PACKAGES = ("lubfric", "verification")
@@ -258,3 +259,19 @@ def test_no_two_test_files_have_one_name():
     """pytest takes the second for the first, and collects neither."""
     names = [path.name for path in (ROOT / "tests").rglob("test_*.py")]
     assert sorted(names) == sorted(set(names))
+
+
+def test_every_violation_says_which_assumption_it_is_of():
+    """By a member of `Assumption`, and each member is that of one place or of two in one module."""
+    used = defaultdict(set)
+    unnamed = []
+    for path, node in nodes("lubfric"):
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Violation" and node.keywords[0].arg:
+            named = [
+                k.value.attr for k in node.keywords if k.arg == "assumption" and isinstance(k.value, ast.Attribute)
+            ]
+            unnamed += [] if named else [f"{path}:{node.lineno}"]
+            used.update({name: {*used[name], path} for name in named})
+    assert unnamed == []
+    assert all(len(paths) == 1 for paths in used.values())
+    assert {*used, "STRESS_OF_OILS_UNDER_TOTAL_LOAD"} == set(Assumption.__members__)

@@ -10,8 +10,7 @@ from .._base import share_read_only
 from ..errors import ConvergenceError, InputError, Report
 from ..models import ContactFields, Model, ModelAnswer
 from ..models.shared import (
-    MAP_WIDTH,
-    MODEL_ERROR,
+    Assumption,
     Prepared,
     Violation,
     unmodelled_effects,
@@ -53,7 +52,7 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
     errors = answer.errors | {"power_loss": loss.error}
     sampling = answer.sampling_error.value
     is_sampled_well = sampling <= SAMPLED_WELL * scene.numerics.sampling_tolerance
-    of_answer = [each for each in answer.violations if each.what != MAP_WIDTH or not is_sampled_well]
+    of_answer = [each for each in answer.violations if each.assumption != Assumption.LONG_SAMPLE or not is_sampled_well]
     violations = (
         *(beside_larger_part(each, uncertainty) for each in of_answer),
         *violations_by_numerical_error(answer.numerical, scene.numerics.tolerance, answer.recommendation),
@@ -97,7 +96,8 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
 def beside_larger_part(violation: Violation, uncertainty: Uncertainty) -> Violation:
     """Return the warning of a large model-form error with the part of the budget that is larger, if one is; any other
     ``violation`` as it is."""
-    if not violation.what.startswith(MODEL_ERROR) or uncertainty.is_largest_by_model or not uncertainty.largest_part:
+    is_of_model = violation.assumption == Assumption.MODEL_FORM_ERROR
+    if not is_of_model or uncertainty.is_largest_by_model or not uncertainty.largest_part:
         return violation
     larger = uncertainty.largest_part.removeprefix("largest part: ")
     other = f"A larger part of the interval of f is: {larger}"

@@ -12,7 +12,7 @@ import numpy as np
 from .._base import Renamed, Shown, figures, packaged, validate
 from ..errors import InputError, Report
 from ..models import ContactFields, ModelDetails
-from ..models.shared import OMITTED_HEAT, Decision, UnmodelledEffect, Violation
+from ..models.shared import Assumption, Decision, UnmodelledEffect, Violation
 from ..quantities import PointQuantities, described_in_doc, in_words
 from .bibtex import bibtex, source_in_words
 from .uncertainty import NumberErrors, Uncertainty
@@ -81,7 +81,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     @property
     def not_in_interval(self) -> str:
         """Effects on f that neither f nor its interval includes, as text; "" if there are none."""
-        heat = [violation for violation in self.validity if violation.what == OMITTED_HEAT]
+        heat = [violation for violation in self.validity if violation.assumption == Assumption.HEAT_INCLUDED]
         return (
             f"f and its interval are without the heat of the film, which lowers f by up to {heat[0].value_in_words} %"
             if heat

@@ -12,7 +12,7 @@ from ..estimate import estimated_work_of_point, seconds_of_points
 from ..models import AUTO, model_named, models_that_may_answer
 from ..models.deterministic import MOST_WORK_OF_POINT
 from ..models.shared import (
-    IF_ALL,
+    Assumption,
     ExpectedEffect,
     Violation,
     beforehand,
@@ -160,7 +160,8 @@ def estimate_scene(
         *((None, violation) for violation in violations_by_strips(*sample.sq_deviation(surface))),
         *first_model.expected_violations(scene, sorted(set(speeds))),
     ]
-    refusals = _doubts([pair for pair in at if pair[1].severe or IF_ALL in pair[1].consequence])
+    may_refuse = Assumption.STRESS_OF_OILS_UNDER_TOTAL_LOAD
+    refusals = _doubts([pair for pair in at if pair[1].severe or pair[1].assumption == may_refuse])
     scene_map = sample.whole_map
     notes = [note for note in scene_map.notes if "nm as measured" in note]
     effects = expected_effects(

@@ -14,7 +14,7 @@ from ..errors import InputError
 from ..estimate import FrictionResult
 from ..models.deterministic import FLOOR
 from ..models.shared import (
-    NUMERICAL_ERROR,
+    Assumption,
     ExpectedEffect,
     Prepared,
     UnmodelledEffect,
@@ -196,7 +196,7 @@ def curve_status(curve: CurveResult) -> str:
     if not curve.errors:
         head = "Converged: the point is solved." if total == 1 else f"Converged: all {total} {plural} are solved."
         points = [point for point in curve.points if point is not None]
-        inexact = sum(any(violation.what == NUMERICAL_ERROR for violation in point.validity) for point in points)
+        inexact = sum(any(each.assumption == Assumption.NUMERICAL_ERROR for each in point.validity) for point in points)
         unknown = sum(not math.isfinite(point.uncertainty.interval[0]) for point in points)
         return " ".join(filter(None, (head, *shortfalls(inexact, unknown, total))))
     first = min(curve.errors)

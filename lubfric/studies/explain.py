@@ -13,7 +13,7 @@ from typing import Any
 from ..errors import InputError
 from ..estimate import estimated_work_of_point, seconds_of_points
 from ..models import models_that_may_answer, prepare
-from ..models.shared import Prepared, Violation, sentence, violations_by_unusual_inputs
+from ..models.shared import Assumption, Prepared, Violation, sentence, violations_by_unusual_inputs
 from ..quantities import counted, worded_value
 from ..scene import SLIDE_ROLL_RATIO_KEY
 from .choose import EXPECTED_SPEEDS, first_speeds
@@ -61,13 +61,17 @@ def _of_given_sliding(plan: Any, violations: Sequence[Violation]) -> tuple[Viola
     those of the slide-roll ratio, which follows from these, do not ask for its unit."""
     if not {SLIDING_COLUMN, U1}.intersection(plan.coordinates):
         return tuple(violations)
-    ratios = (SLIDE_ROLL_RATIO_KEY, "slide-roll ratio")
     from_speeds = partial(
         replace,
         consequence="it follows from the speeds of the table",
         recommendation="check the speeds of the surfaces",
     )
-    return tuple(from_speeds(each) if each.what in ratios else each for each in violations)
+    return tuple(from_speeds(each) if _is_of_ratio(each) else each for each in violations)
+
+
+def _is_of_ratio(violation: Violation) -> bool:
+    """Return whether a ``violation`` is one of the slide-roll ratio."""
+    return violation.assumption == Assumption.ONE_DIRECTION or violation.what == SLIDE_ROLL_RATIO_KEY
 
 
 def _in_sentences(violations: Sequence[Sequence[Violation]], plural: str) -> list[str]:
@@ -116,9 +120,8 @@ def _expected(prepared: Prepared, speeds: Sequence[float]) -> tuple[Violation, .
     scene = prepared.scene
     at = list(speeds) or list(first_speeds(scene, prepared.surface.sq))
     expected = models_that_may_answer(scene.numerics.model)[0].expected_violations(scene, at)
-    unusual = {violation.what for violation in violations_by_unusual_inputs(scene)}
     known = (*prepared.violations, *(violation for _, violation in expected))
-    return tuple(violation for violation in known if violation.what not in unusual)
+    return tuple(violation for violation in known if violation.assumption != Assumption.USUAL_VALUES)
 
 
 def in_words(seconds: float) -> str:

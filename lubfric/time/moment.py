@@ -24,6 +24,7 @@ from ..models.load_sharing import (
     volume_residual,
 )
 from ..models.shared import (
+    Assumption,
     Heat,
     Violation,
     error_by_heat,
@@ -187,6 +188,7 @@ def _violated(
     shear_error = shear.quadrature / max(force, smallest_force, TINY_FORCE)
     if shear_error > scene.numerics.tolerance:
         yield Violation(
+            assumption=Assumption.RESOLVED_SHEAR,
             what="estimated error of f by the sum of the film's shear stress",
             value=shear_error,
             limit=scene.numerics.tolerance,

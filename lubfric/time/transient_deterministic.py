@@ -44,7 +44,7 @@ from ..models.deterministic import (
     surface_and_map_coarsening,
     work_of_steps,
 )
-from ..models.shared import Prepared, Violation, block_error, violations_by_motion, violations_by_thickness
+from ..models.shared import Assumption, Prepared, Violation, block_error, violations_by_motion, violations_by_thickness
 from ..quantities import FRICTION_FORCES, OF_MOMENT
 from ..scene import Constant, Scene, moving_bodies
 from .film_setting import WET_PRESSURE
@@ -376,6 +376,7 @@ def deterministic_moment(
         )
         violations.append(
             Violation(
+                assumption=Assumption.ISOTHERMAL_RUN,
                 what="loss of film or f by heat",
                 value=lost,
                 limit=scene.numerics.tolerance,

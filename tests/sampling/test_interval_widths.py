@@ -11,7 +11,7 @@ from scene_text import paper_scene
 import lubfric
 from lubfric.estimate import PARTS, Uncertainty, beside_larger_part, interval
 from lubfric.models.load_sharing import load_sharing_error, summit_radius, undetected_load
-from lubfric.models.shared import MODEL_ERROR, StandardError, Violation, add_errors
+from lubfric.models.shared import Assumption, StandardError, Violation, add_errors
 from lubfric.output import report
 from lubfric.quantities import OF_UNCERTAINTY
 from lubfric.time import PARTS_NOT_IN_TIME, errors_in_time
@@ -183,7 +183,15 @@ def test_the_largest_part_of_an_interval_is_named_with_what_narrows_it():
 
 
 def test_a_large_model_error_is_reported_beside_a_part_that_is_larger():
-    of_model = Violation(what=MODEL_ERROR, value=14, limit=5, unit="%", consequence="", recommendation="shorter cells")
+    of_model = Violation(
+        assumption=Assumption.MODEL_FORM_ERROR,
+        what="error",
+        value=14,
+        limit=5,
+        unit="%",
+        consequence="",
+        recommendation="shorter cells",
+    )
     known = Uncertainty(numerical=0.01, sampling=0.02, freedom=4.0, model=0.14, interval=(0.9, 1.1))
     assert beside_larger_part(of_model, known) == of_model
     film = replace(known, not_given=0.53, missing_input="bodies.boundary_film")
@@ -192,7 +200,7 @@ def test_a_large_model_error_is_reported_beside_a_part_that_is_larger():
         said.startswith("shorter cells. A larger part")
         and "not given 53 %; a measured bodies.boundary_film reduces it" in said
     )
-    other = replace(of_model, what="film over radius")
+    other = replace(of_model, assumption=Assumption.THIN_FILM)
     assert beside_larger_part(other, film) == other
 
 

@@ -11,9 +11,7 @@ from scene_text import paper_scene
 import lubfric
 from lubfric.film import ShearForce
 from lubfric.models.shared import (
-    MAP_WIDTH,
-    NUMERICAL_ERROR,
-    OMITTED_HEAT,
+    Assumption,
     Violation,
     gathered,
     gathered_texts,
@@ -257,8 +255,8 @@ def test_a_film_above_the_range_of_its_law_is_a_note_where_its_stress_is_limited
 def test_the_error_of_the_solve_is_a_note_and_heat_that_is_left_out_stands_beside_f():
     scene = lubfric.load_scene("paper").with_(numerics={"model": "paper", "tolerance": 1e-4, "film_tolerance": 0.03})
     fast = lubfric.friction(scene, 1.0)
-    kinds = {violation.what: violation.is_note for violation in fast.validity}
-    assert kinds[NUMERICAL_ERROR] is True and kinds[OMITTED_HEAT] is False
+    kinds = {violation.assumption: violation.is_note for violation in fast.validity}
+    assert kinds[Assumption.NUMERICAL_ERROR] is True and kinds[Assumption.HEAT_INCLUDED] is False
     assert fast.not_in_interval.startswith(
         "f and its interval are without the heat of the film, which lowers f by up to 2"
     )
@@ -275,9 +273,9 @@ def test_the_width_of_the_map_matters_where_it_gives_a_sampling_error():
         contact={"shape": (48, 44), "spacing": 1.8e-6}, numerics={"model": "paper", "sampling": "patch"}
     )
     slow, fast = (lubfric.friction(short, speed) for speed in (0.01, 1.0))
-    assert any(violation.what == MAP_WIDTH for violation in slow.validity)
+    assert any(violation.assumption == Assumption.LONG_SAMPLE for violation in slow.validity)
     assert fast.contact_load == 0 and (
-        fast.uncertainty.sampling != 0 or MAP_WIDTH not in [v.what for v in fast.validity]
+        fast.uncertainty.sampling != 0 or Assumption.LONG_SAMPLE not in [v.assumption for v in fast.validity]
     )
 
 

@@ -14,6 +14,7 @@ from ...samples import is_measured
 from ...scene import BOUNDARY_FILM_KEY, HARDNESS_KEY, Scene, has_moving_roughness, missing_inputs, value_of
 from ..contract import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
+    Assumption,
     Decision,
     Heat,
     Prepared,
@@ -398,6 +399,7 @@ def _violations(
     yield from violations_by_thickness(scene, film)
     if scene.bodies.boundary_film is None and film < BOUNDARY_FILM:
         yield Violation(
+            assumption=Assumption.ABOVE_BOUNDARY_FILM,
             what="film thickness",
             value=1e9 * film,
             limit=1e9 * BOUNDARY_FILM,
@@ -411,6 +413,7 @@ def _violations(
         consequence = "the shear stress of a Newtonian film would exceed f_b p there; it is limited to f_b p"
         recommendation = 'give lubricant.limiting_stress_coefficient (or "f_b" if that is meant) or eyring_stress'
         yield Violation(
+            assumption=Assumption.FILM_BELOW_ITS_LIMIT,
             what="share of the load on a saturated film, on the strips of the deterministic model,",
             value=cut,
             limit=CUT,
@@ -426,6 +429,7 @@ def _violations(
         )
         recommendation = "assume an error of f of at least 2 %"
         yield Violation(
+            assumption=Assumption.LUBRICANT_PASSES,
             what="share of the lubricant that comes from touching cells",
             value=share,
             limit=MOST_GIVEN_OFF,
@@ -437,6 +441,7 @@ def _violations(
     if why := why_too_hot(heat):
         parts = (1 - heat.film_factor) / (1 - LEAST_FILM), heat.change / MOST_CHANGE
         yield Violation(
+            assumption=Assumption.CHECKED_HEAT,
             what="effect of heat over the largest that was checked",
             value=max(parts),
             limit=1.0,

@@ -11,6 +11,7 @@ from ...oil import estimate_in_words
 from ...scene import Scene, has_moving_roughness
 from ..contract import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
+    Assumption,
     Violation,
     contact_at_inputs,
     contact_on_piece,
@@ -185,6 +186,7 @@ def _finer(change: float, tolerance: float) -> tuple[Violation, ...]:
     consequence = "the map is too coarse for its roughness; the interval of f does not include that"
     return (
         Violation(
+            assumption=Assumption.FINE_MAP,
             what=what,
             value=100 * change,
             limit=100 * tolerance,

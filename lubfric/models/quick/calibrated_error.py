@@ -17,7 +17,7 @@ import numpy as np
 
 from ..._base import packaged
 from ...scene import Scene, has_moving_roughness
-from ..shared import Violation, inlet_at, peak_hertz_pressure
+from ..shared import Assumption, Violation, inlet_at, peak_hertz_pressure
 
 OUTSIDE = "the quick answer is not calibrated for such contacts; its model-form error is increased, at most three times"
 
@@ -98,6 +98,7 @@ class Outside:
         """What a result, and `lubfric info` before it, says of it."""
         factor = 1e-9 if self.unit == "Pa" else 1.0
         return Violation(
+            assumption=Assumption.CALIBRATED,
             what=self.what,
             value=factor * self.value,
             limit=factor * self.limit,

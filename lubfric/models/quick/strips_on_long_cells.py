@@ -23,7 +23,7 @@ from ..deterministic import (
     two_levels,
 )
 from ..deterministic import answer_of as deterministic_answer
-from ..shared import MODEL_ERROR, Prepared, percent, smooth_over_cells, violations_by_model_error
+from ..shared import Assumption, Prepared, percent, smooth_over_cells, violations_by_model_error
 from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, reported, widening
 from .long_cells import (
     CELLS_OF_REFERENCES,
@@ -224,9 +224,8 @@ def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLon
     f = levels.numbers["coefficient"]
     basis = f"deterministic model on long cells, calibrated on {on_long_cells.error_model.cases} solved cases"
     towards, away = (math.hypot(part, bound) for part, bound in zip(answer.model_error, bounds))
-    warnings = (
-        violation for violation in answer.violations if not violation.what.startswith(MODEL_ERROR)
-    )  # which was without the cells
+    # the model-form error of the answer is without that of the cells
+    warnings = [each for each in answer.violations if each.assumption != Assumption.MODEL_FORM_ERROR]
     return replace(
         answer,
         model_error=(min(towards, 1.0), away),

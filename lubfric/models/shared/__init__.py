@@ -7,7 +7,6 @@ errors of means along a line and the number of strips that they need; `wording` 
 
 from .checks import (
     NUMERICAL_ERROR,
-    OMITTED_HEAT,
     meaningless,
     peak_hertz_pressure,
     violations_by_deflection,
@@ -24,8 +23,6 @@ from .checks import (
     violations_by_typical_heat,
 )
 from .checks_before import (
-    IF_ALL,
-    MAP_WIDTH,
     ExpectedViolations,
     beforehand,
     expected_in_film,
@@ -85,6 +82,7 @@ from .unmodelled import (
     unmodelled_effects,
 )
 from .violation import (
+    Assumption,
     Violation,
     at_value,
     gathered,

@@ -12,7 +12,7 @@ from ...film import FAST_PECLET_NUMBER, MOST_SLIDE_ROLL_RATIO_OF_INLET, MOST_THE
 from ...oil import CELSIUS, NO_LIQUID
 from ...units import worded
 from .heat import TYPICAL, Heat
-from .violation import Violation
+from .violation import Assumption, Violation
 
 if TYPE_CHECKING:
     from ...scene import Scene
@@ -58,11 +58,8 @@ ANOTHER = "numerics.film_deflection = 'scaled'"
 # it decides where a point is refused, no number.
 ON_ENDS = 0.01
 
-# Name of the numerical error where it is above the requested tolerance.
+# Name of the numerical error where it is above the requested tolerance; tables of studies hold it as text.
 NUMERICAL_ERROR = "estimated numerical error of f"
-
-# Name of the effect of the heat that a lubricant without a temperature coefficient leaves out: no part of the interval.
-OMITTED_HEAT = "reduction of f by the heat of the film"
 
 LONGER_PATCH = "make the patch longer in x: contact.shape, or for a measured map surface.extension = 'mirror'"
 
@@ -87,7 +84,15 @@ def violations_by_motion(scene: Scene, speed: float, thickness: float) -> Iterat
                 "give numerics.heat = 'off' if the sliding is meant; else check motion.entrainment_speed and "
                 "motion.sliding_speed over the run"
             )
-        yield Violation(what=what, value=ratio, limit=OPPOSED, unit="", consequence=why, recommendation=advice)
+        yield Violation(
+            assumption=Assumption.ONE_DIRECTION,
+            what=what,
+            value=ratio,
+            limit=OPPOSED,
+            unit="",
+            consequence=why,
+            recommendation=advice,
+        )
     if math.isfinite(thickness) and thickness > 0:
         oil = scene.lubricant.oil
         temperature = scene.lubricant.temperature
@@ -100,6 +105,7 @@ def violations_by_motion(scene: Scene, speed: float, thickness: float) -> Iterat
             what = "Reynolds number"
             recommendation = "a laminar film needs less speed or more viscosity"
             yield Violation(
+                assumption=Assumption.LAMINAR_FILM,
                 what=what,
                 value=reynolds,
                 limit=limit,
@@ -112,6 +118,7 @@ def violations_by_motion(scene: Scene, speed: float, thickness: float) -> Iterat
             why = "Reynolds' equation neglects inertia"
             what = "inertia over viscous forces in the film"
             yield Violation(
+                assumption=Assumption.NO_INERTIA,
                 what=what,
                 value=inertia,
                 limit=INERTIA,
@@ -167,6 +174,7 @@ def violations_by_pressure(scene: Scene, peak: float, place: str = "of the smoot
         more = f"; {recommendation}" if recommendation else ""
         recommendation = f"give lubricant.density_law = 'dowson-higginson', which lowers it{more}"
     yield Violation(
+        assumption=Assumption.PRESSURE_OF_VISCOSITY_LAW,
         what="highest local film pressure" if is_local else "peak film pressure",
         value=peak / 1e9,
         limit=limit / 1e9,
@@ -185,6 +193,7 @@ def violations_by_thickness(scene: Scene, thickness: float) -> Iterator[Violatio
         return
     why = "the film is not thin compared with the cylinder"
     yield Violation(
+        assumption=Assumption.THIN_FILM,
         what="film over radius",
         value=thickness / radius,
         limit=THICK_FILM,
@@ -210,12 +219,19 @@ def violations_by_inlet(scene: Scene, line: LineContact, flow: float, friction_f
         what = "film thickness over that of a fully flooded inlet (Moes)"
         advice = f"keep {given} if the contact is starved; omit it for a flooded inlet"
         yield Violation(
-            what=what, value=flow / flooded, limit=1.0, unit="", consequence=consequence, recommendation=advice
+            assumption=Assumption.FLOODED_INLET,
+            what=what,
+            value=flow / flooded,
+            limit=1.0,
+            unit="",
+            consequence=consequence,
+            recommendation=advice,
         )
     elif lost > tolerance * friction_force:
         what = "rolling friction of the inlet beyond inlet_length, relative to f"
         why = "f depends on where the lubricant begins"
         yield Violation(
+            assumption=Assumption.LONG_INLET,
             what=what,
             value=100 * lost / friction_force,
             limit=100 * tolerance,
@@ -233,7 +249,15 @@ def violations_by_deflection(scene: Scene, mean_gap: float, recommendation: str 
         return
     why = "a film flattened by its own pressure alone takes too much of the load: f does not tend to f_b"
     what = "rise of the undeformed cylinder over the Hertz strip, relative to the mean gap,"
-    yield Violation(what=what, value=change, limit=STRIP_SHARE, unit="", consequence=why, recommendation=recommendation)
+    yield Violation(
+        assumption=Assumption.FILM_UNDER_TOTAL_LOAD,
+        what=what,
+        value=change,
+        limit=STRIP_SHARE,
+        unit="",
+        consequence=why,
+        recommendation=recommendation,
+    )
 
 
 def violations_by_ends(share: float, length: float) -> Iterator[Violation]:
@@ -242,6 +266,7 @@ def violations_by_ends(share: float, length: float) -> Iterator[Violation]:
         why = f"the ends of the patch, {worded(length, 'm')} apart, cut the contact off"
         what = "share of the contact load on the edge columns of the patch"
         yield Violation(
+            assumption=Assumption.CONTACT_ON_PATCH,
             what=what,
             value=100 * share,
             limit=100 * ON_ENDS,
@@ -262,6 +287,7 @@ def violations_by_patches(scene: Scene, heights: FloatArray, area: float) -> Ite
         why = "a ridge without ends counts as one asperity, blunter on a longer map; f depends on the length of the map"
         what = "number of asperities that extend across the whole map"
         yield Violation(
+            assumption=Assumption.ASPERITIES_END,
             what=what,
             value=count,
             limit=0,
@@ -295,6 +321,7 @@ def violations_by_shear(
     if share > tolerance:
         severe = share > REFUSED_SHARE
         yield Violation(
+            assumption=Assumption.STRESS_OF_OILS,
             what="part of f from shear stresses above 5 MPa + 0.12 p",
             value=share,
             limit=REFUSED_SHARE if severe else tolerance,
@@ -308,7 +335,13 @@ def violations_by_shear(
         what = "friction coefficient of the film"
         why = "more than any lubricant gives"
         yield Violation(
-            what=what, value=of_film, limit=MOST_FILM_FRICTION, unit="", consequence=why, recommendation=recommendation
+            assumption=Assumption.FRICTION_OF_FILMS,
+            what=what,
+            value=of_film,
+            limit=MOST_FILM_FRICTION,
+            unit="",
+            consequence=why,
+            recommendation=recommendation,
         )
 
 
@@ -323,6 +356,7 @@ def violations_by_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
         )
         if extrapolated and spread > tolerance:
             yield Violation(
+                assumption=Assumption.KNOWN_INLET_HEAT,
                 what="difference of two published inlet heating factors",
                 value=spread,
                 limit=tolerance,
@@ -333,6 +367,7 @@ def violations_by_heat(scene: Scene, heat: Heat) -> Iterator[Violation]:
             )
     if heat.is_slow and heat.change > tolerance:
         yield Violation(
+            assumption=Assumption.FAST_SURFACES,
             what="Péclet number of the faster surface",
             value=heat.peclet,
             limit=FAST_PECLET_NUMBER,
@@ -349,7 +384,8 @@ def violations_by_typical_heat(scene: Scene, change: float) -> Iterator[Violatio
     if change > scene.numerics.tolerance:
         temperature, coefficient = TYPICAL
         yield Violation(
-            what=OMITTED_HEAT,
+            assumption=Assumption.HEAT_INCLUDED,
+            what="reduction of f by the heat of the film",
             value=100 * change,
             limit=100 * scene.numerics.tolerance,
             unit="%",
@@ -366,6 +402,7 @@ def violations_by_numerical_error(error: float | None, tolerance: float, recomme
     if error is not None and error > tolerance:
         why = "this is more than the limit that numerics.tolerance sets; the interval of f includes it"
         yield Violation(
+            assumption=Assumption.NUMERICAL_ERROR,
             what=NUMERICAL_ERROR,
             is_note=True,
             value=100 * error,

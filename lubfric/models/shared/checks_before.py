@@ -20,7 +20,7 @@ from .checks import (
     violations_by_pressure,
     violations_by_shear,
 )
-from .violation import Violation
+from .violation import Assumption, Violation
 
 # Nodes across the Hertz strip of the estimate of the shear: their sum is off by 6e-5 with an Eyring stress.
 STRIP_NODES = 201
@@ -46,20 +46,12 @@ FILTERED = "lines in the right order, or surface.s_filter"
 # Correlation lengths that a patch should be wide: the fewest for two blocks (statistics.py).
 LEAST_PATCH_LENGTHS = 10
 
-# Name of the length of the sample where it is small: it matters where f has a sampling error.
-MAP_WIDTH = "length of the sample along the line over its correlation length"
-
 # Share [%] of Sq² that a form explains from which the map shows the form and not the roughness. Not measured: a
 # convention.
 MOST_OF_FORM = 90.0
 
-# Begin of the name of that share.
-FORM_SHARE = "share of the form"
-
-# Name of the deviation of the Sq of strips from that of their map.
-STRIP_SQ = "difference of Sq between the strips that are solved first and the map"
-
-# Such a deviation, at most, that is no violation whatever the sample explains. A convention.
+# Deviation of the Sq of strips from that of their map, at most, that is no violation whatever the sample explains. A
+# convention.
 LEAST_STRIP_DEVIATION = 0.05
 
 # Peak Hertz pressure [Pa] that hard steel does not carry elastically: static ratings of bearings allow 4.0 to 4.6 GPa
@@ -108,7 +100,8 @@ def violations_by_form(scene: Scene, maps: Sequence[Surface], *, is_given: bool)
         why = f"Sq is {sq[0]} with it, {sq[1]} without it; film, contact and f are then those of the form, not of the roughness"
         file_advice = f"give {section}.form = {form!r}"
         yield Violation(
-            what=f"{FORM_SHARE} {form!r} in Sq² of [{section}]{name}",
+            assumption=Assumption.MAP_WITHOUT_FORM,
+            what=f"share of the form {form!r} in Sq² of [{section}]{name}",
             value=share,
             limit=MOST_OF_FORM,
             unit="%",
@@ -122,7 +115,8 @@ def violations_by_strips(deviation: float, explained: float) -> Iterator[Violati
     size may differ by the ``explained`` part."""
     if abs(deviation) > max(explained, LEAST_STRIP_DEVIATION):
         yield Violation(
-            what=STRIP_SQ,
+            assumption=Assumption.STRIPS_LIKE_MAP,
+            what="difference of Sq between the strips that are solved first and the map",
             value=100 * abs(deviation),
             limit=100 * max(explained, LEAST_STRIP_DEVIATION),
             unit="%",
@@ -140,13 +134,14 @@ def stated_sq(scene: Scene) -> float | None:
 
 def is_by_form(violation: Violation) -> bool:
     """Return whether a violation is one of `violations_by_form` or `violations_by_strips`, which depend on the map alone."""
-    return violation.what.startswith((FORM_SHARE, STRIP_SQ))
+    return violation.assumption in (Assumption.MAP_WITHOUT_FORM, Assumption.STRIPS_LIKE_MAP)
 
 
 def violations_by_unusual_inputs(scene: Scene) -> tuple[Violation, ...]:
     """Return the violations for values far from the usual."""
     return tuple(
         Violation(
+            assumption=Assumption.USUAL_VALUES,
             what=value.key,
             value=value.value,
             limit=value.limit,
@@ -178,6 +173,7 @@ def violations_by_bodies(bodies: Bodies) -> Iterator[Violation]:
         why = "the contact is about as wide as the body, which is then no half-space"
         what = "contact half-width over radius"
         yield Violation(
+            assumption=Assumption.HALF_SPACE,
             what=what,
             value=wide,
             limit=WIDEST_STRIP if wide > WIDEST_STRIP else WIDE_STRIP,
@@ -190,6 +186,7 @@ def violations_by_bodies(bodies: Bodies) -> Iterator[Violation]:
         why = "the contact is wider than long: no line contact"
         what = "line length over contact width"
         yield Violation(
+            assumption=Assumption.LINE_CONTACT,
             what=what,
             value=bodies.width / (2 * bodies.half_width),
             limit=1.0,
@@ -202,6 +199,7 @@ def violations_by_bodies(bodies: Bodies) -> Iterator[Violation]:
         why = "hard steel yields at this pressure, but the bodies are modelled as elastic"
         what = "peak Hertz pressure"
         yield Violation(
+            assumption=Assumption.ELASTIC_BODIES,
             what=what,
             value=peak / 1e9,
             limit=YIELDED / 1e9,
@@ -219,6 +217,7 @@ def violations_by_map(slope: float, lengths: float, cells: Iterable[float] = ())
         why = "the half-space assumes small slopes; contact area and pressures are wrong"
         what = "rms slope of the map"
         yield Violation(
+            assumption=Assumption.SMALL_SLOPES,
             what=what,
             value=slope,
             limit=REFUSED_SLOPE if slope > REFUSED_SLOPE else STEEP,
@@ -230,7 +229,8 @@ def violations_by_map(slope: float, lengths: float, cells: Iterable[float] = ())
     if lengths < LEAST_PATCH_LENGTHS:
         why = "few asperities: another patch of the same surface would give another f"
         yield Violation(
-            what=MAP_WIDTH,
+            assumption=Assumption.LONG_SAMPLE,
+            what="length of the sample along the line over its correlation length",
             value=lengths,
             limit=LEAST_PATCH_LENGTHS,
             unit="",
@@ -242,6 +242,7 @@ def violations_by_map(slope: float, lengths: float, cells: Iterable[float] = ())
             what = f"cells in a correlation length along {axis}"
             recommendation = f"a shorter step along {axis}, {FILTERED}"
             yield Violation(
+                assumption=Assumption.CORRELATED_HEIGHTS,
                 what=what,
                 value=count,
                 limit=NOISE,
@@ -311,6 +312,7 @@ def _expected_violations_by_film(scene: Scene, speed: float, thickness: float) -
             replace(
                 violation,
                 severe=False,
+                assumption=Assumption.STRESS_OF_OILS_UNDER_TOTAL_LOAD,
                 limit=scene.numerics.tolerance,
                 consequence=f"{violation.consequence}; {IF_ALL}",
             )

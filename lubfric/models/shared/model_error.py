@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from .prepared import Prepared
-from .violation import Violation
+from .violation import Assumption, Violation
 from .wording import is_near_zero
 
 MODEL_ERROR = "model-form error of f"
@@ -24,6 +24,7 @@ def violations_by_model_error(
     is_relative = not is_near_zero(f, error)
     unit = 100.0 if is_relative else abs(f)
     yield Violation(
+        assumption=Assumption.MODEL_FORM_ERROR,
         what=MODEL_ERROR if is_relative else MODEL_ERROR_NEAR_ZERO,
         value=unit * error,
         limit=unit * tolerance,

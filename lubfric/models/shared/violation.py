@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import Any
 
 from ..._base import Renamed
@@ -26,12 +27,53 @@ def _in_digits(value: float, digits: int) -> str:
     return f"{rounded:.0f}" if 10**digits <= abs(rounded) < 1e6 else f"{rounded:.{digits}g}"
 
 
+class Assumption(StrEnum):
+    """What the models assume. Results name the one that is violated (`Violation.assumption`)."""
+
+    USUAL_VALUES = "usual values"
+    HALF_SPACE = "contact narrower than the bodies"
+    LINE_CONTACT = "contact longer than wide"
+    ELASTIC_BODIES = "elastic bodies"
+    SMALL_SLOPES = "small slopes of the map"
+    CORRELATED_HEIGHTS = "correlated heights of the map"
+    MAP_WITHOUT_FORM = "map without form"
+    FINE_MAP = "map on cells short enough"
+    LONG_SAMPLE = "sample with many asperities"
+    STRIPS_LIKE_MAP = "strips as rough as the map"
+    CONTACT_ON_PATCH = "contact within the patch"
+    ASPERITIES_END = "asperities that end on the map"
+    ONE_DIRECTION = "surfaces that move in one direction"
+    LAMINAR_FILM = "laminar film"
+    NO_INERTIA = "film without inertia"
+    THIN_FILM = "film thinner than the cylinder"
+    FILM_UNDER_TOTAL_LOAD = "film deflected by the total load"
+    FLOODED_INLET = "flooded inlet"
+    LONG_INLET = "inlet long enough"
+    PRESSURE_OF_VISCOSITY_LAW = "pressure in the range of the viscosity law"
+    STRESS_OF_OILS = "shear stress that oils carry"
+    STRESS_OF_OILS_UNDER_TOTAL_LOAD = "shear stress that oils carry, if the film carries the total load"
+    FRICTION_OF_FILMS = "friction that films reach"
+    ABOVE_BOUNDARY_FILM = "film thicker than the boundary film"
+    FILM_BELOW_ITS_LIMIT = "film below its limiting stress"
+    LUBRICANT_PASSES = "lubricant that passes the contact"
+    HEAT_INCLUDED = "heat included"
+    KNOWN_INLET_HEAT = "known heat of the inlet"
+    FAST_SURFACES = "surfaces fast enough for the flash temperature"
+    CHECKED_HEAT = "heat within what was checked"
+    ISOTHERMAL_RUN = "isothermal run in time"
+    CALIBRATED = "contact like those of the calibration"
+    RESOLVED_SHEAR = "resolved shear stress in time"
+    NUMERICAL_ERROR = "numerical error within its tolerance"
+    MODEL_FORM_ERROR = "model-form error within its tolerance"
+
+
 @dataclass(frozen=True, kw_only=True)
 class Violation(Renamed):
     """An assumption of the model that is violated.
 
     Attributes
     ----------
+    assumption : which one, an `Assumption`; "": one of a model from outside
     what : the quantity, as text
     value, limit : its value, and the limit of the model, both in ``unit``
     consequence : what that does to the result
@@ -40,6 +82,7 @@ class Violation(Renamed):
     is_note : the interval of f covers it, or nothing is to be done: a note instead of a warning
     """
 
+    assumption: str = ""
     what: str
     value: float
     limit: float
@@ -51,7 +94,13 @@ class Violation(Renamed):
     _RENAMED = {"remedy": "recommendation"}
 
     def __post_init__(self) -> None:
-        for name, kind in (("value", float), ("limit", float), ("severe", bool), ("is_note", bool)):
+        for name, kind in (
+            ("assumption", str),
+            ("value", float),
+            ("limit", float),
+            ("severe", bool),
+            ("is_note", bool),
+        ):
             object.__setattr__(self, name, kind(getattr(self, name)))
 
     @property
