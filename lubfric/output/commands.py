@@ -249,8 +249,8 @@ def read_record(folder: Path) -> dict[str, Any]:
     for violation in _violations_of(record):
         violation.setdefault("recommendation", violation.pop("remedy", None))  # as records of version 1.0.0 have it
     hints = get_type_hints(Violation)
-    kinds = {field.name: hints[field.name] for field in fields(Violation)}
-    kinds.pop("is_note")  # records of version 1.0.0 have none
+    newer = ("assumption", "is_note")  # fields that records of version 1.0.0 have not
+    kinds = {field.name: hints[field.name] for field in fields(Violation) if field.name not in newer}
     numbers = {name: kind | None if kind is float else kind for name, kind in kinds.items()}
     kind = {"scene": {"name": str}, "points": [{"validity": [numbers]}]}
     if not isinstance(record, dict) or not fits({"points": []} | record, kind):
