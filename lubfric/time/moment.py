@@ -17,8 +17,8 @@ from ..estimate import (
 )
 from ..film import ShearForce, above_carried, rolling_error, smallest, spike_error
 from ..models.load_sharing import (
+    MomentResponse,
     moment_error,
-    moment_film_sensitivity,
     moment_model_error,
     slopes_of,
     volume_residual,
@@ -82,35 +82,29 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
     speed = scene.motion.entrainment_speed
     boundary = scene.bodies.boundary_friction_coefficient * contact_step.load * np.sign(sliding)
     shear, heat = film_shear(model, scene, time, sliding, solution, boundary)
-    loads = (contact_step.load, film_load)
-    parts = (boundary, shear.total)
     force = boundary + shear.total
     sense = np.sign(sliding) or np.sign(speed) or 1.0
     inlet, _ = inlet_at(scene, speed)
     heated_inlet = setting.line_history.viscosity.before(time) != scene.lubricant.viscosity
     film_factor = math.nan if inlet is None else inlet.factor if heated_inlet else 1.0
-    length = model.correlation_length
-    film_exponent = film_load_exponent(scene, film_load)
-    softness = contact_softness(model, solution)
-    finite = moment_error(
+    response = MomentResponse(
+        contact_load=contact_step.load,
+        film_load=film_load,
+        boundary=boundary,
+        viscous=shear.total,
+        softness=contact_softness(model, solution),
+        film_load_exponent=film_load_exponent(scene, film_load),
+        mean_film=state.mean_film,
+    )
+    sampling_error = moment_error(
         cast(HalfSpaceContact, model.patch),
         state,
-        loads=loads,
-        softness=softness,
+        response,
         width=scene.bodies.width,
-        correlation_length=length,
-        parts=parts,
-        film_load_exponent=film_exponent,
+        correlation_length=model.correlation_length,
     )
     of_moment = replace(heat, inlet=inlet, is_used=film_factor < 1.0)
-    film_sensitivity = moment_film_sensitivity(
-        state,
-        loads=loads,
-        softness=softness,
-        parts=parts,
-        film_load_exponent=film_exponent,
-        shear_magnitude=shear.magnitude,
-    )
+    film_sensitivity = response.per_film(shear.magnitude)
     touches = contact_step.load > 0.0
     wet = setting.grid.x[t.P > 0.0] * p.length_unit
     central_film = t.H[setting.grid.n // 2] * p.film_unit
@@ -139,7 +133,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         "rolling_resistance": 2.0 * shear.rolling * (np.sign(speed) or 1.0),
         "power_loss": power_of_forces(force, 2.0 * shear.rolling, speed, sliding),
         "coefficient": force * sense / total,
-        "sampling_error": finite,
+        "sampling_error": sampling_error,
         "shear_error": shear.quadrature / abs(force) if force else 0.0,
         "model_error_low": model_error[0],
         "model_error_high": model_error[1],

@@ -88,7 +88,8 @@ class TransientResult(Renamed, Shown):
         the pressurised film; net_inflow, stored and cavity_growth [m²/s], the balance of the lubricant over the last
         step, per unit width; time_error [-], the local error of the last step over the tolerance; sampling_error [-],
         the relative standard error of f because the line of rough surface is finite
-        (`lubfric.models.load_sharing.moment_error`; the line is the same at all times, so this error of f has the same sign throughout); inlet_film_factor [-],
+        (`lubfric.models.load_sharing.moment_error`; the line is the same at all times, so this error of f has the same
+        sign throughout); inlet_film_factor [-],
         flash_temperature_rise and film_temperature_rise [K], as in `lubfric.FrictionResult`, of the steady motion at
         the speeds of the moment; heat_change [-], the relative change of f by the two rises; shear_error [-], the
         estimated relative error of f by the sum of the film's shear stress; edge_load [-], the share of the contact's

@@ -4,7 +4,6 @@ import math
 import re
 from dataclasses import replace
 from html import unescape
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,7 +11,7 @@ from scene_text import paper_scene
 from scipy.optimize import brentq
 
 import lubfric
-from lubfric.models.load_sharing import moment_film_sensitivity
+from lubfric.models.load_sharing import MomentResponse
 from lubfric.output import describe_scene, main
 from lubfric.output.report import history_answer
 from lubfric.scene import Harmonic, Ramp, Transient
@@ -71,15 +70,16 @@ def test_the_sensitivity_of_f_at_a_moment_is_that_of_a_balance_solved_again(cont
         return 0.1 * load + 0.02 * (total - load)
 
     by_division = (friction(1e-6) - friction(-1e-6)) / (2e-6 * (boundary + viscous))
-    sensitivity = moment_film_sensitivity(
-        SimpleNamespace(mean_film=film),
-        loads=(contact_load, total - contact_load),
+    response = MomentResponse(
+        contact_load=contact_load,
+        film_load=total - contact_load,
+        boundary=boundary,
+        viscous=viscous,
         softness=softness,
-        parts=(boundary, viscous),
         film_load_exponent=exponent,
-        shear_magnitude=viscous,
+        mean_film=film,
     )
-    assert sensitivity == pytest.approx(abs(by_division) + viscous / (boundary + viscous), rel=1e-5)
+    assert response.per_film(viscous) == pytest.approx(abs(by_division) + viscous / (boundary + viscous), rel=1e-5)
 
 
 def test_the_sampling_error_of_a_moment_does_not_depend_on_how_it_was_reached():

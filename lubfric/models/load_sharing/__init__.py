@@ -19,6 +19,6 @@ from .estimated_work import expected_gap, expected_model_error
 from .methods import methods_of_load_sharing
 from .paper_model import PaperModel, PaperSolution
 from .point import Point
-from .response import Response, Slopes, quantities, slopes_of
-from .scatter import effective_contacts, moment_error, moment_film_sensitivity
+from .response import MomentResponse, Response, Slopes, quantities, slopes_of
+from .scatter import effective_contacts, moment_error
 from .undetected import summit_radius, undetected_load

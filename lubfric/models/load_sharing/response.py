@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -96,6 +97,56 @@ class Response:
             return math.inf
         first_order = change / rate
         return first_order / max(1.0, load_growth(abs(self.log_load_ratio_per_gap * first_order), self.load_ratio))
+
+
+@dataclass(frozen=True, kw_only=True)
+class MomentResponse:
+    """Reaction of f at a moment of a run in time to an error of the gap or of the film.
+
+    Film and contact are assumed to have time to divide the load anew, as in a `Response`; a film that is squeezed follows
+    more slowly, and then f changes less. Each part of the friction is in proportion to its load.
+
+    Attributes
+    ----------
+    contact_load, film_load : F_C and F_H [N]
+    boundary, viscous : friction of the contact and of the film [N]
+    softness : -dG/d ln F_C of the contact [m]
+    film_load_exponent : -d ln h/d ln F_H of the film [-], 1 if it is rigid and some .1 if it is elastic
+    mean_film : of the film [m]
+    """
+
+    contact_load: float
+    film_load: float
+    boundary: float
+    viscous: float
+    softness: float
+    film_load_exponent: float
+    mean_film: float
+
+    @property
+    def force(self) -> float:
+        """The friction of both [N]."""
+        return self.boundary + self.viscous
+
+    @cached_property
+    def per_gap(self) -> float:
+        """The relative change of f per change of the gap [1/m]."""
+        total = self.contact_load + self.film_load
+        contact_share = self.contact_load / total
+        film_share = self.film_load / total
+        per_log_ratio = abs((self.viscous * contact_share - self.boundary * film_share) / self.force)
+        by_film = self.film_load_exponent * gap_per_film(self.mean_film)
+        return per_log_ratio / (self.softness * film_share + by_film * contact_share)
+
+    def per_film(self, shear_magnitude: float) -> float:
+        """Return the relative change of f by a relative change of the film, at most; ``shear_magnitude``: the sum of the
+        absolute parts of the film's shear force [N]. In steady motion it is `Response.per_film`, from films at other loads."""
+        if self.force == 0:
+            return 0.0
+        at_given_loads = shear_magnitude / abs(self.force)
+        if self.contact_load <= 0:
+            return at_given_loads
+        return self.per_gap * gap_per_film(self.mean_film) + at_given_loads
 
 
 def load_growth(moved: float, load_ratio: float) -> float:

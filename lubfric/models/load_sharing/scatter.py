@@ -19,10 +19,8 @@ from ...oil import shear_stress
 from ...samples import Sample
 from ...scene import Scene
 from ..shared import StandardError, block_error, means_of_blocks
-from .balance import (
-    Balance,
-)
-from .closure import gap_per_film
+from .balance import Balance
+from .response import MomentResponse
 
 # Windows of a measured map whose scatter states an error.
 FEWEST_WINDOWS = 3
@@ -158,77 +156,21 @@ def film_stress(scene: Scene, rough_contact: HalfSpaceContact, film: EHLResult) 
 def moment_error(
     rough_contact: HalfSpaceContact,
     contact_state: ContactState,
+    response: MomentResponse,
     *,
-    loads: tuple[float, float],
-    softness: float,
     width: float,
     correlation_length: float,
-    parts: tuple[float, float],
-    film_load_exponent: float,
 ) -> float:
-    """Return the relative standard error of f at one moment, from a `ContactState` with fields on ``rough_contact``: 0
+    """Return the relative standard error of f at one moment, from a ``contact_state`` with fields on ``rough_contact``: 0
     without contact, NaN if the line is too short.
 
-    ``loads``: (F_C, F_H) [N]; ``softness``: -dG/d ln F_C [m] of the contact; ``parts``: boundary and viscous friction
-    [N]; ``film_load_exponent``: -d ln h/d ln F_H of the film, 1 if it is rigid and some .1 if it is elastic. Film and contact are
-    assumed to have time to divide the load anew (`lubfric.models.load_sharing.response.respond`). A film that is
-    squeezed follows more slowly, and the error is smaller then.
+    ``response``: that of the moment; ``width`` [m]: of the contact; ``correlation_length`` [m]: along the line.
     """
-    contact_load, _ = loads
-    if contact_load <= 0 or sum(parts) == 0:
+    if response.contact_load <= 0 or response.force == 0:
         return 0.0
     if contact_state.fields is None or not math.isfinite(correlation_length):
         return math.nan
-    slope = -softness / (contact_load / width)
+    slope = -response.softness / (response.contact_load / width)
     values = gap_influence(hertz_mean_gap(rough_contact, contact_state), line_load(rough_contact, contact_state), slope)
     influence_error = block_error(values, rough_contact.spacing[1], correlation_length)
-    per_gap = _moment_change_per_gap(
-        contact_state, loads=loads, softness=softness, parts=parts, film_load_exponent=film_load_exponent
-    )
-    return per_gap * influence_error.value if influence_error.freedom else math.nan
-
-
-def moment_film_sensitivity(
-    contact_state: ContactState,
-    *,
-    loads: tuple[float, float],
-    softness: float,
-    parts: tuple[float, float],
-    film_load_exponent: float,
-    shear_magnitude: float,
-) -> float:
-    """Return the relative change of f at one moment by a relative change of the film, at most.
-
-    In steady motion it is that of `lubfric.models.load_sharing.response.Response.per_film`, which solves films at other loads;
-    here each friction force is proportional to its load.
-
-    ``shear_magnitude``: the sum of the absolute parts of the film's shear force [N]; other arguments as of `moment_error`.
-    """
-    friction_force = abs(sum(parts))
-    if friction_force == 0:
-        return 0.0
-    at_given_loads = shear_magnitude / friction_force
-    if loads[0] <= 0:
-        return at_given_loads
-    per_gap = _moment_change_per_gap(
-        contact_state, loads=loads, softness=softness, parts=parts, film_load_exponent=film_load_exponent
-    )
-    return per_gap * gap_per_film(contact_state.mean_film) + at_given_loads
-
-
-def _moment_change_per_gap(
-    contact_state: ContactState,
-    *,
-    loads: tuple[float, float],
-    softness: float,
-    parts: tuple[float, float],
-    film_load_exponent: float,
-) -> float:
-    """Return the relative change of f per change of the gap [1/m], where contact and film divide the load anew; arguments
-    as of `moment_error`."""
-    contact_share, film_share = (load / sum(loads) for load in loads)
-    boundary, viscous = parts
-    per_log_ratio = abs((viscous * contact_share - boundary * film_share) / (boundary + viscous))
-    return per_log_ratio / (
-        softness * film_share + film_load_exponent * gap_per_film(contact_state.mean_film) * contact_share
-    )
+    return response.per_gap * influence_error.value if influence_error.freedom else math.nan
