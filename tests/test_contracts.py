@@ -258,6 +258,9 @@ def test_a_further_model_answers_through_the_same_contract():
         low, high = result.uncertainty.interval
         assert high - low >= result.coefficient and math.isnan(result.min_film)
         assert "highest summit" in result.decision.text or result.decision.model == "highest summit"
+        reasons = result.errors.reasons
+        assert reasons["contact_load"] == "not known" and reasons["min_film"] == "not computed by the model"
+        assert reasons["film_load"] == "it is 0, and so has no relative error" and "coefficient" in reasons
     assert len(values) > prepared.sample.first_strips
 
 

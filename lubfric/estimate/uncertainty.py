@@ -228,18 +228,30 @@ def curve_of(points: Sequence[Any]) -> UncertaintyCurve:
 @dataclass(frozen=True, kw_only=True)
 class NumberErrors(Quantities[float]):
     """Estimated relative error of every reported quantity: one standard error, where the surface is part of it. NaN
-    where it is not known; ``reasons`` then has the name and why."""
+    where it is not known, or the quantity itself is NaN; ``reasons`` then has the name and why."""
 
     reasons: dict[str, str]
 
 
-def number_errors_of(known: dict[str, float], why: str, reasons: dict[str, str] | None = None) -> NumberErrors:
-    """Return `NumberErrors` of the errors ``known`` by name; ``why`` of those that are not, unless ``reasons`` has
-    another."""
+def number_errors_of(
+    numbers: dict[str, float], known: dict[str, float], why: str, reasons: dict[str, str]
+) -> NumberErrors:
+    """Return `NumberErrors` of the ``numbers`` of a point, from the errors ``known`` by name.
+
+    ``reasons``: why some errors are not known, by name; ``why`` others are not, unless the number is NaN or 0.
+    """
     errors = {name: float(known.get(name, math.nan)) for name in ESTIMATED}
     errors = {name: value if math.isfinite(value) else math.nan for name, value in errors.items()}
+    by_number = {name: _why_no_relative_error(numbers[name]) for name in ESTIMATED}
     unknown = [name for name, value in errors.items() if math.isnan(value)]
-    return NumberErrors(**errors, reasons={name: (reasons or {}).get(name, why) for name in unknown})
+    return NumberErrors(**errors, reasons={name: reasons.get(name) or by_number[name] or why for name in unknown})
+
+
+def _why_no_relative_error(number: float) -> str:
+    """Return why a ``number`` has no relative error, as text; "" if it may have one."""
+    if math.isnan(number):
+        return "not computed by the model"
+    return "it is 0, and so has no relative error" if number == 0 else ""
 
 
 def with_part(uncertainty: Uncertainty, below: float, above: float) -> Uncertainty:

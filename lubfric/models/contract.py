@@ -117,7 +117,8 @@ class ModelAnswer:
         (section.key, one of `lubfric.scene.missing_inputs`); no part of ``model_error``
     errors : relative errors of the numbers, by name: of the sample the standard error, with ``numerical`` or what it is of
         that number; the model-form error is not included
-    why_no_error, reasons : why an error is not known: of those not in ``errors``, and of some by name
+    why_no_error, reasons : why an error is not known: of those not in ``errors`` whose number is neither NaN nor 0, and of
+        some by name
     length, effective_contacts, area_needed : of the sample (`lubfric.estimate.Uncertainty`)
     notes : remarks on these errors
     report, decision : of the solve; what was modelled

@@ -2,6 +2,7 @@
 
 import time
 from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from html import escape
 from importlib.resources import files
@@ -249,11 +250,7 @@ def _details(result: StudyResult, rows: int) -> str:
     columns = columns_of_study(result)
     picked = _picked(columns, rows)
     scenes = _scene_of_each(result)
-    parts = {name: columns[f"uncertainty_{part.quantity}"][picked] for name, part in PARTS.items()}
-    if not np.any(parts["not given"]):
-        del parts["not given"]
-    freedom = columns["uncertainty_freedom"][picked]
-    parts["sampling"] = [error * student(n) if error else error for error, n in zip(parts["sampling"], freedom)]
+    parts = _parts_of_error(columns, picked, [scenes[row] for row in picked])
     rises = [columns[name][picked] for name in ("flash_temperature_rise", "film_temperature_rise")]
     body = []
     for i, row in enumerate(picked):
@@ -262,16 +259,26 @@ def _details(result: StudyResult, rows: int) -> str:
         cells += [percent(float(part[i])) if np.isfinite(part[i]) else "not known" for part in parts.values()]
         body.append("".join(f'<td class="number">{escape(text)}</td>' for text in cells))
     heads = ["no.", "peak Hertz pressure", "flash temperature rise [K]", "film temperature rise [K]"]
-    heads += [_part_name(name, [scenes[row] for row in picked]) for name in parts]
+    heads += parts
     about = "Pressure, temperature, and parts of the error of f at 95 %, of every point of the table"
     return f"<details><summary>{about}</summary>{table(heads, body)}</details>"
 
 
-def _part_name(name: str, scenes: list[Scene]) -> str:
-    """Return what a part of the uncertainty budget is called, with the inputs that the ``scenes`` do not give."""
-    if name != "not given":
-        return name
-    return f"{names_of_inputs(key for scene in scenes for key in missing_inputs(scene))} not given"
+def _parts_of_error(
+    columns: Mapping[str, np.ndarray], index: np.ndarray | tuple[int, ...], scenes: Sequence[Scene]
+) -> dict[str, np.ndarray]:
+    """Return the parts of the error of f, relative, at 95 %, at an ``index`` of the ``columns``, by what they are called.
+
+    Columns hold no text, so the inputs that are not given, whose range changes f, are those of the ``scenes`` there; where
+    f does not depend on them, they are no part.
+    """
+    parts = {name: np.atleast_1d(columns[f"uncertainty_{part.quantity}"][index]) for name, part in PARTS.items()}
+    freedom = np.atleast_1d(columns["uncertainty_freedom"][index])
+    of_sample = zip(parts["sampling"], freedom)
+    parts["sampling"] = np.array([error * student(float(n)) if error else error for error, n in of_sample])
+    missing = names_of_inputs(key for scene in scenes for key in missing_inputs(scene))
+    labels = {"not given": f"{missing} not given"}
+    return {labels.get(name, name): part for name, part in parts.items() if name != "not given" or part.any()}
 
 
 def _picked(columns: dict[str, np.ndarray], rows: int) -> np.ndarray:
@@ -363,12 +370,10 @@ def _budget_line(result: StudyResult) -> list[str]:
     if not np.isfinite(f).any():
         return []
     index = tuple(map(int, np.unravel_index(int(np.nanargmax(f)), f.shape)))
-    parts = {name: float(result[f"uncertainty_{part.quantity}"][index]) for name, part in PARTS.items()}
-    parts["sampling"] *= student(float(result["uncertainty_freedom"][index])) if parts["sampling"] else 1.0
     curves = result.plan.scenes
     scene = curves[int(np.ravel_multi_index(index, f.shape)) * len(curves) // f.size]
-    shown = {name: part for name, part in parts.items() if name != "not given" or part}
-    words = ", ".join(f"{_part_name(name, [scene])} {percent(part)}" for name, part in shown.items())
+    parts = _parts_of_error(result.columns, index, [scene])
+    words = ", ".join(f"{name} {percent(float(part[0]))}" for name, part in parts.items())
     place = point_in_words(result, index).partition(":")[0]
     some = "" if np.isfinite(result["uncertainty_low"]).all() else " with an interval"
     return [f"The relative errors of the largest f{some}, at {place}, each at 95 %, are: {words}."]

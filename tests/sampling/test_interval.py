@@ -77,6 +77,9 @@ def test_errors_belong_together():
     dry = lubfric.friction(PAPER, 0.0)
     assert dry.uncertainty.sampling == dry.errors.coefficient == dry.errors.contact_load == 0
     assert 0 < dry.errors.real_contact_area < 0.2
+    reasons = dry.errors.reasons
+    assert math.isnan(dry.min_film) and "there is no film" in reasons["min_film"]
+    assert dry.mean_gap > 0 and "there is no film" not in reasons["mean_gap"]
 
 
 def test_contact_may_be_missed_where_the_film_just_clears_the_summits():

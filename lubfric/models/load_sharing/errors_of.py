@@ -33,6 +33,8 @@ UNKNOWN = (math.nan, math.nan)
 GAP_NOT_FILLED = "the film that arrives does not fill the gap: Eq. (8) neglects it, and f may be lower"
 NOT_STUDIED = "the error of the model itself is not known for this contact"
 MODEL_UNKNOWN = "the error of the model itself is not known and not in the interval: {}"
+TOO_LITTLE = "there was too little of it to estimate"
+NOT_WITHOUT_FILM = "not estimated without a film"
 MISSED = "not known: the patch is too short along y to estimate the undetected contact"
 
 
@@ -92,16 +94,20 @@ def errors_of(balanced: BalancedSample) -> PointErrors:
     scatter = balanced.scatter
     sampling = balanced.sampling_error.value
     error = StandardError(0.0, FREEDOM_NOT_COUNTED)
-    why = "there was none, or too little to estimate it"
+    why = TOO_LITTLE
+    reasons = dict.fromkeys(depending_on("heat"), forces.heat.reason(scene))
     if balance.film is None:
         # only areas scatter
         errors = _area_errors(balance, scatter)
-        why = f"{balance.why_no_film}: there is no film"
+        why = NOT_WITHOUT_FILM
+        of_film = (name for name in depending_on("film") if name != "mean_gap")
+        reasons = dict.fromkeys((*of_film, *depending_on("heat")), f"{balance.why_no_film}: there is no film")
         errors |= dict.fromkeys((*depending_on("split"), *depending_on("shear")), 0.0)
     elif response is None:
         relative += forces.film_sensitivity * solver.film_error
         errors = _given_load(forces, solver.film_error)
-        why = "without asperity contact it has no relative error"
+        of_contact = (*depending_on("split"), *depending_on("area"), *depending_on("contacts"))
+        reasons |= dict.fromkeys(of_contact, "without asperity contact it has no relative error")
         errors |= {"film_load": 0.0}
     else:
         error = balanced.friction_scatter
@@ -119,14 +125,13 @@ def errors_of(balanced: BalancedSample) -> PointErrors:
     by_heat = error_by_heat(forces.heat, 1 - forces.heat.film_factor**film_sensitivity)
     of_model = (math.hypot(of_model[0], by_heat), math.hypot(of_model[1], by_heat))
     both = relative if math.isnan(sampling) else math.hypot(relative, sampling)
-    left_out = dict.fromkeys(depending_on("heat"), forces.heat.reason(scene)) if balance.film is not None else {}
     return PointErrors(
         numerical=relative,
         sampling_error=StandardError(sampling, error.freedom),
         model_error=of_model,
         errors=errors | {"coefficient": both},
         why_no_error=why,
-        reasons=left_out,
+        reasons=reasons,
         notes=(*notes, *unknown),
         area_needed=_area_needed(balanced),
     )
