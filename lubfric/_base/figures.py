@@ -48,9 +48,8 @@ def styled(plot: Plot) -> Plot:
     def drawn(*args: Any, **options: Any) -> Any:
         from matplotlib import rc_context, rc_params_from_file
 
-        with as_file(
-            files(__package__) / "pictures.mplstyle"
-        ) as path:  # a file for the time being, if it is in an archive
+        # a file for the time being, if the package is in an archive
+        with as_file(files(__package__) / "pictures.mplstyle") as path:
             style = rc_params_from_file(str(path), use_default_template=False)
         chosen = next(
             (value for value in (*args, *options.values()) if hasattr(value, "style") and callable(value.style)), None

@@ -151,8 +151,7 @@ def asperities_under_cylinder(
     """Return the contact by independent asperities on ``heights`` [m] (nx, ny) about their mean.
 
     region : area A of Eq. (8): "hertz", the Hertz strip of the ``cylinder``, or "box", the complete patch; the others
-        as
-    in `AsperityContact`.
+        as in `AsperityContact`.
     """
     x = centred_axis(heights.shape[0], spacing[0])
     return AsperityContact(

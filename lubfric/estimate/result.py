@@ -43,8 +43,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     power_loss_interval : 95 % interval of the power loss [W], (low, high)
     validity : the assumptions that do not hold (`lubfric.Violation`). A severe one is there only where it was accepted
     unmodelled_effects : effects that are not modelled, each with the likely change of f (relative; NaN: not known) and
-        a
-        recommendation, the largest first; without those that would change f by less than the tolerance
+        a recommendation, the largest first; without those that would change f by less than the tolerance
         (`lubfric.models.shared.unmodelled_effects`)
     methods : names of the published methods used; ``cite()`` gives the publications
     fields : the fields of one solve (`lubfric.models.ContactFields`); None where there are none
@@ -90,8 +89,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
 
     def cite(self, format: str = "text") -> str:
         """Return the publications of the methods used for this result, the model's first: one a line, or with
-        ``format``
-        "bibtex" as BibTeX entries."""
+        ``format`` "bibtex" as BibTeX entries."""
         return cited(self.methods, format)
 
     @property

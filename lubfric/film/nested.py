@@ -35,9 +35,8 @@ EASY_MATERIAL_NUMBER = 4.0
 # Growth of L between two solutions [-].
 STAGE = 1.4
 
-NestedSolutions = tuple[
-    FilmProblem, list[FilmSolution], list[FilmSolution], tuple[str, ...]
-]  # problem, its grids, what led there, notes
+# A problem, its solutions on its grids, those that led there, and notes.
+NestedSolutions = tuple[FilmProblem, list[FilmSolution], list[FilmSolution], tuple[str, ...]]
 
 
 @dataclass(frozen=True)

@@ -169,14 +169,8 @@ RESULT = "result.json"
 RESOLVED_SCENE = "resolved.toml"
 UNFINISHED = "unfinished"
 MOST_TOML = 2**20  # bytes: a larger file names no inputs
-INPUTS = (
-    "scene",
-    "surface",
-    "counterface",
-    "study",
-    "measured",
-    "points",
-)  # options of commands that name files they read
+# Options of commands that name files they read.
+INPUTS = ("scene", "surface", "counterface", "study", "measured", "points")
 OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
     *(f"{table}.{kind}" for table in ("stribeck", "traction", "history") for kind in ("csv", "png", "pdf", "svg")),
     *(

@@ -16,14 +16,8 @@ from ..models import ContactFields
 from ..models.deterministic import Moment
 from .contact_pictures import DrawnContact
 
-FIELDS = (
-    "heights",
-    "pressure",
-    "gap",
-    "deflection",
-    "film",
-    "shear",
-)  # of `lubfric.models.ContactFields`, all on the same cells
+# Fields of `lubfric.models.ContactFields`, all on the same cells.
+FIELDS = ("heights", "pressure", "gap", "deflection", "film", "shear")
 SAME_SPEED = 1e-3  # relative: a speed as a user reads it, of three digits
 OF_STRIP = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "rubbing", "wet")  # of a `DeterministicResult`
 

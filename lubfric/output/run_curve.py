@@ -72,11 +72,10 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
     sharing.png, the same contact without them; where the curve has a formula, law.json and law.c; with ``.vtk`` also
     contact_0.vtk ... for ParaView.
 
-    ``arguments``: of the command, with ``.speeds``, ``.fields`` and ``.workers`` (None: all processors but one where that
-    pays) too. The
-    scene is checked and made ready before the folder is touched. The results of an earlier run stay until those of this
-    one are there. Every point is on disk when it ends, so an interrupted run continues from there. A failed run writes
-    what it has, then raises `ConvergenceError`.
+    ``arguments``: of the command, with ``.speeds``, ``.fields`` and ``.workers`` (None: all processors but one where
+    that pays) too. The scene is checked and made ready before the folder is touched. The results of an earlier run stay
+    until those of this one are there. Every point is on disk when it ends, so an interrupted run continues from there.
+    A failed run writes what it has, then raises `ConvergenceError`.
     """
     ended: list[tuple[Any, ...]] = []
     speeds, chosen = _requested(scene, arguments.speeds, arguments.fields)

@@ -220,10 +220,8 @@ def _point_reports(plan: studies.StudyPlan, begun: float) -> Callable[..., None]
     of up to `MOST_LINES` points, else of one a second."""
     due = paced()
     first = -1
-    batch = (
-        begun,
-        0,
-    )  # when the last points came together, as a process hands over several, and how many were done then
+    # when the last points came together, as a process hands over several, and how many were done then
+    batch = (begun, 0)
     last = begun
 
     def on_point(done: int, total: int, index: tuple[int, ...], outcome: Any) -> None:

@@ -55,8 +55,7 @@ class Scene(Shown):
     name : for titles
     ranges : (section.key, lowest, highest) of the values that are known to a range only; f is reported for both ends
     doubtful : (section.key, value as written) of values outside their usual range, and of a sliding that may be meant
-        in
-        the other convention, percent or ratio. It changes no number
+        in the other convention, percent or ratio. It changes no number
     """
 
     bodies: Bodies

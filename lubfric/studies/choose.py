@@ -151,9 +151,8 @@ def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()
         slowest = films[0]
         wanting += [ABOVE * knee] if slowest > LIFT_OFF_KNOWN_ABOVE * knee else []
         wanting += [SPEED_BELOW_LIFT_OFF * knee] if fastest < CONTACT_END_KNOWN_FROM * knee else []
-    wanting += [
-        float(np.sqrt(a * b)) for a, b in zip(films, films[1:]) if b > MOST_SPEED_RATIO * a
-    ]  # too wide to judge
+    # gaps that are too wide to judge
+    wanting += [float(np.sqrt(a * b)) for a, b in zip(films, films[1:]) if b > MOST_SPEED_RATIO * a]
     for wanted in wanting:
         about = np.count_nonzero(np.abs(np.log(taken / wanted)) < 0.1)
         if about < ENOUGH_SPEEDS and _free(np.array([wanted]), taken)[0]:

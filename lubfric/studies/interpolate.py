@@ -181,9 +181,8 @@ class Interpolant:
         knee = knee_of(self.samples)
         if knee is None:
             return np.nan, np.nan
-        away = (
-            s.speed[s.contacts] / knee
-        ) ** EXTRAPOLATED_ERROR  # a share of the way to the slowest film without contact
+        # a share of the way to the slowest film without contact
+        away = (s.speed[s.contacts] / knee) ** EXTRAPOLATED_ERROR
         least = min(NEAR_CONTACT * s.speed[s.contacts - 1], knee)  # not where contact is known
         return float(max(knee / away, least)), float(knee * away)
 

@@ -158,8 +158,7 @@ class StudyResult(Shown):
     @property
     def lift_off(self) -> np.ndarray:
         """The lift-off speed [m/s], over the axes and in the direction of the curves, above which the film separates
-        the
-        surfaces; NaN if a curve does not reach it, or if its speeds around it differ by more than a factor of 2."""
+        the surfaces; NaN if a curve does not reach it, or if its speeds around it differ by more than a factor of 2."""
         self._check_curves()
         shape = self.status.shape[:-1]
         speeds = [np.nan if (curve := self.curve(i)) is None else curve.lifted for i in np.ndindex(*shape)]

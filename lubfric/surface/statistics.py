@@ -25,12 +25,8 @@ IMPOSSIBLE_SLOPE = 3.0  # rms slope beyond which heights and spacing cannot be i
 # Heights of a Gaussian surface over its Sq. Ra: exactly. Rz: an estimate, for a profile of L correlation lengths has
 # 4.3 Sq in a sampling length of L = 25, 5.3 at 80 and 5.8 at 160 (Rice's rate of its summits, Gaussian ACF).
 PER_SQ = {"ra": math.sqrt(2 / math.pi), "rz": 5.0}
-SAMPLING_LENGTHS = (
-    (2e-8, 8e-5),
-    (1e-7, 2.5e-4),
-    (2e-6, 8e-4),
-    (1e-5, 2.5e-3),
-)  # m: up to this Ra, sampling length (ISO 4288)
+# Up to this Ra [m], sampling length [m] (ISO 4288).
+SAMPLING_LENGTHS = ((2e-8, 8e-5), (1e-7, 2.5e-4), (2e-6, 8e-4), (1e-5, 2.5e-3))
 
 
 # Fewest points on a sampling length that show its highest and lowest point: of white noise they find 3.7 Sq of the 5 Sq that

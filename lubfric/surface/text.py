@@ -41,27 +41,24 @@ WYKO = "Wyko ASCII Data File Format"
 _PROFILM = re.compile(r"(numCols)\s+(numRows)\s+(pixelSize) \((\w+)\)\s+(\S+)\s+(\S+)\s+(\S+)\s", re.I)  # Filmetrics
 _SMD = re.compile(r"[^\n]*\n[^\n]* PRF [^\n]*\n *CX ")  # a profile of ISO 5436-2, as Taylor Hobson writes .prf and .smd
 HEIGHT_BLOCKS = ("RAW_DATA", "RAW DATA", "OPD", "SAMPLE_DATA")  # of a Wyko file; others are intensities
-OF_HEIGHTS = re.compile(
-    r"\b(?:heights?|z)\s+(?:are\s+|values\s+)?in\s+[\[(]?(mm|um|µm|μm|nm)\b", re.I
-)  # 'heights in nm'
+# 'heights in nm'
+OF_HEIGHTS = re.compile(r"\b(?:heights?|z)\s+(?:are\s+|values\s+)?in\s+[\[(]?(mm|um|µm|μm|nm)\b", re.I)
 LATERAL = (1.0, 1e-3, 1e-6, 1e-9)  # m: units that coordinates without a stated one may be in
 SAME_SPACING = 0.02  # relative difference up to which the step of coordinates is the given spacing
 
 _NUMBER_IN_FIELD = re.compile(r"[+-]?(?:(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?|nan|inf|infinity)", re.I)
 _VALUE = r"(?:[+-]?(?:\d+(?:,\d+)?(?:[eE][+-]?\d+)?|[nN][aA][nN]))"
 _TWO_NUMBERS = re.compile(rf"{_NUMBER_IN_FIELD.pattern}[\s;,]{{1,9}}{_NUMBER_IN_FIELD.pattern}[\s;,]{{0,9}}", re.I)
-_QUOTED = re.compile(
-    r'"((?:[+-]?(?:\d{1,40}[.,]?\d{0,40}|[.,]\d{1,40})(?:[eE][+-]?\d{1,4})?|nan)?)"'
-)  # a comma is the decimal mark
+# in quotation marks, where a comma is the decimal mark
+_QUOTED = re.compile(r'"((?:[+-]?(?:\d{1,40}[.,]?\d{0,40}|[.,]\d{1,40})(?:[eE][+-]?\d{1,4})?|nan)?)"')
 _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")  # '1,234', which is 1.234 or 1234
 _EMPTY = re.compile(r"^\t|\t *(?:\t|$)")  # a value left out between tabs
 _BLANKS_BETWEEN = re.compile(rf"{_VALUE}(?:\s+{_VALUE})*")  # '1,5 2,5'
 _PAIR = r"[+-]?\d+,\d+(?:[eE][+-]?\d+)?"
 _BOTH_WAYS = re.compile(rf"{_PAIR}(?:,\s*{_PAIR})*")  # '1,5' or '1,5,2,5'
 _COMMA_BLANK = re.compile(rf"{_VALUE}(?:,\s+{_VALUE})*")  # '1,5, 2' or '1, 2'
-_SHEET_ERROR = re.compile(
-    r"#(?:n/?[av]|div/0!|value!|wert!|ref!|num!|zahl!|null!|name\?)(?![^\s;,])", re.I
-)  # in a cell
+# in a cell of a spreadsheet
+_SHEET_ERROR = re.compile(r"#(?:n/?[av]|div/0!|value!|wert!|ref!|num!|zahl!|null!|name\?)(?![^\s;,])", re.I)
 _MISSING = re.compile(  # how programs mark a point that was not measured
     r"(?<![^\s;,\"])\"?(?:no[ _]?data|bad|#?n/?a|null|none|missing|invalid|void|undefined|masked|-{1,9}|\*{1,9}|\?{1,9}"
     r"|[+-]?1[.,]#[a-z]+|#nv|#(?:div/0|value|wert|ref|num|zahl|null)!)\"?(?![^\s;,\"])",

@@ -127,10 +127,9 @@ def self_affine_full_contact(patch: int) -> tuple[float, float]:
 
 
 CHALLENGE = {"load": 0.01, "area": 0.0208, "mean square pressure": 0.00688}
-EDGE = (
-    math.pi - 1 + math.log(2)
-) / 24  # of the cells' edges around contacts, to be taken off their area: V. A. Yastrebov,
-# G. Anciaux, J.-F. Molinari, J. Mech. Phys. Solids 107 (2017) 469; a second program has it too
+# Part of the cells' edges around contacts, to be taken off their area: V. A. Yastrebov, G. Anciaux, J.-F. Molinari,
+# J. Mech. Phys. Solids 107 (2017) 469; a second program has it too.
+EDGE = (math.pi - 1 + math.log(2)) / 24
 
 
 def summit_density(length: float) -> float:

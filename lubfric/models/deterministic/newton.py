@@ -137,17 +137,17 @@ def newton(
     """Take at most ``most`` Newton steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
 
     Every state that is tried is made `admissible` first, and before every step cells touch or open as it requires
-    (`update_active_sets`). A step leaves every cell at least a fifth of its gap, unless that is less than ``least_part`` of it. It is
-    halved while the mass residual of the cells that do not touch grows by more than `RESIDUAL_GROWTH`. At rest those that
-    change their kind may let it grow by `SURGE`; in steps in time single cells would rupture and refill in turn so. The method gives
-    up after a step shorter than ``least`` of the whole; when a number is not finite; or when for ``patience`` steps
-    neither the residual has fallen nor the residual that the full step would have led to. (The latter falls first,
-    while a heavily loaded film finds its shape in short steps.) ``history``: of an implicit step in time (None: the
-    film is steady); ``linear_accuracy``: of
-    the linear system of a step (`System.solve`). ``ends_unsolved``: whether the method also gives up at a linear system that
-    takes all iterations of GMRES: between soft bodies it is nearly singular, and the steps that follow lead nowhere. Of twelve
-    films between bodies of 19 and 0.26 GPa and 21 MPa seven meet such systems. They take 32 to 68 % less work so; f stays the
-    same, but for one, by 0.4 % (tolerance of the residuals 0.3 %).
+    (`update_active_sets`). A step leaves every cell at least a fifth of its gap, unless that is less than
+    ``least_part`` of it. It is halved while the mass residual of the cells that do not touch grows by more than
+    `RESIDUAL_GROWTH`. At rest those that change their kind may let it grow by `SURGE`; in steps in time single cells
+    would rupture and refill in turn so. The method gives up after a step shorter than ``least`` of the whole; when a
+    number is not finite; or when for ``patience`` steps neither the residual has fallen nor the residual that the full
+    step would have led to. (The latter falls first, while a heavily loaded film finds its shape in short steps.)
+    ``history``: of an implicit step in time (None: the film is steady); ``linear_accuracy``: of the linear system of a
+    step (`System.solve`). ``ends_unsolved``: whether the method also gives up at a linear system that takes all
+    iterations of GMRES: between soft bodies it is nearly singular, and the steps that follow lead nowhere. Of twelve
+    films between bodies of 19 and 0.26 GPa and 21 MPa seven meet such systems. They take 32 to 68 % less work so; f
+    stays the same, but for one, by 0.4 % (tolerance of the residuals 0.3 %).
     """
     keep_freed_memory()
     residual_history: list[float] = []

@@ -104,9 +104,8 @@ def moving_point_work(
     slides = abs(scene.motion.slide_roll_ratio) > SOLVED_ENDS_SLIDING
     without_solve = (BOUNDARY_FRICTION_KEY, HARDNESS_KEY, *(() if slides else OF_SHEAR))
     solved_ends = 2 * sum(name not in without_solve for name, *_ in scene.ranges)
-    continuations = (
-        solved_ends + 1 if solved_ends else 0
-    )  # with the one at the prepared inputs, which they are compared with
+    # with the one at the prepared inputs, which they are compared with
+    continuations = solved_ends + 1 if solved_ends else 0
     return moving_work(
         line,
         sq,

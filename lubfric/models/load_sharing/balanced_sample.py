@@ -230,16 +230,13 @@ class BalancedSample:
         allowed = budget.CONTACT_GRID * scene.numerics.tolerance
         if response is not None:
             moved = abs(response.log_load_ratio_per_gap * self.corrected_gap)
-            if (
-                max(abs(self.corrected_gap), abs(self.effect.film_change))
-                > MOST_CORRECTED_GAP * raw_balance.contact_state.mean_gap
-            ):
+            largest = max(abs(self.corrected_gap), abs(self.effect.film_change))
+            if largest > MOST_CORRECTED_GAP * raw_balance.contact_state.mean_gap:
                 return True
             by_contact = raw_balance.forces.boundary / max(raw_balance.forces.total, 1e-300)
             part = max(by_contact, raw_balance.contact_load / scene.bodies.load)  # of the friction, or of the load
-            if (
-                self.count == sample.available_strips or self.scatter.effective_contacts >= FEW_CONTACTS
-            ):  # else it is known to a factor anyway
+            # with few contacts, of which more strips may follow, the load is known to a factor anyway
+            if self.count == sample.available_strips or self.scatter.effective_contacts >= FEW_CONTACTS:
                 part = math.inf
             if moved > MOST_CORRECTED_LOG_RATIO and part * math.expm1(min(moved, 30.0)) > allowed:
                 return True

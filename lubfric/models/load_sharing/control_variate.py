@@ -52,9 +52,8 @@ def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlV
     rough_contact = balanced.on_cells
     assert rough_contact is not None  # as there are strips
     rows = contact_on_strip(prepared, prepared.sample, 0).heights.shape[1]
-    starts = (
-        np.arange(balanced.count) * rough_contact.heights.shape[1] // balanced.count
-    )  # a measured line may have some more
+    # a measured line may have some more rows than its strips
+    starts = np.arange(balanced.count) * rough_contact.heights.shape[1] // balanced.count
 
     def of_strips(places: np.ndarray) -> np.ndarray:
         return np.array([places[start : start + rows] for start in starts]) - places.mean()

@@ -144,9 +144,8 @@ class QuickSolution(SampleSolution):
             return ""
         tolerance = self.prepared.scene.numerics.model_tolerance
         answer = self.answer()
-        error = math.sqrt(
-            max(max(answer.model_error) ** 2 - answer.by_limit**2, 0.0)
-        )  # the limit is no error of a model
+        # the unknown limit of the oil is no error of the model
+        error = math.sqrt(max(max(answer.model_error) ** 2 - answer.by_limit**2, 0.0))
         if error > tolerance:
             return ""
         (stated, target) = percent_beside(error, tolerance)

@@ -21,9 +21,8 @@ LAMBDA = (0.2, 3.0)  # Moes' film of the whole load over Sq
 RIDGE = 5.0  # length of ridges over their width
 CUT = 0.3  # Sq: height at which the summits of a plateau are cut off
 FINE = 0.1  # Sq of the fine roughness on a plateau
-UNIT = (
-    2.0**-23
-)  # m: Sq of the maps that are made, a power of two, so that they have the digits of those with an Sq of 1 m
+# Sq [m] of the maps that are made: a power of two, so that they have the digits of those with an Sq of 1 m.
+UNIT = 2.0**-23
 # cells in a correlation length, along x and y, at rest and where the roughness moves
 PER_LENGTH = {"rest": (5.0, 4.0), "rolling": (4.0, 2.5)}
 PER_HALF_WIDTH = 4.0  # cells in the Hertz half-width, at least

@@ -33,7 +33,7 @@ def soak(level: str, run: Run = Run()) -> Iterator[Item]:
     """Compute the friction of random scenes one after the other in one process.
 
     Each scene is answered, or refused with a message. An independent check with its own film solver, root finder and
-        sums solves the balance of each answer again. The memory does not grow.
+    sums solves the balance of each answer again. The memory does not grow.
     """
     chunks = {f"scenes from {k}": range(k, k + CHUNK) for k in range(0, 100 if level == "quick" else 10_000, CHUNK)}
     yield from summarized([row for _, row in run.solved(chunks, partial(chunk, SEED))])

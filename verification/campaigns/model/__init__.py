@@ -2,7 +2,7 @@
 the deterministic model.
 
 The default answer, and that of load sharing alone, are compared with the deterministic model on finer strips. The exit
-    code is 1 when too few of their intervals contain f.
+code is 1 when too few of their intervals contain f.
 """
 
 from ... import frame

@@ -174,11 +174,9 @@ def compared(
 ) -> Iterator[Item]:
     """Table, checks and picture of answers ``result``: the groups of each, and by both ways what is `interval_error`."""
     every = {way: np.array([sides[k] for _, sides in result]).reshape(-1, 3) for k, way in enumerate(WAYS)}
-    names = [
-        name
-        for name in dict.fromkeys(itertools.chain(*zip(*(groups for groups, _ in result))))
-        if name != ROLLER and not name.endswith(" N")
-    ]  # loads differ less than surfaces
+    all_names = dict.fromkeys(itertools.chain(*zip(*(groups for groups, _ in result))))
+    # without those of loads, which differ less than surfaces
+    names = [name for name in all_names if name != ROLLER and not name.endswith(" N")]
     rows = [
         [group, str(sum(here)), *summary(every["default"][here]), *summary(every["load sharing"][here])]
         for group in (*names, "all")

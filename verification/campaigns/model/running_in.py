@@ -12,11 +12,11 @@ from ...kept import Run
 
 SQ = 300e-9  # m
 CELL = 2e-6  # m
-SHAPES = {
+SHAPES = {  # cells: two, four and eight Hertz strips long
     "quick": (360, 48),
     "default": (720, 64),
     "full": (1440, 256),
-}  # cells: two, four and eight Hertz strips long
+}
 LENGTHS = {  # correlation lengths along and across the motion [m]
     "Gaussian": (12e-6, 12e-6),
     "ground along the motion": (60e-6, 12e-6),

@@ -1,8 +1,8 @@
 """The marks around a table in a page, and how a new table is written between them.
 
 The marks are two comments, ``<!-- table: NAME -->`` and ``<!-- end of table -->``. All text between them is replaced.
-    Tables come from `verification.campaigns.tables`, from campaigns (`CAMPAIGNS`) and from the
-scripts of `verification.campaigns.benchmarks` (`BENCHMARKS`).
+Tables come from `verification.campaigns.tables`, from campaigns (`CAMPAIGNS`) and from the scripts of
+`verification.campaigns.benchmarks` (`BENCHMARKS`).
 """
 
 import re

@@ -33,9 +33,9 @@ def films(level: str) -> Iterator[Item]:
     """Compare `solve_ehl`, and the film of the deterministic model, with published films.
 
     The error of lubfric is the sum of the errors that the solver states for its grid and its inlet. Fits are valid to
-        some 5 %; asymptotes are valid only far in their regime and differ where M and L are finite. Grubin's oil
-        follows Barus' law. Whether the oils of Dowson and others follow Barus' or Roelands' law is not known here: the
-        value of lubfric is the mean of both, and half their difference is part of the error.
+    some 5 %; asymptotes are valid only far in their regime and differ where M and L are finite. Grubin's oil follows
+    Barus' law. Whether the oils of Dowson and others follow Barus' or Roelands' law is not known here: the value of
+    lubfric is the mean of both, and half their difference is part of the error.
     """
     yield from rigid()
     yield from limits()

@@ -23,10 +23,10 @@ ROLLING: dict[str, dict[float, tuple[float, tuple[int, ...]]]] = {  # wavelength
 }
 HEIGHTS = (0.1, 0.2, 0.5)  # of the film
 FITS = ((20, 10, 2.0), (50, 10, 1.0))  # M, L, wavelength/b
-SLIDING = {
+SLIDING = {  # speed, wavelength/b
     "default": ((0.75, 0.5), (0.5, 0.5), (1.5, 0.12)),
     "full": ((1.25, 0.24), (1.5, 0.5), (0.75, 0.5), (0.5, 0.5), (1.5, 0.12)),
-}  # speed, wavelength/b
+}
 SHORT = 0.2  # half-widths: shorter waves get half as many cells, 20 in a wave
 GREENWOOD = {"P": 20.0, "S": 5.0, "pressure": 1e9, "e_prime": 228e9, "eyring": 4e6}  # Hooke's contact
 NOTES = {

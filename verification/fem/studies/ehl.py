@@ -50,11 +50,11 @@ def ehl(level: str) -> Iterator[Item]:
     with `lubfric`.
 
     Both solve the same differential equations, and have nothing else in common: a square elastic body meshed with P2
-        triangles or the logarithmic kernel of a half-space, a weak form or fluxes through faces, pressure >= 0 node by
-        node on a fixed mesh or a grid that ends at the rupture point. Contacts run from rigid (M = 0.05, film thirty
-    times the Hertz width in the inlet) to 1.5 GPa. Differences of the films decrease as the finite-element mesh is
-        refined, down to the errors of the finite body (1e-5) and of `lubfric` (3e-5). The last part has three films of
-        shear-thinning fluids, with the profile across them integrated by different methods.
+    triangles or the logarithmic kernel of a half-space, a weak form or fluxes through faces, pressure >= 0 node by node
+    on a fixed mesh or a grid that ends at the rupture point. Contacts run from rigid (M = 0.05, film thirty times the
+    Hertz width in the inlet) to 1.5 GPa. Differences of the films decrease as the finite-element mesh is refined, down
+    to the errors of the finite body (1e-5) and of `lubfric` (3e-5). The last part has three films of shear-thinning
+    fluids, with the profile across them integrated by different methods.
     """
     pairs = []
     for point in QUICK if level == "quick" else POINTS:

@@ -1,13 +1,11 @@
 """Waves of small height in the elastic film, at rest and moving: the deterministic film compared with finite elements.
 
 Reynolds' equation has two waves as solutions in a film of uniform thickness (C. J. Hooke, Proc. IMechE J 220 (2006)
-    259-271,
-doi:10.1243/13506501JET146; `verification.fem.references.hooke`). One moves with the surface and has a part of its
-    height. The other forms in the inlet and moves with the flow. Its wavenumber is that of the surface times the speed
-    of the
-waves over the entrainment speed: for waves at rest it is a uniform change of the film. Both parts are fitted here to
-the film over the middle of the contact. They are compared with the linear response of full-system finite elements
-(`fem.ripple`). A wave of finite height is compared in time (`fem.moving`).
+259-271, doi:10.1243/13506501JET146; `verification.fem.references.hooke`). One moves with the surface and has a part of
+its height. The other forms in the inlet and moves with the flow. Its wavenumber is that of the surface times the speed
+of the waves over the entrainment speed: for waves at rest it is a uniform change of the film. Both parts are fitted
+here to the film over the middle of the contact. They are compared with the linear response of full-system finite
+elements (`fem.ripple`). A wave of finite height is compared in time (`fem.moving`).
 """
 
 import itertools
@@ -67,9 +65,8 @@ STEEL = WavinessCase(
     | {"pressure_viscosity_coefficient": 18e-9},
 )
 SHEARED = STEEL.but("steel, Eyring 5 MPa", eyring_stress=5e6)
-CASES: dict[
-    str, tuple[tuple[WavinessCase, float, float], ...]
-] = {  # case, speed of the waves, wavelength in half-widths
+# By level: case, speed of the waves, wavelength in half-widths.
+CASES: dict[str, tuple[tuple[WavinessCase, float, float], ...]] = {
     "quick": ((STEEL, 1.0, 1.0),),
     "default": (
         (SOFT, 0.0, 0.5),
