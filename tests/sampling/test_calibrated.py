@@ -3,6 +3,7 @@
 import math
 import re
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 import pytest
@@ -44,9 +45,18 @@ PAPER = lubfric.load_scene("paper")
 HEAVIER = PAPER.with_(
     bodies={"load": 60.0},
     lubricant={"viscosity": 0.1, "eyring_stress": 5e6, "limiting_stress_coefficient": 0.06},
+    contact={"shape": (96, 96), "spacing": 0.9e-6},
     numerics={"sampling_tolerance": 0.1, "tolerance": 0.03},
 )
+# One strip and a loose solve: where their errors are not the matter.
+LOOSE = {"sampling_tolerance": 0.3, "tolerance": 0.05}
 BASIS = "deterministic model on long cells, calibrated"
+
+
+@lru_cache
+def point(scene, speed, model=None):
+    """What several tests look at is solved once."""
+    return lubfric.friction(scene, speed, model=model)
 
 
 def patch(shape=(96, 64), spacing=(0.9e-6, 1.2e-6), seed=3):
@@ -132,7 +142,7 @@ def test_the_strips_of_a_line_have_one_slope_and_show_their_scatter_by_blocks():
 
 def test_a_strip_that_moves_on_long_cells_starts_at_rest():
     scene = HEAVIER.with_(motion={"slide_roll_ratio": 0.5})
-    cells = long_cells_in_motion(scene, [RoughBody(patch((48, 16), (1.8e-6, 2.4e-6)), 0.075)], 0.1, (8e-6, 8e-6))
+    cells = long_cells_in_motion(scene, [RoughBody(patch((32, 16), (1.8e-6, 2.4e-6)), 0.075)], 0.1, (8e-6, 8e-6))
     pair = solve_moving(scene, cells, 0.1)
     numbers = numbers_of_strip(pair, 8e-6, is_smooth=True)
     assert math.isnan(numbers["by_cells"]) and math.isfinite(numbers["by_motion"])
@@ -143,10 +153,7 @@ def test_a_strip_that_moves_on_long_cells_starts_at_rest():
 
 def test_calibrated_answer_holds_the_deterministic_one_and_is_narrower_than_load_sharing():
     speed = 0.1
-    results = {
-        model: lubfric.friction(HEAVIER.with_(numerics={"model": model}), speed)
-        for model in ("quick", "deterministic", "paper")
-    }
+    results = {model: point(HEAVIER, speed, model) for model in ("quick", "deterministic", "paper")}
     low, high = results["quick"].uncertainty.interval
     assert low < results["deterministic"].coefficient < high
     wide = results["paper"].uncertainty.interval
@@ -159,9 +166,10 @@ def test_calibrated_answer_holds_the_deterministic_one_and_is_narrower_than_load
     assert results["paper"].decision.basis == ""
 
 
-def test_report_says_first_what_the_answer_rests_on(tmp_path, monkeypatch):
+def test_report_says_first_what_the_answer_rests_on(tmp_path, monkeypatch, undrawn):
     scene = HEAVIER.with_(
         motion={"entrainment_speed": 0.1},
+        contact={"shape": (48, 32), "spacing": 1.8e-6},
         numerics={"model": "quick", "sampling_tolerance": 0.5, "tolerance": 0.1},
     )
     file = tmp_path / "scene.toml"
@@ -184,7 +192,7 @@ def test_intervals_hold_the_scatter_of_other_samples():
     error, and in the scatter of the difference between strips and line. The limit of the oil is stated, or it would cover
     that."""
     scene = PAPER.with_(numerics={"model": "quick"}, lubricant={"limiting_stress_coefficient": "f_b"})
-    results = [lubfric.friction(scene.with_(surface={"seed": seed}), 0.03) for seed in range(1, 5)]
+    results = [lubfric.friction(scene.with_(surface={"seed": seed}), 0.03) for seed in range(1, 4)]
     mean = float(np.mean([result.coefficient for result in results]))
     for result in results:
         low, high = result.uncertainty.interval
@@ -235,7 +243,7 @@ def test_a_hardness_that_moves_little_load_changes_f_by_no_more_than_estimated(s
     ends = (3.0e9, 4.5e9)
     scene = HEAVIER.with_(motion={"slide_roll_ratio": slip}, bodies={"hardness": [3.9e9, *ends]})
     (softer, untouched) = (scene.with_(bodies={"hardness": hardness}) for hardness in (ends[0], 1e10))
-    surface = patch((48, 16), (1.8e-6, 2.4e-6))
+    surface = patch((32, 16), (1.8e-6, 2.4e-6))
 
     def solved(inputs):
         if slip == 2.0:
@@ -261,12 +269,12 @@ def test_a_film_thicker_than_in_all_solved_cases_is_that_of_load_sharing(slip):
     assert quick_result.uncertainty.model_sides == paper.uncertainty.model_sides
     assert 0 < max(paper.uncertainty.model_sides) < 0.2
     assert "the film is thick" in quick_result.uncertainty.text and quick_result.seconds < 5
-    thinner = lubfric.friction(scene.with_(motion={"slide_roll_ratio": 2.0}), 0.05)
+    thinner = point(PAPER, 0.05, "quick")
     assert "the film is thick" not in thinner.uncertainty.text and "long cells" in thinner.decision.text
 
 
 def test_a_loose_model_tolerance_lets_auto_answer_on_long_cells():
-    loose = HEAVIER.with_(bodies={"boundary_film": 2e-8}, numerics={"model_tolerance": "30 %"})
+    loose = HEAVIER.with_(bodies={"boundary_film": 2e-8}, numerics={"model_tolerance": "30 %"} | LOOSE)
     assert lubfric.friction(loose, 0.1).decision.model == "quick"
     tight = loose.with_(numerics={"model_tolerance": 0.05})
     assert lubfric.friction(tight, 0.1).decision.model == "deterministic"
@@ -293,13 +301,13 @@ def test_a_lambda_ratio_outside_the_campaign_is_that_of_the_result():
 def test_bounds_widen_outside_the_campaign_and_info_and_result_say_so():
     text = "not calibrated for such contacts"
     quick_paper = PAPER.with_(numerics={"model": "quick"})
-    thin = lubfric.friction(quick_paper, 1e-5)
+    thin = point(PAPER, 1e-5, "quick")
     assert [entry.what for entry in thin.validity if text in entry.consequence] == ["lambda ratio by Moes' formula"]
     assert re.search(f"lambda ratio by Moes' formula is .*{text}", describe_scene(quick_paper, [1e-5]))
     thick = lubfric.friction(quick_paper, 0.5)
     assert not any(text in entry.consequence for entry in thick.validity)
     assert text not in describe_scene(quick_paper, [0.5])
-    assert not any(text in entry.consequence for entry in lubfric.friction(quick_paper, 0.03).validity)
+    assert not any(text in entry.consequence for entry in point(PAPER, 0.03, "quick").validity)
     assert text not in describe_scene(quick_paper, [0.03])
     light = quick_paper.with_(bodies={"load": 0.5})
     assert re.search(f"load per width is .*{text}", describe_scene(light, [0.03]))
@@ -340,7 +348,7 @@ def test_of_two_answers_to_a_thick_film_on_moving_roughness_that_with_the_smalle
         lubricant={"viscosity": 0.138, "eyring_stress": 5e6},
         motion={"slide_roll_ratio": 0.1},
         surface={"sq": 87e-9, "correlation_length": 15e-6, "acf": "gaussian"},
-        contact={"shape": (160, 96), "spacing": 4e-6},
+        contact={"shape": (96, 48), "spacing": 4e-6},
     )
     (by_equation, quick) = (lubfric.friction(scene.with_(numerics={"model": name}), 0.5) for name in ("paper", "quick"))
     assert by_equation.contact_load == 0 and by_equation.film_to_roughness_ratio > 5
@@ -421,20 +429,20 @@ def test_bounds_of_kinds_that_were_omitted_hold_nine_cases_in_ten():
 
 @pytest.fixture(scope="module")
 def newtonian():
-    return lubfric.friction(PAPER, 0.03)
+    return point(PAPER.with_(numerics=LOOSE), 0.03)
 
 
 def test_a_newtonian_answer_holds_solved_answers_at_the_ends_of_what_oils_have(newtonian):
     low, high = newtonian.uncertainty.interval
     for limit in (0.05, 0.10):
-        solved = lubfric.friction(PAPER.with_(lubricant={"limiting_stress_coefficient": limit}), 0.03)
+        solved = point(PAPER.with_(lubricant={"limiting_stress_coefficient": limit}, numerics=LOOSE), 0.03)
         assert low < solved.coefficient < high
     assert 0.15 < newtonian.uncertainty.by_limit <= newtonian.uncertainty.model
     assert "limiting stress of the oil is not known" in newtonian.uncertainty.text
 
 
 def test_a_stated_limit_of_f_b_takes_the_band_away_and_leaves_f(newtonian):
-    stated = lubfric.friction(PAPER.with_(lubricant={"limiting_stress_coefficient": "f_b"}), 0.03)
+    stated = point(PAPER.with_(lubricant={"limiting_stress_coefficient": "f_b"}, numerics=LOOSE), 0.03)
     assert stated.coefficient == newtonian.coefficient
     assert stated.uncertainty.by_limit == 0.0
     assert stated.uncertainty.model < newtonian.uncertainty.model
@@ -472,18 +480,17 @@ def test_a_stated_limit_of_f_b_is_for_newtonian_oils_and_survives_a_file(tmp_pat
 
 def test_the_asperity_load_does_not_jump_with_the_law_of_the_oil(newtonian):
     """A limit of f_b p as a law of the oil, and as the cap of a Newtonian one: the same load at a limit, in two parts."""
-    limited = lubfric.friction(
-        PAPER.with_(lubricant={"limiting_stress_coefficient": PAPER.bodies.boundary_friction_coefficient}), 0.03
-    )
+    limit = {"limiting_stress_coefficient": PAPER.bodies.boundary_friction_coefficient}
+    limited = point(PAPER.with_(lubricant=limit, numerics=LOOSE), 0.03)
     load = PAPER.bodies.load
     shares = [(r.boundary_film_load / load, r.saturated_film_load / load) for r in (newtonian, limited)]
     assert shares[0] == pytest.approx(shares[1], abs=0.05)
     assert shares[0][1] > 0.25
-    for result in (newtonian, lubfric.friction(PAPER, 0.01)):  # whatever control and shorter cells change
+    for result in (newtonian, point(PAPER, 0.01, "deterministic")):  # whatever control and shorter cells change
         parts = result.boundary_film_load + result.saturated_film_load
         assert parts == pytest.approx(result.contact_load, rel=1e-12)
     assert limited.boundary_film_load == limited.contact_load  # films at the limit of an oil are films
-    assert math.isnan(lubfric.friction(PAPER, 0.03, model="paper").saturated_film_load)
+    assert math.isnan(point(PAPER, 0.03, "paper").saturated_film_load)
 
 
 @pytest.mark.parametrize("film, deterministic", [(170e-9, 0.0567), (160e-9, 0.057), (80e-9, 0.084)])
@@ -538,11 +545,10 @@ def test_every_model_of_the_scene_has_an_estimate_and_a_run_in_time():
 
 def test_friction_tends_to_that_of_the_boundary_as_the_film_vanishes():
     """Asperities carry the whole load then, and no part of the friction force changes its sign."""
-    scene = PAPER.with_(numerics={"model": "quick"})
-    slow = lubfric.friction(scene, 1e-5)
-    assert slow.coefficient == pytest.approx(scene.bodies.boundary_friction_coefficient, rel=0.01)
-    assert slow.contact_load == pytest.approx(scene.bodies.load, rel=0.01)
-    results = [lubfric.friction(scene, speed) for speed in (1e-3, 3e-3, 1e-2, 3e-2)]
+    slow = point(PAPER, 1e-5, "quick")
+    assert slow.coefficient == pytest.approx(PAPER.bodies.boundary_friction_coefficient, rel=0.01)
+    assert slow.contact_load == pytest.approx(PAPER.bodies.load, rel=0.01)
+    results = [point(PAPER, speed, "quick") for speed in (1e-3, 3e-3, 1e-2, 3e-2)]
     coefficients = [result.coefficient for result in results]
     assert coefficients == sorted(coefficients, reverse=True)
     assert all(result.shear_force >= 0 for result in results)
@@ -564,8 +570,8 @@ def test_the_pressure_that_info_warns_of_is_warned_of_by_every_model(model):
 def test_the_film_of_a_calibrated_answer_carries_no_more_stress_than_its_oil():
     """Friction above the oil's limit is that of asperities. The forces add up to f."""
     oil = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.06, "limiting_stress_offset": 1e6}
-    scene = PAPER.with_(lubricant=oil, bodies={"load": 60.0}, numerics={"model": "quick"})
-    for speed in (0.01, 0.03, 0.1):
+    scene = PAPER.with_(lubricant=oil, bodies={"load": 60.0}, numerics={"model": "quick"} | LOOSE)
+    for speed in (0.01, 0.1):
         result = lubfric.friction(scene, speed)
         width = scene.bodies.width
         area = 2 * scene.bodies.half_width * width
@@ -582,7 +588,7 @@ def test_the_film_of_a_calibrated_answer_carries_no_more_stress_than_its_oil():
 @pytest.mark.parametrize("speed, least", [(0.003, 0.85), (0.01, 0.6), (0.03, 0.2)])
 def test_the_asperity_load_of_a_calibrated_answer_is_that_of_the_deterministic_model(speed, least):
     """Two models that share no solver: the load where the stress is f_b p, within a twentieth of the total load."""
-    answers = [lubfric.friction(PAPER, speed, model=model) for model in ("quick", "deterministic")]
+    answers = [point(PAPER, speed, model) for model in ("quick", "deterministic")]
     shares = [answer.contact_load / PAPER.bodies.load for answer in answers]
     assert shares[0] == pytest.approx(shares[1], abs=0.05)
     assert min(shares) > least
@@ -607,7 +613,7 @@ def test_next_to_pure_rolling_the_error_of_a_small_difference_is_of_its_parts():
 
 def test_outside_the_campaign_the_half_width_grows_with_the_distance():
     """With e times the largest lambda ratio it doubles."""
-    prepared = lubfric.prepare(PAPER)
+    prepared = lubfric.prepare(PAPER.with_(numerics=LOOSE))
     sq = PAPER.surface.sq
     largest = error_models()["rest"].range["moes_ratio"][1]
     speeds = [speed_of(PAPER, sq * largest * factor) for factor in (0.99, 1.5)]
@@ -644,7 +650,7 @@ def test_the_former_name_of_the_quick_model_is_accepted(tmp_path):
 
 
 def test_the_unknown_limit_of_a_newtonian_oil_counts():
-    result = lubfric.friction(PAPER, 0.03, model="quick")
+    result = point(PAPER, 0.03, "quick")
     assert 0.1 < result.uncertainty.by_limit <= result.uncertainty.model
 
 

@@ -17,7 +17,7 @@ import lubfric
 from lubfric.output import main
 
 SCENE = small_study.SCENE.with_(lubricant={"eyring_stress": 5e6})
-SPEEDS = np.geomspace(1e-3, 0.5, 10)
+SPEEDS = np.geomspace(1e-3, 0.5, 7)
 TRUTH = {"bodies.boundary_friction_coefficient": 0.12, "lubricant.viscosity": 0.2}
 BOUNDS = {"bodies.boundary_friction_coefficient": (0.05, 0.2), "lubricant.viscosity": (0.05, 1.0)}
 
@@ -37,29 +37,26 @@ def made_up(seed, speeds=SPEEDS, noise=0.05):
 
 
 @pytest.fixture(scope="module")
-def timed():
-    """A fit, and its processor seconds in those of the machine that forecasts are made for."""
-    measured = made_up(1)
-    before = slowness()
-    begun = time.process_time()
-    result = lubfric.fit(SCENE, measured, BOUNDS)
-    ended = time.process_time()
-    return result, (ended - begun) / (0.5 * (before + slowness()))
-
-
-@pytest.fixture(scope="module")
-def fitted(timed):
-    return timed[0]
+def fitted():
+    """A fit from the scene's own values; `test_fit_minima.py` shows the search for other minima."""
+    return lubfric.fit(SCENE, made_up(1), BOUNDS, starts=0)
 
 
 @pytest.mark.slow
-def test_the_time_of_a_fit_is_estimated_within_a_factor_of_three(timed):
-    words = lubfric.explain_fit(SCENE, timed[0].measured, BOUNDS)
+def test_the_time_of_a_fit_is_estimated_within_a_factor_of_three():
+    """Its processor seconds, in those of the machine that forecasts are made for."""
+    measured = made_up(1)
+    before = slowness()
+    begun = time.process_time()
+    lubfric.fit(SCENE, measured, BOUNDS)
+    ended = time.process_time()
+    seconds = (ended - begun) / (0.5 * (before + slowness()))
+    words = lubfric.explain_fit(SCENE, measured, BOUNDS)
     number, unit = words.split("time: about ")[1].split()[:2]
-    assert unit == "s" and 1 / 3 < float(number) / timed[1] < 3, (number, timed[1])
+    assert unit == "s" and 1 / 3 < float(number) / seconds < 3, (number, seconds)
     assert "bodies.boundary_friction_coefficient: 0.05 to 0.2" in words and "searched on a logarithmic scale" in words
     with pytest.raises(lubfric.InputError, match="unknown key 'numerics' in parameters"):
-        lubfric.explain_fit(SCENE, timed[0].measured, {"numerics.tolerance": (0.01, 0.1)})
+        lubfric.explain_fit(SCENE, measured, {"numerics.tolerance": (0.01, 0.1)})
 
 
 def hertz_and_eyring(slips, alpha, stress, viscosity=0.05, speed=2.0, radius=0.01, modulus=2.3e11, peak=1e9):
@@ -93,7 +90,7 @@ def test_independent_data_of_eyring_are_found_within_their_intervals():
     noise = 1 + 0.02 * np.random.default_rng(1).standard_normal(slips.size)
     f = hertz_and_eyring(slips, 1.8e-8, 5e6) * noise
     measured = lubfric.Measured(slips, f, over="slide_roll_ratio", rolling=False)
-    result = lubfric.fit(scene, measured, {alpha: (1.2e-8, 2.8e-8), stress: (1e6, 2e7)})
+    result = lubfric.fit(scene, measured, {alpha: (1.2e-8, 2.8e-8), stress: (1e6, 2e7)}, starts=0)
     for key, true, share in ((alpha, 1.8e-8, 0.1), (stress, 5e6, 0.4)):
         low, high = result.intervals[key]
         assert low < true < high and (high - low) / true < share
@@ -208,7 +205,7 @@ def test_data_that_fit_exactly_tell_nothing_of_a_parameter_without_effect(noise)
 
 @pytest.mark.slow
 def test_ninety_of_a_hundred_regions_hold_the_truth():
-    held = sum(in_joint_region(lubfric.fit(SCENE, made_up(seed), BOUNDS), TRUTH) for seed in range(100))
+    held = sum(in_joint_region(lubfric.fit(SCENE, made_up(seed), BOUNDS, starts=0), TRUTH) for seed in range(100))
     assert held >= 90
 
 
@@ -291,8 +288,8 @@ def test_points_of_two_ramps_at_one_speed_are_solved_once():
     truth = made_up(2, speeds[::2])
     measured = lubfric.Measured(speeds, np.repeat(truth.coefficient, 2), branch=branch)
     bounds = {"bodies.boundary_friction_coefficient": (0.05, 0.2)}
-    doubled = lubfric.fit(SCENE, measured, bounds)
-    single = lubfric.fit(SCENE, lubfric.Measured(speeds[::2], truth.coefficient), bounds)
+    doubled = lubfric.fit(SCENE, measured, bounds, starts=0)
+    single = lubfric.fit(SCENE, lubfric.Measured(speeds[::2], truth.coefficient), bounds, starts=0)
     assert doubled.values == pytest.approx(single.values, rel=0.02)
     assert doubled.predicted.size == 6 and doubled.predicted[0] == doubled.predicted[1]
 
@@ -350,16 +347,13 @@ def test_what_cannot_be_fitted_is_said_before_any_work(parameters, words):
 
 def test_warnings_of_the_fitted_curve_are_reported():
     """A fit to points that are no answers (accepted: f of 1000) came out without a mark."""
-    scene = SCENE.with_(
-        bodies={"load": 60.0}, lubricant={"eyring_stress": None}, contact={"shape": (72, 48)}, numerics={"accept": True}
-    )
-    speeds = np.array([0.01, 0.03, 0.1])
+    scene = SCENE.with_(bodies={"load": 60.0}, lubricant={"eyring_stress": None}, numerics={"accept": True})
+    speeds = np.array([0.01, 0.1])
     curve = lubfric.stribeck(scene, speeds)
-    result = lubfric.fit(
-        scene, lubfric.Measured(speeds, np.minimum(curve.coefficient, 1.0)), {"lubricant.viscosity": (0.3, 0.4)}
-    )
-    assert [bool(stated) for stated in result.violations] == [bool(curve.violations(i)) for i in range(3)]
-    assert any(entry.severe for entry in result.violations[2]) and "not valid" in result.explain()
+    measured = lubfric.Measured(speeds, np.minimum(curve.coefficient, 1.0))
+    result = lubfric.fit(scene, measured, {"lubricant.viscosity": (0.3, 0.4)}, starts=0)
+    assert [bool(stated) for stated in result.violations] == [bool(curve.violations(i)) for i in range(2)]
+    assert any(entry.severe for entry in result.violations[1]) and "not valid" in result.explain()
 
 
 def test_a_parameter_given_twice_is_refused(capsys):
@@ -373,7 +367,7 @@ def test_a_short_form_is_fitted():
     smooth = SCENE.with_(surface={"sq": 1e-9})
     speeds = np.array([0.3, 0.5, 0.8])
     made = [lubfric.friction(smooth.with_(motion={"slip_percent": 50}), u).coefficient for u in speeds]
-    result = lubfric.fit(smooth, lubfric.Measured(speeds, np.array(made)), {"motion.slip_percent": (10, 300)})
+    result = lubfric.fit(smooth, lubfric.Measured(speeds, np.array(made)), {"motion.slip_percent": (10, 300)}, starts=0)
     assert result.values["motion.slip_percent"] == pytest.approx(50, rel=0.02)
 
 
@@ -386,7 +380,7 @@ def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_f
     (tmp_path / "scene.toml").write_text(SCENE.to_toml())
     named = ["--measured", str(tmp_path / "rig.csv"), "--speed", "U [mm/s]", "--coefficient", "mu"]
     sought = ["--parameter", "bodies.boundary_friction_coefficient=0.05:0.2"]
-    command = ["fit", str(tmp_path / "scene.toml"), *named, "--out", str(tmp_path / "out"), "--starts", "4"]
+    command = ["fit", str(tmp_path / "scene.toml"), *named, "--out", str(tmp_path / "out"), "--starts", "2"]
     assert main([*command, *sought]) == 0
     said = capsys.readouterr().err
     assert said.index("time: about") < said.index("curve 1 of about ") < said.index("95 % interval")
@@ -394,7 +388,7 @@ def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_f
     bounds = {"bodies.boundary_friction_coefficient": (0.05, 0.2)}
     with ThreadPoolExecutor(2) as executor:
         record_progress = {"on_progress": lambda *what: stated.append(what)}
-        result = lubfric.fit(SCENE, read, bounds, starts=4, executor=executor, **record_progress)
+        result = lubfric.fit(SCENE, read, bounds, starts=2, executor=executor, **record_progress)
     done, total, left, misfit, values = zip(*stated)
     assert done == tuple(range(1, len(stated) + 1)) and len(stated) >= 2
     assert all(n < of for n, of in zip(done, total)) and all(seconds > 0 for seconds in left)
@@ -405,7 +399,7 @@ def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_f
     assert values[-1] == pytest.approx(result.values, rel=0.05) and values[0] != values[-1]
     record = json.loads((tmp_path / "out" / "fit.json").read_text())
     fitted = lubfric.load_scene(tmp_path / "out" / "fitted.toml")
-    assert record["values"] == result.values and record["starts"] == 4 and record["describes_data"]
+    assert record["values"] == result.values and record["starts"] == 2 and record["describes_data"]
     assert fitted.bodies.boundary_friction_coefficient == pytest.approx(list(result.values.values())[0])
     drawn = (tmp_path / "out" / "fit.png").read_bytes()
     assert main(["plot", str(tmp_path / "out")]) == 0 and (tmp_path / "out" / "fit.png").read_bytes() == drawn
@@ -424,7 +418,8 @@ def test_what_another_piece_of_the_surface_would_move_is_reported_beside_the_int
     speeds = [1e-4, 2e-4, 4e-4]
     scene = paper_scene(numerics={"sampling_tolerance": 0.1})
     points = [lubfric.friction(scene, speed) for speed in speeds]
-    result = lubfric.fit(scene, lubfric.Measured(speeds, [p.coefficient for p in points]), {key: (0.05, 0.2)})
+    measured = lubfric.Measured(speeds, [p.coefficient for p in points])
+    result = lubfric.fit(scene, measured, {key: (0.05, 0.2)}, starts=0)
     expected = np.mean([p.uncertainty.sampling for p in points])
     assert result.moved_by_surface[key] / result.values[key] == pytest.approx(expected, rel=0.3)
     assert "not in the intervals: another sample of the surface" in result.explain()
@@ -437,7 +432,8 @@ def test_points_farther_off_than_their_deviations_say_are_reported(stated, told)
     speeds = np.geomspace(1e-3, 5e-3, 6)
     f = lubfric.stribeck(SCENE, speeds).coefficient
     off = 0.03 * f * np.array([1, -1, -1, 1, 1, -1])
-    result = lubfric.fit(SCENE, lubfric.Measured(speeds, f + off, deviation=stated * np.abs(off)), {key: (0.05, 0.2)})
+    measured = lubfric.Measured(speeds, f + off, deviation=stated * np.abs(off))
+    result = lubfric.fit(SCENE, measured, {key: (0.05, 0.2)}, starts=0)
     assert ("times as large as the stated deviations" in result.explain()) == told
     assert not told or "are 11 times" in result.explain()  # sqrt(6/5) of ten, one parameter
 
