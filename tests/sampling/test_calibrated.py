@@ -612,7 +612,7 @@ def test_next_to_pure_rolling_the_error_of_a_small_difference_is_of_its_parts():
 
 
 def test_outside_the_campaign_the_half_width_grows_with_the_distance():
-    """With e times the largest lambda ratio it doubles."""
+    """With e times the largest lambda ratio it doubles. Less sliding than in any case counts by its difference."""
     prepared = lubfric.prepare(PAPER.with_(numerics=LOOSE))
     sq = PAPER.surface.sq
     largest = error_models()["rest"].range["moes_ratio"][1]
@@ -621,6 +621,9 @@ def test_outside_the_campaign_the_half_width_grows_with_the_distance():
     assert strips[0].outside == () and strips[0].widening == 1.0
     assert len(strips[1].outside) == 1
     assert strips[1].widening == pytest.approx(1 + math.log(1.5), rel=0.02)
+    known = {name: (0.0, math.inf) for name in error_models()["rest"].range} | {"slip": (0.02, 2.0)}
+    (slow,) = out_of_range(PAPER.with_(motion={"slide_roll_ratio": 0.005}), sq, speeds[0], known)
+    assert slow.distance == pytest.approx(0.015)
 
 
 def test_the_bias_is_taken_from_the_sliding_part_of_f_alone():

@@ -45,10 +45,10 @@ def validated(name):
 
 def test_a_sample_of_the_soak_is_answered_right():
     """Random scenes, each balance solved again by the independent judge."""
-    row = soak.chunk(7, range(5))
+    row = soak.chunk(7, range(2, 10))
     assert all(c.passed for c in soak.summarized([row]) if hasattr(c, "passed"))
     ended = [one["ended"] for one in row["scenes"]]
-    assert ended.count(soak.ANSWERED) >= 4 and sum(one["ratio"] is not None for one in row["scenes"]) >= 3
+    assert ended.count(soak.ANSWERED) >= 6 and sum(one["ratio"] is not None for one in row["scenes"]) >= 6
 
 
 def test_the_judge_of_the_soak_sees_a_wrong_answer():
@@ -58,15 +58,17 @@ def test_the_judge_of_the_soak_sees_a_wrong_answer():
     result = lubfric.friction(prepared)
     assert max(verdict(prepared, result).values()) < 1
     assert 0.05 < result.contact_load / scene.bodies.load < 0.95
-    spoilt = dataclasses.replace(result, coefficient=1.03 * result.coefficient)
-    assert verdict(prepared, spoilt)["friction sum"] > 1 and verdict(prepared, spoilt)["friction"] > 1
-    moved = dataclasses.replace(result, contact_load=0.95 * result.contact_load)
-    assert verdict(prepared, moved)["load"] > 1 and verdict(prepared, moved)["contact share"] > 1
+    of_spoilt = verdict(prepared, dataclasses.replace(result, coefficient=1.03 * result.coefficient))
+    assert of_spoilt["friction sum"] > 1 and of_spoilt["friction"] > 1
+    of_moved = verdict(prepared, dataclasses.replace(result, contact_load=0.95 * result.contact_load))
+    assert of_moved["load"] > 1 and of_moved["contact share"] > 1
     thinner = lubfric.friction(prepared, 0.7 * result.speed)
     assert verdict(prepared, dataclasses.replace(thinner, speed=result.speed))["contact share"] > 1
 
 
-@pytest.mark.parametrize("seed, k", [(2, 5202), pytest.param(2, 5988, marks=pytest.mark.slow), (11, 4291), (1, 755)])
+@pytest.mark.parametrize(
+    "seed, k", [(2, 5202), *(pytest.param(*one, marks=pytest.mark.slow) for one in ((2, 5988), (11, 4291))), (1, 755)]
+)
 def test_scenes_that_the_soak_found_wrong_are_answered_right(seed, k):
     """Forces of film and contact that cancel, summed beside the contacts of one line only; a light contact whose
     further lines were closed too loosely; five short lines of one film; bodies that deflect far more than the gap."""
