@@ -14,12 +14,14 @@ from ..scene import Roughness, Scene
 from ..surface import Surface, correlation_length
 from ..units import worded
 
-# Cells in the shortest correlation length of the cells that a message suggests, and correlation lengths along x. Not
-# measured: a summit of a Gaussian surface is some correlation lengths wide.
+# Cells in the shortest correlation length of the grid that a message suggests [-]. Not measured: a summit of a Gaussian surface is
+# some correlation lengths wide.
 EXAMPLE_CELLS = 10
-EXAMPLE_LENGTHS = 16.0
 
-# Correlation length [m] of that example where none is given.
+# Longest correlation lengths along x of the grid that a message suggests [-]. Not measured.
+EXAMPLE_LENGTHS_ALONG_X = 16.0
+
+# Correlation length [m] for which a message suggests a grid where none is given. Not measured.
 EXAMPLE_LENGTH = 1e-5
 
 # Cells across the Hertz strip in a picture: an asperity contact of the built-in scene then has five across. Changes
@@ -163,11 +165,11 @@ def correlation_lengths(rough: Roughness) -> tuple[float, float]:
 
 def no_cells(bodies: Sequence[Roughness], reach: float = 0.0, name: str = "surface") -> InputError:
     """Return the error of a generated surface ``name`` without cells, with an example: cells of a tenth of the shortest
-    correlation length of the ``bodies``, as many as `EXAMPLE_LENGTHS` of the longest one and ``reach`` [m] need."""
+    correlation length of the ``bodies``, as many as `EXAMPLE_LENGTHS_ALONG_X` of the longest one and ``reach`` [m] need."""
     known = [rough for rough in bodies if rough.correlation_length is not None]
     lengths = [length for rough in known for length in correlation_lengths(rough)] or [EXAMPLE_LENGTH]
     spacing = float(f"{min(lengths) / EXAMPLE_CELLS:.1g}")
-    along = 32 * math.ceil(max(reach, EXAMPLE_LENGTHS * max(lengths)) / spacing / 32)
+    along = 32 * math.ceil(max(reach, EXAMPLE_LENGTHS_ALONG_X * max(lengths)) / spacing / 32)
     example = f'for example shape = [{along}, {along // 2}] and spacing = "{worded(spacing, "m")}"'
     return InputError(
         f"contact.shape and contact.spacing [m] are needed for a generated {name}",
@@ -249,6 +251,6 @@ def blend_of(correlation: float, step: float) -> int:
     return max(1, round(BLEND * correlation / step))
 
 
-def mirrored(heights: np.ndarray) -> bool:
+def is_mirror_image(heights: np.ndarray) -> bool:
     """Return whether the second half along y is the mirror image of the first."""
     return heights.shape[1] > 1 and bool(np.array_equal(heights, heights[:, ::-1]))

@@ -12,7 +12,7 @@ from .._base import FieldsOnly, FloatArray
 from ..contact import HalfSpace, RoughContact, centred_axis
 from ..scene import Numerics, Scene
 from ..surface import Surface
-from .cells import Cells, cells_of_a_box, length_or_half, mirrored
+from .cells import Cells, cells_of_a_box, is_mirror_image, length_or_half
 from .contacts import flat_contact_of, independent_asperities_of
 from .contract import PIECE, Sample
 
@@ -27,7 +27,7 @@ class OnlyMap(Sample):
     refines_in_place = True
 
     def distinct_rows(self, heights: FloatArray) -> int:
-        return int(heights.shape[1]) // (2 if mirrored(heights) else 1)
+        return int(heights.shape[1]) // (2 if is_mirror_image(heights) else 1)
 
     def tolerance_between(self, numerics: Numerics) -> float:
         return numerics.tolerance

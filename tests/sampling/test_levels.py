@@ -323,7 +323,8 @@ def synthetic(rng, strips, places=40, between=0.0):
     differences = common - common.mean()
     of_strips = differences.mean(axis=1)
     error = StandardError(np.std(of_strips, ddof=1) / math.sqrt(strips), strips - 1)
-    return pairs, ControlVariate(differences, {"coefficient": of_strips}, error)
+    control = ControlVariate(by_place=differences, numbers={"coefficient": of_strips}, sampling_error=error)
+    return pairs, control
 
 
 @pytest.mark.parametrize(

@@ -55,7 +55,8 @@ def test_slopes_of_a_contact_are_those_of_two_loads():
 def test_an_error_of_the_gap_counts_as_it_moves_a_light_contact(load_ratio):
     """F_C = F/(1 + e^s) in closed form, s moved by the error of the gap; to first order where little changes."""
     rate = -load_ratio / (1 + load_ratio)  # d ln F_C/ds
-    response = Response(Slopes(0.0, 0.0, 0.0), 1.0, {"contact_load": rate}, load_ratio)
+    slopes = Slopes(gap=0.0, area=0.0, contact_length=0.0)
+    response = Response(slopes=slopes, log_load_ratio_per_gap=1.0, rates={"contact_load": rate}, load_ratio=load_ratio)
     for moved in (1e-3, 0.5, 3.0):
         exact = (1 + load_ratio) / (1 + load_ratio * np.exp(-moved)) - 1
         assert response.relative("contact_load", moved) == pytest.approx(max(exact, -rate * moved), rel=1e-9)

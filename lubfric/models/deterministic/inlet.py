@@ -25,11 +25,11 @@ if TYPE_CHECKING:
     from ...oil import Lubricant
 
 
-# Gauss points of the closed solution upstream of the grid. Half and twice as many change f of the scene "paper" by
+# Gauss points of the integrals upstream of the grid [-]. Half and twice as many change f of the scene "paper" by
 # 1e-8.
 INLET_POINTS = 24
 
-# Largest Q times alpha there: no converged film has as much.
+# Reduced pressure Q upstream of the grid times alpha, at most [-]: no converged film has as much.
 MOST_ALPHA_Q = 0.8
 
 

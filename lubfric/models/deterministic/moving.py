@@ -47,7 +47,7 @@ MOVING_STEP_RESIDUAL = 1e-3
 # LU factorisations of a step, at most [-]; a usual step takes 3 to 4. Half and twice change nothing.
 MOST_STEP_FACTORISATIONS = 160
 
-# Euler steps that lead to a step that Newton's method does not solve [-]. Half and twice change nothing.
+# Euler steps into which a step in time is divided that Newton's method does not solve [-]. Half and twice change nothing.
 EULER_STEPS = 4
 
 # Orders of a step along the lubricant [-]: the first, and those that follow where it is not solved. On an exponential
@@ -62,10 +62,10 @@ SMOOTHED_HALF_WIDTHS = 0.4
 # m/s takes 9 % more Newton steps, a flank with a slide-roll ratio of 1.28 5 to 30 %.
 EXTRAPOLATED = 0.5
 
-# Steps in time after a start from rest that begin without it [-]: the change from rest to motion does not go on. Without
+# Steps in time after a start from rest that begin without `EXTRAPOLATED` [-]: the change from rest to motion does not go on. Without
 # them the first steps of random contacts took 46, 29, 12, 11 Newton steps instead of 20, 7, 7, 7, those of a needle
 # roller 38 and 59 instead of 19 and 13.
-SUDDEN = 2
+STEPS_FROM_REST = 2
 
 # Part of a Newton step that is taken in a step in time, whatever the gap of a cell says [-]. Where two bodies move at unlike
 # speeds, summits of both meet at its start, and single cells would limit seven of eight steps to 0.1 to 0.3. With 0.1, 0.3, 0.5 a
@@ -151,7 +151,7 @@ def moments(
             "least_part": LEAST_PART_IN_MOTION,
         }
         order = STEP_ORDERS[0]
-        rate = EXTRAPOLATED if count > SUDDEN else 0.0
+        rate = EXTRAPOLATED if count > STEPS_FROM_REST else 0.0
         near = (_moved(at.state, before.state, shift, smooth, rate),) if shift else ()
         for state in (*near, at.state):
             result = newton(problem, state, work, history=history, **how)

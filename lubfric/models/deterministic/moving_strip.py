@@ -35,7 +35,8 @@ CELLS_FOR_LOOSE_STEPS = 8
 # verification/campaigns/moving_coverage.
 FACTORISATIONS_IN_A_STEP = 4.0
 
-# GMRES iterations in a step in time [-], for the estimate of the work: 23 to 34 on the same contacts.
+# GMRES iterations in a step in time [-], for the estimate of the work: 23 to 34 on the contacts of
+# `FACTORISATIONS_IN_A_STEP`.
 KRYLOV_IN_A_STEP = 25.0
 
 # Film of the smooth contact over Sq [-], from which on waves are small, and steps tight. A convention: loose steps were
@@ -44,7 +45,7 @@ SMALL_WAVES = 3.0
 
 # Work of a step on cells twice as long along y over that on the shorter ones [-]: 0.49 (gear flank) and 0.52 (needle
 # roller) of verification/campaigns/moving_coverage.
-ON_LONGER = 0.5
+STEP_ON_LONGER_CELLS = 0.5
 
 # Steps in time that the strip at rest is worth, on two lengths of cells [-], for the estimate of the work: 3 to 6 on the
 # contacts of `FACTORISATIONS_IN_A_STEP`, more on a light one whose asperities carry the load (the bodies of the scene "paper" at 0.01 m/s).
@@ -54,7 +55,7 @@ STEPS_WORTH_OF_REST = 12.0
 SMALLEST_SQUARE = 1e-30
 
 # Speed of the roughness over U [-]: where all is slower, the fastest passes one cell in a step; else the lubricant does.
-# There that takes twice as many steps as the roughness needs; `moving` has what slower roughness would gain.
+# At this speed steps of the lubricant are twice as many as the roughness needs; `moving` has what slower roughness would gain.
 SLOW_ROUGHNESS = 0.5
 
 # Speed of the roughness over U [-]: where some is faster, it passes one cell in a step, and not more.
@@ -63,18 +64,18 @@ FAST_ROUGHNESS = 2.0
 # Distance that the lubricant travels in the moments on longer cells that are compared with those of a strip [half-widths].
 # The change of f on a needle roller is 4.8 % after 0.4, 3.8 % after 1.0, 3.0 % after 2.0 and 2.6 % after 10. Half and twice
 # change the interval by 1 and 4 %; twice takes 11 % more time.
-COMPARED = 1.0
+COMPARED_WAY = 1.0
 
 # Distance that the lubricant travels in the moments of a continuation that count [half-widths]. Half and twice change
 # nothing where only the shear stress has a range.
-CONTINUED = 0.4
+CONTINUED_WAY = 0.4
 
-# Moments of a continuation that count, at least [-]. Half and twice change nothing there.
+# Moments of a continuation that count, at least [-]. Half and twice change nothing where only the shear stress has a range.
 FEWEST_CONTINUED = 8
 
 # Distance that the roughness travels in the moments that count before the error of the mean is known first [half-widths]:
 # half of a block of time (`time_and_place.TIME_BLOCK`).
-PILOT = 1.5
+PILOT_WAY = 1.5
 
 # Factors by which the moments that count may grow from one check of that error to the next [-]. A convention: more
 # than a few checks cost nothing, and an error from few blocks is too uncertain to grow by more.
@@ -82,15 +83,16 @@ MOMENTS_GROWTH = (1.25, 2.5)
 
 # Distance that the roughness travels in the moments that count [half-widths], for the estimate of the work: bearing 2
 # to 3, gear flank 6, needle roller 10 (verification/campaigns/moving_coverage).
-EXPECTED = 5.0
+EXPECTED_WAY = 5.0
 
 # Moments over those that the error needs [-]. A convention.
 MOMENTS_SPARE = 1.1
 
 # Numbers of a strip that are kept at every moment.
-SERIES = "coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film"
+SERIES = ("coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film")
+
 # Inputs that change the shear stress of a film, but hardly its pressure and gap (`MovingStripSolution.with_oils`).
-OF_SHEAR = "lubricant.eyring_stress", "lubricant.limiting_stress_coefficient"
+OF_SHEAR = ("lubricant.eyring_stress", "lubricant.limiting_stress_coefficient")
 
 # Fields of a `DeterministicResult` of which a strip has the means over time: all numbers, and two of every place along y.
 _TYPES = get_type_hints(DeterministicResult)
@@ -399,8 +401,8 @@ def _required_moments(places: TimeAndPlace, target: SampleTarget, required: int,
 
 
 def _pilot(line: LineContact, bodies: Sequence[RoughBody], step: float) -> int:
-    """Return the number of steps [s] in which the fastest of ``bodies`` passes `PILOT` half-widths."""
-    return math.ceil(PILOT * film_half_width(line) / (max(abs(body.speed) for body in bodies) * step))
+    """Return the number of steps [s] in which the fastest of ``bodies`` passes `PILOT_WAY` half-widths."""
+    return math.ceil(PILOT_WAY * film_half_width(line) / (max(abs(body.speed) for body in bodies) * step))
 
 
 def _travelled(bodies: Sequence[RoughBody], speed: float, step: float, half_width: float) -> float:
@@ -436,16 +438,18 @@ def _places_of(records: Sequence[MomentRecord], result: DeterministicResult, tra
 
 
 def compared_moments(strip: MovingStripSolution) -> int:
-    """Return the number of moments of ``strip`` that are compared with those on longer cells (`COMPARED`)."""
+    """Return the number of moments of ``strip`` that are compared with those on longer cells (`COMPARED_WAY`)."""
     way = abs(strip.problem.speed) * float(strip.times[0])
-    return min(strip.times.size - strip.discarded, math.ceil(COMPARED * film_half_width(strip.problem.line) / way))
+    return min(strip.times.size - strip.discarded, math.ceil(COMPARED_WAY * film_half_width(strip.problem.line) / way))
 
 
 def continued_moments(line: LineContact, cell: float, way: float, effort: MovingEffort) -> tuple[int, int]:
     """Return the numbers of moments of a continuation that are discarded, and that count, on cells [m] along x; ``way``
     [m]: that the lubricant travels in a step."""
     width = film_half_width(line)
-    return math.ceil(effort.discarded_again * width / way), max(FEWEST_CONTINUED, math.ceil(CONTINUED * width / cell))
+    return math.ceil(effort.discarded_again * width / way), max(
+        FEWEST_CONTINUED, math.ceil(CONTINUED_WAY * width / cell)
+    )
 
 
 def strip_at_rest(
@@ -540,7 +544,7 @@ def _row(moment: Moment) -> dict[str, Any]:
 def _mean(rows: Sequence[dict[str, Any]], last: DeterministicResult) -> DeterministicResult:
     """Return the result of the ``last`` moment with the means over ``rows`` instead of its numbers."""
     mean = {name: np.mean([row[name] for row in rows], axis=0) for name in rows[0]}
-    split = LoadSplit(*(float(mean[f.name]) for f in fields(LoadSplit)))
+    split = LoadSplit(**{f.name: float(mean[f.name]) for f in fields(LoadSplit)})
     parts: dict[str, Any] = {name: mean[name] if mean[name].ndim else float(mean[name]) for name in AVERAGED}
     return replace(last, **parts, split=split)
 
@@ -600,9 +604,8 @@ def moving_work(
     effort = effort_for(line, sq, cell)
     step, discarded, count = _steps(line, cell, fastest, length, effort)
     once_more = sum(continued_moments(line, cell, line.entrainment_speed * step, effort))
-    expected = math.ceil(EXPECTED * film_half_width(line) / (abs(fastest) * step))
-    compared = min(count, expected, math.ceil(COMPARED * film_half_width(line) / (line.entrainment_speed * step)))
-    steps = discarded + min(count, expected) + continuations * once_more + ON_LONGER * (discarded + compared)
-    return STEPS_WORTH_OF_REST * work_of_steps(
-        cells, FACTORISATIONS_IN_A_STEP, KRYLOV_IN_A_STEP
-    ) + steps * work_of_steps(cells, FACTORISATIONS_IN_A_STEP, KRYLOV_IN_A_STEP)
+    expected = math.ceil(EXPECTED_WAY * film_half_width(line) / (abs(fastest) * step))
+    compared = min(count, expected, math.ceil(COMPARED_WAY * film_half_width(line) / (line.entrainment_speed * step)))
+    steps = discarded + min(count, expected) + continuations * once_more + STEP_ON_LONGER_CELLS * (discarded + compared)
+    work_of_step = work_of_steps(cells, FACTORISATIONS_IN_A_STEP, KRYLOV_IN_A_STEP)
+    return STEPS_WORTH_OF_REST * work_of_step + steps * work_of_step

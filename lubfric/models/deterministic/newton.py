@@ -29,8 +29,8 @@ LEAST_STEP_PART = 0.1
 # Halvings of a step, at most, while the mass residual grows [-]: a bound. Half and twice change nothing.
 STEP_HALVINGS = 10
 
-# Factor by which the residual may grow in a step [-]. Half of it, which asks the residual to halve, takes 69 % more work
-# , twice 8 % more. On last levels of a roller of 1 GPa 2 takes 9, 13, 8, 9, 15, 24 Newton steps where 1.05 takes 11, 12,
+# Factor by which the residual may grow in a step [-]. Half of it, which asks the residual to halve, takes 69 % more work,
+# twice 8 % more. On last levels of a roller of 1 GPa 2 takes 9, 13, 8, 9, 15, 24 Newton steps where 1.05 takes 11, 12,
 # 12, 11, 13, 16, and 10 takes up to 35.
 RESIDUAL_GROWTH = 1.05
 
@@ -116,7 +116,7 @@ class NewtonResult:
 
     @property
     def residual(self) -> float:
-        """The largest."""
+        """The largest of its residuals."""
         return max(self.residuals.values())
 
 

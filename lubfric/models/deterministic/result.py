@@ -21,10 +21,11 @@ from ..shared import LIMIT_RANGE
 from .problem import Problem
 from .state import FLUID, TOUCHING, Iterate, State
 
-PRESSED = 50e6  # Pa: below it no Newtonian film is taken to be at its cap
+# Pressure [Pa] below which no Newtonian film is taken to be at its limit f_b p.
+PRESSED = 50e6
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class LoadSplit:
     """The load per width [N/m] by what carries it. Parts overlap: ``touching`` is in ``thin``, ``capped`` in ``saturated``;
     ``thin`` and ``saturated`` have nothing in common, and a film below its limit is in none.
@@ -66,9 +67,9 @@ class DeterministicResult(Renamed, ModelDetails):
     wet : whether there is fluid under pressure that does not rub
     dent : plastic depth [m]
     coefficient : (boundary + couette + rolling)/load [-], of surface 2 against its sliding (`Problem`)
-    at_half_film, at_twice_film : the same with half and with twice the boundary film
+    at_half_film, at_twice_film : ``coefficient`` with half and with twice the boundary film
     sliding_at_half_film, sliding_at_twice_film : their parts (boundary + couette)/load, which no gradient of pressure moves
-    at_least_limit, at_most_limit : the same with the limiting stress of a Newtonian oil at the ends of `LIMIT_RANGE` times p
+    at_least_limit, at_most_limit : ``coefficient`` with the limiting stress of a Newtonian oil at the ends of `LIMIT_RANGE` times p
         instead of f_b p, on the same fields
     boundary : f_b p over the rubbing cells
     couette : shear of the film by the sliding
@@ -173,7 +174,7 @@ class SurfaceShear:
 
     @property
     def friction(self) -> np.ndarray:
-        """All of it [N/m] (ny,)."""
+        """The friction of every place along y [N/m] (ny,)."""
         return self.boundary + self.couette + self.rolling
 
 
@@ -184,7 +185,7 @@ def surface_shear(at: Iterate, law: np.ndarray, boundary_film: float) -> Surface
     p = at.state.pressure
     h = at.mass_balance.flow_gap
     inlet = at.mass_balance.inlet
-    limit = problem.boundary_friction * p * (problem.sliding > 0)  # in pure rolling rubbing do not slide
+    limit = problem.boundary_friction * p * (problem.sliding > 0)  # in pure rolling cells that rub do not slide
     dx = problem.spacing[0]
     fluid = at.state.kind == FLUID
     thin = (at.state.kind == TOUCHING) | fluid & (h < boundary_film)
@@ -219,7 +220,7 @@ def change_with_oil(result: "DeterministicResult", sliding: float, lubricant: Lu
 
 
 def stress_with_oil(result: "DeterministicResult", sliding: float, lubricant: Lubricant) -> np.ndarray:
-    """Return the shear stress [Pa] (nx, ny) of the same."""
+    """Return the shear stress [Pa] (nx, ny) of a ``result`` if its films had that of another ``lubricant`` (`change_with_oil`)."""
     with np.errstate(over="ignore"):
         law = shear_stress(lubricant, result.pressure, sliding / result.gap)
     return np.where(result.wet, law, result.shear)
@@ -267,7 +268,10 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
     rubbing = sheared.rubbing
     capped = rubbing & ~sheared.thin
     saturated = capped | (sheared.wet & at_its_limit(problem.sheared or problem.lubricant, p, law))
-    loads = (float(p[where].sum()) * dx / p.shape[1] for where in (touching, sheared.thin, capped, saturated))
+
+    def load_on(cells: np.ndarray) -> float:
+        return float(p[cells].sum()) * dx / p.shape[1]
+
     in_hertz = np.abs(problem.x) <= max(problem.line.half_width, 0.5001 * problem.spacing[0])
     return DeterministicResult(
         x=problem.x,
@@ -291,7 +295,12 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
         couette=float(sheared.couette.mean()),
         rolling=float(sheared.rolling.mean()),
         rolling_resistance=float(sheared.rolling_resistance.mean()),
-        split=LoadSplit(*loads),
+        split=LoadSplit(
+            touching=load_on(touching),
+            thin=load_on(sheared.thin),
+            capped=load_on(capped),
+            saturated=load_on(saturated),
+        ),
         load=problem.load,
         load_at=p.sum(axis=0) * dx + inlet.load,
         friction_at=sheared.friction,

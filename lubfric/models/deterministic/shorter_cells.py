@@ -61,11 +61,11 @@ MOST_SOLVED_PIECES = 32
 PIECES_WORK = 30.0
 
 # LU factorisations of a piece on longer cells, from which it starts, at most [-]. Half and twice change nothing.
-AS_START = 100
+FACTORISATIONS_OF_START = 100
 
 # Relative error of f that the tolerance of a strip may leave [-]: twice the change of f by it (`strip.STRIP_RESIDUAL`). Half and
 # twice change the interval by 0.02 %.
-SOLVED = 2e-3
+LEAST_STRIP_ERROR = 2e-3
 
 # Length [correlation lengths] below which a strip serves as a piece. Half changes nothing, twice f by -0.3 %.
 SHORT = 60.0
@@ -74,11 +74,11 @@ SHORT = 60.0
 # points, which do not need it.
 LAST_PIECE = 14.0
 
-# Part of what so short a piece changes by which it may be off the mean [-]. A convention.
-OFF = 0.5
+# Part of the change of f on a piece of that length by which it may be off the mean over the surface [-]. A convention.
+ERROR_OF_SHORT_PIECE = 0.5
 
 # Ratio of the expected films at neighbouring fixed speeds [-]. Twice moves f by 0.9 %, within the stated error.
-FIXED = 2.0
+FIXED_FILM_RATIO = 2.0
 
 # Relative change of f by twice the boundary film [-] above which pieces are solved at the speed of the point itself: a soft
 # roller whose film is just thicker (f 0.0037, 0.013 by twice) was corrected to 0.0111 by pieces at half the speed, whose
@@ -92,7 +92,7 @@ PIECES_SHARE = 0.6
 # Factor on the estimated effect of shorter cells where these were not solved [-]. A convention.
 UNSOLVED_FACTOR = 2.0
 
-# Times (cell along x over Hertz half-width)²: error of f of soft bodies at rest, at least [-]. Their film builds up in the
+# Error of f of soft bodies at rest over (cell along x over Hertz half-width)², at least [-]. Their film builds up in the
 # Hertz strip itself, and changes of f from cells to cells may have either sign: 1.5, 3, 6 and 12 cells in the half-width of
 # a roller of E' 19 GPa give f of .00652, .00682, .00590, .00574 at Λ 1.0, and .01114, .01029, .01001, .01000 at Λ 2.2.
 SOFT_CELL_ERROR = 1.5
@@ -129,7 +129,7 @@ class ShorterCells:
 
 
 # What `on_shorter_cells` returns where none are solved, and another model states the error by the cells.
-NO_SHORTER_CELLS = ShorterCells(error=SOLVED)
+NO_SHORTER_CELLS = ShorterCells(error=LEAST_STRIP_ERROR)
 
 
 def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]) -> ShorterCells:
@@ -151,8 +151,8 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     strips = [pair.resolved for pair in pairs]
     if is_moving:
         cells = cells_of_strips(prepared, strips, by_longer)
-        return ShorterCells(change=cells.change_of_sliding, error=max(cells.error, SOLVED))
-    error = max(error_by_cells([by_longer]), SOLVED, error_of_soft_bodies(strips[0]))
+        return ShorterCells(change=cells.change_of_sliding, error=max(cells.error, LEAST_STRIP_ERROR))
+    error = max(error_by_cells([by_longer]), LEAST_STRIP_ERROR, error_of_soft_bodies(strips[0]))
     if _are_enough(prepared, error):
         return ShorterCells(error=error)
     if sample.refines_in_place:
@@ -160,7 +160,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
         return ShorterCells(
             pieces=(patch,),
             strip=patch[-1],
-            error=max(error_by_cells(changes_of(patch)), SOLVED, error_of_soft_bodies(patch[-1])),
+            error=max(error_by_cells(changes_of(patch)), LEAST_STRIP_ERROR, error_of_soft_bodies(patch[-1])),
         )
     try:
         with limited_work(PIECES_SHARE * work_left()):
@@ -171,7 +171,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     change = abs(float(np.mean(changes)))  # its error is reported
     coarsening = (s * n for s, n in zip(sample_coarsening_of(scene, sample), sample.cells.coarsening))
     halvings = round(math.log2(max(coarsening)))  # from the cells of the strips to native ones
-    floor = max(SOLVED, error_of_soft_bodies(pieces[0][-1]))
+    floor = max(LEAST_STRIP_ERROR, error_of_soft_bodies(pieces[0][-1]))
     error = max(error_by_cells((by_longer, change), max(halvings - 1, 1)), floor)
     if error <= tolerance or halvings < 2 or _is_costly(sample, pairs, pieces):
         return ShorterCells(pieces=pieces, sampling_error=scatter, error=error)
@@ -183,8 +183,10 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     coarse, fine = (strip.result for strip in shortest[-2:])
     further = abs(1 - coarse.coefficient / fine.coefficient)
     of_mean = math.sqrt(max(changes_of(shortest[-2:])[0] ** 2 - further**2, 0.0))  # scatter of it over places
-    floor = max(SOLVED, error_of_soft_bodies(shortest[-1]))
-    error = math.hypot(max(error_by_cells((change, further), max(halvings - 2, 1)), OFF * further, floor), of_mean)
+    floor = max(LEAST_STRIP_ERROR, error_of_soft_bodies(shortest[-1]))
+    error = math.hypot(
+        max(error_by_cells((change, further), max(halvings - 2, 1)), ERROR_OF_SHORT_PIECE * further, floor), of_mean
+    )
     return ShorterCells(pieces=pieces, shortest=shortest, sampling_error=scatter, error=error)
 
 
@@ -269,18 +271,18 @@ def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...]
     sq = prepared.surface.sq
     if scene.lubricant.inlet_film is not None:
         return _pieces(prepared, speed, None)
-    step = round(math.log(scene.line_contact(abs(speed)).expected_film / sq, FIXED))
+    step = round(math.log(scene.line_contact(abs(speed)).expected_film / sq, FIXED_FILM_RATIO))
 
     def make() -> tuple[tuple[Piece, ...], StandardError] | None:
-        there = math.copysign(speed_of(scene, sq * FIXED**step), speed)
+        fixed_speed = math.copysign(speed_of(scene, sq * FIXED_FILM_RATIO**step), speed)
         try:
-            return _pieces(prepared, there, None)
+            return _pieces(prepared, fixed_speed, None)
         except WorkLimitError:  # not of that speed: a point with more work left solves it
             raise
         except LubfricError:  # at that speed: heat may leave no film there
             return None
 
-    def cells(made: tuple[tuple[tuple[StripSolution, StripSolution, StripSolution], ...], StandardError] | None) -> int:
+    def cells(made: tuple[tuple[Piece, ...], StandardError] | None) -> int:
         return sum(one.problem.heights.size for piece in made[0] for one in piece) if made else 0
 
     pieces = prepared.memo.get(
@@ -317,11 +319,18 @@ def _refined(
     times: int = 2,
     length: float = PIECE,
 ) -> Piece:
-    """Return a piece of the surface of this ``length`` in correlation lengths, on cells twice as long as those of the
-    strips, on the same, and on shorter and shorter ones, at last so many ``times`` as short. ``first``: the strip that
-    is it, solved on the first two; of a patch: all of it, until the estimated error is within ``numerics.tolerance``,
-    at last (with ``numerics.grid = "given"`` always) on the map's own. ``slope``: of friction over load [-] (None:
-    found by a second solve)."""
+    """Return piece ``index`` of the surface, solved on cells twice as long as those of the strips, on cells as long, and then
+    on cells half as long each time, down to so many ``times`` as short as those of the strips.
+
+    A piece of a patch is all of it: its cells are shortened until the estimated error is within ``numerics.tolerance``, with
+    ``numerics.grid = "given"`` down to the map's own.
+
+    Parameters
+    ----------
+    first : the strip that serves as the piece, solved on the first two lengths of cells; None: a piece is made
+    slope : of friction over load [-]; None: found by a second solve
+    length : of a piece that is made, in correlation lengths
+    """
     scene = prepared.scene
     sample = prepared.sample
     surface, map_coarsening = surface_and_map_coarsening(prepared, index)
@@ -336,7 +345,7 @@ def _refined(
         longer: StripSolution | None = None
         with suppress(ConvergenceError):  # it is a start only, and cells so long may have no solution
             longer = solve_strip(
-                scene, surface, speed, map_coarsening=longer_than(surface, map_coarsening), most=AS_START
+                scene, surface, speed, map_coarsening=longer_than(surface, map_coarsening), most=FACTORISATIONS_OF_START
             )
         strip = solve_strip(
             scene, surface, speed, map_coarsening=map_coarsening, start=longer, find_slope=slope is None

@@ -26,23 +26,22 @@ FACTORISATIONS_FROM_NEARBY = 40
 
 # LU factorisations from the dry contact, at most [-]: a bound. Half and twice change nothing; a roller of 1 GPa took up to
 # 27.
-DIRECT = 50
+FACTORISATIONS_FROM_DRY = 50
 
-# LU factorisations in time, at most [-]: a bound. Half and twice change nothing.
-MARCHED = 500
+# LU factorisations of steps in time, at most [-]: a bound. Half and twice change nothing.
+FACTORISATIONS_IN_TIME = 500
 
 # LU factorisations of all ways together, unless another number is given [-]: a bound. Half and twice change nothing.
 MOST_FACTORISATIONS = 800
 
-# Times the speed [-], where a cold start is tried when it fails at the speed itself. No film of the campaign
-# needs it.
+# Speeds over that of the point [-] at which a start from the dry contact is tried where it fails at the speed itself. No film of
+# the campaign needs it.
 START_SPEEDS = (16.0, 256.0)
 
 # Residual of solutions on the way [-]. No film of the campaign needs it.
 RESIDUAL_ON_THE_WAY = 1e-3
 
-# Factor of a step in ln(speed) after one that was solved [-]. No film of the campaign
-# needs it.
+# Factor of a step in ln(speed) after one that was solved [-]. No film of the campaign needs it.
 SPEED_STEP_GROWTH = 1.5
 
 # The least step in ln(speed) [-]: a bound. No film of the campaign needs it.
@@ -53,7 +52,7 @@ FILM_ADVICE = "longer cells may lead there, or a higher speed"
 # campaign needs it; an oil has .05 to .1.
 THIN_STRESS = 0.09
 
-# Its limiting stress at ambient pressure [Pa]. No film of the campaign needs it.
+# Limiting stress of that fluid at ambient pressure [Pa]. No film of the campaign needs it.
 THIN_OFFSET = 2e6
 
 # Tolerance of the dry contact [-] (`lubfric.solve_contact`): a start only. Half and twice change the work by
@@ -64,20 +63,21 @@ DRY_TOLERANCE = 1e-4
 # ruptures, 0.475. Half and twice change the work by 1 %, of one film by +31 and -13 %.
 START_RUPTURE = 0.55
 
-# Part of Moes' film by which the dry contact is lifted for a start where the pressure is high (`has_high_pressure`): a film
+# Part of Moes' film by which the dry contact is lifted for a start where the pressure is high (`has_high_pressure`) [-]: a film
 # under loaded asperities is thinner than Moes'. A roller of 1 GPa at 10, 3, 1, 0.3, 0.1, 0.03 m/s takes 12, 15, 14, 14, 16, 28
 # Newton steps with all of it, and 11, 11, 11, 10, 14, 20 with a half; light contacts take as many with a half as with all.
 LIFT = 0.5
 
-# Steps in which the residual has to fall from the dry contact of soft bodies. Of a thin film it does not, from the dry
+# Steps in which the residual has to fall from the dry contact of soft bodies [-]. Of a thin film it does not, from the dry
 # contact and from faster ones: a roller of E' 19 GPa and film/Sq .05 took 160 factorisations, of which 70 led nowhere.
 SOFT_PATIENCE = 8
 
-# The parts where less film arrives than would flow in: strips of 280 x 192 cells under 60 nm on 80 nm of roughness converge
-# in 16 or 23 steps from some of them and in none from others, without a rule; each is tried for half of `DIRECT`.
+# Parts of the expected film by which the dry contact is lifted, one after the other, where less film arrives than would flow
+# in [-]: strips of 280 x 192 cells under 60 nm on 80 nm of roughness converge
+# in 16 or 23 steps from some of them and in none from others, without a rule; each is tried for half of `FACTORISATIONS_FROM_DRY`.
 STARVED_LIFTS = (0.5, 0.33, 0.7)
 
-# The parts where every other way has failed. A bearing of 10 mm radius with 200 nm of roughness, 1e5 N/m and 1 mm/s, alone on
+# Such parts that are tried where every other way has failed [-]. A bearing of 10 mm radius with 200 nm of roughness, 1e5 N/m and 1 mm/s, alone on
 # 48 cells across, has no solution from .1, .33, .5, .7 and 1, and one after 12 steps from .2, after 41 from 2.
 LAST_LIFTS = (0.2, 2.0)
 
@@ -188,23 +188,29 @@ def _attempts(
             )
             yield "from the dry contact", result
 
-    yield from lifted(lifts, DIRECT // 2 if is_starved(problem) else DIRECT)
+    yield from lifted(lifts, FACTORISATIONS_FROM_DRY // 2 if is_starved(problem) else FACTORISATIONS_FROM_DRY)
     if start is None and is_soft:
         yield "in time from the dry contact", _in_time(problem, cold, tolerance, work)
     lubricant = problem.lubricant
     if lubricant.newtonian:
         limited = replace(lubricant, limiting_stress_coefficient=THIN_STRESS, limiting_stress_offset=THIN_OFFSET)
         with_limit = replace(problem, line=replace(problem.line, lubricant=limited))
-        helped = newton(with_limit, cold, work, tolerance=tolerance, most=DIRECT)
+        helped = newton(with_limit, cold, work, tolerance=tolerance, most=FACTORISATIONS_FROM_DRY)
         if helped.residual <= tolerance:
-            result = newton(problem, helped.at.state, work, tolerance=tolerance, most=DIRECT)
+            result = newton(problem, helped.at.state, work, tolerance=tolerance, most=FACTORISATIONS_FROM_DRY)
             yield "from a fluid with a limiting stress", result
     if start is not None:
         yield "in time from a neighbouring state", _in_time(problem, start, tolerance, work)
     faster: list[tuple[float, State]] = []
     for times in START_SPEEDS:
         fast = problem.at_speed(times * problem.speed)
-        helped = newton(fast, dry_start(fast, dry, _lifts(fast)[0]), work, tolerance=RESIDUAL_ON_THE_WAY, most=DIRECT)
+        helped = newton(
+            fast,
+            dry_start(fast, dry, _lifts(fast)[0]),
+            work,
+            tolerance=RESIDUAL_ON_THE_WAY,
+            most=FACTORISATIONS_FROM_DRY,
+        )
         if helped.residual <= RESIDUAL_ON_THE_WAY:
             faster.append((times, helped.at.state))
             result = _from_faster(problem, helped.at.state, times, tolerance, work, failures=0)
@@ -215,7 +221,7 @@ def _attempts(
     for times, state in faster:
         result = _from_faster(problem, state, times, tolerance, work, failures=MOST_FACTORISATIONS)
         yield "step by step from a faster speed", result
-    yield from lifted(LAST_LIFTS, DIRECT)
+    yield from lifted(LAST_LIFTS, FACTORISATIONS_FROM_DRY)
 
 
 def dry_contact(problem: Problem, tolerance: float = DRY_TOLERANCE) -> ContactResult:
@@ -290,8 +296,8 @@ def _from_faster(
 
 
 def _in_time(problem: Problem, state: State, tolerance: float, work: Work) -> NewtonResult:
-    marched = march(problem, state, work, tolerance=tolerance, most=MARCHED)
-    return newton(problem, marched, work, tolerance=tolerance, most=DIRECT)
+    marched = march(problem, state, work, tolerance=tolerance, most=FACTORISATIONS_IN_TIME)
+    return newton(problem, marched, work, tolerance=tolerance, most=FACTORISATIONS_FROM_DRY)
 
 
 @dataclass(frozen=True, kw_only=True)

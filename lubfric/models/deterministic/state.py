@@ -18,11 +18,11 @@ RUPTURED = 1
 # Kind of a cell: the bodies touch, the gap is the floor.
 TOUCHING = 2
 
-# Of the second difference of the last three masses, which makes a step of BDF2 one of BDF3: (11 m - 18 m1 + 9 m2 -
+# Part of the second difference of the last three masses that makes a step of BDF2 one of BDF3 [-]: (11 m - 18 m1 + 9 m2 -
 # 2 m3)/6 is the change of m + (m - m1)/2 + (m - 2 m1 + m2)/3 from step to step.
 CURVATURE = 1.0 / 3.0
 
-# Of the mass of a cell: how far it is extrapolated at most, as by the limiter of the Couette flow (`flow.couette_flow`).
+# Part of the mass of a cell by which it is extrapolated at most [-], as by the limiter of the Couette flow (`flow.couette_flow`).
 MOST_EXTRAPOLATED = 0.5
 
 # Suction of a fluid cell over the strongest of its eight neighbours [-], below which it does not rupture: a cell that
@@ -30,7 +30,9 @@ MOST_EXTRAPOLATED = 0.5
 # in time with 0, and 2.6 with 0.5; 0.2, 0.7, 0.9, 1 over fewer steps 3.1, 2.4, 2.9, 4.4. At rest at 0.03 m/s a grid of 251 x
 # 240 cells takes 72 with 0, and 28 with 0.5.
 STRONG_SUCTION = 0.5
-PULL = 0.01  # of U times the floor over dx: suction in a touching cell, below which it is left alone
+
+# Suction of a touching cell over U times the floor over dx, below which it keeps touching [-].
+PULL = 0.01
 
 
 @dataclass(frozen=True, kw_only=True)

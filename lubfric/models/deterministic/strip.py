@@ -31,7 +31,8 @@ STRIP_RESIDUAL = 3e-3
 # Tolerance of the residuals on longer cells, from which a strip starts [-]. Half and twice change nothing.
 LONGER_CELLS_RESIDUAL = 1e-2
 
-MANY_CELLS = 12_000  # cells from which longer ones come first
+# Cells from which a strip is solved on longer ones first [-].
+MANY_CELLS = 12_000
 
 # Load of the second solve, for the slope, over that of the first [-]. Far from 1 the slope is a secant: 2.06 times
 # changes f by 3 %, for more strips are solved then.
@@ -41,14 +42,19 @@ SECOND_LOAD = 1.03
 # the interval by .2 %.
 CHANGE_RATIOS = (0.25, 0.75)
 
-GROWING = 2.0  # the same, where the series ends; 1.7 to 2.2 was seen at 110 N on cells from 1.8 to 0.45 um
-UNKNOWN_RATIO = 0.6  # from two grids: as measured on cells of 3.6, 1.8 and 0.9 um of the built-in surface
+# Ratio of successive changes from grid to grid, at most, where their series ends at native cells [-]: 1.7 to 2.2 was seen at
+# 110 N on cells from 1.8 to 0.45 µm.
+GROWING = 2.0
+
+# Ratio of successive changes from grid to grid where there is one change only [-]: as measured on cells of 3.6, 1.8 and 0.9 µm
+# of the built-in surface.
+UNKNOWN_RATIO = 0.6
 
 # Columns of the coarser of two grids in a place that changes by itself [-]. Half and twice change the interval by .01 %.
 COLUMNS_OF_A_PLACE = 2
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class StripSolution:
     """A strip that is solved by the deterministic model: at rest, or moving (`MovingStripSolution`), under one contract.
 
@@ -149,7 +155,7 @@ def solve_strip(
     check_resolved_gap(scene)
     problem = problem_of(scene, surface, speed, map_coarsening=map_coarsening, upper=upper, ends=ends)
     work = 0.0
-    rise = math.nan
+    slope = math.nan
     longer = (2 * map_coarsening[0], 2 * map_coarsening[1])
     if start is None and problem.heights.size > MANY_CELLS and surface.shape[1] % longer[1] == 0:
         with suppress(ConvergenceError):
@@ -167,8 +173,8 @@ def solve_strip(
         heavier = problem.at_load(SECOND_LOAD * problem.load)
         second = solve_point(heavier, start=result.state, tolerance=tolerance)
         work += work_of(second)
-        rise = (second.coefficient * second.load - result.coefficient * result.load) / (second.load - result.load)
-    return StripSolution(problem, result, rise, work)
+        slope = (second.coefficient * second.load - result.coefficient * result.load) / (second.load - result.load)
+    return StripSolution(problem=problem, result=result, slope=slope, work=work)
 
 
 def change_by_flow(strip: StripSolution, lubricant: Lubricant) -> float:

@@ -73,7 +73,9 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
                 if scene.numerics.model == "auto"
                 else ()
             ),
-            *_finer(balanced.relative_change(balanced.effect.finer_grid_change), scene.numerics.tolerance),
+            *_violations_by_finer_cells(
+                balanced.relative_change(balanced.effect.finer_grid_change), scene.numerics.tolerance
+            ),
         ),
         recommendation=SMALLER_TOLERANCE,
         fields=fields_of(balanced),
@@ -177,8 +179,8 @@ def edge_load_share(balanced: BalancedSample) -> float:
     return balanced.rough_contact.on_the_ends(balanced.raw_balance.contact_state) / sample.cells.coarsening[0]
 
 
-def _finer(change: float, tolerance: float) -> tuple[Violation, ...]:
-    """Return a warning where cells half as long as the map's own would change f by more than ``tolerance``."""
+def _violations_by_finer_cells(change: float, tolerance: float) -> tuple[Violation, ...]:
+    """Return the violation where cells half as long as the map's own would change f by more than ``tolerance``."""
     if not change > tolerance:
         return ()
     what = "change of f by cells half as long, estimated"

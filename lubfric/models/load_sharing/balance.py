@@ -9,21 +9,17 @@ from ...errors import CONVERGED, ConvergenceError, Report
 from ...film import EHLResult
 from ...scene import Scene, budget
 from ..contract import ModelDetails
-from ..shared import exponents, meaningless
+from ..shared import exponents, is_of_impossible_stress
 from .closure import gap_under, residual_slope, volume_residual
 from .forces import Forces, forces_of
-from .point import (
-    Point,
-    Settings,
-    Trial,
-)
+from .point import Point, Settings, Trial
 from .response import Response, loads_at, respond
 
 # Factor on Moes' film above any film. Half and twice as much change f by 1e-15 (`python -m
 # verification.campaigns.constants`).
 SAFE_FILM = 2.0
 
-# Bounds of ln(F_H/F_C): film shares down to 4e-18, contact shares to 1e-13.
+# Bounds of ln(F_H/F_C) [-]: film shares down to 4e-18, contact shares to 1e-13.
 BOUNDS = (-40.0, 30.0)
 
 # Bound of ln(F_H/F_C) of a film that arrives: it is none if it carries less and leaves the gap empty.
@@ -170,7 +166,7 @@ def _film_alone(point: Point) -> Balance:
     trial = point.trial(load, 0.0)
     while True:
         forces = forces_of(point.scene, trial.film, trial.contact_state, 0.0)
-        cells = _cells(point, trial.film, forces)
+        cells = _film_cells(point, trial.film, forces)
         if cells == point.settings.film_cells:
             break
         point = replace(point, settings=replace(point.settings, film_cells=cells))
@@ -203,7 +199,7 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
     ``alone``: the film of the total load, if it is solved. Where a root cannot be found as closely as needed, because
     f jumps with single cells, the last one is kept and its error reported.
     """
-    near = _beginning(point, sq, start)
+    near = _root_start(point, sq, start)
     if near.last is None and alone is not None:
         unloaded = point.rough_contact.close(alone.film_at(point.rough_contact.x), 0.0)
         near = replace(near, last=Trial(film=alone, contact_state=unloaded, film_load=0.0, contact_load=0.0))
@@ -214,7 +210,7 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
         response = start.response
         response_at = start.log_load_ratio
     for _ in range(BALANCE_ROUNDS):
-        point, root = _seen_root(point, near)
+        point, root = _root_on_accurate_contact(point, near)
         trial: Trial | None = root.payload
         if trial is None:
             return _dry(point.scene, point.rough_contact, "the film in the inlet does not fill the gap")
@@ -223,7 +219,7 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
             response_at = root.x
         balance = _balance(point, root, response)
         converged = balance if root.status == CONVERGED else converged
-        settings = _needed(point, balance)
+        settings = _needed_settings(point, balance)
         if settings == point.settings or root.status != CONVERGED:
             break
         same = replace(settings, balance_tolerance=point.settings.balance_tolerance)
@@ -269,7 +265,7 @@ class RootStart:
     value: float | None = None
 
 
-def _beginning(point: Point, sq: float, start: Balance | None) -> RootStart:
+def _root_start(point: Point, sq: float, start: Balance | None) -> RootStart:
     """Return where the root is looked for from the balance ``start``; without one (None) where the rigid isoviscous film
     is two Sq thick."""
     if start is None or start.film is None or start.response is None:
@@ -321,9 +317,9 @@ def predict_log_load_ratio(point: Point, start: Balance) -> tuple[float, float |
     return log_load_ratio, 0.5 * slope_of_excess
 
 
-def _seen_root(point: Point, near: RootStart) -> tuple[Point, Root]:
-    """Return the root, and ``point`` with a contact solved so closely that the error of its gap at the root is within the
-    tolerance of the root; a less accurate contact would have its root elsewhere."""
+def _root_on_accurate_contact(point: Point, near: RootStart) -> tuple[Point, Root]:
+    """Return ``point`` with a contact that is solved so closely that the error of its gap is within the tolerance of the root,
+    and the root there; on a less accurate contact it would be elsewhere."""
     while True:
         root = _root(point, near)
         now = point.settings.contact_tolerance
@@ -404,7 +400,7 @@ def _first_settings(scene: Scene, *, alone: bool = False) -> Settings:
     return Settings(film_tolerance=film, balance_tolerance=numerics.balance_tolerance or budget.LOOSEST_VOLUME)
 
 
-def _needed(point: Point, balance: Balance) -> Settings:
+def _needed_settings(point: Point, balance: Balance) -> Settings:
     """Return the settings that ``balance`` shows to be needed: those of ``point`` if they are enough."""
     numerics = point.scene.numerics
     now = point.settings
@@ -431,7 +427,7 @@ def _needed(point: Point, balance: Balance) -> Settings:
     return Settings(
         film_tolerance=film,
         balance_tolerance=volume,
-        film_cells=_cells(point, balance.film, balance.forces),
+        film_cells=_film_cells(point, balance.film, balance.forces),
         contact_tolerance=contact_tolerance,
         correctable=now.correctable,
     )
@@ -441,12 +437,12 @@ def _tightened(now: float, needed: float) -> float:
     return now if now <= budget.SLACK * needed else needed
 
 
-def _cells(point: Point, film: EHLResult, forces: Forces) -> int:
+def _film_cells(point: Point, film: EHLResult, forces: Forces) -> int:
     """Return the least number of cells of the film: twice its present number where the sum of its shear stress is not
     exact enough. It stays where that sum is of stresses that no oil carries."""
     numerics = point.scene.numerics
     now = point.settings.film_cells
-    resolved = forces.quadrature <= budget.SHEAR_SUM * numerics.tolerance or meaningless(forces.shear)
+    resolved = forces.quadrature <= budget.SHEAR_SUM * numerics.tolerance or is_of_impossible_stress(forces.shear)
     if numerics.film_tolerance is not None or resolved:
         return now
     return min(2 * film.cells, max(budget.MOST_FILM_CELLS, now))

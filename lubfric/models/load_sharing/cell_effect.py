@@ -129,7 +129,7 @@ def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, sample: 
     enough = response.gap_for("coefficient", budget.CONTACT_GRID * numerics.tolerance)
     scatter = response.gap_for("coefficient", PIECE_SHARE * numerics.sampling_tolerance)
     steps: list[CellStep] = []
-    while not _settled(steps, min(MOST_COMPARED_PIECES, sample.available_pieces), scatter):
+    while not _are_enough(steps, min(MOST_COMPARED_PIECES, sample.available_pieces), scatter):
         steps.append(_step(prepared, point, balance, sample, index=len(steps), enough=enough))
     error = mean_error(steps) if sample.represents_more else StandardError(0.0, 1)
 
@@ -164,7 +164,7 @@ def _error_of_area(steps: Sequence[CellStep]) -> float:
     )
 
 
-def _settled(steps: Sequence[CellStep], most: float, scatter: float) -> bool:
+def _are_enough(steps: Sequence[CellStep], most: float, scatter: float) -> bool:
     """Return whether these pieces are enough: the error of their mean is within ``scatter`` [m], there are no more
     pieces, or there are three that are too short for blocks."""
     short = len(steps) >= FEWEST_PIECES and not math.isfinite(steps[0].error.value)

@@ -40,9 +40,9 @@ def control_for(solution: BalancedSample) -> ControlVariate | None:
     prepared = solution.prepared
     sample = prepared.sample
     has_others = solution.sample.cells == sample.cells and sample.represents_more
-    return (
-        control_variate_of(prepared, solution) if has_others and math.isfinite(solution.sampling_error.value) else None
-    )
+    if not has_others or not math.isfinite(solution.sampling_error.value):
+        return None
+    return control_variate_of(prepared, solution)
 
 
 def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlVariate:
@@ -61,7 +61,8 @@ def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlV
     places = of_strips(raw_balance.forces.coefficient * friction_influence(prepared.scene, rough_contact, raw_balance))
     numbers = {"coefficient": places.mean(axis=1)}
     if response is None or response.rates is None:
-        return ControlVariate(places, numbers, StandardError(balanced.sampling_error.value, FREEDOM_NOT_COUNTED))
+        error = StandardError(balanced.sampling_error.value, FREEDOM_NOT_COUNTED)
+        return ControlVariate(by_place=places, numbers=numbers, sampling_error=error)
     gap, loads = (of(rough_contact, raw_balance.contact_state) for of in (hertz_mean_gap, line_load))
     influence = gap_influence(gap, loads, response.slopes.gap)
     moved = response.log_load_ratio_per_gap * of_strips(influence).mean(axis=1)  # of ln(F_H/F_C)
@@ -73,6 +74,5 @@ def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlV
     )
     numbers |= {name: values[name] * response.rates[name] * moved for name in CONTROLLED}
     numbers = with_forces_of_film(numbers, prepared.scene.bodies.load)
-    return ControlVariate(
-        places, numbers, StandardError(balanced.sampling_error.value, balanced.friction_scatter.freedom)
-    )
+    error = StandardError(balanced.sampling_error.value, balanced.friction_scatter.freedom)
+    return ControlVariate(by_place=places, numbers=numbers, sampling_error=error)

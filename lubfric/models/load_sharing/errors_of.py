@@ -28,14 +28,14 @@ PLASTIC = 3.0
 NO_CELLS = "not known: this contact has no places along y to compare"
 
 # Errors of f towards 0 and away from it where the model has none.
-NONE = (0.0, 0.0)
+NO_ERROR = (0.0, 0.0)
 UNKNOWN = (math.nan, math.nan)
 GAP_NOT_FILLED = "the film that arrives does not fill the gap: Eq. (8) neglects it, and f may be lower"
 NOT_STUDIED = "the error of the model itself is not known for this contact"
 MODEL_UNKNOWN = "the error of the model itself is not known and not in the interval: {}"
 TOO_LITTLE = "there was too little of it to estimate"
 NOT_WITHOUT_FILM = "not estimated without a film"
-MISSED = "not known: the patch is too short along y to estimate the undetected contact"
+UNDETECTED_UNKNOWN = "not known: the patch is too short along y to estimate the undetected contact"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,7 +89,7 @@ def errors_of(balanced: BalancedSample) -> PointErrors:
     balance = balanced.corrected_balance
     response = balanced.response
     solver = solver_errors_of(balanced)
-    relative = solver.shear_error
+    numerical = solver.shear_error
     forces = balance.forces
     scatter = balanced.scatter
     sampling = balanced.sampling_error.value
@@ -104,7 +104,7 @@ def errors_of(balanced: BalancedSample) -> PointErrors:
         reasons = dict.fromkeys((*of_film, *depending_on("heat")), f"{balance.why_no_film}: there is no film")
         errors |= dict.fromkeys((*depending_on("split"), *depending_on("shear")), 0.0)
     elif response is None:
-        relative += forces.film_sensitivity * solver.film_error
+        numerical += forces.film_sensitivity * solver.film_error
         errors = _given_load(forces, solver.film_error)
         of_contact = (*depending_on("split"), *depending_on("area"), *depending_on("contacts"))
         reasons |= dict.fromkeys(of_contact, "without asperity contact it has no relative error")
@@ -112,8 +112,8 @@ def errors_of(balanced: BalancedSample) -> PointErrors:
     else:
         error = balanced.friction_scatter
         mean_film = balance.contact_state.mean_film
-        relative += response.per_film(forces, mean_film) * solver.film_error
-        relative += response.relative("coefficient", solver.gap_error)
+        numerical += response.per_film(forces, mean_film) * solver.film_error
+        numerical += response.relative("coefficient", solver.gap_error)
         errors = _contact_errors(balanced, solver)
     notes = _notes(balanced)
     if not math.isfinite(sampling):
@@ -124,12 +124,12 @@ def errors_of(balanced: BalancedSample) -> PointErrors:
     )
     by_heat = error_by_heat(forces.heat, 1 - forces.heat.film_factor**film_sensitivity)
     of_model = (math.hypot(of_model[0], by_heat), math.hypot(of_model[1], by_heat))
-    both = relative if math.isnan(sampling) else math.hypot(relative, sampling)
+    of_f = numerical if math.isnan(sampling) else math.hypot(numerical, sampling)
     return PointErrors(
-        numerical=relative,
+        numerical=numerical,
         sampling_error=StandardError(sampling, error.freedom),
         model_error=of_model,
-        errors=errors | {"coefficient": both},
+        errors=errors | {"coefficient": of_f},
         why_no_error=why,
         reasons=reasons,
         notes=(*notes, *unknown),
@@ -155,16 +155,16 @@ def solver_errors_of(balanced: BalancedSample) -> SolverErrors:
             + (budget.SLOPE * abs(balanced.corrected_gap) or abs(balanced.left_by_root))
             + raw_balance.contact_state.gap_error
         )
-    read = raw_balance.contact_state.area_error / max(raw_balance.contact_state.real_contact_area_fraction, 1e-300)
+    state = raw_balance.contact_state
     by_area = 0.0
-    if raw_balance.contact_state.area_error and forces.total:
-        open_ = max(1 - raw_balance.contact_state.real_contact_area_fraction, raw_balance.contact_state.area_error)
-        by_area = raw_balance.contact_state.area_error / open_ * forces.shear.magnitude / forces.total
+    if state.area_error and forces.total:
+        open_fraction = max(1 - state.real_contact_area_fraction, state.area_error)
+        by_area = state.area_error / open_fraction * forces.shear.magnitude / forces.total
     return SolverErrors(
         film_error=film_error,
         gap_error=gap_error,
         shear_error=forces.quadrature + forces.heat.left_out + by_area,
-        area_error=effect.area_error + read,
+        area_error=effect.area_error + state.area_error / max(state.real_contact_area_fraction, 1e-300),
     )
 
 
@@ -249,7 +249,7 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
     if balance.film is None:
         fed = scene.lubricant.inlet_film
         return (
-            (NONE, ())
+            (NO_ERROR, ())
             if fed is None or balanced.speed == 0
             else (starved_error(fed, balance.contact_state.mean_gap), (GAP_NOT_FILLED,))
         )
@@ -333,7 +333,7 @@ def _notes(balanced: BalancedSample) -> tuple[str, ...]:
         if balanced.on_cells is None:
             return (NO_CELLS,)
         if balanced.response is None:
-            return (MISSED,)
+            return (UNDETECTED_UNKNOWN,)
         return (why_sample_too_short(scene, balanced.scatter.length / sample.correlation_lengths[1], sample.whole_map),)
     if error > tolerance and needed > 1:
         times = float(f"{needed:.2g}")

@@ -92,9 +92,16 @@ class Point:
     def trial(self, film_load: float, contact_load: float, last: Trial | None = None) -> Trial:
         """Solve the film of ``film_load`` [N], and under it the contact that carries ``contact_load`` [N], from
         ``last``."""
-        start, last_touching, cells = (last.film, last.last_touching, last.film_cells) if last else (None, None, 0)
-        film = self.film(film_load, start, cells)
-        contact_state = self.pressed(self.rough_contact, film, contact_load, last_touching)
+        if last is None:
+            film = self.film(film_load)
+            contact_state = self.pressed(self.rough_contact, film, contact_load, None)
+            last_touching = None
+            cells = 0
+        else:
+            film = self.film(film_load, last.film, last.film_cells)
+            contact_state = self.pressed(self.rough_contact, film, contact_load, last.last_touching)
+            last_touching = last.last_touching
+            cells = max(film.cells, last.film_cells)
         if contact_load > 0:
             last_touching = contact_state
         return Trial(
@@ -103,7 +110,7 @@ class Point:
             film_load=film_load,
             contact_load=contact_load,
             last_touching=last_touching,
-            film_cells=max(film.cells, cells) if last else 0,
+            film_cells=cells,
         )
 
     def pressed(

@@ -21,7 +21,7 @@ LOG_RATIO_STEP = 0.05
 # (`python -m verification.campaigns.constants`).
 LOAD_STEP = 0.05
 
-# Change of ln(F_H/F_C) beyond which nothing is known.
+# Change of ln(F_H/F_C) beyond which nothing is known [-].
 LARGEST_GROWTH = 50.0
 
 
@@ -30,7 +30,7 @@ def loads_at(load: float, log_load_ratio: float) -> tuple[float, float]:
     return load / (1 + math.exp(-log_load_ratio)), load / (1 + math.exp(log_load_ratio))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Slopes:
     """Derivatives of a rough contact by its load per width P [N/m], at a given film.
 
@@ -50,7 +50,7 @@ class Slopes:
         return max(1 + self.area * more / (width * area), 0.0) if area else 1.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Response:
     """Reaction of a balance to an error of its gap. Without a film the load ratio does not change.
 
@@ -172,10 +172,11 @@ def slopes_of(
     ``thickness`` and ``shape`` [m] (nx,): secants to a load 5 % larger, or smaller where the contact carries no more."""
     step = LOAD_STEP * load * (1 if rough_contact.capacity > (1 + LOAD_STEP) * load else -1)
     more = rough_contact.close(thickness, load + step, contact_state, shape)
+    area = more.real_contact_area_fraction - contact_state.real_contact_area_fraction
     return Slopes(
-        (more.mean_gap - contact_state.mean_gap) * width / step,
-        (more.real_contact_area_fraction - contact_state.real_contact_area_fraction) * width / step,
-        (contact_length(more) - contact_length(contact_state)) * width / step,
+        gap=(more.mean_gap - contact_state.mean_gap) * width / step,
+        area=area * width / step,
+        contact_length=(contact_length(more) - contact_length(contact_state)) * width / step,
     )
 
 
@@ -200,7 +201,7 @@ def respond(
     total = scene.bodies.load
     film_load = total - load
     if film_of is None or film_load <= 0:  # 0 where the film carries less than the rounding error of the load
-        return Response(slopes)
+        return Response(slopes=slopes)
     log_load_ratio = math.log(film_load / load)
 
     def at(s: float) -> dict[str, float]:
@@ -217,7 +218,12 @@ def respond(
     demanded_rate = (high["mean_gap"] - low["mean_gap"]) / (2 * LOG_RATIO_STEP)
     gap_rate = -slopes.gap * load * film_load / (total * width)
     per_gap = log_load_ratio_per_gap(gap_rate, demanded_rate)
-    return Response(slopes, per_gap, {name: _log_rate(low[name], high[name]) for name in low}, film_load / load)
+    return Response(
+        slopes=slopes,
+        log_load_ratio_per_gap=per_gap,
+        rates={name: _log_rate(low[name], high[name]) for name in low},
+        load_ratio=film_load / load,
+    )
 
 
 def quantities(forces: Forces, film: EHLResult | None, loads: tuple[float, float], mean_gap: float) -> dict[str, float]:

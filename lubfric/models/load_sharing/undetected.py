@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ...scene import Scene
 
 
-# Blocks, below which nothing is known.
+# Blocks below which nothing is known [-].
 FEWEST_BLOCKS = 4
 
 # Blocks with which the scale of the extreme values is known: 14 blocks of `SPOT` correlation lengths are 25 of these.
@@ -49,7 +49,7 @@ def undetected_contact(
         width=bodies.width,
         correlation_length=correlation_length,
     )
-    return _share(scene, load, forces)
+    return _effect_on_f(scene, load, forces)
 
 
 def undetected_load(
@@ -93,10 +93,10 @@ def hidden_contact(scene: Scene, rough_contact: HalfSpaceContact, forces: Forces
     bodies = scene.bodies
     length = rough_contact.heights.shape[1] * rough_contact.spacing[1]
     load = _load_on_summit(rough_contact.heights, rough_contact.spacing, bodies.e_prime, depth) / length * bodies.width
-    return _share(scene, load, forces)
+    return _effect_on_f(scene, load, forces)
 
 
-def _share(scene: Scene, load: float, forces: Forces) -> float:
+def _effect_on_f(scene: Scene, load: float, forces: Forces) -> float:
     """Return the relative effect of a contact ``load`` [N] on f: by its own friction, where the surfaces slide, or by
     the load that the film loses, to whose friction that is at most in proportion."""
     bodies = scene.bodies
@@ -106,7 +106,7 @@ def _share(scene: Scene, load: float, forces: Forces) -> float:
 
 
 def _load_on_summit(heights: FloatArray, spacing: tuple[float, float], e_prime: float, depth: float) -> float:
-    """Load [N] of the highest summit, as a sphere that is pressed in by ``depth`` [m]."""
+    """Return the load [N] of the highest summit, as a sphere that is pressed in by ``depth`` [m]."""
     return 4 / 3 * 0.5 * e_prime * math.sqrt(summit_radius(heights, spacing)) * depth**1.5
 
 

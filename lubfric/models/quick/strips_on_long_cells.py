@@ -45,11 +45,11 @@ LEAST_SAMPLING_ERROR = 0.03
 
 # Standard error of f that strips are solved for, over the half-width of the bounds of f by the cells [-]: with Student's t
 # it widens the interval by a tenth.
-OF_BOUNDS = 0.2
+SAMPLING_OVER_BOUNDS = 0.2
 
-# `OF_BOUNDS` on cells for thin films, where a moment takes twice as long and the bounds are half as wide [-]: with Student's
+# Such an error over the half-width of the bounds on cells for thin films [-], where a moment takes twice as long and the bounds are half as wide: with Student's
 # t it widens the interval by four tenths.
-OF_NARROW_BOUNDS = 0.4
+SAMPLING_OVER_NARROW_BOUNDS = 0.4
 
 # Part of the work that a point has left, which one more strip may take [-]: the rest is for the ends of input ranges.
 PART_OF_WORK = 0.25
@@ -187,7 +187,7 @@ def _features_of(prepared: Prepared, pair: StripOnTwoGrids) -> dict[str, float]:
     return features(numbers, prepared.scene.bodies.boundary_friction_coefficient)
 
 
-def _sampling_target(prepared: Prepared, pair: StripOnTwoGrids, part: float = OF_BOUNDS) -> float:
+def _sampling_target(prepared: Prepared, pair: StripOnTwoGrids, part: float = SAMPLING_OVER_BOUNDS) -> float:
     """Return the relative standard error of f by the sample that strips are solved for: this ``part`` of the bounds at the
     features of the first ``pair``."""
     bounds = min(error_model_of(prepared.scene).log_half_width(_features_of(prepared, pair)), 1.0)
@@ -207,7 +207,7 @@ def _solve_pair(prepared: Prepared, speed: float, index: int, slope: float | Non
             solve_at_rest(scene, surface, speed, map_coarsening=map_coarsening, slope=slope), mirrored=is_mirrored
         )
     cells = long_cells_in_motion(scene, bodies_of(prepared, index, speed), speed, lengths)
-    part = OF_NARROW_BOUNDS if cells.per_length == CELLS_OF_THIN_FILM else OF_BOUNDS
+    part = SAMPLING_OVER_NARROW_BOUNDS if cells.per_length == CELLS_OF_THIN_FILM else SAMPLING_OVER_BOUNDS
     at_rest = StripOnTwoGrids.on_one_grid(cells.rest)  # all that is known before the motion
     target = sample_target(prepared, _sampling_target(prepared, at_rest, part))
     return replace(solve_moving(scene, cells, speed, target), mirrored=is_mirrored)

@@ -52,7 +52,9 @@ STRIP_SHARE = 0.2
 # Film pressure over the peak Hertz pressure from which it is a local peak, of roughness or of the spike. Not measured: a
 # convention.
 SPIKE = 1.05
-ANOTHER = "numerics.film_deflection = 'scaled'"
+
+# What to give so that the film is deflected by the total load.
+DEFLECTION_OF_TOTAL_LOAD = "numerics.film_deflection = 'scaled'"
 
 # Share of the contact load on the two edge columns of a patch from which its ends cut off the contact. Not measured:
 # it decides where a point is refused, no number.
@@ -241,7 +243,9 @@ def violations_by_inlet(scene: Scene, line: LineContact, flow: float, friction_f
         )
 
 
-def violations_by_deflection(scene: Scene, mean_gap: float, recommendation: str = ANOTHER) -> Iterator[Violation]:
+def violations_by_deflection(
+    scene: Scene, mean_gap: float, recommendation: str = DEFLECTION_OF_TOTAL_LOAD
+) -> Iterator[Violation]:
     """Yield the violations by a film that only its own pressure deflects, over a contact with that ``mean_gap`` [m]: the possible
     error of its share of the load."""
     change = scene.bodies.strip_rise / max(mean_gap, 1e-300)
@@ -297,8 +301,8 @@ def violations_by_patches(scene: Scene, heights: FloatArray, area: float) -> Ite
         )
 
 
-def meaningless(shear: ShearForce) -> bool:
-    """Return whether most of the force of ``shear`` (`ShearForce`) comes from stresses that no oil carries."""
+def is_of_impossible_stress(shear: ShearForce) -> bool:
+    """Return whether most of the force of ``shear`` comes from stresses that no oil carries."""
     return not shear.excess <= 0.5 * abs(shear.couette)
 
 

@@ -11,7 +11,7 @@ from .statistics import StandardError
 T = TypeVar("T", float, np.ndarray)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ControlVariate:
     """By how much the strips of a line differ from it.
 

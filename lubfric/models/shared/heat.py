@@ -37,9 +37,9 @@ NEGLIGIBLE_HEAT = 1e-9
 # Temperature [K] and temperature coefficient of the viscosity [1/K] of a mineral oil of ISO VG 68 at 70 °C.
 TYPICAL = (343.15, 0.035)
 
-# Part of what heat does to f that counts as its error. Not measured: published factors of the inlet differ by as much
+# Part of what heat does to f that counts as its error [-]. Not measured: published factors of the inlet differ by as much
 # (`InletHeat.other`).
-DOUBT = 0.5
+PART_IN_ERROR = 0.5
 
 # Exponent of the viscosity in Moes' film, about: it changes slowly, between 0.5 and 1.
 VISCOSITY_EXPONENT = 0.7
@@ -329,7 +329,7 @@ def peclet_at(scene: Scene, speed: float) -> float:
 def error_by_heat(heat: Heat, by_inlet: float) -> float:
     """Return the relative error of f by ``heat``: half of what it does. ``by_inlet``: relative change of f without the
     heat of the inlet, of which it is as much more as the other of two published factors has it."""
-    apart = DOUBT
+    apart = PART_IN_ERROR
     if heat.film_factor < 1 and heat.inlet is not None:
         apart = max(apart, abs(math.log(heat.inlet.other / heat.film_factor) / math.log(heat.film_factor)))
-    return DOUBT * abs(heat.change) + apart * abs(by_inlet)
+    return PART_IN_ERROR * abs(heat.change) + apart * abs(by_inlet)
