@@ -10,15 +10,7 @@ from .half_space import BOUNDARY, HalfSpaceContact, half_space_contact
 from .kernels import bessel_cells, line_coefficients, love_coefficients, semiperiodic_coefficients
 from .operator import HalfSpace, half_space
 from .problem import ContactProblem, TrialContact, contact_problem, on_grid
-from .refinement import (
-    ContactResult,
-    SearchResult,
-    contact_result,
-    evaluate,
-    length_scale,
-    refine,
-    trial_contact,
-)
+from .refinement import ContactResult, SearchResult, contact_result, evaluate, length_scale, refine, trial_contact
 from .rough_contract import ContactState, RoughContact, centred_axis, weighted_mean
 from .solve import solve_contact
 from .wear import Passage, archard_compliance, passage

@@ -9,13 +9,7 @@ from typing import Any
 from .._base import share_read_only
 from ..errors import ConvergenceError, InputError, Report
 from ..models import ContactFields, Model, ModelAnswer
-from ..models.shared import (
-    Assumption,
-    Prepared,
-    Violation,
-    unmodelled_effects,
-    violations_by_numerical_error,
-)
+from ..models.shared import Assumption, Prepared, Violation, unmodelled_effects, violations_by_numerical_error
 from ..quantities import NUMBERS
 from ..scene import Scene
 from .choice import Choice

@@ -10,14 +10,7 @@ from typing import Any
 import numpy as np
 
 from .._base import Renamed
-from ..models.shared import (
-    StandardError,
-    has_too_few_contacts,
-    is_near_zero,
-    percent_of_sides,
-    sides_in_f,
-    student,
-)
+from ..models.shared import StandardError, has_too_few_contacts, is_near_zero, percent_of_sides, sides_in_f, student
 from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuantities, described_in_doc
 from ..units import interval_in_words, with_interval
 

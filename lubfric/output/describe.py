@@ -25,12 +25,7 @@ from ..models.shared import (
     violations_by_unusual_inputs,
 )
 from ..quantities import counted
-from ..samples import (
-    Sample,
-    check_map,
-    sample_of,
-    takes_strips,
-)
+from ..samples import Sample, check_map, sample_of, takes_strips
 from ..scene import UNITS_OF_HISTORIES, Scene, has_moving_roughness, hint_unusual_values, why_gap_not_resolved
 from ..studies import EXPECTED_SPEEDS, WITHIN_WORDS, in_words, span
 from ..surface import Surface, correlation_length, rms_slope

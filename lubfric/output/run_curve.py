@@ -21,12 +21,7 @@ from .._base.progress import progress_to
 from ..errors import ConvergenceError, InputError, ValidityError
 from ..estimate import FrictionResult
 from ..models import models_up_to
-from ..models.shared import (
-    Prepared,
-    Violation,
-    at_value,
-    effect_in_words,
-)
+from ..models.shared import Prepared, Violation, at_value, effect_in_words
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..samples import takes_strips
 from ..scene import (

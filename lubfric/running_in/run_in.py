@@ -12,16 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._base import (
-    FrozenArrays,
-    Shown,
-    figures,
-    limited_work,
-    table_bytes,
-    validate,
-    with_default_errors,
-    write_whole,
-)
+from .._base import FrozenArrays, Shown, figures, limited_work, table_bytes, validate, with_default_errors, write_whole
 from .._base.progress import progress_to, report_progress
 from ..contact import dent_by_pass, operator_under
 from ..errors import InputError, WorkLimitError

@@ -19,16 +19,7 @@ import numpy as np
 
 from .._base import FrozenArrays, Shown, figures
 from .._base.progress import report_progress
-from ..contact import (
-    BOUNDARY,
-    HalfSpace,
-    HalfSpaceContact,
-    Passage,
-    half_space,
-    operator_under,
-    passage,
-    solve_contact,
-)
+from ..contact import BOUNDARY, HalfSpace, HalfSpaceContact, Passage, half_space, operator_under, passage, solve_contact
 from ..errors import ConvergenceError, InputError, WorkLimitError
 from ..estimate import estimated_work_of_point, friction
 from ..models import prepare

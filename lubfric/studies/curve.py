@@ -9,13 +9,7 @@ import numpy as np
 from .._base import Renamed, Shown, table_bytes, validate
 from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, Report, ValidityError, returned
 from ..estimate import FrictionResult, UncertaintyCurve, cite_together, curve_of
-from ..models.shared import (
-    Violation,
-    gathered,
-    in_a_cell,
-    is_note_text,
-    violations_of,
-)
+from ..models.shared import Violation, gathered, in_a_cell, is_note_text, violations_of
 from ..quantities import NUMBERS, OF_UNCERTAINTY, counted, heading
 
 

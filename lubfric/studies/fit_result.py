@@ -10,11 +10,7 @@ import numpy as np
 
 from .._base import Renamed, Shown, figures
 from ..errors import Report
-from ..models.shared import (
-    Violation,
-    gathered,
-    percent,
-)
+from ..models.shared import Violation, gathered, percent
 from ..quantities import counted, worded_value
 from ..scene import Scene
 from .fit_checks import ResidualTests

@@ -11,18 +11,9 @@ import numpy as np
 from .._base import FloatArray
 from ..contact import HalfSpaceContact
 from ..errors import ConvergenceError
-from ..estimate import (
-    full_load_numbers,
-    power_of_forces,
-)
+from ..estimate import full_load_numbers, power_of_forces
 from ..film import ShearForce, above_carried, rolling_error, smallest, spike_error
-from ..models.load_sharing import (
-    MomentResponse,
-    moment_error,
-    moment_model_error,
-    slopes_of,
-    volume_residual,
-)
+from ..models.load_sharing import MomentResponse, moment_error, moment_model_error, slopes_of, volume_residual
 from ..models.shared import (
     Assumption,
     Heat,

@@ -11,15 +11,7 @@ from ..errors import Report
 from ..estimate import MethodUse, UncertaintyCurve, cited, methods_of
 from ..models import models_that_may_answer
 from ..models.load_sharing import OF_ROLLING
-from ..models.shared import (
-    Prepared,
-    Violation,
-    at_largest_ends,
-    gathered,
-    largest_at_load,
-    percent,
-    student,
-)
+from ..models.shared import Prepared, Violation, at_largest_ends, gathered, largest_at_load, percent, student
 from ..quantities import OF_MOMENT, axis_label
 from ..scene import BOUNDARY_FRICTION_KEY, Scene, value_of
 from ..units import worded

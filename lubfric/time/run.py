@@ -15,12 +15,7 @@ from .._base import limited_work, unlimited_work, validate, with_default_errors
 from ..errors import InputError, WorkLimitError
 from ..estimate import LEAST_LIMIT, TIMES_ESTIMATE
 from ..models.deterministic import State
-from ..models.shared import (
-    Prepared,
-    Violation,
-    refused,
-    scene_of,
-)
+from ..models.shared import Prepared, Violation, refused, scene_of
 from ..scene import Scene, Transient
 from ..studies import Store, classes_of, digest, fingerprint_without_files, opened
 from .load_sharing_solver import ContactStep

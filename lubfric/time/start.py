@@ -14,9 +14,7 @@ from ..estimate import solve_to_tolerance
 from ..models import prepare
 from ..models.load_sharing import BalancedSample, PaperModel, PaperSolution, film_under, solve_balance, volume_residual
 from ..models.shared import Prepared, contact_on_strips, scene_of
-from ..samples import (
-    Sample,
-)
+from ..samples import Sample
 from ..scene import Constant, Scene
 from .film_setting import NODE_FACTORS, LineHistory, make_setting, steady_start
 from .load_sharing_solver import ContactStep

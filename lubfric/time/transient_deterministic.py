@@ -13,10 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
-from ..estimate import (
-    full_load_numbers,
-    power_of_forces,
-)
+from ..estimate import full_load_numbers, power_of_forces
 from ..models import prepare
 from ..models.deterministic import (
     BOUNDARY_FILM,

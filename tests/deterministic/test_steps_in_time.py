@@ -6,14 +6,7 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from lubfric.models.deterministic import (
-    ECONOMICAL,
-    TIGHT,
-    moments,
-    moving_strip,
-    solve_moving_strip,
-    travelling,
-)
+from lubfric.models.deterministic import ECONOMICAL, TIGHT, moments, moving_strip, solve_moving_strip, travelling
 from verification.campaigns.calibration.case import drawn
 
 

@@ -22,9 +22,7 @@ from lubfric.models.deterministic import (
     solve_strip,
     surface_and_map_coarsening,
 )
-from lubfric.models.deterministic import (
-    shorter_cells as shorter,
-)
+from lubfric.models.deterministic import shorter_cells as shorter
 from lubfric.models.deterministic.answer import shorter_cells_in_motion
 from lubfric.models.deterministic.strip_on_two_grids import solve_pair
 from lubfric.models.load_sharing import solve_balance

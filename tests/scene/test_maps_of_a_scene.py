@@ -11,11 +11,7 @@ from scene_text import BODIES_AND_OIL, paper_scene
 import lubfric
 from lubfric.models.shared import violations_by_strips, why_sample_too_short
 from lubfric.output import main
-from lubfric.samples import (
-    contact_maps,
-    sample_of,
-    whole_maps,
-)
+from lubfric.samples import contact_maps, sample_of, whole_maps
 from lubfric.scene import ContactDomain, Roughness
 
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.001\n"

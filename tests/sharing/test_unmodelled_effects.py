@@ -7,12 +7,7 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.models.shared import (
-    change_in_words,
-    effect_in_words,
-    expected_effects,
-    unmodelled_effects,
-)
+from lubfric.models.shared import change_in_words, effect_in_words, expected_effects, unmodelled_effects
 from lubfric.output import describe_scene
 
 ROLLER = lubfric.load_scene(

@@ -6,20 +6,10 @@ stress: the walls are as hot as the means over its columns make them, and every 
 
 import numpy as np
 
-from ...film import (
-    heated_film,
-    heated_stress,
-)
+from ...film import heated_film, heated_stress
 from ...scene import Scene
-from ..shared import (
-    Heat,
-    inlet_at,
-    peclet_at,
-    surroundings,
-)
-from .result import (
-    DeterministicResult,
-)
+from ..shared import Heat, inlet_at, peclet_at, surroundings
+from .result import DeterministicResult
 
 # Factor on the film by heat below which only Eq. (8) was checked.
 LEAST_FILM = 0.7

@@ -4,24 +4,12 @@ from dataclasses import replace
 
 from ...contact import HalfSpaceContact
 from ...samples import Sample
-from ...scene import (
-    BOUNDARY_FRICTION_KEY,
-    HARDNESS_KEY,
-    Scene,
-    has_moving_roughness,
-    moving_bodies,
-)
+from ...scene import BOUNDARY_FRICTION_KEY, HARDNESS_KEY, Scene, has_moving_roughness, moving_bodies
 from ...surface import Surface
-from ..shared import (
-    Prepared,
-    ReferenceKey,
-    contact_on_strip,
-)
+from ..shared import Prepared, ReferenceKey, contact_on_strip
 from .moving import RoughBody
 from .moving_strip import OF_SHEAR, effort_for, moving_work
-from .problem import (
-    reach,
-)
+from .problem import reach
 from .summits import SummitControl, control_of
 
 # Counted work [s] of the strips of a point and of their shorter cells, at most, whether the model is named or chosen; "auto"

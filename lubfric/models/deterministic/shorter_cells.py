@@ -28,16 +28,8 @@ from ..shared import (
 )
 from .cells_in_motion import cells_of_strips
 from .problem import are_soft
-from .rough_bodies import (
-    MOST_WORK_OF_POINT,
-    map_of_contact,
-)
-from .strip import (
-    StripSolution,
-    changes_of,
-    error_by_cells,
-    solve_strip,
-)
+from .rough_bodies import MOST_WORK_OF_POINT, map_of_contact
+from .strip import StripSolution, changes_of, error_by_cells, solve_strip
 from .strip_on_two_grids import (
     StripOnTwoGrids,
     longer_than,

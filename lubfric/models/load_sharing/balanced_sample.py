@@ -9,11 +9,7 @@ from typing import cast
 
 from scipy import fft
 
-from ...contact import (
-    HalfSpaceContact,
-    RoughContact,
-    weighted_mean,
-)
+from ...contact import HalfSpaceContact, RoughContact, weighted_mean
 from ...errors import LubfricError, WorkLimitError
 from ...samples import Sample
 from ...scene import budget
@@ -31,33 +27,14 @@ from ..shared import (
     speed_of,
     strips_for_error,
 )
-from .balance import (
-    Balance,
-    solve_balance,
-)
-from .cell_effect import (
-    CellEffect,
-    effect_of_cells,
-    lost_summits,
-)
+from .balance import Balance, solve_balance
+from .cell_effect import CellEffect, effect_of_cells, lost_summits
 from .closure import open_gap, with_gap_of_closure
 from .forces import forces_of
-from .point import (
-    Point,
-)
-from .response import (
-    Response,
-    loads_at,
-    with_contact_area_scaled,
-)
-from .scatter import (
-    Scatter,
-    scatter_of,
-)
-from .undetected import (
-    hidden_contact,
-    undetected_contact,
-)
+from .point import Point
+from .response import Response, loads_at, with_contact_area_scaled
+from .scatter import Scatter, scatter_of
+from .undetected import hidden_contact, undetected_contact
 
 # Change of ln(F_H/F_C) that cells may make and be corrected for to first order.
 MOST_CORRECTED_LOG_RATIO = 0.5

@@ -12,34 +12,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...contact import (
-    ContactState,
-    HalfSpaceContact,
-)
+from ...contact import ContactState, HalfSpaceContact
 from ...samples import Sample
 from ...scene import budget
-from ..shared import (
-    Prepared,
-    StandardError,
-    add_errors,
-    block_error,
-    contact_on_piece,
-)
-from .balance import (
-    Balance,
-)
+from ..shared import Prepared, StandardError, add_errors, block_error, contact_on_piece
+from .balance import Balance
 from .closure import gap_under
-from .point import (
-    Point,
-)
-from .response import (
-    contact_length,
-)
-from .scatter import (
-    gap_influence,
-    hertz_mean_gap,
-    line_load,
-)
+from .point import Point
+from .response import contact_length
+from .scatter import gap_influence, hertz_mean_gap, line_load
 
 # Ratio of successive changes with which a series of halvings is continued, at least and at most [-]: second order; and,
 # not measured, more than the sqrt(1/2) by which heights of an exponential correlation change from halving to halving.

@@ -12,22 +12,10 @@ import math
 import numpy as np
 
 from ...quantities import depending_on
-from ..shared import (
-    FREEDOM_NOT_COUNTED,
-    ControlVariate,
-    Prepared,
-    StandardError,
-    contact_on_strip,
-    with_forces_of_film,
-)
+from ..shared import FREEDOM_NOT_COUNTED, ControlVariate, Prepared, StandardError, contact_on_strip, with_forces_of_film
 from .balanced_sample import BalancedSample
 from .response import quantities
-from .scatter import (
-    friction_influence,
-    gap_influence,
-    hertz_mean_gap,
-    line_load,
-)
+from .scatter import friction_influence, gap_influence, hertz_mean_gap, line_load
 
 # Quantities that the control corrects beside f: all that change with the division of the load, and the mean gap, which is
 # that of rough surfaces by both models. The other numbers of films are those of a smooth one here.

@@ -9,10 +9,7 @@ import numpy as np
 from ...contact import ContactState
 from ...film import EHLResult, ElasticContact, ShearForce, disc_compliance, shear_force
 from ...scene import Scene
-from ..shared import (
-    Heat,
-    point_heat,
-)
+from ..shared import Heat, point_heat
 
 # Nodes of the asperity pressure where the contact has no cells. Not measured: their limits are scaled to f_b F_C, with
 # any number of them.

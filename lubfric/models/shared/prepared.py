@@ -10,11 +10,7 @@ import numpy as np
 
 from ..._base import FieldsOnly, Renamed, Shown, validate
 from ...contact import BOUNDARY, AsperityContact, FlatContact, HalfSpace, HalfSpaceContact, RoughContact, half_space
-from ...samples import (
-    PIECE,
-    Sample,
-    half_space_contact_of,
-)
+from ...samples import PIECE, Sample, half_space_contact_of
 from ...scene import Scene
 from ...surface import Surface
 from .memo import JoinedKey, Key, Memo, OperatorKey, PieceKey, PieceMapKey, StripKey
