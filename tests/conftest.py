@@ -4,6 +4,7 @@ every time; Ctrl-C interrupts; what is slow."""
 import os
 import signal
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
@@ -13,7 +14,7 @@ for library in ("OMP", "OPENBLAS", "MKL"):
 
 import pytest  # noqa: E402
 from hypothesis import HealthCheck, settings  # noqa: E402
-from pictures import leave_out  # noqa: E402
+from pictures import leave_out, put_back  # noqa: E402
 
 settings.register_profile("lubfric", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("lubfric")
@@ -44,10 +45,19 @@ def root() -> Path:
     return Path(__file__).parents[1]
 
 
+@pytest.fixture(scope="session", autouse=True)
+def undrawn() -> Iterator[None]:
+    """The pictures of commands are not drawn, which takes most of the time of a small run, except where a test has the
+    fixture `drawn`."""
+    with pytest.MonkeyPatch.context() as patched:
+        leave_out(patched.setattr)
+        yield
+
+
 @pytest.fixture
-def undrawn(monkeypatch) -> None:
-    """The pictures of `lubfric run` are not drawn, which takes most of its time."""
-    leave_out(monkeypatch.setattr)
+def drawn(monkeypatch) -> None:
+    """The pictures of commands are drawn."""
+    put_back(monkeypatch.setattr)
 
 
 @pytest.fixture

@@ -84,7 +84,7 @@ def test_bad_input_ends_with_2_and_one_line(arguments, word, capsys):
     assert word in error and error.count("\n") == 1 and not Path("nowhere").exists()
 
 
-def test_a_failed_speed_ends_with_1_and_keeps_the_rest(tmp_path, monkeypatch, capsys):
+def test_a_failed_speed_ends_with_1_and_keeps_the_rest(tmp_path, monkeypatch, capsys, drawn):
     from lubfric.studies import points
 
     real = points.friction
@@ -105,7 +105,7 @@ def test_a_failed_speed_ends_with_1_and_keeps_the_rest(tmp_path, monkeypatch, ca
     assert (tmp_path / "o" / "stribeck.png").stat().st_size > 10_000
 
 
-def test_a_refused_point_is_said_kept_and_can_be_accepted(tmp_path, capsys):
+def test_a_refused_point_is_said_kept_and_can_be_accepted(tmp_path, capsys, drawn):
     heavy = SCENE.replace("load = 5.5", "load = 500.0").replace("0.9e-6", "1.8e-6").replace("4e-6", "8e-6")
     heavy += 'film_deflection = "hydrodynamic"\n'  # the film too thick, and its friction with it
     (tmp_path / "heavy.toml").write_text(heavy)
@@ -134,7 +134,7 @@ def test_a_table_and_a_record_of_different_runs_are_not_drawn_together(run, tmp_
     assert "run 'lubfric run' again" in capsys.readouterr().err
 
 
-def test_the_error_of_the_model_is_a_column_inside_the_interval(tmp_path, capsys, undrawn):
+def test_the_error_of_the_model_is_a_column_inside_the_interval(tmp_path, capsys):
     assert main(["run", "paper", "--speeds", "0.001,0.3", "--fields", "0.001", "--out", str(tmp_path)]) == 0
     table = read_table(tmp_path / "stribeck.csv")
     half = (table["interval_high"] - table["interval_low"]) / 2 / table["coefficient"]

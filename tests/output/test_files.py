@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from pictures import stand_in
+from pictures import STAND_IN, put_back
 from scene_text import BODIES_AND_OIL, paper_scene
 
 import lubfric
@@ -48,7 +48,9 @@ class Balanced(HTMLParser):
 def run(tmp_path_factory):
     folder = tmp_path_factory.mktemp("run")
     (folder / "s.toml").write_text(SCENE.replace("[bodies]", "name = 'a < b & c'\n[bodies]"))
-    assert main(["run", str(folder / "s.toml"), "--out", str(folder / "out"), "--vtk", "--report"]) == 0
+    with pytest.MonkeyPatch.context() as patched:
+        put_back(patched.setattr)
+        assert main(["run", str(folder / "s.toml"), "--out", str(folder / "out"), "--vtk", "--report"]) == 0
     return folder / "out"
 
 
@@ -71,14 +73,14 @@ def test_the_report_stands_alone_and_holds_the_numbers(run):
 
 
 @pytest.mark.parametrize("speed, touches", [(0.001, True), (0.3, False)])
-def test_the_page_says_what_a_smallest_film_of_1_nm_is(tmp_path, undrawn, speed, touches):
+def test_the_page_says_what_a_smallest_film_of_1_nm_is(tmp_path, speed, touches):
     (tmp_path / "s.toml").write_text(SCENE)
     assert main(["run", str(tmp_path / "s.toml"), "--speeds", str(speed), "--out", str(tmp_path / "o")]) == 0
     page = (tmp_path / "o" / "report.html").read_text(encoding="utf-8")
     assert ("A smallest film of 1 nm is the gap that the deterministic model assumes" in page) == touches
 
 
-def test_the_page_states_lift_off_the_formula_and_what_is_omitted(tmp_path, undrawn):
+def test_the_page_states_lift_off_the_formula_and_what_is_omitted(tmp_path):
     (tmp_path / "s.toml").write_text(SCENE.replace("'quick'", "'paper'"))
     out = tmp_path / "o"
     scene = lubfric.load_scene(tmp_path / "s.toml")
@@ -158,7 +160,7 @@ COLUMNS = "--speed", "U", "--coefficient", "mu"
 
 
 @pytest.mark.parametrize("name", ODD)
-def test_a_name_is_drawn_as_text(tmp_path, monkeypatch, name):
+def test_a_name_is_drawn_as_text(tmp_path, monkeypatch, name, drawn):
     """Title, legend of a measured curve and file names: as they are, whatever matplotlib takes for a formula."""
     from matplotlib.figure import Figure
 
@@ -172,7 +174,7 @@ def test_a_name_is_drawn_as_text(tmp_path, monkeypatch, name):
         return real(self, *arguments, **options)
 
     monkeypatch.setattr(Figure, "savefig", savefig)
-    monkeypatch.setattr("lubfric.output.run_curve.plot_contact", stand_in)
+    monkeypatch.setattr("lubfric.output.run_curve.plot_contact", lambda path, *_: path.write_bytes(STAND_IN))
     motion = {"speeds": [0.3, 1.0], "entrainment_speed": 1.0}
     scene = paper_scene(numerics={"sampling": "patch", "accept": True}, motion=motion)
     (tmp_path / "s.toml").write_text(replace(scene, name=name).to_toml(), encoding="utf-8")
@@ -185,7 +187,7 @@ def test_a_name_is_drawn_as_text(tmp_path, monkeypatch, name):
     assert (measured.name, False) in titles
 
 
-def test_a_history_and_a_traction_curve_have_any_name(tmp_path):
+def test_a_history_and_a_traction_curve_have_any_name(tmp_path, drawn):
     motion = {"entrainment_speed": 1.0}
     scene = replace(paper_scene(numerics={"sampling": "patch", "accept": True}, motion=motion), name="$$")
     (tmp_path / "s.toml").write_text(scene.to_toml())
@@ -195,7 +197,7 @@ def test_a_history_and_a_traction_curve_have_any_name(tmp_path):
     assert main(["plot", str(tmp_path / "o")]) == 0
 
 
-def test_a_picture_that_fails_costs_nothing_else(tmp_path, monkeypatch, capsys, undrawn):
+def test_a_picture_that_fails_costs_nothing_else(tmp_path, monkeypatch, capsys, drawn):
     """Whatever the failure, table, fields and record of the new run are there, and it is said."""
     (tmp_path / "s.toml").write_text(SCENE)
     out = tmp_path / "o"
@@ -219,7 +221,7 @@ def test_a_picture_that_fails_costs_nothing_else(tmp_path, monkeypatch, capsys, 
     assert not (out / "unfinished").exists()
 
 
-def test_a_page_that_cannot_be_made_costs_no_numbers(tmp_path, monkeypatch, undrawn, capsys):
+def test_a_page_that_cannot_be_made_costs_no_numbers(tmp_path, monkeypatch, capsys):
     """They are written, the page of an earlier run does not stay beside them, and the end says what is missing."""
     (tmp_path / "s.toml").write_text(SCENE)
     out = tmp_path / "o"

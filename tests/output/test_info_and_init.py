@@ -80,7 +80,7 @@ def test_info_reports_beforehand_what_friction_refuses():
     ],
     ids=["oil without a limit", "radius", "accepted", "mended"],
 )
-def test_info_ends_with_the_code_of_run(changed, tmp_path, capsys, undrawn):
+def test_info_ends_with_the_code_of_run(changed, tmp_path, capsys):
     """After all that it says of the scene."""
     patch = {"model": "paper", "sampling": "patch", "heat": "off", "tolerance": 0.2}
     scene = HEAVY.with_(motion={"speeds": ()}, numerics=patch, contact={"shape": (128, 32)}).with_(**changed)
@@ -312,7 +312,7 @@ def test_the_peak_pressure_of_a_run_in_time_is_that_of_its_cycle():
     assert float(low) == pytest.approx(peak.min(), rel=2e-3) and float(high) == pytest.approx(peak.max(), rel=2e-3)
 
 
-def test_the_speeds_of_a_command_are_those_solved_and_one_of_them_is_the_answer(tmp_path, capsys, undrawn):
+def test_the_speeds_of_a_command_are_those_solved_and_one_of_them_is_the_answer(tmp_path, capsys):
     """The scene's own speed is solved where no speed is given alone; --fields adds its speeds, and says so."""
     scene = SWINGING.with_(motion={"entrainment_speed": 0.05, "speeds": ()}, numerics={"model": "paper"})
     (tmp_path / "scene.toml").write_text(scene.to_toml())
@@ -342,7 +342,7 @@ def test_init_leaves_the_choice_of_the_model_to_the_program(tmp_path):
     assert scene.lubricant.limiting_stress_coefficient is not None
 
 
-def test_a_run_in_time_that_fails_has_a_report_that_begins_with_that(tmp_path, capsys, monkeypatch, undrawn):
+def test_a_run_in_time_that_fails_has_a_report_that_begins_with_that(tmp_path, capsys, monkeypatch):
     """Its status is marked as failed, and no number stands as its answer."""
     monkeypatch.setattr("lubfric.time.result.MASS", 1e-15)
     plan = lubfric.Transient(0.01, outputs=4, speed=Harmonic(amplitude=0.05, frequency=100.0, phase=1.0))
@@ -370,7 +370,7 @@ def test_a_value_that_equals_a_typical_one_is_taken_as_exact():
     assert "taken as exact" not in describe_scene(named)
 
 
-def test_the_report_divides_the_power_loss_of_a_rolling_contact(tmp_path, undrawn):
+def test_the_report_divides_the_power_loss_of_a_rolling_contact(tmp_path):
     """What rolling resistance adds to f F_T times the sliding speed, by the numbers of the table."""
     file = tmp_path / "s.toml"
     thick = {
@@ -401,7 +401,7 @@ def test_the_film_before_the_solve_is_the_full_load_film_of_the_result():
     assert float(row[4]) == pytest.approx(point.lambda_ratio, rel=5e-3)
 
 
-def test_the_report_states_how_speed_and_viscosity_change_f_in_mixed_lubrication(tmp_path, undrawn):
+def test_the_report_states_how_speed_and_viscosity_change_f_in_mixed_lubrication(tmp_path):
     """As points at a tenth more speed, and of a tenth more viscosity, have it."""
     scene = SWINGING.with_(motion={"entrainment_speed": 0.01, "speeds": ()}, numerics={"model": "paper"})
     (tmp_path / "s.toml").write_text(scene.to_toml())

@@ -13,7 +13,6 @@ import lubfric
 from lubfric._base import FolderLock, OwnFiles, write_checked
 from lubfric.output import main
 
-pytestmark = pytest.mark.usefixtures("undrawn")
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.3\nspeeds = [0.3]\n" + SMALL_PATCH
 SCENE += "sampling = 'patch'\n"
 MAPPED = SCENE.split("[surface]")[0] + "[surface]\nfile = 'MAP'\nspacing = 0.9e-6\n[numerics]\nsampling = 'patch'\n"

@@ -14,8 +14,6 @@ from lubfric.output.commands import say
 from lubfric.output.progress import CLEAR_LINE
 from lubfric.output.run_history import _time_left
 
-pytestmark = pytest.mark.usefixtures("undrawn")
-
 
 class Terminal(io.StringIO):
     def isatty(self):

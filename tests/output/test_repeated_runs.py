@@ -44,7 +44,7 @@ def test_the_stated_command_repeats_the_run(option, tmp_path, monkeypatch):
         assert [point[name] for point in again["points"]] == [point[name] for point in first["points"]]
 
 
-def test_a_map_that_is_gone_when_the_run_ends_costs_neither_page_nor_record(tmp_path, monkeypatch):
+def test_a_map_that_is_gone_when_the_run_ends_costs_neither_page_nor_record(tmp_path, monkeypatch, drawn):
     """The checksum is that of the map that was read."""
     heights = lubfric.generate_surface((64, 64), 0.9e-6, sq=1e-7, correlation_length=4e-6, seed=7).heights
     path = tmp_path / "map.npy"

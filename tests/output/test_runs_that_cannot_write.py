@@ -61,7 +61,7 @@ def without_solving(monkeypatch):
 @pytest.mark.parametrize(
     "name, missing", {"_table": "history.csv", "npz_bytes": "fields.npz", "plot_history": "history.png"}.items()
 )
-def test_each_writer_of_a_run_in_time_may_fail(name, missing, whole, tmp_path, capsys, monkeypatch):
+def test_each_writer_of_a_run_in_time_may_fail(name, missing, whole, tmp_path, capsys, monkeypatch, drawn):
     """The same command then writes what is missing, and solves no step again."""
     scene_file, table = whole["run"]
     out = tmp_path / "out"
@@ -89,7 +89,7 @@ def test_a_report_that_fails_costs_no_answer(whole, tmp_path, capsys, monkeypatc
 
 
 @pytest.mark.parametrize("name, missing", {"_npy": "surface.npy", "_page": "report.html", "_record": "run_in.json", "draw_run_in": "run_in.png", "scene_after": "scene.toml", "table_bytes": "run_in.csv"}.items())  # fmt: skip
-def test_each_writer_of_a_run_in_may_fail(name, missing, whole, tmp_path, capsys, monkeypatch):
+def test_each_writer_of_a_run_in_may_fail(name, missing, whole, tmp_path, capsys, monkeypatch, drawn):
     scene_file, _ = whole["run-in"]
     monkeypatch.setattr(run_in_command, name, broken)
     code, said = run(capsys, "run-in", scene_file, tmp_path / "out")

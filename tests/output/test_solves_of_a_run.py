@@ -34,7 +34,7 @@ PATCH = {"model": "deterministic", "sampling": "patch", "grid": "given"}
     [({"model": "paper"}, 2.0), (PATCH, 2.0), (PATCH, 0.5)],
     ids=["strips", "patch at rest", "moving patch"],
 )
-def test_a_drawn_point_is_solved_once(numerics, ratio, solves, undrawn, tmp_path):
+def test_a_drawn_point_is_solved_once(numerics, ratio, solves, tmp_path):
     scene = SMALL.with_(numerics=numerics, motion={"slide_roll_ratio": ratio, "entrainment_speed": SPEED})
     lubfric.friction(scene, SPEED)
     once = list(solves)

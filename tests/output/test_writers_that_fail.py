@@ -57,7 +57,7 @@ MODULES = {"studies": lubfric.studies, "run_curve": run_curve, "commands": comma
 
 
 @pytest.mark.parametrize("module, name", WRITERS)
-def test_each_writer_of_a_curve_may_fail(module, name, scene_file, whole, tmp_path, capsys, monkeypatch):
+def test_each_writer_of_a_curve_may_fail(module, name, scene_file, whole, tmp_path, capsys, monkeypatch, drawn):
     monkeypatch.setattr(MODULES[module], name, broken)
     out = tmp_path / "out"
     code, said = run(capsys, "run", scene_file, "--out", out, "--vtk", "--workers", 1)
@@ -97,7 +97,7 @@ speeds = [0.03]
 
 
 @pytest.mark.parametrize("name", ["answer_lines", "study_page", "_picture", "made"])
-def test_each_writer_of_a_study_may_fail(name, tmp_path, capsys, monkeypatch):
+def test_each_writer_of_a_study_may_fail(name, tmp_path, capsys, monkeypatch, drawn):
     (tmp_path / "scene.toml").write_text(SCENE.to_toml())
     (tmp_path / "study.toml").write_text(STUDY)
     monkeypatch.setattr(run_study, name, broken)
@@ -107,7 +107,7 @@ def test_each_writer_of_a_study_may_fail(name, tmp_path, capsys, monkeypatch):
 
 
 @pytest.mark.parametrize("name", ["plot_fit", "_record"])
-def test_each_writer_of_a_fit_may_fail(name, scene_file, tmp_path, capsys, monkeypatch):
+def test_each_writer_of_a_fit_may_fail(name, scene_file, tmp_path, capsys, monkeypatch, drawn):
     curve = lubfric.stribeck(SCENE, [0.01, 0.03, 0.1, 0.3])
     rows = "\n".join(f"{u},{f}" for u, f in zip(curve.speed, curve.coefficient))
     (tmp_path / "rig.csv").write_text(f"speed [m/s],f\n{rows}\n")

@@ -166,7 +166,7 @@ def test_calibrated_answer_holds_the_deterministic_one_and_is_narrower_than_load
     assert results["paper"].decision.basis == ""
 
 
-def test_report_says_first_what_the_answer_rests_on(tmp_path, monkeypatch, undrawn):
+def test_report_says_first_what_the_answer_rests_on(tmp_path, monkeypatch):
     scene = HEAVIER.with_(
         motion={"entrainment_speed": 0.1},
         contact={"shape": (48, 32), "spacing": 1.8e-6},

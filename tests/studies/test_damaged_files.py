@@ -183,7 +183,7 @@ def test_damaged_studies_are_reported_and_stop_nothing(stores, tmp_path, imports
     assert imports == [] and stated["error"] > 60 and stated["warning"] > 350, stated
 
 
-def test_damaged_results_are_one_clear_error(tmp_path, imports, capsys, undrawn):
+def test_damaged_results_are_one_clear_error(tmp_path, imports, capsys):
     scene = SCENE.with_(lubricant={"density_law": "constant"})
     (tmp_path / "s.toml").write_text(scene.to_toml())
     run = tmp_path / "run"

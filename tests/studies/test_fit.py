@@ -371,7 +371,9 @@ def test_a_short_form_is_fitted():
     assert result.values["motion.slip_percent"] == pytest.approx(50, rel=0.02)
 
 
-def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_finds_too(tmp_path, capsys, monkeypatch):
+def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_finds_too(
+    tmp_path, capsys, monkeypatch, drawn
+):
     """Progress tells misfit and values once a curve; the last are those that were found."""
     measured = made_up(3, SPEEDS[::2])
     stated = []

@@ -195,7 +195,7 @@ def test_points_take_the_place_of_speeds():
         lubfric.plan_study(SCENE, {"bodies.load": [1.0]}, points={"speed": [0.1], "load": [1.0]})
 
 
-def test_the_command_takes_a_scene_with_a_table_and_writes_a_report(tmp_path, capsys, points):
+def test_the_command_takes_a_scene_with_a_table_and_writes_a_report(tmp_path, capsys, points, drawn):
     (tmp_path / "gear.csv").write_text(CSV)
     (tmp_path / "scene.toml").write_text(SCENE.to_toml())
     out = tmp_path / "out"

@@ -17,7 +17,6 @@ from lubfric._base import read_table
 from lubfric.output import main
 from lubfric.studies import Store
 
-pytestmark = pytest.mark.usefixtures("undrawn")
 ROOT = Path(__file__).parents[2]
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.01\nspeeds = [0.003, 0.01, 0.03, 0.1, 0.3]\n" + SMALL_PATCH
 HISTORY = (

@@ -43,7 +43,7 @@ def command(*arguments, **options):
     return subprocess.Popen([sys.executable, "-m", "lubfric", *map(str, arguments)], env=environment, **options)
 
 
-def test_a_study_file_is_carried_out(tmp_path, capsys):
+def test_a_study_file_is_carried_out(tmp_path, capsys, drawn):
     assert main(["study", written(tmp_path), "--out", str(tmp_path / "out")]) == 0
     said = capsys.readouterr().err
     assert (

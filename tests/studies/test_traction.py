@@ -85,7 +85,7 @@ def full_disk(path, *_):
     raise OSError(28, "No space left on device")
 
 
-def test_command_writes_the_curve(tmp_path, capsys, monkeypatch):
+def test_command_writes_the_curve(tmp_path, capsys, monkeypatch, drawn):
     (tmp_path / "map.npy").write_bytes(b"")
     surface = lubfric.generate_surface((128, 64), 4e-6, sq=2e-8, correlation_length=12e-6, seed=1)
     np.save(tmp_path / "map.npy", surface.heights)
