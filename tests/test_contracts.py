@@ -11,7 +11,7 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 import lubfric
 from lubfric.errors import CONVERGED, Report
 from lubfric.models import MODELS, DeterministicModel, Model, ModelAnswer, PaperModel, QuickModel, SampleSolution
-from lubfric.models.shared import Assumption, Decision, StandardError, Violation, contact_on_strips
+from lubfric.models.shared import Assumption, Decision, StandardError, Violation, contact_on_joined_strips
 from lubfric.output import describe_scene, main, report, study_report
 from lubfric.quantities import CHOICES, COLUMNS
 from lubfric.samples import Cells, Sample
@@ -87,7 +87,7 @@ class TestSample:
         if sample.bodies or getattr(sample, "roughness", ())[1:]:
             body = sample.of_body(0)
             assert not body.is_on_surface_of(sample)
-            on_both, on_body = (contact_on_strips(prepared, each, 1).heights for each in (sample, body))
+            on_both, on_body = (contact_on_joined_strips(prepared, each, 1).heights for each in (sample, body))
             assert np.allclose(on_body, body.strip(0).heights - body.strip(0).heights.mean(), atol=1e-15)
             assert not np.allclose(on_both, on_body, atol=1e-9)
 

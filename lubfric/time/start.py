@@ -13,7 +13,7 @@ from ..errors import CONVERGED, ConvergenceError, InputError, LubfricError, Work
 from ..estimate import solve_to_tolerance
 from ..models import prepare
 from ..models.load_sharing import BalancedSample, PaperModel, PaperSolution, film_under, solve_balance, volume_residual
-from ..models.shared import Prepared, contact_on_strips, scene_of
+from ..models.shared import Prepared, contact_on_joined_strips, scene_of
 from ..samples import Sample
 from ..scene import Constant, Scene
 from .film_setting import NODE_FACTORS, LineHistory, make_setting, steady_start
@@ -218,7 +218,7 @@ def strip_of_run(prepared: Prepared) -> RunStrip:
 
 def _made(prepared: Prepared, sample: Sample, count: int) -> Prepared:
     """Return ``prepared`` on the first ``count`` strips of ``sample``, joined to one strip."""
-    rough_contact = cast(HalfSpaceContact, contact_on_strips(prepared, sample, count))
+    rough_contact = cast(HalfSpaceContact, contact_on_joined_strips(prepared, sample, count))
     surface = replace(prepared.surface, heights=rough_contact.heights, spacing=rough_contact.spacing, mask=None)
     return replace(prepared, surface=surface, rough_contact=rough_contact, sample=sample)
 

@@ -10,7 +10,7 @@ from test_ehl import contact
 
 from lubfric import InputError, Lubricant, solve_ehl
 from lubfric.film import LineContact, thinned
-from lubfric.models.shared import exponents
+from lubfric.models.shared import film_and_exponents
 from lubfric.oil import shear_stress
 
 EYRING = {"eyring_stress": 5e6}
@@ -95,7 +95,7 @@ def test_the_film_to_expect_is_that_of_the_solution_to_a_quarter(fluid):
     film = solve_ehl(**arguments, **fluid, sliding=line.sliding)
     assert film.flow_film < 0.85 * solve_ehl(**arguments).flow_film
     assert line.expected_film == pytest.approx(film.flow_film, rel=0.25)
-    assert (exponents(line)[2] == 0) == ("inlet_film" in fluid)
+    assert (film_and_exponents(line)[2] == 0) == ("inlet_film" in fluid)
 
 
 def test_carreaus_law_as_it_is_written():

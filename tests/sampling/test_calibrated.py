@@ -27,7 +27,7 @@ from lubfric.models.quick import (
     features,
     long_cells_in_motion,
     map_coarsening_at_rest,
-    numbers_of_strip,
+    numbers_for_features,
     on_cells_along_x,
     solve_at_rest,
     solve_moving,
@@ -120,7 +120,7 @@ def test_a_strip_on_long_cells_is_the_strip_of_the_heights_that_they_take():
     pair = solve_at_rest(HEAVIER, surface, 0.1, map_coarsening=(2, 2))
     alone = solve_strip(HEAVIER, taken, 0.1)
     assert pair.resolved.result.coefficient == pytest.approx(alone.result.coefficient, rel=0.03)
-    change = numbers_of_strip(pair, 8e-6, is_smooth=True)["by_cells"]
+    change = numbers_for_features(pair, 8e-6, is_smooth=True)["by_cells"]
     sliding = [s.result.coefficient - s.result.rolling / s.result.load for s in (pair.resolved, pair.longer)]
     assert change == pytest.approx(math.log(sliding[0] / sliding[1]), rel=1e-12)
     assert pair.longer.problem.spacing == pytest.approx((3.6e-6, 4.8e-6))
@@ -144,7 +144,7 @@ def test_a_strip_that_moves_on_long_cells_starts_at_rest():
     scene = HEAVIER.with_(motion={"slide_roll_ratio": 0.5})
     cells = long_cells_in_motion(scene, [RoughBody(patch((32, 16), (1.8e-6, 2.4e-6)), 0.075)], 0.1, (8e-6, 8e-6))
     pair = solve_moving(scene, cells, 0.1)
-    numbers = numbers_of_strip(pair, 8e-6, is_smooth=True)
+    numbers = numbers_for_features(pair, 8e-6, is_smooth=True)
     assert math.isnan(numbers["by_cells"]) and math.isfinite(numbers["by_motion"])
     at_rest = pair.longer.result
     before = at_rest.coefficient - at_rest.rolling / at_rest.load

@@ -14,9 +14,9 @@ from ..shared import (
     Assumption,
     Violation,
     contact_at_inputs,
+    contact_on_joined_strips,
     contact_on_piece,
-    contact_on_strips,
-    exponents,
+    film_and_exponents,
     violations_by_model_error,
 )
 from .balance import Balance, solve_balance
@@ -38,11 +38,6 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
     scene = balanced.prepared.scene
     numbers = _numbers(balanced)
     errors = errors_of(balanced)
-    of_sample = {
-        "coarsening": balanced.sample.cells.coarsening,
-        "strips": balanced.count,
-        "change_by_cells": balanced.relative_change(balanced.effect.gap_change),
-    }
     oil = scene.lubricant.oil
     temperature = scene.lubricant.temperature
     estimated = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
@@ -55,7 +50,13 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         most_rolling_ratio=OF_ROLLING if has_moving_roughness(scene) else 2.0,
         report=replace(report, notes=(*report.notes, *estimated)),
         decision=decision_of(
-            scene, balanced.rough_contact, balanced.corrected_balance, numbers["clearance"], **of_sample
+            scene,
+            balanced.rough_contact,
+            balanced.corrected_balance,
+            clearance=numbers["clearance"],
+            coarsening=balanced.sample.cells.coarsening,
+            strips=balanced.count,
+            change_by_cells=balanced.relative_change(balanced.effect.gap_change),
         ),
         errors=errors.errors,
         why_no_error=errors.why_no_error,
@@ -66,13 +67,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         notes=errors.notes,
         violations=(
             *violations_of_sample(balanced),
-            *(
-                violations_by_model_error(
-                    balanced.prepared, max(errors.model_error), numbers["coefficient"], consequence=FROM_EQUATION
-                )
-                if scene.numerics.model == "auto"
-                else ()
-            ),
+            *_model_error_under_auto(balanced, max(errors.model_error), numbers["coefficient"]),
             *_violations_by_finer_cells(
                 balanced.relative_change(balanced.effect.finer_grid_change), scene.numerics.tolerance
             ),
@@ -88,6 +83,14 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         ),
         at_inputs=lambda: _at_inputs(balanced),
     )
+
+
+def _model_error_under_auto(balanced: BalancedSample, error: float, f: float) -> tuple[Violation, ...]:
+    """Return the violation by a model-form ``error`` of ``f``, relative, that is too large; a scene that names the paper's
+    model accepts its error."""
+    if balanced.prepared.scene.numerics.model != "auto":
+        return ()
+    return tuple(violations_by_model_error(balanced.prepared, error, f, consequence=FROM_EQUATION))
 
 
 def violations_of_sample(balanced: BalancedSample) -> tuple[Violation, ...]:
@@ -159,7 +162,7 @@ def _at_inputs(balanced: BalancedSample) -> AtInputs:
     prepared = balanced.prepared
     sample = prepared.sample
     surface = prepared.surface
-    rough_contact = contact_on_strips(prepared, sample, sample.first_strips)
+    rough_contact = contact_on_joined_strips(prepared, sample, sample.first_strips)
     start = solve_balance(prepared.scene, balanced.speed, rough_contact, surface.sq)
 
     def coefficient(scene: Scene) -> float:
@@ -233,4 +236,6 @@ def _steepness(balanced: BalancedSample) -> float:
         return math.nan
     scene = balanced.prepared.scene
     line = replace(scene.line_contact(balanced.speed), load_per_width=balance.film_load / scene.bodies.width)
-    return -exponents(line)[2] * response.log_load_ratio_per_gap * gap_per_film(balance.contact_state.mean_film)
+    return (
+        -film_and_exponents(line)[2] * response.log_load_ratio_per_gap * gap_per_film(balance.contact_state.mean_film)
+    )

@@ -9,7 +9,7 @@ from ...errors import CONVERGED, ConvergenceError, Report
 from ...film import EHLResult
 from ...scene import Scene, budget
 from ..contract import ModelDetails
-from ..shared import exponents, is_of_impossible_stress
+from ..shared import film_and_exponents, is_of_impossible_stress
 from .closure import gap_under, residual_slope, volume_residual
 from .forces import Forces, forces_of
 from .point import Point, Settings, Trial
@@ -297,12 +297,12 @@ def predict_log_load_ratio(point: Point, start: Balance) -> tuple[float, float |
     load = point.scene.bodies.load
     slope = start.slope
     line = point.line(start.film_load)
-    before, exponent, _ = exponents(replace(line, entrainment_speed=start.film.entrainment_speed))
+    before, exponent, _ = film_and_exponents(replace(line, entrainment_speed=start.film.entrainment_speed))
     stiffness = max(2 * slope * load - exponent * start.contact_load, 0.0) / start.film_load
     log_load_ratio = start.log_load_ratio
     for _ in range(MOST_NEWTON_ITERATIONS):
         film_load, contact_load = loads_at(load, log_load_ratio)
-        film, exponent, _ = exponents(point.line(film_load))
+        film, exponent, _ = film_and_exponents(point.line(film_load))
         slope_of_excess = (stiffness * film_load + exponent * contact_load) / load
         excess = -stiffness * math.log(contact_load / start.contact_load) - math.log(film / before)
         log_load_ratio = min(

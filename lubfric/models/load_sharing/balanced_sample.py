@@ -20,8 +20,8 @@ from ..shared import (
     ReferenceKey,
     StandardError,
     add_errors,
+    contact_on_joined_strips,
     contact_on_piece,
-    contact_on_strips,
     has_too_few_contacts,
     remembered,
     speed_of,
@@ -261,7 +261,7 @@ def solve_sample(
     """Solve the first ``count`` strips of ``sample`` at ``speed`` [m/s], joined to one line with one film and one
     approach. ``start``: the solution of fewer of them. Raises `ConvergenceError`."""
     scene = prepared.scene
-    rough_contact = contact_on_strips(prepared, sample, count)
+    rough_contact = contact_on_joined_strips(prepared, sample, count)
     begin = _reference(prepared, speed, sample) if start is None else start.start
     coarse = not sample.cells.is_native
     raw_balance = solve_balance(scene, speed, rough_contact, prepared.surface.sq, begin, correctable=coarse)
@@ -315,7 +315,7 @@ def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | No
     def make() -> Balance | None:
         there = speed_of(scene, nearest * sq) * math.copysign(1.0, speed)
         try:
-            return solve_balance(scene, there, contact_on_strips(prepared, sample, sample.first_strips), sq)
+            return solve_balance(scene, there, contact_on_joined_strips(prepared, sample, sample.first_strips), sq)
         except WorkLimitError:  # not of that speed: a point with more work left solves it
             raise
         except LubfricError:

@@ -51,8 +51,9 @@ def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlV
     if response is None or response.rates is None:
         error = StandardError(balanced.sampling_error.value, FREEDOM_NOT_COUNTED)
         return ControlVariate(by_place=places, numbers=numbers, sampling_error=error)
-    gap, loads = (of(rough_contact, raw_balance.contact_state) for of in (hertz_mean_gap, line_load))
-    influence = gap_influence(gap, loads, response.slopes.gap)
+    gap = hertz_mean_gap(rough_contact, raw_balance.contact_state)
+    load = line_load(rough_contact, raw_balance.contact_state)
+    influence = gap_influence(gap, load, response.slopes.gap)
     moved = response.log_load_ratio_per_gap * of_strips(influence).mean(axis=1)  # of ln(F_H/F_C)
     values = quantities(
         raw_balance.forces,

@@ -1,7 +1,6 @@
 """What was modelled by load sharing, as text."""
 
 import math
-from typing import Any
 
 from ...contact import RoughContact
 from ...scene import Scene, budget
@@ -10,12 +9,18 @@ from .balance import Balance
 
 
 def decision_of(
-    scene: Scene, rough_contact: RoughContact, balance: Balance, clearance: float, **of_sample: Any
+    scene: Scene,
+    rough_contact: RoughContact,
+    balance: Balance,
+    *,
+    clearance: float,
+    coarsening: tuple[int, int],
+    strips: int,
+    change_by_cells: float,
 ) -> Decision:
     """Return the decision of the paper's model behind ``balance`` on ``rough_contact``.
 
-    ``clearance`` [Sq]: between the film and the highest summits, NaN in contact; ``of_sample``: further fields of
-    `Decision`.
+    ``clearance`` [Sq]: between the film and the highest summits, NaN in contact; others are fields of `Decision`.
     """
     tolerance = scene.numerics.tolerance
     film = balance.film
@@ -37,5 +42,7 @@ def decision_of(
         shape=grid if touching else None,
         heat_in_words=heat,
         notes=notes,
-        **of_sample,
+        coarsening=coarsening,
+        strips=strips,
+        change_by_cells=change_by_cells,
     )

@@ -247,12 +247,10 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
     balance = balanced.corrected_balance
     scene = balanced.prepared.scene
     if balance.film is None:
-        fed = scene.lubricant.inlet_film
-        return (
-            (NO_ERROR, ())
-            if fed is None or balanced.speed == 0
-            else (starved_error(fed, balance.contact_state.mean_gap), (GAP_NOT_FILLED,))
-        )
+        arriving = scene.lubricant.inlet_film
+        if arriving is None or balanced.speed == 0:
+            return NO_ERROR, ()
+        return starved_error(arriving, balance.contact_state.mean_gap), (GAP_NOT_FILLED,)
     if balanced.on_cells is None:
         return UNKNOWN, (NOT_STUDIED,)
     if why := why_gap_not_resolved(scene):

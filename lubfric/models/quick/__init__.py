@@ -16,7 +16,7 @@ from .long_cells import (
     long_cells_of,
     map_coarsening_at_rest,
     map_coarsening_in_motion,
-    numbers_of_strip,
+    numbers_for_features,
     on_cells_along_x,
     solve_at_rest,
     solve_moving,

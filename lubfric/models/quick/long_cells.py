@@ -245,7 +245,7 @@ def solve_moving(
     return StripOnTwoGrids(resolved=strip, longer=strip.rest)
 
 
-def numbers_of_strip(pair: StripOnTwoGrids, length: float, *, is_smooth: bool) -> dict[str, float]:
+def numbers_for_features(pair: StripOnTwoGrids, length: float, *, is_smooth: bool) -> dict[str, float]:
     """Return the numbers of a strip by which `features` are found: parts of f, f at half and at twice the boundary film,
     and ln of the sliding part of f over that on longer cells, ``by_cells``, or, of moving roughness, at rest, ``by_motion``
     (NaN: not known); ``coarse``, the cell along x over the correlation ``length`` [m], and ``smooth``, 1 where heights are
@@ -276,7 +276,7 @@ def numbers_of_strip(pair: StripOnTwoGrids, length: float, *, is_smooth: bool) -
 
 
 def features(numbers: Mapping[str, float], boundary_friction: float) -> dict[str, float]:
-    """Return what bias and σ may depend on, by name, for the ``numbers`` of a strip (`numbers_of_strip`).
+    """Return what bias and σ may depend on, by name, for the ``numbers`` of a strip (`numbers_for_features`).
 
     ``boundary_friction``: f_b. The features are
 

@@ -31,7 +31,7 @@ from .long_cells import (
     features,
     long_cells_in_motion,
     map_coarsening_at_rest,
-    numbers_of_strip,
+    numbers_for_features,
     solve_at_rest,
     solve_moving,
 )
@@ -183,7 +183,7 @@ def _error_of_references(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -
 def _features_of(prepared: Prepared, pair: StripOnTwoGrids) -> dict[str, float]:
     """Return the `features` of a ``pair``."""
     length = prepared.sample.correlation_lengths[0]
-    numbers = numbers_of_strip(pair, length, is_smooth=smooth_over_cells(prepared.surface.heights))
+    numbers = numbers_for_features(pair, length, is_smooth=smooth_over_cells(prepared.surface.heights))
     return features(numbers, prepared.scene.bodies.boundary_friction_coefficient)
 
 

@@ -38,7 +38,7 @@ from .checks_before import (
 )
 from .control_variate import ControlVariate, with_forces_of_film
 from .decision import Decision
-from .film_speed import exponents, speed_of
+from .film_speed import film_and_exponents, speed_of
 from .heat import Heat, error_by_heat, film_lubricant, inlet_at, peclet_at, point_heat, surroundings, typical_heat
 from .largest_friction import at_largest_ends, largest_at_load, largest_of_oil, largest_sliding_friction
 from .memo import JoinedKey, Key, Memo, ReferenceKey
@@ -47,9 +47,9 @@ from .prepared import (
     Prepared,
     cells_of_contact,
     contact_at_inputs,
+    contact_on_joined_strips,
     contact_on_piece,
     contact_on_strip,
-    contact_on_strips,
     operator_on,
     remembered,
     scene_of,

@@ -14,7 +14,7 @@ NUDGE = 1e-3
 SPEED_ACCURACY = 1e-6
 
 
-def exponents(line: LineContact) -> tuple[float, float, float]:
+def film_and_exponents(line: LineContact) -> tuple[float, float, float]:
     """Return the expected film h [m] of ``line``, and m and e of h ~ load^-m speed^e about it."""
 
     def change(other: LineContact) -> float:

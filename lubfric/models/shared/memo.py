@@ -33,7 +33,7 @@ class Key(Generic[T]):
 
 @dataclass(frozen=True)
 class JoinedKey(Key[RoughContact]):
-    """The contact on the first ``count`` strips, on cells of this ``coarsening``."""
+    """The contact on the first ``count`` strips, joined, on cells of this ``coarsening``."""
 
     coarsening: tuple[int, int]
     count: int
@@ -41,7 +41,7 @@ class JoinedKey(Key[RoughContact]):
 
 @dataclass(frozen=True)
 class StripKey(Key[HalfSpaceContact]):
-    """The contact on strip ``index`` alone."""
+    """The contact on strip ``index`` alone, on cells of this ``coarsening``."""
 
     coarsening: tuple[int, int]
     index: int

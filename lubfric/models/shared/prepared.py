@@ -88,8 +88,8 @@ def remembered(
     return prepared.memo.get(key, make, cells) if sample.is_on_surface_of(prepared.sample) else make()
 
 
-def contact_on_strips(prepared: Prepared, sample: Sample, count: int) -> RoughContact:
-    """Return the contact on the first ``count`` strips of ``sample``; of an unresolved one the only contact.
+def contact_on_joined_strips(prepared: Prepared, sample: Sample, count: int) -> RoughContact:
+    """Return the contact on the first ``count`` strips of ``sample``, joined to one line; of an unresolved one the only contact.
 
     ``sample``: that of ``prepared``, on any cells, or one of its bodies (`Sample.of_body`).
     """

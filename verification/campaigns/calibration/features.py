@@ -7,7 +7,7 @@ from lubfric.models.quick import (
     CELLS_OF_THIN_FILM,
     long_cells_of,
     map_coarsening_at_rest,
-    numbers_of_strip,
+    numbers_for_features,
     solve_at_rest,
     solve_moving,
 )
@@ -35,5 +35,5 @@ def quick(case: Case, per_length: float) -> dict[str, float]:
         )
         pair = solve_at_rest(case.scene, case.surface, case.speed, map_coarsening=map_coarsening)
         film_at_rest = 0.0
-    numbers = numbers_of_strip(pair, lengths[0], is_smooth=facts["acf"] == "gaussian")
+    numbers = numbers_for_features(pair, lengths[0], is_smooth=facts["acf"] == "gaussian")
     return numbers | {"film_at_rest": film_at_rest, "seconds": time.process_time() - begun}
