@@ -59,8 +59,8 @@ def work_for_an_answer() -> float:
 
 
 def _most_expensive(prepared: Prepared, speed: float, models: list[Model], named: Model, *, for_fields: bool) -> Choice:
-    """Return the solution of the most expensive of ``models``, from the cheapest on: of the ``named`` model, or of the one that
-    answers in its place.
+    """Return the solution of the most expensive of ``models``, from the cheapest on: of the ``named`` model, or of the
+    one that answers in its place.
 
     Where it takes the strips of the cheapest as a control, these are solved before.
     """
@@ -115,8 +115,8 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
 def _completed(choice: Choice) -> Choice:
     """Return ``choice`` with its solution completed (`SampleSolution.completed`): all that its answer needs is solved.
 
-    After a more expensive model was tried in vain, that may take what is left of the work, or `LEAST_WORK_OF_CHEAPEST`; where
-    it is not enough, the solution stays as it is.
+    After a more expensive model was tried in vain, that may take what is left of the work, or `LEAST_WORK_OF_CHEAPEST`;
+    where it is not enough, the solution stays as it is.
     """
     try:
         with limited_work(work_for_an_answer()) if choice.gave_up else nullcontext():

@@ -97,8 +97,8 @@ def _signed(percentage: float) -> str:
 def with_input_ranges(old: Uncertainty, changes_of_f: dict[str, tuple[float, ...] | str]) -> Uncertainty:
     """Return ``old`` with the ``changes_of_f`` [-] by the two ends of inputs, by name (`changes_by_ranges`).
 
-    Those of several inputs add up as squares, below and above f for themselves. One that is not known leaves ``inputs`` NaN,
-    and a note.
+    Those of several inputs add up as squares, below and above f for themselves. One that is not known leaves ``inputs``
+    NaN, and a note.
     """
     f = old.coefficient
     moved = {name: ends for name, ends in changes_of_f.items() if not isinstance(ends, str)}

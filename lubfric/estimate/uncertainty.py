@@ -248,8 +248,8 @@ def _why_no_relative_error(number: float) -> str:
 
 
 def with_part(uncertainty: Uncertainty, below: float, above: float) -> Uncertainty:
-    """Return ``uncertainty`` with another part in its interval, which moves f [-] so far ``below`` and ``above`` it at 95 %:
-    parts add up as squares, on each side for themselves."""
+    """Return ``uncertainty`` with another part in its interval, which moves f [-] so far ``below`` and ``above`` it at
+    95 %: parts add up as squares, on each side for themselves."""
     f = uncertainty.coefficient
     low, high = uncertainty.interval
     return replace(uncertainty, interval=(f - math.hypot(f - low, below), f + math.hypot(high - f, above)))

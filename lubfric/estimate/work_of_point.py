@@ -1,5 +1,5 @@
-"""An estimate of what a point will take: the estimates of all models that would be solved (`Model.estimate_work`). Nothing is
-solved."""
+"""An estimate of what a point will take: the estimates of all models that would be solved (`Model.estimate_work`).
+Nothing is solved."""
 
 import math
 from collections.abc import Collection, Container, Sequence

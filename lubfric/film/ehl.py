@@ -161,8 +161,8 @@ def _fed(full: FilmProblem, flow: float, effort: Effort, state: FilmState | None
 def _searched_inlet(
     problem: FilmProblem, effort: Effort, state: FilmState, furthest: float, spent: Any, notes: Any
 ) -> NestedSolutions:
-    """Return the same by a search for the inlet. Where nearly as much arrives as the full inlet takes, the flow
-    depends little on where the lubricant begins, and Newton's method for that place fails."""
+    """Return the solutions under a given flow by a search for the inlet. Where nearly as much arrives as the full inlet
+    takes, the flow depends little on where the lubricant begins, and Newton's method for that place fails."""
     flow = problem.fed
     guess = problem.inlet
     b = problem.half_width

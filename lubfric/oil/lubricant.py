@@ -24,7 +24,7 @@ DENSITY_PRESSURE = 5.9e8
 ROELANDS_LOG_VISCOSITY = 9.67
 # Stress [Pa] at ambient pressure above every limiting stress measured in oils.
 CARRIED_AT_REST = 5e6
-# Its rise with the pressure [Pa/Pa]; measured limiting stresses have 0.03 to 0.1.
+# Rise of `CARRIED_AT_REST` with the pressure [Pa/Pa]; measured limiting stresses have 0.03 to 0.1.
 CARRIED = 0.12
 # Pressure [Pa] at which no oil flows.
 NO_LIQUID = 1e10

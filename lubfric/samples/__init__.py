@@ -1,4 +1,5 @@
-"""The sample of rough surface that represents the infinite line contact: strips of it, one patch, or a contact without cells.
+"""The sample of rough surface that represents the infinite line contact: strips of it, one patch, or a contact without
+cells.
 
 `contract` says what a `Sample` is: strips by number, pieces on native cells, and the rough contact on them. `choose` says
 which one a scene gets: `strips` (generated, or windows of a measured map), or `patch` (one map, and contacts that are

@@ -14,8 +14,8 @@ from ..scene import Roughness, Scene
 from ..surface import Surface, correlation_length
 from ..units import worded
 
-# Cells in the shortest correlation length of the grid that a message suggests [-]. Not measured: a summit of a Gaussian surface is
-# some correlation lengths wide.
+# Cells in the shortest correlation length of the grid that a message suggests [-]. Not measured: a summit of a Gaussian
+# surface is some correlation lengths wide.
 EXAMPLE_CELLS = 10
 
 # Longest correlation lengths along x of the grid that a message suggests [-]. Not measured.
@@ -146,7 +146,8 @@ def cells_of_a_box(
     shape: tuple[int, int],
     first: float | None = None,
 ) -> Cells:
-    """Return the largest cells over exactly the columns of ``shape``; where ``first`` is given, over exactly its rows too."""
+    """Return the largest cells over exactly the columns of ``shape``; where ``first`` is given, over exactly its rows
+    too."""
     fx, fy = longest_coarsening(spacing, lengths, half_width)
     while shape[0] % (2 * fx) and fx > 1:
         fx //= 2
@@ -186,8 +187,8 @@ def length_or_half(surface: Surface, axis: int) -> float:
 
 
 def reach_of(scene: Scene, sq: float) -> float:
-    """Return the length [m] along x that contains the contact: it ends where an undeformed cylinder, resting on the ends of the
-    Hertz strip, has risen by `HIGHEST_SUMMITS` Sq."""
+    """Return the length [m] along x that contains the contact: it ends where an undeformed cylinder, resting on the
+    ends of the Hertz strip, has risen by `HIGHEST_SUMMITS` Sq."""
     bodies = scene.bodies
     return 2 * math.sqrt(bodies.half_width**2 + 2 * bodies.radius * HIGHEST_SUMMITS * sq)
 
@@ -227,7 +228,8 @@ def joined_maps(maps: list[np.ndarray], blend: int) -> np.ndarray:
 
 
 def spread_order(count: int) -> list[int]:
-    """Return the numbers 0 .. count - 1 in an order that begins in the middle, each number as far from those before as possible."""
+    """Return the numbers 0 .. count - 1 in an order that begins in the middle, each number as far from those before as
+    possible."""
     left = set(range(count))
     order: list[int] = []
     while left:

@@ -169,8 +169,8 @@ class Sample(ABC):
         return self.joined([index])
 
     def stated_map(self) -> Surface:
-        """Return the map whose statistics are stated, as Sq: the `first_strips`, joined on `cells`; of a single patch all of it,
-        on native cells. A prepared scene has it as its surface."""
+        """Return the map whose statistics are stated, as Sq: the `first_strips`, joined on `cells`; of a single patch
+        all of it, on native cells. A prepared scene has it as its surface."""
         return self.joined(range(self.first_strips))
 
     @property

@@ -43,8 +43,9 @@ STRIP_LENGTHS = 90.0
 # measured.
 WIDE_HALF_WIDTH = 5.0
 
-# Correlation lengths along y of a strip whose roughness moves, where the half-width has `WIDE_HALF_WIDTH` of them: other places
-# pass through the contact in time. Not measured: the sampling error is reported with a strip of any length.
+# Correlation lengths along y of a strip whose roughness moves, where the half-width has `WIDE_HALF_WIDTH` of them:
+# other places pass through the contact in time. Not measured: the sampling error is reported with a strip of any
+# length.
 MOVING_STRIP_LENGTHS = 30.0
 
 # Correlation lengths of the `Sample.first_strips`: 20 blocks, whose scatter is known to 1/sqrt(38) = 16 %. Half and twice as
@@ -202,9 +203,11 @@ class MeasuredStrips(Sample):
         ]
 
     def sq_deviation(self, surface: Surface) -> tuple[float, float]:
-        """Return the same as `Sample.sq_deviation`. The variance of heights over an area A scatters by (Sku - 1)/N, and falls
-        short by that of their mean, 2/N or less, where A has N = A/(π lx ly/2) independent places: the integral of the
-        squared autocorrelation, of a Gaussian and of an exponential one alike (Bendat and Piersol, Random Data, ch. 8)."""
+        """Return how far Sq of ``surface`` deviates from that of the map (`Sample.sq_deviation`).
+
+        The variance of heights over an area A scatters by (Sku - 1)/N, and falls short by that of their mean, 2/N or
+        less, where A has N = A/(π lx ly/2) independent places: the integral of the squared autocorrelation, of a
+        Gaussian and of an exponential one alike (Bendat and Piersol, Random Data, ch. 8)."""
         whole = self.surface
         if whole.sq == 0 or surface.sq == 0:
             return 0.0, 0.0

@@ -56,7 +56,8 @@ FAR_ABOVE = 10.0
 FAR_BELOW = 1000.0
 # Key of the radii of both bodies.
 RADII_KEY = "bodies.radii"
-# The same of them: of rollers of 6 to 30 mm a plain number is less than `FAR_ABOVE` times the usual one in m. A convention.
+# Times the usual range above it, from which a plain number of `RADII_KEY` is refused: of rollers of 6 to 30 mm it is
+# less than `FAR_ABOVE` times the usual one in m. A convention.
 FAR_ABOVE_OF_RADII = 2.0
 # Part of a table or of a period that a run shows, below which a time is likely in another unit: ms for s are 1e-3. A
 # convention.
@@ -288,8 +289,8 @@ def other_convention(key: str, values: Iterable[Any]) -> str:
 
 
 def check_ratios(name: str, ratios: Any) -> None:
-    """Raise `InputError` where plain slide-roll ``ratios``, as the user wrote them, are as percentages are: one above 2, where
-    the surfaces move in opposite directions, and none below 1 but 0. ``name``: what they are called."""
+    """Raise `InputError` where plain slide-roll ``ratios``, as the user wrote them, are as percentages are: one above
+    2, where the surfaces move in opposite directions, and none below 1 but 0. ``name``: what they are called."""
     parts = ratios if isinstance(ratios, (list, tuple, np.ndarray)) else [ratios]
     sizes = [
         abs(float(v)) for v in parts if isinstance(v, (int, float, np.number)) and not isinstance(v, bool) and v != 0

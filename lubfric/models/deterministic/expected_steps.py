@@ -15,24 +15,27 @@ from .counted_work import work_of_steps
 from .problem import are_soft
 from .solve import MOST_FACTORISATIONS
 
-# Newton steps on a strip, about [-]: 6 on longer cells, 8 on the strip itself. 90 % within a factor of 3 with `STEPS_BY_PRESSING`.
+# Newton steps on a strip, about [-]: 6 on longer cells, 8 on the strip itself. 90 % within a factor of 3 with
+# `STEPS_BY_PRESSING`.
 STRIP_STEPS = 9
 
 # Newton steps on a strip whose neighbour is solved [-]: at an end of the range of an input.
 AGAIN = 4
 
-# Iterations of GMRES in a step over the pressure-viscosity coefficient times Hertz pressure [-]: 1.4, 4.4, 10 at 1.1, 3.4, 11.
+# Iterations of GMRES in a step over the pressure-viscosity coefficient times Hertz pressure [-]: 1.4, 4.4, 10 at 1.1,
+# 3.4, 11.
 KRYLOV_BY_THICKENING = 1.2
 
-# These iterations, at most [-].
+# Iterations of GMRES in a step that are expected, at most [-].
 MOST_KRYLOV_ITERATIONS = 9.0
 
-# Newton steps on a strip where a given film arrives [-]: 9 on longer cells, 16 on the strip itself. 79 % within a factor of 3 with
-# `STEPS_BY_PRESSING`.
+# Newton steps on a strip where a given film arrives [-]: 9 on longer cells, 16 on the strip itself. 79 % within a
+# factor of 3 with `STEPS_BY_PRESSING`.
 STARVED_STEPS = 15.0
 
-# Change of ln of these steps with how far a thin film is pressed between conforming bodies, ln(flattening/Sq)·(1/2 - ln Λ),
-# each factor 0 at least [-]: .30 on longer cells, .24 on the strip itself, .25 and .27 where flooded. Λ: of the film that arrives.
+# Change of ln of these steps with how far a thin film is pressed between conforming bodies, ln(flattening/Sq)·(1/2 - ln
+# Λ), each factor 0 at least [-]: .30 on longer cells, .24 on the strip itself, .25 and .27 where flooded. Λ: of the
+# film that arrives.
 STEPS_BY_PRESSING = 0.25
 
 # Logarithm of the lambda ratio below which that begins [-]: Λ 1.6.
@@ -60,8 +63,8 @@ SOFT_AGAIN = 0.2
 
 @dataclass(frozen=True, kw_only=True)
 class ExpectedSteps:
-    """Newton steps that are expected of a strip at rest: ``first``, from the dry contact or from longer cells, ``again``, from
-    a solution nearby; ``krylov``: iterations of GMRES in each."""
+    """Newton steps that are expected of a strip at rest: ``first``, from the dry contact or from longer cells,
+    ``again``, from a solution nearby; ``krylov``: iterations of GMRES in each."""
 
     first: float
     again: float
@@ -94,6 +97,7 @@ def expected_steps(scene: Scene, sq: float, speed: float) -> ExpectedSteps:
 
 
 def _pressed(line: LineContact, sq: float, film: float) -> float:
-    """Return how far a ``film`` [m] on roughness of ``sq`` [m] is pressed between conforming bodies (`STEPS_BY_PRESSING`)."""
+    """Return how far a ``film`` [m] on roughness of ``sq`` [m] is pressed between conforming bodies
+    (`STEPS_BY_PRESSING`)."""
     flattening = line.half_width**2 / (2 * line.radius)
     return max(math.log(flattening / sq), 0.0) * max(STEPS_BY_PRESSING_BELOW - math.log(film / sq), 0.0)

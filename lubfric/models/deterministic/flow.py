@@ -77,8 +77,8 @@ def pressure_flow(problem: Problem, fluid: CellFluid, p: FloatArray, h: FloatArr
 
 @dataclass(frozen=True)
 class CouetteFlow:
-    """Couette flow through the faces behind every cell along x [m²/s] (nx, ny); derivatives by rho h of that cell and of the one
-    before it [m/s], and by the filled part of the cell [m²/s]."""
+    """Couette flow through the faces behind every cell along x [m²/s] (nx, ny); derivatives by rho h of that cell and
+    of the one before it [m/s], and by the filled part of the cell [m²/s]."""
 
     flow: np.ndarray
     by_own: np.ndarray

@@ -13,9 +13,9 @@
 The control is by how much each strip differs from the many strips that Eq. (8) joins
 (`lubfric.models.load_sharing.control_variate`). It shows what is chance in the few. These are few where both models
 scatter alike, as they do about lift-off on most surfaces. Where they do not, the control is omitted. Which of the two
-needs fewer strips is read off those that are solved (M. B. Giles, Oper. Res. 56 (2008) 607-617, doi:10.1287/opre.1070.0496).
-Where roughness moves there is level 2 alone, with the control of its summits (`summits`) and a factor for the cells
-(`cells_in_motion`).
+needs fewer strips is read off those that are solved (M. B. Giles, Oper. Res. 56 (2008) 607-617,
+doi:10.1287/opre.1070.0496). Where roughness moves there is level 2 alone, with the control of its summits (`summits`)
+and a factor for the cells (`cells_in_motion`).
 """
 
 import math
@@ -198,9 +198,9 @@ def solve_pairs(
 
 
 def _first_pair(prepared: Prepared, speed: float) -> StripOnTwoGrids:
-    """Solve the first strip; where roughness moves, once more on cells half as long along y if the error by the cells is
-    above ``numerics.model_tolerance`` and the shorter ones reduce it (`CellsInMotion.shorter_ones_pay`), where as many strips as the sample needs
-    stay within `MOST_WORK_OF_POINT`."""
+    """Solve the first strip; where roughness moves, once more on cells half as long along y if the error by the cells
+    is above ``numerics.model_tolerance`` and the shorter ones reduce it (`CellsInMotion.shorter_ones_pay`), where as
+    many strips as the sample needs stay within `MOST_WORK_OF_POINT`."""
     pair = solve_pair(prepared, speed, None, 0)
     if not has_moving_roughness(prepared.scene) or surface_and_map_coarsening(prepared, 0)[1][1] % 2:
         return pair

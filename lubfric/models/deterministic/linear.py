@@ -221,9 +221,9 @@ class System:
 def flow_of_first_order(data: FloatArray) -> None:
     """Let the coefficients ``data`` (6, nx, ny) of the cell two cells upstream count for the next one, in place.
 
-    The Couette flow of the preconditioner then is first-order upwind: its LU has half the entries, and its single precision
-    loses less. A roller of 1 GPa at rest at 10, 3, 1, 0.3 m/s takes 99, 300, 555, 763 iterations of GMRES with the second-order
-    flow, and 93, 232, 441, 788 with this one, in 22 % less time.
+    The Couette flow of the preconditioner then is first-order upwind: its LU has half the entries, and its single
+    precision loses less. A roller of 1 GPa at rest at 10, 3, 1, 0.3 m/s takes 99, 300, 555, 763 iterations of GMRES
+    with the second-order flow, and 93, 232, 441, 788 with this one, in 22 % less time.
     """
     far = Stencil.NAMES.index("WW")
     data[Stencil.NAMES.index("W")] += data[far]
@@ -231,7 +231,8 @@ def flow_of_first_order(data: FloatArray) -> None:
 
 
 def _notable(data: FloatArray) -> np.ndarray:
-    """Return the coefficients ``data`` (6, nx, ny) with zeros where one is smaller than `OMITTED_COEFFICIENT` of the cell's own."""
+    """Return the coefficients ``data`` (6, nx, ny) with zeros where one is smaller than `OMITTED_COEFFICIENT` of the
+    cell's own."""
     diagonal = Stencil.NAMES.index(0)
     size = np.abs(data)
     least = OMITTED_COEFFICIENT * size[diagonal]
@@ -364,8 +365,8 @@ def nested_dissection(nx: int, ny: int) -> np.ndarray:
     elimination.
 
     A line of cells cuts the grid in two and comes last. Each half is cut again, and so on (A. George, SIAM J. Numer.
-    Anal. 10 (1973) 345-363, doi:10.1137/0710032). y is periodic, and is cut twice first. The order follows from the grid at no cost. It fills in less than a
-    minimum degree order that is found anew for every matrix.
+    Anal. 10 (1973) 345-363, doi:10.1137/0710032). y is periodic, and is cut twice first. The order follows from the
+    grid at no cost. It fills in less than a minimum degree order that is found anew for every matrix.
     """
     order = np.concatenate(_ring(np.arange(nx * ny).reshape(nx, ny)))
     order.flags.writeable = False

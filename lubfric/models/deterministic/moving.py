@@ -11,10 +11,10 @@ half-width. With BDF2 along the lubricant, ten cells in the half-width of a need
 short inlet. Then f, which depends on the thinnest film, was 33 % too high; with BDF3 it is 6 % too high.)
 
 Where all roughness is slower than U/2, or some is faster than 2 U, the fastest rough body moves by one cell in a step.
-Then steps are BDF2 of the cell itself, the Couette flow is second-order upwind, and the first step is implicit Euler; so are
-runs in time, whose speed changes from step to step. (A needle roller whose roughness moves at 0.2 U: f .0500, on cells half
-as long .0505; in steps along the lubricant .0493 and .0482, at five to eight times the work. Third-order upwind of cells at
-rest would change the steady film too.)
+Then steps are BDF2 of the cell itself, the Couette flow is second-order upwind, and the first step is implicit Euler;
+so are runs in time, whose speed changes from step to step. (A needle roller whose roughness moves at 0.2 U: f .0500, on
+cells half as long .0505; in steps along the lubricant .0493 and .0482, at five to eight times the work. Third-order
+upwind of cells at rest would change the steady film too.)
 
 f is that of surface 2, the upper one, against its sliding u2 - u1, or against U in pure rolling (`Problem.sense`).
 """
@@ -62,15 +62,15 @@ SMOOTHED_HALF_WIDTHS = 0.4
 # m/s takes 9 % more Newton steps, a flank with a slide-roll ratio of 1.28 5 to 30 %.
 EXTRAPOLATED = 0.5
 
-# Steps in time after a start from rest that begin without `EXTRAPOLATED` [-]: the change from rest to motion does not go on. Without
-# them the first steps of random contacts took 46, 29, 12, 11 Newton steps instead of 20, 7, 7, 7, those of a needle
-# roller 38 and 59 instead of 19 and 13.
+# Steps in time after a start from rest that begin without `EXTRAPOLATED` [-]: the change from rest to motion does not
+# go on. Without them the first steps of random contacts took 46, 29, 12, 11 Newton steps instead of 20, 7, 7, 7, those
+# of a needle roller 38 and 59 instead of 19 and 13.
 STEPS_FROM_REST = 2
 
-# Part of a Newton step that is taken in a step in time, whatever the gap of a cell says [-]. Where two bodies move at unlike
-# speeds, summits of both meet at its start, and single cells would limit seven of eight steps to 0.1 to 0.3. With 0.1, 0.3, 0.5 a
-# gear flank with a slide-roll ratio of 1.36 takes 18, 13, 11 s of counted work, six other rolling contacts 68, 58, 60 s; f moves
-# by up to 0.6, 1.5 %.
+# Part of a Newton step that is taken in a step in time, whatever the gap of a cell says [-]. Where two bodies move at
+# unlike speeds, summits of both meet at its start, and single cells would limit seven of eight steps to 0.1 to 0.3.
+# With 0.1, 0.3, 0.5 a gear flank with a slide-roll ratio of 1.36 takes 18, 13, 11 s of counted work, six other rolling
+# contacts 68, 58, 60 s; f moves by up to 0.6, 1.5 %.
 LEAST_PART_IN_MOTION = 0.3
 
 # Relative difference up to which the lubricant passes one cell in a step [-]. A convention, far above rounding.

@@ -19,8 +19,8 @@ from .state import TOUCHING, Iterate, State, TimeHistory, admissible, evaluated,
 # on a soft film.
 KEEP = 0.2
 
-# Floors by which a cell may nevertheless sink below the floor in a step [-]: cells at the floor would stop all others. Half takes
-# 2 % less work (15 % less on a soft film), twice changes nothing.
+# Floors by which a cell may nevertheless sink below the floor in a step [-]: cells at the floor would stop all others.
+# Half takes 2 % less work (15 % less on a soft film), twice changes nothing.
 MOST_SINKING = 3.0
 
 # Part of a Newton step that is taken, whatever the gap of a cell says [-]. Half and twice change the work by 1 %.
@@ -34,9 +34,9 @@ STEP_HALVINGS = 10
 # 12, 11, 13, 16, and 10 takes up to 35.
 RESIDUAL_GROWTH = 1.05
 
-# Factor by which the residual may grow in a step as short as `LEAST_STEP_PART`, or at rest by cells that change their kind [-]:
-# the next step solves those by another equation. Half and twice change nothing. Without them a starved film takes 20 % more
-# Newton steps; with them in steps in time a roller of 1 GPa takes 22 % more.
+# Factor by which the residual may grow in a step as short as `LEAST_STEP_PART`, or at rest by cells that change their
+# kind [-]: the next step solves those by another equation. Half and twice change nothing. Without them a starved film
+# takes 20 % more Newton steps; with them in steps in time a roller of 1 GPa takes 22 % more.
 SURGE = 2.0
 
 # Steps in which the residual has to fall [-]. Half and twice change nothing.
@@ -54,9 +54,9 @@ FIRST_TIME_STEP = 3.0
 TIME_STEP_SHRINKAGE = 0.25
 
 # Steps in time solved in a row, from which on they grow [-]: where the next one fails, its Newton steps are lost. With
-# `TIME_STEP_SHRINKAGE` = 0.5, no waiting and `IMBALANCE_PART` = 0.3, four films of a soft roller (E' 19 GPa, film/Sq 0.05) took 723
-# factorisations from the dry contact; with these values they take 315. Alone, half takes 8 % and
-# twice 55 % less work on the soft film of the campaign.
+# `TIME_STEP_SHRINKAGE` = 0.5, no waiting and `IMBALANCE_PART` = 0.3, four films of a soft roller (E' 19 GPa, film/Sq
+# 0.05) took 723 factorisations from the dry contact; with these values they take 315. Alone, half takes 8 % and twice
+# 55 % less work on the soft film of the campaign.
 WAIT = 3
 
 # Factors of a step in time after one that was solved [-]: after at most `EASY_STEPS` Newton steps, and after more. Half, so

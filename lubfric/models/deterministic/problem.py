@@ -62,9 +62,9 @@ MOST_GRID_CELLS = 2**20  # cells
 class Problem(HasLineContact):
     """One operating point on its grid, plain values in SI units.
 
-    Friction is the force on surface 2, the upper one, against its sliding u2 - u1, or against U where nothing slides: its shear
-    stress, and the pressure on the flanks of its own roughness. The force on surface 1 is the opposite, but for the rolling
-    resistance ∫ p x/R dx, the moment of the load about the middle.
+    Friction is the force on surface 2, the upper one, against its sliding u2 - u1, or against U where nothing slides:
+    its shear stress, and the pressure on the flanks of its own roughness. The force on surface 1 is the opposite, but
+    for the rolling resistance ∫ p x/R dx, the moment of the load about the middle.
 
     Attributes
     ----------
@@ -155,8 +155,8 @@ def reach(
     """Return the lengths [m] of the grid upstream and downstream of the line of contact.
 
     The grid ends where the roughness is small compared with the gap (its effect on the flow, 6 (Sq/h)², is below some 3
-    %) and where there is no pressure. Upstream of the grid the film continues in closed form. ``inlet``, ``outlet``: the lengths, at least, in Hertz
-    half-widths.
+    %) and where there is no pressure. Upstream of the grid the film continues in closed form. ``inlet``, ``outlet``:
+    the lengths, at least, in Hertz half-widths.
     """
     radius = line.radius
     b = line.half_width

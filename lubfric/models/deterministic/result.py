@@ -144,7 +144,8 @@ class DeterministicResult(Renamed, ModelDetails):
 
     @property
     def share_given_off(self) -> float:
-        """Share of the lubricant that touching cells give off (``given_off``); in motion that of the means over time [-]."""
+        """Share of the lubricant that touching cells give off (``given_off``); in motion that of the means over time
+        [-]."""
         return self.given_off / (self.given_off + max(self.flow_film, 0.0)) if self.given_off > 0 else 0.0
 
 
@@ -220,7 +221,8 @@ def change_with_oil(result: "DeterministicResult", sliding: float, lubricant: Lu
 
 
 def stress_with_oil(result: "DeterministicResult", sliding: float, lubricant: Lubricant) -> np.ndarray:
-    """Return the shear stress [Pa] (nx, ny) of a ``result`` if its films had that of another ``lubricant`` (`change_with_oil`)."""
+    """Return the shear stress [Pa] (nx, ny) of a ``result`` if its films had that of another ``lubricant``
+    (`change_with_oil`)."""
     with np.errstate(over="ignore"):
         law = shear_stress(lubricant, result.pressure, sliding / result.gap)
     return np.where(result.wet, law, result.shear)

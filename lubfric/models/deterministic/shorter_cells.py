@@ -55,8 +55,8 @@ PIECES_WORK = 30.0
 # LU factorisations of a piece on longer cells, from which it starts, at most [-]. Half and twice change nothing.
 FACTORISATIONS_OF_START = 100
 
-# Relative error of f that the tolerance of a strip may leave [-]: twice the change of f by it (`strip.STRIP_RESIDUAL`). Half and
-# twice change the interval by 0.02 %.
+# Relative error of f that the tolerance of a strip may leave [-]: twice the change of f by it (`strip.STRIP_RESIDUAL`).
+# Half and twice change the interval by 0.02 %.
 LEAST_STRIP_ERROR = 2e-3
 
 # Length [correlation lengths] below which a strip serves as a piece. Half changes nothing, twice f by -0.3 %.
@@ -311,11 +311,11 @@ def _refined(
     times: int = 2,
     length: float = PIECE,
 ) -> Piece:
-    """Return piece ``index`` of the surface, solved on cells twice as long as those of the strips, on cells as long, and then
-    on cells half as long each time, down to so many ``times`` as short as those of the strips.
+    """Return piece ``index`` of the surface, solved on cells twice as long as those of the strips, on cells as long,
+    and then on cells half as long each time, down to so many ``times`` as short as those of the strips.
 
-    A piece of a patch is all of it: its cells are shortened until the estimated error is within ``numerics.tolerance``, with
-    ``numerics.grid = "given"`` down to the map's own.
+    A piece of a patch is all of it: its cells are shortened until the estimated error is within ``numerics.tolerance``,
+    with ``numerics.grid = "given"`` down to the map's own.
 
     Parameters
     ----------

@@ -34,8 +34,8 @@ FACTORISATIONS_IN_TIME = 500
 # LU factorisations of all ways together, unless another number is given [-]: a bound. Half and twice change nothing.
 MOST_FACTORISATIONS = 800
 
-# Speeds over that of the point [-] at which a start from the dry contact is tried where it fails at the speed itself. No film of
-# the campaign needs it.
+# Speeds over that of the point [-] at which a start from the dry contact is tried where it fails at the speed itself.
+# No film of the campaign needs it.
 START_SPEEDS = (16.0, 256.0)
 
 # Residual of solutions on the way [-]. No film of the campaign needs it.
@@ -63,22 +63,24 @@ DRY_TOLERANCE = 1e-4
 # ruptures, 0.475. Half and twice change the work by 1 %, of one film by +31 and -13 %.
 START_RUPTURE = 0.55
 
-# Part of Moes' film by which the dry contact is lifted for a start where the pressure is high (`has_high_pressure`) [-]: a film
-# under loaded asperities is thinner than Moes'. A roller of 1 GPa at 10, 3, 1, 0.3, 0.1, 0.03 m/s takes 12, 15, 14, 14, 16, 28
-# Newton steps with all of it, and 11, 11, 11, 10, 14, 20 with a half; light contacts take as many with a half as with all.
+# Part of Moes' film by which the dry contact is lifted for a start where the pressure is high (`has_high_pressure`)
+# [-]: a film under loaded asperities is thinner than Moes'. A roller of 1 GPa at 10, 3, 1, 0.3, 0.1, 0.03 m/s takes 12,
+# 15, 14, 14, 16, 28 Newton steps with all of it, and 11, 11, 11, 10, 14, 20 with a half; light contacts take as many
+# with a half as with all.
 LIFT = 0.5
 
 # Steps in which the residual has to fall from the dry contact of soft bodies [-]. Of a thin film it does not, from the dry
 # contact and from faster ones: a roller of E' 19 GPa and film/Sq .05 took 160 factorisations, of which 70 led nowhere.
 SOFT_PATIENCE = 8
 
-# Parts of the expected film by which the dry contact is lifted, one after the other, where less film arrives than would flow
-# in [-]: strips of 280 x 192 cells under 60 nm on 80 nm of roughness converge
-# in 16 or 23 steps from some of them and in none from others, without a rule; each is tried for half of `FACTORISATIONS_FROM_DRY`.
+# Parts of the expected film by which the dry contact is lifted, one after the other, where less film arrives than would
+# flow in [-]: strips of 280 x 192 cells under 60 nm on 80 nm of roughness converge in 16 or 23 steps from some of them
+# and in none from others, without a rule; each is tried for half of `FACTORISATIONS_FROM_DRY`.
 STARVED_LIFTS = (0.5, 0.33, 0.7)
 
-# Such parts that are tried where every other way has failed [-]. A bearing of 10 mm radius with 200 nm of roughness, 1e5 N/m and 1 mm/s, alone on
-# 48 cells across, has no solution from .1, .33, .5, .7 and 1, and one after 12 steps from .2, after 41 from 2.
+# Parts of the expected film by which the dry contact is lifted where every other way has failed [-]. A bearing of 10 mm
+# radius with 200 nm of roughness, 1e5 N/m and 1 mm/s, alone on 48 cells across, has no solution from .1, .33, .5, .7
+# and 1, and one after 12 steps from .2, after 41 from 2.
 LAST_LIFTS = (0.2, 2.0)
 
 # Asperity load ratio [-], from which on a finer grid does not start from interpolated pressure: contacts are too sharp for
@@ -309,8 +311,8 @@ class RefinedStart:
 
 
 def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult) -> RefinedStart:
-    """Return a start for ``problem`` from ``result``, a solution of ``coarse``, the same on longer cells, or on cells as long
-    on a longer or shorter grid. The first of these that applies:
+    """Return a start for ``problem`` from ``result``, a solution of ``coarse``, the same on longer cells, or on cells
+    as long on a longer or shorter grid. The first of these that applies:
 
         start                              where
         `_interpolated_start`              the cells are as long; or asperities carry less than `SHARP_LOAD_RATIO`, and its

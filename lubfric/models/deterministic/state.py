@@ -22,7 +22,8 @@ TOUCHING = 2
 # 2 m3)/6 is the change of m + (m - m1)/2 + (m - 2 m1 + m2)/3 from step to step.
 CURVATURE = 1.0 / 3.0
 
-# Part of the mass of a cell by which it is extrapolated at most [-], as by the limiter of the Couette flow (`flow.couette_flow`).
+# Part of the mass of a cell by which it is extrapolated at most [-], as by the limiter of the Couette flow
+# (`flow.couette_flow`).
 MOST_EXTRAPOLATED = 0.5
 
 # Suction of a fluid cell over the strongest of its eight neighbours [-], below which it does not rupture: a cell that
@@ -37,8 +38,8 @@ PULL = 0.01
 
 @dataclass(frozen=True, kw_only=True)
 class TimeHistory:
-    """What an implicit step in time takes over from the moments before it. (An implicit Euler step has ``extrapolated`` alone,
-    one of second order (BDF2) ``last`` too, one of third order (BDF3) all.)
+    """What an implicit step in time takes over from the moments before it. (An implicit Euler step has ``extrapolated``
+    alone, one of second order (BDF2) ``last`` too, one of third order (BDF3) all.)
 
     Attributes
     ----------
@@ -64,8 +65,8 @@ class TimeHistory:
 class State:
     """The unknowns of a point on its grid (nx, ny).
 
-    The unknown of a ruptured cell is its fill, with p = 0; all other cells are full. That of a yielded cell is its dent, with
-    p = P_u. In the rest it is the pressure, with w = 0.
+    The unknown of a ruptured cell is its fill, with p = 0; all other cells are full. That of a yielded cell is its
+    dent, with p = P_u. In the rest it is the pressure, with w = 0.
 
     Attributes
     ----------
@@ -142,8 +143,8 @@ def extrapolated_mass(
     mass: np.ndarray, before: np.ndarray, part: float = 0.5, earlier: np.ndarray | None = None
 ) -> np.ndarray:
     """Return ``mass`` [m] of cells extrapolated by a ``part`` of its change since the moment ``before`` (a half where
-    steps are equal), by `MOST_EXTRAPOLATED` of itself, or that part, at most. With the moment ``earlier`` than that, `CURVATURE` of the second
-    difference is added: the differences of such masses from step to step are those of BDF3.
+    steps are equal), by `MOST_EXTRAPOLATED` of itself, or that part, at most. With the moment ``earlier`` than that,
+    `CURVATURE` of the second difference is added: the differences of such masses from step to step are those of BDF3.
 
     So the Couette flow is limited in space. Without the limit a cell whose gap a summit fills would give off more than it
     has.
@@ -205,8 +206,8 @@ def update_active_sets(at: Iterate) -> Iterate:
 
 
 def _without_weak_suction(pressure: FloatArray, fluid: BoolArray) -> np.ndarray:
-    """Return ``pressure`` with 0 in ``fluid`` cells whose suction is weaker than the part `STRONG_SUCTION` of the strongest of
-    their neighbours."""
+    """Return ``pressure`` with 0 in ``fluid`` cells whose suction is weaker than the part `STRONG_SUCTION` of the
+    strongest of their neighbours."""
     if not np.any(fluid & (pressure < 0)):
         return pressure
     strongest = minimum_filter(np.where(fluid, pressure, 0.0), size=3, mode=("nearest", "wrap"))

@@ -46,8 +46,8 @@ CHANGE_RATIOS = (0.25, 0.75)
 # 110 N on cells from 1.8 to 0.45 µm.
 GROWING = 2.0
 
-# Ratio of successive changes from grid to grid where there is one change only [-]: as measured on cells of 3.6, 1.8 and 0.9 µm
-# of the built-in surface.
+# Ratio of successive changes from grid to grid where there is one change only [-]: as measured on cells of 3.6, 1.8 and
+# 0.9 µm of the built-in surface.
 UNKNOWN_RATIO = 0.6
 
 # Columns of the coarser of two grids in a place that changes by itself [-]. Half and twice change the interval by .01 %.
@@ -143,12 +143,12 @@ def solve_strip(
     """Solve ``surface``, a strip that is periodic along y, under the bodies of ``scene`` at ``speed`` [m/s], not 0.
 
     The cells are those of the map, or ``map_coarsening`` (fx, fy) times as long: they take every fx-th and fy-th height
-    where it is, so that strips of different coarsening are the same strip. ``start``: the same strip at another speed, on these
-    cells or on longer ones. Without it, strip and speed alone decide the result; many cells then start from cells
-    twice as long. ``find_slope``: solve it a second time, for `StripSolution.slope`. ``tolerance``: of the residuals
-    (`lubfric.models.deterministic.state.residuals`). ``upper``: the part of ``surface`` that is surface 2, where both
-    bodies are rough. ``ends`` [m]: of the grid, up and down stream (None: `reach`). ``most``: LU factorisations, at
-    most.
+    where it is, so that strips of different coarsening are the same strip. ``start``: the same strip at another speed,
+    on these cells or on longer ones. Without it, strip and speed alone decide the result; many cells then start from
+    cells twice as long. ``find_slope``: solve it a second time, for `StripSolution.slope`. ``tolerance``: of the
+    residuals (`lubfric.models.deterministic.state.residuals`). ``upper``: the part of ``surface`` that is surface 2,
+    where both bodies are rough. ``ends`` [m]: of the grid, up and down stream (None: `reach`). ``most``: LU
+    factorisations, at most.
 
     Raises `InputError` and `ConvergenceError`.
     """
@@ -211,8 +211,9 @@ def problem_of(
     ends: tuple[float, float] | None = None,
 ) -> Problem:
     """Return the problem of ``surface`` under the bodies of ``scene`` at ``speed`` [m/s], not 0, on its own cells or on
-    cells ``map_coarsening`` times as long (`lay_out`). For a negative speed the maps are turned. ``upper``: the part of it that is surface 2
-    (all of it where only the counterface is rough). The lubricant flows with the viscosity of its heated inlet."""
+    cells ``map_coarsening`` times as long (`lay_out`). For a negative speed the maps are turned. ``upper``: the part of
+    it that is surface 2 (all of it where only the counterface is rough). The lubricant flows with the viscosity of its
+    heated inlet."""
     film = scene.bodies.boundary_film
     ratio = scene.motion.slide_roll_ratio
     lubricant = film_lubricant(scene, speed)

@@ -82,8 +82,8 @@ def sample_coarsening_of(scene: Scene, sample: Sample) -> tuple[int, int]:
 
 
 def surface_and_map_coarsening(prepared: Prepared, index: int) -> tuple[Surface, tuple[int, int]]:
-    """Return the map of strip ``index``, and the length of the cells of the deterministic model in those of this map. The map
-    of a patch at rest is all of it, on its own cells (`Sample.refinement`)."""
+    """Return the map of strip ``index``, and the length of the cells of the deterministic model in those of this map.
+    The map of a patch at rest is all of it, on its own cells (`Sample.refinement`)."""
     sample = prepared.sample
     (sx, sy) = sample_coarsening_of(prepared.scene, sample)
     (rx, ry) = (1, 1) if has_moving_roughness(prepared.scene) else sample.refinement
@@ -91,8 +91,8 @@ def surface_and_map_coarsening(prepared: Prepared, index: int) -> tuple[Surface,
 
 
 def longer_than(surface: Surface, map_coarsening: tuple[int, int], *, moving: bool = False) -> tuple[int, int]:
-    """Return twice ``map_coarsening``; the same along y where twice that does not divide the map ``surface``, and along x where
-    roughness is ``moving``."""
+    """Return twice ``map_coarsening``; the same along y where twice that does not divide the map ``surface``, and along
+    x where roughness is ``moving``."""
     along = map_coarsening[0] if moving else 2 * map_coarsening[0]
     return along, map_coarsening[1] if surface.shape[1] % (2 * map_coarsening[1]) else 2 * map_coarsening[1]
 
@@ -144,8 +144,8 @@ def halved_along_y(coarsening: tuple[int, int]) -> tuple[int, int]:
 
 
 def on_halved_cells(prepared: Prepared, speed: float, pair: StripOnTwoGrids) -> StripOnTwoGrids:
-    """Return the first strip, whose roughness moves, on cells half as long along y as those of ``pair``, with that as the one
-    on longer cells. Raises `ConvergenceError`."""
+    """Return the first strip, whose roughness moves, on cells half as long along y as those of ``pair``, with that as
+    the one on longer cells. Raises `ConvergenceError`."""
     scene = prepared.scene
     longer = pair.resolved
     strip = solve_moving_strip(

@@ -71,7 +71,8 @@ def control_of(maps: Sequence[Surface], half_width: float) -> SummitControl:
 
 
 def attenuated(surface: Surface, wave: float) -> Surface:
-    """Return ``surface`` about its mean with its waves attenuated: one of the wavelength ``wave`` [m] keeps half of its height.
+    """Return ``surface`` about its mean with its waves attenuated: one of the wavelength ``wave`` [m] keeps half of its
+    height.
 
     Along an axis on which it is not periodic, it is continued by its mirror image.
     """

@@ -50,8 +50,8 @@ BALANCE_ROUNDS = 6
 # Distance in ln(F_H/F_C) from the balance up to which a response is its own.
 OWN_RESPONSE = 0.3
 
-# Rigid film of the total load over Sq below which the film carries less than the last digit of the load: at 1e-12 m/s the load
-# of two films was balanced to 2e-11 (a film of 4e-18 m on 100 nm).
+# Rigid film of the total load over Sq below which the film carries less than the last digit of the load: at 1e-12 m/s
+# the load of two films was balanced to 2e-11 (a film of 4e-18 m on 100 nm).
 NEGLIGIBLE_FILM = 1e-14
 
 
@@ -109,7 +109,8 @@ def solve_balance(
     *,
     correctable: bool = False,
 ) -> Balance:
-    """Return the balance of ``scene`` at ``speed`` [m/s] on ``rough_contact``, whose heights have the standard deviation ``sq`` [m].
+    """Return the balance of ``scene`` at ``speed`` [m/s] on ``rough_contact``, whose heights have the standard
+    deviation ``sq`` [m].
 
     Without entrainment the contact carries the total load. The film of the total load is solved first; if it separates
     the surfaces, no contact is solved. Otherwise the residual (gap - film)/(gap + film) of the volume increases with
@@ -318,8 +319,8 @@ def predict_log_load_ratio(point: Point, start: Balance) -> tuple[float, float |
 
 
 def _root_on_accurate_contact(point: Point, near: RootStart) -> tuple[Point, Root]:
-    """Return ``point`` with a contact that is solved so closely that the error of its gap is within the tolerance of the root,
-    and the root there; on a less accurate contact it would be elsewhere."""
+    """Return ``point`` with a contact that is solved so closely that the error of its gap is within the tolerance of
+    the root, and the root there; on a less accurate contact it would be elsewhere."""
     while True:
         root = _root(point, near)
         now = point.settings.contact_tolerance

@@ -56,7 +56,8 @@ CLEAR_OF_SUMMITS = 10.0
 # Distance in ln F_C from a reference point up to which its effect of the cells may serve.
 NEAR_LOAD = 0.25
 
-# Change of f by the distance from the reference point, over the tolerance on f, up to which its effect of the cells serves [-].
+# Change of f by the distance from the reference point, over the tolerance on f, up to which its effect of the cells
+# serves [-].
 REFERENCED = 0.1
 
 

@@ -5,10 +5,10 @@ carries more, it is thinner, and the gap is wider. So the residual of the closur
 `balance` finds. Errors meet the closure through an error of the gap at given load: cells (`CellEffect`), places
 (`Scatter`) and solvers state that error, and `log_load_ratio_per_gap` is how the division of the load reacts to it.
 
-Another closure of gap and film is another body of the first three functions; the others follow from these, and so do all
-equations that take them from here, at rest and in time. Three things are of this closure by themselves: the first guess of a
-root (`balance.predict_log_load_ratio`, powers of the loads), the film that fills the gap in `answer.fields_on`, and
-`error_of_eq8`, which is measured.
+Another closure of gap and film is another body of the first three functions; the others follow from these, and so do
+all equations that take them from here, at rest and in time. Three things are of this closure by themselves: the first
+guess of a root (`balance.predict_log_load_ratio`, powers of the loads), the film that fills the gap in
+`answer.fields_on`, and `error_of_eq8`, which is measured.
 """
 
 import math
@@ -51,8 +51,8 @@ def with_gap_of_closure(contact_state: ContactState, mean_film: float) -> Contac
 
 
 def log_load_ratio_per_gap(gap_rate: float, demanded_rate: float) -> float:
-    """Return ds/dG [1/m], the change of s by a change of the gap at given load, from the rates dG/ds and dg/ds [m], of the gap and of
-    the gap that the closure demands.
+    """Return ds/dG [1/m], the change of s by a change of the gap at given load, from the rates dG/ds and dg/ds [m], of
+    the gap and of the gap that the closure demands.
 
     The closure remains: dG + dG/ds ds = dg/ds ds.
     """

@@ -38,12 +38,12 @@ def load_sharing_error(
     """Return the relative error of f by Eq. (8), at 95 % (docs/uncertainty.md), towards 0 and away from it.
 
     ``film_to_roughness_ratio``: r, the central film over Sq; ``share``: s = F_C/F_T; ``boundary``, ``shear``: the two
-    parts of f, of asperities and film; ``rolling``: the part of rolling in the latter, if roughness moves. Four things may be off: the load that asperities carry, by up to 0.7
-    sqrt(s (1 - s)) of the whole, but never below 0 or above the whole, which exchanges the friction of one part for
-    that of the other; the shear of the film, which is that of smooth surfaces, by 3.2/r² of it, at most 30 %; in
-    contact all of f by 0.25 sqrt(1 - s): towards 0, of what the others leave; and the pressure on the flanks of moving
-    roughness, which is omitted, by up to 8 times the rolling force, and 18/r² times for thick films. 0 without
-    roughness.
+    parts of f, of asperities and film; ``rolling``: the part of rolling in the latter, if roughness moves. Four things
+    may be off: the load that asperities carry, by up to 0.7 sqrt(s (1 - s)) of the whole, but never below 0 or above
+    the whole, which exchanges the friction of one part for that of the other; the shear of the film, which is that of
+    smooth surfaces, by 3.2/r² of it, at most 30 %; in contact all of f by 0.25 sqrt(1 - s): towards 0, of what the
+    others leave; and the pressure on the flanks of moving roughness, which is omitted, by up to 8 times the rolling
+    force, and 18/r² times for thick films. 0 without roughness.
     """
     f = abs(boundary + shear)
     if film_to_roughness_ratio == math.inf or f == 0:

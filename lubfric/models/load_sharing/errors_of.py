@@ -242,8 +242,8 @@ def _shear_errors(forces: Forces, film_error: float) -> dict[str, float]:
 
 
 def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], tuple[str, ...]]:
-    """Return the relative error of f by load sharing itself, at 95 %, towards 0 and away from it; where it is not known NaN, and
-    why."""
+    """Return the relative error of f by load sharing itself, at 95 %, towards 0 and away from it; where it is not known
+    NaN, and why."""
     balance = balanced.corrected_balance
     scene = balanced.prepared.scene
     if balance.film is None:

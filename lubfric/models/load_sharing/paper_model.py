@@ -88,8 +88,8 @@ class PaperSolution(SampleSolution):
 
 
 class PaperModel(Model):
-    """The load-sharing model of the paper: film and asperity contacts share the load, Eq. (8); friction by Eq. (9) (Akchurin et al. 2015,
-    doi:10.1007/s11249-015-0536-z)."""
+    """The load-sharing model of the paper: film and asperity contacts share the load, Eq. (8); friction by Eq. (9)
+    (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z)."""
 
     @property
     def name(self) -> str:

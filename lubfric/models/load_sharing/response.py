@@ -139,8 +139,9 @@ class MomentResponse:
         return per_log_ratio / (self.softness * film_share + by_film * contact_share)
 
     def per_film(self, shear_magnitude: float) -> float:
-        """Return the relative change of f by a relative change of the film, at most; ``shear_magnitude``: the sum of the
-        absolute parts of the film's shear force [N]. In steady motion it is `Response.per_film`, from films at other loads."""
+        """Return the relative change of f by a relative change of the film, at most; ``shear_magnitude``: the sum of
+        the absolute parts of the film's shear force [N]. In steady motion it is `Response.per_film`, from films at
+        other loads."""
         if self.force == 0:
             return 0.0
         at_given_loads = shear_magnitude / abs(self.force)
@@ -193,8 +194,9 @@ def respond(
     """Return the `Response` of ``rough_contact``, which is in ``contact_state`` at ``load`` [N] under ``thickness`` and
     ``shape`` [m] (nx,).
 
-    ``film_of``: the film that carries a load [N], where one shares the load. Its rates come from films at two other divisions of the load; no
-    contact is solved for them. The rate of the gap is dG/ds = dG/dP dP/ds, with dP/ds = -P F_H/F_T.
+    ``film_of``: the film that carries a load [N], where one shares the load. Its rates come from films at two other
+    divisions of the load; no contact is solved for them. The rate of the gap is dG/ds = dG/dP dP/ds, with dP/ds = -P
+    F_H/F_T.
     """
     width = scene.bodies.width
     slopes = slopes_of(rough_contact, contact_state, load=load, width=width, thickness=thickness, shape=shape)

@@ -112,8 +112,9 @@ def scatter_of(scene: Scene, rough_contact: HalfSpaceContact, balance: Balance, 
 
 
 def friction_influence(scene: Scene, rough_contact: HalfSpaceContact, balance: Balance) -> np.ndarray:
-    """Return the influence of every place y of ``rough_contact`` on f (ny,), relative, in a ``balance`` of film and contact: by the gap,
-    which divides the load, and by where the place touches, since the film has no shear there. 0 without contact."""
+    """Return the influence of every place y of ``rough_contact`` on f (ny,), relative, in a ``balance`` of film and
+    contact: by the gap, which divides the load, and by where the place touches, since the film has no shear there. 0
+    without contact."""
     state = balance.contact_state
     response = balance.response
     film = balance.film

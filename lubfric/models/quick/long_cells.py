@@ -41,8 +41,8 @@ CELLS_IN_MOTION = (2.0, 1.25)
 # step in time takes 1.5 times as long, and there are 1.5 times as many.
 CELLS_OF_THIN_FILM = 3.0
 
-# Change of f at rest by the boundary film, from which on it does (`LongCellsInMotion.by_film`): with .2 the half-width where f
-# depends on the film is 21 instead of 18 %, with .4 more.
+# Change of f at rest by the boundary film, from which on it does (`LongCellsInMotion.by_film`): with .2 the half-width
+# where f depends on the film is 21 instead of 18 %, with .4 more.
 THIN_BY_FILM = 0.05
 
 # Cells in a correlation length along x and along y, and along x in the half-width, of the solved cases that move
@@ -54,10 +54,10 @@ CELLS_OF_REFERENCES = (4.0, 2.5)
 # twice as long.
 NEAR_AT_REST = 0.03
 
-# Effort in the place of `TIGHT`: steps end at ten times its residual, which goes into the next step. f of four rollers moves by
-# up to 0.06 % at five times, their counted work falls by 15 to 25 %; ten times takes 2 to 18 % less than five, and f of ten
-# rolling contacts moves by up to 0.23 %. A continuation discards as much as an economical one: then the ends of a range of the
-# stress of an oil change f of two gear flanks by 20 to 43 % instead of 15 to 44 %.
+# Effort in the place of `TIGHT`: steps end at ten times its residual, which goes into the next step. f of four rollers
+# moves by up to 0.06 % at five times, their counted work falls by 15 to 25 %; ten times takes 2 to 18 % less than five,
+# and f of ten rolling contacts moves by up to 0.23 %. A continuation discards as much as an economical one: then the
+# ends of a range of the stress of an oil change f of two gear flanks by 20 to 43 % instead of 15 to 44 %.
 LOOSER_EFFORT = replace(TIGHT, residual=1e-3, carries_imbalance=True, linear=0.1, discarded_again=1.6)
 
 # Cells in the Hertz half-width along x, at least, where roughness rests: as in the solved cases. Where it moves, there are as
@@ -142,8 +142,8 @@ class LongCellsInMotion:
 
     @property
     def by_film(self) -> float:
-        """The change of f at rest, from half to twice the boundary film, over its sliding part; less where that is near f_b,
-        because no cell takes it beyond."""
+        """The change of f at rest, from half to twice the boundary film, over its sliding part; less where that is near
+        f_b, because no cell takes it beyond."""
         result = self.rest.result
         sliding = max(abs(result.coefficient - result.rolling / result.load), LEAST_SLIDING)
         below = max(1.0 - sliding / self.rest.problem.boundary_friction, 0.0)
@@ -153,8 +153,9 @@ class LongCellsInMotion:
 def long_cells_in_motion(
     scene: Scene, bodies: Sequence[RoughBody], speed: float, lengths: Sequence[float]
 ) -> LongCellsInMotion:
-    """Return rough ``bodies`` on the long cells for ``speed`` [m/s]: on those of `CELLS_IN_MOTION`, or, where f depends on the
-    boundary film, on those of `CELLS_OF_THIN_FILM`. ``lengths`` [m]: the correlation lengths. Raises `ConvergenceError`."""
+    """Return rough ``bodies`` on the long cells for ``speed`` [m/s]: on those of `CELLS_IN_MOTION`, or, where f depends
+    on the boundary film, on those of `CELLS_OF_THIN_FILM`. ``lengths`` [m]: the correlation lengths. Raises
+    `ConvergenceError`."""
     cells = long_cells_of(scene, bodies, speed, lengths=lengths, per_length=CELLS_IN_MOTION[0])
     if cells.by_film <= THIN_BY_FILM:
         return cells
@@ -184,15 +185,15 @@ def long_cells_of(
 def map_coarsening_in_motion(
     scene: Scene, *, spacing: Sequence[float], rows: int, lengths: Sequence[float], per_length: float
 ) -> tuple[float, int]:
-    """Return the same as `map_coarsening_at_rest` where roughness moves: along x as long as they may be, because the maps are
-    laid out anew there; ``per_length`` as of `long_cells_of`."""
+    """Return the length of the long cells where roughness moves, as `map_coarsening_at_rest` does at rest: along x they
+    are as long as they may be, because the maps are laid out anew there. ``per_length``: as of `long_cells_of`."""
     longest = min(lengths[0], scene.bodies.half_width) / per_length
     return max(1.0, longest / spacing[0]), _divisor(rows, lengths[1] / CELLS_IN_MOTION[1] / spacing[1])
 
 
 def on_cells_along_x(surface: Surface, count: int) -> Surface:
-    """Return ``surface`` with so many cells along x in the same length, at whose centres its heights are read off its Fourier
-    series, without smoothing. One that is not periodic is continued by its mirror image."""
+    """Return ``surface`` with so many cells along x in the same length, at whose centres its heights are read off its
+    Fourier series, without smoothing. One that is not periodic is continued by its mirror image."""
     (nx, _) = surface.shape
     (dx, dy) = surface.spacing
     if count == nx:
@@ -211,9 +212,10 @@ def on_cells_along_x(surface: Surface, count: int) -> Surface:
 def solve_at_rest(
     scene: Scene, surface: Surface, speed: float, *, map_coarsening: tuple[int, int], slope: float | None = math.nan
 ) -> StripOnTwoGrids:
-    """Solve the strip ``surface`` at ``speed`` [m/s], not 0, on cells ``map_coarsening`` times as long as its own, and before on
-    cells twice as long, where it has those and they have a solution (else both are the same). ``slope``: of friction over
-    load, which is put into the strip (NaN: none; None: found by a second solve). Raises `ConvergenceError`."""
+    """Solve the strip ``surface`` at ``speed`` [m/s], not 0, on cells ``map_coarsening`` times as long as its own, and
+    before on cells twice as long, where it has those and they have a solution (else both are the same). ``slope``: of
+    friction over load, which is put into the strip (NaN: none; None: found by a second solve). Raises
+    `ConvergenceError`."""
     (fx, fy) = map_coarsening
     longer: StripSolution | None = None
     if surface.shape[1] % (2 * fy) == 0:

@@ -47,8 +47,8 @@ LEAST_SAMPLING_ERROR = 0.03
 # it widens the interval by a tenth.
 SAMPLING_OVER_BOUNDS = 0.2
 
-# Such an error over the half-width of the bounds on cells for thin films [-], where a moment takes twice as long and the bounds are half as wide: with Student's
-# t it widens the interval by four tenths.
+# Standard error of f that strips are solved for, over the half-width of the bounds, on cells for thin films [-], where
+# a moment takes twice as long and the bounds are half as wide: with Student's t it widens the interval by four tenths.
 SAMPLING_OVER_NARROW_BOUNDS = 0.4
 
 # Part of the work that a point has left, which one more strip may take [-]: the rest is for the ends of input ranges.
@@ -124,8 +124,8 @@ class StripsOnLongCells:
         }
 
     def bounds(self, scene: Scene) -> tuple[float, float]:
-        """Return the 95 % bounds of f by the cells, relative, towards 0 and away from it. In pure rolling all of f is the rolling
-        part."""
+        """Return the 95 % bounds of f by the cells, relative, towards 0 and away from it. In pure rolling all of f is
+        the rolling part."""
         numbers = self.numbers(scene)
         f = numbers["coefficient"]
         rolling = f if scene.motion.slide_roll_ratio == 0 else numbers["rolling_force"] / scene.bodies.load

@@ -73,7 +73,8 @@ MOST_FILM_FRICTION = 0.2
 
 
 def violations_by_motion(scene: Scene, speed: float, thickness: float) -> Iterator[Violation]:
-    """Yield the violations by sliding, inertia and turbulence at ``speed`` [m/s] and a film thickness [m] (NaN: no film)."""
+    """Yield the violations by sliding, inertia and turbulence at ``speed`` [m/s] and a film thickness [m] (NaN: no
+    film)."""
     ratio = abs(scene.motion.slide_roll_ratio)
     if ratio > OPPOSED * (1 + 1e-12):
         why = "the surfaces move in opposite directions: heat and dimples of such films are not modelled"
@@ -206,9 +207,9 @@ def violations_by_thickness(scene: Scene, thickness: float) -> Iterator[Violatio
 
 
 def violations_by_inlet(scene: Scene, line: LineContact, flow: float, friction_force: float) -> Iterator[Violation]:
-    """Yield the violations by a film of ``line``, a `LineContact`, that a given inlet changes: its ``flow`` film [m] over that of a
-    full one, by Moes; or what the lubricant farther out would add to ``friction_force`` |f| F_T [N] by rolling, 12 eta U R/x
-    a width from x on: ∫ h/2 dp/dx dx, where the film is far thicker than where it rolls in."""
+    """Yield the violations by a film of ``line``, a `LineContact`, that a given inlet changes: its ``flow`` film [m]
+    over that of a full one, by Moes; or what the lubricant farther out would add to ``friction_force`` |f| F_T [N] by
+    rolling, 12 eta U R/x a width from x on: ∫ h/2 dp/dx dx, where the film is far thicker than where it rolls in."""
     oil = scene.lubricant
     tolerance = scene.numerics.tolerance
     flooded = line.moes_film
@@ -246,8 +247,8 @@ def violations_by_inlet(scene: Scene, line: LineContact, flow: float, friction_f
 def violations_by_deflection(
     scene: Scene, mean_gap: float, recommendation: str = DEFLECTION_OF_TOTAL_LOAD
 ) -> Iterator[Violation]:
-    """Yield the violations by a film that only its own pressure deflects, over a contact with that ``mean_gap`` [m]: the possible
-    error of its share of the load."""
+    """Yield the violations by a film that only its own pressure deflects, over a contact with that ``mean_gap`` [m]:
+    the possible error of its share of the load."""
     change = scene.bodies.strip_rise / max(mean_gap, 1e-300)
     if not change > STRIP_SHARE:
         return
@@ -265,7 +266,8 @@ def violations_by_deflection(
 
 
 def violations_by_ends(share: float, length: float) -> Iterator[Violation]:
-    """Yield the violations by the ``share`` of the contact's load on the edge columns of a patch of ``length`` [m] along x."""
+    """Yield the violations by the ``share`` of the contact's load on the edge columns of a patch of ``length`` [m]
+    along x."""
     if share > ON_ENDS:
         why = f"the ends of the patch, {worded(length, 'm')} apart, cut the contact off"
         what = "share of the contact load on the edge columns of the patch"
@@ -282,8 +284,8 @@ def violations_by_ends(share: float, length: float) -> Iterator[Violation]:
 
 
 def violations_by_patches(scene: Scene, heights: FloatArray, area: float) -> Iterator[Violation]:
-    """Yield the violations by asperities that are patches of ``heights`` [m] (nx, ny), whose contact area is the fraction ``area``:
-    half of their base area, since they are paraboloids."""
+    """Yield the violations by asperities that are patches of ``heights`` [m] (nx, ny), whose contact area is the
+    fraction ``area``: half of their base area, since they are paraboloids."""
     if scene.contact.model != "patches" or area == 0:
         return
     count = ridges(heights, min(2 * area, 1.0), (scene.contact.geometry == "flat", True))
@@ -309,8 +311,8 @@ def is_of_impossible_stress(shear: ShearForce) -> bool:
 def violations_by_shear(
     scene: Scene, shear: ShearForce, film_load: float, friction_force: float
 ) -> Iterator[Violation]:
-    """Yield the violations by the ``shear`` (`ShearForce`) of a film that carries ``film_load``; ``friction_force``: f F_T; both in
-    N, or both per width.
+    """Yield the violations by the ``shear`` (`ShearForce`) of a film that carries ``film_load``; ``friction_force``: f
+    F_T; both in N, or both per width.
 
     If the share of the friction that no oil carries is above the tolerance on f, that is a warning; above 0.2 the point
     is refused.

@@ -111,8 +111,8 @@ def violations_by_form(scene: Scene, maps: Sequence[Surface], *, is_given: bool)
 
 
 def violations_by_strips(deviation: float, explained: float) -> Iterator[Violation]:
-    """Yield the violations by strips whose Sq is, relative, ``deviation`` above that of their map, of which a sample of their
-    size may differ by the ``explained`` part."""
+    """Yield the violations by strips whose Sq is, relative, ``deviation`` above that of their map, of which a sample of
+    their size may differ by the ``explained`` part."""
     if abs(deviation) > max(explained, LEAST_STRIP_DEVIATION):
         yield Violation(
             assumption=Assumption.STRIPS_LIKE_MAP,
@@ -133,7 +133,8 @@ def stated_sq(scene: Scene) -> float | None:
 
 
 def is_by_form(violation: Violation) -> bool:
-    """Return whether a violation is one of `violations_by_form` or `violations_by_strips`, which depend on the map alone."""
+    """Return whether a violation is one of `violations_by_form` or `violations_by_strips`, which depend on the map
+    alone."""
     return violation.assumption in (Assumption.MAP_WITHOUT_FORM, Assumption.STRIPS_LIKE_MAP)
 
 
@@ -210,8 +211,8 @@ def violations_by_bodies(bodies: Bodies) -> Iterator[Violation]:
 
 
 def violations_by_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterator[Violation]:
-    """Yield the violations by the map. ``slope``: its rms slope [-]; ``lengths``: its width over its correlation length across the
-    motion; ``cells``: in its correlation length along x and y. NaN: not known."""
+    """Yield the violations by the map. ``slope``: its rms slope [-]; ``lengths``: its width over its correlation length
+    across the motion; ``cells``: in its correlation length along x and y. NaN: not known."""
     if slope > STEEP:
         recommendation = "check the units of heights and spacing; filter the map at the scale that matters"
         why = "the half-space assumes small slopes; contact area and pressures are wrong"

@@ -39,7 +39,7 @@ class ControlVariate:
 
 
 def with_forces_of_film(numbers: dict[str, T], load: float) -> dict[str, T]:
-    """Return ``numbers`` with the shear force of the film that makes all friction forces add up to ``coefficient`` times the
-    ``load`` [N], and with its sliding part."""
+    """Return ``numbers`` with the shear force of the film that makes all friction forces add up to ``coefficient``
+    times the ``load`` [N], and with its sliding part."""
     shear_force = load * numbers["coefficient"] - numbers["boundary_force"]
     return numbers | {"shear_force": shear_force, "couette_force": shear_force - numbers["rolling_force"]}

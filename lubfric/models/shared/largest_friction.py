@@ -17,11 +17,12 @@ from .unknown_limit import LIMIT_RANGE
 # Thinnest film [m] where the scene gives no boundary film: half of lubfric's own value, as in the error of f.
 THINNEST_FILM = 10e-9
 
-# Pressure [Pa] of films between asperities, up to which the stress of an oil over the pressure counts: above it, deterministic
-# films were seen on few cells only. A convention.
+# Pressure [Pa] of films between asperities, up to which the stress of an oil over the pressure counts: above it,
+# deterministic films were seen on few cells only. A convention.
 MOST_PRESSURE = 3e9
 
-# Pressures between the mean Hertz pressure and the largest at which the stress is evaluated: it is smooth there. A convention.
+# Pressures between the mean Hertz pressure and the largest at which the stress is evaluated: it is smooth there. A
+# convention.
 PRESSURES = 30
 
 # Points of the Hertz pressure, at equal steps of the angle: the mean of a smooth stress is known to 1e-3. A convention.
@@ -29,8 +30,8 @@ HERTZ_POINTS = 60
 
 
 def largest_of_oil(oil: Lubricant, boundary_friction: float, peak: float, sliding: float, thickness: float) -> float:
-    """Return the largest sliding part of f [-] for an ``oil`` and f_b = ``boundary_friction``, under the Hertz pressure ``peak`` [Pa]
-    that slides at ``sliding`` [m/s], where the thinnest film is ``thickness`` [m].
+    """Return the largest sliding part of f [-] for an ``oil`` and f_b = ``boundary_friction``, under the Hertz pressure
+    ``peak`` [Pa] that slides at ``sliding`` [m/s], where the thinnest film is ``thickness`` [m].
 
     The mean of the larger of both stresses is taken over the Hertz pressure, and the ratio of that of the oil to the
     pressure from the mean pressure to `MOST_PRESSURE`. A Newtonian film is limited to f_b p or, if that is more and
@@ -49,15 +50,15 @@ def largest_of_oil(oil: Lubricant, boundary_friction: float, peak: float, slidin
 
 
 def largest_sliding_friction(scene: Scene, speed: float) -> float:
-    """Return the largest sliding part of f [-] of ``scene`` at ``speed`` [m/s], with its inputs at those ends of their ranges
-    that allow the most; infinite in pure rolling, where no stress is at a limit by sliding."""
+    """Return the largest sliding part of f [-] of ``scene`` at ``speed`` [m/s], with its inputs at those ends of their
+    ranges that allow the most; infinite in pure rolling, where no stress is at a limit by sliding."""
     sliding = abs(scene.motion.slide_roll_ratio * speed)
     return largest_at_load(at_largest_ends(scene, sliding), scene.bodies.load, sliding)
 
 
 def at_largest_ends(scene: Scene, sliding: float) -> Scene:
-    """Return ``scene`` with each input that has a range at that end of it that allows the largest f, where the surfaces slide
-    at ``sliding`` [m/s]."""
+    """Return ``scene`` with each input that has a range at that end of it that allows the largest f, where the surfaces
+    slide at ``sliding`` [m/s]."""
     most = {}
     for name, *ends in scene.at_ends():
         end = max((scene, *ends), key=lambda each: largest_at_load(each, each.bodies.load, sliding))

@@ -89,7 +89,8 @@ def remembered(
 
 
 def contact_on_joined_strips(prepared: Prepared, sample: Sample, count: int) -> RoughContact:
-    """Return the contact on the first ``count`` strips of ``sample``, joined to one line; of an unresolved one the only contact.
+    """Return the contact on the first ``count`` strips of ``sample``, joined to one line; of an unresolved one the only
+    contact.
 
     ``sample``: that of ``prepared``, on any cells, or one of its bodies (`Sample.of_body`).
     """

@@ -67,7 +67,8 @@ class StandardError:
 
     @property
     def cautious(self) -> float:
-        """1 + 1/sqrt(nu) times the value, with nu degrees of freedom: from few blocks it is itself known to 1/sqrt(2 nu) only."""
+        """1 + 1/sqrt(nu) times the value, with nu degrees of freedom: from few blocks it is itself known to 1/sqrt(2
+        nu) only."""
         return self.value * (1 + 1 / math.sqrt(self.freedom)) if self.freedom > 0 else self.value
 
 

@@ -1,7 +1,8 @@
 """The limiting shear stress of an oil that nobody gave, and what it does to f.
 
-At the pressure of asperities a Newtonian film would carry any stress. The deterministic model, on long cells too, cuts it
-at f_b p, which is no property of the oil. Where such films carry load, f is therefore known only as far as the limit of oils is.
+At the pressure of asperities a Newtonian film would carry any stress. The deterministic model, on long cells too, cuts
+it at f_b p, which is no property of the oil. Where such films carry load, f is therefore known only as far as the limit
+of oils is.
 """
 
 from ...scene import Scene

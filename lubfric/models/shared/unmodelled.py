@@ -203,8 +203,8 @@ def _of_film(
 
 
 def _at_ends_of_alpha(scene: Scene) -> dict[str, Scene]:
-    """Return ``scene`` with the least and the largest pressure-viscosity coefficient of measured oils, by what that is as text; {}
-    where the coefficient is given."""
+    """Return ``scene`` with the least and the largest pressure-viscosity coefficient of measured oils, by what that is
+    as text; {} where the coefficient is given."""
     lubricant = scene.lubricant
     if lubricant.oil is None or lubricant.temperature is None:
         return {}

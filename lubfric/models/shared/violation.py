@@ -143,8 +143,8 @@ class Violation(Renamed):
 
 
 def sentence(text: str) -> str:
-    """Return ``text`` with a capital letter at its begin, unless that is the name of a key or the symbol f, and a full stop at its
-    end."""
+    """Return ``text`` with a capital letter at its begin, unless that is the name of a key or the symbol f, and a full
+    stop at its end."""
     word = text.partition(" ")[0].rstrip(".:,;")
     is_name = word == "f" or any(sign in word for sign in "._=")
     first = text[:1] if is_name else text[:1].upper()

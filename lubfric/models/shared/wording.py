@@ -9,7 +9,8 @@ MOST_DIGITS = 6
 # Relative error that nobody can see. A convention.
 INVISIBLE = 1e-5
 
-# Error of f over f above which it is stated in f itself [-], where f is near 0: there a ratio to it says nothing. A convention.
+# Error of f over f above which it is stated in f itself [-], where f is near 0: there a ratio to it says nothing. A
+# convention.
 MOST_RELATIVE = 1.0
 
 # f below which it is near 0 [-]: as large is the rolling resistance of a film, beside which sliding friction is small. A
@@ -33,8 +34,8 @@ def percent_beside(value: float, target: float) -> tuple[str, str]:
 
 
 def distinct_texts(value: float, other: float, text_of: Callable[[float, int], str], least: int = 2) -> tuple[str, str]:
-    """Return both numbers as ``text_of`` a number and of a number of digits writes them, with as few digits, from ``least`` to
-    `MOST_DIGITS`, as they need to differ as texts. Equal ones have the ``least``."""
+    """Return both numbers as ``text_of`` a number and of a number of digits writes them, with as few digits, from
+    ``least`` to `MOST_DIGITS`, as they need to differ as texts. Equal ones have the ``least``."""
     for digits in range(least, MOST_DIGITS + 1):
         texts = text_of(value, digits), text_of(other, digits)
         if texts[0] != texts[1]:
@@ -59,7 +60,8 @@ def is_near_zero(f: float, error: float) -> bool:
 
 
 def sides_in_f(towards: float, away: float, largest: float, f: float) -> str:
-    """Return the same as `percent_of_sides` in f itself, as "-0.0004 to +0.0025", or "0.0004" where both sides are equal."""
+    """Return the same as `percent_of_sides` in f itself, as "-0.0004 to +0.0025", or "0.0004" where both sides are
+    equal."""
     if not math.isfinite(largest):
         return "not known"
     size = abs(f)
