@@ -260,13 +260,14 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
             raise InputError(f"[[together]] of {path.name} needs lists of one length; found {lengths}")
         _add(vary, tuple(lists), list(zip(*lists.values())))
     speeds = table.get("speeds")
+    operating_points: Any = points
     if "sample" in table:
         (keys, drawn) = _sampled(table["sample"], path.name)
         if SPEED in keys:
             if points is not None or "points" in table:
                 said = f"[sample] of {path.name} has speeds, and points has them too"
                 raise InputError(said, recommendation="give them in one of both")
-            points = {key: list(column) for key, column in zip(keys, zip(*drawn))}
+            operating_points = {key: list(column) for key, column in zip(keys, zip(*drawn))}
         else:
             _add(vary, keys if len(keys) > 1 else keys[0], drawn)
     if "speed_range" in table:
@@ -274,9 +275,9 @@ def load_study(path: str | Path, points: Path | None = None) -> StudyPlan:
             raise InputError(f"{path.name} has speeds and speed_range, which give the same quantity; give one of them")
         speeds = speeds_of_range("speed_range", table["speed_range"])
     if "points" in table and points is None:
-        points = table["points"]
-        points = path.parent / points if isinstance(points, str) else _flat_rows(points)
-    return plan_study(scene, vary, speeds, points)
+        rows = table["points"]
+        operating_points = path.parent / rows if isinstance(rows, str) else _flat_rows(rows)
+    return plan_study(scene, vary, speeds, operating_points)
 
 
 def _flat_rows(rows: Any) -> Any:
