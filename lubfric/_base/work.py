@@ -29,7 +29,8 @@ _METER: ContextVar[WorkMeter | None] = ContextVar("work meter", default=None)
 
 @contextmanager
 def limited_work(limit: float) -> Iterator[WorkMeter]:
-    """Limit the work [s] that is counted inside, in this thread. A limit outside counts it too."""
+    """Limit the work [s] that is counted inside, in this thread, in place of a limit outside, which counts it but does not end
+    it."""
     outer = _METER.get()
     meter = WorkMeter(limit=limit)
     token = _METER.set(meter)

@@ -122,7 +122,7 @@ def _methods(prepared: Prepared, choice: Choice, numbers: dict[str, Any], uncert
 
 
 def _use(scene: Scene, model: Model, numbers: dict[str, Any], uncertainty: Uncertainty) -> MethodUse:
-    """Return what the ``numbers`` of ``model`` show of the methods behind them."""
+    """Return what the ``numbers`` of the answer show of the methods of ``model``, which answers or is compared with it."""
     return MethodUse(
         model=model,
         has_contact=numbers["contact_load"] > 0,

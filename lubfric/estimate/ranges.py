@@ -32,7 +32,7 @@ def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tupl
             load_ratio = answer.numbers["contact_load"] / scene.bodies.load
             slope = load_ratio * (scene.motion.slide_roll_ratio != 0)
             changes_of_f[name] = tuple(slope * (value_of(end, name) - value_of(scene, name)) for end in ends)
-        elif name == HARDNESS_KEY and not prepared.has_own_contact:
+        elif name == HARDNESS_KEY and prepared.has_given_contact:
             changes_of_f[name] = "the contact was given by the caller"
         elif answer.at_inputs is None:
             changes_of_f[name] = "this model does not solve the ends of its range"

@@ -263,7 +263,7 @@ class SampleSolution(ABC):
         return self
 
     def completed(self) -> SampleSolution:
-        """Solve what the answer needs and `Model.solve` left out; itself where that is nothing.
+        """Solve what the answer needs and `Model.solve` left out; itself where that is nothing, as of its own result.
 
         `lubfric.estimate.choice` calls it: once there are enough strips, whether of `Model.solve` or adopted from another
         model (`Model.adopt`), and before it asks for the answer.
@@ -281,7 +281,7 @@ class SampleSolution(ABC):
     def why_sufficient(self) -> str:
         """Return why numerics.model = "auto" needs no more expensive model, as text; "" if it does.
 
-        No strip is solved. It may make the `answer`, and a smooth film with it.
+        It is `completed` before where it `may_suffice`. No strip is solved. It may make the `answer`, and a smooth film with it.
         """
         return ""
 
@@ -337,7 +337,7 @@ class Model(ABC):
 
     @property
     def includes_motion(self) -> bool:
-        """Whether f, or its model-form error, includes that roughness moves through the contact."""
+        """Whether f includes, by itself or by a calibration, that roughness moves through the contact."""
         return False
 
     @property

@@ -70,12 +70,10 @@ def prepare(
             prepared.memo.keep_surface_of(like.memo)
             return prepared
         maps = (like.surface, *like.sample.bodies) if like.is_given else ()
-        contact = None if like.has_own_contact else like.rough_contact
+        contact = like.rough_contact if like.has_given_contact else None
     with hint_unusual_values(scene):
         sample = sample_of(scene, maps, contact=contact)
-        has_given_maps = bool(maps)
-        is_given = has_given_maps or contact is not None
-        return _on_sample(scene, sample, is_given=is_given, has_given_maps=has_given_maps)
+        return _on_sample(scene, sample, has_given_maps=bool(maps), has_given_contact=contact is not None)
 
 
 def prepare_on_maps(scene: Scene, read: tuple[Surface, ...]) -> Prepared:
@@ -83,10 +81,10 @@ def prepare_on_maps(scene: Scene, read: tuple[Surface, ...]) -> Prepared:
     again."""
     check_by_model(scene, has_one_map_for_all_bodies=False)
     with hint_unusual_values(scene):
-        return _on_sample(scene, sample_of(scene, read=read), is_given=False, has_given_maps=False)
+        return _on_sample(scene, sample_of(scene, read=read), has_given_maps=False, has_given_contact=False)
 
 
-def _on_sample(scene: Scene, sample: Sample, *, is_given: bool, has_given_maps: bool) -> Prepared:
+def _on_sample(scene: Scene, sample: Sample, *, has_given_maps: bool, has_given_contact: bool) -> Prepared:
     """Return ``scene`` made ready on ``sample``, with the contact on its first strips."""
     surface = sample.stated_map()
     check_map(scene, surface)
@@ -103,7 +101,8 @@ def _on_sample(scene: Scene, sample: Sample, *, is_given: bool, has_given_maps: 
         rough_contact=rough_contact,
         sample=sample,
         violations=(*beforehand(scene, surface), *by_form),
-        is_given=is_given,
+        is_given=has_given_maps or has_given_contact,
+        has_given_contact=has_given_contact,
     )
     prepared.memo.keep_surface_of(memo)
     return prepared

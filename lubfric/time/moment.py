@@ -13,7 +13,14 @@ from ..contact import HalfSpaceContact
 from ..errors import ConvergenceError
 from ..estimate import full_load_numbers, power_of_forces
 from ..film import ShearForce, above_carried, rolling_error, smallest, spike_error
-from ..models.load_sharing import MomentResponse, moment_error, moment_model_error, slopes_of, volume_residual
+from ..models.load_sharing import (
+    MomentResponse,
+    gap_under,
+    moment_error,
+    moment_model_error,
+    slopes_of,
+    volume_residual,
+)
 from ..models.shared import (
     Assumption,
     Heat,
@@ -136,7 +143,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         "min_film": smallest(setting.grid.x, t.H) * p.film_unit,
         "central_film": central_film,
         "mean_film": state.mean_film,
-        "mean_gap": state.mean_gap if touches else state.mean_film,
+        "mean_gap": state.mean_gap if touches else gap_under(state.mean_film),
         "max_pressure": t.P.max() * p.pressure_unit,
         "wet_from": wet[0] if wet.size else math.nan,
         "wet_to": wet[-1] if wet.size else math.nan,

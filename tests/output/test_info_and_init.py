@@ -102,7 +102,7 @@ def test_info_states_on_how_many_strips_the_quick_answer_is_solved(ratio, strips
     solved: list[int] = []
     strip = SimpleNamespace(work=0.0, slope=0.0)
 
-    def solve(prepared, speed, index, slope):
+    def solve(prepared, speed, slope, index):
         solved.append(index)
         return SimpleNamespace(resolved=strip)
 

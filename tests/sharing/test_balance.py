@@ -201,3 +201,12 @@ def test_the_steepness_of_a_point_is_that_between_its_neighbours(patch, speed):
     split = np.log(curve.film_load / curve.contact_load)
     assert curve.points[1].steepness == pytest.approx((split[2] - split[0]) / math.log(1.1 / 0.9), rel=0.08)
     assert math.isnan(lubfric.friction(patch, 1.0).steepness)
+
+
+def test_a_contact_that_was_given_stays_with_another_tolerance():
+    """Also one that lubfric has made, of a rougher surface than that of the scene."""
+    rough = lubfric.prepare(PATCH.with_(surface={"sq": 3 * PATCH.surface.sq})).rough_contact
+    given = lubfric.prepare(PATCH, contact=rough)
+    mean_gap = lubfric.friction(given, 0.003).mean_gap
+    assert lubfric.friction(given, 0.003, tolerance=0.02).mean_gap == pytest.approx(mean_gap, rel=0.02)
+    assert mean_gap > 1.5 * lubfric.friction(PATCH, 0.003).mean_gap

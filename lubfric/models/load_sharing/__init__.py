@@ -12,7 +12,7 @@
 from .answer import answer_of
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
-from .closure import film_under, gap_per_film, volume_residual
+from .closure import film_under, gap_per_film, gap_under, volume_residual
 from .error_of_eq8 import OF_ROLLING, least_error, load_sharing_error, starved_error
 from .errors_of import moment_model_error, why_moment_unknown
 from .estimated_work import expected_gap, expected_model_error

@@ -21,7 +21,7 @@ from ..shared import (
 )
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
-from .closure import gap_per_film, open_gap, volume_residual
+from .closure import gap_per_film, gap_under, open_gap, volume_residual
 from .decision import decision_of
 from .error_of_eq8 import OF_ROLLING
 from .errors_of import errors_of
@@ -213,7 +213,9 @@ def _numbers(balanced: BalancedSample) -> dict[str, float]:
     loads = (balance.film_load, balance.contact_load)
     separated = balance.contact_load == 0
     length = contact_length(contact_state) * balanced.effect.length_factor / balanced.effect.area_factor
-    numbers = quantities(balance.forces, film, loads, contact_state.mean_film if separated else contact_state.mean_gap)
+    numbers = quantities(
+        balance.forces, film, loads, gap_under(contact_state.mean_film) if separated else contact_state.mean_gap
+    )
     return numbers | {
         "speed": balanced.speed,
         "real_contact_area_fraction": contact_state.real_contact_area_fraction,

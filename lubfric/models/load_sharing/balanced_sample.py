@@ -266,7 +266,7 @@ def solve_sample(
     begin = _reference(prepared, speed, sample) if start is None else start.start
     coarse = not sample.cells.is_native
     raw_balance = solve_balance(scene, speed, rough_contact, prepared.surface.sq, begin, correctable=coarse)
-    solution = BalancedSample(
+    balanced = BalancedSample(
         prepared=prepared,
         speed=speed,
         raw_balance=raw_balance,
@@ -277,9 +277,9 @@ def solve_sample(
         first_effect=None if start is None else start.first_effect,
         count=count,
     )
-    on_cells = solution.on_cells
+    on_cells = balanced.on_cells
     if on_cells is None:
-        return replace(solution, undetected=math.nan)
+        return replace(balanced, undetected=math.nan)
     if raw_balance.response is None:
         assert raw_balance.film is not None
         undetected = undetected_contact(
@@ -289,12 +289,12 @@ def solve_sample(
             forces=raw_balance.forces,
             correlation_length=sample.correlation_lengths[1],
         )
-        return replace(solution, undetected=undetected)
-    effect = solution.first_effect
+        return replace(balanced, undetected=undetected)
+    effect = balanced.first_effect
     if effect is None and raw_balance.film is not None:
-        effect = _effect(prepared, solution.point, raw_balance, sample)
+        effect = _effect(prepared, balanced.point, raw_balance, sample)
     return replace(
-        solution,
+        balanced,
         scatter=scatter_of(scene, on_cells, raw_balance, sample, count),
         effect=(effect or CellEffect()).at_load(raw_balance.contact_load),
         first_effect=effect,

@@ -41,7 +41,7 @@ def volume_residual(contact_state: ContactState) -> float:
 
 
 def open_gap(contact_state: ContactState) -> float:
-    """Return the gap [m] that the closure leaves open at ``contact_state``: G - h."""
+    """Return the gap [m] that the closure leaves open at ``contact_state``: G - g, g the gap that it demands."""
     return contact_state.mean_gap - gap_under(contact_state.mean_film)
 
 

@@ -140,7 +140,7 @@ class StripsOnLongCells:
 def solve_on_long_cells(prepared: Prepared, speed: float) -> StripsOnLongCells:
     """Return the strips of ``prepared`` at ``speed`` [m/s], not 0, on long cells. Raises `ConvergenceError`."""
     scene = prepared.scene
-    pairs = [_solve_pair(prepared, speed, 0, None)]
+    pairs = [_solve_pair(prepared, speed, None, 0)]
     numerics = replace(
         scene.numerics,
         sampling_tolerance=_sampling_target(prepared, pairs[0]),
@@ -151,7 +151,7 @@ def solve_on_long_cells(prepared: Prepared, speed: float) -> StripsOnLongCells:
         estimate, wanted = two_levels(prepared, pairs, None, numerics)
         if len(pairs) >= min(wanted, most) or pairs[0].resolved.work > PART_OF_WORK * work_left():
             break
-        pairs.append(_solve_pair(prepared, speed, len(pairs), pairs[0].resolved.slope))
+        pairs.append(_solve_pair(prepared, speed, pairs[0].resolved.slope, len(pairs)))
     rows = [_features_of(prepared, pair) for pair in pairs]
     x = {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
     error_model = error_model_of(scene)
@@ -194,7 +194,7 @@ def _sampling_target(prepared: Prepared, pair: StripOnTwoGrids, part: float = SA
     return max(prepared.scene.numerics.sampling_tolerance, LEAST_SAMPLING_ERROR, part * bounds)
 
 
-def _solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None) -> StripOnTwoGrids:
+def _solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int) -> StripOnTwoGrids:
     """Return strip ``index`` on long cells."""
     scene = prepared.scene
     sample = prepared.sample

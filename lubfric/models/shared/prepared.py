@@ -9,7 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from ..._base import FieldsOnly, Renamed, Shown, validate
-from ...contact import BOUNDARY, AsperityContact, FlatContact, HalfSpace, HalfSpaceContact, RoughContact, half_space
+from ...contact import BOUNDARY, HalfSpace, HalfSpaceContact, RoughContact, half_space
 from ...samples import PIECE, Sample, half_space_contact_of
 from ...scene import Scene
 from ...surface import Surface
@@ -17,9 +17,6 @@ from .memo import JoinedKey, Key, Memo, OperatorKey, PieceKey, PieceMapKey, Stri
 from .violation import Violation
 
 T = TypeVar("T")
-
-# Classes of the rough contacts that lubfric makes itself.
-OWN_CONTACTS = HalfSpaceContact, FlatContact, AsperityContact
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
@@ -35,6 +32,7 @@ class Prepared(FieldsOnly, Renamed, Shown):
     violations : assumptions of the model that bodies and map violate, known before any solve
     sample : what represents the infinite rough line contact
     is_given : whether a map or a contact was given to `lubfric.prepare`, so that it cannot be extended
+    has_given_contact : whether that was a contact
     """
 
     scene: Scene
@@ -43,12 +41,8 @@ class Prepared(FieldsOnly, Renamed, Shown):
     sample: Sample
     violations: tuple[Violation, ...] = ()
     is_given: bool = False
+    has_given_contact: bool = False
     _RENAMED = {"contact": "rough_contact", "known": "violations", "given": "is_given"}
-
-    @property
-    def has_own_contact(self) -> bool:
-        """Whether the rough contact is one of lubfric's own."""
-        return isinstance(self.rough_contact, OWN_CONTACTS)
 
     @property
     def has_one_map_for_all_bodies(self) -> bool:
