@@ -17,7 +17,7 @@ from .shared import (
     Prepared,
     beforehand,
     cells_of_contact,
-    is_by_form,
+    is_of_map_alone,
     operator_on,
     scene_of,
     violations_by_form,
@@ -65,8 +65,8 @@ def prepare(
         validate.instance("like", like, Prepared, "what lubfric.prepare returned")
         _check_likeness(scene, like.scene, maps, contact)
         if _same_contact(scene, like.scene):
-            by_form = filter(is_by_form, like.violations)
-            prepared = replace(like, scene=scene, violations=(*beforehand(scene, like.surface), *by_form))
+            of_map = filter(is_of_map_alone, like.violations)
+            prepared = replace(like, scene=scene, violations=(*beforehand(scene, like.surface), *of_map))
             prepared.memo.keep_surface_of(like.memo)
             return prepared
         maps = (like.surface, *like.sample.bodies) if like.is_given else ()

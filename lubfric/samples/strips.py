@@ -65,6 +65,12 @@ KEPT_CELLS = 2_000_000
 # correlation is 1e-7 there, an exponential one 0.02.
 WINDOW_DISTANCE = 4.0
 
+# A window passes into the next one on its width over this [-], at most.
+LEAST_OVER_BLEND = 4
+
+# Rows of a window of a measured map, and of a piece, are a multiple of this [-], so that cells can be joined twice.
+WINDOW_ROWS_MULTIPLE = 4
+
 # Windows from which on none has to reach over the ends of the map: their scatter is known to 1/sqrt(14) = 27 %.
 ENOUGH_WINDOWS = 8
 
@@ -231,7 +237,7 @@ class MeasuredStrips(Sample):
     def piece(self, index: int, length: float = PIECE) -> Surface:
         window = self._columns(self.starts[index])
         blend = self._blend
-        unit = 4 * self.cells.coarsening[1]
+        unit = WINDOW_ROWS_MULTIPLE * self.cells.coarsening[1]
         wanted = round(length * self.correlation_lengths[1] / self.surface.spacing[1])
         rows = min(window.shape[1] - blend, wanted) // unit * unit
         first = (window.shape[1] - rows - blend) // 2
@@ -239,12 +245,12 @@ class MeasuredStrips(Sample):
         return self._made(piece, self.surface.spacing, "a piece on the map's own cells")
 
     def _rows(self, native_rows: int) -> int:
-        """Return the number of cells along y on so many ``native_rows`` of the map: a multiple of four."""
-        return native_rows // (4 * self.cells.coarsening[1]) * 4
+        """Return the number of cells along y on so many ``native_rows`` of the map: a `WINDOW_ROWS_MULTIPLE`."""
+        return native_rows // (WINDOW_ROWS_MULTIPLE * self.cells.coarsening[1]) * WINDOW_ROWS_MULTIPLE
 
     @property
     def _blend(self) -> int:
-        return min(blend_of(self.correlation_lengths[1], self.surface.spacing[1]), self.surface.shape[1] // 4)
+        return _blended_rows(self.surface, self.correlation_lengths)
 
     def _columns(self, start: int) -> np.ndarray:
         columns = start + np.arange(self.cells.columns * self.cells.coarsening[0])
@@ -314,10 +320,10 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
     lengths = length_or_half(surface, 0), length_or_half(surface, 1)
     cells = _cells_of_map(scene, surface, lengths, reach)
     starts = _window_starts(scene, surface, lengths, cells.columns * cells.coarsening[0])
-    kept = surface.shape[1] - min(blend_of(lengths[1], surface.spacing[1]), surface.shape[1] // 4)
+    kept = surface.shape[1] - _blended_rows(surface, lengths)
     length = kept * surface.spacing[1]
     count = len(starts)
-    if length < COLUMNS_MULTIPLE * cells.spacing[1] * (1 - 1e-9):
+    if length < WINDOW_ROWS_MULTIPLE * cells.spacing[1] * (1 - 1e-9):
         raise InputError(
             f"the map is {surface.shape[1]} cells wide along y, across the motion, too few for a line contact; give a "
             f"wider one, or numerics.sampling = 'patch' (periodic along y)"
@@ -339,6 +345,11 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
     )
 
 
+def _blended_rows(surface: Surface, lengths: tuple[float, float]) -> int:
+    """Return on how many rows a window of the map ``surface``, of correlation ``lengths`` [m], passes into the next one."""
+    return min(blend_of(lengths[1], surface.spacing[1]), surface.shape[1] // LEAST_OVER_BLEND)
+
+
 def _cells_of_map(scene: Scene, surface: Surface, lengths: tuple[float, float], reach: float) -> Cells:
     """Return the cells of windows of the map ``surface``, of correlation ``lengths`` [m], that are ``reach`` [m] long
     along x, or as long as the patch of the scene or the map."""
@@ -349,7 +360,7 @@ def _cells_of_map(scene: Scene, surface: Surface, lengths: tuple[float, float], 
         cells = replace(cells, columns=cells.columns - COLUMNS_MULTIPLE)
     if cells.columns < 1:
         raise InputError(
-            f"the map is {surface.shape[0]} cells long along x; allowed: at least {4 * cells.coarsening[0]}"
+            f"the map is {surface.shape[0]} cells long along x; allowed: at least {COLUMNS_MULTIPLE * cells.coarsening[0]}"
         )
     return cells
 

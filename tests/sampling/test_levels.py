@@ -356,7 +356,7 @@ def test_a_line_knows_how_its_strips_differ_when_each_is_balanced_alone(prepared
     gap differ from those of the line as `control_variate_of` says, and over the line the differences are zero in the mean."""
     prepared = lubfric.prepare(SCENE.with_(numerics={"model": "paper", "sampling_tolerance": 0.004}))
     result = solve_to_tolerance(prepared, 0.005, PaperModel()).balanced
-    line = control_variate_of(prepared, result)
+    line = control_variate_of(result)
     rows = []
     scene = prepared.scene
     assert line.count > 6 and line.deviations(1, 24).mean() == pytest.approx(0.0, abs=1e-12)

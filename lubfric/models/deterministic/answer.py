@@ -124,7 +124,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     model = math.hypot(*parts_of_model.values())
     (cause, _, advice) = max(parts_of_model, key=lambda part: parts_of_model[part]).partition(": ")
     by_limit = _by_limit(scene, results)
-    parts_of_model[OF_LIMIT] = max(by_limit)
+    parts_with_limit = parts_of_model | {OF_LIMIT: max(by_limit)}
     reasons = dict.fromkeys(depending_on("heat"), heat.reason(scene) or ONE_HEAT)
     return ModelAnswer(
         numbers=numbers,
@@ -132,7 +132,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         sampling_error=sampling_error,
         model_error=(math.hypot(model, by_limit[0]), math.hypot(model, by_limit[1])),
         by_limit=max(by_limit),
-        largest_in_model=max(parts_of_model, key=lambda part: parts_of_model[part]),
+        largest_in_model=max(parts_with_limit, key=lambda part: parts_with_limit[part]),
         not_given={key: by_missing_input[key] for key in missing_inputs(scene)},
         report=replace(results[0].report, notes=()),
         decision=_decision(scene, results, levels, heat),

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from ...quantities import depending_on
-from ..shared import FREEDOM_NOT_COUNTED, ControlVariate, Prepared, StandardError, contact_on_strip, with_forces_of_film
+from ..shared import FREEDOM_NOT_COUNTED, ControlVariate, StandardError, contact_on_strip, with_forces_of_film
 from .balanced_sample import BalancedSample
 from .response import quantities
 from .scatter import friction_influence, gap_influence, hertz_mean_gap, line_load
@@ -30,11 +30,12 @@ def control_for(solution: BalancedSample) -> ControlVariate | None:
     has_others = solution.sample.cells == sample.cells and sample.represents_more
     if not has_others or not math.isfinite(solution.sampling_error.value):
         return None
-    return control_variate_of(prepared, solution)
+    return control_variate_of(solution)
 
 
-def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlVariate:
+def control_variate_of(balanced: BalancedSample) -> ControlVariate:
     """Return the differences of the strips of ``balanced`` from their line. Where nothing touches, strips do not differ."""
+    prepared = balanced.prepared
     raw_balance = balanced.raw_balance
     response = balanced.response
     rough_contact = balanced.on_cells

@@ -27,7 +27,7 @@ from .checks_before import (
     beforehand,
     expected_in_film,
     expected_on_hertz,
-    is_by_form,
+    is_of_map_alone,
     stated_sq,
     violations_by_bodies,
     violations_by_form,

@@ -132,7 +132,7 @@ def stated_sq(scene: Scene) -> float | None:
     return None if None in parts else math.hypot(*(part for part in parts if part is not None))
 
 
-def is_by_form(violation: Violation) -> bool:
+def is_of_map_alone(violation: Violation) -> bool:
     """Return whether a violation is one of `violations_by_form` or `violations_by_strips`, which depend on the map
     alone."""
     return violation.assumption in (Assumption.MAP_WITHOUT_FORM, Assumption.STRIPS_LIKE_MAP)
