@@ -156,6 +156,7 @@ def test_measured_points_are_drawn_among_the_curve(run, tmp_path, capsys, monkey
 
 
 ODD = ["$$", r"$\unknowncmd$", r"\$ a $x_", "100 % $5", "a\nb 😀 {x} <b>&"]
+SMALL = {"shape": (96, 96), "spacing": 0.9e-6}
 COLUMNS = "--speed", "U", "--coefficient", "mu"
 
 
@@ -175,8 +176,9 @@ def test_a_name_is_drawn_as_text(tmp_path, monkeypatch, name, drawn):
 
     monkeypatch.setattr(Figure, "savefig", savefig)
     monkeypatch.setattr("lubfric.output.run_curve.plot_contact", lambda path, *_: path.write_bytes(STAND_IN))
+    monkeypatch.setattr("lubfric.output.commands.plot_surface", lambda path, *_: path.write_bytes(STAND_IN))
     motion = {"speeds": [0.3, 1.0], "entrainment_speed": 1.0}
-    scene = paper_scene(numerics={"sampling": "patch", "accept": True}, motion=motion)
+    scene = paper_scene(contact=SMALL, numerics={"sampling": "patch", "accept": True}, motion=motion)
     (tmp_path / "s.toml").write_text(replace(scene, name=name).to_toml(), encoding="utf-8")
     assert lubfric.load_scene(tmp_path / "s.toml").name == name
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o")]) == 0
@@ -189,7 +191,8 @@ def test_a_name_is_drawn_as_text(tmp_path, monkeypatch, name, drawn):
 
 def test_a_history_and_a_traction_curve_have_any_name(tmp_path, drawn):
     motion = {"entrainment_speed": 1.0}
-    scene = replace(paper_scene(numerics={"sampling": "patch", "accept": True}, motion=motion), name="$$")
+    scene = paper_scene(contact=SMALL, numerics={"sampling": "patch", "accept": True}, motion=motion)
+    scene = replace(scene, name="$$")
     (tmp_path / "s.toml").write_text(scene.to_toml())
     assert main(["run", str(tmp_path / "s.toml"), "--ratios", "0.5,1", "--out", str(tmp_path / "o")]) == 0
     (tmp_path / "s.toml").write_text(scene.to_toml() + "[transient]\nduration = 1e-4\noutputs = 2\n")

@@ -14,6 +14,14 @@ SCENE += "slide_roll_ratio = 2.0\n" + SMALL_PATCH + "sampling = 'patch'\n"
 WEAR = ["--distance", "1 mm", "--wear-coefficient", "1e-6"]
 
 
+@pytest.fixture(scope="module", autouse=True)
+def few_records():
+    """Distances at which a lift-off speed is sought take most of the time."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr("lubfric.running_in.wear.RECORDS", 3)
+        yield
+
+
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("run_in")

@@ -15,13 +15,14 @@ from lubfric.output import commands, main, run_history, run_in_command
 from lubfric.quantities import KEYS
 from lubfric.scene import Harmonic, Transient, typical
 
-IN_TIME = scene_text.paper_scene(numerics={"model": "paper", "sampling": "patch"}).with_(
+PATCH = scene_text.paper_scene(contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling": "patch"})
+IN_TIME = PATCH.with_(
     motion={"entrainment_speed": 0.03},
     bodies={"hardness": [7e9, 8e9], "boundary_friction_coefficient": [0.1, 0.14]},
     lubricant={"eyring_stress": [4e6, 6e6], "limiting_stress_coefficient": [0.04, 0.09]},
     transient=Transient(duration=3e-4, outputs=2, speed=Harmonic(mean=0.03, amplitude=0.01, frequency=250.0)),
 )
-RUN_IN = scene_text.paper_scene(numerics={"model": "paper", "sampling": "patch"}, bodies={"hardness": 2e9})
+RUN_IN = PATCH.with_(bodies={"hardness": 2e9})
 SCENES = {"run": IN_TIME, "run-in": RUN_IN}
 TABLES = {"run": "history.csv", "run-in": "run_in.csv"}
 

@@ -52,9 +52,9 @@ SLIPS = {  # name: (changes to GOOD by section; None removes a key, words of the
     "temperature in K as °C": ({"lubricant": {"temperature_celsius": "343.15"}}, "did you mean temperature = 343.15 K"),
     "no shear law": (
         {
-            "bodies": {"load": None, "hertz_pressure": "1e9"},
+            "bodies": {"load": None, "hertz_pressure": "0.8e9"},
             "lubricant": {"eyring_stress": None, "limiting_stress_coefficient": None},
-            "motion": {"entrainment_speed": "1.0", "slip_percent": "50"},
+            "motion": {"entrainment_speed": "1.0", "slip_percent": "20"},
         },
         "eyring_stress",
     ),

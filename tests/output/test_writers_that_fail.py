@@ -10,7 +10,9 @@ import scene_text
 import lubfric
 from lubfric.output import commands, main, run_curve, run_study
 
-SCENE = scene_text.paper_scene(numerics={"model": "paper", "sampling": "patch"}, motion={"speeds": [0.03, 0.1]})
+SCENE = scene_text.paper_scene(
+    contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling": "patch"}, motion={"speeds": [0.03, 0.1]}
+)
 
 
 def broken(*_, **__):
