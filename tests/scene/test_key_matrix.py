@@ -561,15 +561,18 @@ def test_the_boundary_film_is_the_gap_below_which_the_bodies_rub():
 @pytest.mark.parametrize("mode", ["steady", "sweep"])
 def test_the_friction_of_the_paper_is_not_the_calibrated_one(mode):
     """Friction is f_b F_C and the shear of the film in both; "paper" shears the smooth film of Eq. (9)."""
-    scene = lubfric.load_scene("paper").with_(motion={"entrainment_speed": 0.05, "speeds": ()})
-    paper = scene.with_(numerics={"model": "paper"})
-    calibrated = scene.with_(numerics={"model": "quick"})
-    assert abs(answer(calibrated, mode) / answer(paper, mode) - 1) > MOVES
+    scene = lubfric.load_scene("paper").with_(
+        motion={"entrainment_speed": 0.05, "speeds": ()}, numerics={"sampling_tolerance": 0.3, "tolerance": 0.05}
+    )
     load = scene.bodies.load
-    for variant in (paper, calibrated):
+    answers = []
+    for model in ("paper", "quick"):
+        variant = scene.with_(numerics={"model": model})
         result = lubfric.friction(variant)
         boundary = scene.bodies.boundary_friction_coefficient * result.contact_load
-        assert answer(variant, mode) * load == pytest.approx(boundary + result.shear_force, rel=1e-6)
+        answers.append(answer(variant, mode))
+        assert answers[-1] * load == pytest.approx(boundary + result.shear_force, rel=1e-6)
+    assert abs(answers[1] / answers[0] - 1) > MOVES
 
 
 @pytest.mark.parametrize("mode", ["steady", "sweep", "transient"])
