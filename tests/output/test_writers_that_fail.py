@@ -6,6 +6,7 @@ import json
 
 import pytest
 import scene_text
+from pictures import STAND_IN
 
 import lubfric
 from lubfric.output import commands, main, run_curve, run_study
@@ -60,6 +61,8 @@ MODULES = {"studies": lubfric.studies, "run_curve": run_curve, "commands": comma
 
 @pytest.mark.parametrize("module, name", WRITERS)
 def test_each_writer_of_a_curve_may_fail(module, name, scene_file, whole, tmp_path, capsys, monkeypatch, drawn):
+    for home, plot in ((run_curve, "plot_stribeck"), (run_curve, "plot_contact"), (commands, "plot_surface")):
+        monkeypatch.setattr(home, plot, lambda path, *_: path.write_bytes(STAND_IN))
     monkeypatch.setattr(MODULES[module], name, broken)
     out = tmp_path / "out"
     code, said = run(capsys, "run", scene_file, "--out", out, "--vtk", "--workers", 1)
