@@ -22,6 +22,7 @@ shape = [48, 48]
 spacing = 1.1e-6
 [numerics]
 model = "paper"
+sampling = "patch"
 """
 
 

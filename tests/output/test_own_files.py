@@ -14,7 +14,6 @@ from lubfric._base import FolderLock, OwnFiles, write_checked
 from lubfric.output import main
 
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.3\nspeeds = [0.3]\n" + SMALL_PATCH
-SCENE += "sampling = 'patch'\n"
 MAPPED = SCENE.split("[surface]")[0] + "[surface]\nfile = 'MAP'\nspacing = 0.9e-6\n[numerics]\nsampling = 'patch'\n"
 HISTORY = '[transient]\nduration = 1e-4\noutputs = 2\nspeed = { kind = "file", file = "FILE", column = "U" }\n'
 STUDY = 'scene = "base.toml"\n[vary]\n"motion.slide_roll_ratio" = [1.0, 2.0]\n'

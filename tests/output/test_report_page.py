@@ -40,7 +40,7 @@ def browse(folder, *options):
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
     folder = tmp_path_factory.mktemp("report")
-    (folder / "s.toml").write_text(SCENE + SMALL_PATCH + "sampling = 'patch'\n")
+    (folder / "s.toml").write_text(SCENE + SMALL_PATCH)
     assert main(["run", str(folder / "s.toml"), "--speeds", "0.1,0.3,1", "--out", str(folder / "out")]) == 0
     return folder
 
@@ -79,7 +79,7 @@ def test_it_opens_whole_and_runs_nothing(run, width):
 
 def test_inputs_stand_as_they_were_given_beside_the_values_used(tmp_path):
     scene = SCENE.replace("radius = 2e-3", 'radii = ["4 mm", "4 mm"]')
-    (tmp_path / "s.toml").write_text(scene + SMALL_PATCH.replace("sq = 1e-7", 'ra = "80 nm"') + "sampling = 'patch'\n")
+    (tmp_path / "s.toml").write_text(scene + SMALL_PATCH.replace("sq = 1e-7", 'ra = "80 nm"'))
     assert main(["run", str(tmp_path / "s.toml"), "--speeds", "0.3", "--out", str(tmp_path / "out")]) == 0
     page = unescape((tmp_path / "out" / "report.html").read_text(encoding="utf-8"))
     row = re.search(r"<tr>(?:(?!</tr>).)*root mean square height Sq.*?</tr>", page)[0]
@@ -110,7 +110,7 @@ def test_the_record_has_units_and_a_date(run):
 
 def test_the_page_of_a_study_fits_a_phone(tmp_path):
     """Each row of its table is a list there, with the heading before every number."""
-    (tmp_path / "s.toml").write_text(SCENE + SMALL_PATCH + "sampling = 'patch'\n")
+    (tmp_path / "s.toml").write_text(SCENE + SMALL_PATCH)
     (tmp_path / "p.csv").write_text("position [mm],load [N],speed [m/s]\n-1,3,0.1\n0,5,0.2\n1,4,0.3\n")
     out = tmp_path / "out"
     assert main(["study", str(tmp_path / "s.toml"), "--points", str(tmp_path / "p.csv"), "--out", str(out)]) == 0

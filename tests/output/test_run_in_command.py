@@ -10,7 +10,7 @@ import lubfric
 from lubfric.output import main
 
 SCENE = BODIES_AND_OIL.replace("e_prime", "hardness = 2e9\ne_prime") + "[motion]\nentrainment_speed = 0.01\n"
-SCENE += "slide_roll_ratio = 2.0\n" + SMALL_PATCH + "sampling = 'patch'\n"
+SCENE += "slide_roll_ratio = 2.0\n" + SMALL_PATCH
 WEAR = ["--distance", "1 mm", "--wear-coefficient", "1e-6"]
 
 

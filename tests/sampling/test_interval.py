@@ -26,13 +26,13 @@ def seeds(scene, speed, numbers):
 
 def test_intervals_cover_a_line_many_times_as_long():
     truth = lubfric.friction(PAPER.with_(surface={"seed": 900}, numerics={"sampling_tolerance": 0.002}), 0.004)
-    points, f, sampling = seeds(PAPER, 0.004, range(901, 917))
+    points, f, sampling = seeds(PAPER, 0.004, range(901, 909))
     assert truth.uncertainty.length > 6 * points[0].uncertainty.length
     assert f.std(ddof=1) / f.mean() == pytest.approx(math.sqrt(np.mean(sampling**2)), rel=0.5)
     covered = [p.uncertainty.interval[0] <= truth.coefficient <= p.uncertainty.interval[1] for p in points]
-    assert sum(covered) >= 13
+    assert sum(covered) >= 6
     apart = f.mean() - truth.coefficient
-    assert abs(apart) <= 3 * truth.coefficient * math.hypot(truth.uncertainty.sampling, sampling.mean() / 4)
+    assert abs(apart) <= 3 * truth.coefficient * math.hypot(truth.uncertainty.sampling, sampling.mean() / math.sqrt(8))
 
 
 def test_a_place_moves_f_by_its_gap_and_by_where_it_touches():
@@ -40,7 +40,7 @@ def test_a_place_moves_f_by_its_gap_and_by_where_it_touches():
     scatters by half a per cent, where the division of the load scatters by much more."""
     law = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.09}
     scene = PAPER.with_(bodies={"load": 110.0}, lubricant=law, numerics={"film_deflection": "scaled"})
-    points, f, sampling = seeds(scene, 0.03, range(1, 9))
+    points, f, sampling = seeds(scene, 0.03, range(1, 7))
     scatter = f.std(ddof=1) / f.mean()
     stated = math.sqrt(np.mean(sampling**2))
     assert 0.002 < stated < 0.012 and 0.5 < stated / scatter < 2
@@ -185,6 +185,7 @@ def test_an_estimate_is_right_to_a_factor_of_four():
         )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sampling, speeds", [("strips", [0.003, 0.03]), ("patch", [0.01, 0.03])])
 def test_the_work_of_the_deterministic_model_is_estimated_to_a_factor_of_two(sampling, speeds):
     """Of all points together, counted by the cells and steps of what they solve."""

@@ -163,7 +163,7 @@ def test_without_entrainment_f_is_f_b(prepared):
 def test_rolling_roughness_moves_or_gets_load_sharing_and_the_reason(monkeypatch):
     """By the deterministic model where that is cheap; else by calibrated load sharing, which says what the other takes,
     and an error that holds."""
-    small = SCENE.with_(motion=ROLLING, contact={"shape": (32, 32), "spacing": 90e-6 / 32})
+    small = SCENE.with_(motion=ROLLING, contact={"shape": (32, 16), "spacing": 90e-6 / 32})
     small = small.with_(numerics={"sampling": "patch"})
     moved, shared = (lubfric.friction(small, 0.01, model=model) for model in ("auto", "paper"))
     assert moved.decision.model == "deterministic" and "the roughness moves at 0.0085 m/s" in moved.decision.text
@@ -375,6 +375,7 @@ def test_a_line_knows_how_its_strips_differ_when_each_is_balanced_alone(prepared
     assert total == pytest.approx(scene.bodies.load * line.numbers["coefficient"], rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("bodies, speed", [({}, 0.01), ({"hertz_pressure": 0.6e9}, 0.1)])
 def test_the_work_of_moving_roughness_is_estimated_within_a_factor_of_two(bodies, speed):
     """Counted work, of one strip and the ends of a range, before and after it is solved; not a clock."""

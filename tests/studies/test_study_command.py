@@ -23,7 +23,7 @@ ROOT = Path(__file__).parents[2]
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.001\n" + SMALL_PATCH
 STUDY = """
 scene = "small.toml"
-speed_range = [0.003, 0.3, 3]
+speed_range = [0.03, 0.3, 2]
 [vary]
 bodies.load = [3.0, 5.5]
 [[together]]
@@ -47,28 +47,26 @@ def test_a_study_file_is_carried_out(tmp_path, capsys, drawn):
     assert main(["study", written(tmp_path), "--out", str(tmp_path / "out")]) == 0
     said = capsys.readouterr().err
     assert (
-        "12 points" in said
-        and "[12/12]" in said
+        "8 points" in said
+        and "[8/8]" in said
         and "wrote report.html, resolved.toml, resolved_study.toml, study.csv" in said
     )
     result = lubfric.open_study(tmp_path / "out")
     scene = lubfric.load_scene(tmp_path / "small.toml")
     pairs = [(1, 1e-7), (2, 1.2e-7)]
     again = lubfric.study(
-        scene, {"bodies.load": [3.0, 5.5], ("surface.seed", "surface.sq"): pairs}, np.geomspace(0.003, 0.3, 3)
+        scene, {"bodies.load": [3.0, 5.5], ("surface.seed", "surface.sq"): pairs}, np.geomspace(0.03, 0.3, 2)
     )
     f = result["coefficient"]
     np.testing.assert_array_equal(f, again["coefficient"])
     for word, value in (("smallest", f.min()), ("largest", f.max())):  # at the end, with its place
         (row,) = (row for row in said.splitlines() if row.startswith(f"The {word} friction coefficient is"))
         assert float(row.split(" is ")[1].split()[0].rstrip(",")) == pytest.approx(value, rel=0.05)
-        load, seed, speed = (
-            axis[i] for axis, i in zip(((3, 5.5), (1, 2), (3e-3, 0.03, 0.3)), np.argwhere(f == value)[0])
-        )
+        load, seed, speed = (axis[i] for axis, i in zip(((3, 5.5), (1, 2), (0.03, 0.3)), np.argwhere(f == value)[0]))
         assert f": total load {load:g} N, seed {seed}, " in row and row.endswith(f"speed {speed:g} m/s.")
     assert (tmp_path / "out" / "study.png").read_bytes().startswith(b"\x89PNG")
     rows = (tmp_path / "out" / "study.csv").read_text().splitlines()
-    assert len(rows) == 13 and rows[0].startswith("bodies.load [N],surface.seed,surface.sq [m],speed [m/s],")
+    assert len(rows) == 9 and rows[0].startswith("bodies.load [N],surface.seed,surface.sq [m],speed [m/s],")
     assert not [p for p in (tmp_path / "out").rglob("*") if p.name.startswith(".part")]
     assert studies.load_study(tmp_path / "out" / "resolved_study.toml").keys == result.plan.keys
 
@@ -161,7 +159,7 @@ def test_points_of_a_picture_have_the_numbers_of_the_report(tmp_path, monkeypatc
 
 def test_explain_solves_nothing(tmp_path, capsys):
     assert main(["study", written(tmp_path), "--out", str(tmp_path / "out"), "--explain"]) == 0
-    assert "12 points" in capsys.readouterr().out and not (tmp_path / "out").exists()
+    assert "8 points" in capsys.readouterr().out and not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize("change, words", [(("speed_range", "speed_rnage"), "did you"), (("small", "smal"), "smal")])
@@ -183,7 +181,7 @@ def test_the_points_that_are_kept_are_counted_in_words(monkeypatch, solved, miss
 
 @pytest.mark.parametrize("sent, code", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interrupt_is_one_line_and_the_command_goes_on(tmp_path, sent, code):
-    many = STUDY.replace("[3.0, 5.5]", str([3.0 + 0.001 * i for i in range(1500)]))
+    many = STUDY.replace("[3.0, 5.5]", str([3.0 + 0.001 * i for i in range(300)]))
     path = written(tmp_path, many)
     out = tmp_path / "out"
     process = command("study", path, "--out", out, "--workers", 2, stderr=subprocess.PIPE, text=True)

@@ -60,9 +60,10 @@ RUNS = {
 }
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name in ("ratios", "rolling"))) for name in RUNS]
-)
+LONG = ("ratios", "rolling", "in time", "fit")
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name in LONG)) for name in RUNS])
 def test_the_estimate_is_near_the_counted_work(name):
     estimate, run = RUNS[name]
     seconds = estimate()
