@@ -10,10 +10,11 @@ from lubfric.models.deterministic.time_and_place import TimeAndPlace, mean_over_
 
 
 def test_a_rough_body_at_rest_below_a_rough_one_that_moves_has_an_answer():
-    roughness = {"sq": 1e-7, "correlation_length": 8e-6, "acf": "gaussian"}
+    roughness = {"sq": 1e-7, "correlation_length": 16e-6, "acf": "gaussian"}
     scene = lubfric.load_scene("paper").with_(
         bodies={"load": 60.0, "boundary_film": 2e-8},
         lubricant={"viscosity": 0.1, "eyring_stress": 5e6, "limiting_stress_coefficient": 0.06},
+        surface=roughness,
         counterface=roughness,
         motion={"slide_roll_ratio": 2.0},
         numerics={"model": "quick", "sampling_tolerance": 0.5, "tolerance": 0.1},

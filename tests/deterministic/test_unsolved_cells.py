@@ -5,7 +5,9 @@ import pytest
 import lubfric
 from lubfric.models.deterministic import shorter_cells
 
-SCENE = lubfric.load_scene("paper").with_(lubricant={"limiting_stress_coefficient": "f_b"})
+SCENE = lubfric.load_scene("paper").with_(
+    lubricant={"limiting_stress_coefficient": "f_b"}, numerics={"sampling_tolerance": 0.1}
+)
 SPEED = 0.01
 
 

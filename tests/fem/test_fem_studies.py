@@ -10,7 +10,10 @@ from verification.run import load
 NAMES = ("reynolds", "layer", "contact", "contact_grid", "ehl_grid")  # the others with python -m verification
 
 
-@pytest.mark.parametrize("study", [s for s in STUDIES if s.name in NAMES], ids=lambda s: s.name)
+@pytest.mark.parametrize(
+    "study",
+    [pytest.param(s, id=s.name, marks=[pytest.mark.slow] * (s.name == "layer")) for s in STUDIES if s.name in NAMES],
+)
 def test_every_check_passes(study):
     checks = [item for item in load(study)("quick") if isinstance(item, Check)]
     assert len(checks) > 5 and [c for c in checks if c.failed] == []

@@ -16,6 +16,7 @@ from lubfric.output import describe_scene, main
 from lubfric.output.report import history_answer
 from lubfric.scene import Harmonic, Ramp, Transient
 
+SMALL = {"shape": (96, 96), "spacing": 0.9e-6}
 STRIPS = paper_scene(motion={"entrainment_speed": 0.02}, bodies={"boundary_friction_coefficient": 0.09})
 
 
@@ -84,7 +85,7 @@ def test_the_sensitivity_of_f_at_a_moment_is_that_of_a_balance_solved_again(cont
 
 def test_the_sampling_error_of_a_moment_does_not_depend_on_how_it_was_reached():
     """A film of constant speed, and one that has come to this speed slowly from a lower one."""
-    scene = lubfric.load_scene("paper").with_(motion={"entrainment_speed": 0.03}, numerics={"model": "paper"})
+    scene = paper_scene(contact=SMALL, motion={"entrainment_speed": 0.03}, numerics={"sampling_tolerance": 0.1})
     slow_start = Ramp(start=0.02, end=0.03, until=0.02)
     plans = (Transient(duration=0.03, outputs=1), Transient(duration=0.03, outputs=1, speed=slow_start))
     held, slowed = (lubfric.transient(scene.with_(transient=plan)) for plan in plans)
@@ -113,7 +114,7 @@ def test_the_time_of_a_mean_is_that_of_the_outputs(held):
 def test_friction_gives_no_power():
     """Rolling, sliding and asperity contacts nearly cancel in f, whose interval is wide: that of the power ends at 0."""
     sliding = Harmonic(amplitude=0.2, frequency=500.0, phase=3.3)
-    scene = paper_scene(numerics={"sampling": "patch"}, motion={"entrainment_speed": 0.1})
+    scene = paper_scene(contact=SMALL, numerics={"sampling": "patch"}, motion={"entrainment_speed": 0.1})
     run = lubfric.transient(scene.with_(transient=Transient(5e-4, outputs=4, sliding=sliding)))
     assert np.all(run.power_loss > 0) and np.all(run.uncertainty.interval[:, 0] < 0)
     assert np.all(run.power_loss_low >= 0) and np.any(run.power_loss_low == 0)
@@ -166,7 +167,7 @@ def test_the_budget_of_the_mean_is_the_mean_of_the_ends_where_one_part_is_all(he
 
 def test_a_reversal_is_reported_without_the_advice_on_percent():
     plan = Transient(0.02, outputs=20, speed=Harmonic(amplitude=0.05, frequency=50.0, phase=1.5), sliding=0.05)
-    scene = paper_scene(numerics={"sampling": "patch"}).with_(transient=plan)
+    scene = paper_scene(contact=SMALL, numerics={"sampling": "patch"}).with_(transient=plan)
     text = " ".join(lubfric.transient(scene).validity)
     assert "slide-roll ratio is" in text and "percent" not in text and "motion.sliding_speed over the run" in text
     assert "slide-roll ratio: 2" not in describe_scene(scene)
@@ -184,7 +185,9 @@ def test_info_refuses_what_a_run_refuses(tmp_path, capsys):
 
 def test_the_report_of_a_run_has_budget_table_and_sources(tmp_path):
     plan = Transient(0.0125, outputs=10, speed=Harmonic(amplitude=0.05, frequency=100.0, phase=1.5))
-    (tmp_path / "s.toml").write_text(paper_scene(numerics={"sampling": "patch"}).with_(transient=plan).to_toml())
+    (tmp_path / "s.toml").write_text(
+        paper_scene(contact=SMALL, numerics={"sampling": "patch"}).with_(transient=plan).to_toml()
+    )
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "out")]) in (0, 1)
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     assert "<h2>Uncertainty budget</h2><p>Relative errors of the mean friction coefficient," in page
@@ -217,7 +220,9 @@ def test_the_report_of_a_cycle_states_ranges_signs_and_its_start(tmp_path, capsy
         load=Harmonic(mean=3.0, amplitude=1.0, frequency=100.0),
     )
     said, page = run_and_page(
-        paper_scene(numerics={"sampling": "patch", "accept": True}).with_(transient=plan), tmp_path / "a", capsys
+        paper_scene(contact=SMALL, numerics={"sampling": "patch", "accept": True}).with_(transient=plan),
+        tmp_path / "a",
+        capsys,
     )
     assert "under 2 to 4 N" in page and "total load 2 to 4 N over the run" in " ".join(page.split())
     assert "It is negative at" in page and "where f is nearest to its mean" in page
@@ -234,7 +239,7 @@ def test_an_interval_without_model_form_error_says_so_and_why(tmp_path, capsys):
     for text in (said, page):
         assert "Why the model-form error is not known: contact.region = 'box'" in text
     assert "95 % interval of f, without model-form error" in page
-    known = lubfric.transient(paper_scene(numerics={"sampling": "patch"}).with_(transient=plan))
+    known = lubfric.transient(paper_scene(contact=SMALL, numerics={"sampling": "patch"}).with_(transient=plan))
     assert known.model_form_unknown == "" and np.isfinite(known.uncertainty.model).all()
 
 
@@ -252,7 +257,7 @@ def test_the_second_period_of_two_is_read_alone(tmp_path):
         "speed": Harmonic(amplitude=0.5, frequency=100.0),
         "load": Harmonic(mean=3.0, amplitude=1.0, frequency=100.0),
     }
-    scene = paper_scene(numerics={"sampling": "patch", "accept": True})
+    scene = paper_scene(contact=SMALL, numerics={"sampling": "patch", "accept": True})
     whole = lubfric.transient(scene.with_(transient=Transient(0.02, outputs=16, **motion)))
     second = scene.with_(transient=Transient(0.02, outputs=8, first_output=0.01, **motion))
     (tmp_path / "s.toml").write_text(second.to_toml())

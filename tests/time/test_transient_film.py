@@ -31,7 +31,14 @@ def jump(value, factor, at=0.0):
     return Table(times=(*before, at, at, 1e3), values=(value,) * (len(before) + 1) + (factor * value,) * 2)
 
 
-@pytest.mark.parametrize("part", [partial(study.squeeze, 128), study.halved, study.stopped])
+@pytest.mark.parametrize(
+    "part",
+    [
+        pytest.param(partial(study.squeeze, 128), marks=pytest.mark.slow),
+        study.halved,
+        pytest.param(study.stopped, marks=pytest.mark.slow),
+    ],
+)
 def test_every_check_of_the_study_passes(part):
     """The exact squeeze, orders in time and space, a table by a separate solver, stops."""
     checks = [item for item in part() if isinstance(item, Check)]

@@ -63,6 +63,7 @@ def test_one_that_differs_ends_with_1_and_is_listed(tmp_path, monkeypatch, capsy
     assert "Failed:\n  flash temperature, Hertz band: 1.11" in out and "1.2 ± " in out
 
 
+@pytest.mark.slow
 def test_the_patch_of_xu_et_al_has_their_elastic_energy():
     """Full contact is linear, so a wave stores E* q |h|²/4; another size of patch has another energy."""
     solved = {patch: references.self_affine_full_contact(patch) for patch in (4, 8, 16, 32)}

@@ -77,6 +77,7 @@ def test_deflection_of_the_judge_agrees_with_the_operator(boundary):
     assert u == pytest.approx(half_space(p.shape, (1e-6, 2e-6), 231e9, boundary).apply(p), rel=1e-10)
 
 
+@pytest.mark.slow
 def test_quick_contact_map_has_no_wrong_cell_and_no_warning():
     with warnings.catch_warnings():
         warnings.simplefilter("error")

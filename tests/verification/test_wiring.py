@@ -14,7 +14,9 @@ from verification.run import load
 WIRING = [s for s in STUDIES if s.name.startswith("wiring")]
 
 
-@pytest.mark.parametrize("study", WIRING, ids=lambda s: s.name)
+@pytest.mark.parametrize(
+    "study", [pytest.param(s, id=s.name, marks=[pytest.mark.slow] * (s.name == "wiring_time")) for s in WIRING]
+)
 def test_every_option_arrives(study):
     checks = [item for item in load(study)("quick") if isinstance(item, Check)]
     assert len(checks) > 10 and [c for c in checks if not c.passed] == []
