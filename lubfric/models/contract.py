@@ -192,7 +192,6 @@ class WorkEstimate:
     longest_strip_seconds : the same if that strip has to be solved again on shorter cells
     length : of the strips [m]; NaN: there is one patch
     expected_sampling_error : relative standard error of f after the first strips; NaN: there is one patch
-    expected_strip_scatter : relative standard deviation of f between strips that are solved one by one; NaN: as that error
     expected_model_error : relative model-form error of f
     touching : whether asperities touch: "touching", "none or a few summits", or "none"
     """
@@ -206,7 +205,6 @@ class WorkEstimate:
     longest_strip_seconds: float = 0.0
     length: float = math.nan
     expected_sampling_error: float = math.nan
-    expected_strip_scatter: float = math.nan
     expected_model_error: float = math.nan
     touching: str = ""
 

@@ -5,8 +5,6 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
-import numpy as np
-
 from ..errors import InputError
 from ..estimate import estimated_work_of_point, seconds_of_points
 from ..models import AUTO, model_named, models_that_may_answer
@@ -27,7 +25,7 @@ from ..models.shared import (
 from ..quantities import counted
 from ..samples import Sample, check_map, sample_of, takes_strips
 from ..scene import UNITS_OF_HISTORIES, Scene, has_moving_roughness, hint_unusual_values, why_gap_not_resolved
-from ..studies import EXPECTED_SPEEDS, WITHIN_WORDS, in_words, span
+from ..studies import WITHIN_WORDS, expected_speeds, in_words
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import RunEstimate, check_run, estimated_run, periods, run_model_of, sampled_times, scene_at, speeds_of_run
 from ..units import worded
@@ -127,7 +125,7 @@ def estimate_scene(
     """Return what is known of a ``scene`` before it is solved at ``speeds`` [m/s], as `describe_scene`; or at its own
     speed and the slide-roll ``ratios``. ``sample`` and ``surface``: as `lubfric.prepare` makes them."""
     scene_speed = scene.motion.entrainment_speed
-    chosen = np.geomspace(*span(scene, surface.sq), EXPECTED_SPEEDS).tolist() if isinstance(speeds, str) else speeds
+    chosen = expected_speeds(scene, surface.sq) if isinstance(speeds, str) else speeds
     speeds = [scene_speed] if len(ratios) else list(chosen) or list(scene.motion.speeds) or [scene_speed]
     changing = []
     over = counted(len(ratios), "ratios") if len(ratios) else counted(len(speeds), "speeds")

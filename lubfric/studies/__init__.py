@@ -1,7 +1,7 @@
 """Many points: sweeps, studies, curves, fits, and the store that keeps them."""
 
 from .._base.processes import MOST_WORKERS, cluster, pool, processors
-from .choose import AUTO_SPEEDS, EXPECTED_SPEEDS, each_once, span
+from .choose import AUTO_SPEEDS, each_once, expected_speeds, span
 from .codec import classes_of, decode, encode, fits
 from .curve import CurveResult, csv_bytes
 from .explain import WITHIN_WORDS, estimated_study, in_words

@@ -16,7 +16,7 @@ from ..models import models_that_may_answer, prepare
 from ..models.shared import Assumption, Prepared, Violation, sentence, violations_by_unusual_inputs
 from ..quantities import counted, worded_value
 from ..scene import SLIDE_ROLL_RATIO_KEY
-from .choose import EXPECTED_SPEEDS, first_speeds
+from .choose import EXPECTED_SPEEDS, expected_speeds, first_speeds
 from .operating_points import POINT, SLIDING_COLUMN, U1
 from .store import PLAN, Store
 from .study_table import StudyTable
@@ -35,7 +35,7 @@ LISTED = 4
 def curve_seconds(prepared: Prepared, speeds: Sequence[float], *, has_new_map: bool = True) -> float:
     """Return the processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses), within a
     factor of about 3; ``has_new_map``: whether what the surface alone demands is still to be done."""
-    at = speeds or first_speeds(prepared.scene, prepared.surface.sq)
+    at = speeds or expected_speeds(prepared.scene, prepared.surface.sq)
     points = [estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed) for speed in at]
     known = {part.what for point in points for part in point.shared if part.of_surface_alone and not has_new_map}
     return seconds_of_points(points, None if speeds else EXPECTED_SPEEDS, known)

@@ -34,6 +34,9 @@ SLOW = 0.1
 # Part of the largest speed that counts as the smallest: a film at rest changes by squeeze alone.
 SMALLEST_SPEED = 1e-3
 
+# Speeds between that and the largest one at which the film is estimated.
+SPEEDS_OF_FILM = 16
+
 # Times in a period, or in a run without periods, at which its histories are compared.
 TIMES_OF_PERIOD = 128
 
@@ -43,11 +46,11 @@ MOST_PERIODS = 100.0
 # Steps at the start of a run, and after each jump.
 STEPS_OF_START = 30.0
 
-# Processor seconds of the film in a step.
-FILM_STEP_SECONDS = 6e-3
+# Processor seconds of the film in a step: 3 to 6 ms in 15 random runs of `python -m verification.campaigns.estimates`.
+FILM_STEP_SECONDS = 4e-3
 
-# Processor seconds of the contact in a step, over its cells.
-CELL_STEP_SECONDS = 1.5e-7
+# Processor seconds of the contact in a step, over its cells: .5e-7 there in thin films, 1.2e-7 to 1.6e-7 in thicker ones.
+CELL_STEP_SECONDS = 1.3e-7
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,7 +88,6 @@ def estimated_load_sharing(scene: Scene, sample: Sample, surface: Surface) -> Ru
     of the gap that the film fills.
     """
     plan = transient_of(scene)
-    moving = [speed for speed in speeds_of_run(scene) if speed]
     points = [estimated_work_of_point(scene, sample, surface, speed) for speed in speeds_of_run(scene) or [0.0]]
     widest = None
     cells = surface.heights.size
@@ -93,20 +95,21 @@ def estimated_load_sharing(scene: Scene, sample: Sample, surface: Surface) -> Ru
         widest = max(points, key=lambda point: point.strips)
         cells = round(sample.cells.columns * widest.length / sample.cells.spacing[1])
     tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")
-    carried = sum(_part_of_film(scene, surface.sq, speed) for speed in moving) / len(moving) if moving else 1.0
-    times, changed = changes(scene)
+    times, changed, carried = changes(scene, surface.sq)
     jumps = sorted({time for history in plan.histories for time in history.jumps(plan.duration)})
-    begun = STEPS_OF_START * (1.0 + np.searchsorted(jumps, times))
+    begun = STEPS_OF_START * carried.mean() * (1.0 + np.searchsorted(jumps, times))
     changing = STEPS_OF_CHANGE * (STEP_TOLERANCE / tolerance) ** (1 / 3) * changed + begun
-    steps_until = np.maximum(plan.outputs * times / plan.duration, carried ** (1 / 3) * changing)
+    steps_until = np.maximum(plan.outputs * times / plan.duration, changing)
     steps = float(steps_until[-1])
     seconds = seconds_of_points(points) + steps * (FILM_STEP_SECONDS + CELL_STEP_SECONDS * cells)
     return RunEstimate(steps=steps, seconds=seconds, times=times, steps_until=steps_until, widest=widest)
 
 
-def changes(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
-    """Return times [s] of a run, and how much its speed, load and radius have changed until then, (n,) each: the sum of
-    |d ln| of each, with the weights 1, `CHANGE_OF_LOAD` and `CHANGE_OF_RADIUS`.
+def changes(scene: Scene, sq: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return times [s] of a run, how much its speed, load and radius have changed until then, and the cubic root of the part of
+    the gap that the film fills, at rough surfaces of ``sq`` [m], (n,) each. The changes are the sum of |d ln| of each, with the
+    weights 1, `CHANGE_OF_LOAD` and `CHANGE_OF_RADIUS`, times that root: of what changes only so much moves the gap, by which a
+    step is judged.
 
     The speed of a reversal does not count as smaller than that which passes the contact and its inlet, of the length l,
     with the acceleration a: sqrt(2 l a).
@@ -136,15 +139,21 @@ def changes(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
         passing = math.sqrt(2.0 * length * float(np.max(np.abs(np.gradient(speed, times))[slow])))
         effective = np.hypot(speed, max(passing, SMALLEST_SPEED * fastest))
     weighted = (effective, 1.0), (load, CHANGE_OF_LOAD), (radius, CHANGE_OF_RADIUS)
-    changed = sum(weight * np.abs(np.diff(np.log(values))) for values, weight in weighted)
-    return times / shown, np.append(0.0, np.cumsum(changed)) / shown
+    changed = np.sum([weight * np.abs(np.diff(np.log(values))) for values, weight in weighted], axis=0)
+    carried = np.cbrt(_parts_of_film(scene, sq, effective))
+    changed = np.append(0.0, np.cumsum(0.5 * (carried[1:] + carried[:-1]) * changed))
+    return times / shown, changed / shown, carried
 
 
-def _part_of_film(scene: Scene, sq: float, speed: float) -> float:
-    """Return the part of the gap, at rough surfaces of ``sq`` [m], that the film fills at ``speed`` [m/s]: of what changes
-    in time only so much moves the gap, by which a step is judged."""
-    film = scene.line_contact(abs(speed)).expected_film
-    return min(film / expected_gap(film, sq), 1.0)
+def _parts_of_film(scene: Scene, sq: float, speeds: np.ndarray) -> np.ndarray:
+    """Return the part of the gap, at rough surfaces of ``sq`` [m], that the film fills at each of ``speeds`` [m/s] (n,), none
+    negative; 1 where nothing is entrained."""
+    fastest = float(speeds.max())
+    if fastest < 1e-200:
+        return np.ones(speeds.size)
+    known = np.geomspace(SMALLEST_SPEED * fastest, fastest, SPEEDS_OF_FILM)
+    films = [scene.line_contact(speed).expected_film for speed in known.tolist()]
+    return np.interp(speeds, known, [min(film / expected_gap(film, sq), 1.0) for film in films])
 
 
 def periods(history: History, duration: float) -> float:

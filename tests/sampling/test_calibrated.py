@@ -20,7 +20,7 @@ from lubfric.models.deterministic import (
     solve_point,
     solve_strip,
 )
-from lubfric.models.deterministic.answer import REDISTRIBUTED
+from lubfric.models.deterministic.expected_friction import REDISTRIBUTED
 from lubfric.models.load_sharing import least_error, starved_error
 from lubfric.models.quick import (
     error_models,

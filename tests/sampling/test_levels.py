@@ -386,8 +386,8 @@ def test_the_work_of_moving_roughness_is_estimated_within_a_factor_of_two(bodies
     estimate = moving_point_work(
         prepared.scene,
         prepared.sample,
-        sq=prepared.surface.sq,
-        speed=speed,
+        prepared.surface,
+        speed,
         sample_coarsening=sample_coarsening_of(prepared.scene, prepared.sample),
     )
     assert 0.5 < solve_pair(prepared, speed, None, 0).resolved.work / estimate < 2

@@ -2,7 +2,7 @@
 
 from .answer import LARGEST_PART, answer_of
 from .cells_in_motion import CellsInMotion, cells_in_motion, cells_of_strips, film_exponent_of
-from .estimated_work import work_of_fine_fields, work_on_strips
+from .estimated_work import work_of_fine_fields, work_on_long_cells
 from .flow import derivatives, mass_balance
 from .heat import strip_heat, why_too_hot
 from .levels import Levels, levels_of, two_levels

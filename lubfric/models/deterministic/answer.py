@@ -39,6 +39,7 @@ from ..shared import (
     why_sample_too_short,
 )
 from .estimated_work import pictured_length
+from .expected_friction import HARDNESS_MATTERS, REDISTRIBUTED
 from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
 from .levels import Levels, mean
 from .problem import BOUNDARY_FILM
@@ -82,13 +83,6 @@ SMALLER_SOLVE_TOLERANCE = "a smaller numerics.tolerance"
 # the shear of the solved moments gave f within 7 % of its change (needle rollers, bearings, light contacts); at .023, a
 # gear flank, it gave -47 % for -30 %.
 FLOW_MATTERS = 0.01
-
-# Largest change of f by the load that another hardness moves, over that by the mean of the contact [-]. On a strip at rest
-# and on one in motion, of which hardnesses 30 % lower moved .4 to 16 % of the load, solved changes were .2 to 1.6 times it.
-REDISTRIBUTED = 2.0
-
-# Such a change over f, above which that hardness is solved [-]. A convention.
-HARDNESS_MATTERS = 0.02
 
 # Share of the lubricant out of touching cells above which a warning reports it.
 MOST_GIVEN_OFF = 0.1

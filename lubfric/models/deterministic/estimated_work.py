@@ -10,9 +10,11 @@ from ..contract import WorkEstimate
 from ..shared import FREEDOM_NOT_COUNTED, STRIPS_SAFETY, peak_hertz_pressure, smooth_over_cells, student
 from .cells_in_motion import CellsInMotion
 from .counted_work import work_of_steps
+from .expected_friction import expected_friction
 from .expected_steps import AGAIN, STRIP_STEPS, ExpectedSteps, expected_steps
-from .levels import DIFFERENCE_SHARE, HALVED_WORK, STRIPS_GROWTH
+from .levels import DIFFERENCE_SHARE, HALVED_WORK, STRIPS_GROWTH, STRIPS_SPARE
 from .linear import HIGH_PRESSURE
+from .moving_strip import COURSE_ON_LONG_CELLS
 from .problem import are_soft, reach
 from .rough_bodies import MOST_WORK_OF_POINT, moving_point_work
 from .shorter_cells import LAST_PIECE, PIECES_SHARE, SHORT, SOFT_CELL_ERROR
@@ -64,10 +66,12 @@ LAST_LEVEL = (0.2, 0.4)
 # Processor time of roughness at rest over its counted work [-]: .5 to .86 in ten runs of ``verification.campaigns.estimates``.
 AT_REST = 0.64
 
-# Processor time of moving roughness over its counted work [-]: .38 to .66 in seven random points, for their matrices have
-# cuts one cell wide and omit what is small; less where fewer steps are needed than are counted. A pass takes .79 of what it
-# took then.
-IN_MOTION = 0.36
+# Processor time of moving roughness over its counted work [-]: .44 to .56 in five jobs of
+# verification.campaigns.benchmarks.rolling_costs.
+IN_MOTION = 0.5
+
+# The same on long cells, whose arrays are small [-]: .6 to .75 in most of 12 random points of verification.campaigns.estimates.
+ON_LONG_CELLS = 0.65
 
 # Newton steps in a step in time of moving roughness over those of the counted work [-]: the first, times the correlation length
 # along x over the Hertz half-width, the pressure-viscosity coefficient times the Hertz pressure over Λ, each to its power, and
@@ -90,14 +94,21 @@ MIXED_FILMS = (0.3, 1.7)
 
 # Factor on the work where that may happen (`shorter_ones_pay`) [-]: between 1, where it does not, and 1 plus `HALVED_WORK`, with
 # the weight of a fourth. It did in 2 of 31 contacts of verification.campaigns.moving_coverage.
-MAY_BE_HALVED = 1.4
+MAY_BE_HALVED = 1.2
 
 # Scatter of the difference between the models over that of f [-].
 UNLIKE = 0.65
 
-# Scatter of f with its control over that without where roughness moves [-]: attenuated summits leave 12 to 20 % of the variance
-# (docs/design-notes.md).
-UNLIKE_IN_MOTION = 0.45
+# Relative standard error of f of a strip whose map has passed, over the root of the expected scatter (`_expected_strips`) of one
+# area of the correlation lengths over that of the map [-]. Fitted with its exponent to 51 contacts of
+# verification.campaigns.moving_coverage and verification.campaigns.estimates.
+SCATTER_IN_MOTION = 0.45
+
+# Standard deviation of ln of the strips that follow from it [-]: twice that of ln of the error about it, .91 in these contacts.
+SCATTER_SPREAD = 1.8
+
+# Cautious error (`StandardError.cautious`) over the error [-], with some ten degrees of freedom.
+CAUTIOUS = 1.3
 
 # Half-widths of the Hertz strip along y that are solved again for a picture [-].
 PICTURED_LENGTH = 10.0
@@ -120,44 +131,25 @@ def estimated_work(
         return NO_WORK
     sample_coarsening = sample_coarsening_of(scene, sample)
     one_strip = (
-        moving_point_work(scene, sample, sq=sq, speed=speed, sample_coarsening=sample_coarsening)
+        moving_point_work(scene, sample, surface, speed, sample_coarsening=sample_coarsening)
         if has_moving_roughness(scene)
         else 0.0
     )
     if scene.transient is not None or why_gap_not_resolved(scene):
         strip_seconds = _seconds_in_motion(scene, sample, sq=sq, speed=speed, work=one_strip) if one_strip else 0.0
         return WorkEstimate(strips=0, seconds=0.0, strip_seconds=strip_seconds)
-    scatter = 0.0
     if numerics.model == "auto" and cheaper is not None and cheaper.expected_model_error <= numerics.model_tolerance:
         return NO_WORK
+    if has_moving_roughness(scene):
+        return _work_in_motion(scene, sample, surface, speed, one_strip)
+    scatter = 0.0
     if cheaper is not None and math.isfinite(cheaper.expected_sampling_error):
         scatter = cheaper.expected_sampling_error * math.sqrt(sample.first_strips)
-    is_flattened = scene.bodies.half_width**2 / (2 * scene.bodies.radius) > sq  # no summit is left above a thick film
-    is_other = has_moving_roughness(scene) or is_flattened
-    if cheaper is not None and not is_other and math.isfinite(cheaper.expected_strip_scatter):
-        scatter = cheaper.expected_strip_scatter
     allowed = math.hypot(
         DIFFERENCE_SHARE * numerics.model_tolerance / student(FREEDOM_NOT_COUNTED), numerics.sampling_tolerance
     )
-    unlike = UNLIKE_IN_MOTION if has_moving_roughness(scene) else UNLIKE
-    wanted = STRIPS_SAFETY * (unlike * scatter / allowed) ** 2
+    wanted = STRIPS_SAFETY * (UNLIKE * scatter / allowed) ** 2
     count = min(max(1, math.ceil(wanted)), sample.available_strips)
-    if has_moving_roughness(scene):
-        strip_seconds = _seconds_in_motion(scene, sample, sq=sq, speed=speed, work=one_strip)
-        longest = strip_seconds
-        if one_strip > MOST_WORK_OF_POINT and numerics.model == "auto":
-            return WorkEstimate(strips=0, seconds=0.0, strip_seconds=strip_seconds)
-        count = min(count, max(1, int(MOST_WORK_OF_POINT / one_strip)))  # no more are solved
-        if count * HALVED_WORK * one_strip <= MOST_WORK_OF_POINT and _may_be_halved(scene, sample, surface, speed):
-            longest = (1.0 + HALVED_WORK) * strip_seconds
-            strip_seconds *= MAY_BE_HALVED
-        return WorkEstimate(
-            strips=count,
-            seconds=count * strip_seconds,
-            strip_seconds=strip_seconds,
-            longest_strip_seconds=longest,
-            length=sample.line_length(count),
-        )
     if wanted > ENOUGH_ALONE:
         count = min(max(count, int(STRIPS_GROWTH[0])), sample.available_strips)
     ends = 2 * sum(name != BOUNDARY_FRICTION_KEY for name, *_ in scene.ranges)
@@ -170,6 +162,49 @@ def estimated_work(
         seconds=AT_REST * work,
         fine_fields_seconds=work_of_fine_fields(scene, sample, sq, speed),
     )
+
+
+def _work_in_motion(scene: Scene, sample: Sample, surface: Surface, speed: float, one_strip: float) -> WorkEstimate:
+    """Return the same of moving roughness; ``one_strip``: `moving_point_work` [s]."""
+    sq = surface.sq
+    strip_seconds = _seconds_in_motion(scene, sample, sq=sq, speed=speed, work=one_strip)
+    numerics = scene.numerics
+    if one_strip > MOST_WORK_OF_POINT and numerics.model == "auto":
+        return WorkEstimate(strips=0, seconds=0.0, strip_seconds=strip_seconds)
+    ended = math.inf if numerics.max_work is None else IN_MOTION * numerics.max_work
+    affordable = max(1.0, IN_MOTION * MOST_WORK_OF_POINT / strip_seconds)
+    count = min(_expected_strips(scene, sample, sq=sq, speed=speed), affordable, sample.available_strips)
+    longest = strip_seconds
+    if count * HALVED_WORK <= affordable and _may_be_halved(scene, sample, surface, speed):
+        longest = (1.0 + HALVED_WORK) * strip_seconds
+        strip_seconds *= MAY_BE_HALVED
+    return WorkEstimate(
+        strips=round(count),
+        seconds=min(count * strip_seconds, ended),
+        strip_seconds=strip_seconds,
+        longest_strip_seconds=longest,
+        length=sample.line_length(round(count)),
+    )
+
+
+def _expected_strips(scene: Scene, sample: Sample, *, sq: float, speed: float) -> float:
+    """Return how many strips of moving roughness of ``sq`` [m] the sampling error at ``speed`` [m/s] needs, as the geometric
+    mean over what `SCATTER_SPREAD` leaves open.
+
+    f scatters by the asperity load ratio s, as of single contacts, sqrt(s (1 - s)), times the `ExpectedFriction.contrast`. A strip
+    is followed until its map has passed.
+    """
+    expected = expected_friction(scene, sq, speed)
+    scatter = math.sqrt(expected.share * (1.0 - expected.share)) * expected.contrast
+    (lx, ly) = sample.correlation_lengths
+    passed = sample.cells.columns * sample.cells.spacing[0] + 2.0 * scene.bodies.half_width
+    error = SCATTER_IN_MOTION * math.sqrt(scatter * lx * ly / (passed * sample.strip_length))
+    needed = STRIPS_SPARE[0] * (CAUTIOUS * error / scene.numerics.sampling_tolerance) ** 2
+    if needed == 0:
+        return 1.0
+    apart = math.log(needed) / SCATTER_SPREAD
+    more = math.exp(-0.5 * apart**2) / math.sqrt(2.0 * math.pi) + 0.5 * apart * (1.0 + math.erf(apart / math.sqrt(2.0)))
+    return math.exp(SCATTER_SPREAD * more)
 
 
 def _work_at_rest(
@@ -197,7 +232,8 @@ def _work_at_rest(
     pieces = 0.0
     if max(left) >= 2:
         finer = min(left[0], 2) * min(left[1], 2) * PIECE * lengths * cells
-        is_rubbed = is_smooth and scene.line_contact(abs(speed)).moes_film < RUBBED_FILM * sq
+        line = scene.line_contact(abs(speed))
+        is_rubbed = is_smooth and line.moes_film < RUBBED_FILM * sq and not are_soft(line, sq)
         number = PIECES_OF_MORE_STRIPS if count > 1 else PIECES_OF_RUBBED if is_rubbed else 1.0
         pieces += number * (1 + ON_LONGER_CELLS) * steps.work(finer, max(steps.first, _finer_steps(scene, sq, speed)))
     if max(left) >= 4:
@@ -255,11 +291,15 @@ def _finer_steps(scene: Scene, sq: float, speed: float) -> int:
 
 def _seconds_in_motion(scene: Scene, sample: Sample, *, sq: float, speed: float, work: float) -> float:
     """Return the processor time [s] of so much counted ``work`` [s] on moving roughness of ``sq`` [m] at ``speed`` [m/s]."""
+    return IN_MOTION * work * _newton_steps(scene, sample, sq=sq, speed=speed)
+
+
+def _newton_steps(scene: Scene, sample: Sample, *, sq: float, speed: float) -> float:
+    """Return the Newton steps in a step in time of roughness of ``sq`` [m] at ``speed`` [m/s], over those of the counted work."""
     thickened = scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene)
     thickening = max(thickened * sq / scene.line_contact(abs(speed)).moes_film, LEAST_THICKENING)
     steps = NEWTON_STEPS * (sample.correlation_lengths[0] / scene.bodies.half_width) ** BY_CORRELATION_LENGTH
-    steps *= thickening**BY_THICKENING * math.exp(BY_SLIDING * abs(scene.motion.slide_roll_ratio))
-    return float(IN_MOTION * work * steps)
+    return float(steps * thickening**BY_THICKENING * math.exp(BY_SLIDING * abs(scene.motion.slide_roll_ratio)))
 
 
 def _may_be_halved(scene: Scene, sample: Sample, surface: Surface, speed: float) -> bool:
@@ -298,14 +338,16 @@ def pictured_length(scene: Scene, sample: Sample) -> float:
     return max(LEAST_PICTURED_LENGTH, PICTURED_LENGTH * scene.bodies.half_width / sample.correlation_lengths[1])
 
 
-def work_on_strips(
-    scene: Scene, sample: Sample, *, sq: float, speed: float, sample_coarsening: tuple[float, float], count: int
+def work_on_long_cells(
+    scene: Scene, sample: Sample, surface: Surface, speed: float, *, sample_coarsening: tuple[float, float], count: int
 ) -> float:
-    """Return the counted work [s] of ``count`` strips on cells ``sample_coarsening`` times as long as those of ``sample``, and of the
-    ends of input ranges; ``sq`` [m]: of the surface."""
+    """Return the processor time [s] at ``speed`` [m/s] of ``count`` strips on cells ``sample_coarsening`` times as long as those of
+    ``sample``, to which the ``surface`` belongs, and of the ends of input ranges."""
+    sq = surface.sq
     if has_moving_roughness(scene):
-        work = moving_point_work(scene, sample, sq=sq, speed=speed, sample_coarsening=sample_coarsening)
-        return count * _seconds_in_motion(scene, sample, sq=sq, speed=speed, work=work)
+        course = COURSE_ON_LONG_CELLS
+        work = moving_point_work(scene, sample, surface, speed, sample_coarsening=sample_coarsening, course=course)
+        return count * ON_LONG_CELLS * work * _newton_steps(scene, sample, sq=sq, speed=speed)
     (fx, fy) = sample_coarsening
     (dx, dy) = sample.cells.spacing
     length = sum(reach(scene.line_contact(abs(speed)), sq))

@@ -43,14 +43,6 @@ KRYLOV_IN_A_STEP = 25.0
 # compared up to there (verification/campaigns/moving_effort).
 SMALL_WAVES = 3.0
 
-# Work of a step on cells twice as long along y over that on the shorter ones [-]: 0.49 (gear flank) and 0.52 (needle
-# roller) of verification/campaigns/moving_coverage.
-STEP_ON_LONGER_CELLS = 0.5
-
-# Steps in time that the strip at rest is worth, on two lengths of cells [-], for the estimate of the work: 3 to 6 on the
-# contacts of `FACTORISATIONS_IN_A_STEP`, more on a light one whose asperities carry the load (the bodies of the scene "paper" at 0.01 m/s).
-STEPS_WORTH_OF_REST = 12.0
-
 # Mean square height below which a body is smooth [m²]. A convention.
 SMALLEST_SQUARE = 1e-30
 
@@ -80,10 +72,6 @@ PILOT_WAY = 1.5
 # Factors by which the moments that count may grow from one check of that error to the next [-]. A convention: more
 # than a few checks cost nothing, and an error from few blocks is too uncertain to grow by more.
 MOMENTS_GROWTH = (1.25, 2.5)
-
-# Distance that the roughness travels in the moments that count [half-widths], for the estimate of the work: bearing 2
-# to 3, gear flank 6, needle roller 10 (verification/campaigns/moving_coverage).
-EXPECTED_WAY = 5.0
 
 # Moments over those that the error needs [-]. A convention.
 MOMENTS_SPARE = 1.1
@@ -137,6 +125,30 @@ ECONOMICAL = MovingEffort(
     discarded=2.4,  # f of four needle rollers rises by 13 % from rest: 6 % are missing after 1.7 half-widths, 1 % after 2.4
     discarded_again=1.6,
 )
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExpectedCourse:
+    """What the estimate of the work expects of a strip of moving roughness.
+
+    - ``rest``: steps in time that the strip at rest is worth. ``way``: distance that the roughness travels in the moments that
+      count, in Hertz half-widths.
+    - ``on_longer``: work of a step on cells twice as long along y over that on the shorter ones; 0: it is not followed there.
+    """
+
+    rest: float
+    way: float
+    on_longer: float
+
+
+# On two lengths of cells (verification/campaigns/moving_coverage): 3 to 6 steps on the contacts of `FACTORISATIONS_IN_A_STEP`,
+# more on a light one whose asperities carry the load (the bodies of the scene "paper" at 0.01 m/s); bearing 2 to 3 half-widths,
+# gear flank 6, needle roller 10; 0.49 (gear flank) and 0.52 (needle roller) on longer cells.
+EXPECTED_COURSE = ExpectedCourse(rest=12.0, way=5.0, on_longer=0.5)
+
+# On the long cells of the quick answer: 1 to 11 steps, 3 in the median, and 1.5 to 10 half-widths, 2 in the median, of 12 random
+# contacts of verification/campaigns/estimates.
+COURSE_ON_LONG_CELLS = ExpectedCourse(rest=3.0, way=2.0, on_longer=0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -597,15 +609,22 @@ def _steps(
 
 
 def moving_work(
-    line: LineContact, sq: float, *, cell: float, fastest: float, length: float, cells: float, continuations: int = 0
+    line: LineContact,
+    sq: float,
+    *,
+    cell: float,
+    fastest: float,
+    length: float,
+    cells: float,
+    continuations: float = 0.0,
+    course: ExpectedCourse = EXPECTED_COURSE,
 ) -> float:
     """Estimate the counted work [s of a usual core] of `solve_moving_strip` on so many ``cells``, and of so many
     `continued_strip`; on cells [m] along x, for a ``fastest`` body [m/s] whose map has this ``length`` [m]."""
     effort = effort_for(line, sq, cell)
     step, discarded, count = _steps(line, cell, fastest, length, effort)
     once_more = sum(continued_moments(line, cell, line.entrainment_speed * step, effort))
-    expected = math.ceil(EXPECTED_WAY * film_half_width(line) / (abs(fastest) * step))
-    compared = min(count, expected, math.ceil(COMPARED_WAY * film_half_width(line) / (line.entrainment_speed * step)))
-    steps = discarded + min(count, expected) + continuations * once_more + STEP_ON_LONGER_CELLS * (discarded + compared)
-    work_of_step = work_of_steps(cells, FACTORISATIONS_IN_A_STEP, KRYLOV_IN_A_STEP)
-    return STEPS_WORTH_OF_REST * work_of_step + steps * work_of_step
+    count = min(count, math.ceil(course.way * film_half_width(line) / (abs(fastest) * step)))
+    compared = min(count, math.ceil(COMPARED_WAY * film_half_width(line) / (line.entrainment_speed * step)))
+    steps = course.rest + discarded + count + continuations * once_more + course.on_longer * (discarded + compared)
+    return steps * work_of_steps(cells, FACTORISATIONS_IN_A_STEP, KRYLOV_IN_A_STEP)

@@ -9,7 +9,7 @@ from ...samples import PIECE, Cells, Sample
 from ...scene import Scene, has_moving_roughness
 from ...surface import Surface
 from ..contract import SharedWork, WorkEstimate
-from ..shared import GAP_IN_CONTACT, STRIPS_SAFETY, smooth_over_cells
+from ..shared import GAP_IN_CONTACT, SAMPLE_GROWTH, STRIPS_SAFETY, smooth_over_cells
 from .balanced_sample import nearest_reference
 from .cell_effect import MOST_PIECE_CELLS
 from .error_of_eq8 import load_sharing_error
@@ -20,6 +20,10 @@ BALANCED_FILM = 3e-3
 
 # Processor time [s] of a cell of the strips each time that they are pressed together: .5 to 1.5e-7 there.
 CELL_SECONDS = 1.0e-7
+
+# Factor on that of strips and pieces, less one, over the flattening of the bodies in Sq and the part of the gap that no film
+# fills [-]: where most of a wide Hertz strip touches, a contact takes more iterations. 7e-7 at 36 Sq, 2e-7 at 6.
+TIMES_BY_FLATTENING = 0.17
 
 # Processor time [s] of a cell of a piece on shorter cells, which starts from fewer known ones: .8 to 2.2e-7 there.
 PIECE_SECONDS = 1.5e-7
@@ -77,11 +81,11 @@ SHARED = (0.08, 0.6)
 SCATTER = 1.8
 
 # Film [Sq] at which that has fallen to 1/e, because the film carries the load everywhere.
-SEPARATED = 2.6
+SEPARATED = 2.5
 
-# The same of strips that are solved one by one by the deterministic model, whose highest summits touch below a thicker film:
-# 16, 24, 1 strips are solved at 3.3, 3.7, 4.5 between bodies that flatten by less than Sq.
-STRIP_SEPARATED = 4.0
+# The same between bodies that flatten by less than Sq, whose highest summits touch below a thicker film: the deterministic
+# model solves 16, 24, 1 strips at 3.3, 3.7, 4.5, load sharing in curves of those campaigns 9 to 64 at 4.5 and 1 at 5.5.
+SEPARATED_IF_ROUND = 4.0
 
 # Part of the film of the whole load by which it is wider, about.
 RISE = 0.4
@@ -90,7 +94,10 @@ RISE = 0.4
 FILM_FRICTION = 0.25
 
 # Film [Sq] that hardly meets an asperity.
-CLEAR_OF_ASPERITIES = 3.5
+CLEAR_OF_ASPERITIES = 5.5
+
+# Films [Sq] between which all of a piece is solved on native cells, for summits that longer ones cut off.
+LAST_SUMMITS = (4.0, 5.5)
 
 # Factor between the expected film and any film: outside of it contact or separation is certain.
 CERTAIN_FACTOR = 2.0
@@ -121,8 +128,6 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
         shared=shared,
         length=sample.line_length(count),
         expected_sampling_error=error,
-        expected_strip_scatter=math.sqrt(sample.first_strips)
-        * expected_sampling_error(scene, sample, sq, film, speed, separated=STRIP_SEPARATED),
         expected_model_error=error_of_model,
         touching=touching,
     )
@@ -140,31 +145,28 @@ def _times_by_heat(scene: Scene) -> float:
     return HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0
 
 
-def expected_sampling_error(
-    scene: Scene, sample: Sample, sq: float, film: float, speed: float, *, separated: float = SEPARATED
-) -> float:
+def expected_sampling_error(scene: Scene, sample: Sample, sq: float, film: float, speed: float) -> float:
     """Return the expected relative standard error of f after the first strips of ``sample``, under the ``film`` [m] of the
     total load on ``sq`` [m]; 0 where asperities hardly touch, and without entrainment.
 
     The mean gap over a line of length L and half-width b scatters as a mean of L (2b + sqrt(pi) lx)/(pi lx ly)
     independent heights. The effect on f follows from the share of the load that the rigid film of the total load would
     carry if it were as thick as the gap. `SCATTER` and `SEPARATED` were found in flooded contacts, with the film that
-    flows; a starved ring needed 61 strips where they give 2, and its smallest film gives 15. ``separated``: `SEPARATED`, or
-    `STRIP_SEPARATED`.
+    flows; a starved ring needed 61 strips where they give 2, and its smallest film gives 15.
     """
+    separated = SEPARATED_IF_ROUND if flattening(scene, sq) < 1 else SEPARATED
     smallest = film
     if not scene.lubricant.floods:
         smallest = smallest_film(film, math.sqrt(2 * scene.bodies.radius * film), scene.bodies.half_width)
-    if not (speed and smallest <= max(CLEAR_OF_ASPERITIES, separated) * sq):
+    if not (speed and smallest <= CLEAR_OF_ASPERITIES * sq):
         return 0.0
     (lx, ly) = sample.correlation_lengths
     first = sample.first_strips * sample.strip_length
     gap = expected_gap(film, sq)
     share = min(film / gap, 1.0)
     scatter = sq * math.sqrt(math.pi * lx * ly / (first * (2 * scene.bodies.half_width + math.sqrt(math.pi) * lx)))
-    return (
-        SCATTER * math.exp(-((smallest / (separated * sq)) ** 4)) * scatter / gap * share / (1 - share + FILM_FRICTION)
-    )
+    scatter *= SCATTER * math.exp(-((smallest / (separated * sq)) ** 3)) / gap
+    return scatter * share / (1 - share + FILM_FRICTION)
 
 
 def _work_of_strips(
@@ -179,20 +181,29 @@ def _work_of_strips(
     (_, dy) = cells.spacing
     shared: tuple[SharedWork, ...] = ()
     one_film = BALANCED_FILM * _times_by_heat(scene)
-    strip = cells.columns * sample.strip_length / dy
-    work = SOLVES * (one_film + CELL_SECONDS * strip * sample.first_strips)
-    if count > sample.first_strips:
-        work += SOLVES_ON_MORE * (one_film + CELL_SECONDS * strip * count)
+    touched = 1 - min(film / expected_gap(film, sq), 1.0)
+    times = 1 + TIMES_BY_FLATTENING * touched * flattening(scene, sq)
+    strip = times * CELL_SECONDS * cells.columns * sample.strip_length / dy
+    solved = sample.first_strips
+    work = SOLVES * (one_film + strip * solved)
+    while solved < count:
+        most = SAMPLE_GROWTH[solved > sample.first_strips]
+        solved = min(count, math.ceil(most * solved))
+        work += SOLVES_ON_MORE * (one_film + strip * solved)
     work *= _times_by_shorter_cells(sample, surface, film)
     pieces_seconds = 0.0
+    native_seconds = 0.0
     if not cells.is_native:
         native = cells.columns * fx * cells.rows(PIECE * ly) * fy
-        pieces_seconds = PIECE_SECONDS * cells_of_pieces(cells, native)
+        pieces_seconds = times * PIECE_SECONDS * cells_of_pieces(cells, native)
+        native_seconds = PIECE_SECONDS * native
         made = GENERATED_SECONDS * native
         shared = (SharedWork(what=f"pieces on {cells.coarsening}", seconds=made, of_surface_alone=True),)
+    if LAST_SUMMITS[0] * sq < film < LAST_SUMMITS[1] * sq:  # whether cells cut off a summit that would touch
+        work += native_seconds
     reference = nearest_reference(film / sq)
     if reference is not None and scene.lubricant.inlet_film is None:
-        there = SOLVES_OF_REFERENCE * (one_film + CELL_SECONDS * strip * sample.first_strips) + pieces_seconds
+        there = SOLVES_OF_REFERENCE * (one_film + strip * sample.first_strips) + pieces_seconds
         name = f"reference point at {reference} Sq on {cells.coarsening}"
         shared = (*shared, SharedWork(what=name, seconds=there, of_surface_alone=False))
         pieces_seconds *= OWN_PIECES
@@ -208,6 +219,11 @@ def _times_by_shorter_cells(sample: Sample, surface: Surface, film: float) -> fl
         is_long = sample.correlation_lengths[0] < FEW_CELLS_OF_LENGTH * sample.cells.spacing[0]
         return ROUGH_TIMES_ON_LONG_CELLS if is_long else ROUGH_TIMES
     return 1.0 if sample.cells.is_native else REFINED
+
+
+def flattening(scene: Scene, sq: float) -> float:
+    """Return by how much the bodies of ``scene`` flatten over their Hertz strip, over the ``sq`` [m] of their roughness."""
+    return float(scene.bodies.half_width**2 / (2 * scene.bodies.radius * sq))
 
 
 def expected_gap(film: float, sq: float) -> float:

@@ -17,7 +17,7 @@ from ...samples import Sample
 from ...scene import Scene, has_moving_roughness, why_gap_not_resolved
 from ...surface import Surface
 from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
-from ..deterministic import work_of_fine_fields, work_on_strips
+from ..deterministic import work_of_fine_fields, work_on_long_cells
 from ..load_sharing import PaperModel, PaperSolution, expected_model_error, methods_of_load_sharing
 from ..shared import (
     ControlVariate,
@@ -234,11 +234,11 @@ class QuickModel(Model):
         solves_strips = speed and surface.sq and sample.is_resolved and not _why_not_calibrated(scene)
         if solves_strips and scene.transient is None:
             count = 1 if has_moving_roughness(scene) else EXPECTED_STRIPS
-            seconds += work_on_strips(
+            seconds += work_on_long_cells(
                 scene,
                 sample,
-                sq=surface.sq,
-                speed=speed,
+                surface,
+                speed,
                 sample_coarsening=sample_coarsening_of_long_cells(scene, sample),
                 count=count,
             )

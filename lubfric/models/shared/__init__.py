@@ -59,6 +59,7 @@ from .rolling import rolling_model_error, smooth_rolling_resistance
 from .statistics import (
     FEW_CONTACTS,
     FREEDOM_NOT_COUNTED,
+    SAMPLE_GROWTH,
     SAMPLING_MATTERS,
     SHARED_LENGTH,
     STRIPS_SAFETY,

@@ -118,6 +118,7 @@ class Memo:
         entry = self._kept.get(key)
         if entry is not None and entry.work <= work_left():
             count_work(entry.work)
+            self._kept[key] = self._kept.pop(key)  # the youngest
             value: T = entry.value
             return value
         value, work = with_its_work(make)

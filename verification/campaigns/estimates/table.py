@@ -29,6 +29,9 @@ from .jobs import KINDS, MOST_WORK, drawn, seconds
 TABLE = Path(__file__).parent / "table.csv"
 # Digits of a number in the table.
 DIGITS = 4
+
+# Factor within which an estimate is good.
+FACTOR = 3.0
 # Kinds, by their first word, that a page shows together.
 GROUPS = {
     "rest": "points",
@@ -119,12 +122,21 @@ def estimate_again(file: Path = TABLE) -> None:
         table_file.append(file, COLUMNS, dict(row), DIGITS)
 
 
-def ratios(file: Path = TABLE) -> dict[str, np.ndarray]:
-    """Return estimated over taken processor time of the runs that ended by themselves, by kind."""
-    by_kind: dict[str, list[float]] = {}
+def rows_with_ratio(file: Path = TABLE) -> Iterator[tuple[dict[str, str], float]]:
+    """Yield the rows of runs that say how good an estimate is, and their estimated over taken processor time: all but those that
+    ``numerics.max_work`` ended before they took three times their estimate."""
     for row in rows(file):
-        if row["seconds"] and row["estimate"] and "max_work" not in row["failure"]:
-            by_kind.setdefault(row["kind"], []).append(float(row["estimate"]) / float(row["seconds"]))
+        if row["seconds"] and row["estimate"]:
+            ratio = float(row["estimate"]) / float(row["seconds"])
+            if "max_work" not in row["failure"] or ratio < 1 / FACTOR:
+                yield row, ratio
+
+
+def ratios(file: Path = TABLE) -> dict[str, np.ndarray]:
+    """Return estimated over taken processor time of these runs, by kind."""
+    by_kind: dict[str, list[float]] = {}
+    for row, ratio in rows_with_ratio(file):
+        by_kind.setdefault(row["kind"], []).append(ratio)
     return {kind: np.array(values) for kind, values in by_kind.items()}
 
 
@@ -150,10 +162,8 @@ def table(file: Path = TABLE, *, brief: bool = False) -> Table:
 
 def outside(file: Path = TABLE) -> list[str]:
     """Return the runs whose estimate is further than a factor of 3 from the time they took, as text."""
-    lines = []
-    for row in rows(file):
-        if row["seconds"] and row["estimate"] and "max_work" not in row["failure"]:
-            ratio = float(row["estimate"]) / float(row["seconds"])
-            if not 1 / 3 <= ratio <= 3:
-                lines.append(f"{row['seed']} {row['kind']}: {ratio:.2g} of {float(row['seconds']):.2g} s")
-    return lines
+    return [
+        f"{row['seed']} {row['kind']}: {ratio:.2g} of {float(row['seconds']):.2g} s"
+        for row, ratio in rows_with_ratio(file)
+        if not 1 / FACTOR <= ratio <= FACTOR
+    ]
