@@ -26,8 +26,8 @@ SLOW = frozenset((Path(__file__).parent / "slow_tests.txt").read_text(encoding="
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config, items) -> None:
-    """Tests marked slow where they stand take minutes and belong to the verification: they are ``study`` as well, and
-    run only where ``-m`` asks for them. Those of slow_tests.txt are part of the default run, not of the fast tests."""
+    """Tests marked slow where they stand belong to ``python -m verification --full`` (`long_tests`): they are ``study``
+    as well, and run only where ``-m`` asks for them. Those of slow_tests.txt are part of the default run, not of the fast tests."""
     studies = {item for item in items if item.get_closest_marker("slow")}
     for item in items:
         if item.get_closest_marker("slow"):

@@ -100,4 +100,11 @@ STUDIES: tuple[Study, ...] = (
     study("transient", "Smooth contact in time: squeeze, stops, jumps"),
     study("sharing_in_time", "Load sharing in time, both halves by finite elements"),
     study("transient_mixed", "Load sharing in time", ("default", "full")),
+    Study(
+        "long_tests",
+        "verification.campaigns.long_tests:long_tests",
+        title="Tests that take minutes",
+        levels=("full",),
+        grade="B",
+    ),
 )

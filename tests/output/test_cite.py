@@ -25,7 +25,8 @@ def test_the_papers_are_those_of_what_was_used():
 
 def test_a_result_cites_the_load_sharing_model_that_it_was_compared_with():
     """The built-in scene in mixed lubrication: the deterministic model corrects the load-sharing model."""
-    point = lubfric.friction(lubfric.load_scene("paper"), 0.01)
+    loose = lubfric.load_scene("paper").with_(numerics={"sampling_tolerance": 0.3, "tolerance": 0.05})
+    point = lubfric.friction(loose, 0.01)
     assert point.decision.model == "deterministic" and "10.1007/s11249-015-0536-z" in point.cite()
 
 

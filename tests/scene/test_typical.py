@@ -69,7 +69,9 @@ def test_half_of_what_heat_does_is_more_than_the_range_of_the_conductivity():
     """A Nahme number that is a third larger or a fifth smaller moves f by less than the half of the heat that `model`
     has. At 3 m/s the heat takes a fifth of f."""
     oil = {"nu40": 68e-6, "nu100": 8.6e-6, "temperature_celsius": 70, "eyring_stress": 5e6}
-    scene = QUICK.with_(lubricant=oil, motion={"slide_roll_ratio": 0.5}, bodies={"load": 400.0})
+    scene = QUICK.with_(
+        lubricant=oil, motion={"slide_roll_ratio": 0.5}, bodies={"load": 400.0}, numerics={"sampling": "patch"}
+    )
     k = scene.lubricant.conductivity
     hot, cold = (lubfric.friction(scene.with_(numerics={"heat": on}), 3.0).coefficient for on in ("auto", "off"))
     ends = [lubfric.friction(scene.with_(lubricant={"conductivity": k * by}), 3.0).coefficient for by in (0.75, 1.25)]

@@ -28,15 +28,15 @@ SCENES = {
     "patch": PATCH,
     "summits": PATCH.with_(contact={"model": "summits"}),
     "patches": FLAT.with_(contact={"model": "patches"}),
-    "two rough bodies that yield": LINE.with_(
+    "two rough bodies that yield": PATCH.with_(
         bodies={"load": 20.0, "hardness": 2e9},
         lubricant=LAW,
         surface={"acf": "exponential"},
         counterface={"sq": 5e-8, "correlation_length": 6e-6},
     ),
     "flat": FLAT,
-    "heat": LINE.with_(lubricant=OIL | LAW, numerics={"heat": "on"}),
-    "rolling": LINE.with_(motion={"slide_roll_ratio": 0.0}),
+    "heat": PATCH.with_(lubricant=OIL | LAW, numerics={"heat": "on"}),
+    "rolling": PATCH.with_(motion={"slide_roll_ratio": 0.0}),
     "auto": LINE.with_(numerics={"model": "auto", "tolerance": 0.05} | LOOSE),
     "measured": None,
 }

@@ -20,6 +20,7 @@ SCENE = paper_scene(
     motion={"entrainment_speed": 2.0},
     contact={"shape": (128, 64), "spacing": 4e-6},
     surface={"sq": 2e-8, "correlation_length": 3e-5, "acf": "gaussian"},
+    numerics={"sampling": "patch"},
 )
 
 

@@ -14,6 +14,7 @@ import pytest
 import lubfric
 from verification import __main__ as command
 from verification import plotting
+from verification.campaigns.long_tests import long_tests
 from verification.catalogue import STUDIES, Study
 from verification.check import ABSOLUTE, AT_LEAST, AT_MOST, KINDS, RELATIVE, Check, Field, ListedDeviation, Table
 from verification.fem.convergence import fitted_order
@@ -280,3 +281,18 @@ def test_a_fitted_order():
     for errors in ([1, 0, 1], [1, math.nan, 1], [1.0]):
         with pytest.raises(ValueError, match="finite values > 0"):
             fitted_order(h[: len(errors)], errors)
+
+
+def test_each_long_test_is_a_check(tmp_path):
+    (tmp_path / "tests").mkdir()
+    marked = "import pytest\n" + "".join(
+        f"@pytest.mark.long\ndef test_{name}():\n    assert 1 == {value}\n"
+        for name, value in (("right", 1), ("wrong", 2))
+    )
+    (tmp_path / "tests" / "test_a.py").write_text(marked + "def test_short():\n    assert False\n")
+    checks = {check.name: check for check in long_tests("full", "long", tmp_path / "tests")}
+    assert {name: check.passed for name, check in checks.items()} == {
+        "test_a: test_right": True,
+        "test_a: test_wrong": False,
+    }
+    assert "assert 1 == 2" in checks["test_a: test_wrong"].note

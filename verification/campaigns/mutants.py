@@ -296,6 +296,8 @@ def outcome_of(mutant: Mutant | None, names: tuple[str, ...], longest: float = L
         ]
         if is_test(names[0]):
             options = ["-x", "-q", "-p", "no:cacheprovider", f"--basetemp={out}", f"--rootdir={ROOT}"]
+            if all("::" in name for name in names):  # one that takes minutes too
+                options += ["-m", "study or not study"]
             files = [str(ROOT / "tests" / name) for name in names]
             command = [sys.executable, "-m", "pytest", *options, "-c", str(ROOT / "pyproject.toml"), *files]
         paths = (folder, str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")]))
