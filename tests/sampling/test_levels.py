@@ -168,7 +168,7 @@ def test_rolling_roughness_moves_or_gets_load_sharing_and_the_reason(monkeypatch
     moved, shared = (lubfric.friction(small, 0.01, model=model) for model in ("auto", "paper"))
     assert moved.decision.model == "deterministic" and "the roughness moves at 0.0085 m/s" in moved.decision.text
     assert abs(shared.coefficient / moved.coefficient - 1) < shared.uncertainty.model < 1.5
-    monkeypatch.setattr("lubfric.models.deterministic.rough_bodies.MOST_WORK_OF_POINT", 0.1)
+    monkeypatch.setattr("lubfric.models.deterministic.estimated_work.MOST_WORK_OF_POINT", 0.1)
     costly = lubfric.friction(small, 0.01)
     assert costly.decision.model == "quick"
     assert "s of counted work, more than 0.1 s" in costly.decision.text

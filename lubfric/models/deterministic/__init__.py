@@ -2,7 +2,8 @@
 
 from .answer import LARGEST_PART, answer_of
 from .cells_in_motion import CellsInMotion, cells_in_motion, cells_of_strips, film_exponent_of
-from .estimated_work import work_of_fine_fields, work_on_long_cells
+from .counted_work import MOST_WORK_OF_POINT
+from .estimated_work import moving_point_work, work_of_fine_fields, work_on_long_cells
 from .flow import derivatives, mass_balance
 from .heat import strip_heat, why_too_hot
 from .levels import Levels, levels_of, two_levels
@@ -31,7 +32,7 @@ from .pictures import animate_moments, plot_moments, plot_passing
 from .problem import BOUNDARY_FILM, FLOOR, Problem, lay_out, reach, shifted
 from .result import DeterministicResult, assemble
 from .rheology import mean_fluidity, thinning
-from .rough_bodies import MOST_WORK_OF_POINT, bodies_of, map_of_strip, maps_of_bodies, moving_point_work
+from .rough_bodies import bodies_of, map_of_strip, maps_of_bodies
 from .solve import dry_contact, solve_point
 from .state import FLUID, RUPTURED, TOUCHING, Iterate, State, TimeHistory, admissible, evaluated, residuals
 from .strip import StripSolution, change_by_flow, changes_of, error_by_cells, solve_strip, work_of_steps

@@ -38,13 +38,14 @@ from ..shared import (
     violations_by_thickness,
     why_sample_too_short,
 )
+from .counted_work import MOST_WORK_OF_POINT
 from .estimated_work import pictured_length
 from .expected_friction import HARDNESS_MATTERS, REDISTRIBUTED
 from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
 from .levels import Levels, mean
 from .problem import BOUNDARY_FILM
 from .result import DeterministicResult, stress_with_oil
-from .rough_bodies import MOST_WORK_OF_POINT, map_of_contact, map_of_strip
+from .rough_bodies import map_of_contact, map_of_strip
 from .strip import StripSolution, change_by_flow, solve_strip
 from .strip_on_two_grids import StripOnTwoGrids, halved_along_y, sample_coarsening_of
 

@@ -11,6 +11,10 @@ LU_FACTORISATION = 1.35e-7
 # Seconds a cell of one iteration of GMRES; the same core.
 GMRES_ITERATION = 1.9e-7
 
+# Counted work [s] of the strips of a point and of their shorter cells, at most, whether the model is named or chosen; "auto"
+# leaves a point whose first strip takes more to the quick answer (docs/models.md).
+MOST_WORK_OF_POINT = 120.0
+
 
 def work_of_steps(cells: float, steps: float, krylov: float = 0) -> float:
     """Return the work [s] of so many ``steps`` of Newton's method, with ``krylov`` iterations of GMRES in all."""

@@ -4,19 +4,25 @@
 import math
 
 from ...samples import PIECE, Sample
-from ...scene import BOUNDARY_FRICTION_KEY, Scene, has_moving_roughness, why_gap_not_resolved
+from ...scene import (
+    BOUNDARY_FRICTION_KEY,
+    HARDNESS_KEY,
+    Scene,
+    has_moving_roughness,
+    moving_bodies,
+    why_gap_not_resolved,
+)
 from ...surface import Surface
 from ..contract import WorkEstimate
-from ..shared import FREEDOM_NOT_COUNTED, STRIPS_SAFETY, peak_hertz_pressure, smooth_over_cells, student
+from ..shared import FREEDOM_NOT_COUNTED, STRIPS_SAFETY, Prepared, peak_hertz_pressure, smooth_over_cells, student
 from .cells_in_motion import CellsInMotion
-from .counted_work import work_of_steps
-from .expected_friction import expected_friction
+from .counted_work import MOST_WORK_OF_POINT, work_of_steps
+from .expected_friction import expected_friction, solved_ends_of_hardness
 from .expected_steps import AGAIN, STRIP_STEPS, ExpectedSteps, expected_steps
 from .levels import DIFFERENCE_SHARE, HALVED_WORK, STRIPS_GROWTH, STRIPS_SPARE
 from .linear import HIGH_PRESSURE
-from .moving_strip import COURSE_ON_LONG_CELLS
+from .moving_strip import COURSE_ON_LONG_CELLS, EXPECTED_COURSE, OF_SHEAR, ExpectedCourse, effort_for, moving_work
 from .problem import are_soft, reach
-from .rough_bodies import MOST_WORK_OF_POINT, moving_point_work
 from .shorter_cells import LAST_PIECE, PIECES_SHARE, SHORT, SOFT_CELL_ERROR
 from .strip_on_two_grids import sample_coarsening_of
 
@@ -115,6 +121,10 @@ PICTURED_LENGTH = 10.0
 
 # Correlation lengths along y of such a picture, at least [-].
 LEAST_PICTURED_LENGTH = 8.0
+
+# Slide-roll ratio from which the ends of the stress of an oil are expected to be solved in motion [-], one of two: about half of
+# them at ratios of .4 to 1.9, one of thirty below, on 26 contacts of verification.campaigns.moving_coverage with typical ranges.
+SOLVED_ENDS_SLIDING = 0.3
 
 # What is not solved takes nothing.
 NO_WORK = WorkEstimate(strips=0, seconds=0.0)
@@ -360,3 +370,70 @@ def work_on_long_cells(
     thickened = scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene)
     first = HEAVY_LONG_CELL_STEPS if thickened > HIGH_PRESSURE else STRIP_STEPS
     return count * work_of_steps(cells, first) + number * work_of_steps(cells, AGAIN)
+
+
+def moving_point_work(
+    scene: Scene,
+    sample: Sample,
+    surface: Surface,
+    speed: float,
+    *,
+    sample_coarsening: tuple[float, float],
+    course: ExpectedCourse = EXPECTED_COURSE,
+) -> float:
+    """Estimate the counted work [s] of a point at ``speed`` [m/s] on one strip of moving roughness, ends of input ranges included.
+
+    The cells are ``sample_coarsening`` times as long as those of ``sample``, to which the ``surface`` belongs.
+    """
+    (fx, fy) = sample_coarsening
+    (dx, dy) = sample.cells.spacing
+    sq = surface.sq
+    line = scene.line_contact(abs(speed))
+    effort = effort_for(line, sq, fx * dx)
+    ends = reach(line, sq, inlet=effort.inlet, outlet=effort.outlet)
+    cells = sum(ends) / (fx * dx) * sample.strip_length / (fy * dy)
+    fastest = abs(speed) * max(abs(ratio) for _, ratio in moving_bodies(scene))
+    solved_ends = _solved_ends(scene, surface, speed)
+    return moving_work(
+        line,
+        sq,
+        cell=fx * dx,
+        fastest=fastest,
+        length=sample.cells.columns * dx,
+        cells=cells,
+        continuations=solved_ends + 1 if solved_ends else 0,  # one at the prepared inputs, which they are compared with
+        course=course,
+    )
+
+
+def _solved_ends(scene: Scene, surface: Surface, speed: float) -> int:
+    """Return how many ends of input ranges are expected to be solved where roughness moves: those of the shear of the oil where the
+    bodies slide (`SOLVED_ENDS_SLIDING`), and of the hardness where asperities reach it."""
+    slides = abs(scene.motion.slide_roll_ratio) > SOLVED_ENDS_SLIDING
+    number = 0
+    for name, *_ in scene.ranges:
+        if name == HARDNESS_KEY:
+            number += solved_ends_of_hardness(scene, surface, speed)
+        elif name in OF_SHEAR:
+            number += slides
+        elif name != BOUNDARY_FRICTION_KEY:
+            number += 2
+    return number
+
+
+def why_too_costly(prepared: Prepared, speed: float, sample_coarsening: tuple[float, float]) -> str:
+    """Return why "auto" leaves moving roughness to the quick answer; "" if it does not."""
+    scene = prepared.scene
+    sample = prepared.sample
+    work = (
+        moving_point_work(scene, sample, prepared.surface, speed, sample_coarsening=sample_coarsening)
+        if has_moving_roughness(scene)
+        else 0.0
+    )
+    if work <= MOST_WORK_OF_POINT:
+        return ""
+    return (
+        "not the deterministic model: the roughness moves, and one strip by the deterministic model would take about "
+        f"{float(f'{work:.2g}'):g} s of counted work, more than {MOST_WORK_OF_POINT:g} s; numerics.model = 'deterministic' "
+        "solves it"
+    )

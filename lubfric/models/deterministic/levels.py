@@ -42,8 +42,9 @@ from ..shared import (
     with_forces_of_film,
 )
 from .cells_in_motion import cells_of_strips, changed_as_expected
+from .counted_work import MOST_WORK_OF_POINT
 from .result import DeterministicResult
-from .rough_bodies import MOST_WORK_OF_POINT, summit_control
+from .rough_bodies import summit_control
 from .shorter_cells import NO_SHORTER_CELLS, changed_by_pieces, on_shorter_cells
 from .strip import StripSolution, change_by_flow, thinned_less
 from .strip_on_two_grids import StripOnTwoGrids, numbers_of, on_halved_cells, solve_pair, surface_and_map_coarsening

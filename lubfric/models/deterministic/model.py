@@ -18,10 +18,9 @@ from ..shared import (
     why_no_rough_film,
 )
 from .answer import answer_of
-from .estimated_work import estimated_work
+from .estimated_work import estimated_work, why_too_costly
 from .heat import why_too_hot
 from .levels import Levels, TwoLevelEstimate, levels_of, solve_pairs, two_levels
-from .rough_bodies import why_too_costly
 from .strip_on_two_grids import StripOnTwoGrids, sample_coarsening_of
 
 

@@ -27,8 +27,9 @@ from ..shared import (
     with_forces_of_film,
 )
 from .cells_in_motion import cells_of_strips
+from .counted_work import MOST_WORK_OF_POINT
 from .problem import are_soft
-from .rough_bodies import MOST_WORK_OF_POINT, map_of_contact
+from .rough_bodies import map_of_contact
 from .strip import StripSolution, changes_of, error_by_cells, solve_strip
 from .strip_on_two_grids import (
     StripOnTwoGrids,
