@@ -64,3 +64,11 @@ def test_expected_strips_are_the_geometric_mean_over_drawn_errors(monkeypatch):
     assert strips(monkeypatch, 1e-6, 0.5) == pytest.approx(1.0, abs=1e-4)
     drawn = np.log(certain) + 1.8 * np.random.default_rng(2).standard_normal(400_000)
     assert strips(monkeypatch, 1.8, 1e-3) == pytest.approx(np.exp(np.maximum(drawn, 0.0).mean()), rel=0.02)
+
+
+def test_a_lubricant_that_does_not_thicken_carries_as_one_that_hardly_does():
+    constant = rolling().with_(lubricant={"viscosity_law": "constant", "pressure_viscosity_coefficient": 0.0})
+    hardly = constant.with_(lubricant={"pressure_viscosity_coefficient": 1e-12})
+    shares = [expected_friction(scene, 2e-7, SPEED).share for scene in (constant, hardly)]
+    assert 0 < shares[0] < 1
+    assert shares[0] == pytest.approx(shares[1], rel=1e-2)

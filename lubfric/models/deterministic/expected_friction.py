@@ -22,6 +22,9 @@ LOAD_RATIO = 0.27
 LOAD_RATIO_BY_FILM = -2.9
 LOAD_RATIO_BY_THICKENING = -0.88
 
+# The least of that coefficient times that pressure that counts [-]: below it the viscosity hardly changes. A convention.
+LEAST_COUNTED_THICKENING = 1.0
+
 
 @dataclass(frozen=True, kw_only=True)
 class ExpectedFriction:
@@ -51,9 +54,8 @@ def expected_friction(scene: Scene, sq: float, speed: float) -> ExpectedFriction
     if scene.lubricant.newtonian:
         film = min(film, boundary)
     load_ratio = LOAD_RATIO * (line.moes_film / sq) ** LOAD_RATIO_BY_FILM
-    load_ratio *= (
-        scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene)
-    ) ** LOAD_RATIO_BY_THICKENING
+    thickened = scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene)
+    load_ratio *= max(thickened, LEAST_COUNTED_THICKENING) ** LOAD_RATIO_BY_THICKENING
     return ExpectedFriction(share=load_ratio / (1.0 + load_ratio), boundary=boundary, film=film)
 
 
