@@ -2,14 +2,21 @@
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
 
 from .._base import share_read_only
 from ..errors import ConvergenceError, InputError, Report
 from ..models import ContactFields, Model, ModelAnswer
-from ..models.shared import Assumption, Prepared, Violation, unmodelled_effects, violations_by_numerical_error
+from ..models.shared import (
+    Assumption,
+    Prepared,
+    Violation,
+    unmodelled_effects,
+    violations_by_model_error,
+    violations_by_numerical_error,
+)
 from ..quantities import NUMBERS
 from ..scene import Scene
 from .choice import Choice
@@ -48,7 +55,8 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
     is_sampled_well = sampling <= SAMPLED_WELL * scene.numerics.sampling_tolerance
     of_answer = [each for each in answer.violations if each.assumption != Assumption.LONG_SAMPLE or not is_sampled_well]
     violations = (
-        *(beside_larger_part(each, uncertainty) for each in of_answer),
+        *of_answer,
+        *(beside_larger_part(each, uncertainty) for each in _violations_by_model_error(scene, answer)),
         *violations_by_numerical_error(answer.numerical, scene.numerics.tolerance, answer.recommendation),
     )
     decision = answer.decision
@@ -87,14 +95,23 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
     )
 
 
+def _violations_by_model_error(scene: Scene, answer: ModelAnswer) -> Iterator[Violation]:
+    """Yield the warning of a model-form error above ``numerics.model_tolerance``, unless the scene accepts it."""
+    if answer.accepts_model_error:
+        return
+    yield from violations_by_model_error(
+        answer.error_of_model_alone,
+        tolerance=scene.numerics.model_tolerance,
+        f=answer.numbers["coefficient"],
+        parts=[part for part in answer.parts_of_model if not part.is_of_input],
+    )
+
+
 def beside_larger_part(violation: Violation, uncertainty: Uncertainty) -> Violation:
-    """Return the warning of a large model-form error with the part of the budget that is larger, if one is; any other
-    ``violation`` as it is."""
-    is_of_model = violation.assumption == Assumption.MODEL_FORM_ERROR
-    if not is_of_model or uncertainty.is_largest_by_model or not uncertainty.largest_part:
+    """Return the warning of a large model-form error with the part of the budget that is larger, if one is."""
+    if uncertainty.is_largest_by_model or not uncertainty.largest_part:
         return violation
-    larger = uncertainty.largest_part.removeprefix("largest part: ")
-    other = f"A larger part of the interval of f is: {larger}"
+    other = f"A larger part of the interval of f is: {uncertainty.largest_part_in_words}"
     return replace(violation, recommendation=". ".join(filter(None, (violation.recommendation, other))))
 
 

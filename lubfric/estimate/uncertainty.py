@@ -10,7 +10,16 @@ from typing import Any
 import numpy as np
 
 from .._base import Renamed
-from ..models.shared import StandardError, has_too_few_contacts, is_near_zero, percent_of_sides, sides_in_f, student
+from ..models.shared import (
+    REDUCED_BY_DETERMINISTIC,
+    ModelErrorPart,
+    StandardError,
+    has_too_few_contacts,
+    is_near_zero,
+    percent_of_sides,
+    sides_in_f,
+    student,
+)
 from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuantities, described_in_doc
 from ..units import interval_in_words, with_interval
 
@@ -26,12 +35,14 @@ class BudgetPart:
     ----------
     quantity : its name in `lubfric.quantities`, which is a field of `Uncertainty`
     sides : the field of `Uncertainty` with both of its sides, towards 0 and away from it; "": it has one value
-    recommendation : what reduces it, as text
+    recommendation : what reduces it, as text; "": nothing
+    cause : what it comes from, as text; "": its name says so
     """
 
     quantity: str
     sides: str = ""
     recommendation: Callable[[Uncertainty], str]
+    cause: Callable[[Uncertainty], str] = lambda known: ""
 
 
 # The parts of the uncertainty budget, by what they are called.
@@ -41,7 +52,10 @@ PARTS = {
     "model-form": BudgetPart(
         quantity="model",
         sides="model_sides",
-        recommendation=lambda known: known.largest_in_model or "numerics.model = 'deterministic' reduces it",
+        recommendation=lambda known: (
+            REDUCED_BY_DETERMINISTIC if known.largest_in_model is None else known.largest_in_model.recommendation
+        ),
+        cause=lambda known: "" if known.largest_in_model is None else known.largest_in_model.cause,
     ),
     "not given": BudgetPart(
         quantity="not_given",
@@ -81,7 +95,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     notes : remarks on these errors
     model_sides, not_given_sides, input_sides : ``model``, ``not_given`` and ``inputs`` towards 0 and away from it; NaN
         where only the larger is known
-    largest_in_model : what the largest part of ``model`` is, and what reduces it; "" where it has one part
+    largest_in_model : the largest part of ``model``; None where its parts are not known
     narrows_numerical, narrows_sampling : what narrows ``numerical`` and ``sampling``, as text
     missing_input : the key of the input that the scene does not give, whose range changes f most ("": none)
     largest_input : the input whose range changes f most
@@ -95,7 +109,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     model_sides: tuple[float, float] = (math.nan, math.nan)
     not_given_sides: tuple[float, float] = (math.nan, math.nan)
     input_sides: tuple[float, float] = (math.nan, math.nan)
-    largest_in_model: str = ""
+    largest_in_model: ModelErrorPart | None = None
     narrows_numerical: str = "a smaller numerics.tolerance reduces it"
     narrows_sampling: str = "a smaller numerics.sampling_tolerance reduces it"
     missing_input: str = ""
@@ -144,18 +158,23 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     @property
     def largest_part(self) -> str:
         """What the largest part of the budget is, and what reduces it; "" where that is not known."""
+        words = self.largest_part_in_words
+        return f"largest part: {words}" if words else ""
+
+    @property
+    def largest_part_in_words(self) -> str:
+        """The `largest_part` without the words that introduce it."""
         known = {name: part for name, part in self.budget.items() if math.isfinite(part) and part > 0}
         if not known or not math.isfinite(self.sampling):
             return ""
         name = max(known, key=lambda name: known[name])
         if known[name] < SMALL_PART:
-            return f"largest part: {name} {self.budget_in_words[name]}"
+            return f"{name} {self.budget_in_words[name]}"
+        cause = PARTS[name].cause(self)
         recommendation = PARTS[name].recommendation(self)
-        source = ""
-        if name == "model-form":  # "what it is: what reduces it"
-            (source, _, recommendation) = recommendation.rpartition(": ")
-        source = f" ({source})" if source else ""
-        return f"largest part: {name} {self.budget_in_words[name]}{source}; {recommendation}"
+        because = f" ({cause})" if cause else ""
+        advice = f"; {recommendation}" if recommendation else ""
+        return f"{name} {self.budget_in_words[name]}{because}{advice}"
 
     @property
     def has_few_contacts(self) -> bool:

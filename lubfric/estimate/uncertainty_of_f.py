@@ -4,7 +4,7 @@ import math
 from dataclasses import replace
 
 from ..models import ModelAnswer
-from ..models.shared import Prepared, largest_sliding_friction
+from ..models.shared import Prepared, largest_of, largest_sliding_friction
 from ..scene import SLIDE_ROLL_RATIO_KEY, Scene
 from .ranges import changes_by_ranges, with_input_ranges, with_missing_inputs
 from .uncertainty import Uncertainty, interval
@@ -43,7 +43,7 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
         model=max(answer.model_error),
         model_sides=answer.model_error,
         by_limit=answer.by_limit,
-        largest_in_model=answer.largest_in_model,
+        largest_in_model=largest_of(answer.parts_of_model),
         narrows_numerical=answer.narrows_numerical,
         narrows_sampling=LARGER_MAP
         if prepared.sample.available_strips <= answer.decision.strips

@@ -27,9 +27,11 @@ from .shared import (
     Decision,
     ExpectedViolations,
     Heat,
+    ModelErrorPart,
     Prepared,
     StandardError,
     Violation,
+    error_of_parts,
     strips_for_error,
 )
 
@@ -110,7 +112,8 @@ class ModelAnswer:
     sampling_error : relative standard error of f because the sample is finite; an error that is NaN is not known
     model_error : relative error of f by the model itself, at 95 %, towards 0 and away from it; NaN: not known
     by_limit : part of ``model_error``, at 95 %, because the limiting stress of a Newtonian lubricant is not known
-    largest_in_model : the largest part of the model error, as text; "": one part only
+    parts_of_model : what the model error consists of, each with its cause; (): not known
+    accepts_model_error : whether the scene accepts it, because it names this model: then no warning reports it
     narrows_numerical : what narrows ``numerical``, as text
     most_rolling_ratio : the largest that the rolling part of f may be, over its value; it bounds the interval
     not_given : relative changes of f at both ends of the range of an input that the scene does not give, by its key
@@ -139,7 +142,8 @@ class ModelAnswer:
     report: Report
     decision: Decision
     by_limit: float = 0.0
-    largest_in_model: str = ""
+    parts_of_model: tuple[ModelErrorPart, ...] = ()
+    accepts_model_error: bool = False
     narrows_numerical: str = "a smaller numerics.tolerance reduces it"
     most_rolling_ratio: float = 2.0
     not_given: dict[str, tuple[float, float]] = field(default_factory=dict)
@@ -157,6 +161,12 @@ class ModelAnswer:
     details: ModelDetails | None = None
     at_inputs: Callable[[], AtInputs] | None = None
     change_without_solve: Callable[[str, int, Scene], float | None] = lambda name, number, end: None
+
+    @property
+    def error_of_model_alone(self) -> float:
+        """Relative error of f by the model at 95 %, the larger of both sides, without what an unknown input adds."""
+        alone = [part for part in self.parts_of_model if not part.is_of_input]
+        return error_of_parts(alone) if alone else max(self.model_error)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,7 +8,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import lubfric
 from lubfric.estimate.uncertainty import Uncertainty
 from lubfric.models.shared import (
     Violation,
@@ -65,12 +64,11 @@ def test_errors_of_an_f_near_zero_are_in_f_itself():
 
 
 def test_a_warning_of_the_error_of_an_f_near_zero_is_in_f_itself():
-    prepared = lubfric.prepare(lubfric.load_scene("paper").with_(numerics={"model_tolerance": 0.05}))
-    (relative,) = violations_by_model_error(prepared, 0.2, 0.04, consequence="why")
+    (relative,) = violations_by_model_error(0.2, tolerance=0.05, f=0.04)
     assert "is 20 %, above 5 %" in relative.text
-    (itself,) = violations_by_model_error(prepared, 88.0, -1e-5, consequence="why")
+    (itself,) = violations_by_model_error(88.0, tolerance=0.05, f=-1e-5)
     assert "near 0, in f itself, is 0.00088, above 5e-07." in itself.text
-    assert not list(violations_by_model_error(prepared, 0.04, 1e-5, consequence="why"))
+    assert not list(violations_by_model_error(0.04, tolerance=0.05, f=1e-5))
 
 
 def test_values_on_both_sides_of_a_range_are_two_sentences():

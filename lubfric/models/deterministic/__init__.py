@@ -1,6 +1,6 @@
 """The deterministic mixed-lubrication model: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
-from .answer import LARGEST_PART, answer_of
+from .answer import answer_of
 from .cells_in_motion import CellsInMotion, cells_in_motion, cells_of_strips, film_exponent_of
 from .counted_work import MOST_WORK_OF_POINT
 from .estimated_work import moving_point_work, work_of_fine_fields, work_on_long_cells

@@ -14,14 +14,17 @@ from ...samples import is_measured
 from ...scene import BOUNDARY_FILM_KEY, HARDNESS_KEY, Scene, has_moving_roughness, missing_inputs, value_of
 from ..contract import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
+    BY_HEAT,
     Assumption,
     Decision,
     Heat,
+    ModelErrorPart,
     Prepared,
     StandardError,
     Violation,
     contact_on_piece,
     error_by_heat,
+    error_of_parts,
     film_lubricant,
     limit_bounds,
     limit_in_words,
@@ -32,7 +35,6 @@ from ..shared import (
     student,
     violations_by_heat,
     violations_by_inlet,
-    violations_by_model_error,
     violations_by_motion,
     violations_by_pressure,
     violations_by_thickness,
@@ -49,7 +51,9 @@ from .rough_bodies import map_of_contact, map_of_strip
 from .strip import StripSolution, change_by_flow, solve_strip
 from .strip_on_two_grids import StripOnTwoGrids, halved_along_y, sample_coarsening_of
 
-LARGEST_PART = "its largest part is {}"
+BY_PLACES = "the difference of the models from place to place"
+LESS_BY_TOLERANCE = "a smaller numerics.model_tolerance reduces it"
+BY_FLOW_AT_LIMIT = "the flow of a film at its limiting stress, on which published theories differ"
 
 # Sampling error over its target, above which a note states it [-]: a standard error of a few strips is itself not known to 5 %.
 WORTH_A_NOTE = 1.05
@@ -75,7 +79,8 @@ RUBS = {
 BY_FILM = "change of f with half the boundary film {:+.2g} %, with twice {:+.2g} %"
 BY_INLET = "without the heat of the inlet f would change by {:+.2g} %"
 BY_FLOW = "change of f with half the thinning of the flow at the limiting stress {:+.2g} %"
-OF_LIMIT = "the limiting stress of the oil, which is not given: lubricant.limiting_stress_coefficient reduces it"
+BY_LIMIT = "the limiting stress of the oil, which is not given"
+LESS_BY_LIMIT = "lubricant.limiting_stress_coefficient reduces it"
 LIMITED = ("coefficient", "at_least_limit", "at_most_limit")
 LARGER_TOLERANCE = "a larger numerics.tolerance"
 SMALLER_SOLVE_TOLERANCE = "a smaller numerics.tolerance"
@@ -111,15 +116,14 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     by_scatter = student(levels.difference_error.freedom) * levels.difference_error.value
     with_thinner, with_thicker = levels.by_film
     by_missing_input = {BOUNDARY_FILM_KEY: (with_thinner, with_thicker)}
-    parts_of_model = {
-        "the difference of the models from place to place: a smaller numerics.model_tolerance reduces it": by_scatter,
-        "the flow of a film at its limiting stress, on which published theories differ": abs(levels.by_flow),
-        "heat, of whose effect half is counted as error": error_by_heat(heat, levels.by_inlet),
-    }
-    model = math.hypot(*parts_of_model.values())
-    (cause, _, advice) = max(parts_of_model, key=lambda part: parts_of_model[part]).partition(": ")
+    parts_of_model = (
+        ModelErrorPart(error=by_scatter, cause=BY_PLACES, recommendation=LESS_BY_TOLERANCE),
+        ModelErrorPart(error=abs(levels.by_flow), cause=BY_FLOW_AT_LIMIT),
+        ModelErrorPart(error=error_by_heat(heat, levels.by_inlet), cause=BY_HEAT),
+    )
+    model = error_of_parts(parts_of_model)
     by_limit = _by_limit(scene, results)
-    parts_with_limit = parts_of_model | {OF_LIMIT: max(by_limit)}
+    part_by_limit = ModelErrorPart(error=max(by_limit), cause=BY_LIMIT, recommendation=LESS_BY_LIMIT, is_of_input=True)
     reasons = dict.fromkeys(depending_on("heat"), heat.reason(scene) or ONE_HEAT)
     return ModelAnswer(
         numbers=numbers,
@@ -127,7 +131,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         sampling_error=sampling_error,
         model_error=(math.hypot(model, by_limit[0]), math.hypot(model, by_limit[1])),
         by_limit=max(by_limit),
-        largest_in_model=max(parts_with_limit, key=lambda part: parts_with_limit[part]),
+        parts_of_model=(*parts_of_model, part_by_limit),
         not_given={key: by_missing_input[key] for key in missing_inputs(scene)},
         report=replace(results[0].report, notes=()),
         decision=_decision(scene, results, levels, heat),
@@ -140,16 +144,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
             *filter(None, [limit_in_words(by_limit)]),
             *([UNSOLVED_CELLS] if levels.has_unsolved_cells else []),
         ),
-        violations=(
-            *_violations(prepared, numbers, results, heat),
-            *violations_by_model_error(
-                prepared,
-                model,
-                numbers["coefficient"],
-                consequence=LARGEST_PART.format(cause),
-                recommendation=advice,
-            ),
-        ),
+        violations=tuple(_violations(prepared, numbers, results, heat)),
         recommendation=_recommendation(prepared, levels.pairs[0]),
         narrows_numerical=_narrows_numerical(prepared, levels.pairs[0]),
         fields=fields_of(levels.finest, sample.in_words(1) + MIRRORED * levels.pairs[0].mirrored),

@@ -17,7 +17,6 @@ from ..shared import (
     contact_on_joined_strips,
     contact_on_piece,
     film_and_exponents,
-    violations_by_model_error,
 )
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
@@ -29,7 +28,6 @@ from .limits import limits_exceeded
 from .response import contact_length, quantities
 from .scatter import film_stress
 
-FROM_EQUATION = "it comes from the friction of Eq. (9), and from heat, of whose effect half is counted as error"
 SMALLER_TOLERANCE = "f has that error; a smaller numerics.tolerance or a larger map reduces it"
 
 
@@ -47,6 +45,8 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         numerical=errors.numerical,
         sampling_error=errors.sampling_error,
         model_error=errors.model_error,
+        parts_of_model=errors.parts_of_model,
+        accepts_model_error=scene.numerics.model != "auto",  # a scene that names the paper's model accepts its error
         most_rolling_ratio=OF_ROLLING if has_moving_roughness(scene) else 2.0,
         report=replace(report, notes=(*report.notes, *estimated)),
         decision=decision_of(
@@ -67,7 +67,6 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         notes=errors.notes,
         violations=(
             *violations_of_sample(balanced),
-            *_model_error_under_auto(balanced, max(errors.model_error), numbers["coefficient"]),
             *_violations_by_finer_cells(
                 balanced.relative_change(balanced.effect.finer_grid_change), scene.numerics.tolerance
             ),
@@ -83,14 +82,6 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         ),
         at_inputs=lambda: _at_inputs(balanced),
     )
-
-
-def _model_error_under_auto(balanced: BalancedSample, error: float, f: float) -> tuple[Violation, ...]:
-    """Return the violation by a model-form ``error`` of ``f``, relative, that is too large; a scene that names the paper's
-    model accepts its error."""
-    if balanced.prepared.scene.numerics.model != "auto":
-        return ()
-    return tuple(violations_by_model_error(balanced.prepared, error, f, consequence=FROM_EQUATION))
 
 
 def violations_of_sample(balanced: BalancedSample) -> tuple[Violation, ...]:

@@ -6,8 +6,11 @@ from dataclasses import dataclass, replace
 from ...quantities import depending_on
 from ...scene import Scene, budget, has_moving_roughness, why_gap_not_resolved
 from ..shared import (
+    BY_HEAT,
     FEW_CONTACTS,
     FREEDOM_NOT_COUNTED,
+    REDUCED_BY_DETERMINISTIC,
+    ModelErrorPart,
     StandardError,
     error_by_heat,
     has_too_few_contacts,
@@ -30,6 +33,7 @@ NO_CELLS = "not known: this contact has no places along y to compare"
 # Errors of f towards 0 and away from it where the model has none.
 NO_ERROR = (0.0, 0.0)
 UNKNOWN = (math.nan, math.nan)
+BY_EQUATION = "the friction of Eq. (9)"
 GAP_NOT_FILLED = "the film that arrives does not fill the gap: Eq. (8) neglects it, and f may be lower"
 NOT_STUDIED = "the error of the model itself is not known for this contact"
 MODEL_UNKNOWN = "the error of the model itself is not known and not in the interval: {}"
@@ -46,7 +50,7 @@ class PointErrors:
     ----------
     numerical : of f, by solvers and grids
     sampling_error : of f, because the sample is finite
-    model_error : of f, by the model, at 95 %, towards 0 and away from it
+    model_error, parts_of_model : of f, by the model, as in `lubfric.models.ModelAnswer`
     errors : of all numbers, by name
     why_no_error : why an error is not known
     reasons : why that of some numbers is not, by name
@@ -57,6 +61,7 @@ class PointErrors:
     numerical: float
     sampling_error: StandardError
     model_error: tuple[float, float]
+    parts_of_model: tuple[ModelErrorPart, ...]
     errors: dict[str, float]
     why_no_error: str
     reasons: dict[str, str]
@@ -123,12 +128,17 @@ def errors_of(balanced: BalancedSample) -> PointErrors:
         response.per_film(forces, balance.contact_state.mean_film) if response is not None else forces.film_sensitivity
     )
     by_heat = error_by_heat(forces.heat, 1 - forces.heat.film_factor**film_sensitivity)
+    parts: tuple[ModelErrorPart, ...] = (
+        ModelErrorPart(error=max(of_model), cause=BY_EQUATION, recommendation=REDUCED_BY_DETERMINISTIC),
+        ModelErrorPart(error=by_heat, cause=BY_HEAT),
+    )
     of_model = (math.hypot(of_model[0], by_heat), math.hypot(of_model[1], by_heat))
     of_f = numerical if math.isnan(sampling) else math.hypot(numerical, sampling)
     return PointErrors(
         numerical=numerical,
         sampling_error=StandardError(sampling, error.freedom),
         model_error=of_model,
+        parts_of_model=() if math.isnan(max(of_model)) else parts,
         errors=errors | {"coefficient": of_f},
         why_no_error=why,
         reasons=reasons,

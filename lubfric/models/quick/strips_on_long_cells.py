@@ -12,7 +12,6 @@ from ..._base import work_left
 from ...scene import Scene, has_moving_roughness
 from ..contract import ModelAnswer
 from ..deterministic import (
-    LARGEST_PART,
     Levels,
     StripOnTwoGrids,
     bodies_of,
@@ -23,7 +22,7 @@ from ..deterministic import (
     two_levels,
 )
 from ..deterministic import answer_of as deterministic_answer
-from ..shared import Assumption, Prepared, percent, smooth_over_cells, violations_by_model_error
+from ..shared import REDUCED_BY_DETERMINISTIC, ModelErrorPart, Prepared, largest_of, smooth_over_cells
 from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, reported, widening
 from .long_cells import (
     CELLS_OF_REFERENCES,
@@ -63,9 +62,8 @@ LEAST_TOLERANCE = 0.1
 LEAST_CONTRAST = 0.05
 
 NARROWER = "numerics.model = 'deterministic' reduces the error of f, at the cost that `lubfric info` estimates"
-NARROWED_BY_DETERMINISTIC = "use numerics.model = 'deterministic', which has no such part; the other parts are {}"
 CELLS_IN_MODEL_ERROR = "the error of the long cells is in the model-form error, not in the numerical one"
-OF_CELLS = "the error of long cells, calibrated on {} contacts: numerics.model = 'deterministic' reduces it"
+BY_CELLS = "the error of long cells, calibrated on {} contacts"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -219,33 +217,27 @@ def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLon
     levels = replace(on_long_cells.levels, numbers=on_long_cells.numbers(scene))
     answer = deterministic_answer(prepared, speed, levels)
     bounds = on_long_cells.bounds(scene)
-    by_cells = max(bounds) >= max(answer.model_error)
-    largest = OF_CELLS.format(on_long_cells.error_model.cases) if by_cells else answer.largest_in_model
-    f = levels.numbers["coefficient"]
+    by_cells = ModelErrorPart(
+        error=max(bounds),
+        cause=BY_CELLS.format(on_long_cells.error_model.cases),
+        recommendation=REDUCED_BY_DETERMINISTIC,
+    )
+    parts = (by_cells, *answer.parts_of_model)
     basis = f"deterministic model on long cells, calibrated on {on_long_cells.error_model.cases} solved cases"
     towards, away = (math.hypot(part, bound) for part, bound in zip(answer.model_error, bounds))
-    # the model-form error of the answer is without that of the cells
-    warnings = [each for each in answer.violations if each.assumption != Assumption.MODEL_FORM_ERROR]
     return replace(
         answer,
         model_error=(min(towards, 1.0), away),
         notes=(*answer.notes, CELLS_IN_MODEL_ERROR),
-        largest_in_model=largest,
+        parts_of_model=parts,
         violations=(
-            *warnings,
-            *violations_by_model_error(
-                prepared,
-                max(towards, away),
-                f,
-                consequence=LARGEST_PART.format(largest.partition(":")[0]),
-                recommendation=NARROWED_BY_DETERMINISTIC.format(percent(max(answer.model_error))) if by_cells else "",
-            ),
+            *answer.violations,
             *(part.violation for part in reported(on_long_cells.outside)),
         ),
         decision=replace(
             answer.decision,
             model="quick",
             basis=basis,
-            notes=(*((NARROWER,) if by_cells else ()), *answer.decision.notes),
+            notes=(*((NARROWER,) if largest_of(parts) is by_cells else ()), *answer.decision.notes),
         ),
     )

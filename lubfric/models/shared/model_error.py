@@ -1,34 +1,72 @@
-"""The warning that the model-form error of f is above its target."""
+"""The model-form error of f: its parts, and the warning that it is above its target."""
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
-from .prepared import Prepared
 from .violation import Assumption, Violation
-from .wording import is_near_zero
+from .wording import is_near_zero, percent
 
 MODEL_ERROR = "model-form error of f"
 MODEL_ERROR_NEAR_ZERO = f"{MODEL_ERROR} near 0, in f itself,"
+BY_HEAT = "heat, of whose effect half is counted as error"
+REDUCED_BY_DETERMINISTIC = "numerics.model = 'deterministic' reduces it"
+LARGEST_PART = "its largest part is {}"
+IN_INTERVAL = "the interval of f includes it"
+READ_INTERVAL = "read f with its interval"
+OTHER_PARTS = "{}; the other parts are {}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModelErrorPart:
+    """A part of the model-form error of f.
+
+    Attributes
+    ----------
+    error : relative, at 95 %, the larger of both sides
+    cause : what it comes from, as text
+    recommendation : what reduces it, as text; "": nothing that a user may give
+    is_of_input : whether it comes from an input that is not known, which no other model knows either
+    """
+
+    error: float
+    cause: str
+    recommendation: str = ""
+    is_of_input: bool = False
+
+
+def largest_of(parts: Sequence[ModelErrorPart]) -> ModelErrorPart | None:
+    """Return the largest of ``parts``, the first of equal ones; None where there are none."""
+    return max(parts, key=lambda part: part.error, default=None)
+
+
+def error_of_parts(parts: Sequence[ModelErrorPart]) -> float:
+    """Return the root of the sum of squares of the errors of ``parts``."""
+    return math.hypot(*(part.error for part in parts))
 
 
 def violations_by_model_error(
-    prepared: Prepared, error: float, f: float, *, consequence: str, recommendation: str = ""
+    error: float, *, tolerance: float, f: float, parts: Sequence[ModelErrorPart] = ()
 ) -> Iterator[Violation]:
-    """Yield a violation where the model-form ``error`` of ``f``, relative, is above ``numerics.model_tolerance``.
+    """Yield a violation where the model-form ``error`` of ``f``, relative, is above ``tolerance``, by its ``parts``.
 
-    ``consequence``: where it comes from; ``recommendation``: what reduces it ("": nothing that a user may give).
     Where f is near 0, the warning states the error in f itself.
     """
-    tolerance = prepared.scene.numerics.model_tolerance
     if not error > tolerance:
         return
     is_relative = not is_near_zero(f, error)
     unit = 100.0 if is_relative else abs(f)
+    largest = largest_of(parts)
+    recommendation = largest.recommendation if largest is not None else ""
+    if recommendation:
+        others = error_of_parts([part for part in parts if part is not largest])
+        recommendation = OTHER_PARTS.format(recommendation, percent(others)) if others else recommendation
     yield Violation(
         assumption=Assumption.MODEL_FORM_ERROR,
         what=MODEL_ERROR if is_relative else MODEL_ERROR_NEAR_ZERO,
         value=unit * error,
         limit=unit * tolerance,
         unit="%" if is_relative else "",
-        consequence=consequence,
-        recommendation=recommendation or "read f with its interval",
+        consequence=LARGEST_PART.format(largest.cause) if largest is not None else IN_INTERVAL,
+        recommendation=recommendation or READ_INTERVAL,
     )
