@@ -3,6 +3,7 @@
 import math
 import re
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -10,7 +11,17 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
 from lubfric.errors import CONVERGED, Report
-from lubfric.models import MODELS, DeterministicModel, Model, ModelAnswer, PaperModel, QuickModel, SampleSolution
+from lubfric.estimate.choice import choose
+from lubfric.models import (
+    MODELS,
+    DeterministicModel,
+    Model,
+    ModelAnswer,
+    PaperModel,
+    QuickModel,
+    SampleSolution,
+    registry,
+)
 from lubfric.models.shared import Assumption, Decision, StandardError, Violation, contact_on_joined_strips
 from lubfric.output import describe_scene, main, report, study_report
 from lubfric.quantities import CHOICES, COLUMNS
@@ -383,6 +394,28 @@ def test_a_further_model_has_no_paper_and_no_error_of_another(monkeypatch):
     result = lubfric.friction(scene, 0.03, model=HighestSummit())
     by_rolling = math.sqrt((result.power_loss_interval[1] - result.power_loss) ** 2 - parts[1][0] ** 2)
     assert by_rolling == pytest.approx(0.25 * (0.03 - 0.0075), rel=1e-9)
+
+
+@pytest.mark.parametrize("takes", [True, False])
+@pytest.mark.parametrize("requested", ["auto", "highest summit"])
+def test_only_a_model_that_takes_a_control_is_given_one(monkeypatch, requested, takes):
+    """Without one, the cheapest model is not solved beside a named one, nor kept with an answer."""
+
+    class Recorder(HighestSummit):
+        controls: ClassVar[list] = []
+
+        def takes_control(self, scene, sample):
+            return takes
+
+        def solve(self, prepared, sample, count, speed, *, start=None, control=None):
+            self.controls.append(control)
+            return super().solve(prepared, sample, count, speed, start=start, control=control)
+
+    monkeypatch.setattr(registry, "MODELS", (PaperModel(), Recorder()))
+    choice = choose(lubfric.prepare(LOOSE), 0.03, requested)
+    assert choice.model.name == "highest summit"
+    assert all((control is not None) == takes for control in Recorder.controls) and Recorder.controls
+    assert (choice.compared is not None) == takes
 
 
 @pytest.mark.parametrize("requested, speed, scene", [("deterministic", 0.0, PAPER), ("quick", 0.01, FLAT)])

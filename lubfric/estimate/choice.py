@@ -25,7 +25,7 @@ class Choice:
     ----------
     model, solution : the model that answers, and its solution
     why : the reason for this model, as text; "" where it was requested, or is the most expensive
-    compared : the cheapest model on the same strips, and its solution, where it was solved beside the answer
+    compared : the cheapest model on the same strips, and its solution, where that is the control of the answer
     gave_up : whether a more expensive model was tried in vain, so that the work of the point may be spent
     """
 
@@ -71,9 +71,17 @@ def _most_expensive(prepared: Prepared, speed: float, models: list[Model], named
     if model is models[0] or not model.takes_control(prepared.scene, prepared.sample):
         return Choice(model=model, solution=solve_to_tolerance(prepared, speed, model, for_fields=for_fields), why=why)
     first = solve_to_tolerance(prepared, speed, models[0], for_fields=for_fields)
-    control = first.control()
+    return replace(_beside(prepared, speed, model, (models[0], first), for_fields=for_fields), why=why)
+
+
+def _beside(
+    prepared: Prepared, speed: float, model: Model, cheapest: tuple[Model, SampleSolution], *, for_fields: bool
+) -> Choice:
+    """Return the solution of ``model``, with the strips of the ``cheapest`` model and its solution as a control if it takes
+    one (`Model.takes_control`)."""
+    control = cheapest[1].control() if model.takes_control(prepared.scene, prepared.sample) else None
     solution = solve_to_tolerance(prepared, speed, model, for_fields=for_fields, control=control)
-    return Choice(model=model, solution=solution, why=why, compared=None if control is None else (models[0], first))
+    return Choice(model=model, solution=solution, compared=None if control is None else cheapest)
 
 
 def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fields: bool) -> Choice:
@@ -90,7 +98,6 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
     """
     with limited_work(work_for_an_answer()):
         first = solve_to_tolerance(prepared, speed, models[0], for_fields=for_fields)
-    control = first.control()
     choice = Choice(model=models[0], solution=first)
     for model in models[1:]:
         if choice.solution.may_suffice():
@@ -105,10 +112,9 @@ def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, for_fiel
             choice = Choice(model=model, solution=adopted)
             continue
         try:
-            solution = solve_to_tolerance(prepared, speed, model, for_fields=for_fields, control=control)
+            choice = _beside(prepared, speed, model, (models[0], first), for_fields=for_fields)
         except ConvergenceError as error:
             return replace(choice, why=f"the {model.name} model was not solved ({error})", gave_up=True)
-        choice = Choice(model=model, solution=solution, compared=None if control is None else (models[0], first))
     return choice
 
 
