@@ -375,7 +375,7 @@ def _budget(
 
 def _point_budget(point: FrictionResult, place: str) -> str:
     known = point.uncertainty
-    labels = budget_labels([point], BUDGET_ON_LONG_CELLS if point.decision.model == "quick" else BUDGET)
+    labels = budget_labels([point], BUDGET_ON_LONG_CELLS if point.decision.counts_cells_as_model_error else BUDGET)
     notes = (known.largest_part, *known.notes)
     return _budget(known.budget, known.budget_in_words, f"f {place}", notes, labels)
 

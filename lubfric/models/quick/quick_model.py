@@ -34,11 +34,19 @@ from ..shared import (
 )
 from .calibrated_error import error_model_of, out_of_range, reported, widening
 from .long_cells import CELLS_OF_THIN_FILM, map_coarsening_at_rest, map_coarsening_in_motion
-from .strips_on_long_cells import LEAST_TOLERANCE, MOST_STRIPS, StripsOnLongCells, quick_answer_of, solve_on_long_cells
+from .strips_on_long_cells import (
+    LEAST_TOLERANCE,
+    MOST_STRIPS,
+    NAME,
+    StripsOnLongCells,
+    quick_answer_of,
+    solve_on_long_cells,
+)
 
 # Strips at rest, about, on which an estimate of the work rests: at most there are `MOST_STRIPS`.
 EXPECTED_STRIPS = 2
 
+BY_LOAD_SHARING = "load-sharing model in place of strips on long cells"
 ELASTIC = "elastic shear (lubricant.shear_modulus) is not calibrated: friction by Eq. (9)"
 NOT_FLOODED = "friction by Eq. (9), with the error of the load-sharing model: the quick answer is calibrated for flooded contacts only"
 THICK_FILM_NOTE = (
@@ -161,7 +169,8 @@ class QuickSolution(SampleSolution):
             return quick_answer_of(self.prepared, self.speed, self.on_long_cells)
         assert self.paper_solution is not None
         answer = self.paper_solution.answer()
-        return replace(answer, notes=(*answer.notes, self.why_by_equation))
+        decision = replace(answer.decision, model=NAME, basis=BY_LOAD_SHARING)
+        return replace(answer, decision=decision, notes=(*answer.notes, self.why_by_equation))
 
 
 def sample_coarsening_of_long_cells(scene: Scene, sample: Sample) -> tuple[float, float]:
@@ -197,7 +206,7 @@ class QuickModel(Model):
 
     @property
     def name(self) -> str:
-        return "quick"
+        return NAME
 
     @property
     def includes_motion(self) -> bool:

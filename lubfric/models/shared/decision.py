@@ -12,7 +12,7 @@ class Decision(Renamed):
 
     Attributes
     ----------
-    model : its name in ``numerics.model``
+    model : the model that answered, by its name in ``numerics.model``
     film_in_words, contact_in_words : how film and contact were modelled
     tolerance : the requested one, on f
     film_tolerance : of the film; 0: there is none
@@ -22,7 +22,8 @@ class Decision(Renamed):
     change_by_cells : relative change of f by native cells, for which it is corrected
     heat_in_words : which heat was modelled; "": none can be
     notes : what else a reader should know
-    basis : what the model-form error rests on, first in ``text``; "": the error formulas of the model
+    basis : what answered of this model, and what its model-form error rests on, first in ``text``; "": its name says so
+    counts_cells_as_model_error : whether the error by the cells is in the model-form error, not in the numerical one
     contact_load_in_words : what the ``contact_load`` of this model is, with a place for its part of the load
     """
 
@@ -38,6 +39,7 @@ class Decision(Renamed):
     heat_in_words: str = ""
     notes: tuple[str, ...] = ()
     basis: str = ""
+    counts_cells_as_model_error: bool = False
     contact_load_in_words: str = "The asperities carry {part} of the load"
     _RENAMED = {
         "film": "film_in_words",
