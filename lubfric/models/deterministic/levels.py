@@ -30,7 +30,7 @@ from ..._base.jobs import map_parts
 from ...errors import ConvergenceError
 from ...quantities import depending_on
 from ...samples import Sample
-from ...scene import Numerics, Scene, has_moving_roughness
+from ...scene import Scene, has_moving_roughness
 from ..shared import (
     ControlVariate,
     Prepared,
@@ -165,16 +165,14 @@ class TwoLevelEstimate:
     between: float
     note: str = ""
 
-    def strips_for_tolerances(self, numerics: Numerics, *, count: int, most: int) -> int:
+    def strips_for_tolerances(self, *, sampling_tolerance: float, model_tolerance: float, count: int, most: int) -> int:
         """Return the number of strips of the second level, at most ``most``, that the tolerances need; there are
-        ``count``."""
+        ``count``. ``model_tolerance`` counts with the first level alone."""
         f = abs(self.numbers["coefficient"])
-        of_sampling = f * numerics.sampling_tolerance
+        of_sampling = f * sampling_tolerance
         targets = [(self.error_of_f, of_sampling)]
         if self.control_strips:
-            of_difference = (
-                f * DIFFERENCE_SHARE * numerics.model_tolerance / student(self.difference_error_of_f.freedom)
-            )
+            of_difference = f * DIFFERENCE_SHARE * model_tolerance / student(self.difference_error_of_f.freedom)
             targets = [
                 (self.error_of_f, math.hypot(of_sampling, of_difference)),
                 (self.difference_error_of_f, of_difference),
@@ -221,21 +219,25 @@ def two_levels(
     prepared: Prepared,
     pairs: Sequence[StripOnTwoGrids],
     control: ControlVariate | None,
-    numerics: Numerics | None = None,
+    *,
+    sampling_tolerance: float | None = None,
 ) -> tuple[TwoLevelEstimate, int]:
     """Return the estimate from these strips that needs fewer of them in all, and how many: with a ``control``, or as
     the mean of the strips alone.
 
-    Strips are needed until the standard error of f is within ``numerics.sampling_tolerance``. With the first level, the
-    difference of the models may leave a half-width of `DIFFERENCE_SHARE` times ``numerics.model_tolerance`` beside it. No
-    more are wanted than `MOST_WORK_OF_POINT` allows. ``numerics``: whose tolerances count (None: those of the scene).
+    Strips are needed until the standard error of f is within the ``sampling_tolerance``, relative (None: that of the
+    scene). With the first level, the difference of the models may leave a half-width of `DIFFERENCE_SHARE` times
+    ``numerics.model_tolerance`` beside it. No more are wanted than `MOST_WORK_OF_POINT` allows.
     """
-    numerics = prepared.scene.numerics if numerics is None else numerics
+    numerics = prepared.scene.numerics
+    tolerance = numerics.sampling_tolerance if sampling_tolerance is None else sampling_tolerance
     count = len(pairs)
     most = max(1, min(prepared.sample.available_strips, int(MOST_WORK_OF_POINT / pairs[0].resolved.work)))
 
     def required(estimate: TwoLevelEstimate) -> int:
-        return estimate.strips_for_tolerances(numerics, count=count, most=most)
+        return estimate.strips_for_tolerances(
+            sampling_tolerance=tolerance, model_tolerance=numerics.model_tolerance, count=count, most=most
+        )
 
     if pairs[0].resolved.moves:
         estimate = _estimate_in_motion(prepared, pairs)

@@ -142,14 +142,10 @@ def solve_on_long_cells(prepared: Prepared, speed: float) -> StripsOnLongCells:
     """Return the strips of ``prepared`` at ``speed`` [m/s], not 0, on long cells. Raises `ConvergenceError`."""
     scene = prepared.scene
     pairs = [_solve_pair(prepared, speed, None, 0)]
-    numerics = replace(
-        scene.numerics,
-        sampling_tolerance=_sampling_target(prepared, pairs[0]),
-        model_tolerance=max(scene.numerics.model_tolerance, LEAST_TOLERANCE),
-    )
+    target = _sampling_target(prepared, pairs[0])
     most = 1 if has_moving_roughness(scene) else MOST_STRIPS
     while True:
-        estimate, wanted = two_levels(prepared, pairs, None, numerics)
+        estimate, wanted = two_levels(prepared, pairs, None, sampling_tolerance=target)
         if len(pairs) >= min(wanted, most) or pairs[0].resolved.work > PART_OF_WORK * work_left():
             break
         pairs.append(_solve_pair(prepared, speed, pairs[0].resolved.slope, len(pairs)))
