@@ -3,7 +3,7 @@
 A `Model` solves the first strips of a sample at one speed. Its `SampleSolution` says how many strips the tolerances
 need and whether their cells are too coarse; `lubfric.estimate` solves more until both are enough, corrects it, and builds
 the `FrictionResult` from its `ModelAnswer`. What else a model knows of its strips, it may hand to a more expensive one as
-`ControlVariate`. `name` and `solve` of a model and two members of its solution are all that has to be written; the
+`ControlVariate`. `name` and `solve` of a model and the `answer` of its solution are all that has to be written; the
 other members say what a model costs, where it applies and whether it is good enough, and have defaults. The three
 models of lubfric, and one of 30 lines in tests/test_contracts.py, do no more than this.
 """
@@ -229,7 +229,6 @@ class SampleSolution(ABC):
     Attributes
     ----------
     prepared, sample, count, speed : what `Model.solve` was called with, at an entrainment speed [m/s]
-    sampling_error : the error that decides on more strips
     """
 
     prepared: Prepared
@@ -237,21 +236,19 @@ class SampleSolution(ABC):
     count: int
     speed: float
 
-    @property
-    @abstractmethod
-    def sampling_error(self) -> StandardError:
-        """The relative standard error of f, because the sample is finite, by which more strips are requested; that of
-        the answer is `ModelAnswer.sampling_error`."""
-
     @abstractmethod
     def answer(self) -> ModelAnswer:
         """Return all that the model says of this point. `completed` comes before it."""
 
     def required_strips(self) -> int:
-        """Return the number of strips that the tolerances need: `count` if these are enough."""
+        """Return the number of strips that the tolerances need: `count` if these are enough.
+
+        By default they are those that `ModelAnswer.sampling_error` needs. A model whose `answer` takes work, or that decides by
+        another error, says it here.
+        """
         tolerance = self.prepared.scene.numerics.sampling_tolerance
         return strips_for_error(
-            self.sampling_error,
+            self.answer().sampling_error,
             tolerance,
             count=self.count,
             first=self.sample.first_strips,

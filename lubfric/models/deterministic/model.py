@@ -12,7 +12,6 @@ from ..shared import (
     ControlVariate,
     ExpectedViolations,
     Prepared,
-    StandardError,
     expected_on_hertz,
     rolling_model_error,
     why_no_rough_film,
@@ -48,11 +47,6 @@ class DeterministicSolution(SampleSolution):
     def count(self) -> int:  # type: ignore[override]
         """The number of strips."""
         return len(self.pairs)
-
-    @property
-    def sampling_error(self) -> StandardError:
-        error = self.estimate.error_of_f
-        return StandardError(error.value / abs(self.estimate.numbers["coefficient"]), error.freedom)
 
     def required_strips(self) -> int:
         return self.wanted

@@ -13,7 +13,6 @@ from ..shared import (
     ExpectedViolations,
     Heat,
     Prepared,
-    StandardError,
     Violation,
     expected_in_film,
     rolling_model_error,
@@ -51,10 +50,6 @@ class PaperSolution(SampleSolution):
     def speed(self) -> float:  # type: ignore[override]
         """The entrainment speed [m/s]."""
         return self.balanced.speed
-
-    @property
-    def sampling_error(self) -> StandardError:
-        return self.balanced.sampling_error
 
     def required_strips(self) -> int:
         return self.balanced.required_strips()

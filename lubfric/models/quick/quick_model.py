@@ -24,7 +24,6 @@ from ..shared import (
     ExpectedViolations,
     Heat,
     Prepared,
-    StandardError,
     Violation,
     expected_on_hertz,
     percent_beside,
@@ -76,10 +75,6 @@ class QuickSolution(SampleSolution):
     paper_solution: PaperSolution | None = None
     on_long_cells: StripsOnLongCells | None = None
     why_by_equation: str = ""
-
-    @property
-    def sampling_error(self) -> StandardError:
-        return StandardError(0.0, 1) if self.paper_solution is None else self.paper_solution.sampling_error
 
     def required_strips(self) -> int:
         return self.count if self.paper_solution is None else self.paper_solution.required_strips()
