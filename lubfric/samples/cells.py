@@ -1,5 +1,4 @@
-"""The cells of a strip: as long as the correlation length and the Hertz strip allow, in powers of two of the scene's.
-And how strips are cut from a map and joined."""
+"""The cells of a strip: as long as the correlation length and the Hertz strip allow, in powers of two of the scene's."""
 
 from __future__ import annotations
 
@@ -45,9 +44,6 @@ ROWS_MULTIPLE = 16
 
 # Height [Sq] up to which asperities may touch: 3 in a million points of a Gaussian surface are higher.
 HIGHEST_SUMMITS = 4.5
-
-# Correlation lengths along y over which one strip passes into the next: a Gaussian correlation is 0.02 there.
-BLEND = 2.0
 
 
 @dataclass(frozen=True)
@@ -207,52 +203,3 @@ def _power_of_two(ratio: float) -> int:
     while 2 * factor <= ratio * (1 + 1e-9):
         factor *= 2
     return factor
-
-
-def joined_maps(maps: list[np.ndarray], blend: int) -> np.ndarray:
-    """Return ``maps`` of heights (nx, ny) joined one after the other along y, and the last to the first.
-
-    The last ``blend`` cells of each are laid over the first of the next. Their weights are cos and sin, whose squares
-    add to 1, about the mean of all.
-    """
-    mean = float(np.mean([heights.mean() for heights in maps]))
-    angle = 0.5 * np.pi * (np.arange(blend) + 0.5) / blend
-    out = []
-    for before, heights in zip([maps[-1], *maps[:-1]], maps):
-        part = heights[:, : heights.shape[1] - blend].copy()
-        part[:, :blend] = (
-            mean + np.sin(angle) * (heights[:, :blend] - mean) + np.cos(angle) * (before[:, -blend:] - mean)
-        )
-        out.append(part)
-    return np.concatenate(out, axis=1)
-
-
-def spread_order(count: int) -> list[int]:
-    """Return the numbers 0 .. count - 1 in an order that begins in the middle, each number as far from those before as
-    possible."""
-    left = set(range(count))
-    order: list[int] = []
-    while left:
-        middle = 0.5 * (count - 1)
-        best = max(left, key=lambda i: (min((abs(i - j) for j in order), default=0), -abs(i - middle), -i))
-        order.append(best)
-        left.remove(best)
-    return order
-
-
-def starts_of(count: int, window: int, step: int, overhang: int) -> list[int]:
-    """Return the first columns of windows that lie ``step`` apart on a map of ``count`` columns. ``overhang``: how many
-    of them reach over either end."""
-    room = count + 2 * overhang - window
-    most = room // step
-    return [(room - most * step) // 2 - overhang + step * k for k in range(most + 1)]
-
-
-def blend_of(correlation: float, step: float) -> int:
-    """Return the number of cells of ``step`` [m] over which one strip passes into the next."""
-    return max(1, round(BLEND * correlation / step))
-
-
-def is_mirror_image(heights: np.ndarray) -> bool:
-    """Return whether the second half along y is the mirror image of the first."""
-    return heights.shape[1] > 1 and bool(np.array_equal(heights, heights[:, ::-1]))

@@ -12,9 +12,10 @@ from .._base import FieldsOnly, FloatArray
 from ..contact import HalfSpace, RoughContact, centred_axis
 from ..scene import Numerics, Scene
 from ..surface import Surface
-from .cells import Cells, cells_of_a_box, is_mirror_image, length_or_half
+from .cells import Cells, cells_of_a_box, length_or_half
 from .contacts import flat_contact_of, independent_asperities_of
 from .contract import PIECE, Sample
+from .windows import is_mirror_image
 
 
 class OnlyMap(Sample):

@@ -22,19 +22,16 @@ from ..surface import Surface, surface_generator
 from .cells import (
     COLUMNS_MULTIPLE,
     Cells,
-    blend_of,
     cells_of_a_box,
     choose_cells,
     correlation_lengths,
-    joined_maps,
     length_or_half,
     no_cells,
     reach_of,
-    spread_order,
-    starts_of,
 )
 from .contract import PIECE, Sample
 from .maps import is_extended, is_measured, rough_bodies, statistics, whole_maps
+from .windows import blend_of, joined_maps, spread_order, starts_of
 
 # Correlation lengths along y of a strip: ten blocks of nine lengths (models/shared/statistics.py).
 STRIP_LENGTHS = 90.0
