@@ -22,7 +22,14 @@ from ..deterministic import (
     two_levels,
 )
 from ..deterministic import answer_of as deterministic_answer
-from ..shared import REDUCED_BY_DETERMINISTIC, ModelErrorPart, Prepared, largest_of, smooth_over_cells
+from ..shared import (
+    REDUCED_BY_DETERMINISTIC,
+    ModelErrorPart,
+    Prepared,
+    largest_of,
+    smooth_over_cells,
+    with_forces_of_film,
+)
 from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, reported, widening
 from .long_cells import (
     CELLS_OF_REFERENCES,
@@ -113,16 +120,15 @@ class StripsOnLongCells:
         boundary += rubs * new_share * load * (share == 0)
         times = new_share / share if share > 0 else 0.0
         of_films = times if scene.lubricant.newtonian else (1 - new_share) / (1 - share) if share < 1 else 0.0
-        return numbers | {
+        changed = numbers | {
             "coefficient": force / load,
             "contact_load": new_share * load,
             "film_load": (1 - new_share) * load,
             "boundary_film_load": numbers["boundary_film_load"] * times if share > 0 else new_share * load,
             "saturated_film_load": numbers["saturated_film_load"] * of_films,
             "boundary_force": boundary,
-            "shear_force": force - boundary,
-            "couette_force": force - boundary - rolling,
         }
+        return with_forces_of_film(changed, load)
 
     def bounds(self, scene: Scene) -> tuple[float, float]:
         """Return the 95 % bounds of f by the cells, relative, towards 0 and away from it. In pure rolling all of f is
