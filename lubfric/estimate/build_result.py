@@ -62,7 +62,7 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
     decision = answer.decision
     if choice.why:
         decision = replace(decision, notes=(*decision.notes, choice.why))
-    known = numbers["boundary_force"] / scene.bodies.load, f
+    friction_parts = (numbers["boundary_force"] / scene.bodies.load, f)
     details = {choice.model.name: answer.details}
     compared_fields = None
     if choice.compared is not None:
@@ -86,7 +86,7 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
         power_loss_interval=loss.interval,
         validity=violations,
         unmodelled_effects=unmodelled_effects(
-            scene, prepared.surface.sq, speed, known, includes_motion=choice.model.includes_motion
+            scene, prepared.surface.sq, speed, friction_parts, includes_motion=choice.model.includes_motion
         ),
         methods=_methods(prepared, choice, numbers, uncertainty),
         fields=fields,
@@ -134,11 +134,11 @@ def _power_loss(
 def _methods(prepared: Prepared, choice: Choice, numbers: dict[str, Any], uncertainty: Uncertainty) -> tuple[str, ...]:
     """Return the methods of the answer, and then those of the model that it was compared with."""
     models = [choice.model] if choice.compared is None else [choice.model, choice.compared[0]]
-    uses = [_use(prepared.scene, model, numbers, uncertainty) for model in models]
+    uses = [_method_use(prepared.scene, model, numbers, uncertainty) for model in models]
     return tuple(dict.fromkeys(name for use in uses for name in methods_of(prepared, use)))
 
 
-def _use(scene: Scene, model: Model, numbers: dict[str, Any], uncertainty: Uncertainty) -> MethodUse:
+def _method_use(scene: Scene, model: Model, numbers: dict[str, Any], uncertainty: Uncertainty) -> MethodUse:
     """Return what the ``numbers`` of the answer show of the methods of ``model``, which answers or is compared with it."""
     return MethodUse(
         model=model,

@@ -64,12 +64,14 @@ def power_loss_of(
     load = scene.bodies.load
     loss = power_of_forces(sense * coefficient * load, resistance, speed, sliding)
     rolling = resistance * (speed - 0.5 * sliding)
-    is_known = math.isfinite(resistance_error + resistance_model_error)
+    has_known_errors = math.isfinite(resistance_error + resistance_model_error)
     distances = []
     for end in interval:
         by_sliding = (end - coefficient) * load * abs(sliding)
         of_rolling = (
-            math.hypot(2.0 * resistance_error, resistance_model_error) if is_known else abs(end / coefficient - 1.0)
+            math.hypot(2.0 * resistance_error, resistance_model_error)
+            if has_known_errors
+            else abs(end / coefficient - 1.0)
         )
         distances.append(math.hypot(by_sliding, of_rolling * rolling if rolling else 0.0))
     of_resistance = math.hypot(resistance_error, 0.5 * resistance_model_error)

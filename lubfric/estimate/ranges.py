@@ -1,7 +1,7 @@
 """Inputs that are known to a range only: what both ends of each change of f, in its interval."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from .._base.jobs import map_parts
@@ -14,9 +14,13 @@ from .uncertainty import Uncertainty, with_part
 # Change of f over f by the range of an input below which no note reports it: 0.05 %. Not measured: a convention.
 LEAST_REPORTED_CHANGE = 5e-4
 
+GIVEN_CONTACT = "the contact was given by the caller"
+NO_ENDS = "this model does not solve the ends of its range"
+NOT_CONVERGED = "the solve at an end of its range did not converge"
+
 
 def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tuple[float, ...] | str]:
-    """Return the changes of f [-] by the two ends of each of the `Scene.ranges`, by name; text: why it is not known.
+    """Return the changes of f [-] by the two ends of each of the `Scene.ranges`, by name; where these are not known, why.
 
     f is linear in f_b at a given division of the load. At each end of every other range it is solved again, by the model
     of the ``answer`` (`ModelAnswer.at_inputs`), unless the model knows its change there from its solution
@@ -25,7 +29,7 @@ def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tupl
     """
     scene = prepared.scene
     changes_of_f: dict[str, tuple[float, ...] | str] = {}
-    by_model: dict[str, tuple[float | None, ...]] = {}
+    without_solve: dict[str, tuple[float | None, ...]] = {}
     to_solve: list[Scene] = []
     for name, *ends in scene.at_ends():
         if name == BOUNDARY_FRICTION_KEY:
@@ -33,20 +37,20 @@ def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tupl
             slope = load_ratio * (scene.motion.slide_roll_ratio != 0)
             changes_of_f[name] = tuple(slope * (value_of(end, name) - value_of(scene, name)) for end in ends)
         elif name == HARDNESS_KEY and prepared.has_given_contact:
-            changes_of_f[name] = "the contact was given by the caller"
+            changes_of_f[name] = GIVEN_CONTACT
         elif answer.at_inputs is None:
-            changes_of_f[name] = "this model does not solve the ends of its range"
+            changes_of_f[name] = NO_ENDS
         else:
-            changes_of_f[name] = "the solve at an end of its range did not converge"  # unless it does
-            known = tuple(answer.change_without_solve(name, number, end) for number, end in enumerate(ends))
-            by_model[name] = known
-            to_solve += [end for end, change in zip(ends, known) if change is None]
+            changes = tuple(answer.change_without_solve(name, number, end) for number, end in enumerate(ends))
+            without_solve[name] = changes
+            to_solve += [end for end, change in zip(ends, changes) if change is None]
     solved = iter(_changes_at(answer, to_solve))
-    for name, known in by_model.items():
-        relative = [next(solved) if change is None else change for change in known]
-        if all(map(math.isfinite, relative)):
-            changes_of_f[name] = tuple(answer.numbers["coefficient"] * change for change in relative)
-    return changes_of_f
+    f = answer.numbers["coefficient"]
+    for name, changes in without_solve.items():
+        relative = [next(solved) if change is None else change for change in changes]
+        is_solved = all(map(math.isfinite, relative))
+        changes_of_f[name] = tuple(f * change for change in relative) if is_solved else NOT_CONVERGED
+    return {name: changes_of_f[name] for name, *_ in scene.ranges}
 
 
 def _changes_at(answer: ModelAnswer, ends: list[Scene]) -> list[float]:
@@ -94,6 +98,15 @@ def _signed(percentage: float) -> str:
     return f"{percentage:+.{2 + (abs(percentage) >= 99.5)}g}" if percentage else "0"
 
 
+def _changes_in_words(ends: tuple[float, ...], f: float) -> Iterator[str]:
+    """Yield the changes of ``f`` at both ``ends`` of a range [-], as text, if they are large enough to report."""
+    if not f:
+        yield f"{ends[0]:+.2g} to {ends[1]:+.2g}"
+    elif max(map(abs, ends)) > LEAST_REPORTED_CHANGE * abs(f):
+        percents = (0.0, *(100 * end / f for end in ends))  # at the value itself it is 0
+        yield f"{' to '.join(map(_signed, (min(percents), max(percents))))} %"
+
+
 def with_input_ranges(old: Uncertainty, changes_of_f: dict[str, tuple[float, ...] | str]) -> Uncertainty:
     """Return ``old`` with the ``changes_of_f`` [-] by the two ends of inputs, by name (`changes_by_ranges`).
 
@@ -106,13 +119,10 @@ def with_input_ranges(old: Uncertainty, changes_of_f: dict[str, tuple[float, ...
     notes = []
     for name, ends in changes_of_f.items():
         begin = f"range of {name.partition('.')[2]}: "
-        if isinstance(ends, str):
+        if not isinstance(ends, str):
+            notes += [f"{begin}f {change}" for change in _changes_in_words(ends, f)]
+        else:
             notes.append(f"{begin}not in the interval, as {ends}")
-        elif not f:
-            notes.append(f"{begin}f {ends[0]:+.2g} to {ends[1]:+.2g}")
-        elif max(map(abs, ends)) > LEAST_REPORTED_CHANGE * abs(f):
-            percents = (0.0, *(100 * end / f for end in ends))  # at the value itself it is 0
-            notes.append(f"{begin}f {' to '.join(map(_signed, (min(percents), max(percents))))} %")
     relative = max(below, above) / abs(f) if f else math.inf if max(below, above) else 0.0
     complete = len(moved) == len(changes_of_f)
     towards, away = (below, above) if f >= 0 else (above, below)

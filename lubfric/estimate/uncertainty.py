@@ -42,30 +42,32 @@ class BudgetPart:
     quantity: str
     sides: str = ""
     recommendation: Callable[[Uncertainty], str]
-    cause: Callable[[Uncertainty], str] = lambda known: ""
+    cause: Callable[[Uncertainty], str] = lambda uncertainty: ""
 
 
 # The parts of the uncertainty budget, by what they are called.
 PARTS = {
-    "numerical": BudgetPart(quantity="numerical", recommendation=lambda known: known.narrows_numerical),
-    "sampling": BudgetPart(quantity="sampling", recommendation=lambda known: known.narrows_sampling),
+    "numerical": BudgetPart(quantity="numerical", recommendation=lambda uncertainty: uncertainty.narrows_numerical),
+    "sampling": BudgetPart(quantity="sampling", recommendation=lambda uncertainty: uncertainty.narrows_sampling),
     "model-form": BudgetPart(
         quantity="model",
         sides="model_sides",
-        recommendation=lambda known: (
-            REDUCED_BY_DETERMINISTIC if known.largest_in_model is None else known.largest_in_model.recommendation
+        recommendation=lambda uncertainty: (
+            REDUCED_BY_DETERMINISTIC
+            if uncertainty.largest_in_model is None
+            else uncertainty.largest_in_model.recommendation
         ),
-        cause=lambda known: "" if known.largest_in_model is None else known.largest_in_model.cause,
+        cause=lambda uncertainty: "" if uncertainty.largest_in_model is None else uncertainty.largest_in_model.cause,
     ),
     "not given": BudgetPart(
         quantity="not_given",
         sides="not_given_sides",
-        recommendation=lambda known: f"a measured {known.missing_input} reduces it",
+        recommendation=lambda uncertainty: f"a measured {uncertainty.missing_input} reduces it",
     ),
     "input": BudgetPart(
         quantity="inputs",
         sides="input_sides",
-        recommendation=lambda known: f"a measured {known.largest_input or 'value'} reduces it",
+        recommendation=lambda uncertainty: f"a measured {uncertainty.largest_input or 'value'} reduces it",
     ),
 }
 
@@ -147,8 +149,8 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     @property
     def is_near_zero(self) -> bool:
         """Whether f is near 0 and a part of its error is larger, so that errors are stated in f and not relative to it."""
-        known = [part for part in self.budget.values() if math.isfinite(part)]
-        return bool(is_near_zero(self.coefficient, max(known, default=0.0)))
+        finite = [part for part in self.budget.values() if math.isfinite(part)]
+        return bool(is_near_zero(self.coefficient, max(finite, default=0.0)))
 
     @property
     def is_largest_by_model(self) -> bool:
@@ -164,11 +166,11 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     @property
     def largest_part_in_words(self) -> str:
         """The `largest_part` without the words that introduce it."""
-        known = {name: part for name, part in self.budget.items() if math.isfinite(part) and part > 0}
-        if not known or not math.isfinite(self.sampling):
+        parts = {name: part for name, part in self.budget.items() if math.isfinite(part) and part > 0}
+        if not parts or not math.isfinite(self.sampling):
             return ""
-        name = max(known, key=lambda name: known[name])
-        if known[name] < SMALL_PART:
+        name = max(parts, key=lambda name: parts[name])
+        if parts[name] < SMALL_PART:
             return f"{name} {self.budget_in_words[name]}"
         cause = PARTS[name].cause(self)
         recommendation = PARTS[name].recommendation(self)
@@ -202,11 +204,11 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         unknown = " (not included)" * math.isnan(self.model)
         words = self.budget_in_words
         inputs = f", input {words['input']}" if self.inputs != 0 else ""
-        known = (
+        of_solve = (
             f"numerical {words['numerical']}, sampling {sampling_in_words}, model-form {words['model-form']}{unknown}"
         )
         missing = f", {self.missing_input} not given {words['not given']}" if self.not_given else ""
-        return f"{'errors of f itself, which is near 0: ' * self.is_near_zero}{known}{missing}{inputs}"
+        return f"{'errors of f itself, which is near 0: ' * self.is_near_zero}{of_solve}{missing}{inputs}"
 
 
 @described_in_doc
@@ -246,13 +248,13 @@ class NumberErrors(Quantities[float]):
 
 
 def number_errors_of(
-    numbers: dict[str, float], known: dict[str, float], why: str, reasons: dict[str, str]
+    numbers: dict[str, float], errors_by_name: dict[str, float], why: str, reasons: dict[str, str]
 ) -> NumberErrors:
-    """Return `NumberErrors` of the ``numbers`` of a point, from the errors ``known`` by name.
+    """Return `NumberErrors` of the ``numbers`` of a point, from ``errors_by_name``.
 
     ``reasons``: why some errors are not known, by name; ``why`` others are not, unless the number is NaN or 0.
     """
-    errors = {name: float(known.get(name, math.nan)) for name in ESTIMATED}
+    errors = {name: float(errors_by_name.get(name, math.nan)) for name in ESTIMATED}
     errors = {name: value if math.isfinite(value) else math.nan for name, value in errors.items()}
     by_number = {name: _why_no_relative_error(numbers[name]) for name in ESTIMATED}
     unknown = [name for name, value in errors.items() if math.isnan(value)]

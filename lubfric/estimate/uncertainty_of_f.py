@@ -50,9 +50,10 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
         else SMALLER_SAMPLING_TOLERANCE,
         notes=answer.notes,
     )
-    known = with_missing_inputs(of_solve, answer.not_given)
-    with_inputs = with_input_ranges(known, changes_by_ranges(prepared, answer)) if scene.ranges else known
-    return _resisting_sliding(scene, answer, within_stress_limits(scene, answer, with_inputs))
+    uncertainty = with_missing_inputs(of_solve, answer.not_given)
+    if scene.ranges:
+        uncertainty = with_input_ranges(uncertainty, changes_by_ranges(prepared, answer))
+    return _resisting_sliding(scene, answer, within_stress_limits(scene, answer, uncertainty))
 
 
 def within_stress_limits(scene: Scene, answer: ModelAnswer, uncertainty: Uncertainty) -> Uncertainty:

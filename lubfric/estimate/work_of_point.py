@@ -85,16 +85,16 @@ def _waits(estimates: Sequence[WorkEstimate], k: int) -> bool:
 
 
 def seconds_of_points(
-    points: Sequence[PointWorkEstimate], count: float | None = None, known: Container[str] = ()
+    points: Sequence[PointWorkEstimate], count: float | None = None, done: Container[str] = ()
 ) -> float:
     """Return the processor time [s] of ``points`` of one scene, or of so many (``count``) like them, where the shared work
-    named in ``known`` is done."""
+    named in ``done`` was done before."""
     if not points:
         return 0.0
     shared: dict[str, float] = {}
     for point in points:
         for part in point.shared:
-            if part.what not in known:
+            if part.what not in done:
                 shared[part.what] = max(part.seconds, shared.get(part.what, 0.0))
     each = sum(point.seconds - sum(part.seconds for part in point.shared) for point in points)
     return sum(shared.values()) + each * (1.0 if count is None else count / len(points))

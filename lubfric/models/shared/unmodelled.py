@@ -72,7 +72,7 @@ def unmodelled_effects(
     scene: Scene,
     sq: float,
     speed: float,
-    known: tuple[float, float] | None = None,
+    friction_parts: tuple[float, float] | None = None,
     *,
     run: Scene | None = None,
     includes_motion: bool = True,
@@ -81,12 +81,12 @@ def unmodelled_effects(
     ``speed`` [m/s]: the largest change of f first, what is not known last. What would change f by less than
     ``numerics.tolerance`` is not reported.
 
-    ``known``: the friction [-] of asperities alone and of all, of a result there, if there is one; ``run``: the scene of
+    ``friction_parts``: the friction [-] of asperities alone and of all, of a result there, if there is one; ``run``: the scene of
     the run in time of which ``scene`` is one moment, which holds the ranges and tables that a moment has not;
     ``includes_motion``: whether the model has the motion of the roughness (`lubfric.models.Model.includes_motion`).
     """
     tolerance = scene.numerics.tolerance
-    effects = _all_effects(scene, sq, speed, known, run=run, includes_motion=includes_motion)
+    effects = _all_effects(scene, sq, speed, friction_parts, run=run, includes_motion=includes_motion)
     kept = [effect for effect in effects if not abs(effect[1]) <= tolerance]
     return tuple(sorted(kept, key=lambda effect: -abs(effect[1]) if math.isfinite(effect[1]) else 0.0))
 
@@ -105,8 +105,10 @@ def expected_effects(
     for power in POWERS if f_b and speed else (1.0,):
         of_load = share**power
         for more in SHEARS if f_b and speed else (1.0,):
-            known = f_b * of_load, f_b * of_load + more * shear * (1.0 - of_load)
-            effects = _all_effects(scene, sq, speed, known if known[1] > 0 else None, includes_motion=includes_motion)
+            friction_parts = f_b * of_load, f_b * of_load + more * shear * (1.0 - of_load)
+            effects = _all_effects(
+                scene, sq, speed, friction_parts if friction_parts[1] > 0 else None, includes_motion=includes_motion
+            )
             for what, change, advice in effects:
                 low, high, _ = ranges.get(what, (change, change, advice))
                 ranges[what] = float(np.fmin(low, change)), float(np.fmax(high, change)), advice
@@ -120,7 +122,7 @@ def _all_effects(
     scene: Scene,
     sq: float,
     speed: float,
-    known: tuple[float, float] | None = None,
+    friction_parts: tuple[float, float] | None = None,
     *,
     run: Scene | None = None,
     includes_motion: bool,
@@ -128,8 +130,10 @@ def _all_effects(
     """Return all effects, however small; arguments as of `unmodelled_effects`."""
     bodies = scene.bodies
     whole = run or scene
-    of_boundary, f = known or _parts(scene, sq, speed)
-    effects = [] if speed == 0 or not f > 0 else _of_film(scene, sq, speed, known, includes_motion=includes_motion)
+    of_boundary, f = friction_parts or _parts(scene, sq, speed)
+    effects = (
+        [] if speed == 0 or not f > 0 else _of_film(scene, sq, speed, friction_parts, includes_motion=includes_motion)
+    )
     is_stated = (
         any("boundary_friction" in name for name, *_ in whole.ranges)
         or whole.bodies.boundary_friction_table is not None
@@ -152,7 +156,7 @@ def _all_effects(
 
 
 def _of_film(
-    scene: Scene, sq: float, speed: float, known: tuple[float, float] | None, *, includes_motion: bool
+    scene: Scene, sq: float, speed: float, friction_parts: tuple[float, float] | None, *, includes_motion: bool
 ) -> list[UnmodelledEffect]:
     """Return what needs a film."""
     line = scene.line_contact(speed)
@@ -163,13 +167,13 @@ def _of_film(
     before = _parts(scene, sq, speed)
     rubs = scene.bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0)
     narrow = line.expected_film * 2 * line.radius > line.half_width**2
-    alone = (known or before)[0] < LEAST_ASPERITY_PART * (known or before)[1]
+    alone = (friction_parts or before)[0] < LEAST_ASPERITY_PART * (friction_parts or before)[1]
 
     def change(other: Scene, rough: float, times: float = 1.0) -> float:
         after = _parts(other, rough, speed, times)
-        if known is not None:
-            after = _scaled(rubs, before, after, known)
-        return after[1] / (known or before)[1] - 1
+        if friction_parts is not None:
+            after = _scaled(rubs, before, after, friction_parts)
+        return after[1] / (friction_parts or before)[1] - 1
 
     effects: list[UnmodelledEffect] = []
     if lubricant.floods:
@@ -218,16 +222,19 @@ def _at_ends_of_alpha(scene: Scene) -> dict[str, Scene]:
 
 
 def _scaled(
-    f_b: float, before: tuple[float, float], after: tuple[float, float], known: tuple[float, float]
+    f_b: float, before: tuple[float, float], after: tuple[float, float], friction_parts: tuple[float, float]
 ) -> tuple[float, float]:
-    """Return the parts ``after``, as changes from the guess ``before`` to what is ``known``: λ that gives the share
-    known, and mu in proportion."""
+    """Return the parts ``after``, as changes from the guess ``before`` to the ``friction_parts`` of a result: λ that gives the
+    share there, and mu in proportion."""
     if not f_b:
-        return 0.0, after[1] / before[1] * known[1]
-    shares = [min(max(parts[0] / f_b, LEAST_SCALED_SHARE), 1 - LEAST_SCALED_SHARE) for parts in (before, after, known)]
+        return 0.0, after[1] / before[1] * friction_parts[1]
+    shares = [
+        min(max(parts[0] / f_b, LEAST_SCALED_SHARE), 1 - LEAST_SCALED_SHARE)
+        for parts in (before, after, friction_parts)
+    ]
     guessed, changed, there = (math.log(1 / share) for share in shares)
     share = math.exp(-there * changed / guessed)
-    shears = [max(parts[1] - parts[0], 0.0) / (1 - s) for parts, s in zip((before, after, known), shares)]
+    shears = [max(parts[1] - parts[0], 0.0) / (1 - s) for parts, s in zip((before, after, friction_parts), shares)]
     shear = shears[2] * shears[1] / shears[0] if shears[0] else 0.0
     return f_b * share, f_b * share + shear * (1 - share)
 
