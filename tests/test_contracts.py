@@ -438,6 +438,11 @@ def test_two_given_maps_are_known_whose_they_are():
     assert [model.why_unable(prepared, 0.03) for model in MODELS] == [""] * len(MODELS)
     undivided = lubfric.prepare(scene, surface.periodic(axes=(False, True)))
     assert any("second rough body" in model.why_unable(undivided, 0.03) for model in MODELS)
+    contact = contact_on_joined_strips(prepared, prepared.sample, 1)
+    with_contact = lubfric.prepare(scene, contact=contact)
+    again = lubfric.prepare(scene.with_(bodies={"load": 6.0}), like=with_contact)
+    for given in (with_contact, again):
+        assert given.is_given and not given.has_given_map and not given.has_one_map_for_all_bodies
 
 
 def test_a_gap_that_the_given_film_does_not_fill_is_not_without_entrainment():

@@ -73,7 +73,8 @@ def prepare(
         contact = like.rough_contact if like.has_given_contact else None
     with hint_unusual_values(scene):
         sample = sample_of(scene, maps, contact=contact)
-        return _on_sample(scene, sample, has_given_maps=bool(maps), has_given_contact=contact is not None)
+        has_given_map = bool(maps) if like is None else like.has_given_map
+        return _on_sample(scene, sample, has_given_map=has_given_map, has_given_contact=contact is not None)
 
 
 def prepare_on_maps(scene: Scene, read: tuple[Surface, ...]) -> Prepared:
@@ -81,10 +82,10 @@ def prepare_on_maps(scene: Scene, read: tuple[Surface, ...]) -> Prepared:
     again."""
     check_by_model(scene, has_one_map_for_all_bodies=False)
     with hint_unusual_values(scene):
-        return _on_sample(scene, sample_of(scene, read=read), has_given_maps=False, has_given_contact=False)
+        return _on_sample(scene, sample_of(scene, read=read), has_given_map=False, has_given_contact=False)
 
 
-def _on_sample(scene: Scene, sample: Sample, *, has_given_maps: bool, has_given_contact: bool) -> Prepared:
+def _on_sample(scene: Scene, sample: Sample, *, has_given_map: bool, has_given_contact: bool) -> Prepared:
     """Return ``scene`` made ready on ``sample``, with the contact on its first strips."""
     surface = sample.stated_map()
     check_map(scene, surface)
@@ -92,7 +93,7 @@ def _on_sample(scene: Scene, sample: Sample, *, has_given_maps: bool, has_given_
     rough_contact = sample.contact(scene, sample.first_strips, partial(operator_on, memo, scene))
     memo.put(JoinedKey(sample.cells.coarsening, sample.first_strips), rough_contact, cells_of_contact(rough_contact))
     by_form = (
-        *violations_by_form(scene, sample.maps_before_extension, is_given=has_given_maps),
+        *violations_by_form(scene, sample.maps_before_extension, is_given=has_given_map),
         *violations_by_strips(*sample.sq_deviation(surface)),
     )
     prepared = Prepared(
@@ -101,7 +102,7 @@ def _on_sample(scene: Scene, sample: Sample, *, has_given_maps: bool, has_given_
         rough_contact=rough_contact,
         sample=sample,
         violations=(*beforehand(scene, surface), *by_form),
-        is_given=has_given_maps or has_given_contact,
+        has_given_map=has_given_map,
         has_given_contact=has_given_contact,
     )
     prepared.memo.keep_surface_of(memo)

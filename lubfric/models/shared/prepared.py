@@ -31,8 +31,7 @@ class Prepared(FieldsOnly, Renamed, Shown):
     rough_contact : the contact on the first strips, on the cells of ``sample``; of a patch too
     violations : assumptions of the model that bodies and map violate, known before any solve
     sample : what represents the infinite rough line contact
-    is_given : whether a map or a contact was given to `lubfric.prepare`, so that it cannot be extended
-    has_given_contact : whether that was a contact
+    has_given_map, has_given_contact : whether a map, or a contact, was given to `lubfric.prepare`
     """
 
     scene: Scene
@@ -40,14 +39,19 @@ class Prepared(FieldsOnly, Renamed, Shown):
     rough_contact: RoughContact
     sample: Sample
     violations: tuple[Violation, ...] = ()
-    is_given: bool = False
+    has_given_map: bool = False
     has_given_contact: bool = False
     _RENAMED = {"contact": "rough_contact", "known": "violations", "given": "is_given"}
 
     @property
+    def is_given(self) -> bool:
+        """Whether a map or a contact was given to `lubfric.prepare`, so that it cannot be extended."""
+        return self.has_given_map or self.has_given_contact
+
+    @property
     def has_one_map_for_all_bodies(self) -> bool:
         """Whether one map was given to `lubfric.prepare` for all bodies, so that the part of each in it is not known."""
-        return self.is_given and not self.sample.bodies
+        return self.has_given_map and not self.sample.bodies
 
     @cached_property
     def memo(self) -> Memo:
