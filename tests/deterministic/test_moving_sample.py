@@ -193,7 +193,7 @@ def test_cells_along_y_are_halved_where_their_error_is_large_and_the_work_is_not
     halved = SimpleNamespace(resolved=pair.resolved, change_by_cells=0.0, has_halved_cells=True)
     asked = []
 
-    def solve_pair(*_, has_halved_cells=False):
+    def solve_pair(*_, has_halved_cells=False, **__):
         asked.append(has_halved_cells)
         return pair
 

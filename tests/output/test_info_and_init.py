@@ -102,7 +102,7 @@ def test_info_states_on_how_many_strips_the_quick_answer_is_solved(ratio, strips
     solved: list[int] = []
     strip = SimpleNamespace(work=0.0, slope=0.0)
 
-    def solve(prepared, speed, slope, index):
+    def solve(prepared, speed, index, **_):
         solved.append(index)
         return SimpleNamespace(resolved=strip)
 
@@ -115,7 +115,7 @@ def test_info_states_on_how_many_strips_the_quick_answer_is_solved(ratio, strips
     home = "lubfric.models.quick.strips_on_long_cells."
     monkeypatch.setattr(f"{home}_solve_pair", solve)
     monkeypatch.setattr(f"{home}_sampling_target", lambda *_: 1e-3)
-    monkeypatch.setattr(f"{home}two_levels", lambda *_: (None, 1000))
+    monkeypatch.setattr(f"{home}two_levels", lambda *_, **__: (None, 1000))
     monkeypatch.setattr(f"{home}_features_of", stop)
     with pytest.raises(Solved):
         solve_on_long_cells(lubfric.prepare(scene), 0.03)

@@ -100,7 +100,7 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
             assert times == 2 or length["length"] < 42
             return tuple(on(7.2 / 2**k) for k in range(2 + round(math.log2(times))))
 
-        monkeypatch.setattr(levels, "solve_pair", lambda *_: replace(pair, resolved=on(3.6), longer=on(7.2)))
+        monkeypatch.setattr(levels, "solve_pair", lambda *_, **__: replace(pair, resolved=on(3.6), longer=on(7.2)))
         monkeypatch.setattr(shorter, "_refined", ladder)
         result = solve_to_tolerance(lubfric.prepare(FINE, like=prepared), 0.1, DeterministicModel()).levels
         truth = on(0.45).result.coefficient
@@ -120,7 +120,7 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
         result = solve_to_tolerance(lubfric.prepare(FINE, like=prepared), 0.1, DeterministicModel()).levels
         assert bool(result.shortest) == (rows == 100)
     solved = pair.resolved
-    monkeypatch.setattr(levels, "solve_pair", lambda *_: replace(pair, resolved=on(3.6), longer=on(3.6)))
+    monkeypatch.setattr(levels, "solve_pair", lambda *_, **__: replace(pair, resolved=on(3.6), longer=on(3.6)))
     for acf in ("gaussian", "exponential"):  # no change between cells is believed only where heights are smooth
         result = solve_to_tolerance(lubfric.prepare(FINE.with_(surface={"acf": acf})), 0.1, DeterministicModel()).levels
         assert bool(result.pieces) == (acf == "exponential")
@@ -253,7 +253,7 @@ def test_the_flow_of_a_limit_twice_as_high_by_hand():
     """The pressure and gap of an oil with twice the limit, sheared by the oil itself at the middle of the grid."""
     scene = PATCH.with_(lubricant={"limiting_stress_coefficient": 0.045}, bodies={"boundary_film": 20e-9})
     prepared = lubfric.prepare(scene)
-    pair = solve_pair(prepared, 0.03, None, 0)
+    pair = solve_pair(prepared, 0.03, 0, find_slope=True)
     twice = {"limiting_stress_coefficient": 0.09, "limiting_stress_offset": 2 * scene.lubricant.limiting_stress_offset}
     surface, map_coarsening = surface_and_map_coarsening(prepared, 0)
     other = solve_strip(scene.with_(lubricant=twice), surface, 0.03, map_coarsening=map_coarsening).result
@@ -294,7 +294,7 @@ def test_a_limit_of_zero_at_ambient_pressure_is_left_to_eq_8():
 
 
 def test_strips_that_fail_are_reported(prepared, monkeypatch):
-    def fails(*_):
+    def fails(*_, **__):
         raise lubfric.ConvergenceError(
             "no film", lubfric.errors.Report("a strip", "diverged", iterations=3, residual=1.0, tolerance=1e-3)
         )
@@ -390,4 +390,4 @@ def test_the_work_of_moving_roughness_is_estimated_within_a_factor_of_two(bodies
         speed,
         sample_coarsening=sample_coarsening_of(prepared.scene, prepared.sample),
     )
-    assert 0.5 < solve_pair(prepared, speed, None, 0).resolved.work / estimate < 2
+    assert 0.5 < solve_pair(prepared, speed, 0, find_slope=True).resolved.work / estimate < 2

@@ -35,7 +35,7 @@ from .rheology import mean_fluidity, thinning
 from .rough_bodies import bodies_of, map_of_strip, maps_of_bodies
 from .solve import dry_contact, solve_point
 from .state import FLUID, RUPTURED, TOUCHING, Iterate, State, TimeHistory, admissible, evaluated, residuals
-from .strip import StripSolution, change_by_flow, changes_of, error_by_cells, solve_strip, work_of_steps
+from .strip import UNKNOWN_SLOPE, StripSolution, change_by_flow, changes_of, error_by_cells, solve_strip, work_of_steps
 from .strip_on_two_grids import (
     StripOnTwoGrids,
     numbers_of,

@@ -191,16 +191,15 @@ def solve_pairs(
     """Solve the first ``count`` strips at ``speed`` [m/s], not 0, each on two grids; ``solved``: the first of them, where
     these are solved already."""
     first = tuple(solved) or (_first_pair(prepared, speed),)
-    slope = first[0].resolved.slope
-    solve = partial(solve_pair, has_halved_cells=True) if first[0].has_halved_cells else solve_pair
-    return (*first, *map_parts(solve, range(len(first), count), prepared, speed, slope))
+    solve = partial(solve_pair, slope=first[0].resolved.slope, has_halved_cells=first[0].has_halved_cells)
+    return (*first, *map_parts(solve, range(len(first), count), prepared, speed))
 
 
 def _first_pair(prepared: Prepared, speed: float) -> StripOnTwoGrids:
     """Solve the first strip; where roughness moves, once more on cells half as long along y if the error by the cells
     is above ``numerics.model_tolerance`` and the shorter ones reduce it (`CellsInMotion.shorter_ones_pay`), where as
     many strips as the sample needs stay within `MOST_WORK_OF_POINT`."""
-    pair = solve_pair(prepared, speed, None, 0)
+    pair = solve_pair(prepared, speed, 0, find_slope=True)
     if not has_moving_roughness(prepared.scene) or surface_and_map_coarsening(prepared, 0)[1][1] % 2:
         return pair
     cells = cells_of_strips(prepared, [pair.resolved], pair.change_by_cells)

@@ -30,7 +30,7 @@ from .cells_in_motion import cells_of_strips
 from .counted_work import MOST_WORK_OF_POINT
 from .problem import are_soft
 from .rough_bodies import map_of_contact
-from .strip import StripSolution, changes_of, error_by_cells, solve_strip
+from .strip import UNKNOWN_SLOPE, StripSolution, changes_of, error_by_cells, solve_strip
 from .strip_on_two_grids import (
     StripOnTwoGrids,
     longer_than,
@@ -149,7 +149,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     if _are_enough(prepared, error):
         return ShorterCells(error=error)
     if sample.refines_in_place:
-        patch = _refined(prepared, speed, 0, pairs[0])
+        patch = _refined(prepared, speed, 0, first=pairs[0], find_slope=True)
         return ShorterCells(
             pieces=(patch,),
             strip=patch[-1],
@@ -170,7 +170,8 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
         return ShorterCells(pieces=pieces, sampling_error=scatter, error=error)
     try:
         with limited_work(PIECES_SHARE * work_left()):
-            shortest = _refined(prepared, speed, 0, None, pairs[0].resolved.slope, times=4, length=LAST_PIECE)
+            slope = pairs[0].resolved.slope
+            shortest = _refined(prepared, speed, 0, slope=slope, times=4, length=LAST_PIECE)
     except ConvergenceError:
         return ShorterCells(pieces=pieces, sampling_error=scatter, error=UNSOLVED_FACTOR * error, has_unsolved=True)
     coarse, fine = (strip.result for strip in shortest[-2:])
@@ -295,8 +296,10 @@ def _pieces(prepared: Prepared, speed: float, first: StripOnTwoGrids | None) -> 
     while len(pieces) < min(sample.available_pieces, MOST_SOLVED_PIECES) and not (
         error.value <= tolerance or spent > PIECES_WORK
     ):
-        slope = pieces[0][1].slope if pieces else None
-        pieces.append(_refined(prepared, speed, len(pieces), None if pieces else first, slope))
+        if pieces:
+            pieces.append(_refined(prepared, speed, len(pieces), slope=pieces[0][1].slope))
+        else:
+            pieces.append(_refined(prepared, speed, 0, first=first, find_slope=True))
         error = _error(pieces, sample)
         spent += sum(strip.work for strip in pieces[-1])
     return tuple(pieces), error
@@ -306,9 +309,10 @@ def _refined(
     prepared: Prepared,
     speed: float,
     index: int,
-    first: StripOnTwoGrids | None,
-    slope: float | None = None,
     *,
+    first: StripOnTwoGrids | None = None,
+    slope: float = UNKNOWN_SLOPE,
+    find_slope: bool = False,
     times: int = 2,
     length: float = PIECE,
 ) -> Piece:
@@ -321,7 +325,8 @@ def _refined(
     Parameters
     ----------
     first : the strip that serves as the piece, solved on the first two lengths of cells; None: a piece is made
-    slope : of friction over load [-]; None: found by a second solve
+    slope : of friction over load [-], as another piece has it
+    find_slope : whether it is found in its place: on the ``first`` strip, or by a second solve
     length : of a piece that is made, in correlation lengths
     """
     scene = prepared.scene
@@ -340,14 +345,12 @@ def _refined(
             longer = solve_strip(
                 scene, surface, speed, map_coarsening=longer_than(surface, map_coarsening), most=FACTORISATIONS_OF_START
             )
-        strip = solve_strip(
-            scene, surface, speed, map_coarsening=map_coarsening, start=longer, find_slope=slope is None
-        )
+        strip = solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
         ladder = [strip if longer is None else longer, strip]
     while map_coarsening != (1, 1) and (len(ladder) == 2 or error_by_cells(changes_of(ladder)) > enough):
         map_coarsening = max(1, map_coarsening[0] // 2), max(1, map_coarsening[1] // 2)
         ladder.append(solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=ladder[-1]))
-    slope = ladder[1].slope if slope is None else slope
+    slope = ladder[1].slope if find_slope else slope
     return tuple(replace(one, slope=slope) for one in ladder)
 
 

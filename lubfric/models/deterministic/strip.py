@@ -28,6 +28,9 @@ from .time_and_place import Places, TimeAndPlace
 # Tolerance of a strip's residuals [-]: f moves by some .1 %.
 STRIP_RESIDUAL = 3e-3
 
+# The `StripSolution.slope` of a strip where it is not known: none was looked for.
+UNKNOWN_SLOPE = math.nan
+
 # Tolerance of the residuals on longer cells, from which a strip starts [-]. Half and twice change nothing.
 LONGER_CELLS_RESIDUAL = 1e-2
 
@@ -61,7 +64,8 @@ class StripSolution:
     Attributes
     ----------
     problem, result : what was solved, and its fields and forces
-    slope : dF/dw of friction and load at one h0 [-], from a second solve at a load 3 % larger; NaN: not known
+    slope : dF/dw of friction and load at one h0 [-], from a second solve at a load 3 % larger (`solve_strip` with
+        ``find_slope``), or of another strip; `UNKNOWN_SLOPE`: not known
     work : counted work of all its solves [s] (`work_of`)
     """
 
@@ -155,7 +159,7 @@ def solve_strip(
     check_resolved_gap(scene)
     problem = problem_of(scene, surface, speed, map_coarsening=map_coarsening, upper=upper, ends=ends)
     work = 0.0
-    slope = math.nan
+    slope = UNKNOWN_SLOPE
     longer = (2 * map_coarsening[0], 2 * map_coarsening[1])
     if start is None and problem.heights.size > MANY_CELLS and surface.shape[1] % longer[1] == 0:
         with suppress(ConvergenceError):

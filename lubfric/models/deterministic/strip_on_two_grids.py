@@ -15,7 +15,7 @@ from ..shared import Prepared
 from .moving_strip import SampleTarget, compared_moments, solve_moving_strip, strip_at_rest
 from .result import DeterministicResult
 from .rough_bodies import bodies_of, map_of_strip, summit_control
-from .strip import StripSolution, solve_strip
+from .strip import UNKNOWN_SLOPE, StripSolution, solve_strip
 
 # Cells in a correlation length, at least.
 PER_LENGTH = 2.0
@@ -98,18 +98,23 @@ def longer_than(surface: Surface, map_coarsening: tuple[int, int], *, moving: bo
 
 
 def solve_pair(
-    prepared: Prepared, speed: float, slope: float | None, index: int, *, has_halved_cells: bool = False
+    prepared: Prepared,
+    speed: float,
+    index: int,
+    *,
+    slope: float = UNKNOWN_SLOPE,
+    find_slope: bool = False,
+    has_halved_cells: bool = False,
 ) -> StripOnTwoGrids:
     """Solve strip ``index`` by the deterministic model at ``speed`` [m/s], not 0, first on longer cells.
 
-    ``slope``: of friction over load [-] (None: found by a second solve; where the roughness moves, blocks of time and
-    place show it). ``has_halved_cells``: as of `StripOnTwoGrids`, of moving roughness. Raises `ConvergenceError`.
+    ``slope``: of friction over load [-], as another strip has it; ``find_slope``: it is found by a second solve in its place,
+    where the roughness rests (where that moves, blocks of time and place show it). ``has_halved_cells``: as of `StripOnTwoGrids`, of moving roughness. Raises `ConvergenceError`.
     """
     scene = prepared.scene
     surface, map_coarsening = surface_and_map_coarsening(prepared, index)
     if has_halved_cells:
         map_coarsening = halved_along_y(map_coarsening)
-    find_slope = slope is None
     longer_cells = longer_than(surface, map_coarsening, moving=has_moving_roughness(scene))
     longer: StripSolution
     strip: StripSolution
@@ -133,7 +138,7 @@ def solve_pair(
     else:
         longer = solve_strip(scene, surface, speed, map_coarsening=longer_cells)
         strip = solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
-    strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + longer.work)
+    strip = replace(strip, slope=strip.slope if find_slope else slope, work=strip.work + longer.work)
     is_mirrored = prepared.sample.distinct_rows(surface.heights) < surface.shape[1]
     return StripOnTwoGrids(resolved=strip, longer=longer, mirrored=is_mirrored, has_halved_cells=has_halved_cells)
 

@@ -16,6 +16,7 @@ from ...scene import Scene
 from ...surface import Surface
 from ..deterministic import (
     TIGHT,
+    UNKNOWN_SLOPE,
     MovingEffort,
     RoughBody,
     SampleTarget,
@@ -210,19 +211,25 @@ def on_cells_along_x(surface: Surface, count: int) -> Surface:
 
 
 def solve_at_rest(
-    scene: Scene, surface: Surface, speed: float, *, map_coarsening: tuple[int, int], slope: float | None = math.nan
+    scene: Scene,
+    surface: Surface,
+    speed: float,
+    *,
+    map_coarsening: tuple[int, int],
+    slope: float = UNKNOWN_SLOPE,
+    find_slope: bool = False,
 ) -> StripOnTwoGrids:
     """Solve the strip ``surface`` at ``speed`` [m/s], not 0, on cells ``map_coarsening`` times as long as its own, and
     before on cells twice as long, where it has those and they have a solution (else both are the same). ``slope``: of
-    friction over load, which is put into the strip (NaN: none; None: found by a second solve). Raises
+    friction over load, as another strip has it; ``find_slope``: it is found by a second solve in its place. Raises
     `ConvergenceError`."""
     (fx, fy) = map_coarsening
     longer: StripSolution | None = None
     if surface.shape[1] % (2 * fy) == 0:
         with suppress(ConvergenceError):
             longer = solve_strip(scene, surface, speed, map_coarsening=(2 * fx, 2 * fy))
-    strip = solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=longer, find_slope=slope is None)
-    if slope is not None:
+    strip = solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
+    if not find_slope:
         strip = replace(strip, slope=slope)
     if longer is None:
         return StripOnTwoGrids.on_one_grid(strip)

@@ -12,6 +12,7 @@ from ..._base import work_left
 from ...scene import Scene, has_moving_roughness
 from ..contract import ModelAnswer
 from ..deterministic import (
+    UNKNOWN_SLOPE,
     Levels,
     StripOnTwoGrids,
     bodies_of,
@@ -147,14 +148,14 @@ class StripsOnLongCells:
 def solve_on_long_cells(prepared: Prepared, speed: float) -> StripsOnLongCells:
     """Return the strips of ``prepared`` at ``speed`` [m/s], not 0, on long cells. Raises `ConvergenceError`."""
     scene = prepared.scene
-    pairs = [_solve_pair(prepared, speed, None, 0)]
+    pairs = [_solve_pair(prepared, speed, 0, find_slope=True)]
     target = _sampling_target(prepared, pairs[0])
     most = 1 if has_moving_roughness(scene) else MOST_STRIPS
     while True:
         estimate, wanted = two_levels(prepared, pairs, None, sampling_tolerance=target)
         if len(pairs) >= min(wanted, most) or pairs[0].resolved.work > PART_OF_WORK * work_left():
             break
-        pairs.append(_solve_pair(prepared, speed, pairs[0].resolved.slope, len(pairs)))
+        pairs.append(_solve_pair(prepared, speed, len(pairs), slope=pairs[0].resolved.slope))
     rows = [_features_of(prepared, pair) for pair in pairs]
     x = {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
     error_model = error_model_of(scene)
@@ -197,8 +198,10 @@ def _sampling_target(prepared: Prepared, pair: StripOnTwoGrids, part: float = SA
     return max(prepared.scene.numerics.sampling_tolerance, LEAST_SAMPLING_ERROR, part * bounds)
 
 
-def _solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int) -> StripOnTwoGrids:
-    """Return strip ``index`` on long cells."""
+def _solve_pair(
+    prepared: Prepared, speed: float, index: int, *, slope: float = UNKNOWN_SLOPE, find_slope: bool = False
+) -> StripOnTwoGrids:
+    """Return strip ``index`` on long cells; ``slope``, ``find_slope``: as of `solve_at_rest`."""
     scene = prepared.scene
     sample = prepared.sample
     surface = map_of_strip(prepared, index)
@@ -206,9 +209,8 @@ def _solve_pair(prepared: Prepared, speed: float, slope: float | None, index: in
     is_mirrored = sample.distinct_rows(surface.heights) < surface.shape[1]
     if not has_moving_roughness(scene):
         map_coarsening = map_coarsening_at_rest(scene, spacing=surface.spacing, rows=surface.shape[1], lengths=lengths)
-        return replace(
-            solve_at_rest(scene, surface, speed, map_coarsening=map_coarsening, slope=slope), mirrored=is_mirrored
-        )
+        pair = solve_at_rest(scene, surface, speed, map_coarsening=map_coarsening, slope=slope, find_slope=find_slope)
+        return replace(pair, mirrored=is_mirrored)
     cells = long_cells_in_motion(scene, bodies_of(prepared, index, speed), speed, lengths)
     part = SAMPLING_OVER_NARROW_BOUNDS if cells.per_length == CELLS_OF_THIN_FILM else SAMPLING_OVER_BOUNDS
     at_rest = StripOnTwoGrids.on_one_grid(cells.rest)  # all that is known before the motion
