@@ -31,10 +31,12 @@ from .uncertainty_of_f import uncertainty_of
 SAMPLED_WELL = 0.1
 
 
-def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *, fine: bool = False) -> FrictionResult:
+def result_of(
+    prepared: Prepared, speed: float, choice: Choice, begun: float, *, with_fine_fields: bool = False
+) -> FrictionResult:
     """Return the result of the solution that was chosen at ``speed`` [m/s].
 
-    ``begun``: the starting time, by `time.perf_counter`; ``fine``: whether its fields are solved again on cells fine
+    ``begun``: the starting time, by `time.perf_counter`; ``with_fine_fields``: whether its fields are solved again on cells fine
     enough to look at. Raises `InputError` where f is not finite.
     """
     scene = prepared.scene
@@ -72,7 +74,9 @@ def result_of(prepared: Prepared, speed: float, choice: Choice, begun: float, *,
         details = {model.name: compared.details} | details
     fields = answer.fields
     report = answer.report
-    if fine and answer.fine_fields is not None:  # last: work that is spent here is none that the interval needs
+    if (
+        with_fine_fields and answer.fine_fields is not None
+    ):  # last: work that is spent here is none that the interval needs
         fields, report = _fine_fields(answer.fine_fields, fields, report)
     share_read_only((fields, compared_fields, details))
     notes = (*report.notes, decision.text, *(violation.text for violation in violations), uncertainty.text)
@@ -144,11 +148,11 @@ def _method_use(scene: Scene, model: Model, numbers: dict[str, Any], uncertainty
         model=model,
         has_contact=numbers["contact_load"] > 0,
         has_film=numbers["film_load"] > 0,
-        sliding=scene.motion.slide_roll_ratio != 0,
-        sampled=uncertainty.sampling > 0,
-        inlet_heat=numbers["inlet_film_factor"] < 1.0,
-        film_heat=numbers["film_temperature_rise"] > 0,
-        flash=numbers["flash_temperature_rise"] > 0,
+        slides=scene.motion.slide_roll_ratio != 0,
+        is_sampled=uncertainty.sampling > 0,
+        has_inlet_heat=numbers["inlet_film_factor"] < 1.0,
+        has_film_heat=numbers["film_temperature_rise"] > 0,
+        has_flash=numbers["flash_temperature_rise"] > 0,
     )
 
 

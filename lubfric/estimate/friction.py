@@ -84,7 +84,7 @@ def friction(
             requested = model if isinstance(model, Model) else numerics.model
             choice = choose(prepared, speed, requested, for_fields=bool(fields))
             with limited_work(work_for_an_answer() if choice.gave_up else work_left()):
-                result = result_of(prepared, speed, choice, begun, fine=fine)
+                result = result_of(prepared, speed, choice, begun, with_fine_fields=fine)
     if raise_on_failure:
         result.report.raise_if_failed(result)
         refused(result.validity, accept=numerics.accept, result=result)

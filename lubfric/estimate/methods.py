@@ -17,25 +17,25 @@ class MethodUse:
     ----------
     model : that gives it
     has_contact, has_film : whether asperities, or a film, carry load
-    sliding : whether the surfaces slide
-    sampled : whether its sampling error is known and not 0
-    inlet_heat, film_heat, flash : whether the heat of inlet, film or surfaces changes it
+    slides : whether the surfaces slide
+    is_sampled : whether its sampling error is known and not 0
+    has_inlet_heat, has_film_heat, has_flash : whether the heat of inlet, film or surfaces changes it
     """
 
     model: Model
     has_contact: bool
     has_film: bool
-    sliding: bool
-    sampled: bool
-    inlet_heat: bool
-    film_heat: bool
-    flash: bool
+    slides: bool
+    is_sampled: bool
+    has_inlet_heat: bool
+    has_film_heat: bool
+    has_flash: bool
 
 
 def methods_of(prepared: Prepared, use: MethodUse) -> tuple[str, ...]:
     """Return the names of the methods that a result with this ``use`` rests on."""
     of_model = use.model.methods(prepared, has_contact=use.has_contact, has_film=use.has_film)
-    used = dict.fromkeys(of_model, True) | {"interval": use.sampled} | _surface(prepared)
+    used = dict.fromkeys(of_model, True) | {"interval": use.is_sampled} | _surface(prepared)
     if use.has_film:
         used |= _lubricant(prepared, use) | _heat(prepared, use)
     return tuple(_names(used.items()))
@@ -64,9 +64,9 @@ def _lubricant(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
     return {name: lubricant.viscosity_law == law for law, name in LAWS.items()} | {
         "sheared flow": lubricant.flow_law is not None,
         "Dowson-Higginson": lubricant.density_law == "dowson-higginson",
-        "Eyring stress": lubricant.eyring_stress is not None and use.sliding,
+        "Eyring stress": lubricant.eyring_stress is not None and use.slides,
         "Carreau": lubricant.carreau is not None,
-        "limiting stress": lubricant.limit is not None and use.sliding,
+        "limiting stress": lubricant.limit is not None and use.slides,
         "viscosity over temperature": oil is not None,
         "viscosity index": oil is not None and "viscosity_index" in oil.said,
         "So and Klaus": estimate == "so-klaus",
@@ -77,9 +77,9 @@ def _lubricant(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
 def _heat(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
     lubricant = prepared.scene.lubricant
     return {
-        "inlet heat": use.inlet_heat,
-        "film heat": use.film_heat,
-        "flash": use.flash,
-        "hot Eyring stress": use.film_heat and lubricant.eyring_stress is not None,
-        "hot limiting stress": use.film_heat and lubricant.limit is not None,
+        "inlet heat": use.has_inlet_heat,
+        "film heat": use.has_film_heat,
+        "flash": use.has_flash,
+        "hot Eyring stress": use.has_film_heat and lubricant.eyring_stress is not None,
+        "hot limiting stress": use.has_film_heat and lubricant.limit is not None,
     }

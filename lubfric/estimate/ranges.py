@@ -61,7 +61,7 @@ def _changes_at(answer: ModelAnswer, ends: list[Scene]) -> list[float]:
         around = answer.at_inputs()
     except ConvergenceError:  # the middle, on other cells than the point itself
         return [math.nan] * len(ends)
-    if around.in_processes:
+    if around.may_run_in_processes:
         values = map_parts(_or_nan, ends, around.coefficient)
     else:
         values = [_or_nan(around.coefficient, end) for end in ends]

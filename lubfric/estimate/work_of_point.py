@@ -60,7 +60,7 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
     solved: Collection[int] = {last} if is_alone else {0, last}
     if scene.numerics.model == AUTO:
         last = min(enough, default=last)
-        solved = [k for k in range(last + 1) if k == last or not _waits(estimates, k)]
+        solved = [k for k in range(last + 1) if k == last or not _is_left_unsolved(estimates, k)]
     with_line = [k for k in solved if estimates[k].strips and math.isfinite(estimates[k].length)]
     line = estimates[max(with_line, default=0)]
     with_slow_strips = [k for k, model in enumerate(models) if model.has_slow_strips]
@@ -79,7 +79,7 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
     )
 
 
-def _waits(estimates: Sequence[WorkEstimate], k: int) -> bool:
+def _is_left_unsolved(estimates: Sequence[WorkEstimate], k: int) -> bool:
     """Return whether "auto" leaves model number ``k`` unsolved, because the next one is solved in its place."""
     return estimates[k].waits_for_next and estimates[k + 1].seconds > 0
 

@@ -92,12 +92,12 @@ class AtInputs:
     """f of a point at other inputs, from where it is solved.
 
     ``middle``: f at its own inputs, as the others are compared with it; ``coefficient``: f of a scene that differs in
-    inputs only, which raises `ConvergenceError`; ``in_processes``: whether it may be sent to other processes.
+    inputs only, which raises `ConvergenceError`; ``may_run_in_processes``: whether it may be sent to other processes.
     """
 
     middle: float
     coefficient: Callable[[Scene], float]
-    in_processes: bool = False
+    may_run_in_processes: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -177,13 +177,13 @@ class SharedWork:
     ----------
     what : its name: work of one name is done once
     seconds : processor time [s]
-    of_surface_alone : whether it serves other speeds, lubricants and tolerances on the same surface as well (as in
+    is_of_surface_alone : whether it serves other speeds, lubricants and tolerances on the same surface as well (as in
         `lubfric.models.shared.memo.Key`); else all points of one scene
     """
 
     what: str
     seconds: float
-    of_surface_alone: bool
+    is_of_surface_alone: bool
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -64,7 +64,7 @@ def prepare(
     if like is not None:
         validate.instance("like", like, Prepared, "what lubfric.prepare returned")
         _check_likeness(scene, like.scene, maps, contact)
-        if _same_contact(scene, like.scene):
+        if _has_same_contact(scene, like.scene):
             of_map = filter(is_of_map_alone, like.violations)
             prepared = replace(like, scene=scene, violations=(*beforehand(scene, like.surface), *of_map))
             prepared.memo.keep_surface_of(like.memo)
@@ -137,7 +137,7 @@ def with_friction_at(prepared: Prepared, speed: float) -> Prepared:
     return prepared if scene == prepared.scene else prepare(scene, like=prepared)
 
 
-def _same_contact(scene: Scene, old: Scene) -> bool:
+def _has_same_contact(scene: Scene, old: Scene) -> bool:
     """Return whether contact and cells of both scenes are the same to the bit."""
     names = "tolerance", "contact_tolerance", "workers", "sampling", "grid", "model"
     same = all(getattr(scene.numerics, name) == getattr(old.numerics, name) for name in names)

@@ -124,7 +124,7 @@ class Lubricant(Shown):
         return True
 
     @property
-    def limited_by_boundary_friction(self) -> bool:
+    def is_limited_by_boundary_friction(self) -> bool:
         """Return True where the limit of a Newtonian lubricant is stated to be f_b p."""
         return self.limiting_stress_coefficient == AS_BOUNDARY
 
@@ -141,7 +141,7 @@ class Lubricant(Shown):
     @property
     def limit(self) -> LimitingStress | None:
         """Return the law of its largest stress; None: it has none."""
-        if self.limited_by_boundary_friction:
+        if self.is_limited_by_boundary_friction:
             return None
         return next((law(self) for law in LIMIT_LAWS if getattr(self, law.key) is not None), None)
 
@@ -157,7 +157,7 @@ class Lubricant(Shown):
         return self.inlet_length is None and self.inlet_film is None
 
     @property
-    def newtonian(self) -> bool:
+    def is_newtonian(self) -> bool:
         """Return True where the shear stress grows with the shear rate without end."""
         return not self.shear_laws
 

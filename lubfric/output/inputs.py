@@ -124,9 +124,9 @@ def _lubricant(scene: Scene) -> list[str]:
     if oil.oil is not None and oil.temperature is not None:
         rows += estimate_in_words(oil.oil, oil.temperature).replace(", alpha", "; alpha").split("; ")
     rows.append(f"viscosity over pressure: {oil.viscosity_law}; density over pressure: {oil.density_law}")
-    if oil.limited_by_boundary_friction:
+    if oil.is_limited_by_boundary_friction:
         rows.append("shear: Newtonian up to f_b p, as stated")
-    elif oil.newtonian:
+    elif oil.is_newtonian:
         rows.append(
             "shear: Newtonian at any stress (no lubricant.eyring_stress, no lubricant.limiting_stress_coefficient)"
         )

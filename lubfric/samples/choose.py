@@ -13,7 +13,7 @@ from .strips import strips_of
 def takes_strips(scene: Scene) -> bool:
     """Return whether ``scene`` is solved on strips: it has a rough half-space under a cylinder, and requests no patch."""
     rough = any(rough.sq != 0.0 for rough, _ in rough_bodies(scene))
-    return scene.numerics.sampling != "patch" and _resolved(scene) and rough
+    return scene.numerics.sampling != "patch" and _is_resolved(scene) and rough
 
 
 def sample_of(
@@ -39,12 +39,12 @@ def _on_chosen_cells(
     if not maps and contact is None and takes_strips(scene):
         return strips_of(scene, read)
     surface, *bodies = contact_maps(scene, maps, read=read)
-    if contact is not None or not _resolved(scene):
+    if contact is not None or not _is_resolved(scene):
         return UnresolvedSample(surface=surface, given_contact=contact)
     return single_patch(scene, _lengths(scene, surface, is_given=bool(maps)), surface, tuple(bodies))
 
 
-def _resolved(scene: Scene) -> bool:
+def _is_resolved(scene: Scene) -> bool:
     return scene.contact.geometry == "cylinder" and scene.contact.model == "half-space"
 
 

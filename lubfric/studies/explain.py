@@ -37,7 +37,7 @@ def curve_seconds(prepared: Prepared, speeds: Sequence[float], *, has_new_map: b
     factor of about 3; ``has_new_map``: whether what the surface alone demands is still to be done."""
     at = speeds or expected_speeds(prepared.scene, prepared.surface.sq)
     points = [estimated_work_of_point(prepared.scene, prepared.sample, prepared.surface, speed) for speed in at]
-    known = {part.what for point in points for part in point.shared if part.of_surface_alone and not has_new_map}
+    known = {part.what for point in points for part in point.shared if part.is_of_surface_alone and not has_new_map}
     return seconds_of_points(points, None if speeds else EXPECTED_SPEEDS, known)
 
 

@@ -209,11 +209,11 @@ class StudyResult(Shown):
             model=model,
             has_contact=above("contact_load"),
             has_film=above("film_load"),
-            sliding=bool((self.columns.get("couette_force", np.zeros(1)) != 0).any()),
-            sampled=above("uncertainty_sampling"),
-            inlet_heat=bool((factor < 1).any()),
-            film_heat=above("film_temperature_rise"),
-            flash=above("flash_temperature_rise"),
+            slides=bool((self.columns.get("couette_force", np.zeros(1)) != 0).any()),
+            is_sampled=above("uncertainty_sampling"),
+            has_inlet_heat=bool((factor < 1).any()),
+            has_film_heat=above("film_temperature_rise"),
+            has_flash=above("flash_temperature_rise"),
         )
 
     def _check_curves(self) -> None:

@@ -404,11 +404,11 @@ def _use(prepared: Prepared, columns: dict[str, np.ndarray]) -> MethodUse:
         model=models_that_may_answer(prepared.scene.numerics.model)[0],
         has_contact=bool((columns["contact_load"] > 0).any()),
         has_film=bool((columns["film_load"] > 0).any()),
-        sliding=bool((columns["sliding_speed"] != 0).any()),
-        sampled=bool((columns["sampling_error"] > 0).any()),
-        inlet_heat=bool((columns["inlet_film_factor"] < 1.0).any()),
-        film_heat=bool((columns["film_temperature_rise"] > 0).any()),
-        flash=bool((columns["flash_temperature_rise"] > 0).any()),
+        slides=bool((columns["sliding_speed"] != 0).any()),
+        is_sampled=bool((columns["sampling_error"] > 0).any()),
+        has_inlet_heat=bool((columns["inlet_film_factor"] < 1.0).any()),
+        has_film_heat=bool((columns["film_temperature_rise"] > 0).any()),
+        has_flash=bool((columns["flash_temperature_rise"] > 0).any()),
     )
 
 

@@ -147,7 +147,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         violations=tuple(_violations(prepared, numbers, results, heat)),
         recommendation=_recommendation(prepared, levels.pairs[0]),
         narrows_numerical=_narrows_numerical(prepared, levels.pairs[0]),
-        fields=fields_of(levels.finest, sample.in_words(1) + MIRRORED * levels.pairs[0].mirrored),
+        fields=fields_of(levels.finest, sample.in_words(1) + MIRRORED * levels.pairs[0].is_mirrored),
         fine_fields=None if has_moving_roughness(scene) else partial(fine_fields_of, prepared, speed),
         details=levels.finest.result,
         at_inputs=lambda: _at_inputs(prepared, levels.finest, speed),
@@ -242,7 +242,7 @@ def _at_inputs(prepared: Prepared, strip: StripSolution, speed: float) -> AtInpu
     """
     coefficient = partial(_at_end, prepared, strip, speed)
     middle = coefficient(prepared.scene) if strip.moves else _with_heat(prepared.scene, strip.result)
-    return AtInputs(middle=middle, coefficient=coefficient, in_processes=True)
+    return AtInputs(middle=middle, coefficient=coefficient, may_run_in_processes=True)
 
 
 def _at_end(prepared: Prepared, strip: StripSolution, speed: float, scene: Scene) -> float:
@@ -279,7 +279,7 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     known = heat.text(tolerance)
     return Decision(
         model="deterministic",
-        contact_load_in_words=f"Boundary friction acts on {{part}} of the load ({RUBS[scene.lubricant.newtonian]})",
+        contact_load_in_words=f"Boundary friction acts on {{part}} of the load ({RUBS[scene.lubricant.is_newtonian]})",
         film_in_words=words,
         contact_in_words="boundary friction where the gap is below the boundary film",
         tolerance=tolerance,
@@ -366,7 +366,7 @@ def _division(scene: Scene, numbers: dict[str, float], results: Sequence[Determi
     touching = 100 * mean(result.split.touching / result.load for result in results)
     text = f"load on the boundary film {thin:.3g} % (touching cells {touching:.3g} %)"
     if saturated > 0:
-        of = "asperity" if scene.lubricant.newtonian else "film"
+        of = "asperity" if scene.lubricant.is_newtonian else "film"
         text += f", on film at its limiting stress {saturated:.3g} %, which is part of the {of} load"
     return text
 

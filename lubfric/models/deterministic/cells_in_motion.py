@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from ..shared import Prepared, smooth_over_cells
+from ..shared import Prepared, is_smooth_over_cells
 from .result import DeterministicResult
 from .rough_bodies import map_of_strip
 from .strip import StripSolution
@@ -40,7 +40,7 @@ ALONG_Y = 0.016
 IN_HALF_WIDTH = (3.0, 14.0)
 
 # Factors on the errors by ALONG_X and ALONG_Y, and on the effect of the narrow gaps, where heights change from cell to cell
-# (`smooth_over_cells`) [-]: shorter cells then show new summits, which act against it, and nothing is expected. On five
+# (`is_smooth_over_cells`) [-]: shorter cells then show new summits, which act against it, and nothing is expected. On five
 # exponential surfaces f rises by 5 to 20 %, by 0.4 to 1.3 of the change of ln f with ln of the film.
 UNSMOOTH = 5.0
 UNSMOOTH_NARROWED = 5.5
@@ -178,7 +178,7 @@ def cells_in_motion(
 
 def cells_of_strips(prepared: Prepared, strips: Sequence[StripSolution], by_longer: float) -> CellsInMotion:
     """Return what is known of the cells that ``strips`` are solved on; ``by_longer``: as of `CellsInMotion`."""
-    is_smooth = smooth_over_cells(map_of_strip(prepared, 0).heights)
+    is_smooth = is_smooth_over_cells(map_of_strip(prepared, 0).heights)
     return cells_in_motion(prepared, strips, strips[0].problem.spacing, is_smooth=is_smooth, by_longer=by_longer)
 
 

@@ -14,7 +14,7 @@ from ...scene import (
 )
 from ...surface import Surface
 from ..contract import WorkEstimate
-from ..shared import FREEDOM_NOT_COUNTED, STRIPS_SAFETY, Prepared, peak_hertz_pressure, smooth_over_cells, student
+from ..shared import FREEDOM_NOT_COUNTED, STRIPS_SAFETY, Prepared, is_smooth_over_cells, peak_hertz_pressure, student
 from .cells_in_motion import CellsInMotion
 from .counted_work import MOST_WORK_OF_POINT, work_of_steps
 from .expected_friction import expected_friction, solved_ends_of_hardness
@@ -163,7 +163,7 @@ def estimated_work(
     if wanted > ENOUGH_ALONE:
         count = min(max(count, int(STRIPS_GROWTH[0])), sample.available_strips)
     ends = 2 * sum(name != BOUNDARY_FRICTION_KEY for name, *_ in scene.ranges)
-    is_smooth = smooth_over_cells(surface.heights)
+    is_smooth = is_smooth_over_cells(surface.heights)
     work = _work_at_rest(scene, sample, sq=sq, speed=speed, count=count, ends=ends, is_smooth=is_smooth)
     if numerics.max_work is not None:
         work = min(work, numerics.max_work)  # which ends it
@@ -326,7 +326,7 @@ def _may_be_halved(scene: Scene, sample: Sample, surface: Surface, speed: float)
         half_width=scene.bodies.half_width,
         film_ratio=4.0**EXPECTED_STEEPNESS,
         follows_lubricant=True,
-        is_smooth=smooth_over_cells(surface.heights),
+        is_smooth=is_smooth_over_cells(surface.heights),
     )
     return cells.shorter_ones_pay(scene.numerics.model_tolerance)
 

@@ -323,7 +323,7 @@ def with_divided_contact_load(
         return numbers
     share = thin / (thin + capped)
     parts = {"boundary_film_load": share * numbers["contact_load"]}
-    if scene.lubricant.newtonian:
+    if scene.lubricant.is_newtonian:
         parts["saturated_film_load"] = (1 - share) * numbers["contact_load"]
     return numbers | parts
 
@@ -369,7 +369,7 @@ def _estimate_in_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) ->
     for pair in pairs:
         places = pair.resolved.places_over_time
         if places is not None:
-            samples.append(places.half() if pair.mirrored else places)
+            samples.append(places.half() if pair.is_mirrored else places)
     control = summit_control(prepared)
     width = prepared.sample.correlation_lengths[1]
     friction = mean_over_blocks(samples, "friction", width, control)
@@ -442,6 +442,6 @@ def _scatter(
 def _error_by_blocks(values: Sequence[np.ndarray], sample: Sample, pair: StripOnTwoGrids) -> StandardError:
     """Return the standard error of the mean of ``values`` along strips such as ``pair``; of a mirrored map only half
     counts."""
-    kept = values[0].size // (2 if pair.mirrored else 1)
+    kept = values[0].size // (2 if pair.is_mirrored else 1)
     places = np.concatenate([one[:kept] for one in values])
     return block_error(places, pair.resolved.problem.spacing[1], sample.correlation_lengths[1])

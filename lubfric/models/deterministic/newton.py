@@ -161,7 +161,7 @@ def newton(
         work.history.append(result.residual)
         if not math.isfinite(result.residual) or result.residual <= tolerance or len(residual_history) > most:
             return result
-        if _stalled(residual_history, patience) and _stalled(promised, patience):
+        if _has_stalled(residual_history, patience) and _has_stalled(promised, patience):
             return result
         try:
             step, iterations = System(at).solve(linear_accuracy)
@@ -180,7 +180,7 @@ def newton(
             return result
 
 
-def _stalled(history: list[float], patience: int) -> bool:
+def _has_stalled(history: list[float], patience: int) -> bool:
     return len(history) > patience and not min(history[-patience:]) <= PROGRESS * min(history[:-patience])
 
 

@@ -190,7 +190,7 @@ def surface_shear(at: Iterate, law: np.ndarray, boundary_film: float) -> Surface
     dx = problem.spacing[0]
     fluid = at.state.kind == FLUID
     thin = (at.state.kind == TOUCHING) | fluid & (h < boundary_film)
-    rubbing = thin | fluid & (p > PRESSED) & (law > limit) if problem.lubricant.newtonian else thin
+    rubbing = thin | fluid & (p > PRESSED) & (law > limit) if problem.lubricant.is_newtonian else thin
     wet = fluid & ~rubbing
     both = (wet[1:] & wet[:-1]) | (wet[:-1] & (p[1:] == 0)) | (wet[1:] & (p[:-1] == 0))
     stress = np.where(rubbing, limit, np.where(wet, law, 0.0))
@@ -245,7 +245,7 @@ def at_its_limit(lubricant: Lubricant, pressure: np.ndarray, stress: np.ndarray)
 def with_limit(problem: Problem, sheared: SurfaceShear, pressure: np.ndarray, law: np.ndarray, limit: float) -> float:
     """Return the change of f [-] if the stress of a Newtonian film above `PRESSED` were at most ``limit`` times the
     ``pressure`` [Pa] instead of f_b times it; ``law`` [Pa]: the stress without a limit."""
-    if not problem.lubricant.newtonian:
+    if not problem.lubricant.is_newtonian:
         return 0.0
     films = (sheared.wet | (sheared.rubbing & ~sheared.thin)) & (pressure > PRESSED)
     change = np.where(films, np.minimum(law, limit * pressure) - sheared.stress, 0.0)

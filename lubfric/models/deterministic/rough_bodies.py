@@ -58,5 +58,5 @@ def summit_control(prepared: Prepared) -> SummitControl | None:
         count = max(1, min(sample.available_strips, CONTROL_STRIPS, CONTROL_CELLS // sample.strip(0).heights.size))
         return control_of([sample.strip(index) for index in range(count)], prepared.scene.bodies.half_width)
 
-    key = ReferenceKey(prepared.sample.cells.coarsening, "attenuated summits", 0.0, forward=True)
+    key = ReferenceKey(prepared.sample.cells.coarsening, "attenuated summits", 0.0, is_forward=True)
     return prepared.memo.get(key, make)

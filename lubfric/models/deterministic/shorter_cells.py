@@ -22,7 +22,7 @@ from ..shared import (
     StandardError,
     block_error,
     contact_on_piece,
-    smooth_over_cells,
+    is_smooth_over_cells,
     speed_of,
     with_forces_of_film,
 )
@@ -203,7 +203,7 @@ def _are_enough(prepared: Prepared, error: float) -> bool:
         return False
     if sample.refines_in_place:
         return scene.numerics.grid != "given"
-    return smooth_over_cells(sample.strip(0).heights)
+    return is_smooth_over_cells(sample.strip(0).heights)
 
 
 def _third_level(

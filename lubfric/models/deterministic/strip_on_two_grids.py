@@ -38,13 +38,13 @@ class StripOnTwoGrids:
     resolved : on the cells of the answer
     longer : on longer cells (`longer_than`), from which it started; of moving roughness, followed there from rest over the
         first moments, or only at rest, where that had no solution
-    mirrored : whether the second half along y is the mirror image of the first
+    is_mirrored : whether the second half along y is the mirror image of the first
     has_halved_cells : whether its cells along y are half as long as by `sample_coarsening_of`
     """
 
     resolved: StripSolution
     longer: StripSolution
-    mirrored: bool = False
+    is_mirrored: bool = False
     has_halved_cells: bool = False
 
     @classmethod
@@ -90,10 +90,10 @@ def surface_and_map_coarsening(prepared: Prepared, index: int) -> tuple[Surface,
     return map_of_strip(prepared, index), (sx * rx, sy * ry)
 
 
-def longer_than(surface: Surface, map_coarsening: tuple[int, int], *, moving: bool = False) -> tuple[int, int]:
+def longer_than(surface: Surface, map_coarsening: tuple[int, int], *, is_moving: bool = False) -> tuple[int, int]:
     """Return twice ``map_coarsening``; the same along y where twice that does not divide the map ``surface``, and along
-    x where roughness is ``moving``."""
-    along = map_coarsening[0] if moving else 2 * map_coarsening[0]
+    x where roughness ``is_moving``."""
+    along = map_coarsening[0] if is_moving else 2 * map_coarsening[0]
     return along, map_coarsening[1] if surface.shape[1] % (2 * map_coarsening[1]) else 2 * map_coarsening[1]
 
 
@@ -115,7 +115,7 @@ def solve_pair(
     surface, map_coarsening = surface_and_map_coarsening(prepared, index)
     if has_halved_cells:
         map_coarsening = halved_along_y(map_coarsening)
-    longer_cells = longer_than(surface, map_coarsening, moving=has_moving_roughness(scene))
+    longer_cells = longer_than(surface, map_coarsening, is_moving=has_moving_roughness(scene))
     longer: StripSolution
     strip: StripSolution
     if has_moving_roughness(scene):
@@ -140,7 +140,7 @@ def solve_pair(
         strip = solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
     strip = replace(strip, slope=strip.slope if find_slope else slope, work=strip.work + longer.work)
     is_mirrored = prepared.sample.distinct_rows(surface.heights) < surface.shape[1]
-    return StripOnTwoGrids(resolved=strip, longer=longer, mirrored=is_mirrored, has_halved_cells=has_halved_cells)
+    return StripOnTwoGrids(resolved=strip, longer=longer, is_mirrored=is_mirrored, has_halved_cells=has_halved_cells)
 
 
 def halved_along_y(coarsening: tuple[int, int]) -> tuple[int, int]:

@@ -107,7 +107,7 @@ def solve_balance(
     sq: float,
     start: Balance | None = None,
     *,
-    correctable: bool = False,
+    is_correctable: bool = False,
 ) -> Balance:
     """Return the balance of ``scene`` at ``speed`` [m/s] on ``rough_contact``, whose heights have the standard
     deviation ``sq`` [m].
@@ -117,7 +117,7 @@ def solve_balance(
     the film's share, so there is one root in ln(F_H/F_C), and the load balance holds by construction. Film, volume and
     contact are solved as closely as ``numerics.tolerance`` needs, by the response of the friction that a first, loose
     balance shows (`lubfric.scene.budget`). ``start``: a balance on the same contact at another speed, or on another
-    contact at this one; ``correctable``: what the root leaves open of the volume will be corrected to first order.
+    contact at this one; ``is_correctable``: what the root leaves open of the volume will be corrected to first order.
     Raises `ConvergenceError`.
     """
     if speed == 0:
@@ -126,16 +126,16 @@ def solve_balance(
         return _dry(scene, rough_contact, "the film carries less than the rounding error of the load")
     alone: EHLResult | None = None
     notes: tuple[str, ...] = ()
-    if not _certainly_touching(scene, speed, rough_contact):
+    if not _touches_certainly(scene, speed, rough_contact):
         try:
-            separated = _film_alone(Point(scene, speed, rough_contact, _first_settings(scene, alone=True)))
+            separated = _film_alone(Point(scene, speed, rough_contact, _first_settings(scene, is_film_alone=True)))
         except ConvergenceError as error:  # a balance in contact, which is unique, excludes separation as well
             notes = (f"the full-load film was not solved ({error})",)
         else:
             if volume_residual(separated.contact_state) <= 0:
                 return separated
             alone = separated.film
-    settings = replace(_first_settings(scene), correctable=correctable)
+    settings = replace(_first_settings(scene), is_correctable=is_correctable)
     if start is not None and start.film is not None and start.film.entrainment_speed == speed:
         settings = start.settings or settings
     return replace(_in_contact(Point(scene, speed, rough_contact, settings), sq, start, alone), notes=notes)
@@ -187,7 +187,7 @@ def _film_alone(point: Point) -> Balance:
     )
 
 
-def _certainly_touching(scene: Scene, speed: float, rough_contact: RoughContact) -> bool:
+def _touches_certainly(scene: Scene, speed: float, rough_contact: RoughContact) -> bool:
     """Return whether the summits would even reach through twice Moes' film over an undeformed cylinder, which is
     thicker than any film."""
     film = SAFE_FILM * scene.line_contact(speed).moes_film
@@ -393,10 +393,10 @@ def _balance(point: Point, root: Root, response: Response) -> Balance:
     )
 
 
-def _first_settings(scene: Scene, *, alone: bool = False) -> Settings:
+def _first_settings(scene: Scene, *, is_film_alone: bool = False) -> Settings:
     numerics = scene.numerics
     film = numerics.film_tolerance or min(budget.FILM_ALONE * numerics.tolerance, budget.LOOSEST_FILM)
-    if not alone and numerics.film_tolerance is None:
+    if not is_film_alone and numerics.film_tolerance is None:
         film = budget.FIRST_FILM
     return Settings(film_tolerance=film, balance_tolerance=numerics.balance_tolerance or budget.LOOSEST_VOLUME)
 
@@ -414,13 +414,14 @@ def _needed_settings(point: Point, balance: Balance) -> Settings:
         enough = budget.FILM_GRID * numerics.tolerance / max(response.per_film(balance.forces, mean_film), 1e-12)
         film = _tightened(film, max(min(enough, budget.FIRST_FILM), budget.TIGHTEST_FILM))
     if numerics.balance_tolerance is None:
-        part = budget.CORRECTED if now.correctable else budget.BALANCE
+        part = budget.CORRECTED if now.is_correctable else budget.BALANCE
         allowed = response.gap_for("coefficient", part * numerics.tolerance)
-        if now.correctable:
+        if now.is_correctable:
             allowed /= budget.SLOPE
         if response.log_load_ratio_per_gap:  # f may be anything farther off
             allowed = min(
-                allowed, (budget.MOST_MOVED if now.correctable else OWN_RESPONSE) / abs(response.log_load_ratio_per_gap)
+                allowed,
+                (budget.MOST_MOVED if now.is_correctable else OWN_RESPONSE) / abs(response.log_load_ratio_per_gap),
             )
         open_length = min(0.5 * allowed, budget.LOOSEST_VOLUME * min(mean_film, balance.film.central_film))
         volume = _tightened(volume, max(open_length / gap_under(mean_film), budget.TIGHTEST_VOLUME))
@@ -430,7 +431,7 @@ def _needed_settings(point: Point, balance: Balance) -> Settings:
         balance_tolerance=volume,
         film_cells=_film_cells(point, balance.film, balance.forces),
         contact_tolerance=contact_tolerance,
-        correctable=now.correctable,
+        is_correctable=now.is_correctable,
     )
 
 

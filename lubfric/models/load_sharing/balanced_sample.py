@@ -265,7 +265,7 @@ def solve_sample(
     rough_contact = contact_on_joined_strips(prepared, sample, count)
     begin = _reference(prepared, speed, sample) if start is None else start.start
     coarse = not sample.cells.is_native
-    raw_balance = solve_balance(scene, speed, rough_contact, prepared.surface.sq, begin, correctable=coarse)
+    raw_balance = solve_balance(scene, speed, rough_contact, prepared.surface.sq, begin, is_correctable=coarse)
     balanced = BalancedSample(
         prepared=prepared,
         speed=speed,

@@ -9,7 +9,7 @@ from ...samples import PIECE, Cells, Sample
 from ...scene import Scene, has_moving_roughness
 from ...surface import Surface
 from ..contract import SharedWork, WorkEstimate
-from ..shared import GAP_IN_CONTACT, SAMPLE_GROWTH, STRIPS_SAFETY, smooth_over_cells
+from ..shared import GAP_IN_CONTACT, SAMPLE_GROWTH, STRIPS_SAFETY, is_smooth_over_cells
 from .balanced_sample import nearest_reference
 from .cell_effect import MOST_PIECE_CELLS
 from .error_of_eq8 import load_sharing_error
@@ -198,14 +198,14 @@ def _work_of_strips(
         pieces_seconds = times * PIECE_SECONDS * cells_of_pieces(cells, native)
         native_seconds = PIECE_SECONDS * native
         made = GENERATED_SECONDS * native
-        shared = (SharedWork(what=f"pieces on {cells.coarsening}", seconds=made, of_surface_alone=True),)
+        shared = (SharedWork(what=f"pieces on {cells.coarsening}", seconds=made, is_of_surface_alone=True),)
     if LAST_SUMMITS[0] * sq < film < LAST_SUMMITS[1] * sq:  # whether cells cut off a summit that would touch
         work += native_seconds
     reference = nearest_reference(film / sq)
     if reference is not None and scene.lubricant.inlet_film is None:
         there = SOLVES_OF_REFERENCE * (one_film + strip * sample.first_strips) + pieces_seconds
         name = f"reference point at {reference} Sq on {cells.coarsening}"
-        shared = (*shared, SharedWork(what=name, seconds=there, of_surface_alone=False))
+        shared = (*shared, SharedWork(what=name, seconds=there, is_of_surface_alone=False))
         pieces_seconds *= OWN_PIECES
     return POINT_SECONDS + work + pieces_seconds + sum(part.seconds for part in shared), shared
 
@@ -215,7 +215,7 @@ def _times_by_shorter_cells(sample: Sample, surface: Surface, film: float) -> fl
     share = film / expected_gap(film, surface.sq)
     if not SHARED[0] < share < SHARED[1]:
         return 1.0
-    if not smooth_over_cells(surface.heights):
+    if not is_smooth_over_cells(surface.heights):
         is_long = sample.correlation_lengths[0] < FEW_CELLS_OF_LENGTH * sample.cells.spacing[0]
         return ROUGH_TIMES_ON_LONG_CELLS if is_long else ROUGH_TIMES
     return 1.0 if sample.cells.is_native else REFINED

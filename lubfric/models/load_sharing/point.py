@@ -21,14 +21,14 @@ class Settings:
     film_tolerance, balance_tolerance : relative tolerances of the film and of the volume balance
     film_cells : least number of cells of the film
     contact_tolerance : of the rough contact; None: its own
-    correctable : whether what the root leaves open is corrected to first order afterwards
+    is_correctable : whether what the root leaves open is corrected to first order afterwards
     """
 
     film_tolerance: float
     balance_tolerance: float
     film_cells: int = 0
     contact_tolerance: float | None = None
-    correctable: bool = False
+    is_correctable: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -258,7 +258,7 @@ def numbers_for_features(pair: StripOnTwoGrids, length: float, *, is_smooth: boo
     """Return the numbers of a strip by which `features` are found: parts of f, f at half and at twice the boundary film,
     and ln of the sliding part of f over that on longer cells, ``by_cells``, or, of moving roughness, at rest, ``by_motion``
     (NaN: not known); ``coarse``, the cell along x over the correlation ``length`` [m], and ``smooth``, 1 where heights are
-    smooth over the cells of their map (`smooth_over_cells`), else 0."""
+    smooth over the cells of their map (`is_smooth_over_cells`), else 0."""
     result = pair.resolved.result
     is_moving = pair.resolved.moves
     longer = pair.longer.result

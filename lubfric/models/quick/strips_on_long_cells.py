@@ -27,8 +27,8 @@ from ..shared import (
     REDUCED_BY_DETERMINISTIC,
     ModelErrorPart,
     Prepared,
+    is_smooth_over_cells,
     largest_of,
-    smooth_over_cells,
     with_forces_of_film,
 )
 from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, reported, widening
@@ -120,7 +120,7 @@ class StripsOnLongCells:
         boundary = numbers["boundary_force"] * (new_share / share if share > 0 else 0.0)
         boundary += rubs * new_share * load * (share == 0)
         times = new_share / share if share > 0 else 0.0
-        of_films = times if scene.lubricant.newtonian else (1 - new_share) / (1 - share) if share < 1 else 0.0
+        of_films = times if scene.lubricant.is_newtonian else (1 - new_share) / (1 - share) if share < 1 else 0.0
         changed = numbers | {
             "coefficient": force / load,
             "contact_load": new_share * load,
@@ -180,14 +180,14 @@ def _error_of_references(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -
     (along, across) = CELLS_OF_REFERENCES
     (lx, ly) = prepared.sample.correlation_lengths
     cell = min(lx, scene.bodies.half_width) / along, ly / across
-    is_smooth = smooth_over_cells(prepared.surface.heights)
+    is_smooth = is_smooth_over_cells(prepared.surface.heights)
     return cells_in_motion(prepared, [pair.resolved for pair in pairs], cell, is_smooth=is_smooth).error
 
 
 def _features_of(prepared: Prepared, pair: StripOnTwoGrids) -> dict[str, float]:
     """Return the `features` of a ``pair``."""
     length = prepared.sample.correlation_lengths[0]
-    numbers = numbers_for_features(pair, length, is_smooth=smooth_over_cells(prepared.surface.heights))
+    numbers = numbers_for_features(pair, length, is_smooth=is_smooth_over_cells(prepared.surface.heights))
     return features(numbers, prepared.scene.bodies.boundary_friction_coefficient)
 
 
@@ -210,12 +210,12 @@ def _solve_pair(
     if not has_moving_roughness(scene):
         map_coarsening = map_coarsening_at_rest(scene, spacing=surface.spacing, rows=surface.shape[1], lengths=lengths)
         pair = solve_at_rest(scene, surface, speed, map_coarsening=map_coarsening, slope=slope, find_slope=find_slope)
-        return replace(pair, mirrored=is_mirrored)
+        return replace(pair, is_mirrored=is_mirrored)
     cells = long_cells_in_motion(scene, bodies_of(prepared, index, speed), speed, lengths)
     part = SAMPLING_OVER_NARROW_BOUNDS if cells.per_length == CELLS_OF_THIN_FILM else SAMPLING_OVER_BOUNDS
     at_rest = StripOnTwoGrids.on_one_grid(cells.rest)  # all that is known before the motion
     target = sample_target(prepared, _sampling_target(prepared, at_rest, part))
-    return replace(solve_moving(scene, cells, speed, target), mirrored=is_mirrored)
+    return replace(solve_moving(scene, cells, speed, target), is_mirrored=is_mirrored)
 
 
 def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLongCells) -> ModelAnswer:

@@ -75,8 +75,8 @@ from .statistics import (
     add_errors,
     block_error,
     has_too_few_contacts,
+    is_smooth_over_cells,
     means_of_blocks,
-    smooth_over_cells,
     strips_for_error,
     student,
 )

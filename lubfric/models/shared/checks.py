@@ -155,7 +155,7 @@ def violations_by_pressure(scene: Scene, peak: float, place: str = "of the smoot
     limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(law, math.inf)
     consequence = f"the viscosity law ({law}) is extrapolated there"
     is_local = peak > SPIKE * hertz_peak
-    is_limited = scene.lubricant.limit is not None or scene.lubricant.limited_by_boundary_friction
+    is_limited = scene.lubricant.limit is not None or scene.lubricant.is_limited_by_boundary_friction
     recommendation = (
         ""
         if is_limited
@@ -322,7 +322,7 @@ def violations_by_shear(
         return
     share = shear.excess / friction_force if shear.excess < math.inf else 1.0
     of_film = abs(shear.couette) / max(film_load, 1e-300)
-    law = "Newtonian shear" if scene.lubricant.newtonian else "the shear law"
+    law = "Newtonian shear" if scene.lubricant.is_newtonian else "the shear law"
     recommendation = "give lubricant.eyring_stress (some 5e6 Pa) and limiting_stress_coefficient (some 0.05 to 0.1)"
     if share > tolerance:
         severe = share > REFUSED_SHARE

@@ -37,8 +37,8 @@ def largest_of_oil(oil: Lubricant, boundary_friction: float, peak: float, slidin
     pressure from the mean pressure to `MOST_PRESSURE`. A Newtonian film is limited to f_b p or, if that is more and
     the oil's limit is not stated, to the upper end of `LIMIT_RANGE` times p.
     """
-    if oil.newtonian:
-        return boundary_friction if oil.limited_by_boundary_friction else max(boundary_friction, LIMIT_RANGE[1])
+    if oil.is_newtonian:
+        return boundary_friction if oil.is_limited_by_boundary_friction else max(boundary_friction, LIMIT_RANGE[1])
     angle = (np.arange(HERTZ_POINTS) + 0.5) * math.pi / HERTZ_POINTS
     hertz = peak * np.sin(angle)
     higher = np.geomspace(math.pi / 4 * peak, max(MOST_PRESSURE, peak), PRESSURES)

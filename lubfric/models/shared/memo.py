@@ -28,7 +28,7 @@ MOST_MEMO_CELLS = 8_000_000
 class Key(Generic[T]):
     """What is remembered: a frozen dataclass. ``T``: the type of what is remembered under it."""
 
-    of_surface_alone: ClassVar[bool] = True  # whether it holds for another speed, lubricant or tolerance
+    is_of_surface_alone: ClassVar[bool] = True  # whether it holds for another speed, lubricant or tolerance
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ class OperatorKey(Key[HalfSpace]):
 class ReferenceKey(Key[Any]):
     """A solution at a fixed speed, from which others start or take a correction.
 
-    ``forward``: whether that speed is positive; ``what`` is taken from it, and ``at`` tells it apart from others of that kind:
+    ``is_forward``: whether that speed is positive; ``what`` is taken from it, and ``at`` tells it apart from others of that kind:
 
     - "balance": ``at`` is the expected film [Sq] of the fixed speed;
     - "effect of cells": that speed [m/s];
@@ -87,11 +87,11 @@ class ReferenceKey(Key[Any]):
     - "attenuated summits": 0, as these depend on no speed.
     """
 
-    of_surface_alone = False
+    is_of_surface_alone = False
     coarsening: tuple[int, int]
     what: str
     at: float
-    forward: bool
+    is_forward: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -134,4 +134,4 @@ class Memo:
 
     def keep_surface_of(self, other: Memo) -> None:
         """Take over from ``other`` what depends on the surface and the elastic bodies alone."""
-        self._kept.update((key, entry) for key, entry in other._kept.items() if key.of_surface_alone)
+        self._kept.update((key, entry) for key, entry in other._kept.items() if key.is_of_surface_alone)

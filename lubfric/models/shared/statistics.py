@@ -168,7 +168,7 @@ def student(freedom: float) -> float:
     return float(stdtrit(max(freedom, 1.0), 0.5 + 0.5 * CONFIDENCE))
 
 
-def smooth_over_cells(heights: FloatArray) -> bool:
+def is_smooth_over_cells(heights: FloatArray) -> bool:
     """Return whether ``heights`` (nx, ny) are smooth over a cell along y: over two cells they change twice as much as over
     one. Of an exponential autocorrelation it is sqrt(2), and one change of f by shorter cells says nothing of the next."""
     one, two = (float(np.mean(np.square(heights - np.roll(heights, k, axis=1)))) for k in (1, 2))

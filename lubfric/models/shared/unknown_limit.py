@@ -20,7 +20,7 @@ def limit_bounds(scene: Scene, saturated: float, coefficient: float, ends: tuple
     at most `SATURATED`. ``ends``: f with the limit at the ends of `LIMIT_RANGE`, of which ``coefficient`` is f.
     """
     oil = scene.lubricant
-    if not oil.newtonian or oil.limited_by_boundary_friction or saturated <= SATURATED or not coefficient:
+    if not oil.is_newtonian or oil.is_limited_by_boundary_friction or saturated <= SATURATED or not coefficient:
         return 0.0, 0.0
     low, high = sorted((1 - end / coefficient for end in ends), reverse=True)
     return max(low, 0.0), max(-high, 0.0)
