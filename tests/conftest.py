@@ -12,6 +12,11 @@ from types import ModuleType
 for library in ("OMP", "OPENBLAS", "MKL"):
     os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
+# Python keeps what it compiled even where the environment says no: each worker would compile the tests for 8 s, and each
+# process that a test starts the library for 0.3 s.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
+
 import pytest  # noqa: E402
 from hypothesis import HealthCheck, settings  # noqa: E402
 from pictures import leave_out, put_back  # noqa: E402
@@ -37,6 +42,14 @@ def pytest_collection_modifyitems(config, items) -> None:
     if studies and not config.option.markexpr:
         config.hook.pytest_deselected(items=list(studies))
         items[:] = [item for item in items if item not in studies]
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """A file is run by one worker, so that what its tests share is solved once."""
+    from xdist.scheduler import LoadFileScheduling
+
+    return LoadFileScheduling(config, log)
 
 
 @pytest.fixture(scope="session")

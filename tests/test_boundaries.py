@@ -130,6 +130,18 @@ def test_only_one_file_knows_meshio():
     assert users == ["verification/meshes.py"]
 
 
+@cache
+def questions(package: str) -> list[tuple[str, set[str]]]:
+    """Return the file and the names of each question of ``package`` of what kind an object is."""
+    asked = []
+    for file in sorted((ROOT / package).rglob("*.py")):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("isinstance", "issubclass", "type"):
+                named = {getattr(part, "id", getattr(part, "attr", "")) for part in ast.walk(node)}
+                asked.append((file.name, named))
+    return asked
+
+
 def test_no_solver_asks_a_contact_of_what_kind_it_is():
     """A contact from outside is treated like those of this package."""
     kinds = {
@@ -138,12 +150,7 @@ def test_no_solver_asks_a_contact_of_what_kind_it_is():
         for node in ast.walk(ast.parse(f.read_text()))
         if isinstance(node, ast.ClassDef) and any(getattr(base, "id", "") == "RoughContact" for base in node.bases)
     }
-    requested = []
-    for file in sorted((ROOT / "lubfric").rglob("*.py")):
-        for node in ast.walk(ast.parse(file.read_text())):
-            if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("isinstance", "issubclass", "type"):
-                named = {getattr(part, "id", getattr(part, "attr", "")) for part in ast.walk(node)}
-                requested += [file.name] if named & kinds else []
+    requested = [file for file, named in questions("lubfric") if named & kinds]
     assert len(kinds) >= 3 and not requested
 
 
@@ -166,13 +173,8 @@ def test_a_room_imports_only_rooms_above_it():
 
 def kinds_asked(kinds: set[str]) -> set[str]:
     """Return the modules of lubfric and verification that ask an object whether it is one of ``kinds``."""
-    modules = set()
-    for file in [file for package in ("lubfric", "verification") for file in (ROOT / package).rglob("*.py")]:
-        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("isinstance", "issubclass", "type"):
-                if kinds & {getattr(part, "id", getattr(part, "attr", "")) for part in ast.walk(node)}:
-                    modules.add(file.name)
-    return modules
+    asked = [*questions("lubfric"), *questions("verification")]
+    return {file for file, named in asked if named & kinds}
 
 
 @pytest.mark.parametrize(

@@ -34,7 +34,8 @@ def test_ci_runs_the_readme_test_command():
     )
 
 
-LONG = ("plot_14_bearing_torque", "plot_15_gear_flank", "plot_16_paper_band")  # ten seconds and more
+# Four seconds and more.
+LONG = ("plot_09_fit", "plot_14_bearing_torque", "plot_14_six_contacts", "plot_15_gear_flank", "plot_16_paper_band")
 
 
 @pytest.mark.parametrize("script", sorted((ROOT / "docs" / "examples").glob("*.py")), ids=lambda p: p.name)

@@ -40,11 +40,10 @@ def trees(package: str) -> dict[str, ast.AST]:
     return {file.relative_to(ROOT).as_posix(): ast.parse(file.read_text(encoding="utf-8")) for file in files}
 
 
-def nodes(package: str) -> Iterator[tuple[str, ast.AST]]:
-    """Yield each node of the syntax trees of ``package`` with the path of its module."""
-    for path, tree in trees(package).items():
-        for node in ast.walk(tree):
-            yield path, node
+@cache
+def nodes(package: str) -> list[tuple[str, ast.AST]]:
+    """Return each node of the syntax trees of ``package`` with the path of its module."""
+    return [(path, node) for path, tree in trees(package).items() for node in ast.walk(tree)]
 
 
 def allowed(package: str, kind: str) -> int:

@@ -283,15 +283,15 @@ def test_ramps_up_and_down_are_branches(tmp_path, turn):
 
 
 def test_points_of_two_ramps_at_one_speed_are_solved_once():
-    speeds = np.array([0.01, 0.01, 0.03, 0.03, 0.1, 0.1])
-    branch = np.array([0, 1] * 3)
+    speeds = np.array([0.01, 0.01, 0.1, 0.1])
+    branch = np.array([0, 1] * 2)
     truth = made_up(2, speeds[::2])
     measured = lubfric.Measured(speeds, np.repeat(truth.coefficient, 2), branch=branch)
     bounds = {"bodies.boundary_friction_coefficient": (0.05, 0.2)}
     doubled = lubfric.fit(SCENE, measured, bounds, starts=0)
     single = lubfric.fit(SCENE, lubfric.Measured(speeds[::2], truth.coefficient), bounds, starts=0)
     assert doubled.values == pytest.approx(single.values, rel=0.02)
-    assert doubled.predicted.size == 6 and doubled.predicted[0] == doubled.predicted[1]
+    assert doubled.predicted.size == 4 and doubled.predicted[0] == doubled.predicted[1]
 
 
 @pytest.mark.parametrize("heading", ["U" + " " * 3000, "(" * 3000, "a [" * 3000, "x " * 4000 + "[m/s]", "mm/s" * 2000])
@@ -375,7 +375,7 @@ def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_f
     tmp_path, capsys, monkeypatch, drawn
 ):
     """Progress tells misfit and values once a curve; the last are those that were found."""
-    measured = made_up(3, SPEEDS[::2])
+    measured = made_up(3, SPEEDS[::3])
     stated = []
     lines = [f"{1e3 * u:.6g},{f:.6g}" for u, f in zip(measured.x, measured.coefficient)]
     (tmp_path / "rig.csv").write_text("\n".join(["U [mm/s],mu", *lines]))

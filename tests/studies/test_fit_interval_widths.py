@@ -63,19 +63,19 @@ def test_a_deviation_is_a_weight_and_a_width(curve):
     off = curve * np.array([1.0, 1.0, 1.0, 1.3])
     stated = curve * np.array([0.01, 0.01, 0.01, 0.5])
     bounds = {OTHER: (0.2, 0.6)}
-    reported = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, off, deviation=stated), bounds)
-    blind = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, off), bounds)
+    reported = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, off, deviation=stated), bounds, starts=0)
+    blind = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, off), bounds, starts=0)
     assert abs(reported.values[OTHER] / 0.36 - 1) < 0.01 < abs(blind.values[OTHER] / 0.36 - 1)
     # df/f = q d eta/eta: three points of 1 %, 0.58 % together, and at least that over q < 1 in the viscosity
     width = reported.deviations[OTHER] / reported.values[OTHER]
     assert 0.0058 < width < 0.015
-    wider = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, off, deviation=3 * stated), bounds)
+    wider = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, off, deviation=3 * stated), bounds, starts=0)
     assert wider.deviations[OTHER] == pytest.approx(3 * reported.deviations[OTHER], rel=0.1)
 
 
 def test_data_without_scatter_are_not_surer_than_the_solver(curve):
     """The interval is no narrower than the numerical error of f, though the points lie on the curve."""
-    result = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, curve), {OTHER: (0.2, 0.6)})
+    result = lubfric.fit(SCENE, lubfric.Measured(SPEEDS, curve), {OTHER: (0.2, 0.6)}, starts=0)
     point = lubfric.friction(SCENE.with_(numerics={"tolerance": 0.01}), 2.0)
     low, high = result.intervals[OTHER]
     assert low < 0.36 < high

@@ -179,7 +179,9 @@ def test_the_points_that_are_kept_are_counted_in_words(monkeypatch, solved, miss
     assert run_study._kept(Path("out")) == words
 
 
-@pytest.mark.parametrize("sent, code", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(
+    "sent, code", [(signal.SIGINT, 130), pytest.param(signal.SIGTERM, 143, marks=pytest.mark.slow)]
+)
 def test_an_interrupt_is_one_line_and_the_command_goes_on(tmp_path, sent, code):
     many = STUDY.replace("[3.0, 5.5]", str([3.0 + 0.001 * i for i in range(300)]))
     path = written(tmp_path, many)
