@@ -141,13 +141,15 @@ class LineContact:
 
     @cached_property
     def expected_film(self) -> float:
-        """Return `moes_film` [m], as much thinner as a starved inlet and Carreau's law make it with closed forms; a
-        rough guess."""
+        """Return `moes_film` [m], as much thinner as shear and a starved inlet make it with closed forms; a rough
+        guess. Shear thins it where the law of the flow is a power law at large rates (`ShearLaw.power_law_exponent`)."""
         film = self.moes_film
         oil = self.lubricant
-        if oil.carreau is not None and self.sliding is not None:
-            number = oil.viscosity * abs(self.entrainment_speed) / (film * oil.carreau[0])
-            film *= formulas.thinned_share(number, oil.carreau[1], self.sliding / self.entrainment_speed)
+        law = oil.flow_law
+        exponent = law.power_law_exponent if law is not None and law.thins else None
+        if law is not None and exponent is not None and self.sliding is not None:
+            number = oil.viscosity * abs(self.entrainment_speed) / (film * law.critical(0.0)[0])
+            film *= formulas.thinned_share(number, exponent, self.sliding / self.entrainment_speed)
         if oil.inlet_length is not None:
             film *= formulas.starved_share(oil.inlet_length, math.sqrt(2 * self.radius * film), self.half_width)
         return film if oil.inlet_film is None else min(film, oil.inlet_film)

@@ -32,6 +32,12 @@ class ShearLaw:
     others: tuple[Any, ...] = ()
     thins = False
 
+    @property
+    def power_law_exponent(self) -> float | None:
+        """The exponent n of f ~ s^n at large s, by which closed forms estimate how shear thins a smooth film; None: f grows
+        like no power, and they leave its film as it is."""
+        return None
+
     def __init__(self, oil: Any):
         self.oil = oil
 
@@ -129,6 +135,10 @@ class Carreau(ShearLaw):
             raise InputError(f" = {validate.shown(value)}", "carreau", "[G, n]: critical stress in Pa and exponent")
         G = validate.positive("carreau (G)", value[0], "Pa")
         return G, validate.number("carreau (n)", value[1], "(-)", minimum=0.1, maximum=0.999)
+
+    @property
+    def power_law_exponent(self) -> float:
+        return float(self.oil.carreau[1])
 
     def critical(self, pressure: ArrayLike) -> tuple[Any, Any]:
         return self.oil.carreau[0], 0.0

@@ -51,6 +51,9 @@ def test_the_parts_of_a_law_agree(key):
         assert replace(oil, **law.twice()).limit.critical(p)[0] == pytest.approx(2 * critical(p))
     else:
         assert 1 / law.thinning(s, along=True)[0] == pytest.approx(differences(law.f, s, 1e-5 * s), rel=1e-6)
+        exponent = float(differences(lambda t: np.log(law.f(np.exp(t))), 14.0, 1e-3))
+        is_power = law.power_law_exponent is not None
+        assert not is_power or exponent == pytest.approx(law.power_law_exponent, abs=1e-3)
         assert factor == pytest.approx(s / law.f(s), rel=1e-9) and not (law.thins and law.critical(p)[1])
 
 
@@ -81,6 +84,7 @@ class Bare(ShearLaw):
 
 class Cubic(Bare):
     thins = True
+    power_law_exponent = 1 / 3
     warmth = ShearLaw.as_temperature
 
     def tangent(self, s):
@@ -105,6 +109,10 @@ def test_friction_in_every_model_and_in_time_follows_a_law_of_ones_own(monkeypat
     inlet = oil.viscosity * sliding * 2 * SCENE.bodies.radius / abs(film.x[0])
     force = SCENE.bodies.width * (np.trapezoid(tau * (film.x <= film.rupture), film.x) + inlet)
     assert result.couette_force == pytest.approx(force, rel=0.01)
+    assert film.flow_film / film.line.moes_film == pytest.approx(
+        film.line.expected_film / film.line.moes_film, abs=0.15
+    )
+    assert film.line.expected_film < 0.95 * film.line.moes_film
     assert result.coefficient < 0.95 * eyring.coefficient and film.flow_film < 0.95 * eyring.balance.film.flow_film
     assert everywhere(SCENE) == pytest.approx(result.coefficient, rel=0.02)
 
