@@ -22,6 +22,12 @@ class Quantity(NamedTuple):
     ``is_friction``: whether it is a part of the friction force, which is against the sliding in steady motion, and in time along
     the motion, on the upper surface.
 
+    Of a number of a result, what changes it after its strips are solved, and where it is known: ``follows_asperity_load``: in
+    proportion to the asperity load of moving roughness; ``follows_sliding``: in proportion to the sliding part of f, where its
+    change by shorter cells is only expected; ``is_left_by_cells``: not changed by shorter cells, because it is an input, a
+    residual, made of small differences, or follows from others; ``is_controlled``: corrected by the control of a cheaper model;
+    ``is_in_time``: known in runs in time.
+
     Of the key of a scene (keys.toml): the ``least`` and the ``most`` that it may be, or ``above`` which it has to be;
     its ``usual`` range, whether 0 is usual too (``zero``), and the units that are mistaken for its own (``meant``).
     """
@@ -33,6 +39,11 @@ class Quantity(NamedTuple):
     column: str = ""
     note: str = ""
     is_friction: bool = False
+    follows_asperity_load: bool = False
+    follows_sliding: bool = False
+    is_left_by_cells: bool = False
+    is_controlled: bool = False
+    is_in_time: bool = True
     least: float = -math.inf
     above: float = -math.inf
     most: float = math.inf
@@ -47,7 +58,7 @@ class Quantity(NamedTuple):
 
 
 def quantity(unit: str, label: str, symbol: str = "", **more: Any) -> Any:
-    """Return a field of a dataclass that is a `Quantity`. ``more``: ``error``, ``column``, ``note``, ``is_friction`` of it,
+    """Return a field of a dataclass that is a `Quantity`. ``more``: ``error``, ``column``, ``note`` and further fields of it,
     ``default``."""
     default = {"default": more.pop("default")} if "default" in more else {}
     return field(metadata={"quantity": Quantity(unit, label, symbol, **more)}, **default)
@@ -79,34 +90,66 @@ class Quantities(Generic[T]):
         *("N", "load carried by the rough contact", "F_C"),
         error="split",
         note="except by load sharing alone the load where the shear stress is f_b p, with saturated films of a Newtonian oil",
+        follows_asperity_load=True,
+        follows_sliding=True,
+        is_controlled=True,
     )
-    film_load: T = quantity("N", "load carried by the film", "F_H", error="split")
+    film_load: T = quantity(*("N", "load carried by the film", "F_H"), error="split", is_controlled=True)
     shear_force: T = quantity(
-        *("N", "shear force of the film", "F_sh"), error="shear", note="of both parts", is_friction=True
+        *("N", "shear force of the film", "F_sh"),
+        error="shear",
+        note="of both parts",
+        is_friction=True,
+        is_controlled=True,
+        is_in_time=False,
     )
-    couette_force: T = quantity("N", "sliding part of the shear force", error="shear", is_friction=True)
-    rolling_force: T = quantity("N", "rolling part of the shear force", error="shear", is_friction=True)
+    couette_force: T = quantity(
+        "N",
+        "sliding part of the shear force",
+        error="shear",
+        is_friction=True,
+        follows_sliding=True,
+        is_controlled=True,
+    )
+    rolling_force: T = quantity(
+        "N",
+        "rolling part of the shear force",
+        error="shear",
+        is_friction=True,
+        is_left_by_cells=True,
+        is_controlled=True,
+    )
     rolling_resistance: T = quantity(
         "N",
         "rolling resistance of both surfaces together, against the entrainment",
         error="shear",
         note="moment of the load about the middle over R; that of the smooth film where roughness moves",
+        is_left_by_cells=True,
+        is_controlled=True,
     )
     boundary_force: T = quantity(
         *("N", "friction force of the asperity contacts", "f_b F_C"),
         error="split",
         note="zero in pure rolling",
         is_friction=True,
+        follows_asperity_load=True,
+        follows_sliding=True,
+        is_controlled=True,
     )
     real_contact_area_fraction: T = quantity(
         *("-", "contact area inside the Hertz strip over its area A", "A_i/A"),
         error="area",
         note="without the contacts outside the strip",
+        follows_asperity_load=True,
+        follows_sliding=True,
     )
     real_contact_area: T = quantity(
         *("m2", "real contact area", "A_c"),
         error="area",
         note="inside and outside the Hertz strip, on the length of the line contact; except by load sharing alone where the stress is f_b p",
+        follows_asperity_load=True,
+        follows_sliding=True,
+        is_in_time=False,
     )
     plastic_area_fraction: T = quantity("-", "plastic area over nominal area", "A_p/A", error="contacts")
     min_film: T = quantity(
@@ -117,11 +160,18 @@ class Quantities(Generic[T]):
         error="film",
         note="film at the centre under the load F_H: the central film thickness where F_C = 0; NaN at U = 0",
     )
-    mean_gap: T = quantity("m", "mean separation", error="film", note="mean gap of the rough surfaces over A")
+    mean_gap: T = quantity(
+        "m",
+        "mean separation",
+        error="film",
+        note="mean gap of the rough surfaces over A",
+        is_controlled=True,
+    )
     film_to_roughness_ratio: T = quantity(
         *("-", "central separation over Sq", "h_c/Sq"),
         error="film",
         note="lambda ratio of the solved film where F_C = 0",
+        is_left_by_cells=True,
     )
     inlet_film_factor: T = quantity(
         *("-", "factor on the film by the heat of its inlet"),
@@ -161,20 +211,41 @@ class Quantities(Generic[T]):
 class PointQuantities(Quantities[T]):
     """All numbers of an operating point: of a `lubfric.FrictionResult`, and as arrays of a `lubfric.StribeckResult`."""
 
-    speed: T = quantity("m/s", "entrainment speed", "U")
-    load_residual: T = quantity("-", "relative residual of the load balance", note="(F_C + F_H - F_T)/F_T")
+    speed: T = quantity(
+        "m/s",
+        "entrainment speed",
+        "U",
+        is_left_by_cells=True,
+    )
+    load_residual: T = quantity(
+        "-",
+        "relative residual of the load balance",
+        note="(F_C + F_H - F_T)/F_T",
+        is_left_by_cells=True,
+    )
     volume_residual: T = quantity(
         "-",
         "relative residual of the volume balance",
         note="(gap - g)/(gap + g), g: that demanded by the closure, by Eq. (8) the film",
     )
     clearance: T = quantity(
-        "-", "gap between the film and the highest asperities over Sq", note="NaN where they touch, or without a film"
+        "-",
+        "gap between the film and the highest asperities over Sq",
+        note="NaN where they touch, or without a film",
+        is_in_time=False,
     )
     steepness: T = quantity(
-        "-", "d ln(film_load/contact_load) over d ln(speed)", note="NaN where film and contact do not share the load"
+        "-",
+        "d ln(film_load/contact_load) over d ln(speed)",
+        note="NaN where film and contact do not share the load",
+        is_in_time=False,
     )
-    seconds: T = quantity("s", "time of the solve", note="wall-clock time of this point in its process")
+    seconds: T = quantity(
+        "s",
+        "time of the solve",
+        note="wall-clock time of this point in its process",
+        is_in_time=False,
+    )
     full_load_film: T = quantity(
         "m", "full-load film thickness", "h_F", note="central film of smooth surfaces under F_T, by Moes' formula"
     )
@@ -185,11 +256,15 @@ class PointQuantities(Quantities[T]):
         "N",
         "load on gaps below the boundary film",
         note="at boundary friction f_b; by load sharing alone the load of the rough contact",
+        follows_asperity_load=True,
+        follows_sliding=True,
+        is_in_time=False,
     )
     saturated_film_load: T = quantity(
         "N",
         "load on thicker films whose shear stress is at its limit",
         note="the limit of the oil, or f_b p of a Newtonian one, where it is part of the asperity load; NaN by load sharing alone",
+        is_in_time=False,
     )
 
 
@@ -239,15 +314,6 @@ QUANTITIES = {name: _OF_POINT[name] for name in NUMBERS[1:]}
 ESTIMATED = tuple(quantities(Quantities))  # those with an error of their own
 FRICTION_FORCES = tuple(name for name, q in QUANTITIES.items() if q.is_friction)
 OF_UNCERTAINTY = quantities(UncertaintyQuantities)
-NOT_IN_TIME = {
-    "boundary_film_load",
-    "saturated_film_load",
-    "shear_force",
-    "real_contact_area",
-    "clearance",
-    "steepness",
-    "seconds",
-}
 INTERVAL = {
     "interval_low": Quantity("-", "lower end of the 95 % interval of f"),
     "interval_high": Quantity("-", "upper end of the 95 % interval of f"),
@@ -260,7 +326,7 @@ OF_MOMENT = {  # of a run in time, in the order of its table
     "sliding_speed": Quantity("m/s", "sliding speed u2 - u1"),
     "load": Quantity("N", "total load", "F_T"),
     "friction_force": Quantity("N", "tangential force on the upper surface"),
-    **{name: q for name, q in QUANTITIES.items() if name not in NOT_IN_TIME},
+    **{name: q for name, q in QUANTITIES.items() if q.is_in_time},
     "sampling_error": OF_UNCERTAINTY["sampling"],
     "shear_error": Quantity("-", "estimated relative error of f by the sum of the film's shear stress"),
     "model_error_low": Quantity("-", "relative model-form error of f towards 0, at 95 %, as in steady motion"),
@@ -329,6 +395,11 @@ def worded_value(name: str, value: Any) -> str:
     if name == "lubricant.temperature":
         return f"{converted(value, 'K', '°C'):.4g} °C"
     return worded(value, COLUMNS[name].unit if name in COLUMNS else "-")
+
+
+def names_with(fact: str) -> tuple[str, ...]:
+    """Return the names of the numbers of a result with this ``fact``, a boolean field of `Quantity`."""
+    return tuple(name for name in NUMBERS if getattr(_OF_POINT[name], fact))
 
 
 def depending_on(error: str) -> tuple[str, ...]:

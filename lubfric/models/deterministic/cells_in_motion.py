@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from ...quantities import names_with
 from ..shared import Prepared, is_smooth_over_cells
 from .result import DeterministicResult
 from .rough_bodies import map_of_strip
@@ -54,12 +55,6 @@ STEEPEST = 1.0
 # Error by the cells on cells half as long along y, over that on the others, up to which these are solved [-]. A
 # convention: the work is more than twice as much.
 HALVED_ERROR = 0.8
-
-# Numbers of a point that change with the sliding part of f where the change is only expected.
-CHANGED_WITH_SLIDING = (
-    *("couette_force", "boundary_force", "contact_load"),
-    *("boundary_film_load", "real_contact_area", "real_contact_area_fraction"),
-)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -209,7 +204,7 @@ def changed_as_expected(numbers: dict[str, float], change: float) -> dict[str, f
     ``change``."""
     if not change:
         return numbers
-    new = numbers | {name: (1.0 + change) * numbers[name] for name in CHANGED_WITH_SLIDING}
+    new = numbers | {name: (1.0 + change) * numbers[name] for name in names_with("follows_sliding")}
     load = numbers["film_load"] + numbers["contact_load"]
     new["shear_force"] = numbers["shear_force"] + change * numbers["couette_force"]
     new["coefficient"] = numbers["coefficient"] + change * (numbers["couette_force"] + numbers["boundary_force"]) / load

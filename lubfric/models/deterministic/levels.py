@@ -28,7 +28,7 @@ import numpy as np
 from ..._base import work_left
 from ..._base.jobs import map_parts
 from ...errors import ConvergenceError
-from ...quantities import depending_on
+from ...quantities import names_with
 from ...samples import Sample
 from ...scene import Scene, has_moving_roughness
 from ..shared import (
@@ -53,9 +53,6 @@ from .time_and_place import mean_over_blocks
 # The effects named here are those of half and twice a constant on three points of the scene "paper" (`python -m
 # verification.campaigns.constants lubfric.models.deterministic.levels`). Where f moves, more or fewer strips are
 # solved: it moves by up to 3 %, within the sampling error that is stated with it.
-
-# Quantities in proportion to the asperity load, where roughness moves.
-OF_ASPERITY_LOAD = (*depending_on("area"), "contact_load", "boundary_force", "boundary_film_load")
 
 # Part of numerics.model_tolerance that the half-width by the scatter of the difference may take [-]; the rest is for what
 # is added to it. Half: twice the time.
@@ -378,7 +375,7 @@ def _estimate_in_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) ->
     if numbers["contact_load"] > 0 and 0 < rubbing.value < 1:  # else hardly anything rubs: the mean of the strips
         contact_load = rubbing.value * load
         times = contact_load / numbers["contact_load"]
-        for name in OF_ASPERITY_LOAD:
+        for name in names_with("follows_asperity_load"):
             numbers[name] *= times
         numbers["film_load"] = load - contact_load
     numbers["coefficient"] = friction.value

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..._base import limited_work, work_left
 from ...errors import ConvergenceError, LubfricError, WorkLimitError
+from ...quantities import names_with
 from ...samples import PIECE, Sample
 from ...scene import has_moving_roughness
 from ..shared import (
@@ -89,9 +90,6 @@ UNSOLVED_FACTOR = 2.0
 # Hertz strip itself, and changes of f from cells to cells may have either sign: 1.5, 3, 6 and 12 cells in the half-width of
 # a roller of E' 19 GPa give f of .00652, .00682, .00590, .00574 at Λ 1.0, and .01114, .01029, .01001, .01000 at Λ 2.2.
 SOFT_CELL_ERROR = 1.5
-
-# Quantities that shorter cells leave: inputs, residuals, what small differences make, and what follows from others.
-UNCHANGED_BY_CELLS = ("speed", "load_residual", "rolling_force", "rolling_resistance", "film_to_roughness_ratio")
 
 # A piece of the surface, solved on shorter and shorter cells.
 Piece = tuple[StripSolution, ...]
@@ -245,7 +243,7 @@ def changed_by_pieces(
     before, after = ({name: float(np.mean([row[name] for row in level])) for name in numbers} for level in rows)
     new = {name: value * after[name] / before[name] if before[name] else value for name, value in numbers.items()}
     load = prepared.scene.bodies.load
-    new |= {name: numbers[name] for name in UNCHANGED_BY_CELLS}
+    new |= {name: numbers[name] for name in names_with("is_left_by_cells")}
     load_ratio = new["contact_load"] / new["film_load"] if new["film_load"] > 0 else math.inf
     new["contact_load"] = load / (1 + 1 / load_ratio) if load_ratio else 0.0
     new["film_load"] = load - new["contact_load"]

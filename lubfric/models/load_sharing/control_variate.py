@@ -11,15 +11,11 @@ import math
 
 import numpy as np
 
-from ...quantities import depending_on
+from ...quantities import names_with
 from ..shared import FREEDOM_NOT_COUNTED, ControlVariate, StandardError, contact_on_strip, with_forces_of_film
 from .balanced_sample import BalancedSample
 from .response import quantities
 from .scatter import friction_influence, gap_influence, hertz_mean_gap, line_load
-
-# Quantities that the control corrects beside f: all that change with the division of the load, and the mean gap, which is
-# that of rough surfaces by both models. The other numbers of films are those of a smooth one here.
-CONTROLLED = (*depending_on("split"), *depending_on("shear"), "mean_gap")
 
 
 def control_for(solution: BalancedSample) -> ControlVariate | None:
@@ -62,7 +58,9 @@ def control_variate_of(balanced: BalancedSample) -> ControlVariate:
         (raw_balance.film_load, raw_balance.contact_load),
         raw_balance.contact_state.mean_gap,
     )
-    numbers |= {name: values[name] * response.rates[name] * moved for name in CONTROLLED}
+    # beside f all that change with the division of the load, and the mean gap, which is that of rough surfaces by both
+    # models; the other numbers of films are those of a smooth one here
+    numbers |= {name: values[name] * response.rates[name] * moved for name in names_with("is_controlled")}
     numbers = with_forces_of_film(numbers, prepared.scene.bodies.load)
     error = StandardError(balanced.sampling_error.value, balanced.friction_scatter.freedom)
     return ControlVariate(by_place=places, numbers=numbers, sampling_error=error)
