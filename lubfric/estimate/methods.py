@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from ..models import Model
 from ..models.shared import Prepared
 
-LAWS = {"roelands": "Roelands", "barus": "Barus"}
+# The names of the laws of the viscosity over pressure in papers.toml, by their values of the key.
+VISCOSITY_LAWS = {"roelands": "Roelands", "barus": "Barus"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,7 +43,7 @@ def methods_of(prepared: Prepared, use: MethodUse) -> tuple[str, ...]:
 
 
 def _names(used: Iterable[tuple[str, bool]]) -> list[str]:
-    return [name for name, is_used in used if is_used]
+    return [name for name, is_used in used if name and is_used]
 
 
 def _surface(prepared: Prepared) -> dict[str, bool]:
@@ -61,25 +62,21 @@ def _lubricant(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
     estimate = ""
     if oil is not None and lubricant.temperature is not None:
         estimate = oil.pressure_viscosity_coefficient(lubricant.temperature).method
-    return {name: lubricant.viscosity_law == law for law, name in LAWS.items()} | {
-        "sheared flow": lubricant.flow_law is not None,
-        "Dowson-Higginson": lubricant.density_law == "dowson-higginson",
-        "Eyring stress": lubricant.eyring_stress is not None and use.slides,
-        "Carreau": lubricant.carreau is not None,
-        "limiting stress": lubricant.limit is not None and use.slides,
-        "viscosity over temperature": oil is not None,
-        "viscosity index": oil is not None and "viscosity_index" in oil.said,
-        "So and Klaus": estimate == "so-klaus",
-        "Gold": estimate == "gold",
-    }
+    of_shear = {law.cited_as: law.thins or use.slides for law in lubricant.shear_laws}
+    return (
+        {name: lubricant.viscosity_law == law for law, name in VISCOSITY_LAWS.items()}
+        | of_shear
+        | {
+            "sheared flow": lubricant.flow_law is not None,
+            "Dowson-Higginson": lubricant.density_law == "dowson-higginson",
+            "viscosity over temperature": oil is not None,
+            "viscosity index": oil is not None and "viscosity_index" in oil.said,
+            "So and Klaus": estimate == "so-klaus",
+            "Gold": estimate == "gold",
+        }
+    )
 
 
 def _heat(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
-    lubricant = prepared.scene.lubricant
-    return {
-        "inlet heat": use.has_inlet_heat,
-        "film heat": use.has_film_heat,
-        "flash": use.has_flash,
-        "hot Eyring stress": use.has_film_heat and lubricant.eyring_stress is not None,
-        "hot limiting stress": use.has_film_heat and lubricant.limit is not None,
-    }
+    of_heat = {"inlet heat": use.has_inlet_heat, "film heat": use.has_film_heat, "flash": use.has_flash}
+    return of_heat | {law.heat_cited_as: use.has_film_heat for law in prepared.scene.lubricant.shear_laws}

@@ -119,7 +119,8 @@ class Lubricant(Shown):
             return False
         if any(getattr(self, law.key) is not None for law in FLOW_LAWS):
             said = f" = {AS_BOUNDARY!r} is for a Newtonian lubricant, and this one has a law of its flow"
-            raise InputError(said, LimitingStress.key, "a number, or omit eyring_stress and carreau")
+            laws = " and ".join(law.key for law in FLOW_LAWS)
+            raise InputError(said, LimitingStress.key, f"a number, or omit {laws}")
         object.__setattr__(self, LimitingStress.key, None)
         return True
 

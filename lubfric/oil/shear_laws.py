@@ -25,10 +25,13 @@ NEWTONIAN_S = 1e-6
 
 class ShearLaw:
     """How shear thins the lubricant ``oil`` (`lubfric.Lubricant`), which has the ``key`` of the law; ``others``: keys
-    in addition to it. ``thins``: whether the flow of the smooth film thins by it as well; for that tau_c has to be
+    in addition to it. ``cited_as``, ``heat_cited_as``: the names under which `lubfric.estimate` cites (papers.toml) the law,
+    and its `warmth`; "": not at all. ``thins``: whether the flow of the smooth film thins by it as well; for that tau_c has to be
     the same at any pressure."""
 
     key = ""
+    cited_as = ""
+    heat_cited_as = ""
     others: tuple[Any, ...] = ()
     thins = False
 
@@ -105,6 +108,8 @@ class Eyring(ShearLaw):
     Chem. Phys. 4 (1936) 283, doi:10.1063/1.1749836)."""
 
     key = "eyring_stress"
+    cited_as = "Eyring stress"
+    heat_cited_as = "hot Eyring stress"
     thins = True
     warmth = ShearLaw.as_temperature
 
@@ -126,6 +131,7 @@ class Carreau(ShearLaw):
     """f = s (1 + s²)^((n - 1)/2) (P. J. Carreau, Trans. Soc. Rheol. 16 (1972) 99-127); G ~ T, as the Eyring stress."""
 
     key = "carreau"
+    cited_as = "Carreau"
     thins = True
     warmth = ShearLaw.as_temperature
 
@@ -167,6 +173,8 @@ class LimitingStress(ShearLaw):
     (1/T - 1/T0)) (L. Houpert, L. Flamand, D. Berthe, J. Lubr. Technol. 103 (1981) 526-532, doi:10.1115/1.3251731)."""
 
     key = "limiting_stress_coefficient"
+    cited_as = "limiting stress"
+    heat_cited_as = "hot limiting stress"
     others = ("limiting_stress_offset",)
 
     def critical(self, pressure: ArrayLike) -> tuple[Any, Any]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..._base.progress import report_progress
 from ...film import LineContact
-from ...oil import Lubricant
+from ...oil import FLOW_LAWS, LIMIT_LAWS, Lubricant
 from ...scene import HARDNESS_KEY, Scene, value_of
 from ...surface import Surface
 from ...units import worded
@@ -80,7 +80,7 @@ MOMENTS_SPARE = 1.1
 SERIES = ("coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film")
 
 # Inputs that change the shear stress of a film, but hardly its pressure and gap (`MovingStripSolution.with_oils`).
-OF_SHEAR = ("lubricant.eyring_stress", "lubricant.limiting_stress_coefficient")
+OF_SHEAR = tuple(f"lubricant.{law.key}" for law in (*FLOW_LAWS, *LIMIT_LAWS))
 
 # Fields of a `DeterministicResult` of which a strip has the means over time: all numbers, and two of every place along y.
 _TYPES = get_type_hints(DeterministicResult)
