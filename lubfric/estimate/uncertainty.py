@@ -34,23 +34,45 @@ class BudgetPart:
     Attributes
     ----------
     quantity : its name in `lubfric.quantities`, which is a field of `Uncertainty`
+    label : what the report calls it; {}: the label of `Uncertainty.missing_input`
+    label_on_long_cells : the same where the error of the cells is a model-form one; "": the ``label``
     sides : the field of `Uncertainty` with both of its sides, towards 0 and away from it; "": it has one value
     recommendation : what reduces it, as text; "": nothing
     cause : what it comes from, as text; "": its name says so
+    name_in_words : its name in `Uncertainty.text`; None: that in `PARTS`
+    is_stated_if_zero : whether `Uncertainty.text` has it where it is 0
+    note_if_unknown : what follows there where it is not known
     """
 
     quantity: str
+    label: str
+    label_on_long_cells: str = ""
     sides: str = ""
     recommendation: Callable[[Uncertainty], str]
     cause: Callable[[Uncertainty], str] = lambda uncertainty: ""
+    name_in_words: Callable[[Uncertainty], str] | None = None
+    is_stated_if_zero: bool = True
+    note_if_unknown: str = ""
 
 
 # The parts of the uncertainty budget, by what they are called.
 PARTS = {
-    "numerical": BudgetPart(quantity="numerical", recommendation=lambda uncertainty: uncertainty.narrows_numerical),
-    "sampling": BudgetPart(quantity="sampling", recommendation=lambda uncertainty: uncertainty.narrows_sampling),
+    "numerical": BudgetPart(
+        quantity="numerical",
+        label="numerical (grids and solvers)",
+        label_on_long_cells="numerical (solvers)",
+        recommendation=lambda uncertainty: uncertainty.narrows_numerical,
+    ),
+    "sampling": BudgetPart(
+        quantity="sampling",
+        label="sampling (finite surface)",
+        recommendation=lambda uncertainty: uncertainty.narrows_sampling,
+    ),
     "model-form": BudgetPart(
         quantity="model",
+        label="model-form (equations)",
+        label_on_long_cells="model-form (equations, long cells)",
+        note_if_unknown=" (not included)",
         sides="model_sides",
         recommendation=lambda uncertainty: (
             REDUCED_BY_DETERMINISTIC
@@ -61,11 +83,16 @@ PARTS = {
     ),
     "not given": BudgetPart(
         quantity="not_given",
+        label="{} (not given)",
+        name_in_words=lambda uncertainty: f"{uncertainty.missing_input} not given",
+        is_stated_if_zero=False,
         sides="not_given_sides",
         recommendation=lambda uncertainty: f"a measured {uncertainty.missing_input} reduces it",
     ),
     "input": BudgetPart(
         quantity="inputs",
+        label="input (stated ranges)",
+        is_stated_if_zero=False,
         sides="input_sides",
         recommendation=lambda uncertainty: f"a measured {uncertainty.largest_input or 'value'} reduces it",
     ),
@@ -201,14 +228,15 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         return f"f = {with_interval(coefficient, *self.interval)}; {parts}{unknown}"
 
     def _in_words(self, sampling_in_words: str) -> str:
-        unknown = " (not included)" * math.isnan(self.model)
-        words = self.budget_in_words
-        inputs = f", input {words['input']}" if self.inputs != 0 else ""
-        of_solve = (
-            f"numerical {words['numerical']}, sampling {sampling_in_words}, model-form {words['model-form']}{unknown}"
-        )
-        missing = f", {self.missing_input} not given {words['not given']}" if self.not_given else ""
-        return f"{'errors of f itself, which is near 0: ' * self.is_near_zero}{of_solve}{missing}{inputs}"
+        words = self.budget_in_words | {"sampling": sampling_in_words}
+        stated = []
+        for name, part in PARTS.items():
+            value = getattr(self, part.quantity)
+            if value == 0 and not part.is_stated_if_zero:
+                continue
+            name_in_words = name if part.name_in_words is None else part.name_in_words(self)
+            stated.append(f"{name_in_words} {words[name]}{part.note_if_unknown * math.isnan(value)}")
+        return f"{'errors of f itself, which is near 0: ' * self.is_near_zero}{', '.join(stated)}"
 
 
 @described_in_doc

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..estimate import FrictionResult
+from ..estimate import PARTS, FrictionResult
 from ..models.deterministic import FLOOR
 from ..models.shared import (
     Assumption,
@@ -64,19 +64,10 @@ PICTURES = {
     "sharing.png": "The same contact by the load-sharing model: pressure, and film and surfaces on a section",
     "surface.png": "The rough surface",
 }
-# Parts of the uncertainty budget; that of an input that the scene does not give names it (`budget_labels`).
-BUDGET = {
-    "numerical": "numerical (grids and solvers)",
-    "sampling": "sampling (finite surface)",
-    "model-form": "model-form (equations)",
-    "not given": "{} (not given)",
-    "input": "input (stated ranges)",
-}
-# Labels of the parts of the budget of the quick answer (`lubfric.models.quick`).
-BUDGET_ON_LONG_CELLS = BUDGET | {
-    "numerical": "numerical (solvers)",
-    "model-form": "model-form (equations, long cells)",
-}
+# Labels of the parts of the uncertainty budget; that of an input that the scene does not give names it (`budget_labels`).
+BUDGET = {name: part.label for name, part in PARTS.items()}
+# The same where the error of the cells is a model-form one.
+BUDGET_ON_LONG_CELLS = {name: part.label_on_long_cells or part.label for name, part in PARTS.items()}
 # A number smaller than this times the largest of its column is 0 in a table.
 TABLE_ROUNDING = 1e-9
 # Part of the power loss from which the report names the rolling resistance in it.
