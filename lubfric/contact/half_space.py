@@ -11,6 +11,7 @@ import numpy as np
 from .._base import FieldsOnly
 from .cylinder import LoadedCylinder
 from .operator import HalfSpace, half_space
+from .problem import Start
 from .rough_contract import ContactState, RoughContact, area_weight, centred_axis, weighted_mean
 from .solve import solve_contact
 
@@ -52,7 +53,7 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
             hardness=self.hardness,
             boundary=BOUNDARY,
             tolerance=self.tolerance,
-            start=self._pressure_of(start),
+            start=self._start_from(start),
         )
         touching = contact.pressure > 0
         plastic = 0.0
@@ -115,14 +116,16 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
             y=self.y,
         )
 
-    def _pressure_of(self, state: ContactState | None) -> np.ndarray | None:
-        """Return the pressure of ``state``, if any, on these cells, taken from the nearest of its own."""
+    def _start_from(self, state: ContactState | None) -> Start | np.ndarray | None:
+        """Return the pressure of ``state``, if any, on these cells, with its displacement where the operator is the same;
+        on other cells, its pressure taken from the nearest of its own."""
         if state is None or state.fields is None:
             return None
         pressure = state.fields.pressure
         shape = self.heights.shape
         if pressure.shape == shape and np.array_equal(state.x, self.x):
-            return pressure
+            is_known = state.fields.operator == self.operator.digest
+            return Start(pressure=pressure, displacement=state.fields.displacement if is_known else None)
         row = np.rint((self.x - state.x[0]) / (state.x[1] - state.x[0])).astype(int)
         column = np.arange(shape[1]) * pressure.shape[1] // shape[1]
         inside = (row >= 0) & (row < state.x.size)

@@ -7,6 +7,7 @@ transformed one after the other.
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property, partial, wraps
@@ -65,6 +66,13 @@ class HalfSpace(FrozenArrays, FieldsOnly):
     symbol: np.ndarray
     workers: int | None = None
     layer: float = 0.0
+
+    @cached_property
+    def digest(self) -> str:
+        """Return a digest of all that the deflection depends on: equal only for operators that give the same one."""
+        hashed = hashlib.sha256(repr((self.shape, self.spacing, self.padded, self.boundary)).encode())
+        hashed.update(self.symbol.tobytes())
+        return hashed.hexdigest()
 
     def with_layer(self, compliance: float) -> HalfSpace:
         """Return the operator with a layer that sinks by ``compliance`` [m/Pa] times the pressure at each cell."""

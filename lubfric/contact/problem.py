@@ -144,8 +144,19 @@ def on_grid(name: str, value: Any, shape: tuple[int, int], unit: str) -> np.ndar
     return validate.array(name, field, unit, ndim=2)
 
 
-def starting_pressure(problem: ContactProblem, start: object) -> np.ndarray | None:
-    """Return the pressure field [Pa] of an earlier result (or the field itself), limited to the hardness."""
+@dataclass(frozen=True, kw_only=True)
+class Start:
+    """The ``pressure`` [Pa] (nx, ny) that a solve starts from, and its ``displacement`` [m] by the operator of the solve,
+    where that is known."""
+
+    pressure: np.ndarray
+    displacement: np.ndarray | None = None
+
+
+def starting_point(problem: ContactProblem, start: object) -> Start | None:
+    """Return the start from an earlier result, or from a pressure field, limited to the hardness; None without a
+    pressure. Of an earlier result only the pressure counts, as a caller may have changed it: what has to be trusted is
+    given as a `Start`."""
     if start is None:
         return None
     pressure = validate.array("start", getattr(start, "pressure", start), "Pa", ndim=2)
@@ -155,7 +166,11 @@ def starting_pressure(problem: ContactProblem, start: object) -> np.ndarray | No
     if pressure.min() < 0 or pressure.max() > limit:
         said = f"start has pressures from {pressure.min():g} to {pressure.max():g} Pa"
         raise InputError(said, allowed=f"0 to {limit:g} Pa")
-    return np.ascontiguousarray(np.minimum(pressure, problem.hardness))  # the solver writes through ravel()
+    if not pressure.any():
+        return None
+    if isinstance(start, Start) and pressure.max() <= problem.hardness:
+        return start
+    return Start(pressure=np.ascontiguousarray(np.minimum(pressure, problem.hardness)))  # it is written through ravel()
 
 
 def with_load(pressure: FloatArray, load: float, hardness: float) -> np.ndarray:

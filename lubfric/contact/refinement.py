@@ -55,6 +55,7 @@ class ContactResult(Shown):
     plastic_area_fraction : share of the cells with p = hardness [-]
     length : L [m], in which the report measures the gap (infinite without load)
     report : how the solve ended
+    operator : `HalfSpace.digest` of the operator by which the displacement follows from the pressure
 
     Notes
     -----
@@ -76,6 +77,7 @@ class ContactResult(Shown):
     plastic_area_fraction: float
     length: float
     report: Report
+    operator: str
 
     def _facts(self) -> dict[str, str]:
         nx, ny = self.pressure.shape
@@ -177,19 +179,22 @@ def trial_contact(
 
 def refine(
     problem: ContactProblem,
-    pressure: np.ndarray,
+    state: TrialContact,
     *,
     load: float | None = None,
     level: float | None = None,
     pace: float = FIRST_PACE,
+    spent: float = 0.0,
 ) -> SearchResult:
-    """Solve from ``pressure`` [Pa] for a total ``load`` [Pa cells] or an approach ``level`` [m]."""
-    state = evaluate(problem, problem.operator.single, pressure, level)
-    status = None
+    """Solve from ``state``, which carries a total ``load`` [Pa cells] or has an approach ``level`` [m], and took ``spent``
+    convolutions."""
+    # A state in the precision of the operator has been looked at already: one that converged ends the solve.
+    is_checked = state.displacement.dtype == problem.operator.symbol.dtype
+    status = CONVERGED if is_checked and state.residual <= MARGIN * problem.tolerance else None
     best = np.inf
     wasted = 0
     iterations = 0
-    convolutions = 1.0
+    convolutions = spent
     history: list[float] = []
     while status is None:
         goal = max(MARGIN * problem.tolerance, FALL * min(state.residual, 1.0))
@@ -258,6 +263,7 @@ def contact_result(
         plastic_area_fraction=np.count_nonzero(pressure >= problem.hardness) / pressure.size,
         length=state.scale,
         report=report,
+        operator=problem.operator.digest,
     )
 
 

@@ -8,12 +8,15 @@ import numpy as np
 from .._base import FloatArray, increasing_root, validate, with_default_errors
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, returned
 from .operator import HalfSpace
-from .problem import ContactProblem, TrialContact, contact_problem, rescaled, shifted, starting_pressure
-from .refinement import ContactResult, SearchResult, contact_result, refine, trial_contact
+from .problem import ContactProblem, Start, TrialContact, contact_problem, rescaled, shifted, starting_point
+from .refinement import ContactResult, SearchResult, contact_result, evaluate, refine, trial_contact
 from .search import FIRST_PACE
 
 # Load over that of a start [-] beyond which new asperity contacts matter more than the old ones.
 MOST_LOAD_OVER_START = 2.0
+# Change of the load over that of a start [-] up to which pressure and displacement are scaled, which takes no
+# convolution. Halved and doubled by `python -m verification.campaigns.benchmarks.contact_constants`.
+LARGEST_SCALING = 0.2
 # Mean pressure over E' height/spacing [-] that flattens any surface: 1.1 would do for a periodic ripple.
 FLATTENED = 10.0
 
@@ -29,7 +32,7 @@ def solve_contact(
     hardness: float | None = None,
     boundary: tuple[str, str] = ("periodic", "periodic"),
     tolerance: float = 1e-6,
-    start: FloatArray | ContactResult | None = None,
+    start: FloatArray | ContactResult | Start | None = None,
     operator: HalfSpace | None = None,
     max_iterations: int = 2000,
     raise_on_failure: bool = True,
@@ -65,15 +68,15 @@ def solve_contact(
     """
     problem = contact_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
     mean_pressure, mean_gap = _checked_control(problem, mean_pressure, mean_gap)
-    start = starting_pressure(problem, start)
+    begun = starting_point(problem, start)
     touching = float(problem.gap0.mean())
     if mean_pressure == 0 or (mean_gap is not None and mean_gap >= touching):
         search = _separated(problem, touching if mean_gap is None else mean_gap)
     elif mean_pressure is not None:
-        search = _solved(problem, start, mean_pressure, mean_pressure=mean_pressure)
+        search = _solved(problem, begun, mean_pressure, mean_pressure=mean_pressure)
     else:
         assert mean_gap is not None  # one of both is given
-        search = _gap_controlled(problem, mean_gap, start)
+        search = _gap_controlled(problem, mean_gap, begun)
     result = contact_result(problem, search, _control(search.state, mean_pressure, mean_gap), ITERATION_LIMIT)
     return returned(result, raise_on_failure=raise_on_failure)
 
@@ -105,7 +108,7 @@ def _checked_control(
 
 def _solved(
     problem: ContactProblem,
-    start: FloatArray | None,
+    start: Start | None,
     uniform: float,
     *,
     mean_pressure: float | None = None,
@@ -114,13 +117,41 @@ def _solved(
     """Solve for a mean pressure [Pa] or an approach [m] from ``start``, made to carry the load. Without one, from
     coarser grids, the coarsest of which starts from a ``uniform`` pressure [Pa]."""
     load = None if mean_pressure is None else mean_pressure * problem.gap0.size
-    if start is None or not start.any():
-        start, pace, spent = _coarse_start(problem, uniform, mean_pressure, approach)
-        search = refine(problem, start, load=load, level=approach, pace=pace)
-        return replace(search, convolutions=search.convolutions + spent)
-    if load is not None:
-        start = (shifted if load <= MOST_LOAD_OVER_START * start.sum() else rescaled)(start, load, problem.hardness)
-    return refine(problem, start, load=load, level=approach)
+    if start is None:
+        pressure, pace, spent = _coarse_start(problem, uniform, mean_pressure, approach)
+        state = _evaluated(problem, pressure, approach)
+        return refine(problem, state, load=load, level=approach, pace=pace, spent=spent + 1.0)
+    if start.displacement is not None and _can_be_scaled(problem, start, load):
+        return refine(problem, _scaled(problem, start, load, approach), load=load, level=approach)
+    pressure = start.pressure if load is None else _loaded(start.pressure, load, problem.hardness)
+    return refine(problem, _evaluated(problem, pressure, approach), load=load, level=approach, spent=1.0)
+
+
+def _evaluated(problem: ContactProblem, pressure: FloatArray, approach: float | None) -> TrialContact:
+    """Return the state of ``pressure`` [Pa] in single precision, by a convolution."""
+    return evaluate(problem, problem.operator.single, pressure, approach)
+
+
+def _can_be_scaled(problem: ContactProblem, start: Start, load: float | None) -> bool:
+    """Return whether the pressure of ``start`` can be scaled to ``load`` [Pa cells]: no cell has yielded or would, as its
+    pressure stays, and the load differs by no more than `LARGEST_SCALING`."""
+    factor = 1.0 if load is None else load / float(start.pressure.sum())
+    highest = max(1.0, factor) * float(start.pressure.max())
+    return factor == 1.0 or (abs(factor - 1.0) <= LARGEST_SCALING and highest < problem.hardness)
+
+
+def _scaled(problem: ContactProblem, start: Start, load: float | None, approach: float | None) -> TrialContact:
+    """Return the state of ``start``, scaled to ``load`` [Pa cells]. Its displacement is proportional to the pressure, so
+    this takes no convolution."""
+    assert start.displacement is not None
+    factor = 1.0 if load is None else load / float(start.pressure.sum())
+    return trial_contact(problem, factor * start.pressure, factor * start.displacement, approach)
+
+
+def _loaded(pressure: FloatArray, load: float, hardness: float) -> np.ndarray:
+    """Return ``pressure`` [Pa], made to carry ``load`` [Pa cells]."""
+    moved = shifted if load <= MOST_LOAD_OVER_START * pressure.sum() else rescaled
+    return moved(pressure, load, hardness)
 
 
 def _coarse_start(
@@ -137,7 +168,7 @@ def _coarse_start(
     return pressure, search.pace, search.convolutions * coarse.gap0.size / problem.gap0.size
 
 
-def _gap_controlled(problem: ContactProblem, mean_gap: float, start: FloatArray | None) -> SearchResult:
+def _gap_controlled(problem: ContactProblem, mean_gap: float, start: Start | None) -> SearchResult:
     """Solve the contact whose mean gap is ``mean_gap`` [m].
 
     In an elastic periodic contact the mean deflection is zero. So the approach is known, and one solve is enough.
@@ -156,11 +187,16 @@ def _gap_controlled(problem: ContactProblem, mean_gap: float, start: FloatArray 
     if search.status == CONVERGED:
         return search
     note = f"at the known approach: {search.status} after {search.iterations} iterations; load searched instead"
-    again = _load_searched(problem, mean_gap, guess, search.state.pressure if search.state.pressure.any() else start)
+    again = _load_searched(problem, mean_gap, guess, _start_from(search) if search.state.pressure.any() else start)
     return replace(again, notes=(note,), convolutions=again.convolutions + search.convolutions)
 
 
-def _load_searched(problem: ContactProblem, mean_gap: float, guess: float, start: FloatArray | None) -> SearchResult:
+def _start_from(search: SearchResult) -> Start:
+    """Return the start from the end of another search on the same problem."""
+    return Start(pressure=search.state.pressure, displacement=search.state.displacement)
+
+
+def _load_searched(problem: ContactProblem, mean_gap: float, guess: float, start: Start | None) -> SearchResult:
     """Find the load with that mean gap, by one bracketed root in the logarithm of the pressure.
 
     The mean gap falls with the load, so there is one root. Each solve starts from the last. No load exceeds the one
@@ -173,13 +209,13 @@ def _load_searched(problem: ContactProblem, mean_gap: float, guess: float, start
     def surplus(log_pressure: float, last: SearchResult | None) -> tuple[float, SearchResult]:
         nonlocal spent, iterations
         mean = math.exp(log_pressure)
-        search = _solved(exact, last.state.pressure if last else start, mean, mean_pressure=mean)
+        search = _solved(exact, _start_from(last) if last else start, mean, mean_pressure=mean)
         spent += search.convolutions
         iterations += search.iterations
         return (mean_gap - search.state.mean_gap) / min(mean_gap, search.state.scale), search
 
-    if start is not None and start.any():
-        guess = float(start.mean())
+    if start is not None:
+        guess = float(start.pressure.mean())
     flattening = FLATTENED * problem.operator.e_prime * float(np.ptp(problem.gap0)) / min(problem.operator.spacing)
     bounds = (-300.0, math.log(min(problem.hardness, flattening)))
     root = increasing_root(surplus, math.log(guess), step=0.7, bounds=bounds, tolerance=0.5 * problem.tolerance)

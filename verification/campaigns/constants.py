@@ -14,6 +14,7 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from types import ModuleType
 
 import lubfric
 
@@ -70,16 +71,22 @@ def constants(prefixes: tuple[str, ...]) -> Iterator[tuple[str, str, float | tup
     for room in ROOMS:
         package = importlib.import_module(room)
         for info in pkgutil.iter_modules(package.__path__, f"{room}."):
-            module = importlib.import_module(info.name)
-            for node in ast.parse(Path(str(module.__file__)).read_text(encoding="utf-8")).body:
-                names = [node.target] if isinstance(node, ast.AnnAssign) else getattr(node, "targets", [])
-                for target in names:
-                    name = getattr(target, "id", "")
-                    value = getattr(module, name, None) if name.isupper() else None
-                    numbers = value if isinstance(value, tuple) else (value,)
-                    real = all(isinstance(x, (int, float)) and not isinstance(x, bool) for x in numbers)
-                    if value is not None and numbers and real and f"{info.name}.{name}".startswith(prefixes):
-                        yield info.name, name, value
+            for name, value in numbers_of(importlib.import_module(info.name)):
+                if f"{info.name}.{name}".startswith(prefixes):
+                    yield info.name, name, value
+
+
+def numbers_of(module: ModuleType) -> Iterator[tuple[str, float | tuple[float, ...]]]:
+    """Yield (name, value) of every number, or tuple of numbers, in capital letters that ``module`` itself defines."""
+    for node in ast.parse(Path(str(module.__file__)).read_text(encoding="utf-8")).body:
+        names = [node.target] if isinstance(node, ast.AnnAssign) else getattr(node, "targets", [])
+        for target in names:
+            name = getattr(target, "id", "")
+            value = getattr(module, name, None) if name.isupper() else None
+            numbers = value if isinstance(value, tuple) else (value,)
+            real = all(isinstance(x, (int, float)) and not isinstance(x, bool) for x in numbers)
+            if value is not None and numbers and real:
+                yield name, value
 
 
 def scaled(value: float | tuple[float, ...], factor: float) -> float | tuple[float, ...]:
