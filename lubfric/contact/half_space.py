@@ -124,8 +124,9 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
         pressure = state.fields.pressure
         shape = self.heights.shape
         if pressure.shape == shape and np.array_equal(state.x, self.x):
-            is_known = state.fields.operator == self.operator.digest
-            return Start(pressure=pressure, displacement=state.fields.displacement if is_known else None)
+            displacement = state.fields.displacement
+            is_known = displacement.shape == shape and state.fields.operator == self.operator.digest
+            return Start(pressure=pressure, displacement=displacement if is_known else None)
         row = np.rint((self.x - state.x[0]) / (state.x[1] - state.x[0])).astype(int)
         column = np.arange(shape[1]) * pressure.shape[1] // shape[1]
         inside = (row >= 0) & (row < state.x.size)

@@ -274,6 +274,15 @@ class StepEquations:
             G[rows, centred.columns] -= (H**3 * mean * t.gradient * thinner)[:, None] * steep
         return G
 
+    def missing_flow(self, t: StepTerms) -> float:
+        """Return the largest mass that is missing in a pressurised control volume, over the flow that the motion drags
+        through it; 0 at rest."""
+        if self.speed == 0.0:
+            return 0.0
+        wet = t.P[1:-1] > 0.0
+        missing = np.abs(t.r[1:-1][wet]) / (t.H[1:-1][wet] * abs(self.speed))
+        return float(np.max(missing, initial=0.0))
+
     def residual(self, t: StepTerms) -> float:
         """Return the largest relative residual: of the mass in the pressurised control volumes (relative to what they
         contain, per step or per passage of their film), of tension in the cavitated ones and of lubricant created

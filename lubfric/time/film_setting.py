@@ -21,6 +21,9 @@ WET_PRESSURE = 1e-3  # of the largest pressure: where the error of the film coun
 FIRST_TIME_PART = 1e-3  # of the time in which the surfaces pass the contact, after a start or a jump
 TIME_SHARE = 0.01  # of the film tolerance: largest local error of a step, unless it is said
 LEAST_FILM_LOAD = 0.3  # share of the load that the film is taken to carry at least, when it shares it
+# Mass missing in a control volume over the flow that the motion drags through it [-] above which Newton's method takes
+# one more step: some hundred volumes then miss less than the limit of the balance of a run (`lubfric.time.result.MASS`).
+MISSING_FLOW = 1e-6
 SMALLEST_STAGE = 0.01  # of the logarithm of a change of the load
 
 
@@ -253,6 +256,9 @@ def solve_step(equations: StepEquations, z: np.ndarray, *, tolerance: float = 1e
 
 
 def _iterated(equations: StepEquations, z: np.ndarray, tolerance: float, max_steps: int) -> Step:
+    """Take Newton's steps from z until ``equations.residual`` <= tolerance; one more where what a short step misses is
+    little of what the film contains, but much of what flows."""
+    is_last = False
     for step in range(max_steps + 1):
         count_film_step(equations.grid.n)
         t = equations.evaluate(z)
@@ -262,6 +268,9 @@ def _iterated(equations: StepEquations, z: np.ndarray, tolerance: float, max_ste
             status = CONVERGED
         elif not np.isfinite(residual):
             status = DIVERGED
+        if status == CONVERGED and not is_last and equations.missing_flow(t) > MISSING_FLOW and step < max_steps:
+            is_last = True
+            status = ITERATION_LIMIT
         if status != ITERATION_LIMIT or step == max_steps:
             break
         J = equations.jacobian(t)
