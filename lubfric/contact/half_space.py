@@ -11,7 +11,7 @@ import numpy as np
 from .._base import FieldsOnly
 from .cylinder import LoadedCylinder
 from .operator import HalfSpace, half_space
-from .problem import Start
+from .problem import ContactStart
 from .rough_contract import ContactState, RoughContact, area_weight, centred_axis, weighted_mean
 from .solve import solve_contact
 
@@ -116,7 +116,7 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
             y=self.y,
         )
 
-    def _start_from(self, state: ContactState | None) -> Start | np.ndarray | None:
+    def _start_from(self, state: ContactState | None) -> ContactStart | np.ndarray | None:
         """Return the pressure of ``state``, if any, on these cells, with its displacement where the operator is the same;
         on other cells, its pressure taken from the nearest of its own."""
         if state is None or state.fields is None:
@@ -126,7 +126,7 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
         if pressure.shape == shape and np.array_equal(state.x, self.x):
             displacement = state.fields.displacement
             is_known = displacement.shape == shape and state.fields.operator == self.operator.digest
-            return Start(pressure=pressure, displacement=displacement if is_known else None)
+            return ContactStart(pressure=pressure, displacement=displacement if is_known else None)
         row = np.rint((self.x - state.x[0]) / (state.x[1] - state.x[0])).astype(int)
         column = np.arange(shape[1]) * pressure.shape[1] // shape[1]
         inside = (row >= 0) & (row < state.x.size)

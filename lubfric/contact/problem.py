@@ -145,7 +145,7 @@ def on_grid(name: str, value: Any, shape: tuple[int, int], unit: str) -> np.ndar
 
 
 @dataclass(frozen=True, kw_only=True)
-class Start:
+class ContactStart:
     """The ``pressure`` [Pa] (nx, ny) that a solve starts from, and its ``displacement`` [m] by the operator of the solve,
     where that is known."""
 
@@ -153,10 +153,10 @@ class Start:
     displacement: np.ndarray | None = None
 
 
-def starting_point(problem: ContactProblem, start: object) -> Start | None:
+def starting_point(problem: ContactProblem, start: object) -> ContactStart | None:
     """Return the start from an earlier result, or from a pressure field, limited to the hardness; None without a
     pressure. Of an earlier result only the pressure counts, as a caller may have changed it: what has to be trusted is
-    given as a `Start`."""
+    given as a `ContactStart`."""
     if start is None:
         return None
     pressure = validate.array("start", getattr(start, "pressure", start), "Pa", ndim=2)
@@ -168,9 +168,11 @@ def starting_point(problem: ContactProblem, start: object) -> Start | None:
         raise InputError(said, allowed=f"0 to {limit:g} Pa")
     if not pressure.any():
         return None
-    if isinstance(start, Start) and pressure.max() <= problem.hardness:
+    if isinstance(start, ContactStart) and pressure.max() <= problem.hardness:
         return start
-    return Start(pressure=np.ascontiguousarray(np.minimum(pressure, problem.hardness)))  # it is written through ravel()
+    return ContactStart(
+        pressure=np.ascontiguousarray(np.minimum(pressure, problem.hardness))
+    )  # it is written through ravel()
 
 
 def with_load(pressure: FloatArray, load: float, hardness: float) -> np.ndarray:

@@ -8,7 +8,7 @@ import numpy as np
 from .._base import FloatArray, increasing_root, validate, with_default_errors
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, returned
 from .operator import HalfSpace
-from .problem import ContactProblem, Start, TrialContact, contact_problem, rescaled, shifted, starting_point
+from .problem import ContactProblem, ContactStart, TrialContact, contact_problem, rescaled, shifted, starting_point
 from .refinement import ContactResult, SearchResult, contact_result, evaluate, refine, trial_contact
 from .search import FIRST_PACE
 
@@ -32,7 +32,7 @@ def solve_contact(
     hardness: float | None = None,
     boundary: tuple[str, str] = ("periodic", "periodic"),
     tolerance: float = 1e-6,
-    start: FloatArray | ContactResult | Start | None = None,
+    start: FloatArray | ContactResult | ContactStart | None = None,
     operator: HalfSpace | None = None,
     max_iterations: int = 2000,
     raise_on_failure: bool = True,
@@ -108,7 +108,7 @@ def _checked_control(
 
 def _solved(
     problem: ContactProblem,
-    start: Start | None,
+    start: ContactStart | None,
     uniform: float,
     *,
     mean_pressure: float | None = None,
@@ -132,7 +132,7 @@ def _evaluated(problem: ContactProblem, pressure: FloatArray, approach: float | 
     return evaluate(problem, problem.operator.single, pressure, approach)
 
 
-def _can_be_scaled(problem: ContactProblem, start: Start, load: float | None) -> bool:
+def _can_be_scaled(problem: ContactProblem, start: ContactStart, load: float | None) -> bool:
     """Return whether the pressure of ``start`` can be scaled to ``load`` [Pa cells]: no cell has yielded or would, as its
     pressure stays, and the load differs by no more than `LARGEST_SCALING`."""
     factor = 1.0 if load is None else load / float(start.pressure.sum())
@@ -140,7 +140,7 @@ def _can_be_scaled(problem: ContactProblem, start: Start, load: float | None) ->
     return factor == 1.0 or (abs(factor - 1.0) <= LARGEST_SCALING and highest < problem.hardness)
 
 
-def _scaled(problem: ContactProblem, start: Start, load: float | None, approach: float | None) -> TrialContact:
+def _scaled(problem: ContactProblem, start: ContactStart, load: float | None, approach: float | None) -> TrialContact:
     """Return the state of ``start``, scaled to ``load`` [Pa cells]. Its displacement is proportional to the pressure, so
     this takes no convolution."""
     assert start.displacement is not None
@@ -168,7 +168,7 @@ def _coarse_start(
     return pressure, search.pace, search.convolutions * coarse.gap0.size / problem.gap0.size
 
 
-def _gap_controlled(problem: ContactProblem, mean_gap: float, start: Start | None) -> SearchResult:
+def _gap_controlled(problem: ContactProblem, mean_gap: float, start: ContactStart | None) -> SearchResult:
     """Solve the contact whose mean gap is ``mean_gap`` [m].
 
     In an elastic periodic contact the mean deflection is zero. So the approach is known, and one solve is enough.
@@ -191,12 +191,12 @@ def _gap_controlled(problem: ContactProblem, mean_gap: float, start: Start | Non
     return replace(again, notes=(note,), convolutions=again.convolutions + search.convolutions)
 
 
-def _start_from(search: SearchResult) -> Start:
+def _start_from(search: SearchResult) -> ContactStart:
     """Return the start from the end of another search on the same problem."""
-    return Start(pressure=search.state.pressure, displacement=search.state.displacement)
+    return ContactStart(pressure=search.state.pressure, displacement=search.state.displacement)
 
 
-def _load_searched(problem: ContactProblem, mean_gap: float, guess: float, start: Start | None) -> SearchResult:
+def _load_searched(problem: ContactProblem, mean_gap: float, guess: float, start: ContactStart | None) -> SearchResult:
     """Find the load with that mean gap, by one bracketed root in the logarithm of the pressure.
 
     The mean gap falls with the load, so there is one root. Each solve starts from the last. No load exceeds the one

@@ -25,7 +25,7 @@ import numpy as np
 
 from lubfric import solve_contact
 from lubfric.contact import candidate_cells, half_space, problem, refinement, search, solve
-from lubfric.contact.problem import Start
+from lubfric.contact.problem import ContactStart
 
 from . import page
 from .rough import E_PRIME, surface
@@ -61,7 +61,9 @@ def _solver(
     if begun:
         start = solve_contact(gap0, SPACING, E_PRIME, mean_pressure=begun * load, **options)
         is_neighbour = begun in NEIGHBOURS
-        options["start"] = Start(pressure=start.pressure, displacement=start.displacement) if is_neighbour else start
+        options["start"] = (
+            ContactStart(pressure=start.pressure, displacement=start.displacement) if is_neighbour else start
+        )
 
     def solve() -> tuple[float, bool]:
         report = solve_contact(gap0, SPACING, E_PRIME, mean_pressure=load, **options).report
