@@ -15,14 +15,14 @@ from .reynolds import FilmSolution
 from .start import solution_state
 
 
-def grid_error(levels: list[FilmSolution]) -> float:
+def grid_error(on_grids: list[FilmSolution]) -> float:
     """Return the relative discretisation error of the last solution; the formula is in `solve_ehl`.
 
     Second order would allow c1/3. At random M, L and laws the formula bounds the error in nine cases of ten, and in
     the rest mostly within a factor of two. It also covers central_film, unless the pressure spike sits at x = 0 (M
     near 2, L above 12): then no grid converges central_film, and a note shows its change.
     """
-    films = np.array([[smallest(s.terms.X, s.terms.H), s.terms.q] for s in levels[-3:]])
+    films = np.array([[smallest(s.terms.X, s.terms.H), s.terms.q] for s in on_grids[-3:]])
     if len(films) < 2:
         return math.inf
     changes = np.max(np.abs(np.diff(films, axis=0) / films[-1]), axis=1)
@@ -58,7 +58,7 @@ def _outlet(problem: FilmProblem, solution: FilmSolution) -> tuple[np.ndarray, n
     return X, solution.z[-3] + 0.5 * X * X + hat_kernel(behind, xi) @ solution.terms.P
 
 
-def rolling_resistance(problem: FilmProblem, levels: list[FilmSolution]) -> tuple[float, float]:
+def rolling_resistance(problem: FilmProblem, on_grids: list[FilmSolution]) -> tuple[float, float]:
     """Return the half of ∫ h dp, the resistance to rolling [N/m], from the gap of the undeformed bodies, and its
     estimated error.
 
@@ -67,11 +67,11 @@ def rolling_resistance(problem: FilmProblem, levels: list[FilmSolution]) -> tupl
     dx/R. The direct sum of h dp is a small difference at high pressure, and takes ten times as many cells for the same
     error.
 
-    It is extrapolated to second order from the last two of ``levels``, solutions on ever finer grids. The error is the
+    It is extrapolated to second order from the last two of the solutions ``on_grids``, ever finer ones. The error is the
     step of the extrapolation, or a quarter of the one before if that is larger.
     """
     unit = problem.pressure_unit * problem.film_unit
-    works = [unit * _half_work(solution) for solution in levels[-3:]]
+    works = [unit * _half_work(solution) for solution in on_grids[-3:]]
     steps = np.diff(works) / 3.0
     if not steps.size:
         return works[-1], math.inf
@@ -118,38 +118,38 @@ def reported(
 
 def _report(
     problem: FilmProblem,
-    levels: list[FilmSolution],
+    on_grids: list[FilmSolution],
     first: list[FilmSolution],
     tolerance: float,
     residuals: dict[str, float],
     notes: tuple[str, ...],
 ) -> Report:
-    last = levels[-1]
+    last = on_grids[-1]
     inlet = last.terms.X[0] / problem.half_width
-    centre = [central_film(level.terms.X, level.terms.H) for level in levels[-2:]]
+    centre = [central_film(solution.terms.X, solution.terms.H) for solution in on_grids[-2:]]
     change = abs(centre[0] / centre[-1] - 1.0)
     if change > 2.0 * tolerance:
         notes += (f"central_film changed by {change:.1e} between the last two grids",)
     notes += (f"{last.grid.n} cells before rupture; inlet at {inlet:.4g} half-widths",)
-    return reported("line-contact EHL, Newton on nested grids", first + levels, residuals, tolerance, notes)
+    return reported("line-contact EHL, Newton on nested grids", first + on_grids, residuals, tolerance, notes)
 
 
 def assemble(
     problem: FilmProblem,
-    levels: list[FilmSolution],
+    on_grids: list[FilmSolution],
     first: list[FilmSolution],
     notes: tuple[str, ...],
     tolerance: float,
 ) -> EHLResult:
     """Return the result in SI units from solutions on nested grids, seen along +x."""
-    last = levels[-1]
+    last = on_grids[-1]
     M = problem.M
     t = last.terms
     X_out, H_out = _outlet(problem, last)
     X = np.concatenate([t.X, X_out])
     H = np.concatenate([t.H, H_out])
     P = np.concatenate([t.P, np.zeros_like(X_out)])
-    error = grid_error(levels)
+    error = grid_error(on_grids)
     tail = 0.5 * -t.X[0] * t.P[0] if problem.inlet is None else 0.0
     residuals = {
         "discretisation": error,
@@ -168,9 +168,9 @@ def assemble(
         flow=float(t.q),
         rupture=float(last.z[-1]),
         constant=float(last.z[-3]),
-        report=_report(problem, levels, first, tolerance, residuals, notes),
+        report=_report(problem, on_grids, first, tolerance, residuals, notes),
         state=solution_state(problem, last, error),
-        rolling=rolling_resistance(problem, levels),
+        rolling=rolling_resistance(problem, on_grids),
     )
 
 

@@ -134,18 +134,18 @@ def _fed(full: FilmProblem, flow: float, effort: Effort, state: FilmState | None
         return problem, warm(problem, effort if aim == flow else EFFORT_ON_THE_WAY, near)
 
     if state is not None and state.problem.fed is not None:
-        problem, levels = fed_from(state, flow)
-        if sound(levels) and -levels[-1].terms.X[0] <= furthest:
-            return problem, levels, [], ()
-    problem, levels, first, notes = solved(full, effort, state)
-    flooded = levels[-1].terms.q
-    if not sound(levels) or flooded <= flow:
-        return problem, levels, first, notes
+        problem, on_grids = fed_from(state, flow)
+        if sound(on_grids) and -on_grids[-1].terms.X[0] <= furthest:
+            return problem, on_grids, [], ()
+    problem, on_grids, first, notes = solved(full, effort, state)
+    flooded = on_grids[-1].terms.q
+    if not sound(on_grids) or flooded <= flow:
+        return problem, on_grids, first, notes
     known = flooded / full.film_guess
     aim = max(flow, HALF * flooded)
     there = replace(full, inlet=min(full.inlet_of(aim / known), furthest))
     near, closer = first_state(there, coarsest(full), effort.max_iterations)
-    spent = first + levels + closer
+    spent = first + on_grids + closer
     while True:
         problem, fed = fed_from(near, aim, known)
         if aim == flow or not sound(fed):
@@ -155,7 +155,7 @@ def _fed(full: FilmProblem, flow: float, effort: Effort, state: FilmState | None
         spent = spent + fed
     if sound(fed) or flow < HALF * flooded:
         return problem, fed, spent, notes
-    return _searched_inlet(problem, effort, solution_state(full, levels[-1], 0.0), furthest, spent + fed, notes)
+    return _searched_inlet(problem, effort, solution_state(full, on_grids[-1], 0.0), furthest, spent + fed, notes)
 
 
 def _searched_inlet(
@@ -177,6 +177,6 @@ def _searched_inlet(
 
     bounds = math.log(1e-3 * (guess - b)), math.log(furthest - b)
     root = increasing_root(surplus, math.log(guess - b), step=0.5, bounds=bounds, tolerance=1e-3 * effort.tolerance)
-    there, levels, first, _ = root.payload
+    there, on_grids, first, _ = root.payload
     takes_full_inlet = root.value < 0 and root.x == bounds[1]  # on these cells the full inlet takes no more
-    return replace(there, fed=None if takes_full_inlet else flow), levels, spent + first, notes
+    return replace(there, fed=None if takes_full_inlet else flow), on_grids, spent + first, notes

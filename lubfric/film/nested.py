@@ -58,12 +58,12 @@ def solved(problem: FilmProblem, effort: Effort, state: FilmState | None) -> Nes
     """Return ``problem`` from the warm start ``state``; where there is none, or it fails, from a cold start."""
     notes: tuple[str, ...] = ()
     if state is not None:
-        levels = warm(problem, effort, state)
-        if sound(levels):
-            return problem, levels, [], notes
+        on_grids = warm(problem, effort, state)
+        if sound(on_grids):
+            return problem, on_grids, [], notes
         notes = ("the warm start failed; solved again from a cold start",)
-    levels, first, retries = _cold(problem, effort)
-    return problem, levels, first, notes + retries
+    on_grids, first, retries = _cold(problem, effort)
+    return problem, on_grids, first, notes + retries
 
 
 def warm(problem: FilmProblem, effort: Effort, state: FilmState) -> list[FilmSolution]:
@@ -87,13 +87,13 @@ def _cold(problem: FilmProblem, effort: Effort) -> tuple[list[FilmSolution], lis
         if spent:
             notes += (f"the cold start failed; tried again from {n} cells",)
         state, first = first_state(problem, n, effort.max_iterations)
-        levels = _ascend(problem, effort, state, n, 2 if effort.tolerance >= TWO_GRIDS_TOLERANCE else 3)
-        if sound(levels):
-            return levels, spent + first, notes
-        spent += first + levels
-        if levels[0].status == CONVERGED and levels[-1].grid.n >= COARSEST_CELLS * 2 ** (STARTS - 1):
+        on_grids = _ascend(problem, effort, state, n, 2 if effort.tolerance >= TWO_GRIDS_TOLERANCE else 3)
+        if sound(on_grids):
+            return on_grids, spent + first, notes
+        spent += first + on_grids
+        if on_grids[0].status == CONVERGED and on_grids[-1].grid.n >= COARSEST_CELLS * 2 ** (STARTS - 1):
             break  # it is not the start that fails
-    return levels, spent[: -len(levels)], notes
+    return on_grids, spent[: -len(on_grids)], notes
 
 
 def coarsest(problem: FilmProblem) -> int:
@@ -104,18 +104,18 @@ def coarsest(problem: FilmProblem) -> int:
 def _ascend(problem: FilmProblem, effort: Effort, state: FilmState, n: int, fewest: int) -> list[FilmSolution]:
     """Return the solutions on grids of n, 2n, ... cells, at least ``fewest`` of them, until they meet the tolerance."""
     rupture = rupture_guess(problem)
-    levels: list[FilmSolution] = []
+    on_grids: list[FilmSolution] = []
     while True:
-        if levels and problem.fed is not None:
-            problem = replace(problem, inlet=-levels[-1].terms.X[0])
+        if on_grids and problem.fed is not None:
+            problem = replace(problem, inlet=-on_grids[-1].terms.X[0])
         grid = make_grid(problem_nodes(problem, n, rupture))
-        z, H = refined_start(levels[-1]) if levels else warm_start(grid, problem, state)
-        levels.append(newton(grid, problem, z, H, 1e-3 * effort.tolerance, effort.max_iterations))
-        if not sound(levels) or n >= FINEST_CELLS:
-            return levels
-        if len(levels) >= fewest and n >= effort.least_cells and grid_error(levels) <= effort.tolerance:
-            return levels
-        rupture = levels[-1].z[-1]
+        z, H = refined_start(on_grids[-1]) if on_grids else warm_start(grid, problem, state)
+        on_grids.append(newton(grid, problem, z, H, 1e-3 * effort.tolerance, effort.max_iterations))
+        if not sound(on_grids) or n >= FINEST_CELLS:
+            return on_grids
+        if len(on_grids) >= fewest and n >= effort.least_cells and grid_error(on_grids) <= effort.tolerance:
+            return on_grids
+        rupture = on_grids[-1].z[-1]
         n *= 2
 
 
@@ -165,11 +165,11 @@ def problem_nodes(problem: FilmProblem, n: int, rupture: float) -> np.ndarray:
     return node_positions(problem.half_width, problem.film_guess, n, distance)
 
 
-def sound(levels: list[FilmSolution]) -> bool:
+def sound(on_grids: list[FilmSolution]) -> bool:
     """Return whether a solution has converged, and is not a root with tension in the film or with the inlet on the
     wrong side."""
-    if not levels or levels[-1].status != CONVERGED:
+    if not on_grids or on_grids[-1].status != CONVERGED:
         return False
-    P = levels[-1].terms.P
-    X = levels[-1].terms.X
+    P = on_grids[-1].terms.P
+    X = on_grids[-1].terms.X
     return bool(X[0] < 0.0 and X[-1] < -X[0] and P.min() >= -1e-3 * P.max())

@@ -105,8 +105,8 @@ def solve_differential_deflection(
     )
     ends = domain_ends(problem, domain)
     cells = _cells(problem, ends, nodes, most_nodes)
-    levels = _ascend(problem, ends, cells, tolerance, max_iterations, doubled=nodes is None)
-    result = assemble(problem, levels, tolerance)
+    on_grids = _ascend(problem, ends, cells, tolerance, max_iterations, doubled=nodes is None)
+    result = assemble(problem, on_grids, tolerance)
     return returned(result, raise_on_failure=raise_on_failure)
 
 
@@ -154,23 +154,23 @@ def _ascend(
 ) -> list[DifferentialSolution]:
     """Return the solutions on grids of as many ``cells``; if these are ``doubled``, until two grids agree to the
     tolerance."""
-    levels: list[DifferentialSolution] = []
+    on_grids: list[DifferentialSolution] = []
     for n in cells:
         mesh = make_mesh(*ends, n + 1, flooded=problem.inlet is None)
         P, H = cold_start(mesh, problem)
-        if levels:  # pressure (linear) and film (cubic) of the mesh before
-            X = levels[-1].mesh.X
-            last = levels[-1]
+        if on_grids:  # pressure (linear) and film (cubic) of the mesh before
+            X = on_grids[-1].mesh.X
+            last = on_grids[-1]
             P = np.interp(mesh.X, X, last.P)
             H = cubic(X, last.H - 0.5 * X**2, mesh.X) + 0.5 * mesh.X**2
-        levels.append(newton(mesh, problem, P, H, 1e-3 * tolerance, max_iterations))
-        if levels[0].status != CONVERGED and n in cells[:2] and n < cells[-1]:
-            levels.pop()  # too coarse to start on
+        on_grids.append(newton(mesh, problem, P, H, 1e-3 * tolerance, max_iterations))
+        if on_grids[0].status != CONVERGED and n in cells[:2] and n < cells[-1]:
+            on_grids.pop()  # too coarse to start on
             continue
-        enough = doubled and len(levels) >= FEWEST_GRIDS and grid_error(levels) <= tolerance
-        if levels[-1].status != CONVERGED or enough:
+        enough = doubled and len(on_grids) >= FEWEST_GRIDS and grid_error(on_grids) <= tolerance
+        if on_grids[-1].status != CONVERGED or enough:
             break
-    return levels
+    return on_grids
 
 
 def cold_start(mesh: Mesh, problem: FilmProblem) -> tuple[np.ndarray, np.ndarray]:
@@ -185,30 +185,30 @@ def cold_start(mesh: Mesh, problem: FilmProblem) -> tuple[np.ndarray, np.ndarray
     return P, gap - gap.min() + film
 
 
-def grid_error(levels: list[DifferentialSolution]) -> float:
+def grid_error(on_grids: list[DifferentialSolution]) -> float:
     """Return the largest relative change of minimum, central and flow film between the last two grids, or a quarter of
     the change before that. This is some three times the error, because the rupture point is always at a node, which
     makes the error uneven."""
-    films = np.array([[smallest(s.mesh.X, s.H), central_film(s.mesh.X, s.H), s.terms.q] for s in levels[-3:]])
+    films = np.array([[smallest(s.mesh.X, s.H), central_film(s.mesh.X, s.H), s.terms.q] for s in on_grids[-3:]])
     if len(films) < 2:
         return math.inf
     changes = np.max(np.abs(np.diff(films, axis=0) / films[-1]), axis=1)
     return float(max(changes[-1], changes[0] / 4 ** (changes.size - 1)))
 
 
-def _report(problem: FilmProblem, levels: list[DifferentialSolution], tolerance: float) -> Report:
-    last = levels[-1]
+def _report(problem: FilmProblem, on_grids: list[DifferentialSolution], tolerance: float) -> Report:
+    last = on_grids[-1]
     a = -last.mesh.X[0]  # of a finite inlet: the tail's share of the load times its departure from a parabola
     tail = float(0.5 * a * last.P[0] / problem.M * abs(2.0 * last.H[0] / a**2 - 1.0))
-    residuals = {"discretisation": grid_error(levels), "domain": tail if problem.inlet is None else 0.0}
+    residuals = {"discretisation": grid_error(on_grids), "domain": tail if problem.inlet is None else 0.0}
     residuals |= last.residuals
     first, end = last.mesh.X[[0, -1]] / problem.half_width
     notes: tuple[str, ...] = (f"{last.mesh.size} nodes from {first:.4g} to {end:.4g} half-widths",)
     if last.terms.last >= last.mesh.size - 2:
         notes += ("the film did not rupture inside the domain",)
     solver = "line-contact EHL, differential deflection"
-    solves = sum(level.solves for level in levels)
-    return reported(solver, levels, residuals, tolerance, notes, STAGNATED, solves)
+    solves = sum(solution.solves for solution in on_grids)
+    return reported(solver, on_grids, residuals, tolerance, notes, STAGNATED, solves)
 
 
 def _with_rupture(solution: DifferentialSolution) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
@@ -240,11 +240,11 @@ def _state(problem: FilmProblem, solution: DifferentialSolution, rupture: float,
     return FilmState(problem=problem, pressure=P[:-1], film=H, flux=solution.terms.q, rupture=rupture, grid_error=error)
 
 
-def assemble(problem: FilmProblem, levels: list[DifferentialSolution], tolerance: float) -> EHLResult:
+def assemble(problem: FilmProblem, on_grids: list[DifferentialSolution], tolerance: float) -> EHLResult:
     """Return the result in SI units, seen along +x."""
-    last = levels[-1]
+    last = on_grids[-1]
     rupture, *nodes = _with_rupture(last)
-    report = _report(problem, levels, tolerance)
+    report = _report(problem, on_grids, tolerance)
     mesh = last.mesh
     return in_si(
         problem,

@@ -39,7 +39,7 @@ STOP_ROUNDING = 1e-13  # relative: times that are closer are one time; below tha
 @dataclass(frozen=True)
 class Memory:
     """What an implicit step needs of the past: y' = rate (y - film), in 1/s; rate = 0: steady. Of BDF2 also the y
-    ``then``, at the last level, and the length of the ``step`` [s]."""
+    ``then``, at the last step, and the length of the ``step`` [s]."""
 
     rate: float
     film: np.ndarray
@@ -65,13 +65,13 @@ class Step:
 class Progress:
     """How far a run has come. It can continue from any progress.
 
-    ``levels``: up to three steps, oldest first, since the last jump, of which film and unknowns are kept; ``step``:
+    ``last_steps``: up to three steps, oldest first, since the last jump, of which film and unknowns are kept; ``step``:
     the next [s]; ``payload``: what the solver returned in addition to its unknowns. ``steps`` taken and ``rejected``;
     ``worst``: largest local error so far, over the tolerance. Of the last step its ``solution``, its ``error``, and
     whether it ended at an output time.
     """
 
-    levels: tuple[Step, ...]
+    last_steps: tuple[Step, ...]
     step: float
     payload: Any = None
     steps: int = 0
@@ -84,7 +84,7 @@ class Progress:
     @property
     def time(self) -> float:
         """Reached [s]."""
-        return self.levels[-1].time
+        return self.last_steps[-1].time
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -149,10 +149,10 @@ def _onto(known: np.ndarray, candidates: list[float]) -> np.ndarray:
 
 def initial_progress(first: Step, plan: Plan) -> Progress:
     """Return the progress at t = 0 with the state ``first``."""
-    return Progress(levels=(_level(first),), step=plan.first_step, payload=first.payload, solution=first)
+    return Progress(last_steps=(_for_later_steps(first),), step=plan.first_step, payload=first.payload, solution=first)
 
 
-def _level(step: Step) -> Step:
+def _for_later_steps(step: Step) -> Step:
     """Return what later steps need of ``step``."""
     return replace(step, payload=None, terms=None)
 
@@ -177,7 +177,7 @@ def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:
                 return
             now = replace(advanced, at_output=advanced.time == stop and bool(np.any(plan.times == stop)))
             if now.time in plan.jumps:  # the same state without its past
-                now = replace(now, levels=now.levels[-1:], step=plan.first_step)
+                now = replace(now, last_steps=now.last_steps[-1:], step=plan.first_step)
             yield now
 
 
@@ -254,19 +254,19 @@ def advance(now: Progress, until: float, solver: Solver, tolerance: float, short
         left = until - now.time
         planned = left if step >= left * (1 - 1e-9) else min(step, 0.5 * left)
         end = now.time + planned if planned < left else until
-        attempt = (_bdf2 if len(now.levels) > 1 else _pair)(now, end, solver)
+        attempt = (_bdf2 if len(now.last_steps) > 1 else _pair)(now, end, solver)
         if attempt is None:
             step = FAILED * planned
             rejected += 1
             continue
-        levels, solution, error, order = attempt
+        last_steps, solution, error, order = attempt
         change = max(TIME_STEP_SAFETY * (tolerance / max(error, 1e-30)) ** (1 / (order + 1)), LEAST_TIME_STEP_RATIO)
         if error <= tolerance:
             step = planned * min(change, TIME_STEP_GROWTH)
             error = error / tolerance
             worst = max(now.worst, error)
             return Progress(
-                levels=levels,
+                last_steps=last_steps,
                 step=step,
                 payload=solution.payload,
                 steps=now.steps + 1,
@@ -280,7 +280,7 @@ def advance(now: Progress, until: float, solver: Solver, tolerance: float, short
     return None
 
 
-Attempt = tuple[tuple[Step, ...], Step, float, int]  # levels after the step, its solution, error, order
+Attempt = tuple[tuple[Step, ...], Step, float, int]  # the last steps after it, its solution, error, order
 
 
 def _solved(solver: Solver, time: float, memory: Memory, z: np.ndarray, payload: Any) -> Step | None:
@@ -290,7 +290,7 @@ def _solved(solver: Solver, time: float, memory: Memory, z: np.ndarray, payload:
 
 def _pair(now: Progress, end: float, solver: Solver) -> Attempt | None:
     """Take steps of backward Euler over the full step and over its halves."""
-    start = now.levels[-1]
+    start = now.last_steps[-1]
     step = end - start.time
     middle = start.time + 0.5 * step
     single = _solved(solver, end, Memory(1.0 / step, start.film), start.z, now.payload)
@@ -298,13 +298,18 @@ def _pair(now: Progress, end: float, solver: Solver) -> Attempt | None:
     second = first and _solved(solver, end, Memory(2.0 / step, first.film), first.z, first.payload)
     if single is None or first is None or second is None:
         return None
-    return (start, _level(first), _level(second)), second, solver.error_of(second, single.film - second.film), 1
+    return (
+        (start, _for_later_steps(first), _for_later_steps(second)),
+        second,
+        solver.error_of(second, single.film - second.film),
+        1,
+    )
 
 
 def _bdf2(now: Progress, end: float, solver: Solver) -> Attempt | None:
-    """Take a step of BDF2 over the last two levels, from unknowns extrapolated along them, or from the last ones if
+    """Take a step of BDF2 over the last two steps, from unknowns extrapolated along them, or from the last ones if
     that fails."""
-    old, last = now.levels[-2:]
+    old, last = now.last_steps[-2:]
     step = end - last.time
     before = last.time - old.time
     ratio = step / before
@@ -317,12 +322,12 @@ def _bdf2(now: Progress, end: float, solver: Solver) -> Attempt | None:
     solution = _solved(solver, end, memory, guess, now.payload) or _solved(solver, end, memory, last.z, now.payload)
     if solution is None:
         return None
-    levels = (*now.levels, _level(solution))
-    if len(levels) < 4:
-        return levels, solution, 0.0, 2
-    curve = _divided([level.time for level in levels], [level.film for level in levels])
+    last_steps = (*now.last_steps, _for_later_steps(solution))
+    if len(last_steps) < 4:
+        return last_steps, solution, 0.0, 2
+    curve = _divided([each.time for each in last_steps], [each.film for each in last_steps])
     error = solver.error_of(solution, curve * step**2 * (step + before) ** 2 / (2.0 * step + before))
-    return levels[1:], solution, error, 2
+    return last_steps[1:], solution, error, 2
 
 
 def _divided(times: list[float], values: list[np.ndarray]) -> np.ndarray:

@@ -156,12 +156,12 @@ def marched(resolution: float, steps: int) -> float:
     """Return film after 0.3 of the squeeze in equal steps, in units of the film at the start."""
     made = setting(resolution)
     first = made.undeformed(1e-6)
-    now = Progress(levels=(first,), step=LONG)
+    now = Progress(last_steps=(first,), step=LONG)
     system = SimpleNamespace(solve=made.solve, error_of=lambda solution, difference: 0.0)
     for k in range(steps):
         result = advance(replace(now, step=LONG), 0.3 * LONG * (k + 1) / steps, system, 1.0, 0.0)
         now = the(result, "step in time")
-    return float(now.levels[-1].film.min())
+    return float(now.last_steps[-1].film.min())
 
 
 def one_step(resolution: float) -> float:
