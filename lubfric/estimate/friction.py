@@ -48,7 +48,7 @@ def friction(
     ----------
     scene : from `lubfric.load_scene`, or from `lubfric.prepare` for many speeds
     speed : entrainment speed U [m/s]; None: the scene's own
-    tolerance : relative, of f; None: ``numerics.tolerance``. Grids and cells follow from it (docs/levels.md)
+    tolerance : relative, of f; None: ``numerics.tolerance``. Grids and cells follow from it (docs/tolerances.md)
     model : "paper", Eqs. (8) and (9); "quick", the deterministic model on long cells with a calibrated error;
         "deterministic"; or "auto": the cheapest that is good enough; None: the scene's. Or a `lubfric.models.Model` of
         your own

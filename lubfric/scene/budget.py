@@ -1,6 +1,6 @@
 """How the tolerance on the friction coefficient is divided, and how far a share may loosen or tighten a solver.
 
-These numbers are only here; docs/levels.md quotes them. The shares are upper bounds, rarely reached together. An error
+These numbers are only here; docs/tolerances.md quotes them. The shares are upper bounds, rarely reached together. An error
 of the film reaches f by a factor (`lubfric.models.load_sharing.Response.per_film`), by which the tolerance of the film
 is divided.
 """

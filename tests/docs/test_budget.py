@@ -1,4 +1,4 @@
-"""The table of docs/levels.md has the shares of the tolerance that the code uses."""
+"""The table of docs/tolerances.md has the shares of the tolerance that the code uses."""
 
 from pages import ROOT
 
@@ -18,6 +18,6 @@ SHARES = {
 
 
 def test_the_page_on_levels_quotes_the_budget():
-    page = (ROOT / "docs" / "levels.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "tolerances.md").read_text(encoding="utf-8")
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in page.splitlines() if line.startswith("|")]
     assert {what: share for share, what, _ in rows[2:]} == SHARES

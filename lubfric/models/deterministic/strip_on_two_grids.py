@@ -25,7 +25,7 @@ PER_HALF_WIDTH = 1.0
 # Part of numerics.sampling_tolerance: standard error of f at which a strip of moving roughness ends.
 MOVING_SAMPLE = 0.6
 
-# Cells in a correlation length along x, at least, where roughness moves (docs/levels.md).
+# Cells in a correlation length along x, at least, where roughness moves (docs/tolerances.md).
 PER_LENGTH_IN_MOTION = 4.0
 
 
