@@ -39,7 +39,7 @@ def test_lift_off_goes_with_the_film(study):
     assert study.lift_off[0] / study.lift_off[1] == pytest.approx(4.0, rel=0.02)
 
 
-@pytest.mark.parametrize("cut", [5, None])
+@pytest.mark.parametrize("cut", [5, pytest.param(None, marks=pytest.mark.slow)])
 def test_the_same_bits_on_a_pool_and_after_a_cut(study, tmp_path, monkeypatch, cut):
     class Cut(BaseException):
         pass

@@ -169,7 +169,7 @@ class Elsewhere(ThreadPoolExecutor):
         return super().submit(call, blind)
 
 
-@pytest.mark.parametrize("speeds", [SPEEDS[::3], "auto"])
+@pytest.mark.parametrize("speeds", [SPEEDS[::3], pytest.param("auto", marks=pytest.mark.slow)])
 def test_points_of_workers_that_do_not_see_the_store_are_kept(tmp_path, monkeypatch, speeds):
     with Elsewhere(2) as executor:
         there = lubfric.study(SCENE, LOADS, speeds, executor=executor, store=tmp_path)

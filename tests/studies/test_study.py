@@ -323,7 +323,7 @@ def test_the_time_is_estimated_within_a_factor_of_three(scene, speeds):
     assert unit == "s" and 1 / 3 < float(number) / took < 3, (number, took)
 
 
-@pytest.mark.parametrize("speeds", [(0.003, 0.03, 0.3, 1.0), "auto"])
+@pytest.mark.parametrize("speeds", [(0.003, 0.03, 0.3, 1.0), pytest.param("auto", marks=pytest.mark.slow)])
 def test_explain_omits_what_the_store_holds(tmp_path, speeds):
     both = lubfric.plan_study(SCENE, {"lubricant.viscosity": [0.1, 0.3]}, speeds)
     lubfric.study(SCENE, {"lubricant.viscosity": [0.1]}, speeds, store=tmp_path)
