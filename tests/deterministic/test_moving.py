@@ -325,6 +325,7 @@ def test_a_continuation_with_another_oil_is_that_of_the_same_moments():
     assert change > 0.02
 
 
+@pytest.mark.slow
 def test_cells_along_ridges_do_not_matter():
     """Each strip is followed from rest, over the same moments. Without ridges the cells do matter."""
     heights = rough(3, sq=0.2e-6, shape=(28, 12)).heights
@@ -402,15 +403,16 @@ def test_steps_are_of_second_order():
 def test_means_are_those_of_what_counts_and_are_drawn(tmp_path):
     """The film has passed the contact once before anything counts."""
     scene = scene_of(slide_roll_ratio=0.5)
-    surface = rough(5)
+    surface = rough(5, shape=(24, 12))
     strip = solve_moving_strip(scene, [RoughBody(surface, 0.225)], 0.3)
     f = strip.series["coefficient"]
     discarded = strip.discarded
-    assert f.size - discarded == round(32 * 0.3 / 0.225) and strip.result.coefficient == pytest.approx(
+    assert f.size - discarded == round(24 * 0.3 / 0.225) and strip.result.coefficient == pytest.approx(
         f[discarded:].mean(), rel=1e-12
     )
     share = strip.series["share"][discarded:]
-    assert strip.result.split.rubbing / strip.result.load == pytest.approx(share.mean()) and share[-1] < share.mean()
+    assert strip.result.split.rubbing / strip.result.load == pytest.approx(share.mean())
+    assert abs(share[-1] / share.mean() - 1) > 0.1
     assert strip.times[discarded - 1] * 0.3 >= 2.5 * scene.bodies.half_width
     assert strip.work > strip.rest.work and "after" in strip.result.report.notes[0]
     assert replace(strip, slope=0.1).deviations.mean() == pytest.approx(0.0, abs=1e-9 * strip.result.load)
@@ -437,7 +439,12 @@ def test_moments_are_read_back_by_another_reader(tmp_path):
 
 @pytest.mark.parametrize(
     "length, kept, cells",
-    [pytest.param(1.0, 0.183, 40, marks=pytest.mark.slow), (1.0, 0.183, 16), (0.5, 0.394, 8), (0.25, 0.660, 8)],
+    [
+        pytest.param(1.0, 0.183, 40, marks=pytest.mark.slow),
+        (1.0, 0.183, 16),
+        pytest.param(0.5, 0.394, 8, marks=pytest.mark.slow),
+        (0.25, 0.660, 8),
+    ],
 )
 def test_amplitudes_are_reduced_as_published(length, kept, cells):
     """Waves of so many half-widths, a tenth of the film high, in pure rolling, M 100, L 11 (C. H. Venner, F.

@@ -87,7 +87,8 @@ ON_SHORT_CELLS = ("mirrored, with the motion reversed", "thinner, and faster", "
 
 @pytest.mark.parametrize(
     ("model", "relation"),
-    [("quick", relation) for relation in SAME] + [("deterministic", relation) for relation in ON_SHORT_CELLS],
+    [("quick", relation) for relation in SAME]
+    + [pytest.param("deterministic", relation, marks=pytest.mark.slow) for relation in ON_SHORT_CELLS],
 )
 def test_what_must_not_change_the_coefficient(model, relation, results):
     scene, surface, speed, tolerance = SAME[relation]
@@ -121,7 +122,7 @@ def test_similar_contacts_have_one_coefficient(model, results):
     assert result.rolling_force == pytest.approx(4 * results[model].rolling_force, rel=1e-6)
 
 
-@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("model", [pytest.param("deterministic", marks=pytest.mark.slow), "quick"])
 def test_the_same_roughness_on_the_other_body(model, results):
     """Surface 2 in place of 1, with the speeds exchanged: the same film. Only the force of the pressure on surface 2 is that
     of the other body."""

@@ -51,6 +51,7 @@ def test_long_waves_are_pressed_flat_and_short_ones_stay(oil):
     assert kept[0] < 0.4 < 0.97 < kept[-1]
 
 
+@pytest.mark.slow  # a case of the study waviness
 def test_waves_in_a_contact_of_steel_follow_the_linear_response_of_finite_elements():
     """Under high pressure the even film keeps nothing, and what the inlet makes of the waves is left."""
     own, _, kept, judge, rms = compared(STEEL, 0.0, 0.5)

@@ -82,6 +82,7 @@ def test_bodies_that_touch_all_over_have_the_dry_contact_of_hertz(flat):
     assert float((film.weights * film.pressure).sum()) == pytest.approx(STEEL.load_per_width, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_touching_nodes_are_complementary(flat):
     """Nowhere is the gap below the floor, and where the bodies touch it is the floor."""
     waves = line(lambda x, y, t: 100e-9 * np.cos(2 * np.pi * x / B) * np.cos(2 * np.pi * y / B), (48, 8), floor=140e-9)

@@ -8,11 +8,12 @@ from verification.check import Check
 from verification.run import load
 
 NAMES = ("reynolds", "layer", "contact", "contact_grid", "ehl_grid")  # the others with python -m verification
+LONG = ("layer", "reynolds")
 
 
 @pytest.mark.parametrize(
     "study",
-    [pytest.param(s, id=s.name, marks=[pytest.mark.slow] * (s.name == "layer")) for s in STUDIES if s.name in NAMES],
+    [pytest.param(s, id=s.name, marks=[pytest.mark.slow] * (s.name in LONG)) for s in STUDIES if s.name in NAMES],
 )
 def test_every_check_passes(study):
     checks = [item for item in load(study)("quick") if isinstance(item, Check)]

@@ -1,5 +1,7 @@
 """A starved inlet in runs in time: the steady film, a jump of the speed, motion backwards, and the friction of a scene."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -95,12 +97,17 @@ def test_friction_of_a_smooth_course_is_smooth(inlet):
     assert run.shear_error.max() < 0.01
 
 
+@cache
+def run_and_answer(speed):
+    """The run in time at one speed, and the steady answer there."""
+    scene = SCENE.with_(motion={"entrainment_speed": speed})
+    return lubfric.transient(scene.with_(transient=lubfric.Transient(1e-4))), lubfric.friction(scene)
+
+
 def test_a_starved_run_has_the_model_form_error_of_its_steady_answer():
     """Thick films have the 3.2/Λ² of their shear, thin ones the exchange of film and asperities."""
     for speed in (0.005, 3.0):
-        scene = SCENE.with_(motion={"entrainment_speed": speed})
-        run = lubfric.transient(scene.with_(transient=lubfric.Transient(1e-4)))
-        answer = lubfric.friction(scene)
+        run, answer = run_and_answer(speed)
         assert answer.uncertainty.model > 0.001
         np.testing.assert_allclose(run.uncertainty.model_sides[-1], answer.uncertainty.model_sides, rtol=0.1)
 
@@ -108,9 +115,7 @@ def test_a_starved_run_has_the_model_form_error_of_its_steady_answer():
 def test_lambda_has_one_definition_at_rest_and_in_time():
     """That of steady motion by Moes' formula; the solved film over Sq has its own name."""
     for speed in (0.005, 3.0):
-        scene = SCENE.with_(motion={"entrainment_speed": speed})
-        run = lubfric.transient(scene.with_(transient=lubfric.Transient(1e-4)))
-        point = lubfric.friction(scene)
+        run, point = run_and_answer(speed)
         assert run.full_load_film[-1] == pytest.approx(point.full_load_film, rel=1e-6)
         np.testing.assert_allclose(run.lambda_ratio, run.full_load_film / 2e-8, rtol=0.05)
         np.testing.assert_allclose(run.film_to_roughness_ratio, run.central_film / 2e-8, rtol=0.05)
@@ -124,7 +129,7 @@ def test_what_a_run_does_not_take():
         lubfric.transient(in_time)
 
 
-@pytest.mark.parametrize("speed", [1.4, 4.2])
+@pytest.mark.parametrize("speed", [1.4, pytest.param(4.2, marks=pytest.mark.slow)])
 def test_the_deterministic_answer_of_a_starved_ring_lies_in_the_interval(speed):
     """Thick films (lambda ratios 5 and 10 of the solved film), which the deterministic model solves on the roughness."""
     ring = lubfric.load_scene("paper").with_(

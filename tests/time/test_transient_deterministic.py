@@ -44,7 +44,10 @@ def test_at_constant_speed_it_is_the_steady_answer_of_moving_roughness():
 FALLING = Transient(4e-4, speed=0.0, initial_film=5e-7)
 
 
-@pytest.mark.parametrize("plan", [Transient(4e-4, load=Harmonic(mean=15.0, amplitude=5.0, frequency=5e3)), FALLING])
+SWINGING = Transient(4e-4, load=Harmonic(mean=15.0, amplitude=5.0, frequency=5e3))
+
+
+@pytest.mark.parametrize("plan", [pytest.param(SWINGING, marks=pytest.mark.slow), FALLING])
 def test_smooth_bodies_have_the_smooth_film_of_a_run(plan):
     """By another program: complementarity on a graded grid."""
     smooth = {"sq": 0.0}

@@ -33,7 +33,7 @@ def in_time(scene, **plan):
     return lubfric.transient(scene.with_(transient=lubfric.Transient(**({"duration": 1e-4, "outputs": 1} | plan))))
 
 
-@pytest.mark.parametrize("speed, ratio", [(2.0, 0.2), (-2.0, -1.0)])
+@pytest.mark.parametrize("speed, ratio", [pytest.param(2.0, 0.2, marks=pytest.mark.slow), (-2.0, -1.0)])
 def test_steady_motion_is_as_hot_in_time_as_without(speed, ratio):
     scene = BASE.with_(motion={"entrainment_speed": speed, "slide_roll_ratio": ratio})
     steady = lubfric.friction(scene)

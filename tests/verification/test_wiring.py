@@ -15,7 +15,7 @@ WIRING = [s for s in STUDIES if s.name.startswith("wiring")]
 
 
 @pytest.mark.parametrize(
-    "study", [pytest.param(s, id=s.name, marks=[pytest.mark.slow] * (s.name == "wiring_time")) for s in WIRING]
+    "study", [pytest.param(s, id=s.name, marks=[pytest.mark.slow] * (s.name != "wiring_contact")) for s in WIRING]
 )
 def test_every_option_arrives(study):
     checks = [item for item in load(study)("quick") if isinstance(item, Check)]
