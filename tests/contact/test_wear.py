@@ -31,7 +31,7 @@ SLIDING = {"distance": 0.3, "wear_coefficient": 1e-6}
 def worn():
     """Distances at which a lift-off speed is sought take most of the time."""
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(steps, "RECORDS", 6)
+        patched.setattr(steps, "RECORDS", 4)
         return run_in(ROUGH, distance=0.5, wear_coefficient=1e-6)
 
 
@@ -191,6 +191,7 @@ def test_only_k_times_s_over_h_counts_and_the_other_body_wears_by_its_own_hardne
     np.testing.assert_allclose(same.wear.counterface_volume, 4 * same.wear.volume)
 
 
+@pytest.mark.slow
 def test_shorter_steps_change_the_depth_by_less_than_is_stated(shortly_worn, monkeypatch):
     coarse = shortly_worn.wear
     monkeypatch.setattr(steps, "CHANGE", 0.04)

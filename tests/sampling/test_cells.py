@@ -53,7 +53,7 @@ def windows(tmp_path_factory):
     )
 
 
-@pytest.mark.parametrize("speed", [0.003, 0.03])
+@pytest.mark.parametrize("speed", [pytest.param(0.003, marks=pytest.mark.slow), 0.03])
 def test_windows_on_coarse_cells_have_the_friction_of_their_own(windows, speed):
     """Within what the pieces that are compared scatter by, which is part of the standard error."""
     coarse, own = both(windows, speed)

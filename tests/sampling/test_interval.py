@@ -24,6 +24,7 @@ def seeds(scene, speed, numbers):
     return points, np.array([p.coefficient for p in points]), np.array([p.uncertainty.sampling for p in points])
 
 
+@pytest.mark.slow
 def test_intervals_cover_a_line_many_times_as_long():
     truth = lubfric.friction(PAPER.with_(surface={"seed": 900}, numerics={"sampling_tolerance": 0.002}), 0.004)
     points, f, sampling = seeds(PAPER, 0.004, range(901, 909))

@@ -70,6 +70,7 @@ def test_f_is_that_of_other_strips_one_by_one(prepared, found):
     assert abs(found.coefficient / np.mean(f) - 1) < math.hypot(half(found), 2 * error)
 
 
+@pytest.mark.slow
 def test_the_effect_of_shorter_cells_is_that_on_other_strips():
     """Three strips of other seeds on cells of 3.6 and 1.8 µm at .1 m/s, beside what pieces of the scene add."""
     result = solve_to_tolerance(prepared := lubfric.prepare(FINE), 0.1, DeterministicModel()).levels

@@ -32,11 +32,14 @@ BASE = lubfric.load_scene("flat").with_(
 SPEED = BASE.motion.entrainment_speed
 
 
+solved = cache(lubfric.friction)
+
+
 @cache
 def answer(scene, mode="steady"):
     """f of ``scene`` in one of the three ways to ask for it."""
     if mode == "steady":
-        return lubfric.friction(scene).coefficient
+        return solved(scene).coefficient
     if mode == "sweep":
         curve = lubfric.stribeck(scene, [2 * scene.motion.entrainment_speed, scene.motion.entrainment_speed])
         return float(curve.coefficient[1])
@@ -197,7 +200,7 @@ def test_a_starved_inlet_reaches_the_number(model, inlet):
     )
     starved = flooded.with_(lubricant=inlet)
     assert moved(starved, lambda: flooded) > MOVES
-    stated = [[e for e in lubfric.friction(s).validity if "flooded inlet" in e.what] for s in (starved, flooded)]
+    stated = [[e for e in solved(s).validity if "flooded inlet" in e.what] for s in (starved, flooded)]
     assert stated[0] and not stated[1]
     assert stated[0][0].recommendation.startswith(f"keep lubricant.{next(iter(inlet))}")
     assert answer(starved, "sweep") == pytest.approx(answer(starved), rel=0.6 * MOVES)
@@ -278,7 +281,7 @@ def test_similar_contacts_have_one_coefficient():
         **{s: {k: getattr(getattr(scene, s), k) * factor for k, factor in keys.items()} for s, keys in scaled.items()}
     )
     assert answer(similar) == pytest.approx(answer(scene), rel=1e-3)
-    one = lubfric.friction(similar).contact_load / lubfric.friction(scene).contact_load
+    one = solved(similar).contact_load / solved(scene).contact_load
     assert one == pytest.approx(a * a * b, rel=1e-3)
 
 
@@ -291,14 +294,14 @@ def test_only_the_product_of_speed_and_viscosity_counts(mode):
 @pytest.mark.parametrize("mode", ["steady", "sweep", "transient"])
 def test_boundary_friction_is_its_share_of_the_load(mode):
     more = BASE.bodies.boundary_friction_coefficient + 0.05
-    share = lubfric.friction(BASE).contact_load / BASE.bodies.load
+    share = solved(BASE).contact_load / BASE.bodies.load
     other = BASE.with_(bodies={"boundary_friction_coefficient": more})
     assert answer(other, mode) - answer(BASE, mode) == pytest.approx(0.05 * share, rel=0.01)
 
 
 def test_couette_force_is_the_ratio_times_that_of_one():
     """Newtonian: linear in the slide-roll ratio, and along the sliding whichever way that is."""
-    forces = [lubfric.friction(BASE.with_(motion={"slide_roll_ratio": r})).couette_force for r in (0.5, 2.0, -2.0)]
+    forces = [solved(BASE.with_(motion={"slide_roll_ratio": r})).couette_force for r in (0.5, 2.0, -2.0)]
     assert forces[1] == pytest.approx(4 * forces[0], rel=5e-3) and forces[2] == pytest.approx(forces[1], rel=5e-3)
 
 
@@ -347,7 +350,7 @@ NEWTONIAN = FILM.with_(
 def test_shear_and_flow_of_a_film_obey_the_laws_requested(law):
     """Couette force by quadrature of the law; and the mass flow rho (U h - h³ p'/12 eta) the same everywhere."""
     scene = FILM.with_(lubricant=law)
-    result = lubfric.friction(scene)
+    result = solved(scene)
     film = result.balance.film
     oil = scene.lubricant
     speed = scene.motion.entrainment_speed
@@ -376,7 +379,7 @@ def test_flat_contact_is_the_periodic_contact_at_the_mean_pressure_of_the_strip(
     """Hardness and geometry: gap and area from a dry contact solved here, at F_C over the Hertz strip; the gap within
     its stated error, which is below two percent."""
     scene = BASE.with_(bodies={"hardness": 4e8})
-    result = lubfric.friction(scene)
+    result = solved(scene)
     surface = contact_maps(scene)[0]
     pressure = result.contact_load / (2 * scene.bodies.half_width * scene.bodies.width)
     dry = lubfric.solve_contact(
@@ -390,7 +393,7 @@ def test_flat_contact_is_the_periodic_contact_at_the_mean_pressure_of_the_strip(
     assert result.mean_gap == pytest.approx(np.maximum(dry.gap, 0).mean(), rel=result.errors.mean_gap)
     assert result.real_contact_area_fraction == pytest.approx((dry.pressure > 0).mean(), rel=0.05)
     assert result.plastic_area_fraction == pytest.approx((dry.pressure >= 4e8 * (1 - 1e-9)).mean(), rel=0.1)
-    elastic = lubfric.friction(BASE)
+    elastic = solved(BASE)
     assert result.real_contact_area_fraction > 1.05 * elastic.real_contact_area_fraction
 
 
@@ -453,7 +456,7 @@ def test_how_it_is_solved_does_not_change_the_answer(numerics, mode):
         return
     assert answer(scene, mode) == pytest.approx(answer(BASE), rel=0.01)
     if mode == "steady":
-        result = lubfric.friction(scene)
+        result = solved(scene)
         assert abs(result.volume_residual) <= 1.5 * numerics.get("balance_tolerance", 1e-3)
 
 
@@ -488,7 +491,7 @@ def _volume(scene, mode):
 
 def _point(scene, mode):
     if mode == "steady":
-        return lubfric.friction(scene)
+        return solved(scene)
     return lubfric.stribeck(scene, [scene.motion.entrainment_speed], fields=True).points[0]
 
 
@@ -510,11 +513,11 @@ def test_a_line_and_its_tolerance_reach_the_sweep_and_the_run_in_time():
         contact={"region": "hertz"},
         surface={"oversize": 1},
     )
-    point = lubfric.friction(line)
+    point = solved(line)
     swept = lubfric.stribeck(line, [line.motion.entrainment_speed]).points[0]
     assert swept.coefficient == point.coefficient and point.uncertainty.sampling > 0
     tight = line.with_(numerics={"sampling_tolerance": point.uncertainty.sampling / 1.5})
-    for longer in (lubfric.friction(tight), lubfric.stribeck(tight, [tight.motion.entrainment_speed]).points[0]):
+    for longer in (solved(tight), lubfric.stribeck(tight, [tight.motion.entrainment_speed]).points[0]):
         assert longer.uncertainty.length > point.uncertainty.length
     run = lubfric.transient(line.with_(transient=lubfric.Transient(1e-4, outputs=1)))
     assert run.sampling_error[-1] > 0
@@ -546,14 +549,14 @@ def test_the_boundary_film_is_the_gap_below_which_the_bodies_rub():
         numerics={"model": "deterministic", "grid": "given", "accept": True, "sampling": "patch"},
         lubricant={"limiting_stress_coefficient": 0.03},
     )
-    result = lubfric.friction(scene)
+    result = solved(scene)
     fields = result.deterministic
     share = fields.pressure[fields.gap < 3e-8].sum() / fields.pressure.sum()
     carried = 1 - fields.inlet_load / fields.load
     assert result.contact_load == pytest.approx(scene.bodies.load * share * carried, rel=1e-4)
     assert answer(scene, "sweep") == result.coefficient
     other = scene.with_(bodies={"boundary_film": 6e-8})
-    assert lubfric.friction(other).coefficient == pytest.approx(fields.at_twice_film, rel=1e-6)
+    assert solved(other).coefficient == pytest.approx(fields.at_twice_film, rel=1e-6)
     with pytest.raises(lubfric.InputError, match="bodies.boundary_film.*30 nm"):
         scene.with_(bodies={"boundary_film": 30.0})
 
@@ -568,7 +571,7 @@ def test_the_friction_of_the_paper_is_not_the_calibrated_one(mode):
     answers = []
     for model in ("paper", "quick"):
         variant = scene.with_(numerics={"model": model})
-        result = lubfric.friction(variant)
+        result = solved(variant)
         boundary = scene.bodies.boundary_friction_coefficient * result.contact_load
         answers.append(answer(variant, mode))
         assert answers[-1] * load == pytest.approx(boundary + result.shear_force, rel=1e-6)
@@ -590,7 +593,7 @@ def test_a_stated_limit_of_f_b_leaves_f_and_narrows_what_is_not_known(mode):
     if mode == "transient":
         return
     uncertain, certain = (
-        lubfric.stribeck(s, [0.01]).points[0] if mode == "sweep" else lubfric.friction(s) for s in (scene, stated)
+        lubfric.stribeck(s, [0.01]).points[0] if mode == "sweep" else solved(s) for s in (scene, stated)
     )
     assert certain.uncertainty.by_limit == 0 < uncertain.uncertainty.by_limit
     assert certain.uncertainty.model < uncertain.uncertainty.model
