@@ -24,7 +24,7 @@ full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/ful
 
 
 @full
-@pytest.mark.parametrize("arguments", [["info", "flat"], ["oils"]])
+@pytest.mark.parametrize("arguments", [["info", "flat"], pytest.param(["oils"], marks=pytest.mark.slow)])
 def test_an_answer_that_could_not_be_written_is_no_success(arguments):
     with open("/dev/full", "w") as stream:
         run = subprocess.run([*COMMAND, *arguments], stdout=stream, stderr=subprocess.PIPE, text=True)

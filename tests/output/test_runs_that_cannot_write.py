@@ -62,8 +62,10 @@ def without_solving(monkeypatch):
 @pytest.mark.parametrize(
     "name, missing", {"_table": "history.csv", "npz_bytes": "fields.npz", "plot_history": "history.png"}.items()
 )
-def test_each_writer_of_a_run_in_time_may_fail(name, missing, whole, tmp_path, capsys, monkeypatch, drawn):
+def test_each_writer_of_a_run_in_time_may_fail(name, missing, whole, tmp_path, capsys, monkeypatch, request):
     """The same command then writes what is missing, and solves no step again."""
+    if name == "plot_history":
+        request.getfixturevalue("drawn")
     scene_file, table = whole["run"]
     out = tmp_path / "out"
     with monkeypatch.context() as patched:
@@ -90,7 +92,9 @@ def test_a_report_that_fails_costs_no_answer(whole, tmp_path, capsys, monkeypatc
 
 
 @pytest.mark.parametrize("name, missing", {"_npy": "surface.npy", "_page": "report.html", "_record": "run_in.json", "draw_run_in": "run_in.png", "scene_after": "scene.toml", "table_bytes": "run_in.csv"}.items())  # fmt: skip
-def test_each_writer_of_a_run_in_may_fail(name, missing, whole, tmp_path, capsys, monkeypatch, drawn):
+def test_each_writer_of_a_run_in_may_fail(name, missing, whole, tmp_path, capsys, monkeypatch, request):
+    if name == "draw_run_in":
+        request.getfixturevalue("drawn")
     scene_file, _ = whole["run-in"]
     monkeypatch.setattr(run_in_command, name, broken)
     code, said = run(capsys, "run-in", scene_file, tmp_path / "out")

@@ -14,6 +14,7 @@ ROLLING = PAPER.with_(
     bodies={"load": 60.0, "boundary_film": 2e-8},
     lubricant={"viscosity": 0.1, "eyring_stress": 5e6, "limiting_stress_coefficient": 0.06},
     motion={"slide_roll_ratio": 0.2, "entrainment_speed": 0.3},
+    contact={"shape": (96, 48), "spacing": 1.8e-6},
     numerics={"model": "quick", "sampling_tolerance": 0.5, "tolerance": 0.1},
 )
 
