@@ -62,7 +62,7 @@ def _lubricant(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
     estimate = ""
     if oil is not None and lubricant.temperature is not None:
         estimate = oil.pressure_viscosity_coefficient(lubricant.temperature).method
-    of_shear = {law.cited_as: law.thins or use.slides for law in lubricant.shear_laws}
+    of_shear = {law.cited_as: law.is_cited_without_sliding or use.slides for law in lubricant.shear_laws}
     return (
         {name: lubricant.viscosity_law == law for law, name in VISCOSITY_LAWS.items()}
         | of_shear

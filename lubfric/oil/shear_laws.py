@@ -26,12 +26,14 @@ NEWTONIAN_S = 1e-6
 class ShearLaw:
     """How shear thins the lubricant ``oil`` (`lubfric.Lubricant`), which has the ``key`` of the law; ``others``: keys
     in addition to it. ``cited_as``, ``heat_cited_as``: the names under which `lubfric.estimate` cites (papers.toml) the law,
-    and its `warmth`; "": not at all. ``thins``: whether the flow of the smooth film thins by it as well; for that tau_c has to be
+    and its `warmth`; "": not at all; ``is_cited_without_sliding``: whether that source is about more than the friction of a
+    film that is sheared. ``thins``: whether the flow of the smooth film thins by it as well; for that tau_c has to be
     the same at any pressure."""
 
     key = ""
     cited_as = ""
     heat_cited_as = ""
+    is_cited_without_sliding = False
     others: tuple[Any, ...] = ()
     thins = False
 
@@ -132,6 +134,7 @@ class Carreau(ShearLaw):
 
     key = "carreau"
     cited_as = "Carreau"
+    is_cited_without_sliding = True
     thins = True
     warmth = ShearLaw.as_temperature
 
