@@ -32,7 +32,7 @@ from ..models.deterministic import (
     lay_out,
     maps_of_bodies,
     newton,
-    numbers_of,
+    numbers_of_strip,
     reach,
     residuals,
     shifted,
@@ -331,7 +331,7 @@ def deterministic_moment(
             residuals=left,
         ),
     )
-    numbers = numbers_of(replace(solver.prepared, scene=scene), result)
+    numbers = numbers_of_strip(replace(solver.prepared, scene=scene), result)
     speed = scene.motion.entrainment_speed
     sliding = sliding_at(solver.scene, now.time)
     total = scene.bodies.load

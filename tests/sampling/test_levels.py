@@ -26,7 +26,7 @@ from lubfric.models.deterministic import shorter_cells as shorter
 from lubfric.models.deterministic.answer import shorter_cells_in_motion
 from lubfric.models.deterministic.strip_on_two_grids import solve_pair
 from lubfric.models.load_sharing import solve_balance
-from lubfric.models.load_sharing.control_variate import control_variate_of
+from lubfric.models.load_sharing.differences_of_strips import control_variate_of
 from lubfric.models.shared import ControlVariate, StandardError, contact_on_strip
 
 FINE = lubfric.load_scene("paper").with_(numerics={"film_deflection": "scaled"})
@@ -332,7 +332,7 @@ def synthetic(rng, strips, places=40, between=0.0):
 def test_standard_error_of_the_sum_by_monte_carlo(prepared, monkeypatch, n, between, windows):
     """What is stated of the sum of the first two levels is its scatter; without a line, that of the mean (by 1.3 if
     places alone tell it). Windows of a measured map may differ by more than their places tell."""
-    monkeypatch.setattr(levels, "numbers_of", lambda _, result: {"coefficient": result.coefficient})
+    monkeypatch.setattr(levels, "numbers_of_strip", lambda _, result: {"coefficient": result.coefficient})
     sample = replace(prepared.sample, correlation_lengths=(8e-6, 8e-6))
     monkeypatch.setattr(type(sample), "is_homogeneous", not windows)
     model = replace(prepared, sample=sample)

@@ -3,12 +3,12 @@
 from .answer import answer_of
 from .cells_in_motion import CellsInMotion, cells_in_motion, cells_of_strips, film_exponent_of
 from .counted_work import MOST_WORK_OF_POINT
+from .deterministic_model import DeterministicModel, DeterministicSolution
 from .estimated_work import moving_point_work, work_of_fine_fields, work_on_long_cells
 from .flow import derivatives, mass_balance
-from .heat import strip_heat, why_too_hot
+from .heat_of_strip import strip_heat, why_too_hot
 from .levels import Levels, levels_of, two_levels
 from .linear import System, gmres, nested_dissection
-from .model import DeterministicModel, DeterministicSolution
 from .moving import Moment, RoughBody, moments, travelling
 from .moving_strip import (
     ECONOMICAL,
@@ -38,7 +38,7 @@ from .state import FLUID, RUPTURED, TOUCHING, Iterate, State, TimeHistory, admis
 from .strip import UNKNOWN_SLOPE, StripSolution, change_by_flow, changes_of, error_by_cells, solve_strip, work_of_steps
 from .strip_on_two_grids import (
     StripOnTwoGrids,
-    numbers_of,
+    numbers_of_strip,
     sample_coarsening_of,
     sample_target,
     surface_and_map_coarsening,

@@ -43,7 +43,7 @@ from ..shared import (
 from .counted_work import MOST_WORK_OF_POINT
 from .estimated_work import pictured_length
 from .expected_friction import HARDNESS_MATTERS, REDISTRIBUTED
-from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
+from .heat_of_strip import LEAST_FILM, MOST_CHANGE, strip_heat, warmed, why_too_hot
 from .levels import Levels, mean
 from .problem import BOUNDARY_FILM
 from .result import DeterministicResult, stress_with_oil

@@ -11,7 +11,7 @@
     4       the same on a quarter               one piece, a sixth as long as a strip
 
 The control is by how much each strip differs from the many strips that Eq. (8) joins
-(`lubfric.models.load_sharing.control_variate`). It shows what is chance in the few. These are few where both models
+(`lubfric.models.load_sharing.differences_of_strips`). It shows what is chance in the few. These are few where both models
 scatter alike, as they do about lift-off on most surfaces. Where they do not, the control is omitted. Which of the two
 needs fewer strips is read off those that are solved (M. B. Giles, Oper. Res. 56 (2008) 607-617,
 doi:10.1287/opre.1070.0496). Where roughness moves there is level 2 alone, with the control of its summits (`summits`)
@@ -47,7 +47,13 @@ from .result import DeterministicResult
 from .rough_bodies import summit_control
 from .shorter_cells import NO_SHORTER_CELLS, changed_by_pieces, on_shorter_cells
 from .strip import StripSolution, change_by_flow, thinned_less
-from .strip_on_two_grids import StripOnTwoGrids, numbers_of, on_halved_cells, solve_pair, surface_and_map_coarsening
+from .strip_on_two_grids import (
+    StripOnTwoGrids,
+    numbers_of_strip,
+    on_halved_cells,
+    solve_pair,
+    surface_and_map_coarsening,
+)
 from .time_and_place import mean_over_blocks
 
 # The effects named here are those of half and twice a constant on three points of the scene "paper" (`python -m
@@ -329,7 +335,7 @@ def _estimate_at_rest(
     prepared: Prepared, pairs: Sequence[StripOnTwoGrids], control: ControlVariate | None
 ) -> TwoLevelEstimate:
     """Return the estimate from strips whose roughness rests; ``control``: the first level (None: without it)."""
-    rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
+    rows = [numbers_of_strip(prepared, pair.resolved.result) for pair in pairs]
     count = len(pairs)
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
     if control is None:
@@ -360,7 +366,7 @@ def _estimate_at_rest(
 
 def _estimate_in_motion(prepared: Prepared, pairs: Sequence[StripOnTwoGrids]) -> TwoLevelEstimate:
     """Return the mean over strips whose roughness moves, with the control of their summits (`summits`)."""
-    rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
+    rows = [numbers_of_strip(prepared, pair.resolved.result) for pair in pairs]
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
     samples = []
     for pair in pairs:
@@ -401,7 +407,7 @@ def _errors(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], numbers: dict[
     """Return the relative standard errors of the ``numbers`` by their scatter between strips."""
     if len(pairs) < STRIPS_FOR_SCATTER:
         return {}
-    rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
+    rows = [numbers_of_strip(prepared, pair.resolved.result) for pair in pairs]
     errors = {name: float(np.std([row[name] for row in rows], ddof=1)) / math.sqrt(len(rows)) for name in numbers}
     return {name: errors[name] / abs(value) for name, value in numbers.items() if value}
 

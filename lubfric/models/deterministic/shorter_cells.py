@@ -35,7 +35,7 @@ from .strip import UNKNOWN_SLOPE, StripSolution, changes_of, error_by_cells, sol
 from .strip_on_two_grids import (
     StripOnTwoGrids,
     longer_than,
-    numbers_of,
+    numbers_of_strip,
     sample_coarsening_of,
     surface_and_map_coarsening,
 )
@@ -239,7 +239,7 @@ def changed_by_pieces(
     and the shorter cells; the loads by that of their ratio, and the force of the film such that the forces add up to f."""
     if not pieces:
         return numbers
-    rows = [[numbers_of(prepared, piece[k].result) for piece in pieces] for k in (0, 1)]
+    rows = [[numbers_of_strip(prepared, piece[k].result) for piece in pieces] for k in (0, 1)]
     before, after = ({name: float(np.mean([row[name] for row in level])) for name in numbers} for level in rows)
     new = {name: value * after[name] / before[name] if before[name] else value for name, value in numbers.items()}
     load = prepared.scene.bodies.load

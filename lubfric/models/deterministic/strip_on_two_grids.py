@@ -176,7 +176,7 @@ def sample_target(prepared: Prepared, error: float) -> SampleTarget | None:
     )
 
 
-def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, float]:
+def numbers_of_strip(prepared: Prepared, result: DeterministicResult) -> dict[str, float]:
     """Return all numbers of a point but the time, by name; NaN where the model has no such number."""
     bodies = prepared.scene.bodies
     sq = prepared.surface.sq

@@ -6,7 +6,7 @@
   the gap.
 - `paper_model`, ``"paper"``: `forces` gives the friction by Eq. (9), `error_of_eq8` its error, `limits` the assumptions
   that a balance violates; `answer` and `errors_of` make the answer.
-- `control_variate` hands what is known of the strips to the deterministic model; `estimated_work` estimates the cost.
+- `differences_of_strips` hands what is known of the strips to the deterministic model; `estimated_work` estimates the cost.
 """
 
 from .answer import answer_of
@@ -19,6 +19,6 @@ from .estimated_work import expected_gap, expected_model_error
 from .methods import methods_of_load_sharing
 from .paper_model import PaperModel, PaperSolution
 from .point import Point
-from .response import MomentResponse, Response, Slopes, quantities, slopes_of
+from .response import MomentResponse, Response, Slopes, point_numbers, slopes_of
 from .scatter import effective_contacts, moment_error
 from .undetected import summit_radius, undetected_load

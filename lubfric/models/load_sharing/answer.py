@@ -21,11 +21,11 @@ from ..shared import (
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
 from .closure import gap_per_film, gap_under, open_gap, volume_residual
-from .decision import decision_of
+from .decision_in_words import decision_of
 from .error_of_eq8 import OF_ROLLING
 from .errors_of import errors_of
 from .limits import limits_exceeded
-from .response import contact_length, quantities
+from .response import contact_length, point_numbers
 from .scatter import film_stress
 
 SMALLER_TOLERANCE = "f has that error; a smaller numerics.tolerance or a larger map reduces it"
@@ -204,7 +204,7 @@ def _numbers(balanced: BalancedSample) -> dict[str, float]:
     loads = (balance.film_load, balance.contact_load)
     separated = balance.contact_load == 0
     length = contact_length(contact_state) * balanced.effect.length_factor / balanced.effect.area_factor
-    numbers = quantities(
+    numbers = point_numbers(
         balance.forces, film, loads, gap_under(contact_state.mean_film) if separated else contact_state.mean_gap
     )
     return numbers | {

@@ -19,7 +19,7 @@ from ..shared import (
 )
 from .answer import answer_of, violations_of_sample
 from .balanced_sample import BalancedSample, solve_sample
-from .control_variate import control_for
+from .differences_of_strips import control_for
 from .errors_of import model_error_of_eq8
 from .estimated_work import estimated_work
 from .methods import methods_of_load_sharing

@@ -211,7 +211,7 @@ def respond(
         shared = film_of(loads[0])
         factor = slopes.area_factor(loads[1] - load, width, contact_state.real_contact_area_fraction)
         mean_gap = gap_under(weighted_mean(shared.film_at(rough_contact.x), rough_contact.weight))
-        return quantities(
+        return point_numbers(
             forces_of(scene, shared, with_contact_area_scaled(contact_state, factor), loads[1]), shared, loads, mean_gap
         )
 
@@ -228,7 +228,9 @@ def respond(
     )
 
 
-def quantities(forces: Forces, film: EHLResult | None, loads: tuple[float, float], mean_gap: float) -> dict[str, float]:
+def point_numbers(
+    forces: Forces, film: EHLResult | None, loads: tuple[float, float], mean_gap: float
+) -> dict[str, float]:
     """Return the numbers of a point that a balance determines, by name (`lubfric.quantities`). ``forces``: those of
     the ``film`` (None: none), which carries the first of ``loads`` [N], and of the contact, which carries the second."""
     return {

@@ -18,7 +18,7 @@ from ..shared import (
 )
 from .answer import answer_of
 from .estimated_work import estimated_work, why_too_costly
-from .heat import why_too_hot
+from .heat_of_strip import why_too_hot
 from .levels import Levels, TwoLevelEstimate, levels_of, solve_pairs, two_levels
 from .strip_on_two_grids import StripOnTwoGrids, sample_coarsening_of
 

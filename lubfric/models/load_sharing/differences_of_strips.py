@@ -14,7 +14,7 @@ import numpy as np
 from ...quantities import names_with
 from ..shared import FREEDOM_NOT_COUNTED, ControlVariate, StandardError, contact_on_strip, with_forces_of_film
 from .balanced_sample import BalancedSample
-from .response import quantities
+from .response import point_numbers
 from .scatter import friction_influence, gap_influence, hertz_mean_gap, line_load
 
 
@@ -52,7 +52,7 @@ def control_variate_of(balanced: BalancedSample) -> ControlVariate:
     load = line_load(rough_contact, raw_balance.contact_state)
     influence = gap_influence(gap, load, response.slopes.gap)
     moved = response.log_load_ratio_per_gap * of_strips(influence).mean(axis=1)  # of ln(F_H/F_C)
-    values = quantities(
+    values = point_numbers(
         raw_balance.forces,
         raw_balance.film,
         (raw_balance.film_load, raw_balance.contact_load),
