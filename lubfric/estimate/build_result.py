@@ -61,9 +61,8 @@ def result_of(
         *(beside_larger_part(each, uncertainty) for each in _violations_by_model_error(scene, answer)),
         *violations_by_numerical_error(answer.numerical, scene.numerics.tolerance, answer.recommendation),
     )
-    decision = answer.decision
-    if choice.why:
-        decision = replace(decision, notes=(*decision.notes, choice.why))
+    why = [choice.why] if choice.why else []
+    decision = replace(answer.decision, model=choice.model.name, notes=(*answer.decision.notes, *why))
     friction_parts = (numbers["boundary_force"] / scene.bodies.load, f)
     details = {choice.model.name: answer.details}
     compared_fields = None

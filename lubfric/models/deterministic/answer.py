@@ -278,7 +278,6 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     tolerance = scene.numerics.tolerance
     known = heat.text(tolerance)
     return Decision(
-        model="deterministic",
         contact_load_in_words=f"Boundary friction acts on {{part}} of the load ({RUBS[scene.lubricant.is_newtonian]})",
         film_in_words=words,
         contact_in_words="boundary friction where the gap is below the boundary film",

@@ -34,7 +34,6 @@ def decision_of(
             text = f"the film's friction is not resolved (a pressure spike?): estimated error {100 * error:.1g} % of f"
             notes = (*notes, text)
     return Decision(
-        model="paper",
         film_in_words=f"none, {balance.why_no_film}" if film is None else "full EHL",
         contact_in_words=rough_contact.name if touching else f"none, clearance {clearance:.2g} Sq",
         tolerance=tolerance,

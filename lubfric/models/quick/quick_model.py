@@ -36,7 +36,6 @@ from .long_cells import CELLS_OF_THIN_FILM, map_coarsening_at_rest, map_coarseni
 from .strips_on_long_cells import (
     LEAST_TOLERANCE,
     MOST_STRIPS,
-    NAME,
     StripsOnLongCells,
     quick_answer_of,
     solve_on_long_cells,
@@ -164,7 +163,7 @@ class QuickSolution(SampleSolution):
             return quick_answer_of(self.prepared, self.speed, self.on_long_cells)
         assert self.paper_solution is not None
         answer = self.paper_solution.answer()
-        decision = replace(answer.decision, model=NAME, basis=BY_LOAD_SHARING)
+        decision = replace(answer.decision, basis=BY_LOAD_SHARING)
         return replace(answer, decision=decision, notes=(*answer.notes, self.why_by_equation))
 
 
@@ -201,7 +200,7 @@ class QuickModel(Model):
 
     @property
     def name(self) -> str:
-        return NAME
+        return "quick"
 
     @property
     def includes_motion(self) -> bool:

@@ -43,9 +43,6 @@ from .long_cells import (
     solve_moving,
 )
 
-# The name of the model in numerics.model.
-NAME = "quick"
-
 # Strips at rest, at most: each adds .2 s.
 MOST_STRIPS = 4
 
@@ -243,7 +240,6 @@ def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLon
         ),
         decision=replace(
             answer.decision,
-            model=NAME,
             basis=basis,
             counts_cells_as_model_error=True,
             notes=(*((NARROWER,) if largest_of(parts) is by_cells else ()), *answer.decision.notes),

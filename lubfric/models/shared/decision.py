@@ -12,7 +12,7 @@ class Decision(Renamed):
 
     Attributes
     ----------
-    model : the model that answered, by its name in ``numerics.model``
+    model : the model that answered, by its `Model.name`; of the answer of a model "": `lubfric.estimate` says it
     film_in_words, contact_in_words : how film and contact were modelled
     tolerance : the requested one, on f
     film_tolerance : of the film; 0: there is none
@@ -27,7 +27,7 @@ class Decision(Renamed):
     contact_load_in_words : what the ``contact_load`` of this model is, with a place for its part of the load
     """
 
-    model: str
+    model: str = ""
     film_in_words: str
     contact_in_words: str
     tolerance: float
