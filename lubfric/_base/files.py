@@ -171,7 +171,7 @@ class FolderLock:
                 handle = os.open(self.path, os.O_RDWR | os.O_APPEND | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o666)
                 self._file = open(handle, "a+", encoding="ascii", errors="replace")
             self._take()
-            if not self._still_there():  # that of a run which ended, and removed it, meanwhile
+            if not self._is_still_there():  # that of a run which ended, and removed it, meanwhile
                 self.drop()
         if not stat.S_ISREG(os.fstat(self._file.fileno()).st_mode) or self._holder() is None:
             self.drop()
@@ -216,7 +216,7 @@ class FolderLock:
         words = self._file.read(80).split()
         return words[1] if len(words) == 2 and words[0] == "lubfric" else None if words else ""
 
-    def _still_there(self) -> bool:
+    def _is_still_there(self) -> bool:
         try:
             return os.path.samestat(os.fstat(self._file.fileno()), self.path.stat())
         except FileNotFoundError:

@@ -14,7 +14,7 @@ from ..oil import Lubricant
 from .assemble import assemble
 from .ehl_result import EHLResult
 from .hertz import LineContact
-from .nested import Effort, NestedSolutions, coarsest, first_state, solved, sound, warm
+from .nested import Effort, NestedSolutions, coarsest, first_state, is_sound, solved, warm
 from .problem import FilmProblem, film_problem
 from .reynolds import FilmSolution
 from .start import FilmState, solution_state
@@ -135,11 +135,11 @@ def _fed(full: FilmProblem, flow: float, effort: Effort, state: FilmState | None
 
     if state is not None and state.problem.fed is not None:
         problem, on_grids = fed_from(state, flow)
-        if sound(on_grids) and -on_grids[-1].terms.X[0] <= furthest:
+        if is_sound(on_grids) and -on_grids[-1].terms.X[0] <= furthest:
             return problem, on_grids, [], ()
     problem, on_grids, first, notes = solved(full, effort, state)
     flooded = on_grids[-1].terms.q
-    if not sound(on_grids) or flooded <= flow:
+    if not is_sound(on_grids) or flooded <= flow:
         return problem, on_grids, first, notes
     known = flooded / full.film_guess
     aim = max(flow, HALF * flooded)
@@ -148,12 +148,12 @@ def _fed(full: FilmProblem, flow: float, effort: Effort, state: FilmState | None
     spent = first + on_grids + closer
     while True:
         problem, fed = fed_from(near, aim, known)
-        if aim == flow or not sound(fed):
+        if aim == flow or not is_sound(fed):
             break
         near = solution_state(problem, fed[-1], 0.0)
         aim = max(flow, LESS * aim)
         spent = spent + fed
-    if sound(fed) or flow < HALF * flooded:
+    if is_sound(fed) or flow < HALF * flooded:
         return problem, fed, spent, notes
     return _searched_inlet(problem, effort, solution_state(full, on_grids[-1], 0.0), furthest, spent + fed, notes)
 

@@ -59,7 +59,7 @@ def solved(problem: FilmProblem, effort: Effort, state: FilmState | None) -> Nes
     notes: tuple[str, ...] = ()
     if state is not None:
         on_grids = warm(problem, effort, state)
-        if sound(on_grids):
+        if is_sound(on_grids):
             return problem, on_grids, [], notes
         notes = ("the warm start failed; solved again from a cold start",)
     on_grids, first, retries = _cold(problem, effort)
@@ -88,7 +88,7 @@ def _cold(problem: FilmProblem, effort: Effort) -> tuple[list[FilmSolution], lis
             notes += (f"the cold start failed; tried again from {n} cells",)
         state, first = first_state(problem, n, effort.max_iterations)
         on_grids = _ascend(problem, effort, state, n, 2 if effort.tolerance >= TWO_GRIDS_TOLERANCE else 3)
-        if sound(on_grids):
+        if is_sound(on_grids):
             return on_grids, spent + first, notes
         spent += first + on_grids
         if on_grids[0].status == CONVERGED and on_grids[-1].grid.n >= COARSEST_CELLS * 2 ** (STARTS - 1):
@@ -111,7 +111,7 @@ def _ascend(problem: FilmProblem, effort: Effort, state: FilmState, n: int, fewe
         grid = make_grid(problem_nodes(problem, n, rupture))
         z, H = refined_start(on_grids[-1]) if on_grids else warm_start(grid, problem, state)
         on_grids.append(newton(grid, problem, z, H, 1e-3 * effort.tolerance, effort.max_iterations))
-        if not sound(on_grids) or n >= FINEST_CELLS:
+        if not is_sound(on_grids) or n >= FINEST_CELLS:
             return on_grids
         if len(on_grids) >= fewest and n >= effort.least_cells and grid_error(on_grids) <= effort.tolerance:
             return on_grids
@@ -165,7 +165,7 @@ def problem_nodes(problem: FilmProblem, n: int, rupture: float) -> np.ndarray:
     return node_positions(problem.half_width, problem.film_guess, n, distance)
 
 
-def sound(on_grids: list[FilmSolution]) -> bool:
+def is_sound(on_grids: list[FilmSolution]) -> bool:
     """Return whether a solution has converged, and is not a root with tension in the film or with the inlet on the
     wrong side."""
     if not on_grids or on_grids[-1].status != CONVERGED:

@@ -714,7 +714,13 @@ def _inputs(scene: Scene, section: str, given: dict[str, Any]) -> str:
     rows = []
     for label, text, key, note in inputs(scene, section):
         name = key.partition(".")[2]
-        source = _given(name, shown.pop(name)) if name in shown else "derived" if _short(section, given) else "default"
+        source = (
+            _given(name, shown.pop(name))
+            if name in shown
+            else "derived"
+            if _is_short_form(section, given)
+            else "default"
+        )
         cells = f'<td>{escape(label)}</td><td>{escape(text)}{escape(note)}</td><td class="key">{escape(source)}</td>'
         rows.append(cells)
     for name, value in shown.items():
@@ -728,7 +734,7 @@ def _inputs(scene: Scene, section: str, given: dict[str, Any]) -> str:
     return (f"<h3>{section}</h3>{table(heads, rows)}" if rows else "") + facts
 
 
-def _short(section: str, given: dict[str, Any]) -> bool:
+def _is_short_form(section: str, given: dict[str, Any]) -> bool:
     return any(name in given for name in short_keys(section))
 
 

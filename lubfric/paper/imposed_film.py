@@ -48,7 +48,7 @@ class ImposedFilm:
         return float(np.vdot(self.weight, field))
 
     @property
-    def separated(self) -> bool:
+    def is_separated(self) -> bool:
         """Return whether the film fits between the undeformed surfaces without contact."""
         return self.mean(self.problem.gap0) - self.mean_film <= self.problem.gap0.min()
 
@@ -106,7 +106,7 @@ class ImposedFilm:
         self, iterate: Callable[[np.ndarray], SearchResult], solver: str, *, raise_on_failure: bool
     ) -> ContactResult:
         """Return the contact by ``iterate`` from a first pressure."""
-        if self.separated:
+        if self.is_separated:
             zero = np.zeros_like(self.problem.gap0)
             note = "the film clears the surface: no contact"
             solver = "none"

@@ -186,7 +186,7 @@ def worn_in(
     for record in range(1, RECORDS):
         aim = distance * 2.0 ** (record - RECORDS + 1)
         try:
-            while progress.distance < aim and not progress.vanished:
+            while progress.distance < aim and not progress.has_vanished:
                 heights, progress = _advance(rig, heights, progress, aim, coefficient / hardness[0])
                 report_progress("wear", round(100 * progress.distance / distance), 100)
             rows.append(_record(rig, heights, progress.distance))
@@ -195,7 +195,7 @@ def worn_in(
             ended = f"{progress.distance:.4g} of {distance:g} m of wear are done"
             stopped = f"numerics.max_work = {error.limit:.4g} s: {ended}, and recorded to {rows[-1]['distance']:.4g} m"
             break
-        if progress.vanished:
+        if progress.has_vanished:
             share = f"{100 * VANISHED:g} % of the load"
             stopped = f"the asperities carry less than {share} from {progress.distance:.4g} m on: wear ended there"
             break
@@ -222,7 +222,7 @@ class _WearProgress:
     start: Balance | None = None
 
     @property
-    def vanished(self) -> bool:
+    def has_vanished(self) -> bool:
         """Whether the asperities carried less than `VANISHED` of the load at the beginning of the last two steps."""
         return max(self.ratios) < VANISHED
 

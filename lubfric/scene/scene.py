@@ -72,7 +72,7 @@ class Scene(Shown):
     doubtful: tuple[tuple[str, Any], ...] = field(default=(), compare=False)
 
     def __post_init__(self) -> None:
-        if not isinstance(self.name, str) or _halved(self.name) or len(self.name) > LONGEST_NAME:
+        if not isinstance(self.name, str) or _has_surrogates(self.name) or len(self.name) > LONGEST_NAME:
             allowed = f"words of up to {LONGEST_NAME} whole characters (no surrogates)"
             raise InputError(f" = {validate.shown(self.name)}", "name", allowed)
         if self.numerics.heat == "on" and not self.lubricant.heats:
@@ -237,7 +237,7 @@ class Scene(Shown):
         }
 
 
-def _halved(text: str) -> bool:
+def _has_surrogates(text: str) -> bool:
     """Return whether there are surrogates in ``text``, which no file in UTF-8 holds."""
     return any("\ud800" <= mark <= "\udfff" for mark in text)
 
@@ -264,7 +264,7 @@ def toml_value(value: Any) -> str:
     if isinstance(value, (int, float)):
         return repr(value)
     if isinstance(value, str):
-        if _halved(value):  # a path
+        if _has_surrogates(value):  # a path
             raise InputError(f"{ascii(value)} is not Unicode, and a scene file cannot hold it; rename it")
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")  # the one control that JSON lets stand
     if isinstance(value, dict):

@@ -56,7 +56,7 @@ def resolve(section: str, given: dict[str, Any], old: Any = None) -> dict[str, A
     for name in dict.fromkeys(name for _, fields, _ in forms for name in fields):
         only_one(section, given, name, *("+".join(keys) for keys, fields, _ in forms if name in fields))
     for keys, _, plain in forms:
-        if together(section, given, *keys):
+        if are_together(section, given, *keys):
             values = [given.pop(key) for key in keys]
             given = plain(*values, given, old) | given
     if "boundary_friction_coefficient" in given:
@@ -268,7 +268,7 @@ def _oil(source: dict[str, Any], before: Oil | None) -> Oil:
             grade_viscosity(source["grade"])  # refuses a grade that is none
             raise InputError("[lubricant] grade needs viscosity_index as well (95 is common for mineral oils)")
         return from_grade(source["grade"], index, **kept)
-    if index is None and together("lubricant", source, "nu40", "nu100"):
+    if index is None and are_together("lubricant", source, "nu40", "nu100"):
         return from_viscosities(source["nu40"], source["nu100"], **kept)
     nu40 = source.get("nu40", before and before.kinematic_viscosity(AT_40))
     if index is not None and nu40 is not None:
@@ -288,7 +288,7 @@ def only_one(section: str, given: dict[str, Any], *keys: str) -> None:
         raise InputError(f"[{section}] has {names}, which give the same quantity; give one of {', '.join(keys)}")
 
 
-def together(section: str, given: dict[str, Any], *keys: str) -> bool:
+def are_together(section: str, given: dict[str, Any], *keys: str) -> bool:
     """Return True when all ``keys`` are given, False when none is; an error when some are."""
     there = [key for key in keys if key in given]
     if there and len(there) < len(keys):

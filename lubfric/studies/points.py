@@ -15,7 +15,7 @@ from ..quantities import NUMBERS
 from ..samples import is_measured, whole_maps
 from ..scene import Scene
 from .choose import chosen, each_once, first_speeds
-from .store import OUTCOME, Store, digest, fingerprint_without_files, point_key, shared
+from .store import OUTCOME, Store, digest, fingerprint_without_files, is_shared, point_key
 
 Outcome = FrictionResult | LubfricError
 SPEED = "speed"
@@ -46,7 +46,7 @@ def solved(
     folder : of the store, or None
     fine_fields : whether these are on cells fine enough to look at
     """
-    store = Store(folder if shared(folder) else None)
+    store = Store(folder if is_shared(folder) else None)
     done: tuple[float, ...] = ()
     model: Prepared | LubfricError
     try:

@@ -148,7 +148,7 @@ def _name(key: str) -> bytes:
     return key.encode() + b"\n"
 
 
-def shared(folder: str | Path | None) -> bool:
+def is_shared(folder: str | Path | None) -> bool:
     """Return whether this process sees the ``folder`` of a store that another one has `opened`. A worker on another
     machine may not; then the process that planned the work keeps what comes back."""
     return folder is not None and os.path.exists(os.path.join(folder, LOCK))

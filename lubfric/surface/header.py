@@ -304,11 +304,11 @@ def _file(header: Header, statement: Statement) -> None:
         header.state("z factor", statement, value)
         if length is not None:
             header.state("z unit", statement, length, statement.unit)
-    elif len(numbers) == 1 and _whole(value) and length is None and (words & COLUMN_WORDS or _is_per_line(words)):
+    elif len(numbers) == 1 and _is_whole(value) and length is None and (words & COLUMN_WORDS or _is_per_line(words)):
         header.state("columns", statement, value)
-    elif len(numbers) == 1 and _whole(value) and length is None and _is_of_lines(words):
+    elif len(numbers) == 1 and _is_whole(value) and length is None and _is_of_lines(words):
         header.state("lines", statement, value)
-    elif len(numbers) == 1 and _whole(value) and length is None and axis in ("x", "y") and _counts(words):
+    elif len(numbers) == 1 and _is_whole(value) and length is None and axis in ("x", "y") and _counts(words):
         header.state("n" + axis, statement, value)
     elif axis in ("x", "y") and statement.words == ("scale", axis) and len(numbers) == 1 and length is None:
         header.state_lateral(SCALE + axis, statement, value, None)
@@ -317,7 +317,7 @@ def _file(header: Header, statement: Statement) -> None:
         header.state("dy", statement, value * length)
     elif words & STEP_WORDS and axis in ("x", "y") and len(numbers) == 1:
         header.state_lateral("d" + axis, statement, value, length)
-    elif words & STEP_WORDS and axis == "" and axes in (set(), {"x", "y"}) and len(numbers) <= 2 and _square(words):
+    elif words & STEP_WORDS and axis == "" and axes in (set(), {"x", "y"}) and len(numbers) <= 2 and _is_square(words):
         header.state_lateral("dx", statement, value, length)
         header.state_lateral("dy", statement, numbers[-1], length)
     elif axis in ("x", "y") and words & EXTENT_WORDS and len(numbers) == 1:
@@ -399,7 +399,7 @@ def directions_by_sizes(
     shapes = {True: (columns, lines), False: (lines, columns)}
     numbers = [None if (statement := stated[name]) is None else statement.numbers[0] for name in ("width", "height")]
     units = [LENGTHS[name] for name in ("m", "mm", "um", "nm")]
-    fitting = {across for across, shape in shapes.items() if _all_equal(numbers, shape)}
+    fitting = {across for across, shape in shapes.items() if _are_all_equal(numbers, shape)}
     if not fitting and spacing is not None:
         fitting = {
             across
@@ -409,7 +409,7 @@ def directions_by_sizes(
     return fitting, list(sizes.values())
 
 
-def _all_equal(numbers: Sequence[float | None], counts: tuple[int, int]) -> bool:
+def _are_all_equal(numbers: Sequence[float | None], counts: tuple[int, int]) -> bool:
     return all(number is None or number == count for number, count in zip(numbers, counts))
 
 
@@ -439,12 +439,12 @@ def column_units(titles: Iterable[tuple[int, str]], columns: int = 3) -> tuple[t
     return None
 
 
-def _square(words: set[str]) -> bool:
+def _is_square(words: set[str]) -> bool:
     """Return whether the words name a step of the lateral grid, not of time or of heights."""
     return bool(words & {"pixel", "pixelsize", "cellsize", "spacing", "pitch", "lateral"})
 
 
-def _whole(value: float) -> bool:
+def _is_whole(value: float) -> bool:
     return value == int(value) and value >= 1 if math.isfinite(value) else False
 
 
@@ -518,13 +518,13 @@ def _direction(header: Header, lines: int, columns: int) -> tuple[bool, bool]:
         if header.program:
             return True, True
     if not header.program and {"width", "height"} <= set(header.stated):
-        return not _only_down(header, lines, columns), True
+        return not _goes_only_down(header, lines, columns), True
     if header.program or {"columns", "lines"} & set(header.stated):
         return True, True
     return False, False
 
 
-def _only_down(header: Header, lines: int, columns: int) -> bool:
+def _goes_only_down(header: Header, lines: int, columns: int) -> bool:
     """Return whether the stated steps and extents agree only where each line of the file is one x."""
     steps = [header.value("dx"), header.value("dy")]
     if steps[0] is None or steps[1] is None:

@@ -261,7 +261,7 @@ def _unitless_steps(path: Path, header: Header, spacing: Pair) -> tuple[str, ...
         return (f"steps of {stated[0].worded()} have no unit",)
     for unit in LATERAL:
         steps = steps_in_unit(header, unit)
-        if _all_near(steps, spacing) or _all_near(steps, spacing[::-1]):
+        if _are_all_near(steps, spacing) or _are_all_near(steps, spacing[::-1]):
             return ()
     said = f"spacing = {spacing[0]:g}, {spacing[1]:g} m is given, and file {path.name} states {stated[0].worded()}"
     raise InputError(
@@ -279,7 +279,7 @@ def _coordinates(
     known = [step for step in pair if step is not None]
     expected = spacing if spacing is not None else steps
     if unit is None and expected is not None:
-        unit = next((u for u in LATERAL if _all_near([s and s * u for s in pair], expected)), None)
+        unit = next((u for u in LATERAL if _are_all_near([s and s * u for s in pair], expected)), None)
         if unit is None:
             said = f"file {path.name}: {border.worded()} with steps of {' and '.join(f'{s:g}' for s in known)}"
             raise InputError(said, allowed=f"steps of {expected[0]:g} and {expected[1]:g} m in m, mm, um or nm")
@@ -295,13 +295,13 @@ def _coordinates(
     return numbers, (pair[0] * unit, pair[1] * unit), (note,)
 
 
-def _all_near(pair: Sequence[float | None], expected: tuple[float, float]) -> bool:
+def _are_all_near(pair: Sequence[float | None], expected: tuple[float, float]) -> bool:
     return all(step is None or abs(step / goal - 1) < SAME_SPACING for step, goal in zip(pair, expected))
 
 
 def _same_spacing(path: Path, given: tuple[float, float], steps: tuple[float, float], *, either: bool) -> None:
     """Raise `InputError` where the spacing that the caller gives is not the one that the file states."""
-    if _all_near(given, steps) or either and _all_near(given, steps[::-1]):
+    if _are_all_near(given, steps) or either and _are_all_near(given, steps[::-1]):
         return
     said = f"spacing = {given[0]:g}, {given[1]:g} m is given, and file {path.name} states {steps[0]:g}, {steps[1]:g} m"
     raise InputError(said, recommendation="omit spacing, or remove the wrong line from the file")
