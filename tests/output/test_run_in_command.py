@@ -18,7 +18,7 @@ WEAR = ["--distance", "1 mm", "--wear-coefficient", "1e-6"]
 def few_records():
     """Distances at which a lift-off speed is sought take most of the time."""
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr("lubfric.running_in.wear.RECORDS", 3)
+        patched.setattr("lubfric.running_in.wear.RECORDS", 2)
         yield
 
 

@@ -15,7 +15,9 @@ from lubfric.output import commands, main, run_history, run_in_command
 from lubfric.quantities import KEYS
 from lubfric.scene import Harmonic, Transient, typical
 
-PATCH = scene_text.paper_scene(contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling": "patch"})
+PATCH = scene_text.paper_scene(
+    contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling": "patch", "tolerance": 0.05}
+)
 IN_TIME = PATCH.with_(
     motion={"entrainment_speed": 0.03},
     bodies={"hardness": [7e9, 8e9], "boundary_friction_coefficient": [0.1, 0.14]},

@@ -7,7 +7,7 @@ import lubfric
 from lubfric.models import MODELS
 from lubfric.output import main
 
-SMALL = lubfric.load_scene("paper").with_(contact={"shape": (24, 16), "spacing": 90e-6 / 32})
+SMALL = lubfric.load_scene("paper").with_(contact={"shape": (16, 12), "spacing": 90e-6 / 24})
 SPEED = 0.03
 
 

@@ -43,7 +43,7 @@ def test_a_start_in_a_wrong_minimum_or_without_a_gradient_is_left(stress, limit,
     """Where the limiting stress is nowhere reached, f does not change with it, and a search from there stays."""
     measured = measured_traction(stress, limit, 3)
     begin = dict(zip(BOUNDS, start))
-    result = lubfric.fit(traction_scene(5e6, 0.05), measured, BOUNDS, start=begin, starts=8)
+    result = lubfric.fit(traction_scene(5e6, 0.05), measured, BOUNDS, start=begin, starts=4)
     for key, truth, width in ((STRESS, stress, 0.2), (LIMIT, limit, 0.15)):
         low, high = result.intervals[key]
         assert low < truth < high and (high - low) / truth < width
