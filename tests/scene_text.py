@@ -23,6 +23,7 @@ spacing = 1.1e-6
 [numerics]
 model = "paper"
 sampling = "patch"
+tolerance = 0.03
 """
 
 

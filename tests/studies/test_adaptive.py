@@ -144,7 +144,7 @@ def test_contact_at_speeds_beyond_the_knee_that_the_clearance_tells(beyond):
 
 @pytest.fixture(scope="module")
 def auto():
-    return lubfric.stribeck(SCENE, "auto")
+    return lubfric.stribeck(SCENE, "auto", tolerance=0.01)
 
 
 def test_an_adaptive_curve_is_that_of_many_solves(auto):

@@ -24,7 +24,7 @@ HISTORY = (
     "[transient]\nduration = 0.0005\noutputs = 3\n"
     'speed = { kind = "harmonic", amplitude = 0.05, frequency = 500.0, phase = 1.0 }\n'
 )
-MOVING = SCENE + HISTORY
+MOVING = SCENE.replace("tolerance = 0.03\n", "") + HISTORY
 COUNTED = """
 import sys
 from pictures import leave_out
