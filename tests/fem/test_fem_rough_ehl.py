@@ -41,6 +41,7 @@ def test_a_smooth_surface_has_the_film_of_the_line_contact(flat):
     assert float((flat.weights * flat.pressure).sum()) == pytest.approx(STEEL.load_per_width, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_ridges_along_the_motion_of_small_height_are_linear_in_it(flat):
     """Twice the height has twice the change of the gap, and its mean over y stays."""
     changes = []

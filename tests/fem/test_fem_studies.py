@@ -8,7 +8,7 @@ from verification.check import Check
 from verification.run import load
 
 NAMES = ("reynolds", "layer", "contact", "contact_grid", "ehl_grid")  # the others with python -m verification
-LONG = ("layer", "reynolds")
+LONG = ("contact_grid", "layer", "reynolds")
 
 
 @pytest.mark.parametrize(

@@ -43,6 +43,7 @@ def validated(name):
     raise lubfric.InputError(f"{name} = -1 N is out of range")
 
 
+@pytest.mark.slow
 def test_a_sample_of_the_soak_is_answered_right():
     """Random scenes, each balance solved again by the independent judge."""
     row = soak.chunk(7, range(2, 10))

@@ -47,7 +47,9 @@ def test_the_part_of_the_steps_follows_the_reversals():
     "plan",
     [
         Transient(0.02, outputs=4, speed=Harmonic(amplitude=0.03, frequency=50.0, phase=1.5)),
-        Transient(0.01, outputs=4, load=Harmonic(mean=2.5, amplitude=2.0, frequency=200.0)),
+        pytest.param(
+            Transient(0.01, outputs=4, load=Harmonic(mean=2.5, amplitude=2.0, frequency=200.0)), marks=pytest.mark.slow
+        ),
     ],
 )
 def test_a_run_takes_about_the_estimated_steps(plan):

@@ -60,7 +60,7 @@ RUNS = {
 }
 
 
-LONG = ("ratios", "rolling", "in time", "fit")
+LONG = ("deterministic", "ratios", "rolling", "in time", "fit")
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name in LONG)) for name in RUNS])
