@@ -145,9 +145,7 @@ class QuickSolution(SampleSolution):
         if self.on_long_cells is None or not self.may_suffice():
             return ""
         tolerance = self.prepared.scene.numerics.model_tolerance
-        answer = self.answer()
-        # the unknown limit of the oil is no error of the model
-        error = math.sqrt(max(max(answer.model_error) ** 2 - answer.by_limit**2, 0.0))
+        error = self.answer().error_of_model_alone
         if error > tolerance:
             return ""
         (stated, target) = percent_beside(error, tolerance)
