@@ -66,7 +66,7 @@ def prepare(
         _check_likeness(scene, like.scene, maps, contact)
         if _has_same_contact(scene, like.scene):
             of_map = filter(is_of_map_alone, like.violations)
-            prepared = replace(like, scene=scene, violations=(*beforehand(scene, like.surface), *of_map))
+            prepared = replace(like, scene=scene, violations=(*beforehand(scene, like.sample, like.surface), *of_map))
             prepared.memo.keep_surface_of(like.memo)
             return prepared
         maps = (like.surface, *like.sample.bodies) if like.is_given else ()
@@ -101,7 +101,7 @@ def _on_sample(scene: Scene, sample: Sample, *, has_given_map: bool, has_given_c
         surface=surface,
         rough_contact=rough_contact,
         sample=sample,
-        violations=(*beforehand(scene, surface), *by_form),
+        violations=(*beforehand(scene, sample, surface), *by_form),
         has_given_map=has_given_map,
         has_given_contact=has_given_contact,
     )

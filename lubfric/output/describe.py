@@ -148,7 +148,7 @@ def estimate_scene(
         model.append(f"cost: {cost}; 'lubfric run' takes {in_words(beside)} more for start, pictures and files")
     first_model = models_that_may_answer(scene.numerics.model)[0]
     at = [
-        *((None, violation) for violation in beforehand(scene, surface)),
+        *((None, violation) for violation in beforehand(scene, sample, surface)),
         *((None, violation) for violation in violations_by_form(scene, sample.maps_before_extension, is_given=False)),
         *((None, violation) for violation in violations_by_strips(*sample.sq_deviation(surface))),
         *first_model.expected_violations(scene, sorted(set(speeds))),
@@ -156,7 +156,7 @@ def estimate_scene(
     may_refuse = Assumption.STRESS_OF_OILS_UNDER_TOTAL_LOAD
     refusals = _doubts([pair for pair in at if pair[1].severe or pair[1].assumption == may_refuse])
     scene_map = sample.whole_map
-    notes = [note for note in scene_map.notes if "nm as measured" in note]
+    notes = [note for note in scene_map.notes if "nm as measured" in note or " µm used" in note]
     effects = expected_effects(
         _fastest_moment(scene),
         scene_map.sq,

@@ -7,10 +7,19 @@ not solved on cells). `maps` makes, reads and prepares the height maps, `windows
 them, `cells` finds the length of the cells, and `contacts` turns the keys of a scene into a contact of `lubfric.contact`.
 """
 
-from .cells import Cells
+from .cells import Cells, length_of_rough_contact
 from .choose import sample_of, takes_strips
 from .contacts import cylinder_of, flat_contact_of, half_space_contact_of
 from .contract import PIECE, Sample
-from .maps import check_map, combined_maps, contact_maps, is_measured, limiting_map, rough_bodies, whole_maps
+from .maps import (
+    check_map,
+    combined_maps,
+    contact_maps,
+    is_measured,
+    rough_bodies,
+    way_to_longer_line,
+    way_to_longer_patch,
+    whole_maps,
+)
 from .patch import SinglePatch, UnresolvedSample
 from .strips import GeneratedStrips, MeasuredStrips, measured_strips

@@ -189,6 +189,17 @@ def reach_of(scene: Scene, sq: float) -> float:
     return 2 * math.sqrt(bodies.half_width**2 + 2 * bodies.radius * HIGHEST_SUMMITS * sq)
 
 
+def length_of_rough_contact(scene: Scene, sq: float) -> float:
+    """Return the length [m] along x below which the ends of a patch may cut the contact off: an undeformed cylinder,
+    resting on the ends of the Hertz strip, has risen by one Sq there.
+
+    Of generated patches at loads of 0.5 to 40 times the roughness, those that ended at 0.25 and 0.5 Sq had more than 1 % of
+    the contact load on their edge columns, those at 1 Sq and above less.
+    """
+    bodies = scene.bodies
+    return 2 * math.sqrt(bodies.half_width**2 + 2 * bodies.radius * sq)
+
+
 def longest_coarsening(
     spacing: tuple[float, float], lengths: tuple[float, float], half_width: float
 ) -> tuple[int, int]:

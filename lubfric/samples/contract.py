@@ -183,6 +183,10 @@ class Sample(ABC):
         """The map of each rough body, or the only one of all, before it is continued by its mirror image."""
         return self.bodies or (self.whole_map,)
 
+    def strips_without_extension(self, scene: Scene) -> int:
+        """Return how many strips the maps of ``scene`` hold if none of them is continued by its mirror image."""
+        return self.available_strips
+
     def is_on_surface_of(self, other: Sample) -> bool:
         """Return whether this sample is the ``other`` one, on the same cells or on others: `halved`, `native`."""
         names = [part.name for part in fields(self) if part.name != "cells"]  # type: ignore[arg-type]  # a dataclass

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -58,6 +59,30 @@ def limiting_map(scene: Scene, surface: Surface, axis: int) -> tuple[str, str]:
     begin = shorter_in_words(axis, "")
     noted = [note.removeprefix(begin) for note in surface.notes if note.startswith(begin)]
     return next((each for each in measured if each[0] in noted), measured[0] if measured else ("surface", ""))
+
+
+def way_to_longer_line(scene: Scene, surface: Surface) -> str:
+    """Return how the ``surface`` of ``scene`` becomes longer across the motion, as text."""
+    if not is_measured(scene):
+        return "a longer map along y"
+    (name, file) = limiting_map(scene, surface, 1)
+    return f"a map of [{name}] that is longer across the motion{_axis_of_file(scene, name, 1)}, in place of {Path(file).name}"
+
+
+def way_to_longer_patch(scene: Scene, surface: Surface) -> str:
+    """Return how the patch ``surface`` of ``scene`` becomes longer along the motion, as text."""
+    if not is_measured(scene):
+        return "a patch that is longer in x: contact.shape"
+    (name, _) = limiting_map(scene, surface, 0)
+    mirror = f"{name}.extension = 'mirror', which continues the map by its mirror image"
+    return f"{mirror}, or a map that is longer along the motion{_axis_of_file(scene, name, 0)}"
+
+
+def _axis_of_file(scene: Scene, name: str, axis: int) -> str:
+    """Return which axis of the file of section ``name`` lies along ``axis`` of the scene, as text; "" where it is the same
+    one."""
+    turned = getattr(scene, name).motion_axis == "y"
+    return f" (its file is turned: {'yx'[axis]} of the file)" if turned else f" ({'xy'[axis]} of its file)"
 
 
 def is_extended(scene: Scene) -> bool:

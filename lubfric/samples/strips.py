@@ -222,6 +222,13 @@ class MeasuredStrips(Sample):
     def ends_after(self, count: int) -> bool:
         return count >= self.available_strips
 
+    def strips_without_extension(self, scene: Scene) -> int:
+        parts = {name: {"extension": "none"} for _, name in rough_bodies(scene)}
+        plain = scene.with_(**parts)
+        surface = self.maps_before_extension[0]
+        cells = _cells_of_map(plain, surface, self.correlation_lengths, reach_of(scene, self.surface.sq))
+        return len(_window_starts(plain, surface, self.correlation_lengths, cells.columns * cells.coarsening[0]))
+
     def joined(self, indices: Sequence[int]) -> Surface:
         fx, fy = self.cells.coarsening
         windows = [self._columns(self.starts[index])[fx // 2 :: fx] for index in indices]

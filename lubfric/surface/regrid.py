@@ -140,9 +140,11 @@ def combined(first: Surface, second: Surface) -> Surface:
     mask = np.logical_and(*(np.ones(shape, bool) if part.mask is None else part.mask for part in parts))
     sources = list(dict.fromkeys(surface.source or "a map" for surface in (first, second)))
     source = " and ".join(sources) if len(sources) > 1 else f"both {sources[0]}"
-    notes = [f"{name}: {note}" for name, part in zip(("surface", "counterface"), parts) for note in part.notes]
+    names = ("surface", "counterface")
+    notes = [f"{name}: {note}" for name, part in zip(names, parts) for note in part.notes]
     both = f"Sq {worded(first.sq, 'm')} and {worded(second.sq, 'm')}"
     notes.append(f"sum of surface and counterface, {both}, the counterface turned over about x")
+    notes += [_part_in_words(name, whole, part) for name, whole, part in zip(names, (first, second), parts)]
     notes += [shorter_in_words(axis, name) for axis, name in enumerate(shorter) if name]
     return replace(parts[0], heights=heights, mask=mask, periodic_axes=periodic_axes, source=source, notes=tuple(notes))
 
@@ -186,6 +188,24 @@ def _shorter(axis: int, first: Surface, second: Surface) -> str:
     names = sorted(lengths, key=lambda name: lengths[name])
     equal = len(names) == 2 and lengths[names[1]] <= lengths[names[0]] * (1 + EQUAL_LENGTHS)
     return "" if equal or not names else names[0]
+
+
+def _part_in_words(name: str, whole: Surface, part: Surface) -> str:
+    """Return the note how much of the map ``whole`` of the body ``name`` is in the sum, as its ``part``."""
+    used = _lengths_in_words(part.size)
+    all_of_it = _lengths_in_words(whole.size)
+    text = f"{name}: all of its {used} µm used"
+    if used != all_of_it:
+        text = f"{name}: {used} of its {all_of_it} µm used"
+    if part.spacing != whole.spacing:
+        cells = _lengths_in_words(whole.spacing)
+        text += f", interpolated from cells of {cells} µm to {_lengths_in_words(part.spacing)} µm"
+    return text
+
+
+def _lengths_in_words(lengths: tuple[float, float]) -> str:
+    """Return two lengths [m] along x and y as text, in µm."""
+    return f"{lengths[0] * 1e6:.4g} x {lengths[1] * 1e6:.4g}"
 
 
 def shorter_in_words(axis: int, name: str) -> str:

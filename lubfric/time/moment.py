@@ -171,7 +171,7 @@ def _violated(
     force = abs(row["friction_force"])
     prepared = model.prepared
     yield from prepared.violations
-    yield from violations_by_ends(row["edge_load"], prepared.surface.size[0])
+    yield from violations_by_ends(prepared.scene, row["edge_load"], prepared.surface)
     yield from violations_by_motion(scene, speed, film)
     yield from violations_by_film(
         scene, thickness=film, peak=row["max_pressure"], shear=shear, film_load=row["film_load"], force=force, heat=heat

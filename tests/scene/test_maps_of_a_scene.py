@@ -1,5 +1,6 @@
 """Measured maps in scenes: two bodies, short maps, spikes, keys that do not apply; what a scene keeps is its own."""
 
+import math
 import re
 from dataclasses import replace
 
@@ -287,8 +288,44 @@ def test_the_shorter_of_two_maps_is_named(maps):
     assert re.match(r"the map of the counterface \(.*short.npy\) is 7.2 µm long in x", str(caught.value))
     assert "counterface.extension = 'mirror'" in str(caught.value)
     mirrored = scene.with_(counterface={"extension": "mirror"})
-    words = why_sample_too_short(mirrored, 5.0, lubfric.prepare(mirrored).sample.whole_map)
-    assert "omit counterface.extension" in words and "for [counterface], in place of short.npy" in words
+    prepared = lubfric.prepare(mirrored)
+    words = why_sample_too_short(mirrored, 5.0, prepared.sample)
+    assert "omit" not in words  # without the extension the map would be refused
+    assert "a map of [counterface] that is longer across the motion (y of its file), in place of short.npy" in words
+    turned = mirrored.with_(counterface={"motion_axis": "y"})
+    assert "(its file is turned: x of the file)" in why_sample_too_short(turned, 5.0, prepared.sample)
+
+
+@pytest.mark.parametrize(
+    "rise, is_short", [(0.5, True), (2.0, False)]
+)  # of the cylinder at the ends of the map, over Sq
+def test_a_map_whose_ends_cut_the_contact_off_is_named_beforehand(rise, is_short, tmp_path):
+    """By the parabola of the cylinder over the ends of the map; with its mirror image no map is too short, and to omit it is
+    not advised."""
+    sq = 1e-7
+    scene = lubfric.load_scene("paper").with_(bodies={"load": 2000.0}, contact={"shape": None, "spacing": None})
+    half = math.sqrt(scene.bodies.half_width**2 + 2 * scene.bodies.radius * rise * sq)
+    shape = (4 * round(2 * half / GRID / 4), 192)
+    rough = lubfric.generate_surface(shape, GRID, sq=sq, correlation_length=4e-6, acf="gaussian", seed=1)
+    np.save(tmp_path / "m.npy", rough.heights)
+    file = {"file": str(tmp_path / "m.npy"), "spacing": GRID, "sq": sq, "correlation_length": None}
+    short = lubfric.prepare(scene.with_(surface=file))
+    ends = [v for v in short.violations if v.what == "length of the patch along the motion"]
+    assert len(ends) == is_short
+    assert all("surface.extension = 'mirror'" in violation.recommendation for violation in ends)
+    mirrored = lubfric.prepare(scene.with_(surface=file | {"extension": "mirror"}))
+    assert not [v for v in mirrored.violations if v.what == "length of the patch along the motion"]
+    if is_short:
+        assert "omit" not in why_sample_too_short(mirrored.scene, 5.0, mirrored.sample)
+
+
+def test_how_much_of_each_of_two_maps_is_used_is_noted():
+    """The sum covers the shorter of both along each axis, on the finer cells."""
+    long = lubfric.Surface(np.random.default_rng(1).normal(size=(64, 32)), (1e-6, 1e-6), periodic_axes=(False, False))
+    wide = lubfric.Surface(np.random.default_rng(2).normal(size=(16, 32)), (2e-6, 2e-6), periodic_axes=(False, False))
+    notes = long.combined(wide).notes
+    assert "surface: 32 x 32 of its 64 x 32 µm used" in notes
+    assert "counterface: 32 x 32 of its 32 x 64 µm used, interpolated from cells of 2 x 2 µm to 1 x 1 µm" in notes
 
 
 def test_the_refusal_of_outliers_counts_what_their_mask_takes(tmp_path):

@@ -333,7 +333,7 @@ def _sample_notes(prepared: Prepared, error: StandardError, length: float) -> tu
     sample = prepared.sample
     tolerance = prepared.scene.numerics.sampling_tolerance
     if math.isnan(error.value):
-        return why_sample_too_short(prepared.scene, length / sample.correlation_lengths[1], sample.whole_map), BIASED
+        return why_sample_too_short(prepared.scene, length / sample.correlation_lengths[1], sample), BIASED
     if error.value <= WORTH_A_NOTE * tolerance:
         return ()
     (stated, target) = percent_beside(error.value, tolerance)

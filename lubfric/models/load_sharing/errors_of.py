@@ -342,7 +342,7 @@ def _notes(balanced: BalancedSample) -> tuple[str, ...]:
             return (NO_CELLS,)
         if balanced.response is None:
             return (UNDETECTED_UNKNOWN,)
-        return (why_sample_too_short(scene, balanced.scatter.length / sample.correlation_lengths[1], sample.whole_map),)
+        return (why_sample_too_short(scene, balanced.scatter.length / sample.correlation_lengths[1], sample),)
     if error > tolerance and needed > 1:
         times = float(f"{needed:.2g}")
         notes.append(

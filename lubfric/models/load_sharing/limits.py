@@ -26,7 +26,7 @@ def limits_exceeded(prepared: Prepared, speed: float, balance: Balance, ends: fl
     violations = [
         *prepared.violations,
         *violations_by_motion(scene, speed, thickness),
-        *violations_by_ends(ends, prepared.surface.size[0]),
+        *violations_by_ends(scene, ends, prepared.surface),
     ]
     violations += violations_by_patches(
         scene, prepared.surface.heights, balance.contact_state.real_contact_area_fraction

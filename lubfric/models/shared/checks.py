@@ -10,12 +10,14 @@ from ..._base import FloatArray
 from ...contact import ridges
 from ...film import FAST_PECLET_NUMBER, MOST_SLIDE_ROLL_RATIO_OF_INLET, MOST_THERMAL_LOADING, LineContact, ShearForce
 from ...oil import CELSIUS, NO_LIQUID
+from ...samples import way_to_longer_patch
 from ...units import worded
 from .heat import TYPICAL, Heat
 from .violation import Assumption, Violation
 
 if TYPE_CHECKING:
     from ...scene import Scene
+    from ...surface import Surface
 
 
 # Reynolds number rho U h/eta up to which a film is laminar; between it and `TURBULENT` it is in transition. Usual for
@@ -62,8 +64,6 @@ ON_ENDS = 0.01
 
 # Name of the numerical error where it is above the requested tolerance; tables of studies hold it as text.
 NUMERICAL_ERROR = "estimated numerical error of f"
-
-LONGER_PATCH = "make the patch longer in x: contact.shape, or for a measured map surface.extension = 'mirror'"
 
 # Share of f from stresses that no oil carries from which on f is refused. Not measured: a convention.
 REFUSED_SHARE = 0.2
@@ -265,11 +265,11 @@ def violations_by_deflection(
     )
 
 
-def violations_by_ends(share: float, length: float) -> Iterator[Violation]:
-    """Yield the violations by the ``share`` of the contact's load on the edge columns of a patch of ``length`` [m]
-    along x."""
+def violations_by_ends(scene: Scene, share: float, surface: Surface) -> Iterator[Violation]:
+    """Yield the violations by the ``share`` of the contact's load on the edge columns of the patch ``surface`` of
+    ``scene``."""
     if share > ON_ENDS:
-        why = f"the ends of the patch, {worded(length, 'm')} apart, cut the contact off"
+        why = f"the ends of the patch, {worded(surface.size[0], 'm')} apart, cut the contact off"
         what = "share of the contact load on the edge columns of the patch"
         yield Violation(
             assumption=Assumption.CONTACT_ON_PATCH,
@@ -278,7 +278,7 @@ def violations_by_ends(share: float, length: float) -> Iterator[Violation]:
             limit=100 * ON_ENDS,
             unit="%",
             consequence=why,
-            recommendation=LONGER_PATCH,
+            recommendation=way_to_longer_patch(scene, surface),
             severe=True,
         )
 

@@ -10,16 +10,25 @@ import numpy as np
 from ...errors import InputError
 from ...film import ShearForce, hertz
 from ...oil import carried_stress, shear_stress
-from ...samples import is_measured, limiting_map, rough_bodies
+from ...samples import (
+    Sample,
+    is_measured,
+    length_of_rough_contact,
+    rough_bodies,
+    way_to_longer_line,
+    way_to_longer_patch,
+)
 from ...scene import Bodies, Scene, unusual_values
 from ...surface import Surface, advised_form, correlation_length, rms_slope
 from .checks import (
+    ON_ENDS,
     REFUSED_SHARE,
     peak_hertz_pressure,
     violations_by_motion,
     violations_by_pressure,
     violations_by_shear,
 )
+from .statistics import LEAST_BLOCK_LENGTH, LEAST_BLOCKS
 from .violation import Assumption, Violation
 
 # Nodes across the Hertz strip of the estimate of the shear: their sum is off by 6e-5 with an Eyring stress.
@@ -43,8 +52,12 @@ REFUSED_SLOPE = 1.5
 NOISE = 0.8
 FILTERED = "lines in the right order, or surface.s_filter"
 
-# Correlation lengths that a patch should be wide: the fewest for two blocks (statistics.py).
+# Correlation lengths that a generated patch should be wide. Not measured: a convention.
 LEAST_PATCH_LENGTHS = 10
+
+# Correlation lengths that the windows of a measured map should be wide: the fewest from which the error by the sample is
+# known (statistics.py).
+LEAST_LENGTHS_FOR_INTERVAL = LEAST_BLOCKS * LEAST_BLOCK_LENGTH
 
 # Share [%] of Sq² that a form explains from which the map shows the form and not the roughness. Not measured: a
 # convention.
@@ -59,23 +72,61 @@ LEAST_STRIP_DEVIATION = 0.05
 YIELDED = 4.5e9
 
 
-def why_sample_too_short(scene: Scene, lengths: float, surface: Surface) -> str:
-    """Return that so few correlation ``lengths`` of the solved ``surface`` along y give no interval, and what to change."""
+def why_sample_too_short(scene: Scene, lengths: float, sample: Sample) -> str:
+    """Return that so few correlation ``lengths`` of the ``sample`` that is solved give no interval, and what to change.
+
+    To omit an extension is advised only where the map, without it, has more windows and does not cut the contact off.
+    """
     keys = ["numerics.sampling"] * (scene.numerics.sampling == "patch")
-    keys += [f"{name}.extension" for rough, name in rough_bodies(scene) if rough.extension != "none"]
+    extended = [f"{name}.extension" for rough, name in rough_bodies(scene) if rough.extension != "none"]
+    if extended and _is_long_enough(scene, sample) and sample.strips_without_extension(scene) > sample.available_strips:
+        keys += extended
     omit = f"omit {' and '.join(keys)}, or " if keys else ""
-    longer = "give a map that is longer along y"
-    if is_measured(scene):
-        (section, file) = limiting_map(scene, surface, 1)
-        longer += f" for [{section}], in place of {Path(file).name}"
-    return f"not known: {lengths:.3g} correlation lengths of the solved surface along y are too few for an interval; {omit}{longer}"
+    longer = way_to_longer_line(scene, sample.whole_map)
+    return (
+        f"not known: {lengths:.3g} correlation lengths of the solved surface along y are too few for an interval; {omit}give "
+        f"{longer}"
+    )
 
 
-def beforehand(scene: Scene, surface: Surface) -> tuple[Violation, ...]:
-    """Return the violations for values far from the usual, for the bodies and for the map."""
+def _is_long_enough(scene: Scene, sample: Sample) -> bool:
+    """Return whether the map of ``sample``, before it is continued, is longer than the rough contact."""
+    surface = sample.maps_before_extension[0]
+    return surface.size[0] >= length_of_rough_contact(scene, sample.whole_map.sq)
+
+
+def beforehand(scene: Scene, sample: Sample, surface: Surface) -> tuple[Violation, ...]:
+    """Return the violations for values far from the usual, for the bodies, for the map, and for the ``surface`` that the
+    ``sample`` states."""
     cells = [_cells_of_length(surface, axis) for axis in (0, 1)]
-    of_map = violations_by_map(rms_slope(surface)[2], surface.shape[1] / cells[1], cells)
-    return (*violations_by_unusual_inputs(scene), *violations_by_bodies(scene.bodies), *of_map)
+    lengths = math.nan if math.isnan(cells[1]) else surface.size[1] / sample.correlation_lengths[1]
+    of_map = violations_by_map(rms_slope(surface)[2], lengths, cells, _longer_map(scene, sample))
+    of_ends = _violations_by_short_patch(scene, surface) if sample.is_resolved else ()
+    return (*violations_by_unusual_inputs(scene), *violations_by_bodies(scene.bodies), *of_map, *of_ends)
+
+
+def _longer_map(scene: Scene, sample: Sample) -> str:
+    """Return which longer map the windows of a measured map need; "" for any other sample."""
+    return way_to_longer_line(scene, sample.whole_map) if is_measured(scene) else ""
+
+
+def _violations_by_short_patch(scene: Scene, surface: Surface) -> Iterator[Violation]:
+    """Yield the violations by a patch ``surface`` whose ends may cut the contact off."""
+    needed = length_of_rough_contact(scene, surface.sq)
+    length = surface.size[0]
+    if surface.sq == 0 or surface.periodic_axes[0] or length >= needed:
+        return
+    refuses = f"load sharing, with which the default model begins, refuses a result with more than {100 * ON_ENDS:g} % of the contact load on the edge columns of the patch"
+    yield Violation(
+        assumption=Assumption.CONTACT_ON_PATCH,
+        what="length of the patch along the motion",
+        value=1e6 * length,
+        limit=1e6 * needed,
+        unit="µm",
+        consequence="the contact of the rough surfaces is longer, and the ends of the patch may cut it off; "
+        f"{refuses}; the quick and the deterministic model continue the patch by its mirror image",
+        recommendation=way_to_longer_patch(scene, surface),
+    )
 
 
 def violations_by_form(scene: Scene, maps: Sequence[Surface], *, is_given: bool) -> Iterator[Violation]:
@@ -210,9 +261,12 @@ def violations_by_bodies(bodies: Bodies) -> Iterator[Violation]:
         )
 
 
-def violations_by_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterator[Violation]:
+def violations_by_map(
+    slope: float, lengths: float, cells: Iterable[float] = (), longer: str = ""
+) -> Iterator[Violation]:
     """Yield the violations by the map. ``slope``: its rms slope [-]; ``lengths``: its width over its correlation length
-    across the motion; ``cells``: in its correlation length along x and y. NaN: not known."""
+    across the motion; ``cells``: in its correlation length along x and y. NaN: not known. ``longer``: which longer map
+    a measured one is to be replaced by, as text; "": the map is not measured."""
     if slope > STEEP:
         recommendation = "check the units of heights and spacing; filter the map at the scale that matters"
         why = "the half-space assumes small slopes; contact area and pressures are wrong"
@@ -227,16 +281,17 @@ def violations_by_map(slope: float, lengths: float, cells: Iterable[float] = ())
             recommendation=recommendation,
             severe=slope > REFUSED_SLOPE,
         )
-    if lengths < LEAST_PATCH_LENGTHS:
-        why = "few asperities: another patch of the same surface would give another f"
+    least = LEAST_LENGTHS_FOR_INTERVAL if longer else LEAST_PATCH_LENGTHS
+    if lengths < least:
+        why = "few asperities: another patch of the same surface would give another f, and f may have no 95 % interval"
         yield Violation(
             assumption=Assumption.LONG_SAMPLE,
-            what="length of the sample along the line over its correlation length",
+            what="length of the sample along the line over the correlation length of the map",
             value=lengths,
-            limit=LEAST_PATCH_LENGTHS,
+            limit=least,
             unit="",
             consequence=why,
-            recommendation="a larger map",
+            recommendation=longer or "a larger map",
         )
     for axis, count in zip("xy", cells):
         if count < NOISE:
