@@ -105,6 +105,7 @@ def run(arguments: Namespace) -> None:
     from . import run_curve, run_history
 
     scene = scene_of(arguments)
+    _take_options_of_file(arguments)
     requested = arguments.sampling_tolerance
     changed = {} if requested is None else {"sampling_tolerance": number_of("--sampling-tolerance", requested, "-")}
     if changed and not takes_strips(scene):
@@ -124,6 +125,24 @@ def run(arguments: Namespace) -> None:
         OF_CURVES: run_curve.run_sweep,
     }[what]
     solve(scene, arguments)
+
+
+def _take_options_of_file(arguments: Namespace) -> None:
+    """Give ``arguments`` the options that the scene file holds, as resolved.toml of a traction run does, unless the command
+    has one of these itself. A line on stderr says so."""
+    from ..scene import options_of
+
+    options = options_of(arguments.scene)
+    if not options:
+        return
+    words = " ".join(f"--{name}={value}" for name, value in options.items())
+    given = [name for name in ("ratios", "speeds", "fields") if getattr(arguments, name) is not None]
+    if given:
+        say(f"{arguments.scene} holds {words}; --{given[0]} of the command takes their place")
+        return
+    say(f"options of {arguments.scene}: {words}")
+    for name, value in options.items():
+        setattr(arguments, name, value)
 
 
 def info(arguments: Namespace) -> None:

@@ -41,7 +41,7 @@ from ..errors import InputError, OutputError
 from ..models import prepare
 from ..models.shared import Prepared, Violation, refused, violations_by_unusual_inputs
 from ..quantities import KEYS, Quantity, described
-from ..scene import Scene
+from ..scene import OPTIONS_KEY, Scene
 from ..studies import Law, Store, fingerprint_without_files, fits
 from ..surface import rms_slope
 from .describe import SceneEstimate, estimate_scene
@@ -325,6 +325,11 @@ class RepeatedRun:
         """The command that repeats the run in its folder."""
         return shlex.join(("lubfric", "run", RESOLVED_SCENE, *self.options))
 
+    def file(self, folder: Path) -> str:
+        """Return the text of resolved.toml in ``folder``: the scene, and the options, which 'lubfric run' takes from there."""
+        head = f"{OPTIONS_KEY} = {json.dumps(self.options)}\n" if self.options else ""
+        return head + self.scene.to_toml(folder)
+
 
 def map_checksums(scene: Scene) -> dict[str, str]:
     """Return the SHA-256 of each height map of ``scene`` by its path."""
@@ -426,7 +431,7 @@ class RunFolder:
         repeated, where not by the scene alone."""
         again = repeated or RepeatedRun(scene=prepared.scene)
         with suppress(InputError):  # a path that is not Unicode has no place in a scene file
-            self.add(RESOLVED_SCENE, lambda: again.scene.to_toml(self.path).encode())
+            self.add(RESOLVED_SCENE, lambda: again.file(self.path).encode())
         if prepared.surface.sq > 0:
             self.draw("surface.png", plot_surface, prepared)
         record: dict[str, Any] = {"scene": {"name": prepared.scene.name}, "points": [], **numbers}

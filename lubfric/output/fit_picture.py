@@ -27,7 +27,7 @@ def drawn_record(fitted: studies.FitResult) -> dict[str, Any]:
     measured = fitted.measured
     (low, high) = fitted.band
     points = {"x": measured.x, "measured": measured.coefficient, "fitted": fitted.predicted, "low": low, "high": high}
-    more = {"deviation": measured.deviation, "branch": measured.branch}
+    more = {"deviation": measured.deviation, "branch": measured.branch, "describes_data": fitted.describes_data}
     return points | more | {"over": measured.over, "source": measured.source}
 
 
@@ -52,7 +52,8 @@ def plot_fit(path: Path, record: dict[str, Any], options: PictureOptions = Pictu
     measured = studies.Measured(x, coefficient, deviation, over=record["over"], source=record["source"], branch=branch)
     figure = figures.new_figure(figsize=options.size(HEIGHTS))
     top, bottom = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": HEIGHTS})
-    studies.draw_fit(top, measured, predicted, (low, high))
+    is_valid = record.get("describes_data", True) is not False  # records of version 1.0.0 have not said
+    studies.draw_fit(top, measured, predicted, (low, high) if is_valid else None)
     top.set_xlabel("")
     studies.draw_residuals(bottom, measured, predicted)
     options.scale(bottom, friction=top, f=coefficient)

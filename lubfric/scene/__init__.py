@@ -13,7 +13,16 @@ from .bodies import (
     ContactDomain,
     Motion,
 )
-from .file import builtin_scenes, given_tables, load_scene, read_toml, scene_from_table, write_template
+from .file import (
+    OPTIONS_KEY,
+    builtin_scenes,
+    given_tables,
+    load_scene,
+    options_of,
+    read_toml,
+    scene_from_table,
+    write_template,
+)
 from .history import Constant, Harmonic, History, Ramp, Table
 from .numerics import Numerics
 from .plausible import (

@@ -44,6 +44,11 @@ TOML_FAULTS = {  # begin of what Python's reader of TOML says: what it means, an
 }
 SCENES = resources.files(__package__) / "scenes"
 
+# Entry of a scene file with options of ``lubfric run`` that no key of a scene holds, and these. They change no number of a
+# point: a `Scene` has none.
+OPTIONS_KEY = "options"
+OPTIONS_IN_FILES = ("ratios", "speeds", "fields")
+
 
 @with_default_errors
 def load_scene(
@@ -85,6 +90,20 @@ def load_scene(
 def given_tables(source: str) -> dict[str, Any]:
     """Return the tables of a scene file, or of a built-in scene, as they are written; ``source`` as in `load_scene`."""
     return dict(source) if isinstance(source, dict) else _read(source)[0]
+
+
+def options_of(source: str) -> dict[str, str]:
+    """Return the options of ``lubfric run`` that a scene file holds, by name: ``options = ["--ratios=0:0.5:11"]``, as
+    resolved.toml of a traction run has them. ``source`` as in `load_scene`. Raises `InputError` for anything else."""
+    given = given_tables(source).get(OPTIONS_KEY, [])
+    options = {}
+    for option in given if isinstance(given, list) else [given]:
+        (name, _, value) = str(option).removeprefix("--").partition("=")
+        if name not in OPTIONS_IN_FILES or not value or not isinstance(option, str):
+            allowed = ", ".join(f'"--{each}=..."' for each in OPTIONS_IN_FILES)
+            raise InputError(f" = {validate.shown(given)}", OPTIONS_KEY, f"a list of {allowed}")
+        options[name] = value
+    return options
 
 
 def read_toml(path: Path | Traversable, what: str) -> dict[str, Any]:
@@ -152,6 +171,7 @@ def builtin_scenes() -> tuple[str, ...]:
 
 def scene_from_table(table: dict[str, Any], folder: Path, name: str) -> Scene:
     """Return a validated `Scene` from the tables of a TOML file."""
+    table = {key: value for key, value in table.items() if key != OPTIONS_KEY}
     validate.keys("scene", table, ("name", *SECTIONS), lambda: keys_elsewhere() | meant("scene"))
     for section in SECTIONS:
         if not isinstance(table.get(section, {}), dict):

@@ -30,8 +30,11 @@ FEWEST_OF_ORDER = 4
 # Smallest part of the column of an offset or a factor that the parameters leave: below it they stand for it.
 LEAST_REST = 1e-3
 
-# Share of the sum of squares from which an offset is said to explain the residuals. A convention.
+# Share of the sum of squares from which an offset or a factor is said to explain the residuals. A convention.
 EXPLAINING = 0.5
+
+# Difference of the shares that an offset and a factor explain, below which either may be the cause. A convention.
+AS_LIKELY = 0.1
 
 # Root mean square residual relative to f that the scatter of a measurement explains, where its deviations are not stated.
 # A convention: friction on rigs repeats within some 5 to 10 %.
@@ -55,6 +58,7 @@ class ResidualTests:
     chance : probability of the clearest sign, of order, shape or both together
     offset : the constant offset of the measured f that makes the sum of squares least, to first order [-]
     explained : share of the sum of squares that this offset explains
+    factor, explained_by_factor : the factor of the measured f that does so [-], and the share that it explains
     small : whether the residuals are within the numerical error of f, so that their order means nothing
     relative : root mean square residual relative to the measured f
     expected : root mean square model-form error of f at 95 %, relative; 0 where it is not known
@@ -70,6 +74,8 @@ class ResidualTests:
     small: bool
     relative: float = math.nan
     expected: float = 0.0
+    factor: float = math.nan
+    explained_by_factor: float = math.nan
 
     @property
     def systematic(self) -> bool:
@@ -138,10 +144,16 @@ class ResidualTests:
     @property
     def _cause(self) -> str:
         """What explains the residuals, to be appended; "" if nothing is known."""
-        if _known(self.shape) >= DOUBTED or not self.explained > EXPLAINING:
+        if _known(self.shape) >= DOUBTED:
             return ""
-        share = f"{100 * self.explained:.0f} % of their squares"
-        return f"; an offset of the measured f, of the order of {self.offset:.1g}, would explain {share}"
+        causes = {
+            f"an offset of the measured f, of the order of {self.offset:.1g},": self.explained,
+            f"a factor of the measured f, of the order of {self.factor:.2g},": self.explained_by_factor,
+        }
+        known = {cause: share for cause, share in causes.items() if share > EXPLAINING}
+        likely = {cause: share for cause, share in known.items() if share > max(known.values()) - AS_LIKELY}
+        ways = [f"{cause} would explain {100 * share:.0f} % of their squares" for cause, share in likely.items()]
+        return "".join(f"; {way}" for way in (" and ".join(ways),) if way)
 
 
 def residual_tests(
@@ -179,7 +191,9 @@ def residual_tests(
     axes = _axes_of(jacobian[along], error)
     both = np.stack([per_offset, per_factor], axis=1)[along]
     order, shape, chance = chance_of(residuals[along], axes, _new_axes(both, axes))
-    offset, explained = _offset(residuals[along], axes, per_offset[along])
+    offset, explained = _shift(residuals[along], axes, per_offset[along])
+    more, explained_by_factor = _shift(residuals[along], axes, per_factor[along])
+    is_factor_apart = fitted is not None  # else it is the offset once more
     return ResidualTests(
         size=float(chi2.sf(squares, freedom)) if stated else math.nan,
         times_stated=math.sqrt(squares / freedom) if stated else math.nan,
@@ -188,6 +202,8 @@ def residual_tests(
         chance=chance,
         offset=offset,
         explained=explained,
+        factor=1.0 + more if is_factor_apart else math.nan,
+        explained_by_factor=explained_by_factor if is_factor_apart else math.nan,
         relative=relative,
         expected=expected,
         small=bool(np.sqrt(np.mean(residuals**2)) <= ABOVE_NUMERICAL * np.sqrt(np.mean(numerical**2))),
@@ -254,14 +270,15 @@ def _new_axes(columns: FloatArray, axes: FloatArray) -> FloatArray:
     return np.asarray(new[:, singular > LEAST_REST])
 
 
-def _offset(residuals: FloatArray, axes: FloatArray, per_offset: FloatArray) -> tuple[float, float]:
-    """Return the offset of the measured f that makes the sum of the squared ``residuals`` least, with the parameters moved
-    along to first order, and the share of the sum that it explains; NaN where the parameters stand for it."""
-    left = per_offset - axes @ (axes.T @ per_offset)
+def _shift(residuals: FloatArray, axes: FloatArray, column: FloatArray) -> tuple[float, float]:
+    """Return by how many times the ``column`` (n,), of an offset of the measured f or of its relative change, the sum of the
+    squared ``residuals`` becomes least, with the parameters moved along to first order, and the share of the sum that this
+    explains; NaN where the parameters stand for it."""
+    left = column - axes @ (axes.T @ column)
     length = float(np.linalg.norm(left))
     own = residuals - axes @ (axes.T @ residuals)
     squares = float(own @ own)
-    if length <= LEAST_REST * float(np.linalg.norm(per_offset)) or squares == 0.0:
+    if length <= LEAST_REST * float(np.linalg.norm(column)) or squares == 0.0:
         return math.nan, math.nan
     along = float(left @ own) / length
     return -along / length, along**2 / squares

@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 # Probability of the intervals.
 LEVEL = 0.95
 
+# Name of a fitted curve without a band.
+NO_BAND = "fit, which does not describe the data: no interval is valid"
+
 # Distance from a bound, as a share of the bounds, below which a parameter is said to lie on it.
 AT_BOUND = 5e-3
 
@@ -298,7 +301,7 @@ class FitResult(Renamed, Shown):
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw measured points, fitted curve and its 95 % band; returns the axes."""
         axes = figures.axes_or_new(ax)
-        draw_fit(axes, self.measured, self.predicted, self.band)
+        draw_fit(axes, self.measured, self.predicted, self.band if self.describes_data else None)
         return axes
 
     def plot_residuals(self, ax: "Axes | None" = None) -> "Axes":
@@ -340,16 +343,17 @@ class FitResult(Renamed, Shown):
         return float(t.ppf(0.5 + LEVEL / 2, self.predicted.size - self.unit.size))
 
 
-def draw_fit(axes: "Axes", measured: Measured, predicted: np.ndarray, band: Sequence[np.ndarray]) -> None:
+def draw_fit(axes: "Axes", measured: Measured, predicted: np.ndarray, band: Sequence[np.ndarray] | None) -> None:
     """Draw ``measured`` points, and the fitted curve of which they have the ``predicted`` (n,) with its 95 % ``band``, the
-    lower and the upper end (n,)."""
-    (low, high) = band
+    lower and the upper end (n,); None: the fit does not describe the data, and has none."""
     measured.draw(axes)
     order = np.argsort(x := np.abs(measured.x))
-    axes.plot(x[order], predicted[order], color=figures.BLUE, label="fit")
-    axes.fill_between(
-        x[order], low[order], high[order], color=figures.BLUE, alpha=0.2, lw=0, label="95 % interval of the fit"
-    )
+    axes.plot(x[order], predicted[order], color=figures.BLUE, label="fit" if band is not None else NO_BAND)
+    if band is not None:
+        (low, high) = band
+        axes.fill_between(
+            x[order], low[order], high[order], color=figures.BLUE, alpha=0.2, lw=0, label="95 % interval of the fit"
+        )
     measured.label(axes)
     axes.set(ylim=(0.0, None), ylabel=figures.FRICTION_LABEL)
     figures.key_above(axes)

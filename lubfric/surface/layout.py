@@ -15,6 +15,7 @@ LONG_LIST = 30  # lines of three columns that cannot be a map
 MOST_COLUMNS = 6  # a list of points may have columns beside x, y, z
 EVEN_PRINTED = 0.02  # of a step: coordinates are printed to few digits
 EVEN_EXACT = 1e-6
+SAME_SPACING = 0.02  # relative difference up to which the step of coordinates is the given spacing
 FEWEST_COORDINATES = 4  # coordinates along one side; from `SURE_COORDINATES` on they may be rounded
 SURE_COORDINATES = 6
 
@@ -128,8 +129,15 @@ def border_of(table: np.ndarray) -> tuple[Border | None, np.ndarray]:
     return Border(steps=(along, down)), heights
 
 
-def refuse_profile(name: str, table: np.ndarray, header: Header | None, units: tuple[str, str, str] | None) -> None:
-    """Raise `InputError` for a profile, with the statistics that make a surface of it."""
+def refuse_profile(
+    name: str,
+    table: np.ndarray,
+    header: Header | None,
+    units: tuple[str, str, str] | None,
+    spacing: tuple[float, float] | None = None,
+) -> None:
+    """Raise `InputError` for a profile, with the statistics that make a surface of it. ``spacing`` [m]: as the user gives it,
+    which the first column must not contradict."""
     values = table.ravel() if min(table.shape) == 1 else table[:, 1]
     said = f"file {name} contains a profile of {values.size} points, not a map of heights"
     recommendation = (
@@ -153,16 +161,34 @@ def refuse_profile(name: str, table: np.ndarray, header: Header | None, units: t
             said = f"{said[: said.rindex('(')]}(Sq {sq * scale:.4e} m about its mean line"
         length = _correlation_steps(z)
         if length is not None:
-            x = table[:, 0] if min(table.shape) > 1 else None
-            step = None if x is None else abs(float(x[-1] - x[0])) / (x.size - 1)
-            said += f", correlation length {length:.3g} steps" if step is None else ""
-            scale_x = None if units is None else LENGTHS.get(units[0]) or LENGTH_UNITS.get(units[0])
-            if step is not None and scale_x is not None:
-                said += f", correlation length {length * step * scale_x:.4g} m"
-            elif step is not None:
-                said += f", correlation length {length * step:.4g} in the unit of its first column"
+            said += f", correlation length {_length_in_words(length, table, units, spacing)}"
         said += ")"
     raise InputError(said, recommendation=recommendation)
+
+
+def _length_in_words(
+    length: float, table: np.ndarray, units: tuple[str, str, str] | None, spacing: tuple[float, float] | None
+) -> str:
+    """Return a ``length`` of so many steps of a profile as text, in m where ``units`` or ``spacing`` say it; and that both
+    contradict each other, where they do."""
+    given = None if spacing is None else spacing[0]
+    if min(table.shape) == 1:
+        return f"{length:.3g} steps" if given is None else f"{length * given:.4g} m"
+    x = table[:, 0]
+    step = abs(float(x[-1] - x[0])) / (x.size - 1)
+    scale = None if units is None else LENGTHS.get(units[0]) or LENGTH_UNITS.get(units[0])
+    if given is None:
+        in_file = f"{length * step:.4g} in the unit of its first column"
+        return (
+            in_file if scale is None else f"{length * step * scale:.4g} m with its first column in {units and units[0]}"
+        )
+    fitting = [unit for unit, size in LENGTHS.items() if abs(step * size / given - 1) < SAME_SPACING]
+    if fitting:
+        return f"{length * given:.4g} m with its first column in {fitting[0]}, as spacing says"
+    return (
+        f"{length * given:.4g} m by spacing = {given:.4g} m, which the steps of its first column, {step:.4g}, contradict in "
+        "every unit"
+    )
 
 
 def _correlation_steps(z: np.ndarray) -> float | None:

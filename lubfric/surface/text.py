@@ -26,7 +26,7 @@ from .header import (
     statements,
     steps_in_unit,
 )
-from .layout import FEWEST_COORDINATES, Border, border_of, kind_of_table, refuse_profile
+from .layout import FEWEST_COORDINATES, SAME_SPACING, Border, border_of, kind_of_table, refuse_profile
 from .points import gridded
 from .sdf import SDF_FIRST_WORDS as SDF
 from .sdf import read_sdf
@@ -44,7 +44,6 @@ HEIGHT_BLOCKS = ("RAW_DATA", "RAW DATA", "OPD", "SAMPLE_DATA")  # of a Wyko file
 # 'heights in nm'
 OF_HEIGHTS = re.compile(r"\b(?:heights?|z)\s+(?:are\s+|values\s+)?in\s+[\[(]?(mm|um|µm|μm|nm)\b", re.I)
 LATERAL = (1.0, 1e-3, 1e-6, 1e-9)  # m: units that coordinates without a stated one may be in
-SAME_SPACING = 0.02  # relative difference up to which the step of coordinates is the given spacing
 
 _NUMBER_IN_FIELD = re.compile(r"[+-]?(?:(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?|nan|inf|infinity)", re.I)
 _VALUE = r"(?:[+-]?(?:\d+(?:,\d+)?(?:[eE][+-]?\d+)?|[nN][aA][nN]))"
@@ -138,7 +137,7 @@ def read_text(
     kind = "points" if points else kind_of_table(path.name, table.numbers)
     if kind == "profile":
         named = column_units([*table.titles, *table.comments], columns=2)
-        refuse_profile(path.name, table.numbers, table.header, units if units or named is None else named[0])
+        refuse_profile(path.name, table.numbers, table.header, units if units or named is None else named[0], spacing)
     if kind == "points":
         return _points(path, table, units, spacing)
     return _matrix(path, table, units, spacing)

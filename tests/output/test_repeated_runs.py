@@ -40,8 +40,11 @@ def test_the_stated_command_repeats_the_run(option, tmp_path, monkeypatch):
     assert program == "lubfric" and 'file = "../map.npy"' in Path("resolved.toml").read_text()
     assert main([*words, "--out", "again"]) == 0
     again = json.loads(Path("again/result.json").read_text())
+    assert main(["run", "resolved.toml", "--out", "plain"]) == 0  # the file holds the options
+    plain = json.loads(Path("plain/result.json").read_text())
     for name in ("speed", "coefficient", "contact_load"):
-        assert [point[name] for point in again["points"]] == [point[name] for point in first["points"]]
+        for repeated in (again, plain):
+            assert [point[name] for point in repeated["points"]] == [point[name] for point in first["points"]]
 
 
 def test_a_map_that_is_gone_when_the_run_ends_costs_neither_page_nor_record(tmp_path, monkeypatch, drawn):

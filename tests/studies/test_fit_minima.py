@@ -133,6 +133,17 @@ def test_the_probability_of_an_offset_is_that_of_the_test_of_two_models():
     assert "an offset of the measured f, of the order of 0.02" in tests.text
 
 
+@pytest.mark.parametrize("offset, factor, named", [(0.02, 1.0, "an offset"), (0.0, 1.25, "a factor")])
+def test_an_offset_and_a_factor_are_told_apart(offset, factor, named):
+    """Of a fitted curve that varies tenfold, with a parameter that can follow neither."""
+    fitted = np.geomspace(0.01, 0.1, 12)
+    parameter = np.tile([1e-3, -1e-3], 6)[:, None]
+    measured = factor * fitted + offset + 1e-5 * np.random.default_rng(1).standard_normal(12)
+    tests = residual_tests(np.arange(12.0), fitted - measured, parameter, np.zeros(12), stated=False, fitted=fitted)
+    assert f"{named} of the measured f" in tests.text and "and a" not in tests.text.split("; ")[1]
+    assert (tests.offset if offset else tests.factor) == pytest.approx(offset or factor, rel=1e-3)
+
+
 def test_residuals_of_a_system_and_large_ones_are_told():
     rng = np.random.default_rng(5)
     x = np.linspace(0.0, 1.0, 12)

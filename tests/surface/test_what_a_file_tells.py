@@ -233,6 +233,21 @@ def test_a_profile_is_described_in_the_units_that_are_stated(tmp_path):
             read_surface(path, **given)
 
 
+@pytest.mark.parametrize("scale, columns", [(1e3, 2), (1e6, 2), (1.0, 1)])  # of the first column, from m
+def test_a_stated_spacing_sets_the_correlation_length_of_a_profile(scale, columns, tmp_path):
+    """Whatever the unit of its first column, which heights in another unit do not have; one that fits in no unit is named."""
+    x = np.arange(200) * 1e-6
+    rows = np.column_stack([scale * x, 0.1 * np.sin(x / 5e-6)])[:, -columns:]
+    path = tmp_path / "a.txt"
+    np.savetxt(path, rows)
+    with pytest.raises(InputError, match=r"correlation length [56]\.\d*e-06 m") as caught:
+        read_surface(path, spacing=1e-6, unit="um")
+    assert "contradict" not in str(caught.value)
+    if columns == 2:
+        with pytest.raises(InputError, match="contradict in every unit"):
+            read_surface(path, spacing=3e-6, unit="um")
+
+
 def test_what_is_wrong_with_heights_is_said_with_its_place(tmp_path):
     path = tmp_path / "a.npy"
     z = 1e-7 * np.random.default_rng(0).standard_normal((12, 10))

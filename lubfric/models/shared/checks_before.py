@@ -118,7 +118,7 @@ def _violations_by_short_patch(scene: Scene, surface: Surface) -> Iterator[Viola
         return
     refuses = f"load sharing, with which the default model begins, refuses a result with more than {100 * ON_ENDS:g} % of the contact load on the edge columns of the patch"
     yield Violation(
-        assumption=Assumption.CONTACT_ON_PATCH,
+        assumption=Assumption.LONG_PATCH,
         what="length of the patch along the motion",
         value=1e6 * length,
         limit=1e6 * needed,

@@ -41,6 +41,7 @@ class Assumption(StrEnum):
     LONG_SAMPLE = "sample with many asperities"
     STRIPS_LIKE_MAP = "strips as rough as the map"
     CONTACT_ON_PATCH = "contact within the patch"
+    LONG_PATCH = "patch longer than the contact"
     ASPERITIES_END = "asperities that end on the map"
     ONE_DIRECTION = "surfaces that move in one direction"
     LAMINAR_FILM = "laminar film"
