@@ -72,11 +72,11 @@ class TransientLoadSharing(LoadSharingSolver):
         )
 
     def resumable(self, progress: Progress) -> Progress:
-        """Return ``progress`` with the pressure of the contact, from which the next one is solved, and without what the
+        """Return ``progress`` with the pressure and displacement of the contact, from which the next one is solved, without what the
         next step computes again."""
         contact_step = progress.payload
         state = contact_step.state
-        fields = state.fields and replace(state.fields, gap=np.empty(0), displacement=np.empty(0))
+        fields = state.fields and replace(state.fields, gap=np.empty(0))
         return replace(
             progress, payload=replace(contact_step, state=replace(state, fields=fields, y=None)), solution=None
         )
