@@ -247,7 +247,10 @@ class PointQuantities(Quantities[T]):
         is_in_time=False,
     )
     full_load_film: T = quantity(
-        "m", "full-load film thickness", "h_F", note="central film of smooth surfaces under F_T, by Moes' formula"
+        "m",
+        "full-load film thickness",
+        "h_F",
+        note="central film of smooth surfaces under F_T, by closed forms, also for a starved inlet",
     )
     lambda_ratio: T = quantity(
         *("-", "lambda ratio", "Λ"), note="full-load film thickness over Sq; in time of steady motion as at that moment"

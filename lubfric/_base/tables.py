@@ -127,7 +127,9 @@ def read_columns(
         raise InputError(f"file {path.name} has no row of numbers below its headings; give some")
     for line, row in rows[1:]:
         if any(field.strip() for field in row[len(headings) :]):
-            raise InputError(f"file {path.name}, line {line}: {len(row)} values for {len(headings)} headings")
+            hint = "; are its decimals written with a comma? Write a point, or separate the columns by semicolons"
+            said = f"file {path.name}, line {line}: {len(row)} values for {len(headings)} headings"
+            raise InputError(f"{said}{hint if len(row) > len(headings) + 1 else ''}")
     columns = []
     known = [*(name_and_unit(text)[0] for text in headings), *headings]
     for name, unit in zip(names, units):

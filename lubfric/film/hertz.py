@@ -154,6 +154,16 @@ class LineContact:
             film *= formulas.starved_share(oil.inlet_length, math.sqrt(2 * self.radius * film), self.half_width)
         return film if oil.inlet_film is None else min(film, oil.inlet_film)
 
+    @property
+    def starved_film(self) -> float:
+        """Return `moes_film` [m], as much thinner as a starved inlet makes it with a closed form
+        (`lubfric.film.formulas.starved_share`)."""
+        film = self.moes_film
+        inlet = self.lubricant.inlet_length
+        if inlet is None:
+            return film
+        return film * formulas.starved_share(inlet, math.sqrt(2 * self.radius * film), self.half_width)
+
     @cached_property
     def rigid_film(self) -> float:
         """Smallest film [m] of rigid bodies and constant viscosity, 4.895 eta0 |U| R/w (H. M. Martin, Engineering 102

@@ -130,7 +130,8 @@ def moment_reports(interval: float = PROGRESS_SECONDS) -> Callable[[str, int, in
             return
         last = now
         left = (now - begun) / (done - 1) * (total - done)
-        say(f"      {what}: step {done} of {total}, {left:.0f} s left")
+        time_left = f", {left:.0f} s left of this part" if left >= 1 else ""
+        say(f"      {what}: step {done} of {total}{time_left}")
 
     return report
 

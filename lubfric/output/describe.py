@@ -6,7 +6,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from ..errors import InputError
-from ..estimate import estimated_work_of_point, seconds_of_points
+from ..estimate import FrictionResult, estimated_work_of_point, seconds_of_points
 from ..models import AUTO, model_named, models_that_may_answer
 from ..models.deterministic import MOST_WORK_OF_POINT
 from ..models.shared import (
@@ -19,6 +19,7 @@ from ..models.shared import (
     gathered,
     inlet_at,
     violations_by_form,
+    violations_by_inlet_of_moment,
     violations_by_strips,
     violations_by_unusual_inputs,
 )
@@ -28,7 +29,7 @@ from ..scene import UNITS_OF_HISTORIES, Scene, has_moving_roughness, hint_unusua
 from ..studies import WITHIN_WORDS, expected_speeds, in_words
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import RunEstimate, check_run, estimated_run, periods, run_model_of, sampled_times, scene_at, speeds_of_run
-from ..units import worded
+from ..units import plain_number, worded
 from .inputs import FACTS, input_rows
 
 # Speeds of many at which the work is counted, about.
@@ -57,6 +58,10 @@ COMMAND_SECONDS = 2.4
 FILES_SECONDS = 1.4
 # Whether asperities touch, by the estimate.
 ASPERITIES = {"touching": "yes", "none or a few summits": "few or none", "none": "no"}
+# Part of the largest speed of a run below which a speed is that of a standstill: frequencies are written with nine digits.
+STANDSTILL_PART = 1e-8
+# Part of the power loss from which the rolling resistance in it is named.
+SMALL_ROLLING_PART = 0.01
 # Lambda ratio below which a film near the height of the highest summit does not exclude that asperities carry load: the usual
 # limit of full-film lubrication (Hamrock, Schmid, Jacobson: Fundamentals of Fluid Film Lubrication, 2004).
 FULL_FILM_LAMBDA = 3.0
@@ -90,6 +95,16 @@ class SceneEstimate:
     severe: tuple[Violation, ...]
     effects: tuple[ExpectedEffect, ...]
     run: RunEstimate | None = None
+
+
+def rolling_in_words(point: FrictionResult, sliding_speed: float) -> str:
+    """Return how much of the power loss of ``point``, whose surfaces slide at ``sliding_speed`` [m/s], is rolling resistance,
+    as text to be appended; "" for a small part."""
+    sliding = abs(sliding_speed) * point.coefficient * (point.contact_load + point.film_load)
+    rolling = point.power_loss - sliding
+    if not rolling > SMALL_ROLLING_PART * abs(point.power_loss):
+        return ""
+    return f", of which {plain_number(rolling, 'W')} is rolling resistance"
 
 
 def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
@@ -153,6 +168,10 @@ def estimate_scene(
         *((None, violation) for violation in violations_by_strips(*sample.sq_deviation(surface))),
         *first_model.expected_violations(scene, sorted(set(speeds))),
     ]
+    if scene.transient is not None:
+        fastest = _fastest_moment(scene)
+        top = fastest.motion.entrainment_speed
+        at += [(top, violation) for violation in violations_by_inlet_of_moment(fastest, top)]
     may_refuse = Assumption.STRESS_OF_OILS_UNDER_TOTAL_LOAD
     refusals = _doubts([pair for pair in at if pair[1].severe or pair[1].assumption == may_refuse])
     scene_map = sample.whole_map
@@ -304,23 +323,18 @@ def _course(scene: Scene, estimate: RunEstimate, speeds: list[float]) -> tuple[s
 
 def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[float]) -> list[tuple[str, ...]]:
     """Return a table at some of the ``speeds`` [m/s]: Moes numbers and the expected film under the total load, whether
-    the summits touch, and, unless a run in time has one sample for all, what the sample costs."""
-    steady = scene.transient is None
-    sampled = steady and sample.is_resolved
+    the summits touch, and what the sample costs; of a run in time `_moment_table`."""
+    if scene.transient is not None:
+        return _moment_table(scene, sample, surface)
+    sampled = sample.is_resolved
     table: list[tuple[str, ...]] = [("U [m/s]", "M", "L", "film [nm]", "lambda ratio", "asperity contact")]
     chosen = ("deterministic strips",) * (scene.numerics.model == AUTO)
     table[0] += ("strips", *chosen, "length of the line [mm]", "processor time [s]") * sampled
-    scene_speeds = (scene.motion.entrainment_speed,) if steady else ()
-    for speed in sorted({*speeds[:: max(1, len(speeds) // TABLE_SPEEDS)], *scene_speeds, speeds[-1]}):
+    for speed in sorted({*speeds[:: max(1, len(speeds) // TABLE_SPEEDS)], scene.motion.entrainment_speed, speeds[-1]}):
         one = estimated_work_of_point(scene, sample, surface, speed)
-        film = ("", "", "0", "0", "no entrainment" + ": all load" * steady)
+        film = ("", "", "0", "0", "no entrainment: all load")
         if speed != 0:
-            line = scene.line_contact(abs(speed))
-            inlet, is_used = inlet_at(scene, speed)
-            thickness = line.expected_film * (inlet.factor if is_used and inlet is not None else 1.0)
-            ratio = thickness / surface.sq if surface.sq > 0 else math.inf
-            numbers = f"{line.M:.3g}", f"{line.L:.3g}", f"{thickness * 1e9:.4g}", f"{ratio:.3g}"
-            film = *numbers, asperities_in_words(one.touching, ratio)
+            film = _film_in_words(scene, surface, speed, one.touching)
         counts = (
             f"{one.strips}",
             *(f"{one.slow_strips}" for _ in chosen),
@@ -329,6 +343,42 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
         )
         table.append((f"{speed:.4g}", *film, *counts * sampled))
     return table
+
+
+def _moment_table(scene: Scene, sample: Sample, surface: Surface) -> list[tuple[str, ...]]:
+    """Return the table of a run in time: at some moments and at those of the largest speed and load, with the load, the radius
+    and the viscosity of the moment."""
+    moments = {time: scene_at(scene, time) for time in sampled_times(scene)}
+    times = list(moments)
+    speeds = {time: abs(moment.motion.entrainment_speed) for time, moment in moments.items()}
+    fastest = max(times, key=lambda time: speeds[time])
+    heaviest = max(times, key=lambda time: moments[time].bodies.load)
+    chosen = {*times[:: max(1, len(times) // TABLE_SPEEDS)], fastest, heaviest}
+    table: list[tuple[str, ...]] = [
+        ("t [s]", "U [m/s]", "load [N]", "radius [mm]", "M", "L", "film [nm]", "lambda ratio", "asperity contact")
+    ]
+    for time in sorted(chosen):
+        now = moments[time]
+        is_at_rest = speeds[time] < STANDSTILL_PART * speeds[fastest]
+        speed = 0.0 if is_at_rest else now.motion.entrainment_speed
+        touching = estimated_work_of_point(now, sample, surface, speed).touching
+        film = ("", "", "0", "0", "no entrainment")
+        if speed != 0:
+            film = _film_in_words(now, surface, speed, touching)
+        values = (time, speed, now.bodies.load, 1e3 * now.bodies.radius)
+        table.append((*(f"{value:.4g}" for value in values), *film))
+    return table
+
+
+def _film_in_words(scene: Scene, surface: Surface, speed: float, touching: str) -> tuple[str, str, str, str, str]:
+    """Return the Moes numbers, the expected film under the total load, its lambda ratio and whether asperities touch at
+    ``speed`` [m/s], not 0, as text. ``touching``: as of `asperities_in_words`."""
+    line = scene.line_contact(abs(speed))
+    inlet, is_used = inlet_at(scene, speed)
+    thickness = line.expected_film * (inlet.factor if is_used and inlet is not None else 1.0)
+    ratio = thickness / surface.sq if surface.sq > 0 else math.inf
+    contact = asperities_in_words(touching, ratio)
+    return f"{line.M:.3g}", f"{line.L:.3g}", f"{thickness * 1e9:.4g}", f"{ratio:.3g}", contact
 
 
 def asperities_in_words(touching: str, lambda_ratio: float) -> str:

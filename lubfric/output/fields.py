@@ -69,7 +69,10 @@ def read_contact(path: Path, speed: float) -> DrawnContact:
     if near.size == 0:
         known = ", ".join(f"{each:.4g}" for each in speeds)
         raise InputError(
-            f" = {speed:g} m/s: {path.name} has the fields at {known} m/s", "--contact", f"one of {known} m/s"
+            f" = {speed:g} m/s: {path.name} has the fields at {known} m/s",
+            "--contact",
+            f"one of {known} m/s",
+            f"run the scene again with 'lubfric run --fields {speed:g}'",
         )
     i = near[0]
     fields = None

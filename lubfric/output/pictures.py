@@ -63,7 +63,7 @@ def plot_stribeck(
             top.set_ylim(bottom=min(top.get_ylim()[0], 1.1 * measured.coefficient.min()))
         _mark(figure, top, speed, c["coefficient"], [violations[i] for i in order], options)
         top.set(xlabel="")
-    figures.head(figure, title)
+    figures.head(figure, title if options.has_title else "")
     if "load" in axes:
         figures.load_shares(axes["load"], speed, c["contact_load"] / (c["contact_load"] + c["film_load"]))
         figures.key_above(axes["load"])
@@ -126,7 +126,7 @@ def plot_traction(
     parts = [np.insert(part, gaps, np.nan) for part in shown]
     figures.friction_lines(top, along, parts, marker="o", ms=4)
     _mark(figure, top, ratio, c["coefficient"], [violations[i] for i in order], options)
-    figures.head(figure, title)
+    figures.head(figure, title if options.has_title else "")
     top.set_ylabel(figures.FRICTION_LABEL)
     line = "-" if ratio.size > 1 else "o"
     for bottom in others:
@@ -187,13 +187,13 @@ def _mark(
     ):
         if chosen.any():
             axes.plot(speed[chosen], coefficient[chosen], marker, ms=9, mfc="none", mec=color, label=label)
-    counts = Counter(what for violated in violations for what in {violation.what for violation in violated})
+    counts = Counter(name for violated in violations for name in {each.assumption or each.what for each in violated})
     if counts:
         named = (
             what.rstrip(",") + ("" if n == len(violations) else f" ({n} of {len(violations)} points)")
             for what, n in counts.items()
         )
-        figure.supxlabel(f"warnings: {'; '.join(named)}", fontsize="small", color=figures.GREY, wrap=True)
+        figure.supxlabel(f"not fulfilled: {'; '.join(named)}", fontsize="small", color=figures.GREY, wrap=True)
     figures.key_above(axes)
 
 
@@ -240,7 +240,7 @@ def plot_history(
     first.plot(t, c["entrainment_speed"], color="k")
     first.axhline(0.0, color=figures.GREY, lw=0.6)
     first.set_ylabel("entrainment speed U (m/s)")
-    figures.head(figure, title)
+    figures.head(figure, title if options.has_title else "")
     load = first.twinx()
     load.grid(visible=False)
     load.spines["right"].set_visible(True)

@@ -30,7 +30,7 @@ from ..scene import Scene, short_keys
 from ..studies import CurveResult, Law, StribeckResult, TractionResult
 from ..time import TransientResult, in_motion, run_model_of, scene_at
 from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval, worded
-from .describe import TABLE_CAPTION, SceneEstimate
+from .describe import TABLE_CAPTION, SceneEstimate, rolling_in_words
 from .inputs import FACTS, INPUT_SECTIONS, inputs, over_the_run
 
 # columns of the operating table, after the swept quantity, f and its interval
@@ -68,10 +68,8 @@ PICTURES = {
 BUDGET = {name: part.label for name, part in PARTS.items()}
 # The same where the error of the cells is a model-form one.
 BUDGET_ON_LONG_CELLS = {name: part.label_on_long_cells or part.label for name, part in PARTS.items()}
-# A number smaller than this times the largest of its column is 0 in a table.
-TABLE_ROUNDING = 1e-9
-# Part of the power loss from which the report names the rolling resistance in it.
-SMALL_ROLLING_PART = 0.01
+# A number smaller than this times the largest of its column is 0 in a table: frequencies are written with nine digits.
+TABLE_ROUNDING = 1e-8
 
 # Asperity load ratio up to which the solved film is that of the total load, and is stated beside the formula. A convention.
 FULL_FILM_PART = 0.01
@@ -215,13 +213,10 @@ def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding
         sentences.append(sentence(point.decision.basis))
     low, high = point.power_loss_interval
     loss = f"The power loss is {with_interval(point.power_loss, low, high, unit='W')}"
-    rolling = point.power_loss - abs(sliding_speed) * point.coefficient * (point.contact_load + point.film_load)
-    if rolling > SMALL_ROLLING_PART * abs(point.power_loss):
-        loss += f", of which {plain_number(rolling, 'W')} is rolling resistance"
-    sentences.append(f"{loss}.")
+    sentences.append(f"{loss}{rolling_in_words(point, sliding_speed)}.")
     if math.isfinite(point.lambda_ratio):
         sentences[-1] += (
-            f" The full-load film by Moes' formula is {plain_number(point.full_load_film, 'm')} thick, a lambda ratio of "
+            f" The full-load film by closed forms is {plain_number(point.full_load_film, 'm')} thick, a lambda ratio of "
             f"{point.lambda_ratio:.3g}."
         )
         if point.contact_load <= FULL_FILM_PART * (point.contact_load + point.film_load):
@@ -558,7 +553,9 @@ def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
         if deterministic
         else f"The smallest film thickness, under the film load, is {film}."
     )
-    ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio)]
+    fastest = np.abs(result.entrainment_speed).max(initial=0.0)
+    rolls = np.abs(result.entrainment_speed) > TABLE_ROUNDING * fastest
+    ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio) & rolls]
     if ratio.size:
         sentences.append(
             "The lambda ratio (full-load film thickness in steady motion over Sq) lies between "

@@ -37,7 +37,7 @@ from ..scene import (
 from ..units import number_and_unit, number_of, numbers_of, with_interval
 from .commands import RepeatedRun, RunFolder, check_outputs, made, moment_reports, read_record, run_begun, say
 from .contact_pictures import compared_contact, drawn_contact, plot_contact
-from .describe import SceneEstimate
+from .describe import SceneEstimate, rolling_in_words
 from .fields import fields_bytes, read_contact, vtk_bytes
 from .fit_picture import FIT, plot_fit, read_fit
 from .picture_options import PANELS, PictureOptions
@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 
 AXIS_SCALES = ("linear", "log")  # of an axis
 INTERVAL_FORMS = ("band", "bars")  # of the intervals of a curve in its picture
-LEFT_OUT = ("warnings", "parts")  # of a picture, where a user does not want them
+LEFT_OUT = ("warnings", "parts", "title")  # of a picture, where a user does not want them
 FORMATS = ("png", "pdf", "svg")  # of a picture that is drawn again
 NARROWEST = 0.05  # m: width of a picture
 LEAST_DPI = 50  # points of a picture per inch
@@ -75,7 +75,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
     ended: list[tuple[Any, ...]] = []
     speeds, chosen = _requested(scene, arguments.speeds, arguments.fields)
     total = "some" if speeds == studies.AUTO_SPEEDS else len(speeds)
-    progress = _progress("U = {:.4g} m/s", is_total_known=speeds != studies.AUTO_SPEEDS)
+    progress = _progress("U = {:.4g} m/s", scene, is_total_known=speeds != studies.AUTO_SPEEDS)
     names = ["stribeck.csv", "stribeck.png", "contact.png", "sharing.png", "law.json", "law.c"]
     names += [f"contact_{i}.vtk" for i in range(len(chosen) if arguments.vtk else 0)]
 
@@ -134,7 +134,7 @@ def run_traction(scene: Scene, arguments: Namespace) -> None:
     ratios = parse_ratios(arguments.ratios)
     names = ["traction.csv", "traction.png"]
     begun = run_begun(scene, arguments, names, None, ratios, "traction", ratios=ratios)
-    progress = _progress("slide-roll ratio {:.4g}")
+    progress = _progress("slide-roll ratio {:.4g}", scene, has_ratios=True)
     with ProgressLine("ratios") as shown, begun as (folder, prepared, estimate):
 
         def on_point(*point: Any) -> None:
@@ -392,6 +392,7 @@ def _picture_options(arguments: Namespace, name: str) -> PictureOptions:
         **scales,
         has_warnings="warnings" not in left_out,
         has_parts="parts" not in left_out,
+        has_title="title" not in left_out,
         has_bars=form == "bars",
     )
 
@@ -507,6 +508,10 @@ def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float =
         raise InputError(
             f" {validate.shown(text)}", option, recommendation=f"separate values by commas, {','.join(apart)}"
         )
+    ends = re.fullmatch(r"\s*(\S+)\s+to\s+(\S+)\s*", text)
+    if ends is not None:
+        example = f"{ends[1]}:{ends[2]}:11"
+        raise InputError(f" {validate.shown(text)}", option, recommendation=f"write low:high:count, such as {example}")
     numbers = numbers_of(option, words, [unit] * len(words))
     for number in numbers:
         validate.number(option, number, unit, minimum=-most, maximum=most)
@@ -582,9 +587,9 @@ def _range(option: str, words: list[str], unit: str, most: float, *, linear: boo
     return values
 
 
-def _progress(place: str, *, is_total_known: bool = True) -> Callable[..., Any]:
-    """Return what says how a point ended; ``place``: the template of its place on the curve. ``is_total_known``: whether the
-    number of points is."""
+def _progress(place: str, scene: Scene, *, is_total_known: bool = True, has_ratios: bool = False) -> Callable[..., Any]:
+    """Return what says how a point of ``scene`` ended; ``place``: the template of its place on the curve. ``is_total_known``:
+    whether the number of points is; ``has_ratios``: the points differ in their slide-roll ratio."""
 
     def on_point(done: int, total: int, value: float, outcome: FrictionResult | ValidityError) -> None:
         number = f"{done:>{len(str(total))}}/{total}" if is_total_known else str(done)
@@ -598,7 +603,9 @@ def _progress(place: str, *, is_total_known: bool = True) -> Callable[..., Any]:
         largest = f"; {known.largest_part}" if known.largest_part else ""
         omitted = f"; {outcome.not_in_interval}" if outcome.not_in_interval else ""
         time_ = f"(wall-clock time {outcome.seconds:.2f} s)"
-        loss = f"P = {with_interval(outcome.power_loss, *outcome.power_loss_interval, unit='W')}"
+        ratio = value if has_ratios else scene.motion.slide_roll_ratio
+        rolling = rolling_in_words(outcome, ratio * outcome.speed).replace(", of", " of", 1)
+        loss = f"P = {with_interval(outcome.power_loss, *outcome.power_loss_interval, unit='W')}{rolling}"
         say(f"{head}: {known.short(outcome.coefficient)}{omitted}; {loss}; {words} {time_}{largest}")
 
     return on_point

@@ -251,12 +251,17 @@ def _place(plan: studies.StudyPlan, index: tuple[int, ...], outcome: Any) -> str
     return ", ".join(filter(None, (studies.label(plan, index[:-1]), speed)))
 
 
+# What a negative f is, on the line of a point.
+NEGATIVE = " (negative: the rolling resistance of the upper surface is above the friction of sliding)"
+
+
 def _in_a_line(outcome: FrictionResult | Exception) -> str:
     """Return f and the power loss of a point with their intervals, or why it failed."""
     if not isinstance(outcome, FrictionResult):
         return f"{'refused' if isinstance(outcome, ValidityError) else 'failed'}: {outcome}"
     f = with_interval(outcome.coefficient, *outcome.uncertainty.interval)
-    return f"f = {f}, P = {with_interval(outcome.power_loss, *outcome.power_loss_interval, unit='W')}"
+    negative = NEGATIVE * (outcome.coefficient < 0 and outcome.speed >= 0)
+    return f"f = {f}{negative}, P = {with_interval(outcome.power_loss, *outcome.power_loss_interval, unit='W')}"
 
 
 def run_fit(arguments: Namespace) -> None:

@@ -57,6 +57,13 @@ REPORTED_NUMBERS: dict[str, tuple[str, str] | None] = {
     ASPERITY_LOAD_RATIO: None,
 }
 
+# Digits of what is varied, which is exact.
+CELL_DIGITS = 4
+# Digits of numbers whose error is not stated: the asperity load ratio is known to some percent, as f.
+DIGITS_WITHOUT_ERROR = {ASPERITY_LOAD_RATIO: 2}
+# Digits of a temperature rise, which is that of one strip at one moment, and varies up to threefold (docs/glossary.md).
+RISE_DIGITS = 2
+
 # What f is at a point where nothing slides, and why the power loss there is not f times a speed.
 IN_PURE_ROLLING = (
     "Nothing slides there: f is the rolling part of the force on one surface. The power loss is that of the rolling resistance "
@@ -236,7 +243,8 @@ def _table(result: StudyResult, rows: int) -> str:
         if si == "°C":
             cells.append([f"{value:.4g}" for value in values])
             continue
-        cells.append([_cell(*numbers, si, unit) for numbers in zip(values, low, high)])
+        digits = CELL_DIGITS if name in result.coords else DIGITS_WITHOUT_ERROR.get(name, CELL_DIGITS - 1)
+        cells.append([_cell(*numbers, si, unit, digits) for numbers in zip(values, low, high)])
     body = ["".join(f'<td class="number">{escape(text)}</td>' for text in row) for row in zip(*cells)]
     if result.failed:
         heads.append("status")
@@ -255,7 +263,7 @@ def _details(result: StudyResult, rows: int) -> str:
     body = []
     for i, row in enumerate(picked):
         cells = [f"{row + 1}", worded(peak_hertz_pressure(scenes[row]), "Pa")]
-        cells += [_cell(rise[i], np.nan, np.nan, "K", "K") for rise in rises]
+        cells += [_cell(rise[i], np.nan, np.nan, "K", "K", RISE_DIGITS) for rise in rises]
         cells += [percent(float(part[i])) if np.isfinite(part[i]) else "not known" for part in parts.values()]
         body.append("".join(f'<td class="number">{escape(text)}</td>' for text in cells))
     heads = ["no.", "peak Hertz pressure", "flash temperature rise [K]", "film temperature rise [K]"]
@@ -310,14 +318,14 @@ def _effects_at_largest(result: StudyResult) -> str:
     return f"<h3>Effects not modelled</h3>{effects_table(effects, f'at point {i + 1}, of the largest f')}"
 
 
-def _cell(value: float, low: float, high: float, si: str, unit: str) -> str:
-    """Return a number in ``unit``, with its interval if that is known."""
+def _cell(value: float, low: float, high: float, si: str, unit: str, digits: int) -> str:
+    """Return a number in ``unit``, with its interval if that is known; else to so many ``digits``."""
     if not np.isfinite(value):
         return "-"
     shown, *ends = (converted(float(number), si, unit) for number in (value, low, high))
     if np.isfinite(low) and np.isfinite(high):
         return with_interval(shown, ends[0], ends[1], "")
-    return plain_number(shown, digits=4)
+    return plain_number(shown, digits=digits)
 
 
 def _list(lines: list[str]) -> str:

@@ -262,7 +262,9 @@ def _nearest_scene(path: Path, names: tuple[str, ...]) -> str:
             names = tuple(file.name for file in path.parent.iterdir() if file.suffix == ".toml")
         except OSError:
             return ""
-        return validate.nearest(path.name, names, cutoff=NEAR_FILE)
+        stems = {name.removesuffix(".toml"): name for name in names}
+        near = get_close_matches(path.stem, stems, 1, NEAR_FILE)  # all end alike
+        return f" (did you mean {stems[near[0]]!r}?)" if near else ""
     return validate.nearest(str(path), names)
 
 

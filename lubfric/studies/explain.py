@@ -160,7 +160,9 @@ def explain(plan: Any, store: Path | None = None) -> str:
     kept = Store(store)
     others = 0 if plan.chooses_speeds else kept.count - held - kept.has(PLAN)
     if others > 0:
-        lines.append(f"  other    {counted(others, 'points')} of other scenes are in {store} too; they are not used")
+        lines.append(
+            f"  other    {counted(others, 'points')} of other scenes, or of another version of lubfric, are in {store} too; they are not used"
+        )
     if not any(True for _ in table.left()):
         lines += [f"  {text}" for text in warnings_of(plan)]
         return "\n".join([*lines, "  time     nothing is left to solve"])

@@ -87,13 +87,15 @@ class Store:
         read, is damaged, or of another version, counts as absent; a `UserWarning` reports it."""
         if self.folder is None or not os.path.lexists(self._path(key)):
             return None
+        fault = "is damaged"
         try:
             content = read_checked(self._path(key)) if self._path(key).is_file() else None
             if not (content or b"").startswith(_name(key)):
                 raise ValueError("cut off, overwritten, or the record of another key")
+            fault = "was written by another version of lubfric"
             record = decode((content or b"")[len(_name(key)) :], self.classes, kind)
         except (ValueError, OutputError):
-            warnings.warn(f"{self._path(key)} is damaged and does not count: it is to be solved again", stacklevel=2)
+            warnings.warn(f"{self._path(key)} {fault} and does not count: it is to be solved again", stacklevel=2)
             return None
         return _error(record) if isinstance(record, Failure) else record
 

@@ -32,6 +32,7 @@ from ..models.shared import (
     violations_by_deflection,
     violations_by_ends,
     violations_by_film,
+    violations_by_inlet_of_moment,
     violations_by_motion,
     violations_by_typical_heat,
 )
@@ -173,6 +174,7 @@ def _violated(
     yield from prepared.violations
     yield from violations_by_ends(prepared.scene, row["edge_load"], prepared.surface)
     yield from violations_by_motion(scene, speed, film)
+    yield from violations_by_inlet_of_moment(scene, speed)
     yield from violations_by_film(
         scene, thickness=film, peak=row["max_pressure"], shear=shear, film_load=row["film_load"], force=force, heat=heat
     )

@@ -41,7 +41,15 @@ from ..models.deterministic import (
     surface_and_map_coarsening,
     work_of_steps,
 )
-from ..models.shared import Assumption, Prepared, Violation, block_error, violations_by_motion, violations_by_thickness
+from ..models.shared import (
+    Assumption,
+    Prepared,
+    Violation,
+    block_error,
+    violations_by_inlet_of_moment,
+    violations_by_motion,
+    violations_by_thickness,
+)
 from ..quantities import FRICTION_FORCES, OF_MOMENT
 from ..scene import Constant, Scene, moving_bodies
 from .film_setting import WET_PRESSURE
@@ -364,6 +372,7 @@ def deterministic_moment(
     violations = [
         *solver.prepared.violations,
         *violations_by_motion(scene, speed, film),
+        *violations_by_inlet_of_moment(scene, speed),
         *violations_by_thickness(scene, film),
     ]
     lost = max(heat.change, 1 - heat.inlet.factor if heat.inlet else 0.0)

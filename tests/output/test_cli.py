@@ -157,8 +157,8 @@ def test_how_far_a_long_point_is_is_reported_with_the_time_left(capsys, monkeypa
         report("moving roughness", done, 10)
     lines = capsys.readouterr().err.splitlines()
     assert [line.strip() for line in lines] == [
-        "moving roughness: step 3 of 10, 21 s left",
-        "moving roughness: step 5 of 10, 15 s left",
+        "moving roughness: step 3 of 10, 21 s left of this part",
+        "moving roughness: step 5 of 10, 15 s left of this part",
     ]
 
 

@@ -90,7 +90,7 @@ COLUMNS = {
 
 
 def test_a_curve_is_drawn_by_its_table(figures):
-    cautious = [(), (), (), (SimpleNamespace(severe=False, is_note=False, what="starved"),)]
+    cautious = [(), (), (), (SimpleNamespace(severe=False, is_note=False, assumption="", what="starved"),)]
     plot_stribeck("x.png", COLUMNS, "title", cautious)
     top, middle, bottom = figures[0].axes
     for label, expected in (
@@ -483,12 +483,12 @@ def test_at_rest_no_friction_is_drawn(figures):
 
 
 def test_points_with_warnings_are_ringed_also_where_all_are(figures):
-    entry = SimpleNamespace(severe=False, is_note=False, what="starved")
+    entry = SimpleNamespace(severe=False, is_note=False, assumption="", what="starved")
     columns = COLUMNS | {"ratio": COLUMNS["speed"]}
     plot_traction("x.png", columns, "title", [(entry,)] * 4)
     solved = np.isfinite(COLUMNS["coefficient"])
     np.testing.assert_array_equal(data(figures[0].axes[0], "with warnings")[0], np.sort(COLUMNS["speed"][solved]))
-    assert figures[0].get_supxlabel() == "warnings: starved"
+    assert figures[0].get_supxlabel() == "not fulfilled: starved"
     cold = dict.fromkeys(("flash_temperature_rise", "film_temperature_rise"), 0 * COLUMNS["speed"])
     plot_traction("x.png", columns | cold, "title", [()] * 4)
     assert len(figures[1].axes) == 1  # no panel of temperatures where none rises
@@ -556,16 +556,17 @@ def test_the_model_form_error_is_drawn_with_both_its_sides():
 
 def test_marks_of_warnings_and_lines_of_parts_are_left_out_where_requested(figures):
     """The rings, the text below and the lines of single errors go; what f means nothing at stays crossed out."""
-    entry = SimpleNamespace(severe=False, is_note=False, what="starved")
-    severe = SimpleNamespace(severe=True, is_note=False, what="turbulent")
+    entry = SimpleNamespace(severe=False, is_note=False, assumption="", what="starved")
+    severe = SimpleNamespace(severe=True, is_note=False, assumption="", what="turbulent")
     columns = COLUMNS | {"model_error": np.array([0.02, 0.02, np.nan, 0.02])}
     violations = [(entry,), (), (), (severe,)]
-    for options in (PictureOptions(), PictureOptions(has_warnings=False, has_parts=False)):
+    for options in (PictureOptions(), PictureOptions(has_warnings=False, has_parts=False, has_title=False)):
         plot_stribeck("x.png", columns, "title", violations, options=options)
     labels = [{line.get_label() for line in figure.axes[0].lines} for figure in figures]
     assert {"with warnings", "model-form error alone"} <= labels[0] and "starved" in figures[0].get_supxlabel()
     assert not {"with warnings", "model-form error alone"} & labels[1] and "starved" not in figures[1].get_supxlabel()
     assert all("outside the model (accepted)" in each for each in labels)
+    assert [figure.get_suptitle() for figure in figures] == ["title", ""]
 
 
 def test_a_note_is_not_marked(figures):

@@ -13,7 +13,7 @@ from small_study import SCENE as SMALL_SCENE
 import lubfric
 from lubfric.models.quick.strips_on_long_cells import solve_on_long_cells
 from lubfric.output import describe_scene, main
-from lubfric.scene import Harmonic, Ramp, Table
+from lubfric.scene import Harmonic, Ramp, Table, Transient
 
 HEAVY = lubfric.load_scene("paper").with_(
     bodies={"radius": 0.01, "hertz_pressure": 0.9e9, "width": 0.01, "material": "steel"},
@@ -420,3 +420,41 @@ def test_the_report_states_how_speed_and_viscosity_change_f_in_mixed_lubrication
         assert 100 * (other.lambda_ratio / middle.lambda_ratio - 1) == pytest.approx(of_lambda, rel=0.1)
     assert main(["run", str(tmp_path / "s.toml"), "--speeds", "0.01", "--out", str(tmp_path / "o")]) == 0
     assert "more speed changes f" not in (tmp_path / "o" / "report.html").read_text(encoding="utf-8")
+
+
+def test_the_table_of_a_run_in_time_has_the_values_of_each_moment():
+    """Load and speed never have their largest values together; nor does a run tell less of its inlet than a steady point."""
+    scene = HEAVY.with_(lubricant={"inlet_length": 4e-4}).with_(
+        transient=Transient(
+            duration=1.0,
+            outputs=5,
+            speed=Table(times=(0.0, 0.5, 1.0), values=(0.1, 2.0, 0.1)),
+            load=Table(times=(0.0, 0.5, 1.0), values=(900.0, 100.0, 900.0)),
+        )
+    )
+    text = describe_scene(scene)
+    rows = text.partition("  t [s] ")[2].splitlines()[1:]
+    numbers = [
+        [float(word) for word in row.split()[:4]]
+        for row in rows[: next(i for i, r in enumerate(rows) if "bodies" in r)]
+    ]
+    assert {0.0, 0.5} <= {row[0] for row in numbers}
+    for time, speed, load, radius in numbers:
+        assert speed == pytest.approx(np.interp(time, (0.0, 0.5, 1.0), (0.1, 2.0, 0.1)), rel=2e-3)
+        assert (
+            load == pytest.approx(np.interp(time, (0.0, 0.5, 1.0), (900.0, 100.0, 900.0)), rel=2e-3) and radius == 10.0
+        )
+    assert "at 2 m/s: warning: film thickness over that of a fully flooded inlet" in text
+
+
+def test_the_options_of_a_scene_file_are_those_of_a_run(tmp_path, capsys):
+    (tmp_path / "s.toml").write_text('options = ["--load=3"]\n' + SMALL_SCENE.to_toml())
+    assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o")]) == 2
+    assert 'allowed: a list of "--ratios=..."' in capsys.readouterr().err
+    assert lubfric.load_scene(tmp_path / "s.toml").bodies == SMALL_SCENE.bodies
+
+
+def test_a_range_in_words_is_answered_with_the_form_of_a_range(tmp_path, capsys):
+    (tmp_path / "s.toml").write_text(SMALL_SCENE.to_toml())
+    assert main(["run", str(tmp_path / "s.toml"), "--ratios", "0 to 0.5", "--out", str(tmp_path / "o")]) == 2
+    assert "such as 0:0.5:11" in capsys.readouterr().err

@@ -198,7 +198,7 @@ def test_a_warning_of_several_speeds_gives_the_smallest_and_the_largest_value_wi
     (text,) = gathered([(0.1, (slower,)), (3.0, (faster,))])
     assert "above 5 %. At 0.1 m/s: it takes 8.69 s." in text  # of the one point that has these numbers
     (text,) = gathered_texts([in_a_cell([faster]), in_a_cell([slower])])
-    assert text.startswith("At all 2 points: slip is 5.2 to 8.69 %, above 5 %. At point 2: It takes 8.69 s.")
+    assert text.startswith("At all 2 points: slip is 5.2 to 8.69 %, above 5 %. At point 2: it takes 8.69 s.")
     (alike,) = gathered([(0.1, (entry(8.0),)), (0.3, (entry(8.0),))])
     assert "slip is 8 %, above" in alike
 

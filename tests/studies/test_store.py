@@ -137,7 +137,7 @@ def test_a_record_of_another_version_does_not_count(tmp_path, name):
     store = Store(tmp_path)
     store.add("a", (1,))
     write_checked(*(tmp_path / "points").iterdir(), b"a\n" + content)
-    with pytest.warns(UserWarning, match="damaged and does not count"):
+    with pytest.warns(UserWarning, match="another version of lubfric and does not count"):
         assert store.known(["a", "b"]) == {}
 
 

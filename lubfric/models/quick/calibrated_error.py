@@ -21,6 +21,12 @@ from ..shared import Assumption, Violation, inlet_at, peak_hertz_pressure
 
 OUTSIDE = "the quick answer is not calibrated for such contacts; its model-form error is increased, at most three times"
 
+# The lambda ratio by which contacts are compared with those of the calibration.
+RATIO_IN_WORDS = "lambda ratio of a flooded film by Moes' formula"
+# What to do outside the calibration, and above its lambda ratios, where heat is often beyond what the deterministic model was checked for.
+BY_DETERMINISTIC = "use numerics.model = 'deterministic', which needs no calibration"
+WIDENED = "read f with its interval, which is wider for that"
+
 # Distance in ln, below which the bounds widen by so little that nothing is reported: a hundredth of their width.
 NEGLIGIBLE_DISTANCE = 0.01
 
@@ -97,6 +103,7 @@ class Outside:
     def violation(self) -> Violation:
         """What a result, and `lubfric info` before it, says of it."""
         factor = 1e-9 if self.unit == "Pa" else 1.0
+        is_thick = self.what == RATIO_IN_WORDS and self.value > self.limit
         return Violation(
             assumption=Assumption.CALIBRATED,
             what=self.what,
@@ -104,7 +111,7 @@ class Outside:
             limit=factor * self.limit,
             unit="GPa" if self.unit == "Pa" else self.unit,
             consequence=OUTSIDE,
-            recommendation="use numerics.model = 'deterministic', which needs no calibration",
+            recommendation=WIDENED if is_thick else BY_DETERMINISTIC,
         )
 
 
@@ -119,7 +126,11 @@ def out_of_range(
         "slip": ("slide-roll ratio", abs(scene.motion.slide_roll_ratio), ""),
     }
     if sq and speed:
-        values["moes_ratio"] = ("lambda ratio by Moes' formula", scene.line_contact(abs(speed)).moes_film / sq, "")
+        values["moes_ratio"] = (
+            RATIO_IN_WORDS,
+            scene.line_contact(abs(speed)).moes_film / sq,
+            "",
+        )
     outside = []
     for name, (what, value, unit) in values.items():
         low, high = known[name]

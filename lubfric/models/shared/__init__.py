@@ -14,6 +14,7 @@ from .checks import (
     violations_by_film,
     violations_by_heat,
     violations_by_inlet,
+    violations_by_inlet_of_moment,
     violations_by_motion,
     violations_by_numerical_error,
     violations_by_patches,

@@ -238,7 +238,8 @@ def gathered_texts(cells: Sequence[str]) -> list[str]:
         (head, _, consequence) = text.partition(". ")
         if len({each.partition(". ")[2] for each in group.values()}) > 1:
             place = next(number for number, each in group.items() if each == text)
-            text = f"{head}. At point {place}: {consequence}"
+            begin = consequence[:1] if consequence[1:2].isupper() else consequence[:1].lower()  # but of an abbreviation
+            text = f"{head}. At point {place}: {begin}{consequence[1:]}"
         if len(values) == len(group):
             if least != most:
                 text = text.replace(f" is {most}", f" is {least} to {most}", 1)
