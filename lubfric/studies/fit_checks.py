@@ -153,7 +153,7 @@ class ResidualTests:
         known = {cause: share for cause, share in causes.items() if share > EXPLAINING}
         likely = {cause: share for cause, share in known.items() if share > max(known.values()) - AS_LIKELY}
         ways = [f"{cause} would explain {100 * share:.0f} % of their squares" for cause, share in likely.items()]
-        return "".join(f"; {way}" for way in (" and ".join(ways),) if way)
+        return "".join(f"; {way}" for way in (", or ".join(ways),) if way)
 
 
 def residual_tests(

@@ -140,7 +140,7 @@ def test_an_offset_and_a_factor_are_told_apart(offset, factor, named):
     parameter = np.tile([1e-3, -1e-3], 6)[:, None]
     measured = factor * fitted + offset + 1e-5 * np.random.default_rng(1).standard_normal(12)
     tests = residual_tests(np.arange(12.0), fitted - measured, parameter, np.zeros(12), stated=False, fitted=fitted)
-    assert f"{named} of the measured f" in tests.text and "and a" not in tests.text.split("; ")[1]
+    assert f"{named} of the measured f" in tests.text and ", or a" not in tests.text.split("; ")[1]
     assert (tests.offset if offset else tests.factor) == pytest.approx(offset or factor, rel=1e-3)
 
 
