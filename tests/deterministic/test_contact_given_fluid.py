@@ -10,6 +10,7 @@ from verification.fem.studies.deterministic import LOAD, contact
 from verification.fem.studies.given_fluid import GivenFluidCase, contact_by_elements, elements, laid
 
 
+@pytest.mark.slow  # cases of the study given_fluid
 def test_the_contact_is_that_of_finite_elements_given_the_fluid():
     case = GivenFluidCase(cells=32, across=8, speed=0.003, floor=40e-9, hardness=2.5e9, fineness=1)
     problem = laid(case, replace(contact(0.1), load_per_width=5 * LOAD))

@@ -276,6 +276,7 @@ def test_a_film_between_soft_rollers_is_solved_from_a_cold_start():
     assert again.coefficient == pytest.approx(result.coefficient, rel=3e-3)
 
 
+@pytest.mark.slow
 def test_a_starved_film_is_solved_from_a_cold_start():
     """60 nm arrive on 80 nm of roughness. On cells of 2 um, lifted by half of Moes' film the dry contact led to the solution
     in 50 steps or nowhere. To the film that a thicker one leads to, by another way."""

@@ -443,7 +443,7 @@ def test_moments_are_read_back_by_another_reader(tmp_path):
         pytest.param(1.0, 0.183, 40, marks=pytest.mark.slow),
         (1.0, 0.183, 16),
         pytest.param(0.5, 0.394, 8, marks=pytest.mark.slow),
-        (0.25, 0.660, 8),
+        pytest.param(0.25, 0.660, 8, marks=pytest.mark.slow),
     ],
 )
 def test_amplitudes_are_reduced_as_published(length, kept, cells):

@@ -31,6 +31,7 @@ def flat():
     return solve_rough(Discretisation(line(lambda x, y, t: 0 * x)))
 
 
+@pytest.mark.slow
 def test_a_smooth_surface_has_the_film_of_the_line_contact(flat):
     smooth = solve_ehl(STEEL, refinements=0, fineness=1.0, between=0.05)[-1]
     x = flat.problem.x
@@ -54,6 +55,7 @@ def test_ridges_along_the_motion_of_small_height_are_linear_in_it(flat):
     assert np.abs(once).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_a_surface_at_rest_stays_as_it_is_in_time(flat):
     grid = Discretisation(line(lambda x, y, t: 0 * x))
     later = list(islice(march(grid, flat, 0.1 * B / 0.5), 3))[-1]

@@ -144,7 +144,7 @@ def test_a_picture_is_drawn_as_the_command_says(figures, tmp_path, monkeypatch):
 
     monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", draw)
     scene = tmp_path / "s.toml"
-    scene.write_text(SCENE.with_(motion={"entrainment_speed": 0.1}).to_toml())
+    scene.write_text(SCENE.with_(motion={"entrainment_speed": 0.1}, numerics={"model": "paper"}).to_toml())
     out = str(tmp_path / "out")
     main(["run", str(scene), "--speeds", "0.1,1", "--out", out])
     main(["plot", out, "--panels", "friction, film", "--x-scale", "linear", "--y-scale", "log", "--width", "85 mm"])
@@ -510,7 +510,7 @@ def test_a_spike_does_not_take_the_colours_of_a_map_and_is_reported():
 
 def test_a_picture_for_a_paper_is_a_vector_graphic(tmp_path):
     scene = tmp_path / "s.toml"
-    scene.write_text(SCENE.with_(motion={"entrainment_speed": 0.1}).to_toml())
+    scene.write_text(SCENE.with_(motion={"entrainment_speed": 0.1}, numerics={"model": "paper"}).to_toml())
     out = tmp_path / "out"
     main(["run", str(scene), "--speeds", "0.1,1", "--out", str(out)])
     for kind, begin in (("pdf", b"%PDF"), ("svg", b"<?xml")):

@@ -111,6 +111,7 @@ def test_the_command_takes_the_address_of_a_cluster(cluster, tmp_path, capsys):
     assert "give one of them" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_scheduler_that_dies_and_comes_back_costs_no_point(cluster, serial, tmp_path):
     store = tmp_path / "store"
 

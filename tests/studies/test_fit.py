@@ -150,6 +150,7 @@ def test_a_fit_takes_a_scene_a_measured_curve_and_known_starts():
             call()
 
 
+@pytest.mark.slow
 def test_the_fit_is_a_minimum(fitted):
     """No neighbour within the bounds comes closer to the data, judged by curves of another tolerance."""
 

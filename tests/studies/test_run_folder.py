@@ -139,7 +139,13 @@ def killed_until_done(scene, out, rng, kills):
 
 
 @pytest.mark.parametrize("kills", [1, pytest.param(30, marks=pytest.mark.slow)])
-@pytest.mark.parametrize("text, uninterrupted", [(SCENE, "whole"), (MOVING, "whole_history")], ids=["sweep", "in time"])
+@pytest.mark.parametrize(
+    "text, uninterrupted",
+    [
+        pytest.param(SCENE, "whole", id="sweep"),
+        pytest.param(MOVING, "whole_history", id="in time", marks=pytest.mark.slow),
+    ],
+)
 def test_killed_runs_lose_repeat_and_tear_nothing(request, tmp_path, text, uninterrupted, kills):
     rng = np.random.default_rng(kills)
     left = kills
@@ -189,7 +195,7 @@ def test_a_killed_worker_loses_nothing(tmp_path, whole):
     same(out, whole)
 
 
-@pytest.mark.parametrize("sent, code", [(signal.SIGINT, 130), (signal.SIGKILL, -9)])
+@pytest.mark.parametrize("sent, code", [(signal.SIGINT, 130), pytest.param(signal.SIGKILL, -9, marks=pytest.mark.slow)])
 def test_a_command_that_ends_takes_its_processes_along_and_keeps_their_points(tmp_path, whole, monkeypatch, sent, code):
     out = tmp_path / "out"
     process = start(written(tmp_path), out, "command", code=SHARED)

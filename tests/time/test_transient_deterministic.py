@@ -83,6 +83,7 @@ def test_heat_that_it_omits_is_reported_with_its_size():
         run(Transient(1e-6), **scene, numerics={"heat": "on"})
 
 
+@pytest.mark.slow
 def test_it_stops_squeezes_and_starts_again():
     speed = Table(times=(0.0, 1e-4, 1.5e-4, 6e-4, 7e-4, 1e-3), values=(0.3, 0.3, 0.0, 0.0, 0.3, 0.3))
     result = run(Transient(1e-3, speed=speed), [0.0, 1e-4, 1.5e-4, 6e-4, 1e-3], surface={"sq": 1.2e-7})

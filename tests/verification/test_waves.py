@@ -34,6 +34,7 @@ def smooth():
     return solve_ehl(contact, refinements=0, fineness=1.0, between=0.06)[-1]
 
 
+@pytest.mark.slow
 def test_in_pure_rolling_the_published_part_of_a_wave_is_left(smooth):
     middle = smooth.body.line.probes(np.zeros((1, 1)))
     for length in (2, 1, 0.5):
