@@ -117,9 +117,10 @@ class Lubricant(Shown):
         """Take `AS_BOUNDARY` out of the fields, so that they can be checked as numbers; return whether it was there."""
         if self.limiting_stress_coefficient != AS_BOUNDARY:
             return False
-        if any(getattr(self, law.key) is not None for law in FLOW_LAWS):
-            said = f" = {AS_BOUNDARY!r} is for a Newtonian lubricant, and this one has a law of its flow"
-            laws = " and ".join(law.key for law in FLOW_LAWS)
+        limiting = [law.key for law in FLOW_LAWS if not law.is_power_law]
+        if any(getattr(self, key) is not None for key in limiting):
+            said = f" = {AS_BOUNDARY!r} is for a lubricant whose stress grows without end, and the law of this one limits it"
+            laws = " and ".join(limiting)
             raise InputError(said, LimitingStress.key, f"a number, or omit {laws}")
         object.__setattr__(self, LimitingStress.key, None)
         return True
@@ -158,9 +159,10 @@ class Lubricant(Shown):
         return self.inlet_length is None and self.inlet_film is None
 
     @property
-    def is_newtonian(self) -> bool:
-        """Return True where the shear stress grows with the shear rate without end."""
-        return not self.shear_laws
+    def has_unlimited_stress(self) -> bool:
+        """Return True where the shear stress grows with the shear rate without end: of a Newtonian oil, and where every shear law
+        is a power at large rates."""
+        return all(law.is_power_law for law in self.shear_laws)
 
     @property
     def roelands_exponent(self) -> float:

@@ -28,7 +28,8 @@ class ShearLaw:
     in addition to it. ``cited_as``, ``heat_cited_as``: the names under which `lubfric.estimate` cites (papers.toml) the law,
     and its `warmth`; "": not at all; ``is_cited_without_sliding``: whether that source is about more than the friction of a
     film that is sheared. ``thins``: whether the flow of the smooth film thins by it as well; for that tau_c has to be
-    the same at any pressure."""
+    the same at any pressure. ``is_power_law``: whether f is a power of s at large s, so that the stress grows without end.
+    ``is_calibrated``: whether the solved cases of the quick model have such oils."""
 
     key = ""
     cited_as = ""
@@ -36,6 +37,8 @@ class ShearLaw:
     is_cited_without_sliding = False
     others: tuple[Any, ...] = ()
     thins = False
+    is_power_law = False
+    is_calibrated = False
 
     @property
     def power_law_exponent(self) -> float | None:
@@ -113,6 +116,7 @@ class Eyring(ShearLaw):
     cited_as = "Eyring stress"
     heat_cited_as = "hot Eyring stress"
     thins = True
+    is_calibrated = True
     warmth = ShearLaw.as_temperature
 
     def critical(self, pressure: ArrayLike) -> tuple[Any, Any]:
@@ -136,6 +140,7 @@ class Carreau(ShearLaw):
     cited_as = "Carreau"
     is_cited_without_sliding = True
     thins = True
+    is_power_law = True
     warmth = ShearLaw.as_temperature
 
     @classmethod
@@ -178,6 +183,7 @@ class LimitingStress(ShearLaw):
     key = "limiting_stress_coefficient"
     cited_as = "limiting stress"
     heat_cited_as = "hot limiting stress"
+    is_calibrated = True
     others = ("limiting_stress_offset",)
 
     def critical(self, pressure: ArrayLike) -> tuple[Any, Any]:

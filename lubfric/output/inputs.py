@@ -126,9 +126,10 @@ def _lubricant(scene: Scene) -> list[str]:
     rows.append(f"viscosity over pressure: {oil.viscosity_law}; density over pressure: {oil.density_law}")
     if oil.is_limited_by_boundary_friction:
         rows.append("shear: Newtonian up to f_b p, as stated")
-    elif oil.is_newtonian:
+    elif oil.has_unlimited_stress:
+        law = "Newtonian" if not oil.shear_laws else f"by the law of lubricant.{oil.shear_laws[0].key}"
         rows.append(
-            "shear: Newtonian at any stress (no lubricant.eyring_stress, no lubricant.limiting_stress_coefficient)"
+            f"shear: {law}, at any stress (no lubricant.eyring_stress, no lubricant.limiting_stress_coefficient)"
         )
     known = oil.heats and oil.temperature_coefficient is not None
     heat = "isothermal, because the temperature coefficient of the viscosity is not given"

@@ -476,7 +476,7 @@ def test_a_lubricant_without_a_limit_at_ambient_pressure_is_refused_by_the_deter
 
 
 def test_a_stated_limit_of_f_b_is_for_newtonian_oils_and_survives_a_file(tmp_path):
-    with pytest.raises(lubfric.InputError, match="is for a Newtonian lubricant"):
+    with pytest.raises(lubfric.InputError, match="whose stress grows without end"):
         PAPER.with_(lubricant={"limiting_stress_coefficient": "f_b", "eyring_stress": 5e6})
     scene = PAPER.with_(lubricant={"limiting_stress_coefficient": "f_b"})
     file = tmp_path / "scene.toml"
@@ -505,6 +505,45 @@ def test_a_starved_interval_of_load_sharing_holds_the_deterministic_answer(film,
     scene = PAPER.with_(lubricant={"inlet_film": film, "eyring_stress": 5e6})
     low, high = lubfric.friction(scene, 0.03, model="quick").uncertainty.interval
     assert low < deterministic < high
+
+
+def test_a_power_law_has_no_more_friction_than_a_limit_allows():
+    """Carreau's stress grows without end, as a Newtonian one: where the film carries asperities it is cut at f_b p, and the
+    interval has the limits of oils unless f_b is stated. No solved case has such an oil, which the answer says."""
+    carreau = PAPER.with_(lubricant={"carreau": [5e6, 0.6]}, numerics={"model": "quick", "sampling_tolerance": 0.3})
+    assert carreau.lubricant.has_unlimited_stress
+    result = lubfric.friction(carreau, 0.03, tolerance=0.1)
+    limited = carreau.with_(lubricant={"limiting_stress_coefficient": "f_b"})
+    stated = lubfric.friction(limited, 0.03, tolerance=0.1)
+    assert stated.coefficient == result.coefficient < PAPER.bodies.boundary_friction_coefficient
+    assert result.uncertainty.by_limit > 0 and stated.uncertainty.by_limit == 0
+    said = [violation.text for violation in result.validity]
+    assert any("shear laws of the oil that no solved case has" in text for text in said)
+
+
+def test_an_oil_that_no_solved_case_has_widens_the_bounds():
+    """A critical stress that is never reached leaves f as it is, and the error of long cells twice as wide."""
+    newtonian = PAPER.with_(
+        numerics={"model": "quick", "sampling_tolerance": 0.3}, lubricant={"limiting_stress_coefficient": 0.06}
+    )
+    carreau = newtonian.with_(lubricant={"carreau": [1e12, 0.9]})
+    one = lubfric.friction(newtonian, 0.03, tolerance=0.1)
+    other = lubfric.friction(carreau, 0.03, tolerance=0.1)
+    assert other.coefficient == pytest.approx(one.coefficient, rel=1e-3)
+    assert max(other.uncertainty.model_sides) > 1.5 * max(one.uncertainty.model_sides)
+
+
+def test_a_starved_answer_takes_the_strips_that_its_tolerance_asks_for():
+    """The quick answer to moving roughness under a starved inlet is that of load sharing, on as many strips."""
+    scene = PAPER.with_(
+        lubricant={"inlet_film": 1.8e-7},
+        motion={"slide_roll_ratio": 0.2},
+        numerics={"sampling_tolerance": 0.03, "model": "paper"},
+    )
+    paper = lubfric.friction(scene, 0.03)
+    quick = lubfric.friction(scene.with_(numerics={"model": "quick"}), 0.03)
+    assert 0 < paper.uncertainty.sampling == quick.uncertainty.sampling
+    assert quick.coefficient == paper.coefficient
 
 
 def test_no_error_law_vanishes_while_a_film_is_present():

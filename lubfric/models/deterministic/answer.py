@@ -70,8 +70,8 @@ MIRRORED = ", mirrored along the line"
 BIASED = "a single short patch also has a bias: near the lift-off speed f is some 10 % too low"
 # Where a local peak of the film pressure is. The picture of the contact is of another solve, with the contacts.
 FILM_OF_STRIPS = "of the film between asperity contacts, on the cells that f is solved on"
-# What rubs with f_b, by whether the lubricant is Newtonian: with a shear law a film at its limiting stress is no part of
-# the asperity load.
+# What rubs with f_b, by whether the stress of the lubricant has no limit: where it has one, a film at it is no part of the
+# asperity load.
 RUBS = {
     True: "gaps below the boundary film, and film at its limiting stress",
     False: "gaps below the boundary film",
@@ -93,7 +93,7 @@ FLOW_MATTERS = 0.01
 # Share of the lubricant out of touching cells above which a warning reports it.
 MOST_GIVEN_OFF = 0.1
 
-# Share of the load on a Newtonian film that is sheared beyond f_b p above which a warning reports it.
+# Share of the load on a film without a limit that is sheared beyond f_b p above which a warning reports it.
 CUT = 0.1
 
 
@@ -156,7 +156,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
 
 
 def _by_limit(scene: Scene, results: Sequence[DeterministicResult]) -> tuple[float, float]:
-    """Return by how much f may be lower and higher, relative, by the unknown limit of a Newtonian oil."""
+    """Return by how much f may be lower and higher, relative, by the unknown limit of an oil."""
     f, low, high = (mean(getattr(result, name) for result in results) for name in LIMITED)
     saturated = mean(result.split.saturated / result.load for result in results)
     return limit_bounds(scene, saturated, f, (low, high))
@@ -278,7 +278,7 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     tolerance = scene.numerics.tolerance
     known = heat.text(tolerance)
     return Decision(
-        contact_load_in_words=f"Boundary friction acts on {{part}} of the load ({RUBS[scene.lubricant.is_newtonian]})",
+        contact_load_in_words=f"Boundary friction acts on {{part}} of the load ({RUBS[scene.lubricant.has_unlimited_stress]})",
         film_in_words=words,
         contact_in_words="boundary friction where the gap is below the boundary film",
         tolerance=tolerance,
@@ -365,7 +365,7 @@ def _division(scene: Scene, numbers: dict[str, float], results: Sequence[Determi
     touching = 100 * mean(result.split.touching / result.load for result in results)
     text = f"load on the boundary film {thin:.3g} % (touching cells {touching:.3g} %)"
     if saturated > 0:
-        of = "asperity" if scene.lubricant.is_newtonian else "film"
+        of = "asperity" if scene.lubricant.has_unlimited_stress else "film"
         text += f", on film at its limiting stress {saturated:.3g} %, which is part of the {of} load"
     return text
 
@@ -399,7 +399,7 @@ def _violations(
         )
     cut = mean(result.split.capped / result.load for result in results)
     if cut > CUT:
-        consequence = "the shear stress of a Newtonian film would exceed f_b p there; it is limited to f_b p"
+        consequence = "the shear stress of the film, which has no limit of its own, would exceed f_b p there; it is limited to f_b p"
         recommendation = 'give lubricant.limiting_stress_coefficient (or "f_b" if that is meant) or eyring_stress'
         yield Violation(
             assumption=Assumption.FILM_BELOW_ITS_LIMIT,

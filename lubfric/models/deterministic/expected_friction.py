@@ -51,7 +51,7 @@ def expected_friction(scene: Scene, sq: float, speed: float) -> ExpectedFriction
     boundary = scene.bodies.boundary_friction_coefficient * (sliding > 0)
     pressure = scene.bodies.mean_hertz_pressure
     film = float(shear_stress(line.lubricant, pressure, sliding / line.expected_film)) / pressure
-    if scene.lubricant.is_newtonian:
+    if scene.lubricant.has_unlimited_stress:
         film = min(film, boundary)
     load_ratio = LOAD_RATIO * (line.moes_film / sq) ** LOAD_RATIO_BY_FILM
     thickened = scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene)

@@ -326,7 +326,7 @@ def with_divided_contact_load(
         return numbers
     share = thin / (thin + capped)
     parts = {"boundary_film_load": share * numbers["contact_load"]}
-    if scene.lubricant.is_newtonian:
+    if scene.lubricant.has_unlimited_stress:
         parts["saturated_film_load"] = (1 - share) * numbers["contact_load"]
     return numbers | parts
 

@@ -353,7 +353,7 @@ def hardness_at_ends(scene: Scene) -> tuple[float, ...]:
 
 def oils_at_ends(scene: Scene) -> dict[str, tuple[Lubricant, ...]]:
     """Return the lubricants of ``scene`` at both ends of the ranges of `OF_SHEAR`, by name."""
-    if scene.lubricant.is_newtonian:
+    if scene.lubricant.has_unlimited_stress:
         return {}
     return {name: tuple(end.lubricant for end in ends) for name, *ends in scene.at_ends() if name in OF_SHEAR}
 

@@ -5,8 +5,8 @@ that is one length, the thickness of the boundary film:
 
     shear = f_b p where h < boundary film, the bodies' touching cells among them; the lubricant's own law elsewhere.
 
-A Newtonian lubricant has no limit of its own. So that of a film above 50 MPa is f_b p. The fields do not depend on that
-length, so f at half and at twice of it costs no solve.
+The stress of a Newtonian lubricant, or of Carreau's law, has no limit of its own. So that of a film above 50 MPa is at most
+f_b p. The fields do not depend on that length, so f at half and at twice of it costs no solve.
 """
 
 from dataclasses import dataclass, field
@@ -21,7 +21,7 @@ from ..shared import LIMIT_RANGE
 from .problem import Problem
 from .state import FLUID, TOUCHING, Iterate, State
 
-# Pressure [Pa] below which no Newtonian film is taken to be at its limit f_b p.
+# Pressure [Pa] below which no film without a limit of its own is taken to be at f_b p.
 PRESSED = 50e6
 
 
@@ -34,8 +34,8 @@ class LoadSplit:
     ----------
     touching : on touching cells, h = floor
     thin : on gaps thinner than the boundary film, touching ones among them
-    capped : on thicker films of a Newtonian oil whose stress is cut to f_b p
-    saturated : on all thicker films whose stress is at its limit: that of the oil, or f_b p of a Newtonian one
+    capped : on thicker films of an oil without a limit whose stress is cut to f_b p
+    saturated : on all thicker films whose stress is at its limit: that of the oil, or f_b p of one without
     """
 
     touching: float
@@ -69,7 +69,7 @@ class DeterministicResult(Renamed, ModelDetails):
     coefficient : (boundary + couette + rolling)/load [-], of surface 2 against its sliding (`Problem`)
     at_half_film, at_twice_film : ``coefficient`` with half and with twice the boundary film
     sliding_at_half_film, sliding_at_twice_film : their parts (boundary + couette)/load, which no gradient of pressure moves
-    at_least_limit, at_most_limit : ``coefficient`` with the limiting stress of a Newtonian oil at the ends of `LIMIT_RANGE` times p
+    at_least_limit, at_most_limit : ``coefficient`` with the limiting stress of an oil without one at the ends of `LIMIT_RANGE` times p
         instead of f_b p, on the same fields
     boundary : f_b p over the rubbing cells
     couette : shear of the film by the sliding
@@ -190,7 +190,7 @@ def surface_shear(at: Iterate, law: np.ndarray, boundary_film: float) -> Surface
     dx = problem.spacing[0]
     fluid = at.state.kind == FLUID
     thin = (at.state.kind == TOUCHING) | fluid & (h < boundary_film)
-    rubbing = thin | fluid & (p > PRESSED) & (law > limit) if problem.lubricant.is_newtonian else thin
+    rubbing = thin | fluid & (p > PRESSED) & (law > limit) if problem.lubricant.has_unlimited_stress else thin
     wet = fluid & ~rubbing
     both = (wet[1:] & wet[:-1]) | (wet[:-1] & (p[1:] == 0)) | (wet[1:] & (p[:-1] == 0))
     stress = np.where(rubbing, limit, np.where(wet, law, 0.0))
@@ -243,9 +243,9 @@ def at_its_limit(lubricant: Lubricant, pressure: np.ndarray, stress: np.ndarray)
 
 
 def with_limit(problem: Problem, sheared: SurfaceShear, pressure: np.ndarray, law: np.ndarray, limit: float) -> float:
-    """Return the change of f [-] if the stress of a Newtonian film above `PRESSED` were at most ``limit`` times the
+    """Return the change of f [-] if the stress of a film without a limit above `PRESSED` were at most ``limit`` times the
     ``pressure`` [Pa] instead of f_b times it; ``law`` [Pa]: the stress without a limit."""
-    if not problem.lubricant.is_newtonian:
+    if not problem.lubricant.has_unlimited_stress:
         return 0.0
     films = (sheared.wet | (sheared.rubbing & ~sheared.thin)) & (pressure > PRESSED)
     change = np.where(films, np.minimum(law, limit * pressure) - sheared.stress, 0.0)

@@ -194,7 +194,7 @@ def _attempts(
     if start is None and is_soft:
         yield "in time from the dry contact", _in_time(problem, cold, tolerance, work)
     lubricant = problem.lubricant
-    if lubricant.is_newtonian:
+    if lubricant.has_unlimited_stress:
         limited = replace(lubricant, limiting_stress_coefficient=THIN_STRESS, limiting_stress_offset=THIN_OFFSET)
         with_limit = replace(problem, line=replace(problem.line, lubricant=limited))
         helped = newton(with_limit, cold, work, tolerance=tolerance, most=FACTORISATIONS_FROM_DRY)

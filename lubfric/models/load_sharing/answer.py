@@ -46,7 +46,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         sampling_error=errors.sampling_error,
         model_error=errors.model_error,
         parts_of_model=errors.parts_of_model,
-        accepts_model_error=scene.numerics.model != "auto",  # a scene that names the paper's model accepts its error
+        accepts_model_error=scene.numerics.model == "paper",  # a scene that names this model accepts its error
         most_rolling_ratio=OF_ROLLING if has_moving_roughness(scene) else 2.0,
         report=replace(report, notes=(*report.notes, *estimated)),
         decision=decision_of(

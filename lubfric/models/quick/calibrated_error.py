@@ -33,6 +33,12 @@ NEGLIGIBLE_DISTANCE = 0.01
 # Factor on the bounds far outside the range of the campaign.
 MOST_WIDENING = 3.0
 
+# How far [-], in ln, an oil with a shear law that no solved case has is taken to be outside: the bounds are twice as wide. Not
+# measured.
+DISTANCE_OF_OTHER_OIL = 1.0
+
+OTHER_LAWS = "number of shear laws of the oil that no solved case has"
+
 
 @dataclass(frozen=True, kw_only=True)
 class ErrorModel:
@@ -142,6 +148,11 @@ def out_of_range(
         distance = low - value if is_slow else abs(math.log(value / limit))
         factor = _full_load_factor(scene, speed) if name == "moes_ratio" else 1.0
         outside.append(Outside(what=what, value=factor * value, limit=factor * limit, unit=unit, distance=distance))
+    others = sum(not law.is_calibrated for law in scene.lubricant.shear_laws)
+    if others:
+        outside.append(
+            Outside(what=OTHER_LAWS, value=others, limit=0.0, unit="", distance=others * DISTANCE_OF_OTHER_OIL)
+        )
     return tuple(outside)
 
 

@@ -132,7 +132,10 @@ class QuickSolution(SampleSolution):
         """Solve the joined strips by load sharing, if they are not solved."""
         if self.paper_solution is not None:
             return self
-        solution = PaperModel().solve(self.prepared, self.sample, self.count, self.speed)
+        model = PaperModel()
+        solution = model.solve(self.prepared, self.sample, self.count, self.speed)
+        while (count := solution.required_strips()) > solution.count:
+            solution = model.solve(self.prepared, self.sample, count, self.speed, start=solution)
         return replace(self, paper_solution=solution.corrected())
 
     def _is_separated_within(self, most: float) -> bool:
@@ -291,10 +294,10 @@ def _why_not_calibrated(scene: Scene) -> str:
 
 def _may_answer_by_equation(scene: Scene, sq: float, speed: float) -> bool:
     """Return whether the joined strips by load sharing may answer at ``speed`` [m/s], because the campaign has no such contacts or
-    because the film over ``sq`` [m] is thick; where roughness moves they are solved only when they have to."""
-    if has_moving_roughness(scene):
-        return False
-    return bool(_why_not_calibrated(scene)) or _error_of_thick_films(scene, sq, speed) > 0
+    because the film over ``sq`` [m] is thick; under a thick film whose roughness moves they are solved only when they have to."""
+    if _why_not_calibrated(scene):
+        return True
+    return not has_moving_roughness(scene) and _error_of_thick_films(scene, sq, speed) > 0
 
 
 def _is_thick_film_expected(scene: Scene, sq: float | None, speed: float) -> bool:

@@ -117,7 +117,9 @@ class StripsOnLongCells:
         boundary = numbers["boundary_force"] * (new_share / share if share > 0 else 0.0)
         boundary += rubs * new_share * load * (share == 0)
         times = new_share / share if share > 0 else 0.0
-        of_films = times if scene.lubricant.is_newtonian else (1 - new_share) / (1 - share) if share < 1 else 0.0
+        of_films = (
+            times if scene.lubricant.has_unlimited_stress else (1 - new_share) / (1 - share) if share < 1 else 0.0
+        )
         changed = numbers | {
             "coefficient": force / load,
             "contact_load": new_share * load,

@@ -330,7 +330,7 @@ def violations_by_shear(
         return
     share = shear.excess / friction_force if shear.excess < math.inf else 1.0
     of_film = abs(shear.couette) / max(film_load, 1e-300)
-    law = "Newtonian shear" if scene.lubricant.is_newtonian else "the shear law"
+    law = "the shear law" if scene.lubricant.shear_laws else "Newtonian shear"
     recommendation = "give lubricant.eyring_stress (some 5e6 Pa) and limiting_stress_coefficient (some 0.05 to 0.1)"
     if share > tolerance:
         severe = share > REFUSED_SHARE

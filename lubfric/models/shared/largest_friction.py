@@ -34,10 +34,10 @@ def largest_of_oil(oil: Lubricant, boundary_friction: float, peak: float, slidin
     ``peak`` [Pa] that slides at ``sliding`` [m/s], where the thinnest film is ``thickness`` [m].
 
     The mean of the larger of both stresses is taken over the Hertz pressure, and the ratio of that of the oil to the
-    pressure from the mean pressure to `MOST_PRESSURE`. A Newtonian film is limited to f_b p or, if that is more and
+    pressure from the mean pressure to `MOST_PRESSURE`. A film without a limit of its own is limited to f_b p or, if that is more and
     the oil's limit is not stated, to the upper end of `LIMIT_RANGE` times p.
     """
-    if oil.is_newtonian:
+    if oil.has_unlimited_stress:
         return boundary_friction if oil.is_limited_by_boundary_friction else max(boundary_friction, LIMIT_RANGE[1])
     angle = (np.arange(HERTZ_POINTS) + 0.5) * math.pi / HERTZ_POINTS
     hertz = peak * np.sin(angle)

@@ -1,6 +1,6 @@
 """The limiting shear stress of an oil that nobody gave, and what it does to f.
 
-At the pressure of asperities a Newtonian film would carry any stress. The deterministic model, on long cells too, cuts
+At the pressure of asperities a Newtonian film, or one by Carreau's law, would carry any stress. The deterministic model, on long cells too, cuts
 it at f_b p, which is no property of the oil. Where such films carry load, f is therefore known only as far as the limit
 of oils is.
 """
@@ -16,11 +16,11 @@ SATURATED = 0.05  # share of the load on saturated films from which on f is held
 def limit_bounds(scene: Scene, saturated: float, coefficient: float, ends: tuple[float, float]) -> tuple[float, float]:
     """Return by how much f may be lower and higher, relative, because the limiting stress of the oil is not known.
 
-    Zeros where the scene has a shear law or states f_b as the limit, and where the share ``saturated`` of the load is
+    Zeros where the stress of the oil is limited, where the scene states f_b as the limit, and where the share ``saturated`` of the load is
     at most `SATURATED`. ``ends``: f with the limit at the ends of `LIMIT_RANGE`, of which ``coefficient`` is f.
     """
     oil = scene.lubricant
-    if not oil.is_newtonian or oil.is_limited_by_boundary_friction or saturated <= SATURATED or not coefficient:
+    if not oil.has_unlimited_stress or oil.is_limited_by_boundary_friction or saturated <= SATURATED or not coefficient:
         return 0.0, 0.0
     low, high = sorted((1 - end / coefficient for end in ends), reverse=True)
     return max(low, 0.0), max(-high, 0.0)
