@@ -309,7 +309,9 @@ def test_bounds_widen_outside_the_campaign_and_info_and_result_say_so():
     assert [entry.what for entry in thin.validity if text in entry.consequence] == [
         "lambda ratio of a flooded film by Moes' formula"
     ]
-    assert re.search(f"lambda ratio by Moes' formula is .*{text}", describe_scene(quick_paper, [1e-5]))
+    assert re.search(
+        f"lambda ratio of a flooded film by Moes' formula is .*{text}", describe_scene(quick_paper, [1e-5])
+    )
     thick = lubfric.friction(quick_paper, 0.5)
     assert not any(text in entry.consequence for entry in thick.validity)
     assert text not in describe_scene(quick_paper, [0.5])
