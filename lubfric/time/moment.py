@@ -113,6 +113,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         scene,
         film_to_roughness_ratio=film_to_roughness_ratio,
         share=contact_step.load / total,
+        film_load=film_load,
         boundary=sense * boundary / total,  # along the sliding
         shear=sense * shear.total / total,
         rolling=sense * shear.rolling / total,

@@ -177,7 +177,7 @@ def test_the_largest_part_of_an_interval_is_named_with_what_narrows_it():
     assert known.largest_part.startswith("largest part: sampling 5.6 %")  # Student's t of four degrees: 2.78
     by_input = replace(known, inputs=0.2, largest_input="lubricant.eyring_stress")
     assert by_input.largest_part == "largest part: input 20 %; a measured lubricant.eyring_stress reduces it"
-    part = ModelErrorPart(error=0.3, cause="the boundary film", recommendation="bodies.boundary_film reduces it")
+    part = ModelErrorPart(sides=(0.3, 0.2), cause="the boundary film", recommendation="bodies.boundary_film reduces it")
     by_model = replace(known, model=0.3, largest_in_model=part)
     assert by_model.largest_part == "largest part: model-form 30 % (the boundary film); bodies.boundary_film reduces it"
     assert not replace(known, sampling=math.nan).largest_part

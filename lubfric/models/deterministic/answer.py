@@ -24,13 +24,13 @@ from ..shared import (
     Violation,
     contact_on_piece,
     error_by_heat,
-    error_of_parts,
     film_lubricant,
     limit_bounds,
     limit_in_words,
     peak_hertz_pressure,
     percent,
     percent_beside,
+    sides_of_parts,
     smooth_rolling_resistance,
     student,
     violations_by_heat,
@@ -116,22 +116,23 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     by_scatter = student(levels.difference_error.freedom) * levels.difference_error.value
     with_thinner, with_thicker = levels.by_film
     by_missing_input = {BOUNDARY_FILM_KEY: (with_thinner, with_thicker)}
-    parts_of_model = (
-        ModelErrorPart(error=by_scatter, cause=BY_PLACES, recommendation=LESS_BY_TOLERANCE),
-        ModelErrorPart(error=abs(levels.by_flow), cause=BY_FLOW_AT_LIMIT),
-        ModelErrorPart(error=error_by_heat(heat, levels.by_inlet), cause=BY_HEAT),
-    )
-    model = error_of_parts(parts_of_model)
+    by_flow = abs(levels.by_flow)
+    by_heat = error_by_heat(heat, levels.by_inlet)
     by_limit = _by_limit(scene, results)
-    part_by_limit = ModelErrorPart(error=max(by_limit), cause=BY_LIMIT, recommendation=LESS_BY_LIMIT, is_of_input=True)
+    parts_of_model = (
+        ModelErrorPart(sides=(by_scatter, by_scatter), cause=BY_PLACES, recommendation=LESS_BY_TOLERANCE),
+        ModelErrorPart(sides=(by_flow, by_flow), cause=BY_FLOW_AT_LIMIT),
+        ModelErrorPart(sides=(by_heat, by_heat), cause=BY_HEAT),
+        ModelErrorPart(sides=by_limit, cause=BY_LIMIT, recommendation=LESS_BY_LIMIT, is_of_input=True),
+    )
     reasons = dict.fromkeys(depending_on("heat"), heat.reason(scene) or ONE_HEAT)
     return ModelAnswer(
         numbers=numbers,
         numerical=levels.numerical,
         sampling_error=sampling_error,
-        model_error=(math.hypot(model, by_limit[0]), math.hypot(model, by_limit[1])),
+        model_error=sides_of_parts(parts_of_model),
         by_limit=max(by_limit),
-        parts_of_model=(*parts_of_model, part_by_limit),
+        parts_of_model=parts_of_model,
         not_given={key: by_missing_input[key] for key in missing_inputs(scene)},
         report=replace(results[0].report, notes=()),
         decision=_decision(scene, results, levels, heat),

@@ -127,7 +127,7 @@ class BalancedSample:
         return add_errors(self.scatter.coefficient, StandardError(per_gap * cells.value, cells.freedom))
 
     @property
-    def corrected_gap(self) -> float:
+    def gap_change(self) -> float:
         """Change of the gap [m] for which f is corrected to first order: by the cells, and by what the root left. On
         the scene's own cells nothing is corrected, so that loads and fields belong together."""
         if self.sample.cells.is_native:
@@ -140,10 +140,10 @@ class BalancedSample:
         return open_gap(self.raw_balance.contact_state)
 
     @property
-    def second_order(self) -> float:
+    def uncorrected_gap(self) -> float:
         """What that correction leaves open of the gap [m]: the correction times the change of ln(F_H/F_C) that it
         makes. No more was seen, but for one of 25 scenes (1.4 times that, beside a scatter of 17 %)."""
-        return 0.0 if self.response is None else abs(self.response.log_load_ratio_per_gap) * self.corrected_gap**2
+        return 0.0 if self.response is None else abs(self.response.log_load_ratio_per_gap) * self.gap_change**2
 
     def relative_change(self, gap_change: float) -> float:
         """Return the relative change of f by a ``gap_change`` [m] at given load."""
@@ -171,8 +171,10 @@ class BalancedSample:
         tolerance = self.prepared.scene.numerics.sampling_tolerance
         contacts = self.scatter.effective_contacts
         error = self.sampling_error
-        few = self.response is not None and has_too_few_contacts(contacts, error.value, tolerance)
-        at_least = min(FEW_CONTACTS / contacts, (error.value / (SAMPLING_MATTERS * tolerance)) ** 2) if few else 0.0
+        has_too_few = self.response is not None and has_too_few_contacts(contacts, error.value, tolerance)
+        at_least = 0.0
+        if has_too_few:
+            at_least = min(FEW_CONTACTS / contacts, (error.value / (SAMPLING_MATTERS * tolerance)) ** 2)
         count = strips_for_error(
             error,
             tolerance,
@@ -207,18 +209,20 @@ class BalancedSample:
             return False
         allowed = budget.CONTACT_GRID * scene.numerics.tolerance
         if response is not None:
-            moved = abs(response.log_load_ratio_per_gap * self.corrected_gap)
-            largest = max(abs(self.corrected_gap), abs(self.effect.film_change))
+            moved = abs(response.log_load_ratio_per_gap * self.gap_change)
+            largest = max(abs(self.gap_change), abs(self.effect.film_change))
             if largest > MOST_CORRECTED_GAP * raw_balance.contact_state.mean_gap:
                 return True
             by_contact = raw_balance.forces.boundary / max(raw_balance.forces.total, 1e-300)
             part = max(by_contact, raw_balance.contact_load / scene.bodies.load)  # of the friction, or of the load
             # with few contacts, of which more strips may follow, the load is known to a factor anyway
-            if self.count == sample.available_strips or self.scatter.effective_contacts >= FEW_CONTACTS:
-                part = math.inf
-            if moved > MOST_CORRECTED_LOG_RATIO and part * math.expm1(min(moved, 30.0)) > allowed:
+            may_have_few_contacts = (
+                self.count < sample.available_strips and self.scatter.effective_contacts < FEW_CONTACTS
+            )
+            moves_little = may_have_few_contacts and part * math.expm1(min(moved, 30.0)) <= allowed
+            if moved > MOST_CORRECTED_LOG_RATIO and not moves_little:
                 return True
-            return response.relative("coefficient", self.second_order) > allowed
+            return response.relative("coefficient", self.uncorrected_gap) > allowed
         clearance = -open_gap(raw_balance.contact_state)
         if self.count > sample.first_strips or clearance > LARGE_CLEARANCE * self.prepared.surface.sq:
             return False
@@ -227,15 +231,15 @@ class BalancedSample:
         return depth > 0 and hidden_contact(scene, native, raw_balance.forces, depth) > allowed
 
     def corrected(self) -> BalancedSample:
-        """Return this sample with the load divided as on native cells and at the exact root (`corrected_gap`): film and
+        """Return this sample with the load divided as on native cells and at the exact root (`gap_change`): film and
         friction are solved at that division, and areas scaled to its load."""
         raw_balance = self.raw_balance
         response = self.response
         scene = self.prepared.scene
         effect = self.effect
-        if response is None or raw_balance.film is None or not self.corrected_gap:
+        if response is None or raw_balance.film is None or not self.gap_change:
             return self
-        ratio = raw_balance.log_load_ratio + response.log_load_ratio_per_gap * self.corrected_gap
+        ratio = raw_balance.log_load_ratio + response.log_load_ratio_per_gap * self.gap_change
         loads = loads_at(scene.bodies.load, ratio)
         film = self.point.film(loads[0], raw_balance.film, raw_balance.film.cells)
         state = raw_balance.contact_state
@@ -264,8 +268,8 @@ def solve_sample(
     scene = prepared.scene
     rough_contact = contact_on_joined_strips(prepared, sample, count)
     begin = _reference(prepared, speed, sample) if start is None else start.start
-    coarse = not sample.cells.is_native
-    raw_balance = solve_balance(scene, speed, rough_contact, prepared.surface.sq, begin, is_correctable=coarse)
+    is_correctable = not sample.cells.is_native
+    raw_balance = solve_balance(scene, speed, rough_contact, prepared.surface.sq, begin, is_correctable=is_correctable)
     balanced = BalancedSample(
         prepared=prepared,
         speed=speed,

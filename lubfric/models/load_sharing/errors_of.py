@@ -15,6 +15,7 @@ from ..shared import (
     error_by_heat,
     has_too_few_contacts,
     percent,
+    sides_of_parts,
     why_sample_too_short,
 )
 from .balance import Balance
@@ -99,6 +100,9 @@ def errors_of(balanced: BalancedSample) -> PointErrors:
     scatter = balanced.scatter
     sampling = balanced.sampling_error.value
     error = StandardError(0.0, FREEDOM_NOT_COUNTED)
+    film_sensitivity = forces.film_sensitivity
+    if response is not None:
+        film_sensitivity = response.per_film(forces, balance.contact_state.mean_film)
     why = TOO_LITTLE
     reasons = dict.fromkeys(depending_on("heat"), forces.heat.reason(scene))
     if balance.film is None:
@@ -109,36 +113,29 @@ def errors_of(balanced: BalancedSample) -> PointErrors:
         reasons = dict.fromkeys((*of_film, *depending_on("heat")), f"{balance.why_no_film}: there is no film")
         errors |= dict.fromkeys((*depending_on("split"), *depending_on("shear")), 0.0)
     elif response is None:
-        numerical += forces.film_sensitivity * solver.film_error
+        numerical += film_sensitivity * solver.film_error
         errors = _given_load(forces, solver.film_error)
         of_contact = (*depending_on("split"), *depending_on("area"), *depending_on("contacts"))
         reasons |= dict.fromkeys(of_contact, "without asperity contact it has no relative error")
         errors |= {"film_load": 0.0}
     else:
         error = balanced.friction_scatter
-        mean_film = balance.contact_state.mean_film
-        numerical += response.per_film(forces, mean_film) * solver.film_error
+        numerical += film_sensitivity * solver.film_error
         numerical += response.relative("coefficient", solver.gap_error)
         errors = _contact_errors(balanced, solver)
     notes = _notes(balanced)
     if not math.isfinite(sampling):
         sampling = math.nan
-    of_model, unknown = model_error_of_eq8(balanced)
-    film_sensitivity = (
-        response.per_film(forces, balance.contact_state.mean_film) if response is not None else forces.film_sensitivity
-    )
+    by_equation, unknown = model_error_of_eq8(balanced)
     by_heat = error_by_heat(forces.heat, 1 - forces.heat.film_factor**film_sensitivity)
-    parts: tuple[ModelErrorPart, ...] = (
-        ModelErrorPart(error=max(of_model), cause=BY_EQUATION, recommendation=REDUCED_BY_DETERMINISTIC),
-        ModelErrorPart(error=by_heat, cause=BY_HEAT),
-    )
-    of_model = (math.hypot(of_model[0], by_heat), math.hypot(of_model[1], by_heat))
+    parts = _parts_of_model(by_equation, by_heat)
+    model_error = sides_of_parts(parts)
     of_f = numerical if math.isnan(sampling) else math.hypot(numerical, sampling)
     return PointErrors(
         numerical=numerical,
         sampling_error=StandardError(sampling, error.freedom),
-        model_error=of_model,
-        parts_of_model=() if math.isnan(max(of_model)) else parts,
+        model_error=model_error,
+        parts_of_model=() if math.isnan(max(model_error)) else parts,
         errors=errors | {"coefficient": of_f},
         why_no_error=why,
         reasons=reasons,
@@ -159,12 +156,10 @@ def solver_errors_of(balanced: BalancedSample) -> SolverErrors:
     forces = balance.forces
     gap_error = 0.0
     if balanced.response is not None and balance.film is not None:
-        gap_error = (
-            effect.remaining_change
-            + balanced.second_order
-            + (budget.SLOPE * abs(balanced.corrected_gap) or abs(balanced.left_by_root))
-            + raw_balance.contact_state.gap_error
-        )
+        # on native cells nothing is corrected, so that all that the root leaves is an error
+        is_corrected = balanced.gap_change != 0
+        by_root = budget.SLOPE * abs(balanced.gap_change) if is_corrected else abs(balanced.left_by_root)
+        gap_error = effect.remaining_change + balanced.uncorrected_gap + by_root + raw_balance.contact_state.gap_error
     state = raw_balance.contact_state
     by_area = 0.0
     if state.area_error and forces.total:
@@ -272,17 +267,15 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
     forces = balance.forces
     load = scene.bodies.load
     ratio = film / sq if sq else math.inf
-    towards, away = load_sharing_error(
+    (towards, away) = _error_of_shared_load(
+        scene,
         ratio,
         share=share,
+        is_shared=share > 0,
         boundary=forces.boundary / load,
         shear=forces.shear.total / load,
-        rolling=forces.shear.rolling / load if has_moving_roughness(scene) else 0.0,
+        rolling=forces.shear.rolling / load,
     )
-    if share > 0 and sq:
-        least = least_error(ratio)
-        towards = max(towards, least)
-        away = max(away, least)
     if scene.lubricant.inlet_film is not None and share > 0:
         starved = starved_error(scene.lubricant.inlet_film, balance.contact_state.mean_gap)
         towards = math.hypot(towards, starved[0])
@@ -295,6 +288,7 @@ def moment_model_error(
     *,
     film_to_roughness_ratio: float,
     share: float,
+    film_load: float,
     boundary: float,
     shear: float,
     rolling: float,
@@ -302,17 +296,43 @@ def moment_model_error(
 ) -> tuple[float, float]:
     """Return the relative model-form error of f at a moment of a run in time, at 95 %, towards 0 and away from it.
 
-    It is that of steady motion with the same film, asperity load ratio ``share``, parts of f, and error ``by_heat``
-    (`lubfric.models.shared.error_by_heat`). NaN where it is not known (`why_moment_unknown`).
+    It is that of steady motion with the same film, asperity load ratio ``share``, ``film_load`` [N], parts of f, and error
+    ``by_heat`` (`lubfric.models.shared.error_by_heat`). NaN where it is not known (`why_moment_unknown`).
     """
     if why_moment_unknown(scene):
         return UNKNOWN
-    moving = rolling if has_moving_roughness(scene) else 0.0
-    towards, away = load_sharing_error(
-        film_to_roughness_ratio, share=share, boundary=boundary, shear=shear, rolling=moving
+    (towards, away) = _error_of_shared_load(
+        scene,
+        film_to_roughness_ratio,
+        share=share,
+        is_shared=share > 0 and film_load > 0,
+        boundary=boundary,
+        shear=shear,
+        rolling=rolling,
     )
-    least = least_error(film_to_roughness_ratio) if 0 < share < 1 and math.isfinite(film_to_roughness_ratio) else 0.0
-    return math.hypot(min(max(towards, least), 1.0), by_heat), math.hypot(max(away, least), by_heat)
+    return sides_of_parts(_parts_of_model((min(towards, 1.0), away), by_heat))
+
+
+def _parts_of_model(by_equation: tuple[float, float], by_heat: float) -> tuple[ModelErrorPart, ...]:
+    """Return the parts of the model-form error of f: ``by_equation`` on both sides, and ``by_heat`` on each."""
+    return (
+        ModelErrorPart(sides=by_equation, cause=BY_EQUATION, recommendation=REDUCED_BY_DETERMINISTIC),
+        ModelErrorPart(sides=(by_heat, by_heat), cause=BY_HEAT),
+    )
+
+
+def _error_of_shared_load(
+    scene: Scene, ratio: float, *, share: float, is_shared: bool, boundary: float, shear: float, rolling: float
+) -> tuple[float, float]:
+    """Return `load_sharing_error` at a film-to-roughness ``ratio``, with the ``rolling`` part of f if roughness moves, and at
+    least `least_error` where rough surfaces touch beside a film that carries load (``is_shared``).
+
+    A film may carry so little that the ``share`` of the asperities rounds to 1: it is there nevertheless.
+    """
+    moving = rolling if has_moving_roughness(scene) else 0.0
+    (towards, away) = load_sharing_error(ratio, share=share, boundary=boundary, shear=shear, rolling=moving)
+    least = least_error(ratio) if is_shared and math.isfinite(ratio) else 0.0
+    return max(towards, least), max(away, least)
 
 
 def why_moment_unknown(scene: Scene) -> str:

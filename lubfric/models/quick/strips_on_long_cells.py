@@ -29,6 +29,7 @@ from ..shared import (
     Prepared,
     is_smooth_over_cells,
     largest_of,
+    sides_of_parts,
     with_forces_of_film,
 )
 from .calibrated_error import ErrorModel, Outside, error_model_of, out_of_range, reported, widening
@@ -222,15 +223,14 @@ def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLon
     scene = prepared.scene
     levels = replace(on_long_cells.levels, numbers=on_long_cells.numbers(scene))
     answer = deterministic_answer(prepared, speed, levels)
-    bounds = on_long_cells.bounds(scene)
     by_cells = ModelErrorPart(
-        error=max(bounds),
+        sides=on_long_cells.bounds(scene),
         cause=BY_CELLS.format(on_long_cells.error_model.cases),
         recommendation=REDUCED_BY_DETERMINISTIC,
     )
     parts = (by_cells, *answer.parts_of_model)
     basis = f"deterministic model on long cells, calibrated on {on_long_cells.error_model.cases} solved cases"
-    towards, away = (math.hypot(part, bound) for part, bound in zip(answer.model_error, bounds))
+    (towards, away) = sides_of_parts(parts)
     return replace(
         answer,
         model_error=(min(towards, 1.0), away),

@@ -50,6 +50,7 @@ from .model_error import (
     ModelErrorPart,
     error_of_parts,
     largest_of,
+    sides_of_parts,
     violations_by_model_error,
 )
 from .prepared import (

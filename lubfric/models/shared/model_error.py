@@ -23,16 +23,21 @@ class ModelErrorPart:
 
     Attributes
     ----------
-    error : relative, at 95 %, the larger of both sides
+    sides : relative errors at 95 %, towards 0 and away from it
     cause : what it comes from, as text
     recommendation : what reduces it, as text; "": nothing that a user may give
     is_of_input : whether it comes from an input that is not known, which no other model knows either
     """
 
-    error: float
+    sides: tuple[float, float]
     cause: str
     recommendation: str = ""
     is_of_input: bool = False
+
+    @property
+    def error(self) -> float:
+        """The larger of both sides."""
+        return max(self.sides)
 
 
 def largest_of(parts: Sequence[ModelErrorPart]) -> ModelErrorPart | None:
@@ -43,6 +48,14 @@ def largest_of(parts: Sequence[ModelErrorPart]) -> ModelErrorPart | None:
 def error_of_parts(parts: Sequence[ModelErrorPart]) -> float:
     """Return the root of the sum of squares of the errors of ``parts``."""
     return math.hypot(*(part.error for part in parts))
+
+
+def sides_of_parts(parts: Sequence[ModelErrorPart]) -> tuple[float, float]:
+    """Return the relative model-form error of f towards 0 and away from it, of which these are all ``parts``: the root of
+    the sum of their squares on each side."""
+    towards = math.hypot(*(part.sides[0] for part in parts))
+    away = math.hypot(*(part.sides[1] for part in parts))
+    return towards, away
 
 
 def violations_by_model_error(
