@@ -32,7 +32,7 @@ class LubfricError(Exception):
 
 
 class InputError(LubfricError, ValueError):
-    """An input is outside its allowed range; raised before any work starts.
+    """An input is outside its allowed range; raised before any work starts, or where numbers overflow.
 
     The message names the quantity, the value, the allowed range and the unit. The error has these as attributes:
     ``quantity``, with which the message begins (``also``: others that it is about), ``allowed``, and ``recommendation``,

@@ -101,8 +101,9 @@ def test_the_estimate_knows_the_contract_of_a_model_and_no_model():
         "SampleSolution",
         "SharedWork",
         "WorkEstimate",
-        "with_friction_at",
+        "with_boundary_friction_at",
         "prepared_with",
+        "models_cheaper_than",
         "models_up_to",
     }
     names = set()

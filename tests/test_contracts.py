@@ -416,13 +416,42 @@ def test_only_a_model_that_takes_a_control_is_given_one(monkeypatch, requested, 
     assert (choice.compared is not None) == takes
 
 
-@pytest.mark.parametrize("requested, speed, scene", [("deterministic", 0.0, PAPER), ("quick", 0.01, FLAT)])
+@pytest.mark.parametrize(
+    "requested, speed, scene",
+    [
+        ("deterministic", 0.0, PAPER),
+        ("quick", 0.01, FLAT),
+        (QuickModel(), 0.0, PAPER),
+        (DeterministicModel(), 0.01, FLAT),
+    ],
+)
 def test_the_model_in_place_of_one_that_has_no_answer_is_named(requested, speed, scene):
     """Nothing is entrained, or nothing is rough: the answer is that of the paper's model, and says why."""
     result = lubfric.friction(scene, speed, model=requested)
     assert result.decision.model == "paper"
-    assert f"the paper model in place of the {requested} model: " in result.decision.text
+    name = requested.name if isinstance(requested, Model) else requested
+    assert f"the paper model in place of the {name} model: " in result.decision.text
     assert result.coefficient == lubfric.friction(scene, speed, model="paper").coefficient
+
+
+@pytest.mark.parametrize("requested", ["auto", "highest summit"])
+def test_a_speed_that_no_model_answers_is_refused_with_the_reasons(monkeypatch, requested):
+    class Unable(HighestSummit):
+        def why_unable(self, prepared, speed):
+            return "no summit is high enough"
+
+    monkeypatch.setattr(registry, "MODELS", (Unable(),))
+    with pytest.raises(lubfric.InputError, match=r"speed = 0.03 m/s .*\(highest summit: no summit is high enough\)"):
+        choose(lubfric.prepare(LOOSE), 0.03, requested)
+
+
+def test_a_map_made_by_lubfric_is_cited_beside_a_given_contact():
+    """The contact is the user's own, its map is not; a map that is given is cited by its owner."""
+    flat = lubfric.prepare(FLAT)
+    of_contact = lubfric.prepare(FLAT, contact=flat.rough_contact)
+    of_map = lubfric.prepare(FLAT, flat.surface)
+    assert "generated map" in lubfric.friction(of_contact, 0.03, model="paper").methods
+    assert "generated map" not in lubfric.friction(of_map, 0.03, model="paper").methods
 
 
 def test_two_given_maps_are_known_whose_they_are():

@@ -73,9 +73,8 @@ def result_of(
         details = {model.name: compared.details} | details
     fields = answer.fields
     report = answer.report
-    if (
-        with_fine_fields and answer.fine_fields is not None
-    ):  # last: work that is spent here is none that the interval needs
+    # last: work that is spent here is none that the interval needs
+    if with_fine_fields and answer.fine_fields is not None:
         fields, report = _fine_fields(answer.fine_fields, fields, report)
     share_read_only((fields, compared_fields, details))
     notes = (*report.notes, decision.text, *(violation.text for violation in violations), uncertainty.text)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 
 from .._base import limited_work, work_left
-from ..errors import ConvergenceError, WorkLimitError
-from ..models import AUTO, Model, SampleSolution, models_up_to
+from ..errors import ConvergenceError, InputError, WorkLimitError
+from ..models import AUTO, Model, SampleSolution, models_cheaper_than, models_up_to
 from ..models.shared import Prepared
 from .solve_to_tolerance import solve_to_tolerance
 
@@ -40,17 +41,35 @@ def choose(prepared: Prepared, speed: float, requested: str | Model, *, for_fiel
     """Solve ``prepared`` at ``speed`` [m/s] by the ``requested`` model, or by the cheapest that is good enough.
 
     Where the requested model has no answer (`Model.why_unable`), the most expensive of the cheaper ones that has one
-    answers in its place, and `Choice.why` says so. ``for_fields``: on the cells on which a sample shows its fields
-    (`Sample.on_field_cells`). Raises `ConvergenceError`.
+    answers in its place, and `Choice.why` says so; of a model that is not in `MODELS`, the cheapest counts as cheaper. A
+    model that is given as such takes no control. ``for_fields``: on the cells on which a sample shows its fields
+    (`Sample.on_field_cells`). Raises `ConvergenceError`, and `InputError` where no model has an answer.
     """
     if isinstance(requested, Model):
-        solution = solve_to_tolerance(prepared, speed, requested, for_fields=for_fields)
-        return _completed(Choice(model=requested, solution=solution))
-    models = models_up_to(requested)
-    able = [model for model in models if not model.why_unable(prepared, speed)]
+        if not requested.why_unable(prepared, speed):
+            solution = solve_to_tolerance(prepared, speed, requested, for_fields=for_fields)
+            return _completed(Choice(model=requested, solution=solution))
+        models = (*models_cheaper_than(requested), requested)
+    else:
+        models = models_up_to(requested)
+    able = _able(prepared, speed, models)
     if requested == AUTO:
         return _completed(_cheapest(prepared, speed, able, for_fields=for_fields))
     return _completed(_most_expensive(prepared, speed, able, models[-1], for_fields=for_fields))
+
+
+def _able(prepared: Prepared, speed: float, models: Sequence[Model]) -> list[Model]:
+    """Return those of ``models`` that have an answer at ``speed`` [m/s]; `InputError` where none has."""
+    reasons = {model.name: model.why_unable(prepared, speed) for model in models}
+    able = [model for model in models if not reasons[model.name]]
+    if not able:
+        why = "; ".join(f"{name}: {reason}" for name, reason in reasons.items())
+        raise InputError(
+            f" = {speed:g} m/s has no answer by any model ({why})",
+            "speed",
+            recommendation="give another speed or another model",
+        )
+    return able
 
 
 def work_for_an_answer() -> float:

@@ -7,7 +7,7 @@ import numpy as np
 from .._base import limited_work, releasing_memory, validate, with_default_errors, work_left
 from .._base.jobs import current_executor, parts_on
 from .._base.processes import MOST_WORKERS, pool
-from ..models import Model, prepared_with, with_friction_at
+from ..models import Model, prepared_with, with_boundary_friction_at
 from ..models.shared import Prepared, refused
 from ..scene import FASTEST, Scene, hint_unusual_values
 from .build_result import result_of
@@ -64,7 +64,7 @@ def friction(
 
     Raises
     ------
-    InputError : before any work
+    InputError : before the solve; after it only where numbers overflow, so that f is not finite
     ConvergenceError : a part did not converge; carries report and result
     ValidityError : f has no meaning, because an assumption fails, and ``numerics.accept`` is false; carries the result
     """
@@ -72,9 +72,9 @@ def friction(
     prepared = prepared_with(scene, tolerance, None if isinstance(model, Model) else model)
     speed = prepared.scene.motion.entrainment_speed if speed is None else speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
-    prepared = with_friction_at(prepared, speed)
-    fine = isinstance(fields, str) and fields == "fine"
-    if not fine:
+    prepared = with_boundary_friction_at(prepared, speed)
+    with_fine_fields = isinstance(fields, str) and fields == "fine"
+    if not with_fine_fields:
         validate.instance("fields", fields, (bool, np.bool_), "True, False or 'fine'")
     workers = validate.integer("workers", workers, minimum=1, maximum=MOST_WORKERS)
     numerics = prepared.scene.numerics
@@ -84,7 +84,7 @@ def friction(
             requested = model if isinstance(model, Model) else numerics.model
             choice = choose(prepared, speed, requested, for_fields=bool(fields))
             with limited_work(work_for_an_answer() if choice.gave_up else work_left()):
-                result = result_of(prepared, speed, choice, begun, with_fine_fields=fine)
+                result = result_of(prepared, speed, choice, begun, with_fine_fields=with_fine_fields)
     if raise_on_failure:
         result.report.raise_if_failed(result)
         refused(result.validity, accept=numerics.accept, result=result)

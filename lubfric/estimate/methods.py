@@ -47,9 +47,11 @@ def _names(used: Iterable[tuple[str, bool]]) -> list[str]:
 
 
 def _surface(prepared: Prepared) -> dict[str, bool]:
-    """Return how the map was made; nothing is known of a map that was handed over."""
+    """Return how the map was made; nothing is known of a map that was given."""
     scene = prepared.scene
-    maps = [] if prepared.is_given else [rough for rough in (scene.surface, scene.counterface) if rough is not None]
+    maps = (
+        [] if prepared.has_given_map else [rough for rough in (scene.surface, scene.counterface) if rough is not None]
+    )
     return {
         "generated map": any(rough.file is None for rough in maps),
         "Gaussian filter": any(rough.s_filter is not None or rough.l_filter is not None for rough in maps),

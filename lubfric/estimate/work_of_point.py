@@ -55,9 +55,9 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
     last = len(models_up_to(scene.numerics.model)) - 1
     # AUTO tries one after the other until one is good enough
     enough = [k for k in range(last) if estimates[k].expected_model_error <= scene.numerics.model_tolerance]
-    # a model that has no answer here leaves its place to the cheapest: those between lack it for the same reason
-    is_alone = estimates[last].seconds > 0 and not models[last].takes_control(scene, sample)
-    solved: Collection[int] = {last} if is_alone else {0, last}
+    # a model that has no answer leaves its place to the most expensive of the cheaper ones that has one (`choose`)
+    answering = max((k for k in range(last + 1) if estimates[k].has_answer), default=0)
+    solved: Collection[int] = {0, answering} if models[answering].takes_control(scene, sample) else {answering}
     if scene.numerics.model == AUTO:
         last = min(enough, default=last)
         solved = [k for k in range(last + 1) if k == last or not _is_left_unsolved(estimates, k)]
@@ -81,7 +81,7 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
 
 def _is_left_unsolved(estimates: Sequence[WorkEstimate], k: int) -> bool:
     """Return whether "auto" leaves model number ``k`` unsolved, because the next one is solved in its place."""
-    return estimates[k].waits_for_next and estimates[k + 1].seconds > 0
+    return estimates[k].waits_for_next and estimates[k + 1].has_answer
 
 
 def seconds_of_points(

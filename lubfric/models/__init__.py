@@ -7,9 +7,9 @@
 have in common: the scene made ready, heat, limits of validity, statistics. `prepare` makes a scene ready.
 """
 
-from .contract import ContactFields, Model, ModelAnswer, ModelDetails, SampleSolution, SharedWork, WorkEstimate
+from .contract import AUTO, ContactFields, Model, ModelAnswer, ModelDetails, SampleSolution, SharedWork, WorkEstimate
 from .deterministic import DeterministicModel, DeterministicResult
 from .load_sharing import Balance, PaperModel
-from .prepare import prepare, prepare_on_maps, prepared_with, with_friction_at
+from .prepare import prepare, prepare_on_maps, prepared_with, with_boundary_friction_at
 from .quick import QuickModel
-from .registry import AUTO, MODELS, model_named, models_that_may_answer, models_up_to
+from .registry import MODELS, model_named, models_cheaper_than, models_that_may_answer, models_up_to

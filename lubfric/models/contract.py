@@ -35,6 +35,9 @@ from .shared import (
     strips_for_error,
 )
 
+# The value of ``numerics.model`` that takes the cheapest model that is good enough.
+AUTO = "auto"
+
 
 @dataclass(frozen=True, kw_only=True)
 class ContactFields:
@@ -194,6 +197,7 @@ class WorkEstimate:
     ----------
     strips : number of strips that the tolerances need; 0: the model is not asked
     seconds : processor time [s] of all of it, beyond that of the cheaper models
+    has_answer : whether the model is expected to have an answer of its own (`Model.why_unable`)
     waits_for_next : whether "auto" spends them only where the next model is not solved (`SampleSolution.may_suffice`)
     shared : the parts of these seconds that other points are spared
     fine_fields_seconds : processor time [s] of fields on cells fine enough to look at, if they are requested
@@ -208,6 +212,7 @@ class WorkEstimate:
 
     strips: int
     seconds: float
+    has_answer: bool = True
     waits_for_next: bool = False
     shared: tuple[SharedWork, ...] = ()
     fine_fields_seconds: float = 0.0
@@ -221,7 +226,7 @@ class WorkEstimate:
 
 class SampleSolution(ABC):
     """What a model has solved of the first ``count`` strips of a sample. A model whose strips are of its own, as "quick",
-    solves nothing before `completed`.
+    solves them in `completed`.
 
     `lubfric.estimate` requests more strips or shorter cells until there are enough, then `corrected` and `completed`,
     and at last the `answer`.
@@ -238,13 +243,13 @@ class SampleSolution(ABC):
 
     @abstractmethod
     def answer(self) -> ModelAnswer:
-        """Return all that the model says of this point. `completed` comes before it."""
+        """Return all that the model says of this point. `completed` comes before it, but in `required_strips` by default."""
 
     def required_strips(self) -> int:
         """Return the number of strips that the tolerances need: `count` if these are enough.
 
-        By default they are those that `ModelAnswer.sampling_error` needs. A model whose `answer` takes work, or that decides by
-        another error, says it here.
+        By default they are those that `ModelAnswer.sampling_error` needs, of the `answer` before `completed`. A model whose
+        `answer` takes work or needs `completed`, or that decides by another error, says it here.
         """
         tolerance = self.prepared.scene.numerics.sampling_tolerance
         return strips_for_error(

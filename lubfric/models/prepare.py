@@ -93,7 +93,7 @@ def _on_sample(scene: Scene, sample: Sample, *, has_given_map: bool, has_given_c
     rough_contact = sample.contact(scene, sample.first_strips, partial(operator_on, memo, scene))
     memo.put(JoinedKey(sample.cells.coarsening, sample.first_strips), rough_contact, cells_of_contact(rough_contact))
     by_form = (
-        *violations_by_form(scene, sample.maps_before_extension, is_given=has_given_map),
+        *violations_by_form(scene, sample.maps_before_extension, has_given_map=has_given_map),
         *violations_by_strips(*sample.sq_deviation(surface)),
     )
     prepared = Prepared(
@@ -131,7 +131,7 @@ def prepared_with(scene: Scene | Prepared, tolerance: float | None, model_name: 
     return ready if ready is not None and requested == ready.scene else prepare(requested, like=ready)
 
 
-def with_friction_at(prepared: Prepared, speed: float) -> Prepared:
+def with_boundary_friction_at(prepared: Prepared, speed: float) -> Prepared:
     """Return ``prepared`` with the f_b that it has at ``speed`` [m/s]; itself where f_b does not depend on the speed."""
     scene = prepared.scene.at_speed(speed)
     return prepared if scene == prepared.scene else prepare(scene, like=prepared)

@@ -5,16 +5,13 @@ Whoever needs the models asks the functions here, so that `MODELS` is the one pl
 
 from ..errors import InputError
 from ..scene import Scene
-from .contract import Model
+from .contract import AUTO, Model
 from .deterministic import DeterministicModel
 from .load_sharing import PaperModel
 from .quick import QuickModel
 
 # The cheapest first: "auto" asks them in this order.
 MODELS: tuple[Model, ...] = (PaperModel(), QuickModel(), DeterministicModel())
-
-# The value of ``numerics.model`` that takes the cheapest model that is good enough.
-AUTO = "auto"
 
 
 def model_named(name: str) -> Model:
@@ -31,6 +28,13 @@ def models_up_to(name: str) -> tuple[Model, ...]:
     if name == AUTO:
         return MODELS
     return MODELS[: MODELS.index(model_named(name)) + 1]
+
+
+def models_cheaper_than(model: Model) -> tuple[Model, ...]:
+    """Return the models that are cheaper than ``model``, the cheapest first: by its name, or, where no model of `MODELS`
+    has it, the cheapest alone."""
+    names = [each.name for each in MODELS]
+    return MODELS[: names.index(model.name)] if model.name in names else MODELS[:1]
 
 
 def models_that_may_answer(name: str) -> tuple[Model, ...]:

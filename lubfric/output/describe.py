@@ -164,7 +164,10 @@ def estimate_scene(
     first_model = models_that_may_answer(scene.numerics.model)[0]
     at = [
         *((None, violation) for violation in beforehand(scene, sample, surface)),
-        *((None, violation) for violation in violations_by_form(scene, sample.maps_before_extension, is_given=False)),
+        *(
+            (None, violation)
+            for violation in violations_by_form(scene, sample.maps_before_extension, has_given_map=False)
+        ),
         *((None, violation) for violation in violations_by_strips(*sample.sq_deviation(surface))),
         *first_model.expected_violations(scene, sorted(set(speeds))),
     ]

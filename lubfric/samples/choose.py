@@ -12,8 +12,8 @@ from .strips import strips_of
 
 def takes_strips(scene: Scene) -> bool:
     """Return whether ``scene`` is solved on strips: it has a rough half-space under a cylinder, and requests no patch."""
-    rough = any(rough.sq != 0.0 for rough, _ in rough_bodies(scene))
-    return scene.numerics.sampling != "patch" and _is_resolved(scene) and rough
+    is_rough = any(rough.sq != 0.0 for rough, _ in rough_bodies(scene))
+    return scene.numerics.sampling != "patch" and _is_resolved(scene) and is_rough
 
 
 def sample_of(
@@ -41,16 +41,16 @@ def _on_chosen_cells(
     surface, *bodies = contact_maps(scene, maps, read=read)
     if contact is not None or not _is_resolved(scene):
         return UnresolvedSample(surface=surface, given_contact=contact)
-    return single_patch(scene, _lengths(scene, surface, is_given=bool(maps)), surface, tuple(bodies))
+    return single_patch(scene, _lengths(scene, surface, has_given_map=bool(maps)), surface, tuple(bodies))
 
 
 def _is_resolved(scene: Scene) -> bool:
     return scene.contact.geometry == "cylinder" and scene.contact.model == "half-space"
 
 
-def _lengths(scene: Scene, surface: Surface, *, is_given: bool) -> tuple[float, float]:
+def _lengths(scene: Scene, surface: Surface, *, has_given_map: bool) -> tuple[float, float]:
     """Return the correlation lengths [m] of a patch: those of the scene, or of the map itself."""
-    if is_measured(scene) or is_given:
+    if is_measured(scene) or has_given_map:
         return length_or_half(surface, 0), length_or_half(surface, 1)
     along_x, along_y = zip(*(correlation_lengths(rough) for rough, _ in rough_bodies(scene)))
     return max(along_x), max(along_y)

@@ -13,7 +13,7 @@ from ...scene import (
     why_gap_not_resolved,
 )
 from ...surface import Surface
-from ..contract import WorkEstimate
+from ..contract import AUTO, WorkEstimate
 from ..shared import FREEDOM_NOT_COUNTED, STRIPS_SAFETY, Prepared, is_smooth_over_cells, peak_hertz_pressure, student
 from .cells_in_motion import CellsInMotion
 from .counted_work import MOST_WORK_OF_POINT, work_of_steps
@@ -127,7 +127,7 @@ LEAST_PICTURED_LENGTH = 8.0
 SOLVED_ENDS_SLIDING = 0.3
 
 # What is not solved takes nothing.
-NO_WORK = WorkEstimate(strips=0, seconds=0.0)
+NO_WORK = WorkEstimate(strips=0, seconds=0.0, has_answer=False)
 
 
 def estimated_work(
@@ -147,8 +147,8 @@ def estimated_work(
     )
     if scene.transient is not None or why_gap_not_resolved(scene):
         strip_seconds = _seconds_in_motion(scene, sample, sq=sq, speed=speed, work=one_strip) if one_strip else 0.0
-        return WorkEstimate(strips=0, seconds=0.0, strip_seconds=strip_seconds)
-    if numerics.model == "auto" and cheaper is not None and cheaper.expected_model_error <= numerics.model_tolerance:
+        return WorkEstimate(strips=0, seconds=0.0, has_answer=False, strip_seconds=strip_seconds)
+    if numerics.model == AUTO and cheaper is not None and cheaper.expected_model_error <= numerics.model_tolerance:
         return NO_WORK
     if has_moving_roughness(scene):
         return _work_in_motion(scene, sample, surface, speed, one_strip)
@@ -179,8 +179,8 @@ def _work_in_motion(scene: Scene, sample: Sample, surface: Surface, speed: float
     sq = surface.sq
     strip_seconds = _seconds_in_motion(scene, sample, sq=sq, speed=speed, work=one_strip)
     numerics = scene.numerics
-    if one_strip > MOST_WORK_OF_POINT and numerics.model == "auto":
-        return WorkEstimate(strips=0, seconds=0.0, strip_seconds=strip_seconds)
+    if one_strip > MOST_WORK_OF_POINT and numerics.model == AUTO:
+        return WorkEstimate(strips=0, seconds=0.0, has_answer=False, strip_seconds=strip_seconds)
     ended = math.inf if numerics.max_work is None else IN_MOTION * numerics.max_work
     affordable = max(1.0, IN_MOTION * MOST_WORK_OF_POINT / strip_seconds)
     count = min(_expected_strips(scene, sample, sq=sq, speed=speed), affordable, sample.available_strips)

@@ -232,11 +232,12 @@ class QuickModel(Model):
         alone = PaperModel().estimate_work(scene, sample, surface, speed, None)
         is_named = scene.numerics.model == self.name
         if alone.touching == "none" and alone.expected_model_error <= _error_of_thick_films(scene, surface.sq, speed):
-            return replace(alone, seconds=alone.seconds if is_named else 0.0)
+            return replace(alone, seconds=alone.seconds if is_named else 0.0, has_answer=is_named)
         is_shared = is_named and _may_answer_by_equation(scene, surface.sq, speed)
         seconds = alone.seconds if is_shared else 0.0
-        solves_strips = speed and surface.sq and sample.is_resolved and not _why_not_calibrated(scene)
-        if solves_strips and scene.transient is None:
+        has_rough_film = speed != 0 and surface.sq != 0 and sample.is_resolved
+        solves_strips = has_rough_film and not _why_not_calibrated(scene) and scene.transient is None
+        if solves_strips:
             count = 1 if has_moving_roughness(scene) else EXPECTED_STRIPS
             seconds += work_on_long_cells(
                 scene,
@@ -246,7 +247,11 @@ class QuickModel(Model):
                 sample_coarsening=sample_coarsening_of_long_cells(scene, sample),
                 count=count,
             )
-        alone = replace(alone, waits_for_next=scene.numerics.model_tolerance < LEAST_TOLERANCE)
+        alone = replace(
+            alone,
+            has_answer=is_shared or solves_strips,
+            waits_for_next=scene.numerics.model_tolerance < LEAST_TOLERANCE,
+        )
         if has_moving_roughness(scene):
             return replace(alone, strips=1, length=sample.line_length(1), seconds=seconds, shared=())
         fine_fields = work_of_fine_fields(scene, sample, surface.sq, speed) if seconds else 0.0

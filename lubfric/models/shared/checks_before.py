@@ -129,13 +129,13 @@ def _violations_by_short_patch(scene: Scene, surface: Surface) -> Iterator[Viola
     )
 
 
-def violations_by_form(scene: Scene, maps: Sequence[Surface], *, is_given: bool) -> Iterator[Violation]:
+def violations_by_form(scene: Scene, maps: Sequence[Surface], *, has_given_map: bool) -> Iterator[Violation]:
     """Yield the violations by a form that is left in the ``maps``, of each rough body or of all: measured ones, or those
     that were given to `lubfric.prepare`."""
     sections = ("surface", "counterface")
     for section, rough, surface in zip(sections, (scene.surface, scene.counterface), maps):
-        file = None if is_given or rough is None else rough.file
-        if not (is_given or file) or surface.sq == 0:
+        file = None if has_given_map or rough is None else rough.file
+        if not (has_given_map or file) or surface.sq == 0:
             continue
         left = surface.left_by()
         form = advised_form(left)
@@ -157,7 +157,7 @@ def violations_by_form(scene: Scene, maps: Sequence[Surface], *, is_given: bool)
             limit=MOST_OF_FORM,
             unit="%",
             consequence=why,
-            recommendation=f"take the form off the map: level({form!r})" if is_given else file_advice,
+            recommendation=f"take the form off the map: level({form!r})" if has_given_map else file_advice,
         )
 
 
