@@ -113,6 +113,7 @@ def test_cell_means_are_double_integrals_of_the_kernel(away):
         assert kernel[column] == pytest.approx(exact, rel=1e-8)
 
 
+@pytest.mark.slow  # a case of the study sharing_cases
 def test_flat_balance_of_the_finite_elements():
     """A contact whose gap falls like exp(-p): both balances close, the sense of sliding changes the rolling part
     only."""

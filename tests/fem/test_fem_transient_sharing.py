@@ -18,6 +18,7 @@ def bodies():
     return cylinder(scene(), SPEED, strip(16, 0), rough(32, 16))
 
 
+@pytest.mark.slow  # the study sharing_in_time starts from one
 def test_a_steady_state_stays_as_it_is(bodies):
     step = 0.3 * bodies.contact.half_width / SPEED
     first, *_, last = islice(share_in_time(bodies, lambda time: SPEED, step), 4)

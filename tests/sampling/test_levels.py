@@ -164,8 +164,8 @@ def test_without_entrainment_f_is_f_b(prepared):
 def test_rolling_roughness_moves_or_gets_load_sharing_and_the_reason(monkeypatch):
     """By the deterministic model where that is cheap; else by calibrated load sharing, which says what the other takes,
     and an error that holds."""
-    small = SCENE.with_(motion=ROLLING, contact={"shape": (32, 16), "spacing": 90e-6 / 32})
-    small = small.with_(numerics={"sampling": "patch"})
+    small = SCENE.with_(motion=ROLLING, contact={"shape": (24, 12), "spacing": 90e-6 / 24})
+    small = small.with_(numerics={"sampling": "patch", "tolerance": 0.05})
     moved, shared = (lubfric.friction(small, 0.01, model=model) for model in ("auto", "paper"))
     assert moved.decision.model == "deterministic" and "the roughness moves at 0.0085 m/s" in moved.decision.text
     assert abs(shared.coefficient / moved.coefficient - 1) < shared.uncertainty.model < 1.5

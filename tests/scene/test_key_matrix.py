@@ -561,7 +561,7 @@ def test_the_boundary_film_is_the_gap_below_which_the_bodies_rub():
         scene.with_(bodies={"boundary_film": 30.0})
 
 
-@pytest.mark.parametrize("mode", ["steady", "sweep"])
+@pytest.mark.parametrize("mode", ["steady", pytest.param("sweep", marks=pytest.mark.slow)])
 def test_the_friction_of_the_paper_is_not_the_calibrated_one(mode):
     """Friction is f_b F_C and the shear of the film in both; "paper" shears the smooth film of Eq. (9)."""
     scene = lubfric.load_scene("paper").with_(
