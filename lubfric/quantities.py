@@ -407,7 +407,7 @@ def names_with(fact: str) -> tuple[str, ...]:
 
 def depending_on(error: str) -> tuple[str, ...]:
     """Return the names of the quantities whose error depends on ``error``: "split" (the division of the load), "shear",
-    "area", "contacts", "film", "heat"."""
+    "area", "contacts", "film", "heat", or "all" of these."""
     return tuple(name for name, q in QUANTITIES.items() if q.error == error)
 
 

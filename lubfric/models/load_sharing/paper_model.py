@@ -25,31 +25,26 @@ from .estimated_work import estimated_work
 from .methods import methods_of_load_sharing
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class PaperSolution(SampleSolution):
-    """The first strips joined to one line, with one film and one approach: a `BalancedSample`."""
+    """The first strips joined to one line, with one film and one approach: ``balanced``, of which all else is a part."""
 
+    prepared: Prepared
+    sample: Sample
+    count: int
+    speed: float
     balanced: BalancedSample
 
-    @property
-    def prepared(self) -> Prepared:  # type: ignore[override]
-        """The scene that was solved."""
-        return self.balanced.prepared
-
-    @property
-    def sample(self) -> Sample:  # type: ignore[override]
-        """The sample, on the cells that were solved."""
-        return self.balanced.sample
-
-    @property
-    def count(self) -> int:  # type: ignore[override]
-        """The number of its strips."""
-        return self.balanced.count
-
-    @property
-    def speed(self) -> float:  # type: ignore[override]
-        """The entrainment speed [m/s]."""
-        return self.balanced.speed
+    @classmethod
+    def of(cls, balanced: BalancedSample) -> PaperSolution:
+        """Return the solution that a ``balanced`` sample is."""
+        return cls(
+            prepared=balanced.prepared,
+            sample=balanced.sample,
+            count=balanced.count,
+            speed=balanced.speed,
+            balanced=balanced,
+        )
 
     def required_strips(self) -> int:
         return self.balanced.required_strips()
@@ -61,7 +56,7 @@ class PaperSolution(SampleSolution):
         return self.balanced.takes_more_strips_first()
 
     def corrected(self) -> PaperSolution:
-        return PaperSolution(self.balanced.corrected())
+        return PaperSolution.of(self.balanced.corrected())
 
     def control(self) -> ControlVariate | None:
         return control_for(self.balanced)
@@ -123,4 +118,4 @@ class PaperModel(Model):
         control: ControlVariate | None = None,
     ) -> PaperSolution:
         begin = start.balanced if isinstance(start, PaperSolution) else None
-        return PaperSolution(solve_sample(prepared, sample, count, speed, begin))
+        return PaperSolution.of(solve_sample(prepared, sample, count, speed, begin))
