@@ -14,6 +14,9 @@ from .uncertainty import Uncertainty, with_part
 # Change of f over f by the range of an input below which no note reports it: 0.05 %. Not measured: a convention.
 LEAST_REPORTED_CHANGE = 5e-4
 
+# Change of f in percent that is stated to three digits, at least: it rounds to 100. A convention.
+LEAST_OF_THREE_DIGITS = 99.5
+
 GIVEN_CONTACT = "the contact was given by the caller"
 NO_ENDS = "this model does not solve the ends of its range"
 NOT_CONVERGED = "the solve at an end of its range did not converge"
@@ -34,7 +37,7 @@ def changes_by_ranges(prepared: Prepared, answer: ModelAnswer) -> dict[str, tupl
     for name, *ends in scene.at_ends():
         if name == BOUNDARY_FRICTION_KEY:
             load_ratio = answer.numbers["contact_load"] / scene.bodies.load
-            slope = load_ratio * (scene.motion.slide_roll_ratio != 0)
+            slope = load_ratio if scene.motion.slide_roll_ratio != 0 else 0.0
             changes_of_f[name] = tuple(slope * (value_of(end, name) - value_of(scene, name)) for end in ends)
         elif name == HARDNESS_KEY and prepared.has_given_contact:
             changes_of_f[name] = GIVEN_CONTACT
@@ -95,7 +98,10 @@ def with_missing_inputs(old: Uncertainty, relative_changes: dict[str, tuple[floa
 
 def _signed(percentage: float) -> str:
     """Return a change in percent with its sign, to two digits, or three from 100 % on."""
-    return f"{percentage:+.{2 + (abs(percentage) >= 99.5)}g}" if percentage else "0"
+    if not percentage:
+        return "0"
+    has_three_digits = abs(percentage) >= LEAST_OF_THREE_DIGITS
+    return f"{percentage:+.3g}" if has_three_digits else f"{percentage:+.2g}"
 
 
 def _changes_in_words(ends: tuple[float, ...], f: float) -> Iterator[str]:
@@ -124,12 +130,12 @@ def with_input_ranges(old: Uncertainty, changes_of_f: dict[str, tuple[float, ...
         else:
             notes.append(f"{begin}not in the interval, as {ends}")
     relative = max(below, above) / abs(f) if f else math.inf if max(below, above) else 0.0
-    complete = len(moved) == len(changes_of_f)
+    is_complete = len(moved) == len(changes_of_f)
     towards, away = (below, above) if f >= 0 else (above, below)
     return replace(
         with_part(old, below, above),
-        inputs=relative if complete else math.nan,
-        input_sides=(towards / abs(f), away / abs(f)) if f and complete else (math.nan, math.nan),
+        inputs=relative if is_complete else math.nan,
+        input_sides=(towards / abs(f), away / abs(f)) if f and is_complete else (math.nan, math.nan),
         notes=(*old.notes, *notes),
         largest_input=max(moved, key=lambda name: max(map(abs, moved[name])), default=""),
     )

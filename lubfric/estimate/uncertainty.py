@@ -12,13 +12,14 @@ import numpy as np
 from .._base import Renamed
 from ..models.shared import (
     REDUCED_BY_DETERMINISTIC,
+    REDUCED_BY_TOLERANCE,
     ModelErrorPart,
     StandardError,
+    half_width_of_error,
     has_too_few_contacts,
     is_near_zero,
     percent_of_sides,
     sides_in_f,
-    student,
 )
 from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuantities, described_in_doc
 from ..units import interval_in_words, with_interval
@@ -139,7 +140,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     not_given_sides: tuple[float, float] = (math.nan, math.nan)
     input_sides: tuple[float, float] = (math.nan, math.nan)
     largest_in_model: ModelErrorPart | None = None
-    narrows_numerical: str = "a smaller numerics.tolerance reduces it"
+    narrows_numerical: str = REDUCED_BY_TOLERANCE
     narrows_sampling: str = "a smaller numerics.sampling_tolerance reduces it"
     missing_input: str = ""
     largest_input: str = ""
@@ -153,7 +154,7 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         That of sampling is its standard error (``sampling``) times Student's t.
         """
         parts = {name: getattr(self, part.quantity) for name, part in PARTS.items()}
-        return parts | {"sampling": student(self.freedom) * self.sampling if self.sampling else self.sampling}
+        return parts | {"sampling": half_width_of_error(self.sampling, self.freedom)}
 
     @property
     def budget_in_words(self) -> dict[str, str]:
@@ -235,8 +236,10 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
             if value == 0 and not part.is_stated_if_zero:
                 continue
             name_in_words = name if part.name_in_words is None else part.name_in_words(self)
-            stated.append(f"{name_in_words} {words[name]}{part.note_if_unknown * math.isnan(value)}")
-        return f"{'errors of f itself, which is near 0: ' * self.is_near_zero}{', '.join(stated)}"
+            note = part.note_if_unknown if math.isnan(value) else ""
+            stated.append(f"{name_in_words} {words[name]}{note}")
+        of_what = "errors of f itself, which is near 0: " if self.is_near_zero else ""
+        return f"{of_what}{', '.join(stated)}"
 
 
 @described_in_doc
@@ -313,7 +316,7 @@ def interval(
     error = sampling_error.value
     if not math.isfinite(error):
         return math.nan, math.nan
-    of_sample = student(sampling_error.freedom) * error if error else 0.0
+    of_sample = half_width_of_error(error, sampling_error.freedom)
     towards, away = (
         abs(value) * math.hypot(numerical, of_sample, 0.0 if math.isnan(side) else side) for side in model_error
     )

@@ -18,7 +18,7 @@ class PointWorkEstimate:
     Attributes
     ----------
     speed : of entrainment [m/s]
-    touching : whether asperities touch under the expected film of the total load, as text
+    asperities : whether asperities touch under the expected film of the total load (`WorkEstimate.asperities`)
     error : relative standard error of f after the first strips of the cheapest model
     strips : number of strips that ``numerics.sampling_tolerance`` needs, by the last model that has a line of its own
     length : of these strips [m]
@@ -33,7 +33,7 @@ class PointWorkEstimate:
     """
 
     speed: float
-    touching: str
+    asperities: str
     error: float
     strips: int
     length: float
@@ -66,7 +66,7 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
     with_slow_strips = [k for k, model in enumerate(models) if model.has_slow_strips]
     return PointWorkEstimate(
         speed=speed,
-        touching=cheapest.touching,
+        asperities=cheapest.asperities,
         error=cheapest.expected_sampling_error,
         strips=line.strips,
         length=line.length,

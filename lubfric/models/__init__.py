@@ -7,7 +7,19 @@
 have in common: the scene made ready, heat, limits of validity, statistics. `prepare` makes a scene ready.
 """
 
-from .contract import AUTO, ContactFields, Model, ModelAnswer, ModelDetails, SampleSolution, SharedWork, WorkEstimate
+from .contract import (
+    ALL_TOUCH,
+    AUTO,
+    FEW_TOUCH,
+    NONE_TOUCHES,
+    ContactFields,
+    Model,
+    ModelAnswer,
+    ModelDetails,
+    SampleSolution,
+    SharedWork,
+    WorkEstimate,
+)
 from .deterministic import DeterministicModel, DeterministicResult
 from .load_sharing import Balance, PaperModel
 from .prepare import prepare, prepare_on_maps, prepared_with, with_boundary_friction_at

@@ -23,6 +23,7 @@ from ..samples import Sample
 from ..scene import Scene
 from ..surface import Surface
 from .shared import (
+    REDUCED_BY_TOLERANCE,
     ControlVariate,
     Decision,
     ExpectedViolations,
@@ -37,6 +38,11 @@ from .shared import (
 
 # The value of ``numerics.model`` that takes the cheapest model that is good enough.
 AUTO = "auto"
+
+# Whether asperities touch under an expected film, in words (`WorkEstimate.asperities`).
+ALL_TOUCH = "touching"
+FEW_TOUCH = "none or a few summits"
+NONE_TOUCHES = "none"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -147,7 +153,7 @@ class ModelAnswer:
     by_limit: float = 0.0
     parts_of_model: tuple[ModelErrorPart, ...] = ()
     accepts_model_error: bool = False
-    narrows_numerical: str = "a smaller numerics.tolerance reduces it"
+    narrows_numerical: str = REDUCED_BY_TOLERANCE
     most_rolling_ratio: float = 2.0
     not_given: dict[str, tuple[float, float]] = field(default_factory=dict)
     errors: dict[str, float] = field(default_factory=dict)
@@ -207,7 +213,7 @@ class WorkEstimate:
     length : of the strips [m]; NaN: there is one patch
     expected_sampling_error : relative standard error of f after the first strips; NaN: there is one patch
     expected_model_error : relative model-form error of f
-    touching : whether asperities touch: "touching", "none or a few summits", or "none"
+    asperities : whether asperities touch: `ALL_TOUCH`, `FEW_TOUCH` or `NONE_TOUCHES`
     """
 
     strips: int
@@ -221,7 +227,7 @@ class WorkEstimate:
     length: float = math.nan
     expected_sampling_error: float = math.nan
     expected_model_error: float = math.nan
-    touching: str = ""
+    asperities: str = ""
 
 
 class SampleSolution(ABC):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ..errors import InputError
 from ..estimate import FrictionResult, estimated_work_of_point, seconds_of_points
-from ..models import AUTO, model_named, models_that_may_answer
+from ..models import ALL_TOUCH, AUTO, FEW_TOUCH, NONE_TOUCHES, model_named, models_that_may_answer
 from ..models.deterministic import MOST_WORK_OF_POINT
 from ..models.shared import (
     Assumption,
@@ -57,7 +57,7 @@ COMMAND_SECONDS = 2.4
 # Processor seconds of pictures and files, of these.
 FILES_SECONDS = 1.4
 # Whether asperities touch, by the estimate.
-ASPERITIES = {"touching": "yes", "none or a few summits": "few or none", "none": "no"}
+ASPERITIES = {ALL_TOUCH: "yes", FEW_TOUCH: "few or none", NONE_TOUCHES: "no"}
 # Part of the largest speed of a run below which a speed is that of a standstill: frequencies are written with nine digits.
 STANDSTILL_PART = 1e-8
 # Part of the power loss from which the rolling resistance in it is named.
@@ -329,22 +329,22 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds: list[fl
     the summits touch, and what the sample costs; of a run in time `_moment_table`."""
     if scene.transient is not None:
         return _moment_table(scene, sample, surface)
-    sampled = sample.is_resolved
     table: list[tuple[str, ...]] = [("U [m/s]", "M", "L", "film [nm]", "lambda ratio", "asperity contact")]
-    chosen = ("deterministic strips",) * (scene.numerics.model == AUTO)
-    table[0] += ("strips", *chosen, "length of the line [mm]", "processor time [s]") * sampled
+    chosen = ("deterministic strips",) if scene.numerics.model == AUTO else ()
+    if sample.is_resolved:
+        table[0] += ("strips", *chosen, "length of the line [mm]", "processor time [s]")
     for speed in sorted({*speeds[:: max(1, len(speeds) // TABLE_SPEEDS)], scene.motion.entrainment_speed, speeds[-1]}):
         one = estimated_work_of_point(scene, sample, surface, speed)
         film = ("", "", "0", "0", "no entrainment: all load")
         if speed != 0:
-            film = _film_in_words(scene, surface, speed, one.touching)
+            film = _film_in_words(scene, surface, speed, one.asperities)
         counts = (
             f"{one.strips}",
             *(f"{one.slow_strips}" for _ in chosen),
             f"{1e3 * one.length:.2g}".replace("nan", "-"),
             f"{float(f'{one.seconds:.1g}'):g}",
         )
-        table.append((f"{speed:.4g}", *film, *counts * sampled))
+        table.append((f"{speed:.4g}", *film, *(counts if sample.is_resolved else ())))
     return table
 
 
@@ -364,31 +364,31 @@ def _moment_table(scene: Scene, sample: Sample, surface: Surface) -> list[tuple[
         now = moments[time]
         is_at_rest = speeds[time] < STANDSTILL_PART * speeds[fastest]
         speed = 0.0 if is_at_rest else now.motion.entrainment_speed
-        touching = estimated_work_of_point(now, sample, surface, speed).touching
+        asperities = estimated_work_of_point(now, sample, surface, speed).asperities
         film = ("", "", "0", "0", "no entrainment")
         if speed != 0:
-            film = _film_in_words(now, surface, speed, touching)
+            film = _film_in_words(now, surface, speed, asperities)
         values = (time, speed, now.bodies.load, 1e3 * now.bodies.radius)
         table.append((*(f"{value:.4g}" for value in values), *film))
     return table
 
 
-def _film_in_words(scene: Scene, surface: Surface, speed: float, touching: str) -> tuple[str, str, str, str, str]:
+def _film_in_words(scene: Scene, surface: Surface, speed: float, asperities: str) -> tuple[str, str, str, str, str]:
     """Return the Moes numbers, the expected film under the total load, its lambda ratio and whether asperities touch at
-    ``speed`` [m/s], not 0, as text. ``touching``: as of `asperities_in_words`."""
+    ``speed`` [m/s], not 0, as text. ``asperities``: as of `asperities_in_words`."""
     line = scene.line_contact(abs(speed))
     inlet, is_used = inlet_at(scene, speed)
     thickness = line.expected_film * (inlet.factor if is_used and inlet is not None else 1.0)
     ratio = thickness / surface.sq if surface.sq > 0 else math.inf
-    contact = asperities_in_words(touching, ratio)
+    contact = asperities_in_words(asperities, ratio)
     return f"{line.M:.3g}", f"{line.L:.3g}", f"{thickness * 1e9:.4g}", f"{ratio:.3g}", contact
 
 
-def asperities_in_words(touching: str, lambda_ratio: float) -> str:
-    """Return whether asperities touch, as the table says it. ``touching``: by the height of the highest summit, one of
+def asperities_in_words(asperities: str, lambda_ratio: float) -> str:
+    """Return whether asperities touch, as the table says it. ``asperities``: by the height of the highest summit, one of
     `ASPERITIES`. What that does not decide is likely below the `FULL_FILM_LAMBDA`."""
-    is_open = touching == "none or a few summits"
-    return "likely" if is_open and lambda_ratio < FULL_FILM_LAMBDA else ASPERITIES[touching]
+    is_open = asperities == FEW_TOUCH
+    return "likely" if is_open and lambda_ratio < FULL_FILM_LAMBDA else ASPERITIES[asperities]
 
 
 def slopes_in_words(surface: Surface) -> str:

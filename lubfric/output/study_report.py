@@ -17,11 +17,11 @@ from ..models.shared import (
     MODEL_ERROR,
     NUMERICAL_ERROR,
     gathered_texts,
+    half_width_of_error,
     is_note_text,
     peak_hertz_pressure,
     percent,
     sentence,
-    student,
     unmodelled_effects,
 )
 from ..quantities import CHOICES, COLUMNS, counted, worded_value
@@ -283,7 +283,7 @@ def _parts_of_error(
     parts = {name: np.atleast_1d(columns[f"uncertainty_{part.quantity}"][index]) for name, part in PARTS.items()}
     freedom = np.atleast_1d(columns["uncertainty_freedom"][index])
     of_sample = zip(parts["sampling"], freedom)
-    parts["sampling"] = np.array([error * student(float(n)) if error else error for error, n in of_sample])
+    parts["sampling"] = np.array([half_width_of_error(error, float(n)) for error, n in of_sample])
     missing = names_of_inputs(key for scene in scenes for key in missing_inputs(scene))
     labels = {"not given": f"{missing} not given"}
     return {labels.get(name, name): part for name, part in parts.items() if name != "not given" or part.any()}

@@ -22,7 +22,7 @@ from .._base.progress import report_progress
 from ..contact import BOUNDARY, HalfSpace, HalfSpaceContact, Passage, half_space, operator_under, passage, solve_contact
 from ..errors import ConvergenceError, InputError, WorkLimitError
 from ..estimate import estimated_work_of_point, friction
-from ..models import prepare
+from ..models import ALL_TOUCH, prepare
 from ..models.load_sharing import Balance, solve_balance
 from ..samples import cylinder_of, flat_contact_of, half_space_contact_of
 from ..scene import Scene
@@ -238,7 +238,7 @@ def estimated_wear(scene: Scene, surface: Surface, distance: float, coefficient:
     one = BALANCE_SECONDS + BALANCE_CELL_SECONDS * math.prod(rig.stack.shape)
     prepared = prepare(scene, _sample_of(rig, surface))
     point = estimated_work_of_point(scene, prepared.sample, prepared.surface, rig.speed)
-    records = RECORDS if point.touching == "touching" else RECORDS_WITHOUT_LOAD
+    records = RECORDS if point.asperities == ALL_TOUCH else RECORDS_WITHOUT_LOAD
     pressure = scene.bodies.load / cylinder_of(scene).hertz_area
     depth = coefficient * pressure * distance / hardness / max(surface.sq, 1e-12)
     steps = records - 1 + min(depth / CHANGE, STEPS_TO_VANISHED)

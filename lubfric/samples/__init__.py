@@ -9,8 +9,7 @@ them, `cells` finds the length of the cells, and `contacts` turns the keys of a 
 
 from .cells import Cells, length_of_rough_contact
 from .choose import sample_of, takes_strips
-from .contacts import cylinder_of, flat_contact_of, half_space_contact_of
-from .contract import PIECE, Sample
+from .contract import PIECE_LENGTH, Sample
 from .maps import (
     check_map,
     combined_maps,
@@ -22,4 +21,5 @@ from .maps import (
     whole_maps,
 )
 from .patch import SinglePatch, UnresolvedSample
+from .rough_contacts import cylinder_of, flat_contact_of, half_space_contact_of
 from .strips import GeneratedStrips, MeasuredStrips, measured_strips

@@ -29,11 +29,11 @@ from ..scene import Numerics, Scene
 from ..surface import Surface
 from ..units import worded
 from .cells import Cells
-from .contacts import half_space_contact_of
+from .rough_contacts import half_space_contact_of
 
 # Correlation lengths along y of a piece on native cells: eight blocks of five lengths (models/shared/statistics.py), so
 # that a piece states its own error.
-PIECE = 42.0
+PIECE_LENGTH = 42.0
 
 
 class Sample(ABC):
@@ -74,7 +74,7 @@ class Sample(ABC):
         ``source`` says in words what the surface is."""
 
     @abstractmethod
-    def piece(self, index: int, length: float = PIECE) -> Surface:
+    def piece(self, index: int, length: float = PIECE_LENGTH) -> Surface:
         """Return piece ``index`` of `available_pieces`, on native cells, some ``length`` correlation lengths long.
 
         Every n-th of its cells, along each axis, gives the coarse cells to compare it with (`Cells.thinned`).

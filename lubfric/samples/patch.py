@@ -13,8 +13,8 @@ from ..contact import HalfSpace, RoughContact, centred_axis
 from ..scene import Numerics, Scene
 from ..surface import Surface
 from .cells import Cells, cells_of_a_box, length_or_half
-from .contacts import flat_contact_of, independent_asperities_of
-from .contract import PIECE, Sample
+from .contract import PIECE_LENGTH, Sample
+from .rough_contacts import flat_contact_of, independent_asperities_of
 from .windows import is_mirror_image
 
 
@@ -64,7 +64,7 @@ class SinglePatch(OnlyMap):
         heights = self.cells.thinned(self.surface.heights, self.cells.coarsening)
         return replace(self.surface, heights=heights, spacing=self.cells.spacing, mask=None)
 
-    def piece(self, index: int, length: float = PIECE) -> Surface:
+    def piece(self, index: int, length: float = PIECE_LENGTH) -> Surface:
         return self.surface
 
     def stated_map(self) -> Surface:
@@ -104,7 +104,7 @@ class UnresolvedSample(FieldsOnly, OnlyMap):
     def joined(self, indices: Sequence[int]) -> Surface:
         return self.surface
 
-    def piece(self, index: int, length: float = PIECE) -> Surface:
+    def piece(self, index: int, length: float = PIECE_LENGTH) -> Surface:
         return self.surface
 
     def contact(

@@ -29,7 +29,7 @@ from .cells import (
     no_cells,
     reach_of,
 )
-from .contract import PIECE, Sample
+from .contract import PIECE_LENGTH, Sample
 from .maps import is_extended, is_measured, rough_bodies, statistics, whole_maps
 from .windows import blend_of, joined_maps, spread_order, starts_of
 
@@ -78,10 +78,10 @@ SMALL_DEVIATION = 0.02
 NORMAL_REACH = 1.96
 
 # Stream of seeds of strips.
-STRIPS = 0
+SEEDS_OF_STRIPS = 0
 
 # Stream of seeds of pieces.
-PIECES = 1
+SEEDS_OF_PIECES = 1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,10 +116,10 @@ class GeneratedStrips(FieldsOnly, Sample):
         known.update((i, s) for i, s in zip(indices, strips) if i < KEPT_CELLS // math.prod(shape))
         return replace(strips[0], heights=joined_maps([strip.heights for strip in strips], blend))
 
-    def piece(self, index: int, length: float = PIECE) -> Surface:
+    def piece(self, index: int, length: float = PIECE_LENGTH) -> Surface:
         fx, fy = self.cells.coarsening
         rows = self.cells.rows(length * self.correlation_lengths[1]) * fy
-        return self._generator(PIECES, self.cells.native_spacing, (self.cells.columns * fx, rows))(index)
+        return self._generator(SEEDS_OF_PIECES, self.cells.native_spacing, (self.cells.columns * fx, rows))(index)
 
     @cached_property
     def _known(self) -> dict[int, Surface]:
@@ -134,7 +134,7 @@ class GeneratedStrips(FieldsOnly, Sample):
     @cached_property
     def _made_strip(self) -> Callable[[int], Surface]:
         """The function that makes a strip from its number. All have one spectrum, which takes as long as a strip."""
-        return self._generator(STRIPS, self.cells.spacing, self._shape_of_strip)
+        return self._generator(SEEDS_OF_STRIPS, self.cells.spacing, self._shape_of_strip)
 
     def _generator(self, stream: int, spacing: tuple[float, float], shape: tuple[int, int]) -> Callable[[int], Surface]:
         """Return the function that makes a map of the ``stream`` from its number."""
@@ -238,7 +238,7 @@ class MeasuredStrips(Sample):
         note = f"{counted(len(windows), 'windows')} of {shape}, joined along y"
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.spacing, note)
 
-    def piece(self, index: int, length: float = PIECE) -> Surface:
+    def piece(self, index: int, length: float = PIECE_LENGTH) -> Surface:
         window = self._columns(self.starts[index])
         blend = self._blend
         unit = WINDOW_ROWS_MULTIPLE * self.cells.coarsening[1]

@@ -119,6 +119,8 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         rolling=sense * shear.rolling / total,
         by_heat=error_by_heat(of_moment, 1 - of_moment.film_factor**film_sensitivity),
     )
+    # 0 where nothing is plastic, even if the factor by the cells is not known
+    plastic_area = state.plastic_area_fraction * model.plastic if state.plastic_area_fraction else 0.0
     row = {
         "time": time,
         "entrainment_speed": speed,
@@ -150,7 +152,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         "wet_from": wet[0] if wet.size else math.nan,
         "wet_to": wet[-1] if wet.size else math.nan,
         "real_contact_area_fraction": state.real_contact_area_fraction * model.area if touches else 0.0,
-        "plastic_area_fraction": state.plastic_area_fraction and state.plastic_area_fraction * model.plastic,
+        "plastic_area_fraction": plastic_area,
         "edge_load": model.patch.on_the_ends(state) if touches else math.nan,
         "load_residual": (film_load + contact_step.load) / total - 1.0,
         "volume_residual": volume_residual(state) if touches else math.nan,

@@ -25,6 +25,7 @@ from ..shared import (
     contact_on_piece,
     error_by_heat,
     film_lubricant,
+    half_width_of_error,
     limit_bounds,
     limit_in_words,
     peak_hertz_pressure,
@@ -32,7 +33,6 @@ from ..shared import (
     percent_beside,
     sides_of_parts,
     smooth_rolling_resistance,
-    student,
     violations_by_heat,
     violations_by_inlet,
     violations_by_motion,
@@ -113,7 +113,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
     sampling_error = levels.sampling_error
     if not math.isfinite(sampling_error.value):
         sampling_error = replace(sampling_error, value=math.nan)
-    by_scatter = student(levels.difference_error.freedom) * levels.difference_error.value
+    by_scatter = half_width_of_error(levels.difference_error.value, levels.difference_error.freedom)
     with_thinner, with_thicker = levels.by_film
     by_missing_input = {BOUNDARY_FILM_KEY: (with_thinner, with_thicker)}
     by_flow = abs(levels.by_flow)
@@ -338,7 +338,7 @@ def _sample_notes(prepared: Prepared, error: StandardError, length: float) -> tu
     if error.value <= WORTH_A_NOTE * tolerance:
         return ()
     (stated, target) = percent_beside(error.value, tolerance)
-    both_sides = percent(student(error.freedom) * error.value)
+    both_sides = percent(half_width_of_error(error.value, error.freedom))
     of_target = f"is above the target of {target} (numerics.sampling_tolerance)"
     return (f"sampling: its standard error, {stated} ({both_sides} at 95 %), {of_target}",)
 

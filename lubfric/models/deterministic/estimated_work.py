@@ -3,7 +3,7 @@
 
 import math
 
-from ...samples import PIECE, Sample
+from ...samples import PIECE_LENGTH, Sample
 from ...scene import (
     BOUNDARY_FRICTION_KEY,
     HARDNESS_KEY,
@@ -241,7 +241,7 @@ def _work_at_rest(
     left = fx * ux, fy * uy
     pieces = 0.0
     if max(left) >= 2:
-        finer = min(left[0], 2) * min(left[1], 2) * PIECE * lengths * cells
+        finer = min(left[0], 2) * min(left[1], 2) * PIECE_LENGTH * lengths * cells
         line = scene.line_contact(abs(speed))
         is_rubbed = is_smooth and line.moes_film < RUBBED_FILM * sq and not are_soft(line, sq)
         number = PIECES_OF_MORE_STRIPS if count > 1 else PIECES_OF_RUBBED if is_rubbed else 1.0

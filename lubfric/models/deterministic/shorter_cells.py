@@ -15,7 +15,7 @@ import numpy as np
 from ..._base import limited_work, work_left
 from ...errors import ConvergenceError, LubfricError, WorkLimitError
 from ...quantities import names_with
-from ...samples import PIECE, Sample
+from ...samples import PIECE_LENGTH, Sample
 from ...scene import has_moving_roughness
 from ..shared import (
     Prepared,
@@ -64,7 +64,7 @@ LEAST_STRIP_ERROR = 2e-3
 # Length [correlation lengths] below which a strip serves as a piece. Half changes nothing, twice f by -0.3 %.
 SHORT = 60.0
 
-# Length [correlation lengths] of the piece of the last level: a third of `PIECE`. Half and twice change nothing on these
+# Length [correlation lengths] of the piece of the last level: a third of `PIECE_LENGTH`. Half and twice change nothing on these
 # points, which do not need it.
 LAST_PIECE = 14.0
 
@@ -312,7 +312,7 @@ def _refined(
     slope: float = UNKNOWN_SLOPE,
     find_slope: bool = False,
     times: int = 2,
-    length: float = PIECE,
+    length: float = PIECE_LENGTH,
 ) -> Piece:
     """Return piece ``index`` of the surface, solved on cells twice as long as those of the strips, on cells as long,
     and then on cells half as long each time, down to so many ``times`` as short as those of the strips.

@@ -444,8 +444,8 @@ def _film_cells(point: Point, film: EHLResult, forces: Forces) -> int:
     exact enough. It stays where that sum is of stresses that no oil carries."""
     numerics = point.scene.numerics
     now = point.settings.film_cells
-    resolved = forces.quadrature <= budget.SHEAR_SUM * numerics.tolerance or is_of_impossible_stress(forces.shear)
-    if numerics.film_tolerance is not None or resolved:
+    is_resolved = forces.quadrature <= budget.SHEAR_SUM * numerics.tolerance or is_of_impossible_stress(forces.shear)
+    if numerics.film_tolerance is not None or is_resolved:
         return now
     return min(2 * film.cells, max(budget.MOST_FILM_CELLS, now))
 

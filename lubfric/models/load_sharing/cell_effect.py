@@ -148,8 +148,8 @@ def _error_of_area(steps: Sequence[CellStep]) -> float:
 def _are_enough(steps: Sequence[CellStep], most: float, scatter: float) -> bool:
     """Return whether these pieces are enough: the error of their mean is within ``scatter`` [m], there are no more
     pieces, or there are three that are too short for blocks."""
-    short = len(steps) >= FEWEST_PIECES and not math.isfinite(steps[0].error.value)
-    return len(steps) > 0 and (short or len(steps) >= most or mean_error(steps).value <= scatter)
+    are_too_short = len(steps) >= FEWEST_PIECES and not math.isfinite(steps[0].error.value)
+    return len(steps) > 0 and (are_too_short or len(steps) >= most or mean_error(steps).value <= scatter)
 
 
 def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, *, index: int, enough: float) -> CellStep:

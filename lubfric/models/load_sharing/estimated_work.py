@@ -5,10 +5,10 @@ import math
 
 from ...film import LineContact, flooded_inlet, smallest_film
 from ...oil import shear_stress
-from ...samples import PIECE, Cells, Sample
+from ...samples import PIECE_LENGTH, Cells, Sample
 from ...scene import Scene, has_moving_roughness
 from ...surface import Surface
-from ..contract import SharedWork, WorkEstimate
+from ..contract import ALL_TOUCH, FEW_TOUCH, NONE_TOUCHES, SharedWork, WorkEstimate
 from ..shared import GAP_IN_CONTACT, SAMPLE_GROWTH, STRIPS_SAFETY, is_smooth_over_cells
 from .balanced_sample import nearest_reference
 from .cell_effect import MOST_PIECE_CELLS
@@ -107,19 +107,19 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
     """Return what a point at ``speed`` [m/s] will take; ``surface``: the `Sample.stated_map`."""
     film = scene.line_contact(speed).expected_film if speed else 0.0
     sq = surface.sq
-    touching = _touching_in_words(film, float(surface.heights.max() - surface.heights.mean()))
+    asperities = _asperities(film, float(surface.heights.max() - surface.heights.mean()))
     seconds = FILM_SECONDS * _times_by_heat(scene)
     error_of_model = expected_model_error(scene, film, sq, speed)
     if not sample.represents_more:
-        if touching != "none":
+        if asperities != NONE_TOUCHES:
             seconds += PATCH_SECONDS + MAP_SECONDS * surface.heights.size
-        return WorkEstimate(strips=1, seconds=seconds, expected_model_error=error_of_model, touching=touching)
+        return WorkEstimate(strips=1, seconds=seconds, expected_model_error=error_of_model, asperities=asperities)
     error = expected_sampling_error(scene, sample, sq, film, speed)
     target = scene.numerics.sampling_tolerance
     count = math.ceil(sample.first_strips * max(1.0, STRIPS_SAFETY * (error / target) ** 2 if error > target else 1.0))
     count = min(count, sample.available_strips)
     shared: tuple[SharedWork, ...] = ()
-    if touching != "none":
+    if asperities != NONE_TOUCHES:
         of_strips, shared = _work_of_strips(scene, sample, surface, film, count)
         seconds += of_strips
     return WorkEstimate(
@@ -129,15 +129,15 @@ def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float)
         length=sample.line_length(count),
         expected_sampling_error=error,
         expected_model_error=error_of_model,
-        touching=touching,
+        asperities=asperities,
     )
 
 
-def _touching_in_words(film: float, summit: float) -> str:
+def _asperities(film: float, summit: float) -> str:
     """Return whether asperities touch under an expected ``film`` [m] below a ``summit`` [m] above the mean height, as text."""
     if CERTAIN_FACTOR * film < summit:
-        return "touching"
-    return "none" if film > CERTAIN_FACTOR * summit else "none or a few summits"
+        return ALL_TOUCH
+    return NONE_TOUCHES if film > CERTAIN_FACTOR * summit else FEW_TOUCH
 
 
 def _times_by_heat(scene: Scene) -> float:
@@ -194,7 +194,7 @@ def _work_of_strips(
     pieces_seconds = 0.0
     native_seconds = 0.0
     if not cells.is_native:
-        native = cells.columns * fx * cells.rows(PIECE * ly) * fy
+        native = cells.columns * fx * cells.rows(PIECE_LENGTH * ly) * fy
         pieces_seconds = times * PIECE_SECONDS * cells_of_pieces(cells, native)
         native_seconds = PIECE_SECONDS * native
         made = GENERATED_SECONDS * native

@@ -16,7 +16,7 @@ from ...errors import ConvergenceError
 from ...samples import Sample
 from ...scene import Scene, has_moving_roughness, why_gap_not_resolved
 from ...surface import Surface
-from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
+from ..contract import NONE_TOUCHES, Model, ModelAnswer, SampleSolution, WorkEstimate
 from ..deterministic import work_of_fine_fields, work_on_long_cells
 from ..load_sharing import PaperModel, PaperSolution, expected_model_error, methods_of_load_sharing
 from ..shared import (
@@ -231,7 +231,9 @@ class QuickModel(Model):
     ) -> WorkEstimate:
         alone = PaperModel().estimate_work(scene, sample, surface, speed, None)
         is_named = scene.numerics.model == self.name
-        if alone.touching == "none" and alone.expected_model_error <= _error_of_thick_films(scene, surface.sq, speed):
+        if alone.asperities == NONE_TOUCHES and alone.expected_model_error <= _error_of_thick_films(
+            scene, surface.sq, speed
+        ):
             return replace(alone, seconds=alone.seconds if is_named else 0.0, has_answer=is_named)
         is_shared = is_named and _may_answer_by_equation(scene, surface.sq, speed)
         seconds = alone.seconds if is_shared else 0.0

@@ -109,15 +109,17 @@ class StripsOnLongCells:
         load = scene.bodies.load
         rolling = numbers["rolling_force"]
         force = rolling + (load * numbers["coefficient"] - rolling) * math.exp(self.bias)
-        rubs = scene.bodies.boundary_friction_coefficient
+        f_b = scene.bodies.boundary_friction_coefficient
         share = numbers["contact_load"] / load
-        contrast = rubs - (numbers["couette_force"] / numbers["film_load"] if numbers["film_load"] > 0 else rubs)
+        stress_of_film = numbers["couette_force"] / numbers["film_load"] if numbers["film_load"] > 0 else f_b
+        contrast = f_b - stress_of_film
         new_share = share
-        if contrast > LEAST_CONTRAST * rubs:
+        if contrast > LEAST_CONTRAST * f_b:
             new_share = min(max(share + (force / load - numbers["coefficient"]) / contrast, 0.0), 1.0)
-        boundary = numbers["boundary_force"] * (new_share / share if share > 0 else 0.0)
-        boundary += rubs * new_share * load * (share == 0)
         times = new_share / share if share > 0 else 0.0
+        boundary = numbers["boundary_force"] * times
+        if share == 0:
+            boundary = f_b * new_share * load
         of_films = (
             times if scene.lubricant.has_unlimited_stress else (1 - new_share) / (1 - share) if share < 1 else 0.0
         )

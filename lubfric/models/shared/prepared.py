@@ -10,7 +10,7 @@ import numpy as np
 
 from ..._base import FieldsOnly, Renamed, Shown, validate
 from ...contact import BOUNDARY, HalfSpace, HalfSpaceContact, RoughContact, half_space
-from ...samples import PIECE, Sample, half_space_contact_of
+from ...samples import PIECE_LENGTH, Sample, half_space_contact_of
 from ...scene import Scene
 from ...surface import Surface
 from .memo import JoinedKey, Key, Memo, OperatorKey, PieceKey, PieceMapKey, StripKey
@@ -117,7 +117,7 @@ def contact_on_strip(prepared: Prepared, sample: Sample, index: int) -> HalfSpac
 
 
 def contact_on_piece(
-    prepared: Prepared, sample: Sample, index: int, *, coarsening: tuple[int, int], length: float = PIECE
+    prepared: Prepared, sample: Sample, index: int, *, coarsening: tuple[int, int], length: float = PIECE_LENGTH
 ) -> HalfSpaceContact:
     """Return the contact on piece ``index`` of ``sample`` (`Sample.piece`), on cells of this ``coarsening``."""
     strip_coarsening = sample.cells.coarsening

@@ -168,6 +168,12 @@ def student(freedom: float) -> float:
     return float(stdtrit(max(freedom, 1.0), 0.5 + 0.5 * CONFIDENCE))
 
 
+def half_width_of_error(error: float, freedom: float) -> float:
+    """Return half of the width of the 95 % interval by a standard ``error`` of ``freedom`` degrees: Student's t times the
+    error; 0 without one, whatever the freedom."""
+    return student(freedom) * error if error else error
+
+
 def is_smooth_over_cells(heights: FloatArray) -> bool:
     """Return whether ``heights`` (nx, ny) are smooth over a cell along y: over two cells they change twice as much as over
     one. Of an exponential autocorrelation it is sqrt(2), and one change of f by shorter cells says nothing of the next."""

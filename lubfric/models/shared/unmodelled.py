@@ -165,14 +165,14 @@ def _of_film(
     warm = scene.with_(lubricant={"oil": None, "viscosity": thinner * lubricant.viscosity})
     reach = line.half_width + flooded_inlet(math.sqrt(2 * line.radius * line.moes_film), line.half_width)
     before = _parts(scene, sq, speed)
-    rubs = scene.bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0)
+    of_rubbing = scene.bodies.boundary_friction_coefficient if scene.motion.slide_roll_ratio != 0 else 0.0
     narrow = line.expected_film * 2 * line.radius > line.half_width**2
     alone = (friction_parts or before)[0] < LEAST_ASPERITY_PART * (friction_parts or before)[1]
 
     def change(other: Scene, rough: float, times: float = 1.0) -> float:
         after = _parts(other, rough, speed, times)
         if friction_parts is not None:
-            after = _scaled(rubs, before, after, friction_parts)
+            after = _scaled(of_rubbing, before, after, friction_parts)
         return after[1] / (friction_parts or before)[1] - 1
 
     effects: list[UnmodelledEffect] = []
@@ -244,9 +244,9 @@ def _parts(scene: Scene, sq: float, speed: float, times: float = 1.0) -> tuple[f
     film."""
     bodies = scene.bodies
     ratio = scene.motion.slide_roll_ratio
-    rubs = bodies.boundary_friction_coefficient * (ratio != 0)
+    of_rubbing = bodies.boundary_friction_coefficient if ratio != 0 else 0.0
     if speed == 0:
-        return rubs, rubs
+        return of_rubbing, of_rubbing
     line = scene.line_contact(speed)
     thickness = times * line.expected_film
     b = line.half_width
@@ -264,7 +264,7 @@ def _parts(scene: Scene, sq: float, speed: float, times: float = 1.0) -> tuple[f
         stress = shear_stress(scene.lubricant, pressure, abs(ratio * speed) / gap)
     rolling = 6 * scene.lubricant.viscosity * abs(speed) * (1 / gap - max(thickness, least) / gap**2)
     mu = float(np.trapezoid(np.minimum(stress, carried_stress(pressure)) + rolling, x)) / line.load_per_width
-    return rubs * share, rubs * share + mu * (1 - share)
+    return of_rubbing * share, of_rubbing * share + mu * (1 - share)
 
 
 def effect_in_words(effect: UnmodelledEffect | ExpectedEffect) -> str:
