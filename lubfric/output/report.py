@@ -491,7 +491,9 @@ def _history_parts(prepared: Prepared, result: TransientResult, estimate: SceneE
     return {
         "kind": "" if complete else "failed",
         "status": escape(result.status),
-        "answer": _paragraphs([*history_answer(result, complete=complete), *_history_notes(prepared.scene, result)]),
+        "answer": _paragraphs(
+            [*history_answer(prepared.scene, result, complete=complete), *_history_notes(prepared.scene, result)]
+        ),
         "budget": _history_budget(result),
         "table": _history_table(result),
         "effects": _history_effects(prepared, result, estimate),
@@ -519,8 +521,8 @@ def _history_effects(prepared: Prepared, result: TransientResult, estimate: Scen
     return effects_table(effects, f"at t = {worded(time, 's')}, where f is nearest to its mean")
 
 
-def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
-    """Return the answer of a run in time in sentences; of one that is not ``complete`` what its outputs show."""
+def history_answer(scene: Scene, result: TransientResult, *, complete: bool) -> list[str]:
+    """Return the answer of a run of ``scene`` in time in sentences; of one that is not ``complete`` what its outputs show."""
     if result.time.size < 2:
         return ["The run has no answer."]
     mean = result.average()
@@ -535,7 +537,6 @@ def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
     )
     head = "" if complete else "The run has no valid answer. Its outputs so far show: "
     film = plain_number(float(np.nanmin(result.min_film)), "m")
-    deterministic = "deterministic model" in result.methods
     at_floor = f": {GAP_OF_TOUCHING}" if is_gap_of_touching(float(np.nanmin(result.min_film))) else ""
     level = " at 95 %" + (", without the model-form error, which is not known" if result.model_form_unknown else "")
     mean_text = with_interval(mean.coefficient, *mean.interval, level)
@@ -550,7 +551,7 @@ def history_answer(result: TransientResult, *, complete: bool) -> list[str]:
         sentences.append(f"The mean power loss is {loss}, the largest {plain_number(float(np.nanmax(power)), 'W')}.")
     sentences.append(
         f"The smallest film thickness is {film}{at_floor}."
-        if deterministic
+        if run_model_of(scene).solves_rough_film
         else f"The smallest film thickness, under the film load, is {film}."
     )
     fastest = np.abs(result.entrainment_speed).max(initial=0.0)
@@ -589,9 +590,7 @@ def _history_notes(scene: Scene, result: TransientResult) -> list[str]:
 def _model_of_run(scene: Scene, result: TransientResult) -> str:
     """Return which model answers at all times, as a sentence, and at which outputs a steady point by another one may have a
     narrower interval."""
-    if "deterministic model" in result.methods:
-        return "The deterministic model answers at all times."
-    answers = "The load-sharing model answers at all times."
+    answers = f"The {run_model_of(scene).model_in_words} answers at all times."
     target = scene.numerics.model_tolerance
     wide = in_motion(result.columns) & (result.uncertainty.model > target)
     if not wide.any():

@@ -93,7 +93,9 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
             failure = error
         _write(folder, scene, result, animation=arguments.animation)
         folder.complete(prepared, estimate, given_tables(arguments.scene), result, OF_MOMENT)
-        for line in history_answer(result, complete=failure is None):  # before a file that was not written is an error
+        for line in history_answer(
+            scene, result, complete=failure is None
+        ):  # before a file that was not written is an error
             commands.say(line)
     if failure:
         raise failure

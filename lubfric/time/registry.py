@@ -27,6 +27,8 @@ class RunModel:
     estimate_work : steps and processor time of a run, with its sample and the `Sample.stated_map`
     described : what computes the run of a scene, and which model-form error its interval has, as text
     moves_roughness : whether the roughness moves through the film
+    model_in_words : the name of the model, as text
+    solves_rough_film : whether its film is that between rough surfaces, whose smallest may be a gap that is assumed
     """
 
     start: Callable[[Scene | Prepared], Start]
@@ -34,6 +36,8 @@ class RunModel:
     estimate_work: Callable[[Scene, Sample, Surface], RunEstimate]
     described: Callable[[Scene], str]
     moves_roughness: bool
+    model_in_words: str
+    solves_rough_film: bool
 
 
 def _load_sharing_in_words(scene: Scene) -> str:
@@ -48,6 +52,8 @@ LOAD_SHARING = RunModel(
     estimate_work=estimated_load_sharing,
     described=_load_sharing_in_words,
     moves_roughness=False,
+    model_in_words="load-sharing model",
+    solves_rough_film=False,
 )
 DETERMINISTIC_RUN = RunModel(
     start=start_deterministic,
@@ -55,6 +61,8 @@ DETERMINISTIC_RUN = RunModel(
     estimate_work=estimated_deterministic,
     described=lambda _: "deterministic model at all times (numerics.model); the interval has no model-form error",
     moves_roughness=True,
+    model_in_words="deterministic model",
+    solves_rough_film=True,
 )
 RUNS = {"paper": LOAD_SHARING, "quick": LOAD_SHARING, "deterministic": DETERMINISTIC_RUN}
 

@@ -112,7 +112,7 @@ def test_the_mean_is_the_integral_over_the_cycle_and_its_interval_that_of_the_en
 def test_the_time_of_a_mean_is_that_of_the_outputs(held):
     later = replace(held, columns=held.columns | {"time": held.time + 0.06})
     for run, words in ((held, "over 3 ms is "), (later, "over the time from 60 ms to 63 ms is ")):
-        assert history_answer(run, complete=True)[0].startswith(f"The mean friction coefficient {words}")
+        assert history_answer(STRIPS, run, complete=True)[0].startswith(f"The mean friction coefficient {words}")
 
 
 def test_friction_gives_no_power():
