@@ -128,7 +128,7 @@ def scene_key(scene: Scene, maps: str | None) -> str:
 def key_of(prepared: Prepared) -> str:
     """Return the key of a scene that was made ready: a hash of the scene, and of the heights and the contact where
     these were read from a file or given to `lubfric.prepare`."""
-    if prepared.is_given or is_measured(prepared.scene):
+    if prepared.is_given_or_measured:
         return fingerprint_without_files(prepared)
     return scene_key(prepared.scene, None)
 

@@ -10,7 +10,6 @@ import numpy as np
 
 from ...errors import ConvergenceError
 from ...quantities import depending_on
-from ...samples import is_measured
 from ...scene import BOUNDARY_FILM_KEY, HARDNESS_KEY, Scene, has_moving_roughness, missing_inputs, value_of
 from ..contract import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
@@ -297,7 +296,7 @@ def _recommendation(prepared: Prepared, pair: StripOnTwoGrids) -> str:
         return f"{shorter_cells_in_motion(prepared, pair)}, or {LARGER_TOLERANCE}"
     if not sample.cells.is_native and not sample.refines_in_place:
         return f"numerics.grid = 'given' for shorter cells, or {LARGER_TOLERANCE}"
-    if prepared.is_given or is_measured(scene):
+    if prepared.is_given_or_measured:
         return f"{LARGER_TOLERANCE}, or a map with shorter cells"
     return f"a finer contact.spacing with numerics.grid = 'given', or {LARGER_TOLERANCE}"
 
@@ -318,7 +317,7 @@ def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
             return f"a map on longer cells with numerics.grid = 'given' (on these cells {cost})"
         with_model = "" if work <= MOST_WORK_OF_POINT else " and numerics.model = 'deterministic'"
         return f"numerics.grid = 'given'{with_model} for shorter cells ({cost})"
-    if prepared.is_given or is_measured(scene):
+    if prepared.is_given_or_measured:
         return "a map with shorter cells and numerics.grid = 'given'"
     return "a finer contact.spacing with numerics.grid = 'given'"
 

@@ -242,20 +242,21 @@ class BalancedSample:
         ratio = raw_balance.log_load_ratio + response.log_load_ratio_per_gap * self.gap_change
         loads = loads_at(scene.bodies.load, ratio)
         film = self.point.film(loads[0], raw_balance.film, raw_balance.film.cells)
-        state = raw_balance.contact_state
-        area = raw_balance.contact_state.real_contact_area_fraction
+        contact_state = raw_balance.contact_state
+        area = contact_state.real_contact_area_fraction
         by_load = response.slopes.area_factor(loads[1] - raw_balance.contact_load, scene.bodies.width, area)
-        plastic = max(state.plastic_area_fraction + effect.plastic_change, 0.0)
-        state = with_contact_area_scaled(replace(state, plastic_area_fraction=plastic), effect.area_factor * by_load)
+        plastic = max(contact_state.plastic_area_fraction + effect.plastic_change, 0.0)
+        contact_state = replace(contact_state, plastic_area_fraction=plastic)
+        contact_state = with_contact_area_scaled(contact_state, effect.area_factor * by_load)
         mean = weighted_mean(film.film_at(self.rough_contact.x), self.rough_contact.weight) + effect.film_change
-        state = with_gap_of_closure(state, mean)
+        contact_state = with_gap_of_closure(contact_state, mean)
         corrected_balance = replace(
             raw_balance,
             film_load=loads[0],
             contact_load=loads[1],
             film=film,
-            contact_state=state,
-            forces=forces_of(scene, film, state, loads[1]),
+            contact_state=contact_state,
+            forces=forces_of(scene, film, contact_state, loads[1]),
         )
         return replace(self, corrected_balance=corrected_balance)
 

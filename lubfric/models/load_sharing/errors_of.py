@@ -160,16 +160,16 @@ def solver_errors_of(balanced: BalancedSample) -> SolverErrors:
         is_corrected = balanced.gap_change != 0
         by_root = budget.SLOPE * abs(balanced.gap_change) if is_corrected else abs(balanced.left_by_root)
         gap_error = effect.remaining_change + balanced.uncorrected_gap + by_root + raw_balance.contact_state.gap_error
-    state = raw_balance.contact_state
+    contact_state = raw_balance.contact_state
     by_area = 0.0
-    if state.area_error and forces.total:
-        open_fraction = max(1 - state.real_contact_area_fraction, state.area_error)
-        by_area = state.area_error / open_fraction * forces.shear.magnitude / forces.total
+    if contact_state.area_error and forces.total:
+        open_fraction = max(1 - contact_state.real_contact_area_fraction, contact_state.area_error)
+        by_area = contact_state.area_error / open_fraction * forces.shear.magnitude / forces.total
     return SolverErrors(
         film_error=film_error,
         gap_error=gap_error,
         shear_error=forces.quadrature + forces.heat.left_out + by_area,
-        area_error=effect.area_error + state.area_error / max(state.real_contact_area_fraction, 1e-300),
+        area_error=effect.area_error + contact_state.area_error / max(contact_state.real_contact_area_fraction, 1e-300),
     )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..._base import FieldsOnly, Renamed, Shown, validate
 from ...contact import BOUNDARY, HalfSpace, HalfSpaceContact, RoughContact, half_space
-from ...samples import PIECE_LENGTH, Sample, half_space_contact_of
+from ...samples import PIECE_LENGTH, Sample, half_space_contact_of, is_measured
 from ...scene import Scene
 from ...surface import Surface
 from .memo import JoinedKey, Key, Memo, OperatorKey, PieceKey, PieceMapKey, StripKey
@@ -47,6 +47,11 @@ class Prepared(FieldsOnly, Renamed, Shown):
     def is_given(self) -> bool:
         """Whether a map or a contact was given to `lubfric.prepare`, so that it cannot be extended."""
         return self.has_given_map or self.has_given_contact
+
+    @property
+    def is_given_or_measured(self) -> bool:
+        """Whether heights or contact come from outside: given to `lubfric.prepare`, or read from a file of the scene."""
+        return self.is_given or is_measured(self.scene)
 
     @property
     def has_one_map_for_all_bodies(self) -> bool:
