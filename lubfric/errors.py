@@ -183,7 +183,7 @@ class Report:
         """One line: what happened, how far it got, and what to do about it."""
         text = self.summary and f"{self.solver}: {self.summary}"
         text = text or (
-            f"{self.solver}: {self.status} after {self.iterations} iteration{'s' * (self.iterations != 1)}, "
+            f"{self.solver}: {self.status} after {self.iterations} iteration{'' if self.iterations == 1 else 's'}, "
             f"residual {self.residual:.2e} (tolerance {self.tolerance:.2e})"
         )
         advice = self.advice or ADVICE[self.status]

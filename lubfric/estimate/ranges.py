@@ -79,7 +79,7 @@ def _or_nan(coefficient: Callable[[Scene], float], scene: Scene) -> float:
         return math.nan
 
 
-def with_missing_inputs(old: Uncertainty, relative_changes: dict[str, tuple[float, float]]) -> Uncertainty:
+def with_inputs_not_given(old: Uncertainty, relative_changes: dict[str, tuple[float, float]]) -> Uncertainty:
     """Return ``old`` with the ``relative_changes`` of f at both ends of the range of inputs that the scene does not
     give, by their keys (`lubfric.models.ModelAnswer.not_given`). They add up as squares, towards 0 and away from it for
     themselves."""

@@ -6,7 +6,7 @@ from dataclasses import replace
 from ..models import ModelAnswer
 from ..models.shared import Prepared, largest_of, largest_sliding_friction
 from ..scene import SLIDE_ROLL_RATIO_KEY, Scene
-from .ranges import changes_by_ranges, with_input_ranges, with_missing_inputs
+from .ranges import changes_by_ranges, with_input_ranges, with_inputs_not_given
 from .uncertainty import Uncertainty, interval
 
 AT_MOST = (
@@ -50,7 +50,7 @@ def uncertainty_of(prepared: Prepared, answer: ModelAnswer) -> Uncertainty:
         else SMALLER_SAMPLING_TOLERANCE,
         notes=answer.notes,
     )
-    uncertainty = with_missing_inputs(of_solve, answer.not_given)
+    uncertainty = with_inputs_not_given(of_solve, answer.not_given)
     if scene.ranges:
         uncertainty = with_input_ranges(uncertainty, changes_by_ranges(prepared, answer))
     return _resisting_sliding(scene, answer, within_stress_limits(scene, answer, uncertainty))

@@ -271,7 +271,7 @@ def _model(
         to = f"with a target of {100 * scene.numerics.model_tolerance:g} % for the model-form error"
         rows = [
             f"{DETERMINISTIC_IN_WORDS[bool(strip)]} at {' to '.join(ends)} m/s, {to}"
-            + ELSEWHERE * (len(resolved) < len(points))
+            + (ELSEWHERE if len(resolved) < len(points) else "")
         ]
     if strip:
         takes = f"one strip of moving roughness takes about {in_words(strip)} by the deterministic model"

@@ -199,7 +199,10 @@ def shortfalls(inexact: int, unknown: int, total: int) -> list[str]:
     sentences."""
     at = [f"At {count} of {total} points" if total > 1 else "There" for count in (inexact, unknown)]
     words = "the numerical error of f is above the requested tolerance, and in its interval."
-    return [f"{at[0]} {words}"] * (inexact > 0) + [f"{at[1]} the interval of f is not known."] * (unknown > 0)
+    sentences = [f"{at[0]} {words}"] if inexact > 0 else []
+    if unknown > 0:
+        sentences.append(f"{at[1]} the interval of f is not known.")
+    return sentences
 
 
 def _curve_answer(curve: CurveResult, point: FrictionResult, place: str, sliding_speed: float) -> list[str]:

@@ -260,7 +260,7 @@ def _in_a_line(outcome: FrictionResult | Exception) -> str:
     if not isinstance(outcome, FrictionResult):
         return f"{'refused' if isinstance(outcome, ValidityError) else 'failed'}: {outcome}"
     f = with_interval(outcome.coefficient, *outcome.uncertainty.interval)
-    negative = NEGATIVE * (outcome.coefficient < 0 and outcome.speed >= 0)
+    negative = NEGATIVE if outcome.coefficient < 0 and outcome.speed >= 0 else ""
     return f"f = {f}{negative}, P = {with_interval(outcome.power_loss, *outcome.power_loss_interval, unit='W')}"
 
 

@@ -25,7 +25,7 @@ from ..models.shared import (
     unmodelled_effects,
 )
 from ..quantities import CHOICES, COLUMNS, counted, worded_value
-from ..scene import SLIDE_ROLL_RATIO_KEY, Scene, missing_inputs
+from ..scene import SLIDE_ROLL_RATIO_KEY, Scene, inputs_not_given
 from ..studies import (
     DURATION,
     INTERVAL_COLUMNS,
@@ -284,7 +284,7 @@ def _parts_of_error(
     freedom = np.atleast_1d(columns["uncertainty_freedom"][index])
     of_sample = zip(parts["sampling"], freedom)
     parts["sampling"] = np.array([half_width_of_error(error, float(n)) for error, n in of_sample])
-    missing = names_of_inputs(key for scene in scenes for key in missing_inputs(scene))
+    missing = names_of_inputs(key for scene in scenes for key in inputs_not_given(scene))
     labels = {"not given": f"{missing} not given"}
     return {labels.get(name, name): part for name, part in parts.items() if name != "not given" or part.any()}
 

@@ -276,20 +276,20 @@ def strips_of(scene: Scene, read: tuple[Surface, ...] = ()) -> Sample:
 def generated_strips(scene: Scene) -> GeneratedStrips:
     """Return strips of the generated surface of ``scene``. Along x they are as long as its patch, or as the contact if
     that is longer; where the patch is the area A, as the patch."""
-    patch = scene.contact
+    section = scene.contact
     bodies = [rough for rough, _ in rough_bodies(scene)]
     sq = math.hypot(*(rough.sq or 0.0 for rough in bodies))
-    if patch.shape is None or patch.spacing is None:
+    if section.shape is None or section.spacing is None:
         raise no_cells(bodies, reach_of(scene, sq))
-    spacing = validate.spacing("contact.spacing", patch.spacing)
+    spacing = validate.spacing("contact.spacing", section.spacing)
     half_width = scene.bodies.half_width
     along_x, along_y = zip(*(correlation_lengths(rough) for rough in bodies if rough.sq))
     shortest = (min(along_x), min(along_y))
     lengths = (max(along_x), max(along_y))
-    if patch.region == "box":
-        cells = cells_of_a_box(spacing, lengths=shortest, half_width=half_width, shape=patch.shape)
+    if section.region == "box":
+        cells = cells_of_a_box(spacing, lengths=shortest, half_width=half_width, shape=section.shape)
     else:
-        cells = choose_cells(spacing, shortest, half_width, max(patch.shape[0] * spacing[0], reach_of(scene, sq)))
+        cells = choose_cells(spacing, shortest, half_width, max(section.shape[0] * spacing[0], reach_of(scene, sq)))
     narrow = WIDE_HALF_WIDTH * lengths[0] / half_width
     length_ratio = STRIP_LENGTHS if narrow > 1 else STRIP_LENGTHS / 2  # of a strip, over the correlation length along y
     if has_moving_roughness(scene):  # other places pass through the contact in time

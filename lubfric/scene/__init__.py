@@ -41,7 +41,7 @@ from .scene import (
     Scene,
     check_resolved_gap,
     has_moving_roughness,
-    missing_inputs,
+    inputs_not_given,
     moving_bodies,
     toml_value,
     value_of,

@@ -278,7 +278,7 @@ def value_of(scene: Scene, name: str) -> Any:
     return getattr(getattr(scene, section), key)
 
 
-def missing_inputs(scene: Scene) -> tuple[str, ...]:
+def inputs_not_given(scene: Scene) -> tuple[str, ...]:
     """Return the keys (section.key) of `ASSUMED_IN_A_RANGE` that ``scene`` does not give."""
     return tuple(key for key in ASSUMED_IN_A_RANGE if value_of(scene, key) is None)
 

@@ -224,7 +224,8 @@ def _masked(
     infinite = np.argwhere(measured & np.isinf(heights))
     if infinite.size:
         i, j = infinite[0]
-        said = f" = {heights[i, j]:g}{f', and {len(infinite) - 1} more' * (len(infinite) > 1)}"
+        more = f", and {len(infinite) - 1} more" if len(infinite) > 1 else ""
+        said = f" = {heights[i, j]:g}{more}"
         raise InputError(
             said, f"heights[{i}, {j}] of {path.name}", "finite heights, and NaN where nothing was measured"
         )

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...errors import ConvergenceError
 from ...quantities import depending_on
-from ...scene import BOUNDARY_FILM_KEY, HARDNESS_KEY, Scene, has_moving_roughness, missing_inputs, value_of
+from ...scene import BOUNDARY_FILM_KEY, HARDNESS_KEY, Scene, has_moving_roughness, inputs_not_given, value_of
 from ..contract import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
     BY_HEAT,
@@ -114,7 +114,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         sampling_error = replace(sampling_error, value=math.nan)
     by_scatter = half_width_of_error(levels.difference_error.value, levels.difference_error.freedom)
     with_thinner, with_thicker = levels.by_film
-    by_missing_input = {BOUNDARY_FILM_KEY: (with_thinner, with_thicker)}
+    by_input_not_given = {BOUNDARY_FILM_KEY: (with_thinner, with_thicker)}
     by_flow = abs(levels.by_flow)
     by_heat = error_by_heat(heat, levels.by_inlet)
     by_limit = _by_limit(scene, results)
@@ -132,7 +132,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         model_error=sides_of_parts(parts_of_model),
         by_limit=max(by_limit),
         parts_of_model=parts_of_model,
-        not_given={key: by_missing_input[key] for key in missing_inputs(scene)},
+        not_given={key: by_input_not_given[key] for key in inputs_not_given(scene)},
         report=replace(results[0].report, notes=()),
         decision=_decision(scene, results, levels, heat),
         errors=errors | dict.fromkeys(reasons, math.nan),

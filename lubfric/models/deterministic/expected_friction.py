@@ -48,7 +48,7 @@ def expected_friction(scene: Scene, sq: float, speed: float) -> ExpectedFriction
     """Return the friction that is expected on roughness of ``sq`` [m] at ``speed`` [m/s], not 0."""
     line = scene.line_contact(abs(speed))
     sliding = abs(scene.motion.slide_roll_ratio * speed)
-    boundary = scene.bodies.boundary_friction_coefficient * (sliding > 0)
+    boundary = scene.bodies.boundary_friction_coefficient if sliding > 0 else 0.0
     pressure = scene.bodies.mean_hertz_pressure
     film = float(shear_stress(line.lubricant, pressure, sliding / line.expected_film)) / pressure
     if scene.lubricant.has_unlimited_stress:

@@ -339,7 +339,7 @@ def _note_of_motion(
     """Return what moved, how many steps of ``step`` [s] count, and f of the same surfaces at ``rest``, as text."""
     speeds = " and ".join(f"{body.speed:.4g}" for body in bodies)
     lower = sum(record.numbers["order"] < STEP_ORDERS[0] for record in records)
-    by_lower = f"; {lower} step{'s' * (lower > 1)} by lower order" if lower else ""
+    by_lower = f"; {lower} step{'s' if lower > 1 else ''} by lower order" if lower else ""
     return (
         f"the roughness moves at {speeds} m/s: mean over {len(records) - discarded} steps of {worded(step, 's')}, after {discarded} "
         f"discarded ones; the same surfaces at rest, for comparison: f = {rest.result.coefficient:.4g}{by_lower}"

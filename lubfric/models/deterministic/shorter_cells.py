@@ -147,11 +147,13 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     if _are_enough(prepared, error):
         return ShorterCells(error=error)
     if sample.refines_in_place:
-        patch = _refined(prepared, speed, 0, first=pairs[0], find_slope=True)
+        refined_strips = _refined(prepared, speed, 0, first=pairs[0], find_slope=True)
         return ShorterCells(
-            pieces=(patch,),
-            strip=patch[-1],
-            error=max(error_by_cells(changes_of(patch)), LEAST_STRIP_ERROR, error_of_soft_bodies(patch[-1])),
+            pieces=(refined_strips,),
+            strip=refined_strips[-1],
+            error=max(
+                error_by_cells(changes_of(refined_strips)), LEAST_STRIP_ERROR, error_of_soft_bodies(refined_strips[-1])
+            ),
         )
     try:
         with limited_work(PIECES_SHARE * work_left()):

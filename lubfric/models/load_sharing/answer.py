@@ -202,10 +202,10 @@ def _numbers(balanced: BalancedSample) -> dict[str, float]:
     contact_state = balance.contact_state
     film = balance.film
     loads = (balance.film_load, balance.contact_load)
-    separated = balance.contact_load == 0
+    is_separated = balance.contact_load == 0
     length = contact_length(contact_state) * balanced.effect.length_factor / balanced.effect.area_factor
     numbers = point_numbers(
-        balance.forces, film, loads, gap_under(contact_state.mean_film) if separated else contact_state.mean_gap
+        balance.forces, film, loads, gap_under(contact_state.mean_film) if is_separated else contact_state.mean_gap
     )
     return numbers | {
         "speed": balanced.speed,
@@ -214,8 +214,8 @@ def _numbers(balanced: BalancedSample) -> dict[str, float]:
         "plastic_area_fraction": contact_state.plastic_area_fraction,
         "film_to_roughness_ratio": numbers["central_film"] / sq if sq > 0 else math.inf,
         "load_residual": (sum(loads) - scene.bodies.load) / scene.bodies.load,
-        "volume_residual": 0.0 if film is None or separated else volume_residual(balanced.raw_balance.contact_state),
-        "clearance": -open_gap(contact_state) / max(sq, 1e-12) if separated else math.nan,
+        "volume_residual": 0.0 if film is None or is_separated else volume_residual(balanced.raw_balance.contact_state),
+        "clearance": -open_gap(contact_state) / max(sq, 1e-12) if is_separated else math.nan,
         "steepness": _steepness(balanced),
     }
 

@@ -128,13 +128,13 @@ def solve_balance(
     notes: tuple[str, ...] = ()
     if not _touches_certainly(scene, speed, rough_contact):
         try:
-            separated = _film_alone(Point(scene, speed, rough_contact, _first_settings(scene, is_film_alone=True)))
+            film_alone = _film_alone(Point(scene, speed, rough_contact, _first_settings(scene, is_film_alone=True)))
         except ConvergenceError as error:  # a balance in contact, which is unique, excludes separation as well
             notes = (f"the full-load film was not solved ({error})",)
         else:
-            if volume_residual(separated.contact_state) <= 0:
-                return separated
-            alone = separated.film
+            if volume_residual(film_alone.contact_state) <= 0:
+                return film_alone
+            alone = film_alone.film
     settings = replace(_first_settings(scene), is_correctable=is_correctable)
     if start is not None and start.film is not None and start.film.entrainment_speed == speed:
         settings = start.settings or settings

@@ -18,15 +18,15 @@ from .response import point_numbers
 from .scatter import friction_influence, gap_influence, hertz_mean_gap, line_load
 
 
-def control_for(solution: BalancedSample) -> ControlVariate | None:
-    """Return the control of another model on the strips of the scene; None where ``solution`` is on other cells, on a
+def control_for(balanced: BalancedSample) -> ControlVariate | None:
+    """Return the control of another model on the strips of the scene; None where ``balanced`` is on other cells, on a
     single patch, or does not know its own scatter."""
-    prepared = solution.prepared
+    prepared = balanced.prepared
     sample = prepared.sample
-    has_others = solution.sample.cells == sample.cells and sample.represents_more
-    if not has_others or not math.isfinite(solution.sampling_error.value):
+    has_others = balanced.sample.cells == sample.cells and sample.represents_more
+    if not has_others or not math.isfinite(balanced.sampling_error.value):
         return None
-    return control_variate_of(solution)
+    return control_variate_of(balanced)
 
 
 def control_variate_of(balanced: BalancedSample) -> ControlVariate:

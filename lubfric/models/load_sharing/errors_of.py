@@ -98,7 +98,7 @@ def errors_of(balanced: BalancedSample) -> PointErrors:
     numerical = solver.shear_error
     forces = balance.forces
     scatter = balanced.scatter
-    sampling = balanced.sampling_error.value
+    of_sample = balanced.sampling_error.value
     error = StandardError(0.0, FREEDOM_NOT_COUNTED)
     film_sensitivity = forces.film_sensitivity
     if response is not None:
@@ -124,16 +124,16 @@ def errors_of(balanced: BalancedSample) -> PointErrors:
         numerical += response.relative("coefficient", solver.gap_error)
         errors = _contact_errors(balanced, solver)
     notes = _notes(balanced)
-    if not math.isfinite(sampling):
-        sampling = math.nan
+    if not math.isfinite(of_sample):
+        of_sample = math.nan
     by_equation, unknown = model_error_of_eq8(balanced)
     by_heat = error_by_heat(forces.heat, 1 - forces.heat.film_factor**film_sensitivity)
     parts = _parts_of_model(by_equation, by_heat)
     model_error = sides_of_parts(parts)
-    of_f = numerical if math.isnan(sampling) else math.hypot(numerical, sampling)
+    of_f = numerical if math.isnan(of_sample) else math.hypot(numerical, of_sample)
     return PointErrors(
         numerical=numerical,
-        sampling_error=StandardError(sampling, error.freedom),
+        sampling_error=StandardError(of_sample, error.freedom),
         model_error=model_error,
         parts_of_model=() if math.isnan(max(model_error)) else parts,
         errors=errors | {"coefficient": of_f},

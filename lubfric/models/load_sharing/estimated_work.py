@@ -154,7 +154,7 @@ def expected_sampling_error(scene: Scene, sample: Sample, sq: float, film: float
     carry if it were as thick as the gap. `SCATTER` and `SEPARATED` were found in flooded contacts, with the film that
     flows; a starved ring needed 61 strips where they give 2, and its smallest film gives 15.
     """
-    separated = SEPARATED_IF_ROUND if flattening(scene, sq) < 1 else SEPARATED
+    separating_film = SEPARATED_IF_ROUND if flattening(scene, sq) < 1 else SEPARATED
     smallest = film
     if not scene.lubricant.floods:
         smallest = smallest_film(film, math.sqrt(2 * scene.bodies.radius * film), scene.bodies.half_width)
@@ -165,7 +165,7 @@ def expected_sampling_error(scene: Scene, sample: Sample, sq: float, film: float
     gap = expected_gap(film, sq)
     share = min(film / gap, 1.0)
     scatter = sq * math.sqrt(math.pi * lx * ly / (first * (2 * scene.bodies.half_width + math.sqrt(math.pi) * lx)))
-    scatter *= SCATTER * math.exp(-((smallest / (separated * sq)) ** 3)) / gap
+    scatter *= SCATTER * math.exp(-((smallest / (separating_film * sq)) ** 3)) / gap
     return scatter * share / (1 - share + FILM_FRICTION)
 
 

@@ -50,7 +50,8 @@ class Forces:
 def forces_of(scene: Scene, film: EHLResult | None, contact_state: ContactState, contact_load: float) -> Forces:
     """Return the forces of ``film`` (None: none) and of a contact that carries ``contact_load`` [N]."""
     bodies = scene.bodies
-    boundary = bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0) * contact_load
+    slides = scene.motion.slide_roll_ratio != 0
+    boundary = bodies.boundary_friction_coefficient * contact_load if slides else 0.0
     if film is None:
         return Forces(coefficient=boundary / bodies.load, boundary=boundary, shear=ShearForce(couette=0.0, rolling=0.0))
     elastic = _elastic(scene, film, contact_state, contact_load)

@@ -98,14 +98,14 @@ def expected_effects(
     change of f: that of any result with the asperity load ratio and the shear of `POWERS` and `SHEARS`. The largest is
     first. ``includes_motion``: as in `unmodelled_effects`."""
     of_boundary, f = _parts(scene, sq, speed)
-    f_b = scene.bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0)
-    share = of_boundary / f_b if f_b else 0.0
+    of_rubbing = scene.bodies.boundary_friction_coefficient if scene.motion.slide_roll_ratio != 0 else 0.0
+    share = of_boundary / of_rubbing if of_rubbing else 0.0
     shear = (f - of_boundary) / max(1.0 - share, LEAST_SCALED_SHARE)
     ranges: dict[str, tuple[float, float, str]] = {}
-    for power in POWERS if f_b and speed else (1.0,):
+    for power in POWERS if of_rubbing and speed else (1.0,):
         of_load = share**power
-        for more in SHEARS if f_b and speed else (1.0,):
-            friction_parts = f_b * of_load, f_b * of_load + more * shear * (1.0 - of_load)
+        for more in SHEARS if of_rubbing and speed else (1.0,):
+            friction_parts = of_rubbing * of_load, of_rubbing * of_load + more * shear * (1.0 - of_load)
             effects = _all_effects(
                 scene, sq, speed, friction_parts if friction_parts[1] > 0 else None, includes_motion=includes_motion
             )
