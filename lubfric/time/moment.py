@@ -82,7 +82,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
     boundary = scene.bodies.boundary_friction_coefficient * contact_step.load * np.sign(sliding)
     shear, heat = film_shear(model, scene, time, sliding, solution, boundary)
     force = boundary + shear.total
-    sense = np.sign(sliding) or np.sign(speed) or 1.0
+    sense = _sense_of(sliding if sliding != 0 else speed)
     inlet, _ = inlet_at(scene, speed)
     heated_inlet = setting.line_history.viscosity.before(time) != scene.lubricant.viscosity
     film_factor = math.nan if inlet is None else inlet.factor if heated_inlet else 1.0
@@ -132,7 +132,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         "boundary_force": boundary,
         "couette_force": shear.couette,
         "rolling_force": shear.rolling,
-        "rolling_resistance": 2.0 * shear.rolling * (np.sign(speed) or 1.0),
+        "rolling_resistance": 2.0 * shear.rolling * _sense_of(speed),
         "power_loss": power_of_forces(force, 2.0 * shear.rolling, speed, sliding),
         "coefficient": force * sense / total,
         "sampling_error": sampling_error,
@@ -164,6 +164,11 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
     peclet = heat.peclet if heat.heated else math.inf
     heat = replace(of_moment, heated=None, peclet=peclet)
     return row, tuple([*_violated(model, scene, row, shear, heat), *violations_by_typical_heat(scene, heat.typical)])
+
+
+def _sense_of(speed: float) -> float:
+    """Return the sense of a ``speed``: 1 or -1, and 1 at rest."""
+    return -1.0 if speed < 0 else 1.0
 
 
 def _violated(

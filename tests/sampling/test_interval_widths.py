@@ -10,7 +10,7 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.estimate import PARTS, Uncertainty, beside_larger_part, interval
-from lubfric.models.load_sharing import load_sharing_error, summit_radius, undetected_load
+from lubfric.models.load_sharing import load_sharing_error, moment_model_error, summit_radius, undetected_load
 from lubfric.models.shared import Assumption, ModelErrorPart, StandardError, Violation, add_errors
 from lubfric.output import report
 from lubfric.quantities import OF_UNCERTAINTY
@@ -170,6 +170,16 @@ def test_an_interval_in_words(parts, interval, words):
     assert known.short(0.05).endswith(words)
     if math.isnan(known.model):
         assert "model-form not known (not included)" in known.text
+
+
+def test_the_error_of_a_moment_has_no_step_where_the_share_of_the_asperities_rounds_to_1():
+    """A film that carries next to nothing keeps its least error; one that carries nothing has none."""
+    scene = lubfric.load_scene("paper")
+    parts = {"film_to_roughness_ratio": 0.5, "boundary": 0.09, "shear": 0.0, "rolling": 0.0, "by_heat": 0.0}
+    near = moment_model_error(scene, share=1 - 1e-15, film_load=1e-15, **parts)
+    at = moment_model_error(scene, share=1.0, film_load=1e-20, **parts)
+    assert at == pytest.approx(near, abs=1e-6) and min(at) > 0.04
+    assert moment_model_error(scene, share=1.0, film_load=0.0, **parts) == (0.0, 0.0)
 
 
 def test_the_largest_part_of_an_interval_is_named_with_what_narrows_it():
