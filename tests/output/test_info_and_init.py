@@ -223,7 +223,8 @@ def test_info_tells_the_history_of_a_run_and_what_it_costs(plan, words):
     stated = describe_scene(scene)
     for each in (*words, f"{plan['duration']:g} s in about", "10 outputs", "within a factor of", "a run in time"):
         assert each in stated, (each, stated)
-    assert "no entrainment" not in stated and "surface speeds" not in stated
+    before_the_table = stated.partition("estimate with closed forms")[0]  # which has moments at which nothing moves
+    assert "no entrainment" not in before_the_table and "surface speeds" not in stated
     steps = float(stated.partition(" in about ")[2].partition(" steps")[0])
     assert 1 / 2.5 < steps / lubfric.transient(scene).report.iterations < 2.5
 
