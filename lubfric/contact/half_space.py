@@ -125,7 +125,7 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
         shape = self.heights.shape
         if pressure.shape == shape and np.array_equal(state.x, self.x):
             displacement = state.fields.displacement
-            is_known = state.fields.operator == self.operator.digest
+            is_known = state.fields.operator == self.operator.identity
             return ContactStart(pressure=pressure, displacement=displacement if is_known else None)
         row = np.rint((self.x - state.x[0]) / (state.x[1] - state.x[0])).astype(int)
         column = np.arange(shape[1]) * pressure.shape[1] // shape[1]

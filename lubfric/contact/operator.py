@@ -7,8 +7,7 @@ transformed one after the other.
 
 from __future__ import annotations
 
-import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, replace
 from functools import cached_property, partial, wraps
 from typing import Any
@@ -67,12 +66,13 @@ class HalfSpace(FrozenArrays, FieldsOnly):
     workers: int | None = None
     layer: float = 0.0
 
-    @cached_property
-    def digest(self) -> str:
-        """Return a digest of all that the deflection depends on: equal only for operators that give the same one."""
-        hashed = hashlib.sha256(repr((self.shape, self.spacing, self.padded, self.boundary)).encode())
-        hashed.update(self.symbol.tobytes())
-        return hashed.hexdigest()
+    @property
+    def identity(self) -> tuple[Hashable, ...]:
+        """Return all that the deflection depends on: equal only for operators that give the same one. Those of coarsened
+        grids have another zero level than one that was made for their cells, and so another first eigenvalue."""
+        first = float(self.symbol[0, 0])
+        precision = self.symbol.dtype.str
+        return self.shape, self.spacing, self.e_prime, self.boundary, self.padded, self.layer, precision, first
 
     def with_layer(self, compliance: float) -> HalfSpace:
         """Return the operator with a layer that sinks by ``compliance`` [m/Pa] times the pressure at each cell."""

@@ -170,9 +170,8 @@ def starting_point(problem: ContactProblem, start: object) -> ContactStart | Non
         return None
     if isinstance(start, ContactStart) and pressure.max() <= problem.hardness:
         return start
-    return ContactStart(
-        pressure=np.ascontiguousarray(np.minimum(pressure, problem.hardness))
-    )  # it is written through ravel()
+    limited = np.minimum(pressure, problem.hardness)
+    return ContactStart(pressure=np.ascontiguousarray(limited))  # the solver writes through ravel()
 
 
 def with_load(pressure: FloatArray, load: float, hardness: float) -> np.ndarray:

@@ -7,7 +7,7 @@ nothing end the solve as stagnated.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -55,7 +55,7 @@ class ContactResult(Shown):
     plastic_area_fraction : share of the cells with p = hardness [-]
     length : L [m], in which the report measures the gap (infinite without load)
     report : how the solve ended
-    operator : `HalfSpace.digest` of the operator by which the displacement follows from the pressure
+    operator : `HalfSpace.identity` of the operator by which the displacement follows from the pressure
 
     Notes
     -----
@@ -77,7 +77,7 @@ class ContactResult(Shown):
     plastic_area_fraction: float
     length: float
     report: Report
-    operator: str
+    operator: tuple[Hashable, ...]
 
     def _facts(self) -> dict[str, str]:
         nx, ny = self.pressure.shape
@@ -263,7 +263,7 @@ def contact_result(
         plastic_area_fraction=np.count_nonzero(pressure >= problem.hardness) / pressure.size,
         length=state.scale,
         report=report,
-        operator=problem.operator.digest,
+        operator=problem.operator.identity,
     )
 
 

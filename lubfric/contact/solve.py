@@ -121,8 +121,10 @@ def _solved(
         pressure, pace, spent = _coarse_start(problem, uniform, mean_pressure, approach)
         state = _evaluated(problem, pressure, approach)
         return refine(problem, state, load=load, level=approach, pace=pace, spent=spent + 1.0)
-    if start.displacement is not None and _can_be_scaled(problem, start, load):
-        return refine(problem, _scaled(problem, start, load, approach), load=load, level=approach)
+    factor = _scaling(problem, start, load)
+    if start.displacement is not None and factor is not None:
+        state = trial_contact(problem, factor * start.pressure, factor * start.displacement, approach)
+        return refine(problem, state, load=load, level=approach)
     pressure = start.pressure if load is None else _loaded(start.pressure, load, problem.hardness)
     return refine(problem, _evaluated(problem, pressure, approach), load=load, level=approach, spent=1.0)
 
@@ -132,20 +134,14 @@ def _evaluated(problem: ContactProblem, pressure: FloatArray, approach: float | 
     return evaluate(problem, problem.operator.single, pressure, approach)
 
 
-def _can_be_scaled(problem: ContactProblem, start: ContactStart, load: float | None) -> bool:
-    """Return whether the pressure of ``start`` can be scaled to ``load`` [Pa cells]: no cell has yielded or would, as its
-    pressure stays, and the load differs by no more than `LARGEST_SCALING`."""
+def _scaling(problem: ContactProblem, start: ContactStart, load: float | None) -> float | None:
+    """Return the factor on the pressure of ``start``, and on its displacement, which is proportional to it, at which it
+    carries ``load`` [Pa cells]. None where the load differs by more than `LARGEST_SCALING`, or where a cell has yielded or
+    would, as its pressure stays."""
     factor = 1.0 if load is None else load / float(start.pressure.sum())
     highest = max(1.0, factor) * float(start.pressure.max())
-    return factor == 1.0 or (abs(factor - 1.0) <= LARGEST_SCALING and highest < problem.hardness)
-
-
-def _scaled(problem: ContactProblem, start: ContactStart, load: float | None, approach: float | None) -> TrialContact:
-    """Return the state of ``start``, scaled to ``load`` [Pa cells]. Its displacement is proportional to the pressure, so
-    this takes no convolution."""
-    assert start.displacement is not None
-    factor = 1.0 if load is None else load / float(start.pressure.sum())
-    return trial_contact(problem, factor * start.pressure, factor * start.displacement, approach)
+    can_be_scaled = factor == 1.0 or (abs(factor - 1.0) <= LARGEST_SCALING and highest < problem.hardness)
+    return factor if can_be_scaled else None
 
 
 def _loaded(pressure: FloatArray, load: float, hardness: float) -> np.ndarray:

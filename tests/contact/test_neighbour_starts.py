@@ -57,11 +57,11 @@ def test_a_displacement_of_other_bodies_is_not_taken():
     assert begun.fields.pressure == pytest.approx(
         stiff.close(film, LOAD).fields.pressure, abs=2e-4 * begun.fields.pressure.max()
     )
-    assert soft.operator.digest != stiff.operator.digest
+    assert soft.operator.identity != stiff.operator.identity
 
 
-def test_operators_that_deflect_alike_have_one_digest():
+def test_operators_that_deflect_alike_have_one_identity():
     operator = contact_of().operator
-    assert operator.digest == contact_of().operator.digest
-    assert len({operator.digest, operator.single.digest, operator.with_layer(1e-18).digest}) == 3
-    assert replace(operator, spacing=(CELL, 2 * CELL)).digest != operator.digest
+    assert operator.identity == contact_of().operator.identity
+    assert len({operator.identity, operator.single.identity, operator.with_layer(1e-18).identity}) == 3
+    assert replace(operator, spacing=(CELL, 2 * CELL)).identity != operator.identity
