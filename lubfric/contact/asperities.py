@@ -114,15 +114,15 @@ class AsperityContact(FieldsOnly, RoughContact):
         plastic = 0.0
         if asperities is not None:
             fraction = self._contact_fraction(asperities)
-        touching = weighted_mean(fraction, self.weight)
+        area = weighted_mean(fraction, self.weight)
         if asperities is not None and asperities.contact_area > 0:
-            plastic = asperities.plastic_area_fraction * touching / asperities.contact_area_fraction
+            plastic = asperities.plastic_area_fraction * area / asperities.contact_area_fraction
         return ContactState(
             mean_gap=weighted_mean(gap.mean(axis=1), self.weight),
             mean_film=weighted_mean(film, self.weight),
             x=self.x,
             contact_fraction=fraction,
-            real_contact_area_fraction=touching,
+            real_contact_area_fraction=area,
             plastic_area_fraction=plastic,
         )
 

@@ -98,8 +98,8 @@ class ContactCurve(FieldsOnly):
             share = (pressure / lightest) ** (2 / 3)
             return self.touching_gap - share * (self.touching_gap - gap[-1]), share * area[-1], share * plastic[-1]
         values = self._read(math.log(pressure))
-        touching = float(np.exp(values[1]))
-        return float(values[0]), touching, float(values[2]) * touching
+        area_there = float(np.exp(values[1]))
+        return float(values[0]), area_there, float(values[2]) * area_there
 
     @cached_property
     def _read(self) -> PchipInterpolator:
@@ -300,14 +300,14 @@ class FlatContact(RoughContact):
         heaviest = float(self.curve.mean_pressure[0])
         if pressure > heaviest * (1 + 1e-12):
             raise ConvergenceError(f"the contact model carries {self.capacity:.4g} N at most; the load is {load:.4g} N")
-        gap, touching, plastic = self.curve.at(min(pressure, heaviest))
+        gap, area, plastic = self.curve.at(min(pressure, heaviest))
         gap_error, area_error = self.curve.errors_at(pressure)
         return ContactState(
             mean_gap=gap,
             mean_film=weighted_mean(film, self.weight),
             x=self.columns,
-            contact_fraction=np.full(self.columns.size, touching),
-            real_contact_area_fraction=touching,
+            contact_fraction=np.full(self.columns.size, area),
+            real_contact_area_fraction=area,
             plastic_area_fraction=plastic,
             gap_error=gap_error,
             area_error=area_error,

@@ -69,9 +69,9 @@ def solve_contact(
     problem = contact_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
     mean_pressure, mean_gap = _checked_control(problem, mean_pressure, mean_gap)
     begun = starting_point(problem, start)
-    touching = float(problem.gap0.mean())
-    if mean_pressure == 0 or (mean_gap is not None and mean_gap >= touching):
-        search = _separated(problem, touching if mean_gap is None else mean_gap)
+    touching_gap = float(problem.gap0.mean())
+    if mean_pressure == 0 or (mean_gap is not None and mean_gap >= touching_gap):
+        search = _separated(problem, touching_gap if mean_gap is None else mean_gap)
     elif mean_pressure is not None:
         search = _solved(problem, begun, mean_pressure, mean_pressure=mean_pressure)
     else:

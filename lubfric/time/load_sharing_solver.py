@@ -107,11 +107,11 @@ class LoadSharingSolver:
                     seen = None
                     continue
                 load = min(FIRST_TOUCH * total, max(touch, LAST_TOUCH * total))
-                touching = contact_state.mean_gap
+                touching_gap = contact_state.mean_gap
                 contact_state = self._contact_at(film, load, state)
                 if contact_state is None:
                     break
-                softness = max(touching - contact_state.mean_gap, 1e-3 * touching)
+                softness = max(touching_gap - contact_state.mean_gap, 1e-3 * touching_gap)
             elif abs(volume_residual(contact_state)) <= self.tolerance:
                 softness = _softness(softness, seen, load, contact_state)
                 return replace(solution, payload=ContactStep(load, contact_state, softness))

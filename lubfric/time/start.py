@@ -140,8 +140,8 @@ def _resting(model: TransientLoadSharing) -> Step:
     patch = model.patch
     load = model.setting.line_history.load.before(0.0)
     state = patch.close(patch.x**2 / (2.0 * setting.line_history.radius.before(0.0)), load)
-    touching = setting.undeformed(0.0).terms.H
-    film = film_under(state.mean_gap) - float(model.mean_row @ touching)
+    undeformed_gap = setting.undeformed(0.0).terms.H
+    film = film_under(state.mean_gap) - float(model.mean_row @ undeformed_gap)
     if film <= 0.0:
         said = "at rest there is no gap for a film under the undeformed cylinder"
         ways = "initial = 'steady' with an entrainment speed, or transient.initial_film"

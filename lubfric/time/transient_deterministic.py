@@ -208,12 +208,12 @@ class TransientDeterministic:
             p = dry.pressure
             yielded = dry.pressure >= problem.hardness
             dent = np.where(yielded, np.maximum(-dry.gap, 0.0), 0.0)
-            touching = np.where(p > 0, TOUCHING, FLUID).astype(np.int8)
+            kind = np.where(p > 0, TOUCHING, FLUID).astype(np.int8)
             state = State(
                 pressure=p.copy(),
                 fill=nothing + 1.0,
                 dent=dent,
-                kind=touching,
+                kind=kind,
                 yielded=yielded,
                 approach=problem.floor - dry.approach,
             )

@@ -206,8 +206,8 @@ def _along_y(
     gap = gap_influence(
         hertz_mean_gap(rough_contact, contact_state), line_load(rough_contact, contact_state), slope
     ) - gap_under(contact_state.mean_film)
-    touching = rough_contact.weight @ (contact_state.fields.pressure > 0) / rough_contact.weight.sum()
-    return gap.reshape(-1, rows).mean(axis=1), touching.reshape(-1, rows).mean(axis=1)
+    area = rough_contact.weight @ (contact_state.fields.pressure > 0) / rough_contact.weight.sum()
+    return gap.reshape(-1, rows).mean(axis=1), area.reshape(-1, rows).mean(axis=1)
 
 
 def _ratio(fine: np.ndarray, coarse: np.ndarray, step: float, correlation: float) -> tuple[float, float]:
