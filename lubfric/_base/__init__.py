@@ -18,6 +18,6 @@ from .tables import (
     table_headings,
     text_of,
 )
-from .work import count_work, limited_work, unlimited_work, with_its_work, work_left
+from .work import count_work, limited_work, may_stay_unsolved, unlimited_work, with_its_work, work_left
 
 __version__ = "1.0.0"

@@ -11,7 +11,7 @@ from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import TypeVar
 
-from ..errors import WorkLimitError
+from ..errors import ConvergenceError, WorkLimitError
 
 T = TypeVar("T")
 
@@ -50,6 +50,17 @@ def unlimited_work() -> Iterator[None]:
         yield
     finally:
         _METER.reset(token)
+
+
+@contextmanager
+def may_stay_unsolved() -> Iterator[None]:
+    """Leave a solve inside without a result where it does not converge. A limit of work that it passes ends the caller too."""
+    try:
+        yield
+    except WorkLimitError:
+        raise
+    except ConvergenceError:
+        pass
 
 
 def work_left() -> float:

@@ -1,6 +1,7 @@
 """The sample of moving roughness: its control, blocks of time and place, and when a march ends."""
 
 import math
+from dataclasses import dataclass
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,7 +10,7 @@ from scipy.ndimage import gaussian_filter
 from scipy.stats import norm
 
 import lubfric
-from lubfric.errors import ITERATION_LIMIT, Report
+from lubfric.errors import ITERATION_LIMIT, ConvergenceError, Report, WorkLimitError
 from lubfric.models.deterministic import (
     CellsInMotion,
     RoughBody,
@@ -23,6 +24,7 @@ from lubfric.models.deterministic import (
     mean_over_blocks,
     sample_coarsening_of,
     solve_moving_strip,
+    strip_on_two_grids,
 )
 from lubfric.surface import Surface, generate_surface
 
@@ -209,6 +211,41 @@ def test_cells_along_y_are_halved_where_their_error_is_large_and_the_work_is_not
     monkeypatch.setattr(levels, "two_levels", lambda *_: (None, wanted))
     pairs = levels.solve_pairs(SimpleNamespace(scene=scene), 1.0, 2)
     assert pairs[0].has_halved_cells == halves and asked == [False, halves]
+
+
+@dataclass(frozen=True)
+class NoStrip:
+    """A strip of moving roughness that was not solved."""
+
+    slope: float = 0.0
+    work: float = 0.0
+    effort: object = None
+
+
+def test_longer_cells_may_have_no_solution_but_a_limit_of_work_ends_the_point(monkeypatch):
+    """The strip is solved; the comparison on longer cells does not converge, or passes the limit."""
+    prepared = lubfric.prepare(lubfric.load_scene("paper").with_(motion={"slide_roll_ratio": 0.1}))
+    at_rest = NoStrip()
+    errors = []
+
+    def solve(*_, most_steps=None, **__):
+        if most_steps is not None:
+            raise errors[-1]
+        return NoStrip()
+
+    for name, function in (
+        ("bodies_of", lambda *_: None),
+        ("strip_at_rest", lambda *_, **__: at_rest),
+        ("sample_target", lambda *_: None),
+        ("compared_moments", lambda _: 1),
+        ("solve_moving_strip", solve),
+    ):
+        monkeypatch.setattr(strip_on_two_grids, name, function)
+    errors.append(ConvergenceError("no solution"))
+    assert strip_on_two_grids.solve_pair(prepared, 0.03, 0).longer is at_rest
+    errors.append(WorkLimitError(1.0))
+    with pytest.raises(WorkLimitError):
+        strip_on_two_grids.solve_pair(prepared, 0.03, 0)
 
 
 def test_a_given_grid_takes_the_cells_of_the_scene_where_roughness_moves():

@@ -25,9 +25,8 @@ from functools import partial
 
 import numpy as np
 
-from ..._base import work_left
+from ..._base import may_stay_unsolved, work_left
 from ..._base.jobs import map_parts
-from ...errors import ConvergenceError
 from ...quantities import names_with
 from ...samples import Sample
 from ...scene import Scene, has_moving_roughness
@@ -211,10 +210,9 @@ def _first_pair(prepared: Prepared, speed: float) -> StripOnTwoGrids:
     (_, wanted) = two_levels(prepared, (pair,), None)
     if wanted * HALVED_WORK * pair.resolved.work > min(MOST_WORK_OF_POINT, PART_OF_WORK_LEFT * work_left()):
         return pair
-    try:
+    with may_stay_unsolved():  # then the error by the cells is that of the longer ones
         return on_halved_cells(prepared, speed, pair)
-    except ConvergenceError:  # the error by the cells is that of the longer ones
-        return pair
+    return pair
 
 
 def two_levels(

@@ -7,12 +7,11 @@ curve share them; these follow from the scene alone.
 
 import math
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..._base import limited_work, work_left
+from ..._base import limited_work, may_stay_unsolved, work_left
 from ...errors import ConvergenceError, LubfricError, WorkLimitError
 from ...quantities import names_with
 from ...samples import PIECE_LENGTH, Sample
@@ -341,7 +340,7 @@ def _refined(
         map_coarsening = coarsening[0] // last[0], coarsening[1] // last[1]
         surface = map_of_contact(prepared, contact_on_piece(prepared, sample, index, coarsening=last, length=length))
         longer: StripSolution | None = None
-        with suppress(ConvergenceError):  # it is a start only, and cells so long may have no solution
+        with may_stay_unsolved():  # it is a start only, and cells so long may have no solution
             longer = solve_strip(
                 scene, surface, speed, map_coarsening=longer_than(surface, map_coarsening), most=FACTORISATIONS_OF_START
             )

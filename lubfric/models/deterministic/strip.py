@@ -5,12 +5,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...errors import ConvergenceError
+from ..._base import may_stay_unsolved
 from ...oil import Lubricant
 from ...scene import Scene, check_resolved_gap, moving_bodies
 from ...surface import Surface
@@ -162,7 +161,7 @@ def solve_strip(
     slope = UNKNOWN_SLOPE
     longer = (2 * map_coarsening[0], 2 * map_coarsening[1])
     if start is None and problem.heights.size > MANY_CELLS and surface.shape[1] % longer[1] == 0:
-        with suppress(ConvergenceError):
+        with may_stay_unsolved():
             start = solve_strip(
                 scene, surface, speed, map_coarsening=longer, tolerance=LONGER_CELLS_RESIDUAL, upper=upper, ends=ends
             )

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from contextlib import suppress
 from dataclasses import dataclass, replace
 
-from ...errors import ConvergenceError
+from ..._base import may_stay_unsolved
 from ...quantities import NUMBERS
 from ...samples import Sample
 from ...scene import Scene, has_moving_roughness
@@ -125,7 +124,7 @@ def solve_pair(
         moving = solve_moving_strip(scene, bodies, speed, map_coarsening=map_coarsening, start=longer, target=target)
         strip = moving
         if longer_cells[1] > map_coarsening[1]:
-            with suppress(ConvergenceError):  # then the change at rest is all that is known
+            with may_stay_unsolved():  # then the change at rest is all that is known
                 longer = solve_moving_strip(
                     scene,
                     bodies,

@@ -6,12 +6,11 @@ on: they come from the same solves.
 
 import math
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...errors import ConvergenceError
+from ..._base import may_stay_unsolved
 from ...scene import Scene
 from ...surface import Surface
 from ..deterministic import (
@@ -226,7 +225,7 @@ def solve_at_rest(
     (fx, fy) = map_coarsening
     longer: StripSolution | None = None
     if surface.shape[1] % (2 * fy) == 0:
-        with suppress(ConvergenceError):
+        with may_stay_unsolved():
             longer = solve_strip(scene, surface, speed, map_coarsening=(2 * fx, 2 * fy))
     strip = solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
     if not find_slope:
