@@ -310,9 +310,9 @@ def with_part(uncertainty: Uncertainty, below: float, above: float) -> Uncertain
 def interval(
     value: float, *, numerical: float, sampling_error: StandardError, model_error: tuple[float, float]
 ) -> tuple[float, float]:
-    """Return value (1 ± sqrt(numerical² + (t sampling error)² + model error²)), t the 97.5 % quantile of Student's t with
-    the degrees of freedom of the ``sampling_error``; ``model_error``: towards 0 and away from it; it counts where it is
-    known."""
+    """Return value (1 ± sqrt(numerical² + (t sampling error)² + model-form error²)), t the 97.5 % quantile of Student's t
+    with the degrees of freedom of the ``sampling_error``; ``model_error``: the model-form error, towards 0 and away from
+    it; it counts where it is known."""
     error = sampling_error.value
     if not math.isfinite(error):
         return math.nan, math.nan

@@ -121,7 +121,7 @@ class ModelAnswer:
     sampling_error : relative standard error of f because the sample is finite; an error that is NaN is not known
     model_error : relative error of f by the model itself, at 95 %, towards 0 and away from it; NaN: not known
     by_limit : part of ``model_error``, at 95 %, because the limiting stress of a Newtonian lubricant is not known
-    parts_of_model : what the model error consists of, each with its cause; (): not known
+    parts_of_model : what the model-form error consists of, each with its cause; (): not known
     accepts_model_error : whether the scene accepts it, because it names this model: then no warning reports it
     narrows_numerical : what narrows ``numerical``, as text
     most_rolling_ratio : the largest that the rolling part of f may be, over its value; it bounds the interval

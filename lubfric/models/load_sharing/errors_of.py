@@ -36,8 +36,8 @@ NO_ERROR = (0.0, 0.0)
 UNKNOWN = (math.nan, math.nan)
 BY_EQUATION = "the friction of Eq. (9)"
 GAP_NOT_FILLED = "the film that arrives does not fill the gap: Eq. (8) neglects it, and f may be lower"
-NOT_STUDIED = "the error of the model itself is not known for this contact"
-MODEL_UNKNOWN = "the error of the model itself is not known and not in the interval: {}"
+NOT_STUDIED = "the model-form error is not known for this contact"
+MODEL_ERROR_UNKNOWN = "the model-form error is not known and not in the interval: {}"
 TOO_LITTLE = "there was too little of it to estimate"
 NOT_WITHOUT_FILM = "not estimated without a film"
 UNDETECTED_UNKNOWN = "not known: the patch is too short along y to estimate the undetected contact"
@@ -259,7 +259,7 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
     if balanced.on_cells is None:
         return UNKNOWN, (NOT_STUDIED,)
     if why := why_gap_not_resolved(scene):
-        return UNKNOWN, (MODEL_UNKNOWN.format(why),)
+        return UNKNOWN, (MODEL_ERROR_UNKNOWN.format(why),)
 
     sq = float(balanced.on_cells.heights.std())
     film = balance.film.central_film
