@@ -23,7 +23,7 @@ from .levels import DIFFERENCE_SHARE, HALVED_WORK, STRIPS_GROWTH, STRIPS_SPARE
 from .linear import HIGH_PRESSURE
 from .moving_strip import COURSE_ON_LONG_CELLS, EXPECTED_COURSE, OF_SHEAR, ExpectedCourse, effort_for, moving_work
 from .problem import are_soft, reach
-from .shorter_cells import LAST_PIECE, PIECES_SHARE, SHORT, SOFT_CELL_ERROR
+from .shorter_cells import LENGTH_OF_LAST_PIECE, LENGTH_OF_SHORT_STRIP, PIECES_SHARE, SOFT_CELL_ERROR
 from .strip_on_two_grids import sample_coarsening_of
 
 # Newton steps on cells half as long, which begin at the solution on longer ones [-].
@@ -232,7 +232,7 @@ def _work_at_rest(
         again = work_of_steps(finer, AGAIN) * (ends + (ends > 0))
         return work_of_steps(cells, STRIP_STEPS) + work_of_steps(finer, FINER_STEPS) + again
     lengths = sample.correlation_lengths[1] / sample.strip_length
-    if lengths * SHORT > 1:
+    if lengths * LENGTH_OF_SHORT_STRIP > 1:
         return _work_of_short_strip(
             scene, sample, steps, cells=cells, sq=sq, speed=speed, count=count, ends=ends, is_smooth=is_smooth
         )
@@ -247,7 +247,7 @@ def _work_at_rest(
         number = PIECES_OF_MORE_STRIPS if count > 1 else PIECES_OF_RUBBED if is_rubbed else 1.0
         pieces += number * (1 + ON_LONGER_CELLS) * steps.work(finer, max(steps.first, _finer_steps(scene, sq, speed)))
     if max(left) >= 4:
-        finest = min(left[0], 4) * min(left[1], 4) * LAST_PIECE * lengths * cells
+        finest = min(left[0], 4) * min(left[1], 4) * LENGTH_OF_LAST_PIECE * lengths * cells
         part = _part_of_last_level(scene, sq=sq, speed=speed, cell=0.5 * fx * dx, count=count)
         pieces += part * (1 + ON_LONGER_CELLS) * steps.work(finest, steps.first)
     if scene.numerics.max_work is not None:
@@ -276,7 +276,7 @@ def _work_of_short_strip(
     ends: int,
     is_smooth: bool,
 ) -> float:
-    """Return the same as `_work_at_rest` of strips that are shorter than `SHORT` correlation lengths: all of one is solved on
+    """Return the same as `_work_at_rest` of strips that are shorter than `LENGTH_OF_SHORT_STRIP`: all of one is solved on
     shorter ``cells``."""
     (fx, fy) = sample_coarsening_of(scene, sample)
     (ux, uy) = sample.cells.coarsening

@@ -61,11 +61,11 @@ FACTORISATIONS_OF_START = 100
 LEAST_STRIP_ERROR = 2e-3
 
 # Length [correlation lengths] below which a strip serves as a piece. Half changes nothing, twice f by -0.3 %.
-SHORT = 60.0
+LENGTH_OF_SHORT_STRIP = 60.0
 
-# Length [correlation lengths] of the piece of the last level: a third of `PIECE_LENGTH`. Half and twice change nothing on these
-# points, which do not need it.
-LAST_PIECE = 14.0
+# Length [correlation lengths] of the piece on the shortest cells, those of the last level: a third of `PIECE_LENGTH`. Half and
+# twice change nothing on these points, which do not need it.
+LENGTH_OF_LAST_PIECE = 14.0
 
 # Part of the change of f on a piece of that length by which it may be off the mean over the surface [-]. A convention.
 ERROR_OF_SHORT_PIECE = 0.5
@@ -170,7 +170,7 @@ def on_shorter_cells(prepared: Prepared, speed: float, pairs: Sequence[StripOnTw
     try:
         with limited_work(PIECES_SHARE * work_left()):
             slope = pairs[0].resolved.slope
-            shortest = _refined(prepared, speed, 0, slope=slope, times=4, length=LAST_PIECE)
+            shortest = _refined(prepared, speed, 0, slope=slope, times=4, length=LENGTH_OF_LAST_PIECE)
     except ConvergenceError:
         return ShorterCells(pieces=pieces, sampling_error=scatter, error=UNSOLVED_FACTOR * error, has_unsolved=True)
     coarse, fine = (strip.result for strip in shortest[-2:])
@@ -210,7 +210,7 @@ def _third_level(
 ) -> tuple[tuple[Piece, ...], StandardError]:
     """Return the pieces of the third level, and the standard error of their mean relative change of f."""
     sample = prepared.sample
-    is_short = sample.strip_length < SHORT * sample.correlation_lengths[1]
+    is_short = sample.strip_length < LENGTH_OF_SHORT_STRIP * sample.correlation_lengths[1]
     if is_short and surface_and_map_coarsening(prepared, 0)[1] != (1, 1):
         return _pieces(prepared, speed, pairs[0])
     if _by_boundary_film([pair.resolved for pair in pairs]) > SPEED_MATTERS:
@@ -223,7 +223,7 @@ def _is_costly(sample: Sample, pairs: Sequence[StripOnTwoGrids], pieces: Sequenc
     finest = pieces[0][-1]
     spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
     length = finest.result.load_at.size * finest.result.spacing[1]
-    share = min(LAST_PIECE * sample.correlation_lengths[1] / length, 1.0)  # a short map is all of both pieces
+    share = min(LENGTH_OF_LAST_PIECE * sample.correlation_lengths[1] / length, 1.0)  # a short map is all of both pieces
     return spent + 4 * share * finest.work > MOST_WORK_OF_POINT
 
 
