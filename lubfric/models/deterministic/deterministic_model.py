@@ -29,7 +29,7 @@ class DeterministicSolution(SampleSolution):
 
     Attributes
     ----------
-    pairs : the strips
+    pairs : the strips, `count` of them
     estimate : the mean over them, with the control of a cheaper model or alone
     wanted : number of strips that the tolerances need
     levels : with the effect of shorter cells, as `corrected` solves it; None: not solved
@@ -37,16 +37,12 @@ class DeterministicSolution(SampleSolution):
 
     prepared: Prepared
     sample: Sample
+    count: int
     speed: float
     pairs: tuple[StripOnTwoGrids, ...]
     estimate: TwoLevelEstimate
     wanted: int
     levels: Levels | None = None
-
-    @property
-    def count(self) -> int:  # type: ignore[override]
-        """The number of strips."""
-        return len(self.pairs)
 
     def required_strips(self) -> int:
         return self.wanted
@@ -119,7 +115,13 @@ class DeterministicModel(Model):
         pairs = solve_pairs(prepared, speed, count, solved=solved)
         estimate, wanted = two_levels(prepared, pairs, control)
         return DeterministicSolution(
-            prepared=prepared, sample=sample, speed=speed, pairs=pairs, estimate=estimate, wanted=wanted
+            prepared=prepared,
+            sample=sample,
+            count=len(pairs),
+            speed=speed,
+            pairs=pairs,
+            estimate=estimate,
+            wanted=wanted,
         )
 
     def why_unable(self, prepared: Prepared, speed: float) -> str:

@@ -129,14 +129,14 @@ def _all_effects(
 ) -> list[UnmodelledEffect]:
     """Return all effects, however small; arguments as of `unmodelled_effects`."""
     bodies = scene.bodies
-    whole = run or scene
+    with_ranges = run or scene
     of_boundary, f = friction_parts or _parts(scene, sq, speed)
     effects = (
         [] if speed == 0 or not f > 0 else _of_film(scene, sq, speed, friction_parts, includes_motion=includes_motion)
     )
     is_stated = (
-        any("boundary_friction" in name for name, *_ in whole.ranges)
-        or whole.bodies.boundary_friction_table is not None
+        any("boundary_friction" in name for name, *_ in with_ranges.ranges)
+        or with_ranges.bodies.boundary_friction_table is not None
     )
     if f > 0 and not is_stated:
         what = f"another additive, a coating or a tribofilm (f_b x {RUBBED:g})"
@@ -166,8 +166,8 @@ def _of_film(
     reach = line.half_width + flooded_inlet(math.sqrt(2 * line.radius * line.moes_film), line.half_width)
     before = _parts(scene, sq, speed)
     of_rubbing = scene.bodies.boundary_friction_coefficient if scene.motion.slide_roll_ratio != 0 else 0.0
-    narrow = line.expected_film * 2 * line.radius > line.half_width**2
-    alone = (friction_parts or before)[0] < LEAST_ASPERITY_PART * (friction_parts or before)[1]
+    is_narrow = line.expected_film * 2 * line.radius > line.half_width**2
+    is_of_film = (friction_parts or before)[0] < LEAST_ASPERITY_PART * (friction_parts or before)[1]
 
     def change(other: Scene, rough: float, times: float = 1.0) -> float:
         after = _parts(other, rough, speed, times)
@@ -178,7 +178,9 @@ def _of_film(
     effects: list[UnmodelledEffect] = []
     if lubricant.floods:
         words = f"the inlet is flooded if oil reaches {1e3 * reach:.2g} mm ahead of the contact line; if not, give lubricant.inlet_length"
-        size = math.nan if narrow and alone else change(scene, sq, STARVED_EXAMPLE)  # the rolling part may fall by more
+        size = (
+            math.nan if is_narrow and is_of_film else change(scene, sq, STARVED_EXAMPLE)
+        )  # the rolling part may fall by more
         effects.append((f"a starved inlet (film x {STARVED_EXAMPLE:g})", size, words))
     for end, other in _at_ends_of_alpha(scene).items():
         words = f"a pressure-viscosity coefficient of {end} of measured oils, in place of the estimate"
