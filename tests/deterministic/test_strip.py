@@ -1,5 +1,6 @@
 """One strip on one grid: the same heights on longer cells, its sums by columns, its slope, starts and counted work."""
 
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 import lubfric
 from lubfric.film import Effort, solve_line_contact
 from lubfric.models.deterministic import changes_of, error_by_cells, solve_strip
+from lubfric.models.shared import JoinedKey, Memo
 from lubfric.surface import Surface
 
 SCENE = lubfric.load_scene("paper")
@@ -99,3 +101,39 @@ def test_the_estimate_tells_what_half_of_the_cells_change():
     cases = (0.5, 3, 0.015), (0.3, 2, 0.003 * 0.96), (0.7, 1, 0.0098), (1.5, 1, 0.03)
     for ratio, left, stated in cases:  # a series that ends
         assert error_by_cells((0.01, 0.01 * ratio), left) == pytest.approx(stated)
+
+
+def test_problems_of_the_same_bodies_share_their_dry_contacts(monkeypatch):
+    """A second speed on the same cells solves no dry contact again, with the same film to the bit; another load, hardness or
+    elasticity is not taken for the same contact."""
+    solve_contact = lubfric.models.deterministic.solve.solve_contact
+    calls = []
+
+    def counted(*arguments, **options):
+        calls.append(options["mean_pressure"])
+        return solve_contact(*arguments, **options)
+
+    monkeypatch.setattr(lubfric.models.deterministic.solve, "solve_contact", counted)
+    coarse = {"map_coarsening": (4, 4), "ends": (5e-5, 4e-5)}
+    memo = Memo()
+    solved(**coarse, memo=memo)
+    assert len(calls) == 1
+    shared = solved(speed=0.012, **coarse, memo=memo)
+    assert len(calls) == 1
+    alone = solved(speed=0.012, **coarse)
+    assert len(calls) == 2
+    assert np.array_equal(shared.result.pressure, alone.result.pressure)
+    for change in ({"load": 1.2 * SCENE.bodies.load}, {"hardness": 2e9}, {"e_prime": 1.1 * SCENE.bodies.e_prime}):
+        scene = SCENE.with_(bodies=change)
+        known = len(calls)
+        with_memo = solved(scene=scene, **coarse, memo=memo)
+        assert len(calls) == known + 1
+        assert np.array_equal(with_memo.result.pressure, solved(scene=scene, **coarse).result.pressure)
+
+
+def test_what_is_remembered_is_not_pickled():
+    memo = Memo()
+    shared = solved(map_coarsening=(4, 4), memo=memo)
+    before = len(pickle.dumps(shared))
+    memo.put(JoinedKey((1, 1), 1), np.zeros(10_000), 10_000)
+    assert len(pickle.dumps(shared)) == before

@@ -16,16 +16,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
-from ...contact import HalfSpace, half_space
+from ...contact import BOUNDARY, HalfSpace, half_space
 from ...errors import InputError
 from ...film import HasLineContact, LineContact, line_peak_pressure
 from ...oil import Lubricant
 from ...surface import Surface
+from ..shared import Memo, OperatorKey
 
 FLOOR = 1e-9  # m
 BOUNDARY_FILM = 20e-9  # m: nearest to published shares of the load (docs/deterministic.md)
@@ -82,6 +83,7 @@ class Problem(HasLineContact):
     least_flow : what the residuals of the mass are relative to, where less flows in [m²/s]: in time, where U may be 0
     sheared : the lubricant whose stress is the friction, where that of ``line`` flows with the viscosity of a warmer inlet;
         None: they are one
+    memo : what is remembered of other problems of the same bodies: their operators and dry contacts; it changes no result
     """
 
     line: LineContact
@@ -97,6 +99,7 @@ class Problem(HasLineContact):
     upper: np.ndarray | None = None
     least_flow: float = 0.0
     sheared: Lubricant | None = None
+    memo: Memo = field(default_factory=Memo, compare=False, repr=False)
 
     @property
     def spacing(self) -> tuple[float, float]:
@@ -176,12 +179,13 @@ def lay_out(
     boundary_film: float = BOUNDARY_FILM,
     ends: tuple[float, float] | None = None,
     map_coarsening: tuple[int, int] = (1, 1),
+    memo: Memo | None = None,
 ) -> Problem:
     """Return the `Problem` of ``surface``, its middle under the line of contact, on its own cells or on cells
     ``map_coarsening`` (fx, fy) times as long, which take every fx-th and fy-th of its heights where they are.
 
     If the grid is longer than the map, the map is repeated, or mirrored if it is not periodic along x. ``ends`` [m]:
-    lengths up and down stream (default: `reach`). Raises `InputError` for more cells than `MOST_GRID_CELLS`, and for a
+    lengths up and down stream (default: `reach`). ``memo``: as of `Problem` (None: of its own). Raises `InputError` for more cells than `MOST_GRID_CELLS`, and for a
     coarsening that does not divide the map.
     """
     (nx, ny) = surface.shape
@@ -211,7 +215,14 @@ def lay_out(
     place = index % period
     place = np.where(place < nx, place, period - 1 - place)
     heights = surface.heights[place, fy // 2 :: fy] - surface.heights.mean()
-    operator = half_space(heights.shape, (dx, dy), line.e_prime, ("free", "periodic"))
+    shape = heights.shape
+    spacing = (dx, dy)
+    memo = Memo() if memo is None else memo
+    operator = memo.get(
+        OperatorKey(shape, spacing, line.e_prime),
+        lambda: half_space(shape, spacing, line.e_prime, BOUNDARY),
+        lambda operator: operator.symbol.size,
+    )
     x = (index - middle) * surface.spacing[0]
     limit = math.inf if hardness is None else hardness
     return Problem(
@@ -223,6 +234,7 @@ def lay_out(
         boundary_friction=boundary_friction,
         hardness=limit,
         boundary_film=boundary_film,
+        memo=memo,
     )
 
 

@@ -8,6 +8,7 @@ curve share them; these follow from the scene alone.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -340,15 +341,16 @@ def _refined(
         map_coarsening = coarsening[0] // last[0], coarsening[1] // last[1]
         surface = map_of_contact(prepared, contact_on_piece(prepared, sample, index, coarsening=last, length=length))
         longer: StripSolution | None = None
+        solve = partial(solve_strip, scene, surface, speed, memo=prepared.memo)
         with may_stay_unsolved():  # it is a start only, and cells so long may have no solution
-            longer = solve_strip(
-                scene, surface, speed, map_coarsening=longer_than(surface, map_coarsening), most=FACTORISATIONS_OF_START
-            )
-        strip = solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
+            longer = solve(map_coarsening=longer_than(surface, map_coarsening), most=FACTORISATIONS_OF_START)
+        strip = solve(map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
         ladder = [strip if longer is None else longer, strip]
     while map_coarsening != (1, 1) and (len(ladder) == 2 or error_by_cells(changes_of(ladder)) > enough):
         map_coarsening = max(1, map_coarsening[0] // 2), max(1, map_coarsening[1] // 2)
-        ladder.append(solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=ladder[-1]))
+        ladder.append(
+            solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=ladder[-1], memo=prepared.memo)
+        )
     slope = ladder[1].slope if find_slope else slope
     return tuple(replace(one, slope=slope) for one in ladder)
 

@@ -1,5 +1,6 @@
 """One deterministic operating point on one grid: Newton's method, and other ways if it fails."""
 
+import hashlib
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -7,8 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..._base import FloatArray, IntArray
-from ...contact import ContactResult, solve_contact
+from ...contact import BOUNDARY, ContactResult, solve_contact
 from ...errors import CONVERGED, DIVERGED, ITERATION_LIMIT, Report, returned
+from ..shared import DryContactKey
 from .linear import has_high_pressure
 from .newton import NEWTON_PATIENCE, NewtonResult, Work, march, newton
 from .problem import Problem, are_soft
@@ -227,17 +229,31 @@ def _attempts(
 
 
 def dry_contact(problem: Problem, tolerance: float = DRY_TOLERANCE) -> ContactResult:
-    """Press the rough bodies together without fluid under the total load."""
-    return solve_contact(
-        problem.rigid_gap,
-        problem.spacing,
-        problem.e_prime,
-        mean_pressure=problem.load / (problem.x.size * problem.spacing[0]),
-        hardness=None if np.isinf(problem.hardness) else problem.hardness,
-        boundary=("free", "periodic"),
+    """Press the rough bodies together without fluid under the total load. `Problem.memo` has it from then on."""
+    gap = problem.rigid_gap
+    mean_pressure = problem.load / (problem.x.size * problem.spacing[0])
+    hardness = None if np.isinf(problem.hardness) else problem.hardness
+
+    def make() -> ContactResult:
+        return solve_contact(
+            gap,
+            problem.spacing,
+            problem.e_prime,
+            mean_pressure=mean_pressure,
+            hardness=hardness,
+            boundary=BOUNDARY,
+            tolerance=tolerance,
+            operator=problem.operator,
+        )
+
+    key = DryContactKey(
+        rigid_gap=hashlib.sha256(gap.tobytes()).digest(),
+        mean_pressure=mean_pressure,
+        hardness=hardness,
+        operator=problem.operator.identity,
         tolerance=tolerance,
-        operator=problem.operator,
     )
+    return problem.memo.get(key, make, lambda dry: dry.pressure.size)
 
 
 def _lifts(problem: Problem) -> tuple[float, ...]:

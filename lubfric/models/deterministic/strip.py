@@ -13,7 +13,7 @@ from ..._base import may_stay_unsolved
 from ...oil import Lubricant
 from ...scene import Scene, check_resolved_gap, moving_bodies
 from ...surface import Surface
-from ..shared import film_lubricant
+from ..shared import Memo, film_lubricant
 from .counted_work import work_of_steps
 from .problem import BOUNDARY_FILM, Problem, lay_out, shifted
 from .result import DeterministicResult, assemble, share_moved_by_hardness
@@ -119,7 +119,9 @@ class StripSolution:
         strip = make_map()
         dx, dy = self.problem.spacing
         map_coarsening = (round(dx / strip.spacing[0]), round(dy / strip.spacing[1]))
-        return solve_strip(scene, strip, speed, map_coarsening=map_coarsening, start=self).result
+        return solve_strip(
+            scene, strip, speed, map_coarsening=map_coarsening, start=self, memo=self.problem.memo
+        ).result
 
     @property
     def deviations(self) -> np.ndarray:
@@ -142,6 +144,7 @@ def solve_strip(
     upper: Surface | None = None,
     ends: tuple[float, float] | None = None,
     most: int = MOST_FACTORISATIONS,
+    memo: Memo | None = None,
 ) -> StripSolution:
     """Solve ``surface``, a strip that is periodic along y, under the bodies of ``scene`` at ``speed`` [m/s], not 0.
 
@@ -151,19 +154,26 @@ def solve_strip(
     cells twice as long. ``find_slope``: solve it a second time, for `StripSolution.slope`. ``tolerance``: of the
     residuals (`lubfric.models.deterministic.state.residuals`). ``upper``: the part of ``surface`` that is surface 2,
     where both bodies are rough. ``ends`` [m]: of the grid, up and down stream (None: `reach`). ``most``: LU
-    factorisations, at most.
+    factorisations, at most. ``memo``: what the bodies' other problems share (`Problem`).
 
     Raises `InputError` and `ConvergenceError`.
     """
     check_resolved_gap(scene)
-    problem = problem_of(scene, surface, speed, map_coarsening=map_coarsening, upper=upper, ends=ends)
+    problem = problem_of(scene, surface, speed, map_coarsening=map_coarsening, upper=upper, ends=ends, memo=memo)
     work = 0.0
     slope = UNKNOWN_SLOPE
     longer = (2 * map_coarsening[0], 2 * map_coarsening[1])
     if start is None and problem.heights.size > MANY_CELLS and surface.shape[1] % longer[1] == 0:
         with may_stay_unsolved():
             start = solve_strip(
-                scene, surface, speed, map_coarsening=longer, tolerance=LONGER_CELLS_RESIDUAL, upper=upper, ends=ends
+                scene,
+                surface,
+                speed,
+                map_coarsening=longer,
+                tolerance=LONGER_CELLS_RESIDUAL,
+                upper=upper,
+                ends=ends,
+                memo=memo,
             )
             work = start.work
     if start is None:
@@ -212,11 +222,12 @@ def problem_of(
     map_coarsening: tuple[int, int] = (1, 1),
     upper: Surface | None = None,
     ends: tuple[float, float] | None = None,
+    memo: Memo | None = None,
 ) -> Problem:
     """Return the problem of ``surface`` under the bodies of ``scene`` at ``speed`` [m/s], not 0, on its own cells or on
     cells ``map_coarsening`` times as long (`lay_out`). For a negative speed the maps are turned. ``upper``: the part of
     it that is surface 2 (all of it where only the counterface is rough). The lubricant flows with the viscosity of its
-    heated inlet."""
+    heated inlet. ``memo``: as of `Problem`."""
     film = scene.bodies.boundary_film
     ratio = scene.motion.slide_roll_ratio
     lubricant = film_lubricant(scene, speed)
@@ -235,6 +246,7 @@ def problem_of(
         boundary_film=BOUNDARY_FILM if film is None else film,
         map_coarsening=map_coarsening,
         ends=ends,
+        memo=memo,
     )
     heights = None if upper is None else shifted(problem, turned(upper))(0.0)
     return replace(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import partial
 
 from ..._base import may_stay_unsolved
 from ...quantities import NUMBERS
@@ -135,8 +136,9 @@ def solve_pair(
                     most_steps=compared_moments(moving),
                 )
     else:
-        longer = solve_strip(scene, surface, speed, map_coarsening=longer_cells)
-        strip = solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
+        solve = partial(solve_strip, scene, surface, speed, memo=prepared.memo)
+        longer = solve(map_coarsening=longer_cells)
+        strip = solve(map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
     strip = replace(strip, slope=strip.slope if find_slope else slope, work=strip.work + longer.work)
     is_mirrored = prepared.sample.distinct_rows(surface.heights) < surface.shape[1]
     return StripOnTwoGrids(resolved=strip, longer=longer, is_mirrored=is_mirrored, has_halved_cells=has_halved_cells)

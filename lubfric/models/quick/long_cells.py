@@ -7,6 +7,7 @@ on: they come from the same solves.
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -27,6 +28,7 @@ from ..deterministic import (
     solve_strip,
     strip_at_rest,
 )
+from ..shared import Memo
 
 # Cells in a correlation length along x and along y, at least, where roughness rests: f differs from that on cells half as
 # long by 1.4 % (median of 276 cases), and a strip takes .16 s.
@@ -217,17 +219,19 @@ def solve_at_rest(
     map_coarsening: tuple[int, int],
     slope: float = UNKNOWN_SLOPE,
     find_slope: bool = False,
+    memo: Memo | None = None,
 ) -> StripOnTwoGrids:
     """Solve the strip ``surface`` at ``speed`` [m/s], not 0, on cells ``map_coarsening`` times as long as its own, and
     before on cells twice as long, where it has those and they have a solution (else both are the same). ``slope``: of
-    friction over load, as another strip has it; ``find_slope``: it is found by a second solve in its place. Raises
-    `ConvergenceError`."""
+    friction over load, as another strip has it; ``find_slope``: it is found by a second solve in its place.
+    ``memo``: as of `solve_strip`. Raises `ConvergenceError`."""
     (fx, fy) = map_coarsening
+    solve = partial(solve_strip, scene, surface, speed, memo=memo)
     longer: StripSolution | None = None
     if surface.shape[1] % (2 * fy) == 0:
         with may_stay_unsolved():
-            longer = solve_strip(scene, surface, speed, map_coarsening=(2 * fx, 2 * fy))
-    strip = solve_strip(scene, surface, speed, map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
+            longer = solve(map_coarsening=(2 * fx, 2 * fy))
+    strip = solve(map_coarsening=map_coarsening, start=longer, find_slope=find_slope)
     if not find_slope:
         strip = replace(strip, slope=slope)
     if longer is None:

@@ -211,7 +211,15 @@ def _solve_pair(
     is_mirrored = sample.distinct_rows(surface.heights) < surface.shape[1]
     if not has_moving_roughness(scene):
         map_coarsening = map_coarsening_at_rest(scene, spacing=surface.spacing, rows=surface.shape[1], lengths=lengths)
-        pair = solve_at_rest(scene, surface, speed, map_coarsening=map_coarsening, slope=slope, find_slope=find_slope)
+        pair = solve_at_rest(
+            scene,
+            surface,
+            speed,
+            map_coarsening=map_coarsening,
+            slope=slope,
+            find_slope=find_slope,
+            memo=prepared.memo,
+        )
         return replace(pair, is_mirrored=is_mirrored)
     cells = long_cells_in_motion(scene, bodies_of(prepared, index, speed), speed, lengths)
     part = SAMPLING_OVER_NARROW_BOUNDS if cells.per_length == CELLS_OF_THIN_FILM else SAMPLING_OVER_BOUNDS

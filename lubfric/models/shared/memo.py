@@ -6,19 +6,19 @@ again: what a point has left to spend decides what it solves. So it changes the 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, TypeVar
 
 from ..._base import count_work, with_its_work, work_left
-from ...contact import HalfSpace, HalfSpaceContact, RoughContact
+from ...contact import ContactResult, HalfSpace, HalfSpaceContact, RoughContact
 from ...surface import Surface
 
 T = TypeVar("T")
 
 # Contacts, operators and reference points that are remembered, at most. Half and twice as many change no time by more
 # than 8 %.
-MOST_ENTRIES = 64
+MOST_ENTRIES = 256
 
 # Cells of all entries but the last, at most, for memory: 64 MB of heights. Half and twice as many change no time by
 # more than 8 %.
@@ -69,10 +69,23 @@ class PieceKey(Key[HalfSpaceContact]):
 
 @dataclass(frozen=True)
 class OperatorKey(Key[HalfSpace]):
-    """The half-space operator of a grid."""
+    """The half-space operator of a grid, on bodies of this E'."""
 
     shape: tuple[int, int]
     spacing: tuple[float, float]
+    e_prime: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class DryContactKey(Key[ContactResult]):
+    """A contact without fluid: the digest of its ``rigid_gap``, the arguments of `lubfric.solve_contact`, and
+    `HalfSpace.identity` of its operator."""
+
+    rigid_gap: bytes
+    mean_pressure: float
+    hardness: float | None
+    operator: tuple[Hashable, ...]
+    tolerance: float
 
 
 @dataclass(frozen=True)
@@ -104,10 +117,13 @@ class MemoEntry:
 
 
 class Memo:
-    """What was made so far, by `Key`; the oldest goes first."""
+    """What was made so far, by `Key`; the oldest goes first. One that is pickled is empty."""
 
     def __init__(self) -> None:
         self._kept: dict[Key[Any], MemoEntry] = {}
+
+    def __reduce__(self) -> tuple[type[Memo], tuple[()]]:
+        return Memo, ()
 
     def get(self, key: Key[T], make: Callable[[], T], cells: Callable[[T], int] = lambda value: 0) -> T:
         """Return what ``make`` gives, made once for ``key``, and kept as long as there is room for its ``cells``.

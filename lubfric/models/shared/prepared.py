@@ -149,7 +149,7 @@ def _contact(prepared: Prepared, heights: np.ndarray, spacing: tuple[float, floa
 def operator_on(memo: Memo, scene: Scene, shape: tuple[int, int], spacing: tuple[float, float]) -> HalfSpace:
     """Return the half-space operator of ``scene`` on a grid, made once for ``memo``."""
     return memo.get(
-        OperatorKey(shape, (spacing[0], spacing[1])),
+        OperatorKey(shape, (spacing[0], spacing[1]), scene.bodies.e_prime),
         lambda: half_space(shape, spacing, scene.bodies.e_prime, BOUNDARY, workers=scene.numerics.workers),
         lambda operator: operator.symbol.size,
     )
