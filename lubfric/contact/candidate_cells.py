@@ -100,8 +100,8 @@ def nearest_coefficients(shape: tuple[int, int], spacing: tuple[float, float]) -
     x = turns[0][:, None]
     y = turns[1]
     k = np.hypot(x / spacing[0], y / spacing[1])
-    along_x = np.cos(x) * (shape[0] > 1)
-    along_y = np.cos(y) * (shape[1] > 1)
+    along_x = np.cos(x) if shape[0] > 1 else np.zeros_like(x)
+    along_y = np.cos(y) if shape[1] > 1 else np.zeros_like(y)
     same_cell, x_part, y_part, both = (float((k * wave).mean()) for wave in (1.0, along_x, along_y, along_x * along_y))
     return same_cell, x_part, y_part, both
 

@@ -374,7 +374,7 @@ def collect(
     prepared = model.prepared
     renewal = prepared.sample.renewal_length(prepared.scene.bodies.half_width)
     ends = {name: [end - value_of(prepared.scene, name) for end in both] for name, *both in prepared.scene.ranges}
-    by_load = columns["contact_load"] / columns["load"] * (columns["sliding_speed"] != 0)
+    by_load = np.where(columns["sliding_speed"] != 0, columns["contact_load"] / columns["load"], 0.0)
     low, high = ends.pop(BOUNDARY_FRICTION_KEY, (0.0, 0.0))
     inputs = np.outer((-low, high), by_load)
     not_in = tuple(f"range of {name.partition('.')[2]}: {NOT_IN}" for name in ends)

@@ -66,8 +66,11 @@ RUBBED_FILM = 0.25
 # Newton steps of the second solve of a strip, at a load 3 % larger, over those of one whose neighbour is solved [-].
 OF_SLOPE = 0.5
 
-# Part of these points that solve a piece on cells a quarter as long, where one strip is enough, and where more are solved [-].
-LAST_LEVEL = (0.2, 0.4)
+# Part of these points that solve a piece on cells a quarter as long, where one strip is enough [-].
+LAST_LEVEL_OF_ONE_STRIP = 0.2
+
+# The same where more strips are solved [-].
+LAST_LEVEL_OF_MORE_STRIPS = 0.4
 
 # Processor time of roughness at rest over its counted work [-]: .5 to .86 in ten runs of ``verification.campaigns.estimates``.
 AT_REST = 0.64
@@ -229,7 +232,7 @@ def _work_at_rest(
     cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * sample.strip_length / (fy * dy)
     if sample.refines_in_place:  # it may be solved down to its own cells, and the ends on the same
         finer = 0.5 * cells * fx * fy * ux * uy
-        again = work_of_steps(finer, AGAIN) * (ends + (ends > 0))
+        again = work_of_steps(finer, AGAIN) * _with_middle(ends)
         return work_of_steps(cells, STRIP_STEPS) + work_of_steps(finer, FINER_STEPS) + again
     lengths = sample.correlation_lengths[1] / sample.strip_length
     if lengths * LENGTH_OF_SHORT_STRIP > 1:
@@ -237,7 +240,7 @@ def _work_at_rest(
             scene, sample, steps, cells=cells, sq=sq, speed=speed, count=count, ends=ends, is_smooth=is_smooth
         )
     strips = count * (1 + ON_LONGER_CELLS) * steps.work(cells, steps.first)
-    again = steps.work(cells, steps.again) * (OF_SLOPE + ends + (ends > 0))
+    again = steps.work(cells, steps.again) * (OF_SLOPE + _with_middle(ends))
     left = fx * ux, fy * uy
     pieces = 0.0
     if max(left) >= 2:
@@ -260,8 +263,15 @@ def _part_of_last_level(scene: Scene, *, sq: float, speed: float, cell: float, c
     ``cell`` [m] of the level before (`error_of_soft_bodies`)."""
     line = scene.line_contact(abs(speed))
     if are_soft(line, sq):
-        return float(SOFT_CELL_ERROR * (cell / line.half_width) ** 2 > scene.numerics.tolerance)
-    return LAST_LEVEL[count > 1]
+        is_solved = SOFT_CELL_ERROR * (cell / line.half_width) ** 2 > scene.numerics.tolerance
+        return 1.0 if is_solved else 0.0
+    return LAST_LEVEL_OF_MORE_STRIPS if count > 1 else LAST_LEVEL_OF_ONE_STRIP
+
+
+def _with_middle(ends: int) -> int:
+    """Return the number of solves for so many ``ends`` of input ranges: these, and the point at the prepared inputs, which
+    they are compared with."""
+    return ends + 1 if ends else 0
 
 
 def _work_of_short_strip(
@@ -280,7 +290,7 @@ def _work_of_short_strip(
     shorter ``cells``."""
     (fx, fy) = sample_coarsening_of(scene, sample)
     (ux, uy) = sample.cells.coarsening
-    again = work_of_steps(cells, AGAIN) * (1 + ends + (ends > 0))
+    again = work_of_steps(cells, AGAIN) * (1 + _with_middle(ends))
     is_coarse = fx * ux >= 4 <= fy * uy
     shorter = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if is_coarse else 0.0
     finer = work_of_steps(cells * fx * fy, _finer_steps(scene, sq, speed))
@@ -364,7 +374,7 @@ def work_on_long_cells(
     cells = length / (fx * dx) * sample.strip_length / (fy * dy)
     ends = 2 * sum(name != BOUNDARY_FRICTION_KEY for name, *_ in scene.ranges)
     steps = expected_steps(scene, sq, speed)
-    number = ends + (ends > 0)
+    number = _with_middle(ends)
     if are_soft(scene.line_contact(abs(speed)), sq):
         return AT_REST * (count * steps.work(cells, steps.first) + number * steps.work(cells, steps.again))
     thickened = scene.lubricant.pressure_viscosity_coefficient * peak_hertz_pressure(scene)
@@ -401,7 +411,7 @@ def moving_point_work(
         fastest=fastest,
         length=sample.cells.columns * dx,
         cells=cells,
-        continuations=solved_ends + 1 if solved_ends else 0,  # one at the prepared inputs, which they are compared with
+        continuations=_with_middle(solved_ends),
         course=course,
     )
 
@@ -415,7 +425,7 @@ def _solved_ends(scene: Scene, surface: Surface, speed: float) -> int:
         if name == HARDNESS_KEY:
             number += solved_ends_of_hardness(scene, surface, speed)
         elif name in OF_SHEAR:
-            number += slides
+            number += 1 if slides else 0
         elif name != BOUNDARY_FRICTION_KEY:
             number += 2
     return number

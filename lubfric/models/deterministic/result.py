@@ -186,7 +186,8 @@ def surface_shear(at: Iterate, law: np.ndarray, boundary_film: float) -> Surface
     p = at.state.pressure
     h = at.mass_balance.flow_gap
     inlet = at.mass_balance.inlet
-    limit = problem.boundary_friction * p * (problem.sliding > 0)  # in pure rolling cells that rub do not slide
+    slides = problem.sliding > 0  # in pure rolling cells that rub do not slide
+    limit = problem.boundary_friction * p if slides else np.zeros_like(p)
     dx = problem.spacing[0]
     fluid = at.state.kind == FLUID
     thin = (at.state.kind == TOUCHING) | fluid & (h < boundary_film)
@@ -231,8 +232,11 @@ def stress_with_oil(result: "DeterministicResult", sliding: float, lubricant: Lu
 def share_moved_by_hardness(pressure: np.ndarray, hardness: float, other: float) -> float:
     """Return the part of the load that leaves its cells, or comes to those that yield, if the ``hardness`` [Pa] were the
     ``other`` one; ``pressure`` [Pa]: of the cells, up to the hardness."""
-    above = np.maximum(pressure - other, 0.0) if other < hardness else (pressure >= hardness) * (other - hardness)
-    return float(above.sum() / pressure.sum())
+    if other < hardness:
+        moved = np.maximum(pressure - other, 0.0)
+    else:
+        moved = np.where(pressure >= hardness, other - hardness, 0.0)
+    return float(moved.sum() / pressure.sum())
 
 
 def at_its_limit(lubricant: Lubricant, pressure: np.ndarray, stress: np.ndarray) -> np.ndarray:

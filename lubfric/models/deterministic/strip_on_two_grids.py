@@ -76,9 +76,9 @@ def sample_coarsening_of(scene: Scene, sample: Sample) -> tuple[int, int]:
         lx / (PER_LENGTH_IN_MOTION if has_moving_roughness(scene) else PER_LENGTH),
         scene.bodies.half_width / PER_HALF_WIDTH,
     )
-    along = longest >= 2 * dx * (1 - 1e-9)
-    across = ly / PER_LENGTH >= 2 * dy * (1 - 1e-9) and sample.rows % 2 == 0
-    return 1 + along, 1 + across
+    is_doubled_along_x = longest >= 2 * dx * (1 - 1e-9)
+    is_doubled_along_y = ly / PER_LENGTH >= 2 * dy * (1 - 1e-9) and sample.rows % 2 == 0
+    return 2 if is_doubled_along_x else 1, 2 if is_doubled_along_y else 1
 
 
 def surface_and_map_coarsening(prepared: Prepared, index: int) -> tuple[Surface, tuple[int, int]]:

@@ -186,8 +186,9 @@ def _work_of_strips(
     strip = times * CELL_SECONDS * cells.columns * sample.strip_length / dy
     solved = sample.first_strips
     work = SOLVES * (one_film + strip * solved)
+    (first_growth, later_growth) = SAMPLE_GROWTH
     while solved < count:
-        most = SAMPLE_GROWTH[solved > sample.first_strips]
+        most = later_growth if solved > sample.first_strips else first_growth
         solved = min(count, math.ceil(most * solved))
         work += SOLVES_ON_MORE * (one_film + strip * solved)
     work *= _times_by_shorter_cells(sample, surface, film)
