@@ -24,7 +24,7 @@ from ..models.shared import (
     violations_by_unusual_inputs,
 )
 from ..quantities import counted
-from ..samples import Sample, check_map, sample_of, takes_strips
+from ..samples import Sample, check_map, sample_of
 from ..scene import UNITS_OF_HISTORIES, Scene, has_moving_roughness, hint_unusual_values, why_gap_not_resolved
 from ..studies import WITHIN_WORDS, expected_speeds, in_words
 from ..surface import Surface, correlation_length, rms_slope
@@ -193,7 +193,7 @@ def estimate_scene(
     sections = {
         "transient": changing,
         "surface": [*sample.described(surface), *notes, slopes_in_words(scene_map)],
-        "contact": [f"{_plan(scene, surface)}; {over}"],
+        "contact": [f"{_plan(scene, sample, surface)}; {over}"],
         "model": model,
         "effects not modelled": changes
         if effects
@@ -227,11 +227,11 @@ def _doubts(at: list[tuple[float | None, Violation]]) -> list[str]:
     return [*fixed, *gathered([(speed, (violation,)) for speed, violation in at if speed is not None])]
 
 
-def _plan(scene: Scene, surface: Surface) -> str:
+def _plan(scene: Scene, sample: Sample, surface: Surface) -> str:
     what = {"flat": "periodic flat contact", "cylinder": "line contact, periodic along the line,"}[
         scene.contact.geometry
     ]
-    on = "strips of the rough surface" if takes_strips(scene) else "{} x {} cells".format(*surface.shape)
+    on = "strips of the rough surface" if sample.represents_more else "{} x {} cells".format(*surface.shape)
     return f"{what} on {on}; target of the numerical error of f: {100 * scene.numerics.tolerance:g} %"
 
 

@@ -25,6 +25,7 @@ from ..models.shared import (
     unmodelled_effects,
 )
 from ..quantities import CHOICES, COLUMNS, counted, worded_value
+from ..samples import requests_patch
 from ..scene import SLIDE_ROLL_RATIO_KEY, Scene, inputs_not_given
 from ..studies import (
     DURATION,
@@ -45,6 +46,9 @@ from .report import effects_table, names_of_inputs, picture, shortfalls, style_s
 
 # Rows of the table of a report; study.csv has all.
 MOST_ROWS = 60
+
+# Why the interval of f is not known where a scene requests a patch.
+NO_SAMPLING_ERROR = "a single patch has no sampling error; numerics.sampling = 'strips' gives it"
 
 # Heading of the column of the asperity load ratio.
 ASPERITY_LOAD_RATIO = "asperity load ratio F_C/F_T"
@@ -98,8 +102,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     unknown = int(np.isnan(result["uncertainty_low"][np.isfinite(result["coefficient"])]).sum())
     if unknown:
         about += f" The interval of f is not known at {counted(unknown, 'points')}"
-        patch = result.plan.scene.numerics.sampling == "patch"
-        about += ": a single patch has no sampling error; numerics.sampling = 'strips' gives it." if patch else "."
+        about += f": {NO_SAMPLING_ERROR}." if requests_patch(result.plan.scene) else "."
     page = Template((files(__package__) / "study_report.html").read_text(encoding="utf-8")).substitute(
         name=escape(result.plan.scene.name),
         style=style_sheet(),

@@ -8,7 +8,7 @@ them, `cells` finds the length of the cells, and `contacts` turns the keys of a 
 """
 
 from .cells import Cells, length_of_rough_contact
-from .choose import sample_of, takes_strips
+from .choose import requests_patch, sample_of, takes_strips
 from .contract import PIECE_LENGTH, Sample
 from .maps import (
     check_map,

@@ -10,10 +10,15 @@ from .patch import UnresolvedSample, single_patch
 from .strips import strips_of
 
 
+def requests_patch(scene: Scene) -> bool:
+    """Return whether ``scene`` requests one patch of its surface in place of strips, which have a sampling error."""
+    return scene.numerics.sampling == "patch"
+
+
 def takes_strips(scene: Scene) -> bool:
     """Return whether ``scene`` is solved on strips: it has a rough half-space under a cylinder, and requests no patch."""
     is_rough = any(rough.sq != 0.0 for rough, _ in rough_bodies(scene))
-    return scene.numerics.sampling != "patch" and _is_resolved(scene) and is_rough
+    return not requests_patch(scene) and _is_resolved(scene) and is_rough
 
 
 def sample_of(

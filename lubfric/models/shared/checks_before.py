@@ -14,6 +14,7 @@ from ...samples import (
     Sample,
     is_measured,
     length_of_rough_contact,
+    requests_patch,
     rough_bodies,
     way_to_longer_line,
     way_to_longer_patch,
@@ -77,7 +78,7 @@ def why_sample_too_short(scene: Scene, lengths: float, sample: Sample) -> str:
 
     To omit an extension is advised only where the map, without it, has more windows and does not cut the contact off.
     """
-    keys = ["numerics.sampling"] if scene.numerics.sampling == "patch" else []
+    keys = ["numerics.sampling"] if requests_patch(scene) else []
     extended = [f"{name}.extension" for rough, name in rough_bodies(scene) if rough.extension != "none"]
     if extended and _is_long_enough(scene, sample) and sample.strips_without_extension(scene) > sample.available_strips:
         keys += extended
