@@ -37,6 +37,7 @@ from ..shared import (
     violations_by_motion,
     violations_by_pressure,
     violations_by_thickness,
+    way_to_shorter_cells,
     why_sample_too_short,
 )
 from .counted_work import MOST_WORK_OF_POINT
@@ -297,8 +298,8 @@ def _recommendation(prepared: Prepared, pair: StripOnTwoGrids) -> str:
     if not sample.cells.is_native and not sample.refines_in_place:
         return f"numerics.grid = 'given' for shorter cells, or {LARGER_TOLERANCE}"
     if prepared.is_given_or_measured:
-        return f"{LARGER_TOLERANCE}, or a map with shorter cells"
-    return f"a finer contact.spacing with numerics.grid = 'given', or {LARGER_TOLERANCE}"
+        return f"{LARGER_TOLERANCE}, or {way_to_shorter_cells(prepared)}"
+    return f"{way_to_shorter_cells(prepared)} with numerics.grid = 'given', or {LARGER_TOLERANCE}"
 
 
 def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
@@ -317,9 +318,7 @@ def shorter_cells_in_motion(prepared: Prepared, pair: StripOnTwoGrids) -> str:
             return f"a map on longer cells with numerics.grid = 'given' (on these cells {cost})"
         with_model = "" if work <= MOST_WORK_OF_POINT else " and numerics.model = 'deterministic'"
         return f"numerics.grid = 'given'{with_model} for shorter cells ({cost})"
-    if prepared.is_given_or_measured:
-        return "a map with shorter cells and numerics.grid = 'given'"
-    return "a finer contact.spacing with numerics.grid = 'given'"
+    return f"{way_to_shorter_cells(prepared)} with numerics.grid = 'given'"
 
 
 def _narrows_numerical(prepared: Prepared, pair: StripOnTwoGrids) -> str:

@@ -12,11 +12,13 @@ from ...scene import Scene, has_moving_roughness
 from ..contract import AtInputs, ContactFields, ModelAnswer
 from ..shared import (
     Assumption,
+    Prepared,
     Violation,
     contact_at_inputs,
     contact_on_joined_strips,
     contact_on_piece,
     film_and_exponents,
+    way_to_shorter_cells,
 )
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
@@ -67,9 +69,7 @@ def answer_of(balanced: BalancedSample) -> ModelAnswer:
         notes=errors.notes,
         violations=(
             *violations_of_sample(balanced),
-            *_violations_by_finer_cells(
-                balanced.relative_change(balanced.effect.finer_grid_change), scene.numerics.tolerance
-            ),
+            *_violations_by_finer_cells(balanced.prepared, balanced.relative_change(balanced.effect.finer_grid_change)),
         ),
         recommendation=SMALLER_TOLERANCE,
         fields=fields_of(balanced),
@@ -173,12 +173,14 @@ def edge_load_share(balanced: BalancedSample) -> float:
     return balanced.rough_contact.on_the_ends(balanced.raw_balance.contact_state) / sample.cells.coarsening[0]
 
 
-def _violations_by_finer_cells(change: float, tolerance: float) -> tuple[Violation, ...]:
-    """Return the violation where cells half as long as the map's own would change f by more than ``tolerance``."""
+def _violations_by_finer_cells(prepared: Prepared, change: float) -> tuple[Violation, ...]:
+    """Return the violation where the relative ``change`` of f by cells half as long as the map's own is above
+    ``numerics.tolerance``."""
+    tolerance = prepared.scene.numerics.tolerance
     if not change > tolerance:
         return ()
     what = "change of f by cells half as long, estimated"
-    recommendation = "use a map on shorter cells"
+    recommendation = f"use {way_to_shorter_cells(prepared)}"
     consequence = "the map is too coarse for its roughness; the interval of f does not include that"
     return (
         Violation(

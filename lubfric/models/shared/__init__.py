@@ -64,6 +64,7 @@ from .prepared import (
     operator_on,
     remembered,
     scene_of,
+    way_to_shorter_cells,
     why_no_rough_film,
 )
 from .rolling import rolling_model_error, smooth_rolling_resistance

@@ -67,6 +67,11 @@ class Prepared(FieldsOnly, Renamed, Shown):
         return {"": self.scene.name, "map": self.surface.describe()}
 
 
+def way_to_shorter_cells(prepared: Prepared) -> str:
+    """Return how the native cells of ``prepared`` become shorter, as text."""
+    return "a map with shorter cells" if prepared.is_given_or_measured else "a finer contact.spacing"
+
+
 def why_no_rough_film(prepared: Prepared, speed: float) -> str:
     """Return why no film flows between rough surfaces on cells at ``speed`` [m/s], as text; "" if one does."""
     if speed == 0:
