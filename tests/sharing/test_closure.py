@@ -74,3 +74,16 @@ def test_the_response_is_the_change_of_the_load_ratio_by_the_gap(demand):
     middle, narrower, wider = ratios
     change = (narrower.log_load_ratio - wider.log_load_ratio) / (lengths[1] - lengths[2])
     assert middle.response.log_load_ratio_per_gap == pytest.approx(change, rel=0.03)
+
+
+def test_the_error_of_the_mean_gap_is_that_of_the_film_through_the_closure(demand):
+    """Two films that differ by 0.1 % show by how much more the gap does that is demanded under them."""
+    length = 1e-6
+    demand(length)
+    point = lubfric.friction(SMALL, 2.0)
+    assert point.contact_load == 0.0
+    film = point.balance.contact_state.mean_film
+    low, high = (FACTOR * (1 + change) * film - length for change in (-5e-4, 5e-4))
+    per_film = (high / low - 1) / 1e-3
+    assert per_film > 1.05
+    assert point.errors.mean_gap / point.errors.central_film == pytest.approx(per_film, rel=1e-3)

@@ -34,6 +34,11 @@ def gap_per_film(mean_film: float) -> float:
     return mean_film
 
 
+def relative_gap_per_film(mean_film: float) -> float:
+    """Return the relative change of `gap_under` per relative change of the film [-]: its error over that of the film."""
+    return gap_per_film(mean_film) / gap_under(mean_film)
+
+
 def volume_residual(contact_state: ContactState) -> float:
     """Return (G - g)/(|G| + g) of ``contact_state``, g the gap that the closure demands: 0 where it holds, increasing with
     s."""

@@ -20,7 +20,7 @@ from ..shared import (
 )
 from .balance import Balance
 from .balanced_sample import BalancedSample
-from .closure import gap_per_film
+from .closure import gap_per_film, relative_gap_per_film
 from .error_of_eq8 import least_error, load_sharing_error, starved_error
 from .forces import Forces
 from .response import contact_length
@@ -114,7 +114,7 @@ def errors_of(balanced: BalancedSample) -> PointErrors:
         errors |= dict.fromkeys((*depending_on("split"), *depending_on("shear")), 0.0)
     elif response is None:
         numerical += film_sensitivity * solver.film_error
-        errors = _given_load(forces, solver.film_error)
+        errors = _given_load(balance, solver.film_error)
         of_contact = (*depending_on("split"), *depending_on("area"), *depending_on("contacts"))
         reasons |= dict.fromkeys(of_contact, "without asperity contact it has no relative error")
         errors |= {"film_load": 0.0}
@@ -189,7 +189,7 @@ def _contact_errors(balanced: BalancedSample, solver: SolverErrors) -> dict[str,
     )
     errors = {name: response.relative(name, gap_error) for name in response.rates or ()}
     errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
-    for name, at_given_load in _given_load(balance.forces, solver.film_error).items():
+    for name, at_given_load in _given_load(balance, solver.film_error).items():
         errors[name] = errors.get(name, 0.0) + at_given_load
     by_load = errors.get("contact_load", 0.0)
     for name, error in _area_errors(balance, balanced.scatter).items():
@@ -221,14 +221,17 @@ def _relative(error: StandardError, value: float) -> float:
     return error.value / value if math.isfinite(error.value) else 0.0
 
 
-def _given_load(forces: Forces, film_error: float) -> dict[str, float]:
-    """Return the errors of what depends on a film at a given load, whose relative error is ``film_error``. Where the
-    heat of the inlet is omitted, its factor is off by what is known of it; a temperature rise that was omitted has no
-    error (NaN)."""
+def _given_load(balance: Balance, film_error: float) -> dict[str, float]:
+    """Return the errors of what depends on the film of ``balance`` at a given load, whose relative error is
+    ``film_error``. That of the mean gap follows from it by the closure. Where the heat of the inlet is omitted, its
+    factor is off by what is known of it; a temperature rise that was omitted has no error (NaN)."""
+    forces = balance.forces
     heat = forces.heat
     of_heat = dict.fromkeys(depending_on("heat"), film_error if heat.heated else math.nan)
     of_heat["inlet_film_factor"] = math.nan if heat.inlet is None else film_error + heat.film_factor - heat.inlet.factor
-    return dict.fromkeys(depending_on("film"), film_error) | of_heat | _shear_errors(forces, film_error)
+    of_film = dict.fromkeys(depending_on("film"), film_error)
+    of_gap = {"mean_gap": film_error * relative_gap_per_film(balance.contact_state.mean_film)}
+    return of_film | of_gap | of_heat | _shear_errors(forces, film_error)
 
 
 def _shear_errors(forces: Forces, film_error: float) -> dict[str, float]:
