@@ -7,6 +7,7 @@ outside (``contact``), and the balance needs nothing else. Means are taken over 
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -50,7 +51,7 @@ class ContactState:
         return np.diff(np.interp(x, edges, touched)) / np.diff(x)
 
 
-class RoughContact:
+class RoughContact(ABC):
     """A rough contact under a film, immutable. Loads are in N on the full width of the line.
 
     ``name``: a property, for `Decision.text`; ``x`` [m] (nx,): where the contact needs the film, around the line of
@@ -61,10 +62,11 @@ class RoughContact:
     weight: np.ndarray
 
     @property
+    @abstractmethod
     def name(self) -> str:
         """Return the contact as text."""
-        raise NotImplementedError
 
+    @abstractmethod
     def close(
         self, film: np.ndarray, load: float, start: ContactState | None = None, shape: np.ndarray | None = None
     ) -> ContactState:
@@ -73,7 +75,6 @@ class RoughContact:
         ``shape`` [m] (nx,): what the surface is pressed under, up to a constant, if it is not the film itself;
         ``start``: a neighbour's state, on this grid or another. Raises `ConvergenceError` if it cannot be solved.
         """
-        raise NotImplementedError
 
     @property
     def capacity(self) -> float:

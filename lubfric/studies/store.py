@@ -18,6 +18,7 @@ from ..models.shared import Violation
 from ..scene import Scene
 from .arithmetic import arithmetic
 from .codec import classes_of, decode, encode
+from .store_contract import RecordStore
 from .vary import Axis
 
 POINTS = "points"
@@ -61,7 +62,7 @@ PLANNED = tuple[
 CHOSEN = tuple[tuple[float, ...], bool]  # the same of a curve: its speeds [m/s] so far, and whether these are all
 
 
-class Store:
+class Store(RecordStore):
     """Records by key in the folder ``root``; without one (None) nothing is kept and nothing found. ``classes``: those
     that a record may hold.
 

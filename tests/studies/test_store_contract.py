@@ -9,9 +9,10 @@ from small_study import SCENE
 import lubfric
 from lubfric.studies import Store, digest, fits
 from lubfric.studies.store import OUTCOME
+from lubfric.studies.store_contract import RecordStore
 
 
-class InMemory:
+class InMemory(RecordStore):
     """A store in this process, whose records are pickled so that nobody changes them."""
 
     def __init__(self, _):
