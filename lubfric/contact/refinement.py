@@ -151,29 +151,29 @@ def contact_residuals(pressure: np.ndarray, gap: np.ndarray, scale: float, hardn
 
 
 def evaluate(
-    problem: ContactProblem, operator: HalfSpace, pressure: np.ndarray, level: float | None = None
+    problem: ContactProblem, operator: HalfSpace, pressure: np.ndarray, approach: float | None = None
 ) -> TrialContact:
-    """Return the `TrialContact` of ``pressure`` by one application of ``operator``; ``level`` [m]: a prescribed
-    approach."""
+    """Return the `TrialContact` of ``pressure`` by one application of ``operator``; ``approach`` [m]: the
+    prescribed one."""
     count_work(EVALUATION * pressure.size)
-    return trial_contact(problem, pressure, operator.apply(pressure), level)
+    return trial_contact(problem, pressure, operator.apply(pressure), approach)
 
 
 def trial_contact(
-    problem: ContactProblem, pressure: np.ndarray, displacement: np.ndarray, level: float | None = None
+    problem: ContactProblem, pressure: np.ndarray, displacement: np.ndarray, approach: float | None = None
 ) -> TrialContact:
     """Return the `TrialContact` of ``pressure``, the ``displacement`` [m] of which is known."""
     gap = np.add(problem.gap0, displacement, out=np.empty_like(displacement), casting="same_kind")
-    if level is None:
+    if approach is None:
         loaded = np.flatnonzero(pressure > 0)
         elastic = loaded[pressure.ravel()[loaded] < problem.hardness]
         hard = pressure >= problem.hardness
-        level = gap.ravel()[elastic].mean(dtype=float) if elastic.size else zero_level(gap, hard)
-    gap -= level
+        approach = gap.ravel()[elastic].mean(dtype=float) if elastic.size else zero_level(gap, hard)
+    gap -= approach
     scale = length_scale(pressure, displacement, problem.gap0, problem.operator, problem.roughness)
     residuals = contact_residuals(pressure, gap, scale, problem.hardness)
     return TrialContact(
-        pressure=pressure, displacement=displacement, gap=gap, approach=level, scale=scale, residuals=residuals
+        pressure=pressure, displacement=displacement, gap=gap, approach=approach, scale=scale, residuals=residuals
     )
 
 
@@ -182,11 +182,11 @@ def refine(
     state: TrialContact,
     *,
     load: float | None = None,
-    level: float | None = None,
+    approach: float | None = None,
     pace: float = FIRST_PACE,
     spent: float = 0.0,
 ) -> SearchResult:
-    """Solve from ``state``, which carries a total ``load`` [Pa cells] or has an approach ``level`` [m], and took ``spent``
+    """Solve from ``state``, which carries a total ``load`` [Pa cells] or has an ``approach`` [m], and took ``spent``
     convolutions."""
     # A state in the precision of the operator has been looked at already: one that converged ends the solve.
     is_checked = state.displacement.dtype == problem.operator.symbol.dtype
@@ -211,7 +211,7 @@ def refine(
             del search
             pressure = _carrying(new_pressure, pressure, load, problem.hardness)
             del new_pressure
-        state = evaluate(problem, problem.operator, pressure, level)
+        state = evaluate(problem, problem.operator, pressure, approach)
         convolutions += 1
         best, wasted = (state.residual, 0) if state.residual < 0.5 * best else (best, wasted + 1)
         if state.residual <= problem.tolerance:

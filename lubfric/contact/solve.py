@@ -120,13 +120,13 @@ def _solved(
     if start is None:
         pressure, pace, spent = _coarse_start(problem, uniform, mean_pressure, approach)
         state = _evaluated(problem, pressure, approach)
-        return refine(problem, state, load=load, level=approach, pace=pace, spent=spent + 1.0)
+        return refine(problem, state, load=load, approach=approach, pace=pace, spent=spent + 1.0)
     factor = _scaling(problem, start, load)
     if start.displacement is not None and factor is not None:
         state = trial_contact(problem, factor * start.pressure, factor * start.displacement, approach)
-        return refine(problem, state, load=load, level=approach)
+        return refine(problem, state, load=load, approach=approach)
     pressure = start.pressure if load is None else _loaded(start.pressure, load, problem.hardness)
-    return refine(problem, _evaluated(problem, pressure, approach), load=load, level=approach, spent=1.0)
+    return refine(problem, _evaluated(problem, pressure, approach), load=load, approach=approach, spent=1.0)
 
 
 def _evaluated(problem: ContactProblem, pressure: FloatArray, approach: float | None) -> TrialContact:

@@ -187,7 +187,7 @@ def _alternated(contact: ImposedFilm, pressure: FloatArray, update: str) -> Sear
     def surplus(offset: float, _: Any = None) -> tuple[float, tuple[FloatArray, float]]:
         """Return (film - volume)/min(L, film), which rises with epsilon, and the pressure."""
         nonlocal state, spent
-        search = refine(tight, trial_contact(tight, state.pressure, state.displacement, offset), level=offset)
+        search = refine(tight, trial_contact(tight, state.pressure, state.displacement, offset), approach=offset)
         state = search.state
         spent += search.convolutions
         return contact.surplus(state), (state.pressure, offset)
