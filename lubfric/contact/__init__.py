@@ -1,6 +1,6 @@
 """The dry rough contact: the elastic half-space, its kernels and solver, and independent asperities."""
 
-from .asperities import AsperityContact, asperities_under_cylinder
+from .asperities_under_cylinder import AsperityContact, asperities_under_cylinder
 from .asperity import AsperityResult, asperity_contact, find_asperities, separation_for_load
 from .asperity_find import ridges
 from .cylinder import LoadedCylinder
