@@ -224,7 +224,10 @@ def name_and_unit(heading: str) -> tuple[str, str | None]:
         return text, None
     depth = 0
     for place in range(len(text) - 1, -1, -1):
-        depth += (text[place] == text[-1]) - (text[place] == opening)
+        if text[place] == text[-1]:
+            depth += 1
+        elif text[place] == opening:
+            depth -= 1
         if depth == 0:
             return text[:place].strip(), text[place + 1 : -1]
     return text, None

@@ -138,7 +138,8 @@ def _within(name: str, value: float, unit: str, above: float, minimum: float, ma
     except (TypeError, ValueError, RecursionError):
         raise InputError(f" = {shown(value)} is not a number", name, allowed) from None
     if not (math.isfinite(x) and x > above and minimum <= x <= maximum):
-        sign = ", as it has to be positive" if x <= 0 < max(minimum, least * (above >= 0)) else ""
+        smallest = max(minimum, least if above >= 0 else 0.0)
+        sign = ", as it has to be positive" if x <= 0 < smallest else ""
         raise InputError(f" = {x:g}{shown_unit} is out of range{sign}", name, allowed)
     if 0 < abs(x) < least:
         raise InputError(

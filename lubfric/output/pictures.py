@@ -234,7 +234,7 @@ def plot_history(
     c = columns
     t = c["time"] * time_scale(c["time"][-1])[0]
     has_power = "power_loss" in c and bool(np.any(c["power_loss"] > 0))
-    heights = [2.2, 2.2, 2.2, 2.6, *[2.2] * has_power]
+    heights = [2.2, 2.2, 2.2, 2.6, *([2.2] if has_power else [])]
     figure = figures.new_figure(figsize=options.size(heights))
     first, second, third, fourth, *others = figure.subplots(len(heights), 1, sharex=True)
     first.plot(t, c["entrainment_speed"], color="k")

@@ -182,7 +182,7 @@ def check_key(
         field in (getattr(scene, other) or Roughness).__dataclass_fields__ for other in FITTED
     ):
         _refuse_key(what, scene, key, sections)
-    validate.keys(f"{what}: [{section}]", [field] * bool(field), allowed)
+    validate.keys(f"{what}: [{section}]", [field] if field else [], allowed)
     if key in seen:
         raise InputError(f"{what}: {key!r} is given twice; give it once")
 

@@ -148,7 +148,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         violations=tuple(_violations(prepared, numbers, results, heat)),
         recommendation=_recommendation(prepared, levels.pairs[0]),
         narrows_numerical=_narrows_numerical(prepared, levels.pairs[0]),
-        fields=fields_of(levels.finest, sample.in_words(1) + MIRRORED * levels.pairs[0].is_mirrored),
+        fields=fields_of(levels.finest, sample.in_words(1) + (MIRRORED if levels.pairs[0].is_mirrored else "")),
         fine_fields=None if has_moving_roughness(scene) else partial(fine_fields_of, prepared, speed),
         details=levels.finest.result,
         at_inputs=lambda: _at_inputs(prepared, levels.finest, speed),

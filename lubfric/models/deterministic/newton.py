@@ -242,7 +242,9 @@ def march(problem: Problem, state: State, work: Work, *, tolerance: float, most:
             at = evaluated(problem, result.at.state)
             solved += 1
             if solved >= WAIT:
-                step *= GROW[work.factorisations - begun > EASY_STEPS]
+                (after_easy_steps, after_more_steps) = GROW
+                is_easy = work.factorisations - begun <= EASY_STEPS
+                step *= after_easy_steps if is_easy else after_more_steps
         else:
             step *= TIME_STEP_SHRINKAGE
             solved = 0

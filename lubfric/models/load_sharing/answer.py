@@ -133,7 +133,7 @@ def fields_on(
             shear = film_stress(scene, rough_contact, balance.film)
     slides = scene.motion.slide_roll_ratio != 0
     pressure = np.zeros(shape) if fields is None else fields.pressure
-    boundary = scene.bodies.boundary_friction_coefficient * slides * pressure
+    boundary = scene.bodies.boundary_friction_coefficient * pressure if slides else np.zeros_like(pressure)
     return ContactFields(
         solve=f"load sharing on {where}",
         x=rough_contact.x,
