@@ -161,10 +161,10 @@ class Solver(Protocol):
     """Solves the equations of a step, and states its error."""
 
     def solve(self, time: float, memory: Memory, z: np.ndarray, payload: Any, /) -> Step:
-        """Return the step that ends at ``time`` [s], from the unknowns ``z``."""
+        """Return the step that ends at ``time`` [s], from the unknowns ``z`` and the ``payload`` of the last step."""
 
     def error_of(self, step: Step, difference: np.ndarray, /) -> float:
-        """Return the error of a step from the ``difference`` of its film by the order of the method."""
+        """Return the relative error of a step from the ``difference`` of its films or masses by the order of the method."""
 
 
 def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:

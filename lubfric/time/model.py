@@ -2,13 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 
 from ..models.shared import Prepared, Violation
 from ..scene import Scene
-from .march import Memory, Progress, Step
+from .march import Progress, Solver, Step
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,8 +28,9 @@ class Output:
     film_thickness: np.ndarray
 
 
-class TimeModel(Protocol):
-    """A model of a run in time.
+class TimeModel(Solver, Protocol):
+    """A model of a run in time: a `Solver` of its steps that also records them. It is a protocol and no base class, because
+    what is a field of one model is a property of another.
 
     ``prepared`` has the strip of rough surface of the run, ``scene`` what changes in time, ``x`` the nodes of the film
     [m], ``cells`` its grid as text. ``tolerance`` is the largest residual of a solved step, ``time_error`` the largest
@@ -67,14 +68,6 @@ class TimeModel(Protocol):
 
     @property
     def model_form_unknown(self) -> str: ...
-
-    def solve(self, time: float, memory: Memory, z: np.ndarray, payload: Any) -> Step:
-        """Return the step that ends at ``time`` [s], from the unknowns ``z`` and what the last step handed on."""
-        ...
-
-    def error_of(self, step: Step, difference: np.ndarray) -> float:
-        """Return the relative size of a ``difference`` of films or masses."""
-        ...
 
     def record(self, progress: Progress) -> Output:
         """Return the numbers and fields after the last step of ``progress``."""
