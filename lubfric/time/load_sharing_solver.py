@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .._base import may_stay_unsolved
 from ..contact import ContactState, RoughContact
-from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError
+from ..errors import CONVERGED, ITERATION_LIMIT
 from ..models.load_sharing import film_under, gap_per_film, volume_residual
 from ..models.shared import Prepared
 from ..scene import Scene
@@ -127,10 +128,9 @@ class LoadSharingSolver:
         """Return the contact at ``load`` [N] under ``film`` [m]; None if it cannot be solved."""
         if film.min() <= 0.0 and load == 0.0:
             return None
-        try:
+        with may_stay_unsolved():
             return self.patch.close(film, load, start)
-        except ConvergenceError:
-            return None
+        return None
 
 
 def _softness(old: float, seen: tuple[float, float] | None, load: float, contact_state: ContactState) -> float:

@@ -1,5 +1,8 @@
 """``numerics.max_work`` in every kind of run: what was reached, a status that says so, or a refusal; by counted work."""
 
+from functools import partial
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -7,6 +10,7 @@ import lubfric
 from lubfric._base import limited_work
 from lubfric.errors import ConvergenceError, WorkLimitError
 from lubfric.scene import Harmonic, Transient
+from lubfric.time.load_sharing_solver import LoadSharingSolver
 
 PAPER = lubfric.load_scene("paper").with_(numerics={"model": "paper"})
 # A smooth load of half a period: cheap, with contact.
@@ -52,6 +56,20 @@ def test_a_run_in_time_ends_with_its_outputs_so_far_and_goes_on_from_a_checkpoin
     rest, taken = counted(lambda: lubfric.transient(more, checkpoint=folder))
     assert rest.report.converged and taken < begun + 0.7 * (work - begun)
     assert np.array_equal(rest.coefficient, full.coefficient, equal_nan=True)
+
+
+@pytest.mark.parametrize("error", [ConvergenceError("no contact"), WorkLimitError(1.0)])
+def test_a_contact_without_a_solution_makes_a_step_shorter_but_a_limit_ends_the_run(error):
+    class Patch:
+        def close(self, *_):
+            raise error
+
+    step = partial(LoadSharingSolver._contact_at, SimpleNamespace(patch=Patch()), np.ones(3), 1.0, None)
+    if isinstance(error, WorkLimitError):
+        with pytest.raises(WorkLimitError):
+            step()
+    else:
+        assert step() is None
 
 
 def test_a_run_in_time_that_cannot_begin_says_so():
