@@ -22,6 +22,7 @@ from lubfric.models.deterministic import (
     maps_of_bodies,
     moments,
     moving,
+    moving_strip,
     plot_moments,
     plot_passing,
     solve_moving_strip,
@@ -392,6 +393,30 @@ def waves(steps_a_cell: float, count: float = 0.5):
 
     moment = next(islice(moments(at, step, start=start, tolerance=1e-8), round(count * 16 * steps_a_cell), None))
     return moment.at.gap[:, 0] / height
+
+
+def test_the_start_of_a_step_changes_its_work_and_not_its_film():
+    """Whatever part of the last change of the pressure a step begins with."""
+    problem = laid(rough(3))
+    bodies = [RoughBody(rough(3), 0.3)]
+    films = [after(problem, bodies, 6, shift=1, extrapolated=part).at for part in (0.0, 0.5, 1.0)]
+    for film in films[:2]:
+        assert film.gap == pytest.approx(films[2].gap, rel=1e-3, abs=1e-10)
+
+
+@pytest.mark.parametrize("ratio, is_together", [(0.02, True), (-0.02, True), (0.09, True), (0.3, False)])
+def test_steps_continue_the_last_change_where_all_roughness_moves_alike(monkeypatch, ratio, is_together):
+    parts = []
+
+    def noted(*arguments, extrapolated, **options):
+        parts.append(extrapolated)
+        return moments(*arguments, extrapolated=extrapolated, **options)
+
+    monkeypatch.setattr(moving_strip, "moments", noted)
+    scene = scene_of(slide_roll_ratio=ratio)
+    bodies = [RoughBody(rough(1), 0.3 * (1 - ratio / 2)), RoughBody(rough(2), 0.3 * (1 + ratio / 2), upper=True)]
+    solve_moving_strip(scene, bodies, 0.3, most_steps=1)
+    assert parts == [moving.EXTRAPOLATED_TOGETHER if is_together else moving.EXTRAPOLATED]
 
 
 def test_steps_are_of_second_order():

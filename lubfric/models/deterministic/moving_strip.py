@@ -16,7 +16,18 @@ from ...scene import HARDNESS_KEY, Scene, value_of
 from ...surface import Surface
 from ...units import worded
 from .linear import GMRES_RESIDUAL
-from .moving import SAME_STEP, STEP_ORDERS, Moment, RoughBody, film_half_width, moments, travelling
+from .moving import (
+    EXTRAPOLATED,
+    EXTRAPOLATED_TOGETHER,
+    SAME_CELLS,
+    SAME_STEP,
+    STEP_ORDERS,
+    Moment,
+    RoughBody,
+    film_half_width,
+    moments,
+    travelling,
+)
 from .problem import HERTZ_INLET, HERTZ_OUTLET, Problem, reach
 from .result import DeterministicResult, LoadSplit, change_with_oil, share_moved_by_hardness
 from .state import State
@@ -508,6 +519,8 @@ def _passing(
     bodies = _as_seen(bodies, speed)
     cell = problem.spacing[0]
     heights_at = travelling(problem, bodies)
+    shift = cells_in_a_step(bodies, step, cell)
+    beyond = max(abs(body.speed * step / cell - shift) for body in bodies)
     return moments(
         lambda time: heights_at(begun + time),
         step,
@@ -515,7 +528,8 @@ def _passing(
         tolerance=effort.residual * problem.x.size,
         carries_imbalance=effort.carries_imbalance,
         linear_accuracy=effort.linear,
-        shift=cells_in_a_step(bodies, step, cell),
+        shift=shift,
+        extrapolated=EXTRAPOLATED_TOGETHER if beyond <= SAME_CELLS else EXTRAPOLATED,
     )
 
 
