@@ -48,6 +48,7 @@ from .describe import SceneEstimate, estimate_scene
 from .pictures import plot_surface
 from .progress import clear_active
 from .report import report_page
+from .run_files import OUTPUTS, RESOLVED_SCENE, RESULT
 
 if TYPE_CHECKING:
     pass
@@ -166,30 +167,10 @@ def keeping(what: Callable[[], str]) -> Iterator[None]:
         raise KeyboardInterrupt(said, *error.args[1:] or (INTERRUPTED,)) from None
 
 
-RESULT = "result.json"
-RESOLVED_SCENE = "resolved.toml"
 UNFINISHED = "unfinished"
 MOST_TOML = 2**20  # bytes: a larger file names no inputs
 # Options of commands that name files they read.
 INPUTS = ("scene", "surface", "counterface", "study", "measured", "points")
-OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
-    *(f"{table}.{kind}" for table in ("stribeck", "traction", "history") for kind in ("csv", "png", "pdf", "svg")),
-    *(
-        "contact.png",
-        "contact.pdf",
-        "contact.svg",
-        "contact_at_*.png",
-        "contact_at_*.pdf",
-        "contact_at_*.svg",
-        "contact_*.vtk",
-        "sharing.png",
-        "surface.png",
-        "animation.gif",
-        "law.json",
-        "law.c",
-    ),
-    *("fields.npz", "report.html", RESOLVED_SCENE, RESULT),
-)
 
 
 @contextmanager
@@ -207,7 +188,6 @@ def run_begun(
     The folder is touched last, and what an earlier run left in it stays until `RunFolder.complete`.
     """
     begun = time.perf_counter()
-    names = [*names, "fields.npz", "surface.png", "report.html", RESOLVED_SCENE, RESULT]
     check_outputs(arguments, arguments.out, names, OUTPUTS)
     unusual = violations_by_unusual_inputs(scene)
     refused(unusual, accept=scene.numerics.accept)  # before the map is made, which the wrong unit may make large

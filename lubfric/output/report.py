@@ -32,6 +32,7 @@ from ..time import TransientResult, in_motion, run_model_of, scene_at
 from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval, worded
 from .describe import TABLE_CAPTION, SceneEstimate, rolling_in_words
 from .inputs import FACTS, INPUT_SECTIONS, inputs, over_the_run
+from .run_files import captions
 
 # columns of the operating table, after the swept quantity, f and its interval
 OF_POINT = ("power_loss", "full_load_film", "lambda_ratio")
@@ -53,17 +54,6 @@ GAP_OF_TOUCHING = "the gap that the deterministic model assumes where asperities
 FLOOR_ROUNDING = 1e-6
 # Rows of the table of a run in time, about.
 HISTORY_ROWS = 13
-CURVES = {
-    "stribeck.png": "Friction, load ratios and film over the entrainment speed",
-    "traction.png": "Friction over the slide-roll ratio",
-    "history.png": "Speed, load, film, friction and power loss over time",
-}
-PICTURES = {
-    "contact.png": "The contact at one speed. Its title names the part of the surface and the cells, which may "
-    "not be those of f and of the warnings",
-    "sharing.png": "The same contact by the load-sharing model: pressure, and film and surfaces on a section",
-    "surface.png": "The rough surface",
-}
 # Labels of the parts of the uncertainty budget; that of an input that the scene does not give names it (`budget_labels`).
 BUDGET = {name: part.label for name, part in PARTS.items()}
 # The same where the error of the cells is a model-form one.
@@ -125,16 +115,23 @@ def report_page(
             "subject": escape(_subject(scene)),
             "date": escape(record["date"]),
             "version": escape(record["versions"]["lubfric"]),
-            "curve": "".join(picture(contents[name], text) for name, text in CURVES.items() if name in contents),
+            "curve": _pictures(contents, shows_answer=True),
             "warnings": _warnings(result.validity),
             "inputs": "".join(_inputs(scene, section, given.get(section, {})) for section in INPUT_SECTIONS),
-            "pictures": "".join(picture(contents[name], text) for name, text in PICTURES.items() if name in contents)
+            "pictures": _pictures(contents, shows_answer=False)
             or "<p>There is no contact or rough surface to show.</p>",
             "method": _method(prepared, result, estimate),
             "made": _made(record),
         }
     )
     return page.encode()
+
+
+def _pictures(contents: dict[str, bytes], *, shows_answer: bool) -> str:
+    """Return the pictures among ``contents`` that the page shows beside its answer, or at its end."""
+    return "".join(
+        picture(contents[name], text) for name, text in captions(contents, shows_answer=shows_answer).items()
+    )
 
 
 def style_sheet() -> str:

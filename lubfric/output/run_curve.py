@@ -43,6 +43,7 @@ from .fit_picture import FIT, plot_fit, read_fit
 from .picture_options import PANELS, PictureOptions
 from .pictures import plot_history, plot_stribeck, plot_traction
 from .progress import ProgressLine
+from .run_files import PICTURE_FORMATS, names_of_run
 
 if TYPE_CHECKING:
     from .._base.tables import Columns
@@ -51,7 +52,6 @@ if TYPE_CHECKING:
 AXIS_SCALES = ("linear", "log")  # of an axis
 INTERVAL_FORMS = ("band", "bars")  # of the intervals of a curve in its picture
 LEFT_OUT = ("warnings", "parts", "title")  # of a picture, where a user does not want them
-FORMATS = ("png", "pdf", "svg")  # of a picture that is drawn again
 NARROWEST = 0.05  # m: width of a picture
 LEAST_DPI = 50  # points of a picture per inch
 MOST_DPI = 1200  # points of a picture per inch
@@ -76,7 +76,7 @@ def run_sweep(scene: Scene, arguments: Namespace) -> None:
     speeds, chosen = _requested(scene, arguments.speeds, arguments.fields)
     total = "some" if speeds == studies.AUTO_SPEEDS else len(speeds)
     progress = _progress("U = {:.4g} m/s", scene, is_total_known=speeds != studies.AUTO_SPEEDS)
-    names = ["stribeck.csv", "stribeck.png", "contact.png", "sharing.png", "law.json", "law.c"]
+    names = names_of_run("stribeck")
     names += [f"contact_{i}.vtk" for i in range(len(chosen) if arguments.vtk else 0)]
 
     def on_point(*point: Any) -> None:
@@ -132,8 +132,7 @@ def run_traction(scene: Scene, arguments: Namespace) -> None:
     """Compute a traction curve, and write traction.csv, traction.png, surface.png, report.html, resolved.toml
     and, last, result.json to ``arguments.out``."""
     ratios = parse_ratios(arguments.ratios)
-    names = ["traction.csv", "traction.png"]
-    begun = run_begun(scene, arguments, names, None, ratios, "traction", ratios=ratios)
+    begun = run_begun(scene, arguments, names_of_run("traction"), None, ratios, "traction", ratios=ratios)
     progress = _progress("slide-roll ratio {:.4g}", scene, has_ratios=True)
     with ProgressLine("ratios") as shown, begun as (folder, prepared, estimate):
 
@@ -338,7 +337,7 @@ def _write_picture(arguments: Namespace, name: str, draw: Callable[..., Any]) ->
         if Path(name).name != name or name.startswith("."):
             recommendation = "give a name without a folder; the picture is written to the folder of the run"
             raise InputError(f" = {name!r} is not the name of a file", "--name", recommendation=recommendation)
-    file = f"{name}.{validate.choice('--format', arguments.format, FORMATS)}"
+    file = f"{name}.{validate.choice('--format', arguments.format, PICTURE_FORMATS)}"
     check_outputs(arguments, folder, [file])
     content = made(file, draw)
     with FolderLock(folder):

@@ -16,6 +16,7 @@ from .fields import npz_bytes
 from .pictures import animate, plot_history
 from .progress import ProgressLine
 from .report import history_answer
+from .run_files import names_of_run
 
 # Part of the expected steps of a run between two lines of its progress.
 PART_OF_LINE = 0.04
@@ -45,7 +46,7 @@ def run_history(scene: Scene, arguments: Namespace) -> None:
     said_at = begun_at
     due = commands.paced()
     failure: LubfricError | None = None
-    names = ["history.csv", "history.png", *["animation.gif"] * arguments.animation]
+    names = [*names_of_run("history"), *["animation.gif"] * arguments.animation]
 
     def on_step(now: float, duration: float, row: dict[str, float] | None) -> None:
         nonlocal reached, first, reported, begun_at, said_at

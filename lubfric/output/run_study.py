@@ -22,9 +22,10 @@ from ..estimate import FrictionResult
 from ..quantities import KEYS, axis_label, counted, worded_value
 from ..units import ZERO_CELSIUS, converted, number_and_unit, numbers_of, unit_for, with_interval, worded
 from .command_line import scene_of
-from .commands import RESOLVED_SCENE, answer, check_outputs, keeping, made, moment_reports, paced, run_folder, say
+from .commands import answer, check_outputs, keeping, made, moment_reports, paced, run_folder, say
 from .fit_picture import drawn_record, plot_fit
 from .progress import ProgressLine
+from .run_files import RESOLVED_SCENE
 from .study_report import answer_lines, planned_point_in_words, study_page
 
 if TYPE_CHECKING:

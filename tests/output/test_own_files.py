@@ -192,6 +192,16 @@ def test_commands_share_a_folder_and_take_only_their_own(tmp_path):
     assert main(command("study", tmp_path, "--out", str(out))) == 0  # over its own
 
 
+def test_a_run_removes_all_that_another_kind_of_run_wrote(tmp_path):
+    """Options and pictures drawn again included."""
+    out = tmp_path / "out"
+    for kind, options in (("run", ["--vtk"]), ("run", ["--ratios", "0.5,1"]), ("history", ["--animation"])):
+        assert main([*command(kind, tmp_path, "--out", str(out)), *options]) == 0
+        names = {path.name for path in out.iterdir() if not path.name.startswith(".")}
+        assert names == set(json.loads((out / "result.json").read_text())["files"])
+        assert main(["plot", str(out), "--format", "pdf"]) == 0
+
+
 @pytest.mark.parametrize("content", ["", "[]", "{}", '{"stribeck.csv": 3}', "[" * 9999, '{"../m.csv": ["0"]}'])
 def test_a_marker_that_is_none_is_refused_or_owns_nothing(tmp_path, capsys, content):
     out = tmp_path / "out"
