@@ -18,6 +18,14 @@ from .tables import (
     table_headings,
     text_of,
 )
-from .work import count_work, limited_work, may_stay_unsolved, unlimited_work, with_its_work, work_left
+from .work import (
+    count_work,
+    limited_work,
+    may_stay_unsolved,
+    unlimited_work,
+    with_its_work,
+    work_apart_from_limit,
+    work_left,
+)
 
 __version__ = "1.0.0"

@@ -4,7 +4,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from .._base import validate, with_default_errors
+from .._base import validate, with_default_errors, work_apart_from_limit
 from ..contact import RoughContact
 from ..errors import InputError
 from ..samples import Sample, check_map, combined_maps, sample_of
@@ -90,8 +90,11 @@ def _on_sample(scene: Scene, sample: Sample, *, has_given_map: bool, has_given_c
     surface = sample.stated_map()
     check_map(scene, surface)
     memo = Memo()
-    rough_contact = sample.contact(scene, sample.first_strips, partial(operator_on, memo, scene))
-    memo.put(JoinedKey(sample.cells.coarsening, sample.first_strips), rough_contact, cells_of_contact(rough_contact))
+    (rough_contact, contact_work) = work_apart_from_limit(
+        lambda: sample.contact(scene, sample.first_strips, partial(operator_on, memo, scene))
+    )
+    first_strips = JoinedKey(sample.cells.coarsening, sample.first_strips)
+    memo.put(first_strips, rough_contact, cells_of_contact(rough_contact), contact_work)
     by_form = (
         *violations_by_form(scene, sample.maps_before_extension, has_given_map=has_given_map),
         *violations_by_strips(*sample.sq_deviation(surface)),
@@ -100,6 +103,7 @@ def _on_sample(scene: Scene, sample: Sample, *, has_given_map: bool, has_given_c
         scene=scene,
         surface=surface,
         rough_contact=rough_contact,
+        contact_work=contact_work,
         sample=sample,
         violations=(*beforehand(scene, sample, surface), *by_form),
         has_given_map=has_given_map,

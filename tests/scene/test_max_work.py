@@ -164,6 +164,31 @@ def test_a_point_that_ran_out_of_work_leaves_nothing_to_the_next():
         assert after.numbers["mean_gap"] == fresh.numbers["mean_gap"] and after.numerical == fresh.numerical
 
 
+def test_the_contact_of_a_prepared_scene_is_counted_before_and_after_a_pickle():
+    """The curve of a flat contact is made once, by `lubfric.prepare`: a limit that it exceeds alone ends every point."""
+    scene = lubfric.load_scene("flat").with_(
+        contact={"shape": (64, 64), "spacing": 8e-6},
+        surface={"correlation_length": 24e-6},
+        numerics={"model": "paper", "tolerance": 0.2},
+    )
+    with limited_work(math.inf) as of_prepare:
+        prepared = lubfric.prepare(scene)
+    assert of_prepare.spent == 0.0
+    spent = []
+    for each in (prepared, pickle.loads(pickle.dumps(prepared)), prepared):
+        with limited_work(math.inf) as meter:
+            each.sample.contact(scene, 1, None)
+        curve = meter.spent
+        with limited_work(math.inf) as meter:
+            solved(each)
+        spent.append(meter.spent)
+    assert spent[0] == spent[1] == spent[2] > curve > 0
+    limited = lubfric.prepare(scene.with_(numerics={"max_work": 0.9 * curve}))
+    for each in (limited, pickle.loads(pickle.dumps(limited))):
+        with pytest.raises(WorkLimitError):
+            lubfric.friction(each, SPEED)
+
+
 def solved(prepared):
     sample = prepared.sample
     return PaperModel().solve(prepared, sample, sample.first_strips, SPEED).answer()

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from ..._base import FieldsOnly, Renamed, Shown, validate
+from ..._base import FieldsOnly, Renamed, Shown, count_work, validate
 from ...contact import BOUNDARY, HalfSpace, HalfSpaceContact, RoughContact, half_space
 from ...samples import PIECE_LENGTH, Sample, half_space_contact_of, is_measured
 from ...scene import Scene
@@ -29,6 +29,7 @@ class Prepared(FieldsOnly, Renamed, Shown):
     scene : the scene
     surface : the map whose statistics are stated (`Sample.stated_map`): the first strips, joined; a patch on native cells
     rough_contact : the contact on the first strips, on the cells of ``sample``; of a patch too
+    contact_work : counted work [s] of that contact, which each use counts: nothing of it is counted by `lubfric.prepare`
     violations : assumptions of the model that bodies and map violate, known before any solve
     sample : what represents the infinite rough line contact
     has_given_map, has_given_contact : whether a map, or a contact, was given to `lubfric.prepare`
@@ -38,6 +39,7 @@ class Prepared(FieldsOnly, Renamed, Shown):
     surface: Surface
     rough_contact: RoughContact
     sample: Sample
+    contact_work: float = 0.0
     violations: tuple[Violation, ...] = ()
     has_given_map: bool = False
     has_given_contact: bool = False
@@ -104,6 +106,9 @@ def contact_on_joined_strips(prepared: Prepared, sample: Sample, count: int) -> 
     """
 
     def make() -> RoughContact:
+        if not sample.is_resolved:
+            count_work(prepared.contact_work)
+            return prepared.rough_contact
         return contact_at_inputs(prepared, sample, count, prepared.scene)
 
     return remembered(prepared, sample, JoinedKey(sample.cells.coarsening, count), make, cells_of_contact)
