@@ -28,7 +28,17 @@ from ..samples import Sample, check_map, sample_of
 from ..scene import UNITS_OF_HISTORIES, Scene, has_moving_roughness, hint_unusual_values, why_gap_not_resolved
 from ..studies import WITHIN_WORDS, expected_speeds, in_words
 from ..surface import Surface, correlation_length, rms_slope
-from ..time import RunEstimate, check_run, estimated_run, periods, run_model_of, sampled_times, scene_at, speeds_of_run
+from ..time import (
+    RunEstimate,
+    check_run,
+    estimated_run,
+    may_move_roughness,
+    periods,
+    run_model_of,
+    sampled_times,
+    scene_at,
+    speeds_of_run,
+)
 from ..units import plain_number, worded
 from .inputs import FACTS, input_rows
 
@@ -183,7 +193,7 @@ def estimate_scene(
         _fastest_moment(scene),
         scene_map.sq,
         scene_speed,
-        includes_motion=any(model.includes_motion for model in models_that_may_answer(scene.numerics.model)),
+        includes_motion=may_move_roughness(scene),
     )
     changes = [
         f"likely changes of f at {scene_speed:.4g} m/s, estimated with closed forms. Each range covers the asperity load "
@@ -245,7 +255,7 @@ def _model(
     if scene.transient is not None:
         run = run_model_of(scene)
         rows = [run.described(scene)]
-        if has_moving_roughness(scene) and not run.moves_roughness:
+        if has_moving_roughness(scene) and not may_move_roughness(scene):
             rows.append("moving roughness is treated as stationary; numerics.model = 'deterministic' moves it")
         return rows, 0.0
     moving = sorted({abs(u) for u in speeds if u != 0})
@@ -278,7 +288,7 @@ def _model(
         longest = max(one.longest_strip_seconds for one in forecasts)
         if longest > strip:
             takes += f", and {in_words(longest)} if the error by its cells requires shorter ones"
-        if not any(model.includes_motion for model in models_that_may_answer(name)):
+        if not may_move_roughness(scene):
             takes = f"moving roughness is treated as stationary; {takes}"
         if name == AUTO:
             takes += f"; above {MOST_WORK_OF_POINT:g} s of counted work, the quick answer replaces it"

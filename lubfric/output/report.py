@@ -28,7 +28,7 @@ from ..models.shared import (
 from ..quantities import COLUMNS, KEYS, counted
 from ..scene import Scene, short_keys
 from ..studies import CurveResult, Law, StribeckResult, TractionResult
-from ..time import TransientResult, in_motion, run_model_of, scene_at
+from ..time import TransientResult, in_motion, may_move_roughness, run_model_of, scene_at
 from ..units import converted, interval_in_words, plain_number, printed, unit_of_largest, with_interval, worded
 from .describe import TABLE_CAPTION, SceneEstimate, rolling_in_words
 from .inputs import FACTS, INPUT_SECTIONS, inputs, over_the_run
@@ -516,7 +516,7 @@ def _history_effects(prepared: Prepared, result: TransientResult, estimate: Scen
         abs(float(result.entrainment_speed[index])),
         (abs(float(result.boundary_force[index] / load)), abs(float(result.coefficient[index]))),
         run=prepared.scene,
-        includes_motion=run_model_of(prepared.scene).moves_roughness,
+        includes_motion=may_move_roughness(prepared.scene),
     )
     return effects_table(effects, f"at t = {worded(time, 's')}, where f is nearest to its mean")
 

@@ -12,7 +12,6 @@ import numpy as np
 
 from .._base import __version__
 from ..estimate import PARTS
-from ..models import models_that_may_answer
 from ..models.shared import (
     MODEL_ERROR,
     NUMERICAL_ERROR,
@@ -40,6 +39,7 @@ from ..studies import (
     place_in_words,
     scenes_of,
 )
+from ..time import may_move_roughness
 from ..units import ZERO_CELSIUS, converted, plain_number, printed, unit_of_largest, with_interval, worded
 from .inputs import INPUT_SECTIONS, inputs
 from .report import effects_table, names_of_inputs, picture, shortfalls, style_sheet, table
@@ -315,9 +315,8 @@ def _effects_at_largest(result: StudyResult) -> str:
     at = {name: abs(float(columns[name][i])) for name in ("speed", "boundary_force", "central_film")}
     ratio = float(columns["film_to_roughness_ratio"][i])
     sq = at["central_film"] / ratio if np.isfinite(ratio) and ratio > 0 else 0.0
-    moves = any(model.includes_motion for model in models_that_may_answer(scene.numerics.model))
     known = at["boundary_force"] / scene.bodies.load, float(f[i])
-    effects = unmodelled_effects(scene, sq, at["speed"], known, includes_motion=moves)
+    effects = unmodelled_effects(scene, sq, at["speed"], known, includes_motion=may_move_roughness(scene))
     return f"<h3>Effects not modelled</h3>{effects_table(effects, f'at point {i + 1}, of the largest f')}"
 
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from ..errors import InputError
-from ..models import AUTO, models_that_may_answer
+from ..models import AUTO, Model, model_named, models_that_may_answer
 from ..models.load_sharing import why_moment_unknown
 from ..models.shared import Prepared
 from ..samples import Sample
@@ -22,20 +22,20 @@ class RunModel:
 
     Attributes
     ----------
+    model : the model that is solved
     start : makes a scene ready, and returns the `TimeModel` with its state at t = 0
     check : raises `InputError` for a scene that the run does not take, and solves nothing
     estimate_work : steps and processor time of a run, with its sample and the `Sample.stated_map`
     described : what computes the run of a scene, and which model-form error its interval has, as text
-    moves_roughness : whether the roughness moves through the film
     model_in_words : the name of the model, as text
     solves_rough_film : whether its film is that between rough surfaces, whose smallest may be a gap that is assumed
     """
 
+    model: Model
     start: Callable[[Scene | Prepared], Start]
     check: Callable[[Scene], None]
     estimate_work: Callable[[Scene, Sample, Surface], RunEstimate]
     described: Callable[[Scene], str]
-    moves_roughness: bool
     model_in_words: str
     solves_rough_film: bool
 
@@ -47,20 +47,20 @@ def _load_sharing_in_words(scene: Scene) -> str:
 
 
 LOAD_SHARING = RunModel(
+    model=model_named("paper"),
     start=start_load_sharing,
     check=check_load_sharing,
     estimate_work=estimated_load_sharing,
     described=_load_sharing_in_words,
-    moves_roughness=False,
     model_in_words="load-sharing model",
     solves_rough_film=False,
 )
 DETERMINISTIC_RUN = RunModel(
+    model=model_named("deterministic"),
     start=start_deterministic,
     check=check_deterministic,
     estimate_work=estimated_deterministic,
     described=lambda _: "deterministic model at all times (numerics.model); the interval has no model-form error",
-    moves_roughness=True,
     model_in_words="deterministic model",
     solves_rough_film=True,
 )
@@ -76,6 +76,19 @@ def run_model_of(scene: Scene) -> RunModel:
     raise InputError(
         f" = {name!r}: this model has no run in time", "numerics.model", ", ".join(map(repr, [AUTO, *RUNS]))
     )
+
+
+def models_that_may_be_solved(scene: Scene) -> tuple[Model, ...]:
+    """Return the models of which one answers for ``scene``, the cheapest first: at one point those that its
+    ``numerics.model`` allows, in a run in time the one that is solved."""
+    if scene.transient is not None:
+        return (run_model_of(scene).model,)
+    return models_that_may_answer(scene.numerics.model)
+
+
+def may_move_roughness(scene: Scene) -> bool:
+    """Return whether a model that may answer for ``scene`` includes that its roughness moves (`Model.includes_motion`)."""
+    return any(model.includes_motion for model in models_that_may_be_solved(scene))
 
 
 def check_run(scene: Scene) -> None:

@@ -9,7 +9,6 @@ import numpy as np
 from .._base import FloatArray, Renamed, Shown, figures
 from ..errors import Report
 from ..estimate import MethodUse, UncertaintyCurve, cited, methods_of
-from ..models import models_that_may_answer
 from ..models.load_sharing import OF_ROLLING
 from ..models.shared import Prepared, Violation, at_largest_ends, gathered, largest_at_load, percent, student
 from ..quantities import OF_MOMENT, axis_label
@@ -17,6 +16,7 @@ from ..scene import BOUNDARY_FRICTION_KEY, Scene, value_of
 from ..units import worded
 from .march import Plan, Progress, Residual, grid_residual, report_of
 from .model import Output, TimeModel
+from .registry import run_model_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -401,7 +401,7 @@ def collect(
 def _use(prepared: Prepared, columns: dict[str, np.ndarray]) -> MethodUse:
     """Return what the ``columns`` of a run show of the methods that it uses."""
     return MethodUse(
-        model=models_that_may_answer(prepared.scene.numerics.model)[0],
+        model=run_model_of(prepared.scene).model,
         has_contact=bool((columns["contact_load"] > 0).any()),
         has_film=bool((columns["film_load"] > 0).any()),
         slides=bool((columns["sliding_speed"] != 0).any()),

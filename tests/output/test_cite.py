@@ -41,6 +41,14 @@ def test_a_curve_cites_every_paper_once():
     assert "Bair" not in by_ratio.points[0].cite() and "Bair" in by_ratio.points[1].cite()
 
 
+def test_a_run_in_time_cites_the_model_that_was_solved():
+    """A run by "quick" is one by load sharing."""
+    plan = lubfric.Transient(1e-5, outputs=1)
+    by_model = [lubfric.transient(PATCH.with_(transient=plan, numerics={"model": name})) for name in ("paper", "quick")]
+    assert by_model[0].coefficient.tobytes() == by_model[1].coefficient.tobytes()
+    assert by_model[0].cite() == by_model[1].cite()
+
+
 PATCH = paper_scene(contact={"shape": (64, 48), "spacing": 1.4e-6}, numerics={"sampling": "patch", "tolerance": 0.05})
 OIL = {"nu40": 68e-6, "nu100": 8.6e-6, "temperature": 333.15}
 LAWS = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.05}

@@ -244,6 +244,18 @@ def test_info_of_a_run_in_time_is_one_story():
     assert "no entrainment" in squeeze and "all load" not in squeeze and "film of 2 µm" in squeeze
 
 
+@pytest.mark.parametrize(
+    ("model", "moves"), [("auto", False), ("paper", False), ("quick", False), ("deterministic", True)]
+)
+def test_info_of_a_run_in_time_states_that_the_roughness_does_not_move(model, moves):
+    """Only the deterministic model moves it in time, though a steady point by "quick" includes its motion."""
+    steady = lubfric.load_scene("paper").with_(motion={"slide_roll_ratio": 0.1}, numerics={"model": model})
+    run = steady.with_(transient=lubfric.Transient(1e-3, outputs=1))
+    effect = "motion of the roughness through the contact"
+    assert (effect in describe_scene(run)) is not moves
+    assert (effect in describe_scene(steady)) is (model == "paper")
+
+
 def test_info_takes_the_speeds_of_a_run(capsys, tmp_path):
     for speeds, rows in (("1 mm/s:1 m/s:4", 4), ("auto", 6)):
         assert main(["info", "paper", "--speeds", speeds]) == 0
