@@ -7,7 +7,7 @@ from dataclasses import replace
 from .._base.jobs import map_parts
 from ..errors import ConvergenceError
 from ..models import ModelAnswer
-from ..models.shared import Prepared
+from ..models.shared import UNKNOWN_SIDES, Prepared, Sides, added_changes
 from ..scene import BOUNDARY_FRICTION_KEY, HARDNESS_KEY, Scene, value_of
 from .uncertainty import Uncertainty, with_part
 
@@ -86,12 +86,12 @@ def with_inputs_not_given(old: Uncertainty, relative_changes: dict[str, tuple[fl
     if not any(any(ends) for ends in relative_changes.values()):
         return old
     f = old.coefficient
-    towards, away = (math.hypot(*(side(0.0, *ends) for ends in relative_changes.values())) for side in (min, max))
-    (below, above) = (towards, away) if f >= 0 else (away, towards)
+    sides = Sides(*added_changes(relative_changes.values()))
+    below, above = sides.below_and_above(f)
     return replace(
         with_part(old, abs(f) * below, abs(f) * above),
-        not_given=max(towards, away),
-        not_given_sides=(towards, away),
+        not_given=max(sides),
+        not_given_sides=sides,
         missing_input=max(relative_changes, key=lambda name: max(map(abs, relative_changes[name]))),
     )
 
@@ -121,7 +121,7 @@ def with_input_ranges(old: Uncertainty, changes_of_f: dict[str, tuple[float, ...
     """
     f = old.coefficient
     moved = {name: ends for name, ends in changes_of_f.items() if not isinstance(ends, str)}
-    below, above = (math.hypot(*(side(0.0, *ends) for ends in moved.values())) for side in (min, max))
+    below, above = added_changes(moved.values())
     notes = []
     for name, ends in changes_of_f.items():
         begin = f"range of {name.partition('.')[2]}: "
@@ -131,11 +131,13 @@ def with_input_ranges(old: Uncertainty, changes_of_f: dict[str, tuple[float, ...
             notes.append(f"{begin}not in the interval, as {ends}")
     relative = max(below, above) / abs(f) if f else math.inf if max(below, above) else 0.0
     is_complete = len(moved) == len(changes_of_f)
-    towards, away = (below, above) if f >= 0 else (above, below)
+    sides = UNKNOWN_SIDES
+    if f and is_complete:
+        sides = Sides.of_ends(below / abs(f), above / abs(f), f)
     return replace(
         with_part(old, below, above),
         inputs=relative if is_complete else math.nan,
-        input_sides=(towards / abs(f), away / abs(f)) if f and is_complete else (math.nan, math.nan),
+        input_sides=sides,
         notes=(*old.notes, *notes),
         largest_input=max(moved, key=lambda name: max(map(abs, moved[name])), default=""),
     )

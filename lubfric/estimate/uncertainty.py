@@ -13,7 +13,9 @@ from .._base import Renamed
 from ..models.shared import (
     REDUCED_BY_DETERMINISTIC,
     REDUCED_BY_TOLERANCE,
+    UNKNOWN_SIDES,
     ModelErrorPart,
+    Sides,
     StandardError,
     half_width_of_error,
     has_too_few_contacts,
@@ -136,9 +138,9 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
     freedom: float = 0.0
     tolerance: float = math.nan
     notes: tuple[str, ...] = ()
-    model_sides: tuple[float, float] = (math.nan, math.nan)
-    not_given_sides: tuple[float, float] = (math.nan, math.nan)
-    input_sides: tuple[float, float] = (math.nan, math.nan)
+    model_sides: tuple[float, float] = UNKNOWN_SIDES
+    not_given_sides: tuple[float, float] = UNKNOWN_SIDES
+    input_sides: tuple[float, float] = UNKNOWN_SIDES
     largest_in_model: ModelErrorPart | None = None
     narrows_numerical: str = REDUCED_BY_TOLERANCE
     narrows_sampling: str = "a smaller numerics.sampling_tolerance reduces it"
@@ -163,13 +165,12 @@ class Uncertainty(Renamed, UncertaintyQuantities[float]):
         sides: dict[str, tuple[float, float]] = {
             name: getattr(self, part.sides) for name, part in PARTS.items() if part.sides
         }
-        unknown = (math.nan, math.nan)
         if self.is_near_zero:
             return {
-                name: sides_in_f(*sides.get(name, unknown), value, self.coefficient)
+                name: sides_in_f(sides.get(name, UNKNOWN_SIDES), value, self.coefficient)
                 for name, value in self.budget.items()
             }
-        words = {name: percent_of_sides(*sides.get(name, unknown), value) for name, value in self.budget.items()}
+        words = {name: percent_of_sides(sides.get(name, UNKNOWN_SIDES), value) for name, value in self.budget.items()}
         if self.model < LEAST_STATED_MODEL_ERROR:
             words["model-form"] = f"< {100 * LEAST_STATED_MODEL_ERROR:g} %"
         return words
@@ -264,7 +265,7 @@ def curve_of(points: Sequence[Any]) -> UncertaintyCurve:
     """Return the `UncertaintyCurve` of ``points``, each an `Uncertainty` or None."""
     columns = {name: np.array([math.nan if p is None else getattr(p, name) for p in points]) for name in OF_UNCERTAINTY}
     both = np.array([(math.nan, math.nan) if p is None else p.interval for p in points]).reshape(len(points), 2)
-    sides = np.array([(math.nan, math.nan) if p is None else p.model_sides for p in points]).reshape(len(points), 2)
+    sides = np.array([UNKNOWN_SIDES if p is None else p.model_sides for p in points]).reshape(len(points), 2)
     return UncertaintyCurve(
         **columns, interval=both, model_sides=sides, text=tuple("" if p is None else p.text for p in points)
     )
@@ -320,5 +321,5 @@ def interval(
     towards, away = (
         abs(value) * math.hypot(numerical, of_sample, 0.0 if math.isnan(side) else side) for side in model_error
     )
-    below, above = (towards, away) if value >= 0 else (away, towards)
+    below, above = Sides(towards, away).below_and_above(value)
     return value - below, value + above

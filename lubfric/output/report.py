@@ -613,7 +613,7 @@ def _history_budget(result: TransientResult) -> str:
     if not sides:
         return ""
     values = {name: max(below, above) for name, (below, above) in sides.items()}
-    words = {name: percent_of_sides(*both, values[name]) for name, both in sides.items()}
+    words = {name: percent_of_sides(both, values[name]) for name, both in sides.items()}
     notes = [
         "The numerical part is the error of the integral of the film's shear stress. The error of a step in time, at most "
         "transient.tolerance, is not included",

@@ -10,7 +10,16 @@ from .._base import FloatArray, Renamed, Shown, figures
 from ..errors import Report
 from ..estimate import MethodUse, UncertaintyCurve, cited, methods_of
 from ..models.load_sharing import OF_ROLLING
-from ..models.shared import Prepared, Violation, at_largest_ends, gathered, largest_at_load, percent, student
+from ..models.shared import (
+    Prepared,
+    Violation,
+    at_largest_ends,
+    below_and_above,
+    gathered,
+    largest_at_load,
+    percent,
+    student,
+)
 from ..quantities import OF_MOMENT, axis_label
 from ..scene import BOUNDARY_FRICTION_KEY, Scene, value_of
 from ..units import worded
@@ -292,7 +301,7 @@ def errors_in_time(
     return {
         "numerical": (numerical, numerical),
         "sampling": (sampling, sampling),
-        "model-form": (np.where(f >= 0, towards, away), np.where(f >= 0, away, towards)),
+        "model-form": below_and_above(f, towards, away),
         "input": (inputs_below, inputs_above),
     }
 

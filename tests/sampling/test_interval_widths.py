@@ -11,7 +11,16 @@ from scene_text import paper_scene
 import lubfric
 from lubfric.estimate import PARTS, Uncertainty, beside_larger_part, interval
 from lubfric.models.load_sharing import load_sharing_error, moment_model_error, summit_radius, undetected_load
-from lubfric.models.shared import Assumption, ModelErrorPart, StandardError, Violation, add_errors
+from lubfric.models.shared import (
+    Assumption,
+    ModelErrorPart,
+    Sides,
+    StandardError,
+    Violation,
+    add_errors,
+    added_changes,
+    below_and_above,
+)
 from lubfric.output import report
 from lubfric.quantities import OF_UNCERTAINTY
 from lubfric.time import PARTS_NOT_IN_TIME, errors_in_time
@@ -237,3 +246,12 @@ def test_the_largest_part_of_any_kind_is_named_with_what_reduces_it():
 def test_a_run_in_time_has_the_same_parts_of_the_budget():
     columns = {"coefficient": np.full(2, 0.05), "sampling_error": np.full(2, 0.1)}
     assert set(errors_in_time(columns, np.zeros(2), np.zeros(2))) == set(PARTS) - set(PARTS_NOT_IN_TIME)
+
+
+def test_towards_zero_is_above_a_negative_friction():
+    """By hand, for one point and for many."""
+    below, above = below_and_above(np.array([0.05, -0.05]), np.array([0.2, 0.2]), np.array([0.7, 0.7]))
+    assert below.tolist() == [0.2, 0.7] and above.tolist() == [0.7, 0.2]
+    assert Sides.of_ends(0.7, 0.2, -0.05) == (0.2, 0.7) == Sides.of_ends(0.2, 0.7, 0.05)
+    assert Sides(3.0, 5.0).capped() == (1.0, 5.0)
+    assert added_changes([(-3.0, 1.0), (4.0, -4.0), (2.0, 2.0)]) == pytest.approx((5.0, math.sqrt(21.0)))

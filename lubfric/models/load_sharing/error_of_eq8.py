@@ -2,6 +2,8 @@
 
 import math
 
+from ..shared import Sides
+
 # Error of the load on asperities over sqrt(s (1 - s)) of the total load, s = F_C/F_T. The constants of this module
 # cover 95 % and more of the differences from deterministic answers: `python -m verification model --only answers`,
 # docs/measurements.md.
@@ -22,7 +24,7 @@ MOST_OF_FILM = 0.3
 OF_ROLLING = 8.0
 
 # Error of f towards 0 and away from it, over the filled part of the gap, where a given film arrives (`starved_error`).
-STARVED_ERROR = (0.5, 0.1)
+STARVED_ERROR = Sides(0.5, 0.1)
 
 # Least error of f over the film-to-roughness ratio, up to 1, where there is a film between rough surfaces.
 LEAST_WITH_FILM = 0.1
@@ -34,7 +36,7 @@ FLANKS = 1.5
 
 def load_sharing_error(
     film_to_roughness_ratio: float, *, share: float, boundary: float, shear: float, rolling: float = 0.0
-) -> tuple[float, float]:
+) -> Sides:
     """Return the relative error of f by Eq. (8), at 95 % (docs/uncertainty.md), towards 0 and away from it.
 
     ``film_to_roughness_ratio``: r, the central film over Sq; ``share``: s = F_C/F_T; ``boundary``, ``shear``: the two
@@ -47,20 +49,20 @@ def load_sharing_error(
     """
     f = abs(boundary + shear)
     if film_to_roughness_ratio == math.inf or f == 0:
-        return 0.0, 0.0
+        return Sides(0.0, 0.0)
     of_flanks = OF_ROLLING * min(1.0, (FLANKS / film_to_roughness_ratio) ** 2) * abs(rolling)
     of_film = (min(MOST_OF_FILM, OF_FILM / film_to_roughness_ratio**2) * abs(shear) + of_flanks) / f
     if not 0 < share < 1:
-        return of_film, of_film
+        return Sides(of_film, of_film)
     exchanged = (boundary / share - shear / (1 - share)) / f
     rooms = (share, 1 - share)
     of_share = OF_SHARE * math.sqrt(share * (1 - share))
     towards, away = (of_film + min(of_share, room) * abs(exchanged) for room in rooms[:: 1 if exchanged > 0 else -1])
     of_all = IN_CONTACT * math.sqrt(1 - share)
-    return towards + max(1 - towards, 0.0) * of_all, away + of_all
+    return Sides(towards + max(1 - towards, 0.0) * of_all, away + of_all)
 
 
-def starved_error(inlet_film: float, gap: float) -> tuple[float, float]:
+def starved_error(inlet_film: float, gap: float) -> Sides:
     """Return the relative error of f by Eq. (8), at 95 %, towards 0 and away from it, where a given film arrives.
 
     Eq. (8) takes a film that does not fill the gap for none, and f = f_b. The deterministic model finds lubricant
@@ -68,7 +70,7 @@ def starved_error(inlet_film: float, gap: float) -> tuple[float, float]:
     `paper` with 80 and 160 nm). ``inlet_film`` [m]: that arrives; ``gap`` [m]: mean gap of the rough surfaces.
     """
     filled = min(inlet_film / gap, 1.0) if gap > 0 else 1.0
-    return STARVED_ERROR[0] * filled, STARVED_ERROR[1] * filled
+    return Sides(STARVED_ERROR.towards * filled, STARVED_ERROR.away * filled)
 
 
 def least_error(film_to_roughness_ratio: float) -> float:

@@ -10,8 +10,11 @@ from ..shared import (
     FEW_CONTACTS,
     FREEDOM_NOT_COUNTED,
     REDUCED_BY_DETERMINISTIC,
+    UNKNOWN_SIDES,
     ModelErrorPart,
+    Sides,
     StandardError,
+    added_sides,
     error_by_heat,
     has_too_few_contacts,
     percent,
@@ -32,8 +35,7 @@ PLASTIC = 3.0
 NO_CELLS = "not known: this contact has no places along y to compare"
 
 # Errors of f towards 0 and away from it where the model has none.
-NO_ERROR = (0.0, 0.0)
-UNKNOWN = (math.nan, math.nan)
+NO_ERROR = Sides(0.0, 0.0)
 BY_EQUATION = "the friction of Eq. (9)"
 GAP_NOT_FILLED = "the film that arrives does not fill the gap: Eq. (8) neglects it, and f may be lower"
 NOT_STUDIED = "the model-form error is not known for this contact"
@@ -249,7 +251,7 @@ def _shear_errors(forces: Forces, film_error: float) -> dict[str, float]:
     return {n: (error + shear.quadrature) / abs(value) if value else 0.0 for n, (value, error) in parts.items()}
 
 
-def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], tuple[str, ...]]:
+def model_error_of_eq8(balanced: BalancedSample) -> tuple[Sides, tuple[str, ...]]:
     """Return the relative error of f by load sharing itself, at 95 %, towards 0 and away from it; where it is not known
     NaN, and why."""
     balance = balanced.corrected_balance
@@ -260,9 +262,9 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
             return NO_ERROR, ()
         return starved_error(arriving, balance.contact_state.mean_gap), (GAP_NOT_FILLED,)
     if balanced.on_cells is None:
-        return UNKNOWN, (NOT_STUDIED,)
+        return UNKNOWN_SIDES, (NOT_STUDIED,)
     if why := why_gap_not_resolved(scene):
-        return UNKNOWN, (MODEL_ERROR_UNKNOWN.format(why),)
+        return UNKNOWN_SIDES, (MODEL_ERROR_UNKNOWN.format(why),)
 
     sq = float(balanced.on_cells.heights.std())
     film = balance.film.central_film
@@ -270,7 +272,7 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
     forces = balance.forces
     load = scene.bodies.load
     ratio = film / sq if sq else math.inf
-    (towards, away) = _error_of_shared_load(
+    sides = _error_of_shared_load(
         scene,
         ratio,
         share=share,
@@ -280,10 +282,8 @@ def model_error_of_eq8(balanced: BalancedSample) -> tuple[tuple[float, float], t
         rolling=forces.shear.rolling / load,
     )
     if scene.lubricant.inlet_film is not None and share > 0:
-        starved = starved_error(scene.lubricant.inlet_film, balance.contact_state.mean_gap)
-        towards = math.hypot(towards, starved[0])
-        away = math.hypot(away, starved[1])
-    return (min(towards, 1.0), away), ()
+        sides = added_sides([sides, starved_error(scene.lubricant.inlet_film, balance.contact_state.mean_gap)])
+    return sides.capped(), ()
 
 
 def moment_model_error(
@@ -296,15 +296,15 @@ def moment_model_error(
     shear: float,
     rolling: float,
     by_heat: float,
-) -> tuple[float, float]:
+) -> Sides:
     """Return the relative model-form error of f at a moment of a run in time, at 95 %, towards 0 and away from it.
 
     It is that of steady motion with the same film, asperity load ratio ``share``, ``film_load`` [N], parts of f, and error
     ``by_heat`` (`lubfric.models.shared.error_by_heat`). NaN where it is not known (`why_moment_unknown`).
     """
     if why_moment_unknown(scene):
-        return UNKNOWN
-    (towards, away) = _error_of_shared_load(
+        return UNKNOWN_SIDES
+    sides = _error_of_shared_load(
         scene,
         film_to_roughness_ratio,
         share=share,
@@ -313,29 +313,29 @@ def moment_model_error(
         shear=shear,
         rolling=rolling,
     )
-    return sides_of_parts(_parts_of_model((min(towards, 1.0), away), by_heat))
+    return sides_of_parts(_parts_of_model(sides.capped(), by_heat))
 
 
-def _parts_of_model(by_equation: tuple[float, float], by_heat: float) -> tuple[ModelErrorPart, ...]:
+def _parts_of_model(by_equation: Sides, by_heat: float) -> tuple[ModelErrorPart, ...]:
     """Return the parts of the model-form error of f: ``by_equation`` on both sides, and ``by_heat`` on each."""
     return (
         ModelErrorPart(sides=by_equation, cause=BY_EQUATION, recommendation=REDUCED_BY_DETERMINISTIC),
-        ModelErrorPart(sides=(by_heat, by_heat), cause=BY_HEAT),
+        ModelErrorPart(sides=Sides(by_heat, by_heat), cause=BY_HEAT),
     )
 
 
 def _error_of_shared_load(
     scene: Scene, ratio: float, *, share: float, is_shared: bool, boundary: float, shear: float, rolling: float
-) -> tuple[float, float]:
+) -> Sides:
     """Return `load_sharing_error` at a film-to-roughness ``ratio``, with the ``rolling`` part of f if roughness moves, and at
     least `least_error` where rough surfaces touch beside a film that carries load (``is_shared``).
 
     A film may carry so little that the ``share`` of the asperities rounds to 1: it is there nevertheless.
     """
     moving = rolling if has_moving_roughness(scene) else 0.0
-    (towards, away) = load_sharing_error(ratio, share=share, boundary=boundary, shear=shear, rolling=moving)
+    sides = load_sharing_error(ratio, share=share, boundary=boundary, shear=shear, rolling=moving)
     least = least_error(ratio) if is_shared and math.isfinite(ratio) else 0.0
-    return max(towards, least), max(away, least)
+    return sides.at_least(least)
 
 
 def why_moment_unknown(scene: Scene) -> str:

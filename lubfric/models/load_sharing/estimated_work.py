@@ -251,7 +251,7 @@ def expected_model_error(scene: Scene, thickness: float, sq: float, speed: float
         if has_moving_roughness(scene)
         else 0.0
     )
-    return load_sharing_error(thickness / sq, share=0.0, boundary=0.0, shear=1.0, rolling=rolling)[1]
+    return load_sharing_error(thickness / sq, share=0.0, boundary=0.0, shear=1.0, rolling=rolling).away
 
 
 def rolling_share(line: LineContact, pressure: float) -> float:

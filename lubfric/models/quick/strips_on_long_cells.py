@@ -27,6 +27,7 @@ from ..shared import (
     REDUCED_BY_DETERMINISTIC,
     ModelErrorPart,
     Prepared,
+    Sides,
     is_smooth_over_cells,
     largest_of,
     sides_of_parts,
@@ -133,7 +134,7 @@ class StripsOnLongCells:
         }
         return with_forces_of_film(changed, load)
 
-    def bounds(self, scene: Scene) -> tuple[float, float]:
+    def bounds(self, scene: Scene) -> Sides:
         """Return the 95 % bounds of f by the cells, relative, towards 0 and away from it. In pure rolling all of f is
         the rolling part."""
         numbers = self.numbers(scene)
@@ -141,10 +142,10 @@ class StripsOnLongCells:
         rolling = f if scene.motion.slide_roll_ratio == 0 else numbers["rolling_force"] / scene.bodies.load
         sliding = abs(f - rolling)
         if f == 0:
-            return math.inf, math.inf
+            return Sides(math.inf, math.inf)
         of_rolling = self.widening * self.error_model.rolling_error(rolling, sliding)
         towards, away = (sliding * abs(math.expm1(side * self.log_half_width)) for side in (-1, 1))
-        return math.hypot(towards, of_rolling) / abs(f), math.hypot(away, of_rolling) / abs(f)
+        return Sides(math.hypot(towards, of_rolling) / abs(f), math.hypot(away, of_rolling) / abs(f))
 
 
 def solve_on_long_cells(prepared: Prepared, speed: float) -> StripsOnLongCells:
@@ -240,10 +241,9 @@ def quick_answer_of(prepared: Prepared, speed: float, on_long_cells: StripsOnLon
     )
     parts = (by_cells, *answer.parts_of_model)
     basis = f"deterministic model on long cells, calibrated on {on_long_cells.error_model.cases} solved cases"
-    (towards, away) = sides_of_parts(parts)
     return replace(
         answer,
-        model_error=(min(towards, 1.0), away),
+        model_error=sides_of_parts(parts).capped(),
         notes=(*answer.notes, CELLS_IN_MODEL_ERROR),
         parts_of_model=parts,
         violations=(

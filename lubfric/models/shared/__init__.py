@@ -68,6 +68,7 @@ from .prepared import (
     why_no_rough_film,
 )
 from .rolling import rolling_model_error, smooth_rolling_resistance
+from .sides import UNKNOWN_SIDES, Sides, added_changes, added_sides, below_and_above
 from .statistics import (
     FEW_CONTACTS,
     FREEDOM_NOT_COUNTED,

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from .sides import Sides, added_sides
 from .violation import Assumption, Violation
 from .wording import is_near_zero, percent
 
@@ -51,12 +52,9 @@ def error_of_parts(parts: Sequence[ModelErrorPart]) -> float:
     return math.hypot(*(part.error for part in parts))
 
 
-def sides_of_parts(parts: Sequence[ModelErrorPart]) -> tuple[float, float]:
-    """Return the relative model-form error of f towards 0 and away from it, of which these are all ``parts``: the root of
-    the sum of their squares on each side."""
-    towards = math.hypot(*(part.sides[0] for part in parts))
-    away = math.hypot(*(part.sides[1] for part in parts))
-    return towards, away
+def sides_of_parts(parts: Sequence[ModelErrorPart]) -> Sides:
+    """Return the relative model-form error of f of which these are all ``parts``."""
+    return added_sides([part.sides for part in parts])
 
 
 def violations_by_model_error(

@@ -3,6 +3,8 @@
 import math
 from collections.abc import Callable
 
+from .sides import Sides
+
 # Digits of a number compared with another, at most. A convention.
 MOST_DIGITS = 6
 
@@ -43,9 +45,10 @@ def distinct_texts(value: float, other: float, text_of: Callable[[float, int], s
     return text_of(value, least), text_of(other, least)
 
 
-def percent_of_sides(towards: float, away: float, largest: float) -> str:
-    """Return a relative error with different sides as "-29 to +42 %", with equal ones as "42 %"; ``largest``: of both
-    sides, which is alone known where ``towards`` (0) and ``away`` (from it) are NaN."""
+def percent_of_sides(sides: tuple[float, float], largest: float) -> str:
+    """Return a relative error with different ``sides`` as "-29 to +42 %", with equal ones as "42 %"; ``largest``: of both
+    sides, which is alone known where these are NaN."""
+    towards, away = sides
     if not (math.isfinite(towards) and math.isfinite(away)) or percent(towards) == percent(away):
         return percent(largest)
     low, high = (
@@ -59,14 +62,15 @@ def is_near_zero(f: float, error: float) -> bool:
     return abs(f) < NEAR_ZERO and error > MOST_RELATIVE
 
 
-def sides_in_f(towards: float, away: float, largest: float, f: float) -> str:
+def sides_in_f(sides: tuple[float, float], largest: float, f: float) -> str:
     """Return the same as `percent_of_sides` in f itself, as "-0.0004 to +0.0025", or "0.0004" where both sides are
     equal."""
     if not math.isfinite(largest):
         return "not known"
     size = abs(f)
+    towards, away = sides
     if not (math.isfinite(towards) and math.isfinite(away)) or f"{towards:.2g}" == f"{away:.2g}":
         return f"{largest * size:.2g}"
-    (below, above) = (towards, away) if f >= 0 else (away, towards)
+    below, above = Sides(towards, away).below_and_above(f)
     low, high = (f"{sign}{side * size:.2g}" if side > 0 else "0" for sign, side in (("-", below), ("+", above)))
     return f"{low} to {high}"
