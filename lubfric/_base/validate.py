@@ -16,22 +16,12 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..errors import InputError
-from ..quantities import CHOICES, KEYS
+from ..quantities import CHOICES, KEYS, OTHER_WORDS
 from ..units import SANE, UNITS, spelled, without_unit
 
 T = TypeVar("T")
-OTHER_VALUES = {  # other words for values of keys that are words, in small letters
-    "fast": "quick",
-    "calibrated": "quick",
-    "load-sharing": "paper",
-    "load sharing": "paper",
-    "full": "deterministic",
-    "exact": "deterministic",
-    "barrel": "cylinder",
-    "parabola": "quadratic",
-    "tilt": "plane",
-    "remove": "mask",
-}
+# Other words for the options of readers of height maps, in small letters, and what is meant by them.
+OTHER_OPTIONS = {"parabola": "quadratic", "tilt": "plane", "remove": "mask"}
 LONG_NUMBER = 31  # bits of a number that is shown as a power of two
 LONGEST_SHOWN = 80  # characters of a value in a message
 DEEPEST = 3  # nested lists that are looked into
@@ -303,7 +293,7 @@ def choice(name: str, value: Any, options: Iterable[Any]) -> Any:
     options = tuple(options)
     if isinstance(value, (str, int, np.integer)) and not isinstance(value, bool) and value in options:
         return options[options.index(value)]
-    meant = OTHER_VALUES.get(value.lower()) if isinstance(value, str) else None
+    meant = (OTHER_WORDS | OTHER_OPTIONS).get(value.lower()) if isinstance(value, str) else None
     near = f" (did you mean {meant!r}?)" if meant in options else nearest(value, options)
     raise InputError(f" = {shown(value)} is not known{near}", name, ", ".join(map(repr, options)))
 

@@ -9,7 +9,7 @@ from . import budget
 
 MOST_THREADS = 1024
 
-# The value of ``model`` that meant the model "quick" up to version 1.0, and is still accepted for it.
+# A value of ``model`` in version 0.2.0, which is still accepted, for the model "quick".
 FORMER_NAME_OF_QUICK = "load-sharing"
 
 

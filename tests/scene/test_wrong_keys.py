@@ -163,6 +163,9 @@ def test_a_key_of_another_section_is_named_with_that_section(section, key, place
     "section, key, value, words",
     [
         ("numerics", "model", "fast", "did you mean 'quick'?"),
+        ("numerics", "model", "Exact", "did you mean 'deterministic'?"),
+        ("contact", "geometry", "barrel", "did you mean 'cylinder'?"),
+        ("surface", "outliers", "remove", "did you mean 'mask'?"),
         ("bodies", "load", "2,5 kN", "write a point in decimals, 2.5 kN;"),
         ("lubricant", "eyring_stress", ["10 MPa", "2 MPa"], "= ['10 MPa', '2 MPa']: low and high are exchanged"),
         ("surface", "seed", "a", "a whole number from 0 to 2^128 - 1"),
