@@ -91,19 +91,19 @@ def estimated_load_sharing(scene: Scene, sample: Sample, surface: Surface) -> Ru
     much the histories change (`changes`), from the tolerance of a step with the order of the march, 2, and from the part
     of the gap that the film fills.
     """
-    plan = transient_of(scene)
+    transient = transient_of(scene)
     points = [estimated_work_of_point(scene, sample, surface, speed) for speed in speeds_of_run(scene) or [0.0]]
     widest = None
     cells = surface.heights.size
     if sample.represents_more:
         widest = max(points, key=lambda point: point.strips)
         cells = round(sample.cells.columns * widest.length / sample.cells.spacing[1])
-    tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")
+    tolerance = transient.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")
     times, changed, carried = changes(scene, surface.sq)
-    jumps = sorted({time for history in plan.histories for time in history.jumps(plan.duration)})
+    jumps = sorted({time for history in transient.histories for time in history.jumps(transient.duration)})
     begun = STEPS_OF_START * carried.mean() * (1.0 + np.searchsorted(jumps, times))
     changing = STEPS_OF_CHANGE * (STEP_TOLERANCE / tolerance) ** (1 / 3) * changed + begun
-    steps_until = np.maximum(plan.outputs * times / plan.duration, changing)
+    steps_until = np.maximum(transient.outputs * times / transient.duration, changing)
     steps = float(steps_until[-1])
     seconds = seconds_of_points(points) + steps * (FILM_STEP_SECONDS + CELL_STEP_SECONDS * cells)
     return RunEstimate(steps=steps, seconds=seconds, times=times, steps_until=steps_until, widest=widest)
@@ -118,11 +118,11 @@ def changes(scene: Scene, sq: float) -> tuple[np.ndarray, np.ndarray, np.ndarray
     The speed of a reversal does not count as smaller than that which passes the contact and its inlet, of the length l,
     with the acceleration a: sqrt(2 l a).
     """
-    plan = transient_of(scene)
-    laps = max((periods(history, plan.duration) for history in plan.histories), default=0.0)
+    transient = transient_of(scene)
+    laps = max((periods(history, transient.duration) for history in transient.histories), default=0.0)
     shown = min(1.0, MOST_PERIODS / laps) if laps else 1.0
-    times = np.linspace(0.0, shown * plan.duration, math.ceil(TIMES_OF_PERIOD * max(shown * laps, 1.0)) + 1)
-    stops = {time for history in plan.histories for time in history.stops(plan.duration) if time < times[-1]}
+    times = np.linspace(0.0, shown * transient.duration, math.ceil(TIMES_OF_PERIOD * max(shown * laps, 1.0)) + 1)
+    stops = {time for history in transient.histories for time in history.stops(transient.duration) if time < times[-1]}
     times = np.union1d(times, [*stops])
     constants = {
         "speed": scene.motion.entrainment_speed,

@@ -65,14 +65,14 @@ class Step:
 class Progress:
     """How far a run has come. It can continue from any progress.
 
-    ``last_steps``: up to three steps, oldest first, since the last jump, of which film and unknowns are kept; ``step``:
-    the next [s]; ``payload``: what the solver returned in addition to its unknowns. ``steps`` taken and ``rejected``;
+    ``last_steps``: up to three steps, oldest first, since the last jump, of which film and unknowns are kept; ``next_step``:
+    the length of the next [s]; ``payload``: what the solver returned in addition to its unknowns. ``steps`` taken and ``rejected``;
     ``worst``: largest local error so far, over the tolerance. Of the last step its ``solution``, its ``error``, and
     whether it ended at an output time.
     """
 
     last_steps: tuple[Step, ...]
-    step: float
+    next_step: float
     payload: Any = None
     steps: int = 0
     rejected: int = 0
@@ -149,7 +149,8 @@ def _onto(known: np.ndarray, candidates: list[float]) -> np.ndarray:
 
 def initial_progress(first: Step, plan: Plan) -> Progress:
     """Return the progress at t = 0 with the state ``first``."""
-    return Progress(last_steps=(_for_later_steps(first),), step=plan.first_step, payload=first.payload, solution=first)
+    last_steps = (_for_later_steps(first),)
+    return Progress(last_steps=last_steps, next_step=plan.first_step, payload=first.payload, solution=first)
 
 
 def _for_later_steps(step: Step) -> Step:
@@ -177,7 +178,7 @@ def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:
                 return
             now = replace(advanced, at_output=advanced.time == stop and bool(np.any(plan.times == stop)))
             if now.time in plan.jumps:  # the same state without its past
-                now = replace(now, last_steps=now.last_steps[-1:], step=plan.first_step)
+                now = replace(now, last_steps=now.last_steps[-1:], next_step=plan.first_step)
             yield now
 
 
@@ -249,7 +250,7 @@ def advance(now: Progress, until: float, solver: Solver, tolerance: float, short
     """Take one step towards ``until`` [s]. It is halved if it would leave a tiny last step. If its solve fails, or its
     error is above ``tolerance``, it is repeated with a shorter step. None: even the shortest step [s] failed."""
     rejected = now.rejected
-    step = now.step
+    step = now.next_step
     while step >= shortest:
         left = until - now.time
         planned = left if step >= left * (1 - 1e-9) else min(step, 0.5 * left)
@@ -267,7 +268,7 @@ def advance(now: Progress, until: float, solver: Solver, tolerance: float, short
             worst = max(now.worst, error)
             return Progress(
                 last_steps=last_steps,
-                step=step,
+                next_step=step,
                 payload=solution.payload,
                 steps=now.steps + 1,
                 rejected=rejected,

@@ -111,24 +111,24 @@ def run_in_time(
     """Return the run of `transient`, whether it ended well or not, and the keys of its states and outputs, which the
     ``checkpoint`` keeps."""
     validate.called_back("on_step", on_step, "time, duration, row")
-    scene, times = _with_plan(scene, times)
+    scene, times = _with_times(scene, times)
     limit = scene_of(scene).numerics.max_work or math.inf
     with limited_work(limit) as begun:
         start = run_model_of(scene_of(scene)).start(scene)
     model = start.model
-    plan = transient_of(model.scene)
-    tolerance = plan.tolerance or model.time_error
-    course = plan_of(times, plan.histories, model.first_step, tolerance, model.stops)
+    section = transient_of(model.scene)
+    tolerance = section.tolerance or model.time_error
+    plan = plan_of(times, section.histories, model.first_step, tolerance, model.stops)
     unlimited = replace(model.scene, numerics=replace(model.scene.numerics, max_work=None))
-    key = fingerprint_without_files(replace(model.prepared, scene=unlimited), plan, times)
+    key = fingerprint_without_files(replace(model.prepared, scene=unlimited), section, times)
     if math.isinf(limit):
         seconds = estimated_run(model.scene, model.prepared.sample, model.prepared.surface).seconds
         limit = max(LEAST_LIMIT, TIMES_ESTIMATE * seconds)
     with opened(checkpoint, RUN_CLASSES, "checkpoint") as store:
         progress, outputs, ended = _marched(
-            model, start.state, course, store, key, on_step, most_work=limit - begun.spent
+            model, start.state, plan, store, key, on_step, most_work=limit - begun.spent
         )
-    result = collect(model, start.grid_error, course, progress, outputs, limit if ended else math.inf)
+    result = collect(model, start.grid_error, plan, progress, outputs, limit if ended else math.inf)
     return result, [key, *_output_keys(key, len(outputs))]
 
 
@@ -175,15 +175,16 @@ def _marched(
     return progress, outputs, False
 
 
-def _with_plan(scene: Scene | Prepared, times: ArrayLike | None) -> tuple[Scene | Prepared, np.ndarray]:
+def _with_times(scene: Scene | Prepared, times: ArrayLike | None) -> tuple[Scene | Prepared, np.ndarray]:
     """Return the scene with what changes until the last output, and the output times [s]."""
     base = scene_of(scene)
-    plan = base.transient
+    section = base.transient
     if times is None:
-        if plan is None:
+        if section is None:
             raise InputError("scene has no [transient] table; give one, or output times in s")
-        return scene, np.linspace(plan.first_output, plan.duration, plan.outputs + 1)
+        return scene, np.linspace(section.first_output, section.duration, section.outputs + 1)
     times = checked_times(times)
     last = float(times[-1])
-    base = replace(base, transient=Transient(last) if plan is None else replace(plan, duration=last, first_output=0.0))
+    until_last = Transient(last) if section is None else replace(section, duration=last, first_output=0.0)
+    base = replace(base, transient=until_last)
     return (replace(scene, scene=base) if isinstance(scene, Prepared) else base), times

@@ -111,6 +111,6 @@ def inlet_viscosity(scene: Scene) -> History:
 def sampled_times(scene: Scene) -> list[float]:
     """Return the times [s] at which a run is looked through before it begins: `SAMPLED_TIMES` of them evenly, and all
     stops and jumps."""
-    plan = transient_of(scene)
-    stops = {t for h in plan.histories for t in (*h.stops(plan.duration), *h.jumps(plan.duration))}
-    return sorted({*np.linspace(0, plan.duration, SAMPLED_TIMES).tolist(), *stops})
+    transient = transient_of(scene)
+    stops = {t for h in transient.histories for t in (*h.stops(transient.duration), *h.jumps(transient.duration))}
+    return sorted({*np.linspace(0, transient.duration, SAMPLED_TIMES).tolist(), *stops})

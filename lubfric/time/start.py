@@ -36,13 +36,13 @@ def start_load_sharing(scene: Scene | Prepared) -> Start:
     """Check a scene with a ``transient``, and return the load-sharing model of its run. Raises `InputError` and
     `ConvergenceError`."""
     base = scene_of(scene)
-    plan = transient_of(base)
+    transient = transient_of(base)
     check_load_sharing(base)
     run_strip = strip_of_run(scene if isinstance(scene, Prepared) else prepare(scene))
     prepared = run_strip.prepared
     sq = prepared.surface.sq
     line_history = _line_history(prepared.scene)
-    if not sq > 0.0 and plan.initial_film is None and line_history.speed.before(0.0) == 0.0:
+    if not sq > 0.0 and transient.initial_film is None and line_history.speed.before(0.0) == 0.0:
         ways = "transient.initial_film > 0 m, or an entrainment speed before t = 0"
         raise InputError(f"smooth surfaces at rest have no film to start from; give {ways}")
     reach = float(np.max(np.abs(prepared.rough_contact.x))) if sq > 0.0 else 0.0
@@ -64,16 +64,16 @@ def start_load_sharing(scene: Scene | Prepared) -> Start:
 
 def check_load_sharing(base: Scene) -> None:
     """Raise `InputError` for a scene that the load-sharing model of a run in time does not take. Nothing is solved."""
-    plan = transient_of(base)
-    load = plan.load or Constant(base.bodies.load)
+    transient = transient_of(base)
+    load = transient.load or Constant(base.bodies.load)
     for name, allowed in SUPPORTED.items():
         value = getattr(base.numerics, name)
         if value not in allowed:
             raise InputError(
                 f" = {value!r} is not for a run in time", f"numerics.{name}", ", ".join(map(repr, allowed))
             )
-    if load.range(plan.duration)[1] > base.bodies.load * (1 + 1e-9):
-        said = f" rises to {load.range(plan.duration)[1]:g} N"
+    if load.range(transient.duration)[1] > base.bodies.load * (1 + 1e-9):
+        said = f" rises to {load.range(transient.duration)[1]:g} N"
         most = f"up to bodies.load = {base.bodies.load:g} N"
         raise InputError(said, "transient.load", f"{most}, whose Hertz strip is the area A")
     for time in sampled_times(base) if base.bodies.boundary_friction_table is not None else ():
@@ -83,25 +83,25 @@ def check_load_sharing(base: Scene) -> None:
 
 def check_start(base: Scene) -> None:
     """Raise `InputError` for a steady start without entrainment."""
-    plan = transient_of(base)
-    speed = (plan.speed or Constant(base.motion.entrainment_speed)).before(0.0)
-    if plan.initial == "steady" and plan.initial_film is None and speed == 0.0:
+    transient = transient_of(base)
+    speed = (transient.speed or Constant(base.motion.entrainment_speed)).before(0.0)
+    if transient.initial == "steady" and transient.initial_film is None and speed == 0.0:
         raise InputError("transient.initial = 'steady' needs entrainment before t = 0; give 'rest', or a speed")
 
 
 def _line_history(scene: Scene) -> LineHistory:
     """Return the line contact of a scene in time, with the scene's constants where nothing changes."""
     bodies = scene.bodies
-    plan = transient_of(scene)
+    transient = transient_of(scene)
     return LineHistory(
-        load=plan.load or Constant(bodies.load),
-        radius=plan.radius or Constant(bodies.radius),
+        load=transient.load or Constant(bodies.load),
+        radius=transient.radius or Constant(bodies.radius),
         e_prime=bodies.e_prime,
-        speed=plan.speed or Constant(scene.motion.entrainment_speed),
+        speed=transient.speed or Constant(scene.motion.entrainment_speed),
         viscosity=inlet_viscosity(scene),
         lubricant=scene.lubricant,
-        duration=plan.duration,
-        initial_film=plan.initial_film,
+        duration=transient.duration,
+        initial_film=transient.initial_film,
         width=bodies.width,
         sliding=partial(sliding_at, scene),
     )
@@ -109,11 +109,11 @@ def _line_history(scene: Scene) -> LineHistory:
 
 def _first_state(model: TransientLoadSharing) -> tuple[Step, float]:
     """Return the state at t = 0 and the grid error of the steady film in it (NaN from another start)."""
-    plan = transient_of(model.scene)
-    if plan.initial_film is not None:
-        return _flying(model, plan.initial_film), math.nan
+    transient = transient_of(model.scene)
+    if transient.initial_film is not None:
+        return _flying(model, transient.initial_film), math.nan
     still = model.setting.line_history.speed.before(0.0) == 0.0
-    if plan.initial == "rest" or (plan.initial == "auto" and still):
+    if transient.initial == "rest" or (transient.initial == "auto" and still):
         return _resting(model), math.nan
     return _steady(model)
 
@@ -204,15 +204,15 @@ def strip_of_run(prepared: Prepared) -> RunStrip:
     if not speeds:
         known = 1.0 if sample.cells.is_native else math.nan
         return RunStrip(prepared=prepared, correlation_length=sample.correlation_lengths[1], area=known, plastic=known)
-    needs = _needs(prepared, sample, speeds)
-    while not sample.cells.is_native and max(needs[1]) > prepared.scene.numerics.tolerance:
+    needs = [_need_of(prepared, sample, speed) for speed in speeds]
+    while not sample.cells.is_native and max(need.by_cells for need in needs) > prepared.scene.numerics.tolerance:
         sample = sample.halved()
-        needs = _needs(prepared, sample, speeds)
+        needs = [_need_of(prepared, sample, speed) for speed in speeds]
     return RunStrip(
-        prepared=_made(prepared, sample, min(int(max(needs[0])), sample.available_strips)),
+        prepared=_made(prepared, sample, min(max(need.strips for need in needs), sample.available_strips)),
         correlation_length=sample.correlation_lengths[1],
-        area=_mean(needs[2]),
-        plastic=_mean(needs[3]),
+        area=_mean([need.area for need in needs]),
+        plastic=_mean([need.plastic for need in needs]),
     )
 
 
@@ -225,8 +225,8 @@ def _made(prepared: Prepared, sample: Sample, count: int) -> Prepared:
 
 def speeds_of_run(scene: Scene) -> list[float]:
     """Return some speeds [m/s] of a run, at which its strip is judged; none where nothing is entrained."""
-    plan = transient_of(scene)
-    low, high = (plan.speed or Constant(scene.motion.entrainment_speed)).range(plan.duration)
+    transient = transient_of(scene)
+    low, high = (transient.speed or Constant(scene.motion.entrainment_speed)).range(transient.duration)
     fastest = max(abs(low), abs(high))
     if fastest == 0.0:
         return []
@@ -234,26 +234,40 @@ def speeds_of_run(scene: Scene) -> list[float]:
     return np.unique(np.geomspace(fastest, slowest, JUDGED_SPEEDS)).tolist() if slowest < fastest else [fastest]
 
 
-def _needs(prepared: Prepared, sample: Sample, speeds: list[float]) -> np.ndarray:
-    """Return what each steady speed needs, in rows: the number of strips, the relative change of f by their cells
-    (infinite if finer ones were needed), and the factors of `TransientLoadSharing`. A speed without a steady solution
-    needs the first strips."""
-    rows = []
-    for speed in speeds:
-        try:
-            balanced = _balanced(replace(prepared, sample=sample), speed)
-        except WorkLimitError:
-            raise
-        except LubfricError:
-            rows.append((sample.first_strips, 0.0, math.nan, math.nan))
-            continue
-        plastic = balanced.raw_balance.contact_state.plastic_area_fraction
-        corrected = balanced.corrected_balance.contact_state.plastic_area_fraction
-        area = balanced.effect.area_factor if balanced.response is not None else math.nan
-        same = balanced.sample.cells.coarsening == sample.cells.coarsening
-        by_cells = balanced.relative_change(balanced.effect.gap_change) if same else math.inf
-        rows.append((balanced.count, by_cells, area, corrected / plastic if plastic else math.nan))
-    return np.array(rows, dtype=float).T
+@dataclass(frozen=True, kw_only=True)
+class NeedOfSpeed:
+    """What steady friction at one speed of a run needs of its strip.
+
+    Attributes
+    ----------
+    strips : how many are joined
+    by_cells : relative change of f by their cells; infinite if finer ones were needed
+    area, plastic : factors as in `TransientLoadSharing`; NaN: not known
+    """
+
+    strips: int
+    by_cells: float
+    area: float = math.nan
+    plastic: float = math.nan
+
+
+def _need_of(prepared: Prepared, sample: Sample, speed: float) -> NeedOfSpeed:
+    """Return what ``speed`` [m/s] needs of ``sample``. Without a steady solution it needs the first strips."""
+    try:
+        balanced = _balanced(replace(prepared, sample=sample), speed)
+    except WorkLimitError:
+        raise
+    except LubfricError:
+        return NeedOfSpeed(strips=sample.first_strips, by_cells=0.0)
+    plastic = balanced.raw_balance.contact_state.plastic_area_fraction
+    corrected = balanced.corrected_balance.contact_state.plastic_area_fraction
+    same = balanced.sample.cells.coarsening == sample.cells.coarsening
+    return NeedOfSpeed(
+        strips=balanced.count,
+        by_cells=balanced.relative_change(balanced.effect.gap_change) if same else math.inf,
+        area=balanced.effect.area_factor if balanced.response is not None else math.nan,
+        plastic=corrected / plastic if plastic else math.nan,
+    )
 
 
 def _balanced(prepared: Prepared, speed: float) -> BalancedSample:
@@ -263,6 +277,6 @@ def _balanced(prepared: Prepared, speed: float) -> BalancedSample:
     return solution.balanced
 
 
-def _mean(factors: np.ndarray) -> float:
-    known = factors[np.isfinite(factors)]
-    return float(known.mean()) if known.size else math.nan
+def _mean(factors: list[float]) -> float:
+    known = [factor for factor in factors if math.isfinite(factor)]
+    return float(np.mean(known)) if known else math.nan

@@ -137,10 +137,10 @@ class TransientDeterministic:
         now = scene_at(self.scene, time)
         sliding = sliding_at(self.scene, time)
         speed = now.motion.entrainment_speed
-        plan = transient_of(self.scene)
+        transient = transient_of(self.scene)
         motion = self.scene.motion
-        along = (plan.speed or Constant(motion.entrainment_speed)).integral(time)
-        apart = motion.slide_roll_ratio * along if plan.sliding is None else plan.sliding.integral(time)
+        along = (transient.speed or Constant(motion.entrainment_speed)).integral(time)
+        apart = motion.slide_roll_ratio * along if transient.sliding is None else transient.sliding.integral(time)
         back = -1 if speed < 0 else 1
         rough = {name: at(along + SLIDING_PART[name] * apart)[::back] for name, at in self.heights.items()}
         pace = max(abs(speed), REST * self.base.speed)
@@ -187,11 +187,13 @@ class TransientDeterministic:
     def start(self) -> Step:
         """Return the state at t = 0: steady, as if the roughness rested; at rest, with all load on the dry contact; or
         without pressure at a flying height. In the last two the gap is full."""
-        plan = transient_of(self.scene)
+        transient = transient_of(self.scene)
         problem = self.problem_at(0.0)
         back = self.back(0.0)
-        still = (plan.speed or Constant(self.scene.motion.entrainment_speed)).before(0.0) == 0.0
-        if plan.initial_film is None and not (plan.initial == "rest" or plan.initial == "auto" and still):
+        still = (transient.speed or Constant(self.scene.motion.entrainment_speed)).before(0.0) == 0.0
+        if transient.initial_film is None and not (
+            transient.initial == "rest" or transient.initial == "auto" and still
+        ):
             return self._step(evaluated(problem, solve_point(problem, tolerance=RUN_STEP_RESIDUAL).state), back)
         nothing = np.zeros_like(problem.heights)
         kind = np.full(problem.heights.shape, FLUID, np.int8)
@@ -201,9 +203,9 @@ class TransientDeterministic:
             dent=nothing,
             kind=kind,
             yielded=nothing > 0,
-            approach=plan.initial_film or 0.0,
+            approach=transient.initial_film or 0.0,
         )
-        if plan.initial_film is None:
+        if transient.initial_film is None:
             dry = dry_contact(problem)
             p = dry.pressure
             yielded = dry.pressure >= problem.hardness
@@ -217,7 +219,7 @@ class TransientDeterministic:
                 yielded=yielded,
                 approach=problem.floor - dry.approach,
             )
-        elif np.min(problem.rigid_gap) + plan.initial_film < problem.floor:
+        elif np.min(problem.rigid_gap) + transient.initial_film < problem.floor:
             least = problem.floor - float(np.min(problem.rigid_gap))
             recommendation = f"give more than {least:g} m, or initial = 'rest'"
             raise InputError("transient.initial_film: the surfaces touch", recommendation=recommendation)
@@ -269,8 +271,8 @@ def work_of_run(scene: Scene) -> tuple[int, float, tuple[float, ...]]:
     """Return about how many steps a run takes, its processor time [s of a usual core], and the times [s] at which the
     motion of the roughness ends a step."""
     solver = make_deterministic(scene)
-    plan = transient_of(scene)
-    steps = max(len(solver.stops), plan.outputs) + OTHER_STEPS
+    transient = transient_of(scene)
+    steps = max(len(solver.stops), transient.outputs) + OTHER_STEPS
     seconds = work_of_steps(solver.base.heights.size, FACTORISATIONS_IN_A_STEP, KRYLOV_IN_A_STEP)
     return steps, STEP_SECONDS * steps * seconds, solver.stops
 
@@ -288,21 +290,21 @@ def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
     """Return the solver, on the first strip that a steady point takes, and on the same cells. Raises `InputError`."""
     prepared = scene if isinstance(scene, Prepared) else prepare(scene)
     scene = prepared.scene
-    plan = transient_of(prepared.scene)
+    transient = transient_of(prepared.scene)
     sample = prepared.sample
     if not sample.is_resolved:
         raise InputError(" needs a contact of cells under a cylinder", "numerics.model")
     check_deterministic(scene)
     surface, map_coarsening = surface_and_map_coarsening(prepared, 0)
     maps = maps_of_bodies(prepared, 0)
-    if len(maps) == 1 and plan.sliding is not None and len(moving_bodies(scene)) > 1:
+    if len(maps) == 1 and transient.sliding is not None and len(moving_bodies(scene)) > 1:
         raise InputError(" moves two rough bodies apart", "transient.sliding", "a map of each (lubfric.prepare)")
     if not maps:  # smooth
         surface = replace(surface, heights=surface.heights[:, :1], mask=None)
         map_coarsening = (map_coarsening[0], 1)
-    speed = plan.speed or Constant(scene.motion.entrainment_speed)
-    low, high = speed.range(plan.duration)
-    line = scene.line_contact(max(abs(low), abs(high)) or scene.bodies.half_width / plan.duration)
+    speed = transient.speed or Constant(scene.motion.entrainment_speed)
+    low, high = speed.range(transient.duration)
+    line = scene.line_contact(max(abs(low), abs(high)) or scene.bodies.half_width / transient.duration)
     upstream, downstream = reach(line, surface.sq)
     base = lay_out(
         replace(surface, heights=0.0 * surface.heights, mask=None),

@@ -30,7 +30,7 @@ JUMP = Table(times=(0.0, 1.0, 1.0, 9.0), values=(0.0, 0.0, 3.0, 3.0))
 
 
 def begun(step=1e-3):
-    return Progress(last_steps=(Step(film=np.array([1.0, 2.0]), z=np.array([1.0, 2.0, -1.0])),), step=step)
+    return Progress(last_steps=(Step(film=np.array([1.0, 2.0]), z=np.array([1.0, 2.0, -1.0])),), next_step=step)
 
 
 def outputs(solver, plan, now):
@@ -63,7 +63,7 @@ def test_a_jump_of_a_history_ends_a_step_and_forgets_the_past():
     assert plan.jumps == {1.0} and plan.stops == (1.0, 3.0)
     marched = list(steps(Relaxation(JUMP), plan, begun()))
     at = next(now for now in marched if now.time == 1.0)
-    assert len(at.last_steps) == 1 and at.step == 1e-3 and not at.at_output
+    assert len(at.last_steps) == 1 and at.next_step == 1e-3 and not at.at_output
     exact = 3.0 + (np.array([1.0, 2.0]) * np.exp(-1.0) - 3.0) * np.exp(-2.0)
     np.testing.assert_allclose(marched[-1].solution.film, exact, rtol=1e-4)
 

@@ -156,10 +156,10 @@ def marched(resolution: float, steps: int) -> float:
     """Return film after 0.3 of the squeeze in equal steps, in units of the film at the start."""
     made = setting(resolution)
     first = made.undeformed(1e-6)
-    now = Progress(last_steps=(first,), step=LONG)
+    now = Progress(last_steps=(first,), next_step=LONG)
     system = SimpleNamespace(solve=made.solve, error_of=lambda solution, difference: 0.0)
     for k in range(steps):
-        result = advance(replace(now, step=LONG), 0.3 * LONG * (k + 1) / steps, system, 1.0, 0.0)
+        result = advance(replace(now, next_step=LONG), 0.3 * LONG * (k + 1) / steps, system, 1.0, 0.0)
         now = the(result, "step in time")
     return float(now.last_steps[-1].film.min())
 
