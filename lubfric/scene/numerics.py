@@ -30,17 +30,17 @@ class Numerics(Shown):
         ("scaled"); its own ("hydrodynamic", the paper)
     model : "paper": film and contact share the load, Eq. (8), with the friction of Eq. (9) on a smooth film;
         "deterministic": the deterministic model (docs/deterministic.md); "quick": that model on a few strips of
-        long cells, with a calibrated error, beside the line of Eq. (8);
-        "auto": the cheapest that is within ``model_tolerance`` (docs/uncertainty.md)
+        long cells, with a calibrated error; "auto": the cheapest that is within ``model_tolerance``
+        (docs/uncertainty.md)
     grid : "auto": cells of the contact as long as the tolerance allows; "given": the scene's own
     heat : whether the heat of inlet, film and surfaces is modelled: "auto" (if it matters, and the lubricant states how
         its viscosity falls with the temperature), "on", "off"
     accept : True: results outside the range of the model are returned and marked, instead of refused
     cavitated_shear : "none", or "striated": shear of the streamers behind the rupture
-    max_work : counted work [s of a usual core] that one point may take. A point that would take more is answered by
-        load sharing, with its interval, where the model is "auto", and refused otherwise. A run in time, or
-        `lubfric.run_in`, ends there with its results so far. None: ten times the estimate of `lubfric info`, at least
-        120 s; no limit for `lubfric.run_in`
+    max_work : counted work [s of a usual core] that one point may take. Where a point would take
+        more, "auto" answers by a cheaper model that is solved, with its interval, and any other model is refused. A run
+        in time, or `lubfric.run_in`, ends there with its results so far. None: ten times the estimate of `lubfric
+        info`, at least 120 s; no limit for `lubfric.run_in`
     workers : threads of the Fourier transforms
     """
 
