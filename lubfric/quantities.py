@@ -367,7 +367,7 @@ _ROWS = tomllib.loads((files(__package__) / "keys.toml").read_text(encoding="utf
 _ROW = {f"{section}.{key}": row for section, rows in _ROWS for key, row in rows.items()}
 CHOICES = {key: row["one_of"] for key, row in _ROW.items() if "one_of" in row}  # keys of a scene that are words
 # What is meant by other words than these, in small letters.
-OTHER_WORDS = {word: meant for row in _ROW.values() for word, meant in row.get("other_words", {}).items()}
+OTHER_VALUES = {word: meant for row in _ROW.values() for word, meant in row.get("other_words", {}).items()}
 KEYS = {key: Quantity(**row) for key, row in _ROW.items() if key not in CHOICES}  # those that are numbers: section.key
 KEYS["speed"] = _OF_POINT["speed"]
 KEYS |= {

@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..errors import InputError
-from ..quantities import CHOICES, KEYS, OTHER_WORDS
+from ..quantities import CHOICES, KEYS, OTHER_VALUES
 from ..units import SANE, UNITS, spelled, without_unit
 
 T = TypeVar("T")
@@ -293,7 +293,7 @@ def choice(name: str, value: Any, options: Iterable[Any]) -> Any:
     options = tuple(options)
     if isinstance(value, (str, int, np.integer)) and not isinstance(value, bool) and value in options:
         return options[options.index(value)]
-    meant = (OTHER_WORDS | OTHER_OPTIONS).get(value.lower()) if isinstance(value, str) else None
+    meant = (OTHER_VALUES | OTHER_OPTIONS).get(value.lower()) if isinstance(value, str) else None
     near = f" (did you mean {meant!r}?)" if meant in options else nearest(value, options)
     raise InputError(f" = {shown(value)} is not known{near}", name, ", ".join(map(repr, options)))
 
