@@ -268,6 +268,28 @@ def test_a_step_that_newtons_method_does_not_solve_is_taken_in_parts(monkeypatch
     assert np.abs(last - end).max() < 1e-15 < 1e-10 < np.abs(first - end).max()
 
 
+def test_steps_after_one_in_parts_begin_in_parts_until_the_moved_state_is_tried_again(monkeypatch):
+    surface = rough(3, sq=0.05e-6)
+    real = moving.newton
+    direct = []
+    is_after_part = False
+
+    def only_after_parts(at, *given, history, **how):
+        nonlocal is_after_part
+        is_part = history.step < 0.5 * CELL / 0.15
+        if not is_part and not is_after_part:
+            direct.append(how["most"])
+        result = real(at, *given, history=history, **how)
+        is_solved = is_part or is_after_part
+        is_after_part = is_part
+        return result if is_solved else replace(result, residuals={"mass": 1.0})
+
+    monkeypatch.setattr(moving, "newton", only_after_parts)
+    after(laid(surface), [RoughBody(surface, 0.15)], 2 * moving.STEPS_IN_PARTS + 1, CELL / 0.15)
+    again = moving.MOST_NEWTON_STEPS_AGAIN
+    assert direct == [moving.MOST_NEWTON_STEPS, again, again]
+
+
 def test_a_step_that_is_not_solved_by_third_order_is_taken_by_a_lower_one(monkeypatch):
     """One such step among twelve hardly changes the film; each order is nearer to the third than the one below it."""
     surface = rough(3, sq=0.1e-6)
