@@ -2,8 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import replace
-from types import SimpleNamespace
+from dataclasses import dataclass, replace
 from typing import Any, cast
 
 import numpy as np
@@ -11,7 +10,7 @@ import numpy as np
 from .._base import FloatArray
 from ..contact import HalfSpaceContact
 from ..errors import ConvergenceError
-from ..estimate import full_load_numbers, power_of_forces
+from ..estimate import full_load_numbers
 from ..film import ShearForce, above_carried, rolling_error, smallest, spike_error
 from ..models.load_sharing import (
     MomentResponse,
@@ -42,6 +41,7 @@ from .film_equations import outside_shear
 from .film_setting import WET_PRESSURE
 from .load_sharing_solver import LoadSharingSolver
 from .march import Progress, Step
+from .moment_columns import ends_of_film, motion_columns, sense_of, sense_of_friction
 from .scene_in_time import scene_at, sliding_at
 
 NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest
@@ -65,116 +65,194 @@ MOST_OF_CELL = 2.0
 TINY_FORCE = 1e-300
 
 
+@dataclass(frozen=True, kw_only=True)
+class FrictionOfMoment:
+    """The friction of a moment of a run by load sharing.
+
+    Attributes
+    ----------
+    sliding : sliding speed [m/s]
+    sense : 1 or -1, the sense in which f is positive
+    boundary : friction force of the asperity contacts [N], along +x on the upper surface
+    shear : friction force of the film
+    heat : of inlet, film and surfaces
+    film_factor : factor on the film by the heat of its inlet; NaN: not known
+    """
+
+    sliding: float
+    sense: float
+    boundary: float
+    shear: ShearForce
+    heat: Heat
+    film_factor: float
+
+    @property
+    def force(self) -> float:
+        """The friction force [N] along +x on the upper surface."""
+        return self.boundary + self.shear.total
+
+    def columns(self, load: float) -> dict[str, float]:
+        """Return the columns of friction and heat under the total ``load`` [N]."""
+        heat = self.heat
+        return {
+            "boundary_force": self.boundary,
+            "couette_force": self.shear.couette,
+            "rolling_force": self.shear.rolling,
+            "coefficient": self.force * self.sense / load,
+            "shear_error": self.shear.quadrature / abs(self.force) if self.force else 0.0,
+            "inlet_film_factor": self.film_factor,
+            "flash_temperature_rise": heat.flash,
+            "film_temperature_rise": heat.film_rise,
+            "heat_change": heat.change if heat.is_evaluated else math.nan,
+        }
+
+
+@dataclass(frozen=True, kw_only=True)
+class FilmOfMoment:
+    """The pressurised film of a moment, as `lubfric.models.shared.PressurisedFilm`."""
+
+    x: FloatArray
+    pressure: FloatArray
+    film_thickness: FloatArray
+    entrainment_speed: float
+    rupture: float
+
+
 def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[str, float], tuple[Violation, ...]]:
     """Return the numbers after the last step, by name, and the assumptions that do not hold then."""
     solution = now.solution
-    time = now.time
-    setting = model.setting
-    scene = scene_at(model.scene, time)
-    sliding = sliding_at(model.scene, time)
-    t = solution.terms
-    p = setting.problem
-    contact_step = solution.payload
-    state = solution.payload.state
-    total = scene.bodies.load
-    film_load = t.carried * setting.load_unit
+    scene = scene_at(model.scene, now.time)
     speed = scene.motion.entrainment_speed
-    boundary = scene.bodies.boundary_friction_coefficient * contact_step.load * np.sign(sliding)
+    friction = _friction_of(model, scene, now.time, solution)
+    shear = friction.shear
+    of_film = _film_columns(model, solution)
+    row = {
+        **motion_columns(
+            now,
+            scene,
+            sliding=friction.sliding,
+            force=friction.force,
+            rolling_resistance=2.0 * shear.rolling * sense_of(speed),
+        ),
+        **friction.columns(scene.bodies.load),
+        **of_film,
+        **_contact_columns(model, solution, scene.bodies.load, of_film["film_load"]),
+        **_errors_of_f(model, scene, solution, friction, of_film),
+        **full_load_numbers(scene, speed, float(model.prepared.surface.sq), friction.film_factor),
+        **_mass(model, solution),
+    }
+    heat = friction.heat
+    not_heated = replace(heat, heated=None, peclet=heat.peclet if heat.heated else math.inf)
+    violations = _violated(model, scene, row, shear, not_heated)
+    return row, (*violations, *violations_by_typical_heat(scene, heat.typical))
+
+
+def _friction_of(model: LoadSharingSolver, scene: Scene, time: float, solution: Step) -> FrictionOfMoment:
+    """Return the friction of the moment ``time`` [s], at which ``scene`` holds."""
+    sliding = sliding_at(model.scene, time)
+    boundary = scene.bodies.boundary_friction_coefficient * solution.payload.load * np.sign(sliding)
     shear, heat = film_shear(model, scene, time, sliding, solution, boundary)
-    force = boundary + shear.total
-    sense = _sense_of(sliding if sliding != 0 else speed)
-    inlet, _ = inlet_at(scene, speed)
-    heated_inlet = setting.line_history.viscosity.before(time) != scene.lubricant.viscosity
-    film_factor = math.nan if inlet is None else inlet.factor if heated_inlet else 1.0
+    inlet, _ = inlet_at(scene, scene.motion.entrainment_speed)
+    is_inlet_heated = model.setting.line_history.viscosity.before(time) != scene.lubricant.viscosity
+    film_factor = 1.0
+    if inlet is None:
+        film_factor = math.nan
+    elif is_inlet_heated:
+        film_factor = inlet.factor
+    return FrictionOfMoment(
+        sliding=sliding,
+        sense=sense_of_friction(scene, sliding),
+        boundary=boundary,
+        shear=shear,
+        heat=replace(heat, inlet=inlet, is_used=film_factor < 1.0),
+        film_factor=film_factor,
+    )
+
+
+def _film_columns(model: LoadSharingSolver, solution: Step) -> dict[str, float]:
+    """Return the columns of the smooth film."""
+    setting = model.setting
+    terms = solution.terms
+    problem = setting.problem
+    sq = float(model.prepared.surface.sq)
+    central_film = terms.H[setting.grid.n // 2] * problem.film_unit
+    return {
+        "film_load": terms.carried * setting.load_unit,
+        "min_film": smallest(setting.grid.x, terms.H) * problem.film_unit,
+        "central_film": central_film,
+        "film_to_roughness_ratio": central_film / sq if sq else math.inf,
+        "max_pressure": terms.P.max() * problem.pressure_unit,
+        **ends_of_film(setting.grid.x[terms.P > 0.0] * problem.length_unit),
+    }
+
+
+def _contact_columns(model: LoadSharingSolver, solution: Step, load: float, film_load: float) -> dict[str, float]:
+    """Return the columns of the rough contact, and of how it shares the total ``load`` [N] with a film that carries
+    ``film_load`` [N]."""
+    contact_step = solution.payload
+    state = contact_step.state
+    touches = contact_step.load > 0.0
+    # 0 where nothing is plastic, even if the factor by the cells is not known
+    plastic_area = state.plastic_area_fraction * model.plastic if state.plastic_area_fraction else 0.0
+    return {
+        "contact_load": contact_step.load,
+        "mean_film": state.mean_film,
+        "mean_gap": state.mean_gap if touches else gap_under(state.mean_film),
+        "real_contact_area_fraction": state.real_contact_area_fraction * model.area if touches else 0.0,
+        "plastic_area_fraction": plastic_area,
+        "edge_load": model.patch.on_the_ends(state) if touches else math.nan,
+        "load_residual": (film_load + contact_step.load) / load - 1.0,
+        "volume_residual": volume_residual(state) if touches else math.nan,
+    }
+
+
+def _errors_of_f(
+    model: LoadSharingSolver, scene: Scene, solution: Step, friction: FrictionOfMoment, of_film: dict[str, float]
+) -> dict[str, float]:
+    """Return the columns with the errors of f by the finite surface and by the model; ``of_film``: those of the film."""
+    contact_step = solution.payload
+    load = scene.bodies.load
+    film_load = of_film["film_load"]
+    shear = friction.shear
+    heat = friction.heat
     response = MomentResponse(
         contact_load=contact_step.load,
         film_load=film_load,
-        boundary=boundary,
+        boundary=friction.boundary,
         viscous=shear.total,
         softness=contact_softness(model, solution),
         film_load_exponent=film_load_exponent(scene, film_load),
-        mean_film=state.mean_film,
+        mean_film=contact_step.state.mean_film,
     )
     sampling_error = moment_error(
         cast(HalfSpaceContact, model.patch),
-        state,
+        contact_step.state,
         response,
         width=scene.bodies.width,
         correlation_length=model.correlation_length,
     )
-    of_moment = replace(heat, inlet=inlet, is_used=film_factor < 1.0)
     film_sensitivity = response.per_film(shear.magnitude)
-    touches = contact_step.load > 0.0
-    wet = setting.grid.x[t.P > 0.0] * p.length_unit
-    central_film = t.H[setting.grid.n // 2] * p.film_unit
-    sq = float(model.prepared.surface.sq)
-    film_to_roughness_ratio = central_film / sq if sq else math.inf
     model_error = moment_model_error(
         scene,
-        film_to_roughness_ratio=film_to_roughness_ratio,
-        share=contact_step.load / total,
+        film_to_roughness_ratio=of_film["film_to_roughness_ratio"],
+        share=contact_step.load / load,
         film_load=film_load,
-        boundary=sense * boundary / total,  # along the sliding
-        shear=sense * shear.total / total,
-        rolling=sense * shear.rolling / total,
-        by_heat=error_by_heat(of_moment, 1 - of_moment.film_factor**film_sensitivity),
+        boundary=friction.sense * friction.boundary / load,  # along the sliding
+        shear=friction.sense * shear.total / load,
+        rolling=friction.sense * shear.rolling / load,
+        by_heat=error_by_heat(heat, 1 - heat.film_factor**film_sensitivity),
     )
-    # 0 where nothing is plastic, even if the factor by the cells is not known
-    plastic_area = state.plastic_area_fraction * model.plastic if state.plastic_area_fraction else 0.0
-    row = {
-        "time": time,
-        "entrainment_speed": speed,
-        "sliding_speed": sliding,
-        "load": total,
-        "contact_load": contact_step.load,
-        "film_load": film_load,
-        "friction_force": force,
-        "boundary_force": boundary,
-        "couette_force": shear.couette,
-        "rolling_force": shear.rolling,
-        "rolling_resistance": 2.0 * shear.rolling * _sense_of(speed),
-        "power_loss": power_of_forces(force, 2.0 * shear.rolling, speed, sliding),
-        "coefficient": force * sense / total,
+    return {
         "sampling_error": sampling_error,
-        "shear_error": shear.quadrature / abs(force) if force else 0.0,
-        "model_error_low": model_error[0],
-        "model_error_high": model_error[1],
-        "time_error": now.error,
-        "inlet_film_factor": film_factor,
-        "flash_temperature_rise": heat.flash,
-        "film_temperature_rise": heat.film_rise,
-        "heat_change": heat.change if heat.is_evaluated else math.nan,
-        "min_film": smallest(setting.grid.x, t.H) * p.film_unit,
-        "central_film": central_film,
-        "mean_film": state.mean_film,
-        "mean_gap": state.mean_gap if touches else gap_under(state.mean_film),
-        "max_pressure": t.P.max() * p.pressure_unit,
-        "wet_from": wet[0] if wet.size else math.nan,
-        "wet_to": wet[-1] if wet.size else math.nan,
-        "real_contact_area_fraction": state.real_contact_area_fraction * model.area if touches else 0.0,
-        "plastic_area_fraction": plastic_area,
-        "edge_load": model.patch.on_the_ends(state) if touches else math.nan,
-        "load_residual": (film_load + contact_step.load) / total - 1.0,
-        "volume_residual": volume_residual(state) if touches else math.nan,
-        "film_to_roughness_ratio": film_to_roughness_ratio,
-        **full_load_numbers(scene, speed, sq, film_factor),
-        **_mass(model, solution),
-        "steps": now.steps,
+        "model_error_low": model_error.towards,
+        "model_error_high": model_error.away,
     }
-    peclet = heat.peclet if heat.heated else math.inf
-    heat = replace(of_moment, heated=None, peclet=peclet)
-    return row, tuple([*_violated(model, scene, row, shear, heat), *violations_by_typical_heat(scene, heat.typical)])
-
-
-def _sense_of(speed: float) -> float:
-    """Return the sense of a ``speed``: 1 or -1, and 1 at rest."""
-    return -1.0 if speed < 0 else 1.0
 
 
 def _violated(
     model: LoadSharingSolver, scene: Scene, row: dict[str, Any], shear: ShearForce, heat: Heat
 ) -> Iterator[Violation]:
-    """Return the assumptions of the steady model and of a run that do not hold at one moment."""
+    """Yield the assumptions of the steady model and of a run that do not hold at one moment."""
     speed = row["entrainment_speed"]
     film = row["central_film"]
     force = abs(row["friction_force"])
@@ -267,7 +345,7 @@ def film_shear(
         return isothermal, Heat()
     inside = slice(wet[0], wet[-1] + 1)
     x = model.setting.grid.x[inside] * p.length_unit
-    film = SimpleNamespace(  # all that `point_heat` needs of the pressurised film
+    film = FilmOfMoment(
         x=x,
         pressure=t.P[inside] * p.pressure_unit,
         film_thickness=t.H[inside] * p.film_unit,

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
-from ..estimate import full_load_numbers, power_of_forces
+from ..estimate import full_load_numbers
 from ..models import prepare
 from ..models.deterministic import (
     BOUNDARY_FILM,
@@ -55,6 +55,7 @@ from ..scene import Constant, Scene, moving_bodies
 from .film_setting import WET_PRESSURE
 from .march import Memory, Progress, Step
 from .model import Output, Start
+from .moment_columns import ends_of_film, motion_columns, sense_of_friction
 from .scene_in_time import SLIDING_PART, sampled_times, scene_at, sliding_at, surface_speed, transient_of
 from .start import check_start
 
@@ -346,27 +347,24 @@ def deterministic_moment(
     sliding = sliding_at(solver.scene, now.time)
     total = scene.bodies.load
     f = result.coefficient
-    sense = float(np.sign(sliding) or np.sign(speed) or 1.0)
-    along = float(np.sign(speed) or 1.0)
+    sense = sense_of_friction(scene, sliding)
     places = (result.friction_at - f * result.load_at) / result.load
     scatter = block_error(places, solver.base.spacing[1], solver.correlation_length).value
     wet = solver.x[now.solution.payload.pressure.mean(axis=1) > 0]
     row = {name: numbers.get(name, math.nan) for name in OF_MOMENT} | {
         **{name: sense * numbers[name] for name in FRICTION_FORCES if name in OF_MOMENT},
-        "time": now.time,
-        "entrainment_speed": speed,
-        "sliding_speed": sliding,
-        "load": total,
-        "friction_force": sense * f * total,
-        "power_loss": power_of_forces(sense * f * total, along * numbers["rolling_resistance"], speed, sliding),
+        **motion_columns(
+            now,
+            scene,
+            sliding=sliding,
+            force=sense * f * total,
+            rolling_resistance=numbers["rolling_resistance"],
+        ),
         "sampling_error": scatter / abs(f) if f and math.isfinite(scatter) else math.nan,
-        "time_error": now.error,
         **full_load_numbers(scene, speed, solver.prepared.surface.sq, math.nan),
         "mass_residual": left["mass"] if now.steps else 0.0,
-        "steps": now.steps,
         "mean_film": result.mean_gap,
-        "wet_from": wet[0] if wet.size else math.nan,
-        "wet_to": wet[-1] if wet.size else math.nan,
+        **ends_of_film(wet),
         "max_pressure": float(result.pressure.max()),
     }
     film = result.central_gap

@@ -40,7 +40,17 @@ from .checks_before import (
 from .control_variate import ControlVariate, with_forces_of_film
 from .decision import Decision
 from .film_speed import film_and_exponents, speed_of
-from .heat import Heat, error_by_heat, film_lubricant, inlet_at, peclet_at, point_heat, surroundings, typical_heat
+from .heat import (
+    Heat,
+    PressurisedFilm,
+    error_by_heat,
+    film_lubricant,
+    inlet_at,
+    peclet_at,
+    point_heat,
+    surroundings,
+    typical_heat,
+)
 from .largest_friction import at_largest_ends, largest_at_load, largest_of_oil, largest_sliding_friction
 from .memo import DryContactKey, JoinedKey, Key, Memo, OperatorKey, ReferenceKey
 from .model_error import (

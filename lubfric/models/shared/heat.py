@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -15,7 +15,6 @@ from ...errors import InputError
 from ...film import (
     FAST_PECLET_NUMBER,
     MOST_THERMAL_LOADING,
-    EHLResult,
     FilmHeat,
     InletHeat,
     ShearForce,
@@ -198,8 +197,30 @@ class PointHeat:
     stress: Callable[..., Any] | None = None
 
 
+class PressurisedFilm(Protocol):
+    """What the heat of a film depends on: the nodes, positions x [m], pressure [Pa] and film thickness [m], (n,) each, the
+    entrainment speed [m/s], and where the film ruptures [m]. A `lubfric.film.EHLResult` is one."""
+
+    @property
+    def x(self) -> FloatArray: ...
+    @property
+    def pressure(self) -> FloatArray: ...
+    @property
+    def film_thickness(self) -> FloatArray: ...
+    @property
+    def entrainment_speed(self) -> float: ...
+    @property
+    def rupture(self) -> float: ...
+
+
 def point_heat(
-    scene: Scene, film: Any, contact_state: ContactState, *, contact_load: float, force: float, shear: ShearForce
+    scene: Scene,
+    film: PressurisedFilm,
+    contact_state: ContactState,
+    *,
+    contact_load: float,
+    force: float,
+    shear: ShearForce,
 ) -> PointHeat:
     """Return the heat of ``film`` with a ``contact_state`` that carries ``contact_load`` [N].
 
@@ -263,7 +284,9 @@ class FilmNodes:
         return float(self.width * lost) / max(self.force, 1e-300)
 
 
-def _nodes(scene: Scene, film: EHLResult, contact_state: ContactState, contact_load: float, force: float) -> FilmNodes:
+def _nodes(
+    scene: Scene, film: PressurisedFilm, contact_state: ContactState, contact_load: float, force: float
+) -> FilmNodes:
     """Return the nodes of ``film``, around which the contact carries ``contact_load`` [N]."""
     bodies = scene.bodies
     motion = scene.motion
@@ -301,7 +324,13 @@ def surroundings(scene: Scene, speed: float, wet: FloatArray, boundary_stress: F
 
 
 def typical_heat(
-    scene: Scene, film: Any, contact_state: ContactState, *, contact_load: float, force: float, shear: ShearForce
+    scene: Scene,
+    film: PressurisedFilm,
+    contact_state: ContactState,
+    *,
+    contact_load: float,
+    force: float,
+    shear: ShearForce,
 ) -> float:
     """Return the share of ``force`` = |f F_T| [N] that the heat of film and surfaces would take away, at most, if the
     viscosity fell with the temperature as that of a typical oil (`TYPICAL`), from the stress of the isothermal film. 0
