@@ -187,11 +187,12 @@ class Discretisation:
         matrix = np.einsum("mab,mij->ibja", parts, self.body.harmonics).reshape(nx * half, nx * half)
         return matrix[np.ix_(self.place, self.place)]
 
-    def shape(self, time: float) -> tuple[np.ndarray, np.ndarray]:
-        """Return x²/(2R) - z [m] at the points of quadrature and at the degrees of freedom."""
+    def shape(self, time: float, height_share: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
+        """Return x²/(2R) - s z [m] at the points of quadrature and at the degrees of freedom; s: ``height_share``."""
         values = []
         for x, y in (self.quadrature, self.basis.doflocs):
-            values.append(x**2 / (2 * self.problem.contact.radius) - self.problem.heights(x, y, time))
+            heights = height_share * self.problem.heights(x, y, time)
+            values.append(x**2 / (2 * self.problem.contact.radius) - heights)
         if self.problem.floor is not None:
             values[0] = np.asarray(self.basis.interpolate(values[1]))
         return values[0], values[1]
@@ -301,6 +302,40 @@ class Step:
     before: np.ndarray | float = 0.0
 
 
+@dataclass(frozen=True, kw_only=True)
+class ActiveSets:
+    """Which degrees of freedom have p = 0 (``held``), and which have h = floor (``touching``)."""
+
+    held: np.ndarray
+    touching: np.ndarray
+
+    def differs(self, other: "ActiveSets") -> bool:
+        """Return whether ``other`` has another node in one of the sets."""
+        return bool(((self.held != other.held) | (self.touching != other.touching)).any())
+
+
+@dataclass(frozen=True, kw_only=True)
+class NewtonIterate:
+    """An iterate of Newton's method at the degrees of freedom: ``pressure`` [Pa], ``approach`` h0 [m] and ``gap`` [m], the
+    balance of ``mass``, and the ``excess`` of the load, relative."""
+
+    pressure: np.ndarray
+    approach: float
+    gap: np.ndarray
+    mass: Balance
+    excess: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolvedMoment:
+    """What `newton` reached at the ``time`` [s]: its last iterate, the nodes that touch, and the report."""
+
+    iterate: NewtonIterate
+    touching: np.ndarray
+    time: float
+    report: SolveReport
+
+
 def newton(
     grid: Discretisation,
     p: np.ndarray,
@@ -311,81 +346,114 @@ def newton(
     tolerance: float = 1e-7,
     max_iterations: int = 60,
     touching: np.ndarray | None = None,
-) -> tuple[np.ndarray, float, Balance, SolveReport, np.ndarray]:
-    """Return pressure [Pa] and approach [m] of a moment, with the balance, the report and the nodes that touch. ``touching``:
-    those that touch at first.
+    height_share: float = 1.0,
+) -> SolvedMoment:
+    """Return the solution of a moment, from pressure ``p`` [Pa] and ``approach`` [m] on. ``touching``: the nodes that touch
+    at first; ``height_share``: the heights of the problem count so much.
 
     The residuals are the mass lost on the way to the rupture over the inflow, the load, the largest tension over the
     Hertz pressure, and the largest |h - floor| of touching nodes over the film of Moes."""
-    contact = grid.problem.contact
-    floor = grid.problem.floor
-    shape, nodal = grid.shape(time)
-    load = contact.load_per_width
-    unit = contact.hertz_pressure
-    inflow = contact.entrainment_speed * contact.moes_film * grid.problem.period / 2
+    shape, nodal = grid.shape(time, height_share)
     held = grid.edge | (p <= 0)
     touching = np.zeros(p.size, bool) if touching is None else touching & ~held
-    pull = PULL * contact.entrainment_speed * (floor or 0.0) * grid.area / grid.problem.spacing[0]
-    history = []
+    sets = ActiveSets(held=held, touching=touching)
+    history: list[float] = []
     status = ITERATION_LIMIT
     while True:
         moved = approach + grid.stiff @ p
-        gap = nodal + moved
-        at = balance(grid, p, moved, shape, nodal, step)
-        excess = float(grid.load_weights @ p) / load - 1
-        fluid = ~held & ~touching
-        residuals = {"mass": float(np.abs(at.lost[fluid]).sum() / inflow), "load": abs(excess)}
-        residuals["tension"] = float(max(-p.min(), 0.0) / unit)
-        if floor is not None:
-            residuals["touching"] = float(np.abs(gap[touching] - floor).max(initial=0.0) / contact.moes_film)
+        at = NewtonIterate(
+            pressure=p,
+            approach=approach,
+            gap=nodal + moved,
+            mass=balance(grid, p, moved, shape, nodal, step),
+            excess=float(grid.load_weights @ p) / grid.problem.contact.load_per_width - 1,
+        )
+        residuals = residuals_of(grid, at, sets)
         history.append(max(residuals.values()))
-        new = grid.edge | np.where(held, at.lost > 0, p < 0)
-        closed = np.zeros(p.size, bool)
-        if floor is not None:
-            closed = np.where(touching, (at.lost >= -pull) & (p > 0), gap < floor) & ~grid.edge
-            new &= ~closed
+        following = following_sets(grid, at, sets)
         if not np.isfinite(history[-1]):
             status = DIVERGED
             break
-        if history[-1] <= tolerance and not ((new != held) | (closed != touching)).any():
+        if history[-1] <= tolerance and not following.differs(sets):
             status = CONVERGED
             break
         if len(history) > max_iterations:
             break
-        held = new
-        touching = closed
-        free = np.flatnonzero(~held)
-        contacts = touching[free]
-        change = np.where(held, -p, 0.0)
-        matrix = np.zeros((free.size + 1, free.size + 1), order="F")
-        matrix[:-1, :-1] = at.by_pressure[free][:, free].toarray() + at.by_gap[free] @ grid.stiff[:, free]
-        matrix[:-1, :-1] *= unit / inflow
-        matrix[:-1, -1] = np.asarray(at.by_gap[free].sum(axis=1)).ravel() * contact.film_unit / inflow
-        matrix[-1, :-1] = grid.load_weights[free] * unit / load
-        lost = at.lost + at.by_pressure @ change + at.by_gap @ (grid.stiff @ change)
-        right = -np.append(lost[free] / inflow, excess + grid.load_weights @ change / load)
-        if contacts.any():
-            rows = np.flatnonzero(contacts)
-            nodes = free[rows]
-            matrix[rows, :-1] = grid.stiff[np.ix_(nodes, free)] * unit / contact.film_unit
-            matrix[rows, -1] = 1.0
-            right[rows] = (floor - gap[nodes] - grid.stiff[nodes] @ change) / contact.film_unit
-        solution = scipy.linalg.solve(matrix, right, overwrite_a=True, check_finite=False)
-        change[free] = solution[:-1] * unit
-        rise = float(solution[-1]) * contact.film_unit
-        share = step_share(grid, p, change, gap, rise, touching)
+        sets = following
+        change, rise = newton_step(grid, at, sets)
+        share = step_share(grid, p, change, at.gap, rise, sets.touching)
         p = p + share * change
         approach = approach + share * rise
-    steps = len(history) - 1
     report = SolveReport(
         solver="rough EHL by finite elements",
         status=status,
-        iterations=steps,
+        iterations=len(history) - 1,
         tolerance=tolerance,
         residuals=residuals,
         history=tuple(history),
     )
-    return p, approach, at, report, touching
+    return SolvedMoment(iterate=at, touching=sets.touching, time=time, report=report)
+
+
+def inflow_of(grid: Discretisation) -> float:
+    """Return the flow [m³/s] of the film of Moes into half of the period."""
+    contact = grid.problem.contact
+    return contact.entrainment_speed * contact.moes_film * grid.problem.period / 2
+
+
+def residuals_of(grid: Discretisation, at: NewtonIterate, sets: ActiveSets) -> dict[str, float]:
+    """Return the residuals of an iterate by name, as in `newton`."""
+    contact = grid.problem.contact
+    floor = grid.problem.floor
+    fluid = ~sets.held & ~sets.touching
+    residuals = {"mass": float(np.abs(at.mass.lost[fluid]).sum() / inflow_of(grid)), "load": abs(at.excess)}
+    residuals["tension"] = float(max(-at.pressure.min(), 0.0) / contact.hertz_pressure)
+    if floor is not None:
+        off_floor = np.abs(at.gap[sets.touching] - floor)
+        residuals["touching"] = float(off_floor.max(initial=0.0) / contact.moes_film)
+    return residuals
+
+
+def following_sets(grid: Discretisation, at: NewtonIterate, sets: ActiveSets) -> ActiveSets:
+    """Return the sets that the next step takes: by the signs of pressure, gap and lost mass at an iterate."""
+    contact = grid.problem.contact
+    floor = grid.problem.floor
+    p = at.pressure
+    lost = at.mass.lost
+    held = grid.edge | np.where(sets.held, lost > 0, p < 0)
+    if floor is None:
+        return ActiveSets(held=held, touching=np.zeros(p.size, bool))
+    pull = PULL * contact.entrainment_speed * floor * grid.area / grid.problem.spacing[0]
+    touching = np.where(sets.touching, (lost >= -pull) & (p > 0), at.gap < floor) & ~grid.edge
+    return ActiveSets(held=held & ~touching, touching=touching)
+
+
+def newton_step(grid: Discretisation, at: NewtonIterate, sets: ActiveSets) -> tuple[np.ndarray, float]:
+    """Return the change of the pressures [Pa] and of the approach [m] in a full step of Newton's method."""
+    contact = grid.problem.contact
+    load = contact.load_per_width
+    unit = contact.hertz_pressure
+    inflow = inflow_of(grid)
+    mass = at.mass
+    free = np.flatnonzero(~sets.held)
+    contacts = sets.touching[free]
+    change = np.where(sets.held, -at.pressure, 0.0)
+    matrix = np.zeros((free.size + 1, free.size + 1), order="F")
+    matrix[:-1, :-1] = mass.by_pressure[free][:, free].toarray() + mass.by_gap[free] @ grid.stiff[:, free]
+    matrix[:-1, :-1] *= unit / inflow
+    matrix[:-1, -1] = np.asarray(mass.by_gap[free].sum(axis=1)).ravel() * contact.film_unit / inflow
+    matrix[-1, :-1] = grid.load_weights[free] * unit / load
+    lost = mass.lost + mass.by_pressure @ change + mass.by_gap @ (grid.stiff @ change)
+    right = -np.append(lost[free] / inflow, at.excess + grid.load_weights @ change / load)
+    if contacts.any():
+        rows = np.flatnonzero(contacts)
+        nodes = free[rows]
+        matrix[rows, :-1] = grid.stiff[np.ix_(nodes, free)] * unit / contact.film_unit
+        matrix[rows, -1] = 1.0
+        right[rows] = (grid.problem.floor - at.gap[nodes] - grid.stiff[nodes] @ change) / contact.film_unit
+    solution = scipy.linalg.solve(matrix, right, overwrite_a=True, check_finite=False)
+    change[free] = solution[:-1] * unit
+    return change, float(solution[-1]) * contact.film_unit
 
 
 def step_share(
@@ -403,29 +471,22 @@ def step_share(
     return min(share, (1 - SMALLEST_SHARE) / max(float(thinner.max()), 1e-9))
 
 
-def film_of(
-    grid: Discretisation,
-    p: np.ndarray,
-    approach: float,
-    at: Balance,
-    time: float,
-    report: SolveReport,
-    touching: np.ndarray,
-) -> RoughStripFilm:
+def film_of(grid: Discretisation, moment: SolvedMoment) -> RoughStripFilm:
     """Return the result of a converged solve; `SolveError` for another."""
-    nodal = grid.shape(time)[1]
-    gap = nodal + approach + grid.stiff @ p
-    flow = float(at.lost[grid.first].sum()) / (grid.problem.period / 2)
-    return report.checked(
+    at = moment.iterate
+    nodal = grid.shape(moment.time)[1]
+    gap = nodal + at.approach + grid.stiff @ at.pressure
+    flow = float(at.mass.lost[grid.first].sum()) / (grid.problem.period / 2)
+    return moment.report.checked(
         RoughStripFilm(
             problem=grid.problem,
-            pressure=grid.field(p),
+            pressure=grid.field(at.pressure),
             gap=grid.field(gap),
-            approach=approach,
+            approach=at.approach,
             flow=flow,
-            time=time,
-            report=report,
-            touching=grid.field(touching),
+            time=moment.time,
+            report=moment.report,
+            touching=grid.field(moment.touching),
         )
     )
 
@@ -441,7 +502,7 @@ def solve_rough(
         p = interpolated(start, grid)
         known = RegularGridInterpolator((start.problem.x, start.problem.y), start.touching.astype(float), "nearest")
         closed = at_nodes(known, start.problem, grid) > 0.5
-        return film_of(grid, *solved(grid, p, start.approach, time, tolerance, touching=closed))
+        return film_of(grid, newton(grid, p, start.approach, time, tolerance=tolerance, touching=closed))
     smooth = solve_ehl(contact, refinements=0, fineness=1.0, between=SMOOTH_CELL)[-1]
     x = grid.basis.doflocs[0]
     ends = smooth.body.x.min(), smooth.body.x.max()
@@ -451,31 +512,11 @@ def solve_rough(
     approach = float(smooth.at(x[middle : middle + 1])[1][0] - (x**2 / (2 * contact.radius) + grid.stiff @ p)[middle])
     touching = np.zeros(p.size, bool)
     for share in (0.0, 0.5, 1.0) if problem.floor is None else np.linspace(0.0, 1.0, TOUCHING_SHARES):
-        grid.problem = replace(problem, heights=scaled(problem.heights, share))
-        try:
-            p, approach, at, time, report, touching = solved(grid, p, approach, time, tolerance, touching=touching)
-        finally:
-            grid.problem = problem
-    return film_of(grid, p, approach, at, time, report, touching)
-
-
-def scaled(heights: Heights, share: float) -> Heights:
-    """Return the ``heights`` times a ``share``."""
-    return lambda x, y, time: share * heights(x, y, time)
-
-
-def solved(
-    grid: Discretisation,
-    p: np.ndarray,
-    approach: float,
-    time: float,
-    tolerance: float,
-    step: Step = Step(),
-    touching: np.ndarray | None = None,
-) -> tuple[np.ndarray, float, Balance, float, SolveReport, np.ndarray]:
-    """Return `newton`, in the order of the arguments of `film_of`."""
-    p, approach, at, report, touching = newton(grid, p, approach, time, step, tolerance=tolerance, touching=touching)
-    return p, approach, at, time, report, touching
+        moment = newton(grid, p, approach, time, tolerance=tolerance, touching=touching, height_share=float(share))
+        p = moment.iterate.pressure
+        approach = moment.iterate.approach
+        touching = moment.touching
+    return film_of(grid, moment)
 
 
 def interpolated(coarse: RoughStripFilm, grid: Discretisation) -> np.ndarray:
@@ -493,7 +534,7 @@ def at_nodes(known: RegularGridInterpolator, coarse: RoughLine, grid: Discretisa
 def march(
     grid: Discretisation, start: RoughStripFilm, length: float, *, tolerance: float = 1e-6
 ) -> Iterator[RoughStripFilm]:
-    """Films that are ``length`` [s] apart, without end, from ``start`` on, while the heights move."""
+    """Yield films that are ``length`` [s] apart, without end, from ``start`` on, while the heights move."""
     p = np.empty(grid.basis.N)
     p[:] = start.pressure.ravel()[grid.place]
     approach = start.approach
@@ -506,9 +547,12 @@ def march(
     while True:
         time += length
         step = Step(length, rates, now, before)
-        p, approach, at, _, report, touching = solved(grid, p, approach, time, tolerance, step, touching)
-        film = film_of(grid, p, approach, at, time, report, touching)
+        moment = newton(grid, p, approach, time, step, tolerance=tolerance, touching=touching)
+        film = film_of(grid, moment)
+        p = moment.iterate.pressure
+        approach = moment.iterate.approach
+        touching = moment.touching
         before = now
-        now = at.content
+        now = moment.iterate.mass.content
         rates = BDF2
         yield film
