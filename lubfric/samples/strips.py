@@ -227,7 +227,7 @@ class MeasuredStrips(Sample):
         plain = scene.with_(**parts)
         surface = self.maps_before_extension[0]
         cells = _cells_of_map(plain, surface, self.correlation_lengths, reach_of(scene, self.surface.sq))
-        return len(_window_starts(plain, surface, self.correlation_lengths, cells.columns * cells.coarsening[0]))
+        return len(_window_starts(plain, surface, self.correlation_lengths, cells, surface.shape[0]))
 
     def joined(self, indices: Sequence[int]) -> Surface:
         fx, fy = self.cells.coarsening
@@ -323,7 +323,7 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
     surface, *parts = (each.continued(reach) for each in maps) if is_extended(scene) else maps
     lengths = length_or_half(surface, 0), length_or_half(surface, 1)
     cells = _cells_of_map(scene, surface, lengths, reach)
-    starts = _window_starts(scene, surface, lengths, cells.columns * cells.coarsening[0])
+    starts = _window_starts(scene, surface, lengths, cells, maps[0].shape[0])
     kept = surface.shape[1] - _blended_rows(surface, lengths)
     length = kept * surface.spacing[1]
     count = len(starts)
@@ -369,14 +369,21 @@ def _cells_of_map(scene: Scene, surface: Surface, lengths: tuple[float, float], 
     return cells
 
 
-def _window_starts(scene: Scene, surface: Surface, lengths: tuple[float, float], columns: int) -> list[int]:
-    """Return the first columns of windows of so many ``columns`` that the map ``surface`` holds independently; where
-    these are few, of windows that reach over its ends as well."""
+def _window_starts(
+    scene: Scene, surface: Surface, lengths: tuple[float, float], cells: Cells, columns_of_map: int
+) -> list[int]:
+    """Return the first columns of windows that the map ``surface`` holds independently, on these ``cells``; where they are
+    few, of windows that reach over the ends of its first ``columns_of_map`` as well: what follows is their mirror image, under
+    which the same asperities carry the load once more."""
     half_width = scene.bodies.half_width
     dx = surface.spacing[0]
+    columns = cells.columns * cells.coarsening[0]
     step = max(1, round(max(WINDOW_DISTANCE * lengths[0], 2 * half_width) / dx))
-    starts = starts_of(surface.shape[0], columns, step, 0)
-    if len(starts) >= ENOUGH_WINDOWS or is_extended(scene):
-        return starts
+    if columns <= columns_of_map:
+        starts = starts_of(columns_of_map, columns, step, 0)
+        if len(starts) >= ENOUGH_WINDOWS:
+            return starts
     overhang = min(max(0, math.floor(0.5 * columns - half_width / dx)), surface.shape[0])
-    return starts_of(surface.shape[0], columns, step, overhang)
+    if columns > columns_of_map + 2 * overhang:  # the Hertz strip is longer than the map
+        return [(surface.shape[0] - columns) // 2]
+    return starts_of(columns_of_map, columns, step, overhang)

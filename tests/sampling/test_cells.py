@@ -160,3 +160,26 @@ def test_no_piece_of_a_map_is_compared_twice(tmp_path):
     unsure = lubfric.friction(scene, 0.01).uncertainty
     assert np.isnan([unsure.sampling, unsure.area_needed, *unsure.interval]).all()  # not "no more is needed"
     assert "correlation lengths of the solved surface along y are too few" in unsure.text
+
+
+@pytest.mark.parametrize("columns", [60, 100, 140])
+def test_no_asperity_counts_twice_where_a_map_is_continued_by_its_mirror_image(tmp_path, columns):
+    """The columns under the Hertz strips of all windows, numbered by the first row of the map, are of different places."""
+    heights = lubfric.generate_surface((columns, 200), 0.5e-6, sq=80e-9, correlation_length=1.5e-6, seed=2).heights
+    np.save(tmp_path / "map.npy", heights)
+    scene = PAPER.with_(
+        bodies={"load": 20.0},
+        surface={"file": str(tmp_path / "map.npy"), "spacing": 0.5e-6, "extension": "mirror"},
+        contact={"shape": None, "spacing": None},
+    )
+    strips = lubfric.prepare(scene).sample
+    assert strips.cells.coarsening == (1, 1)
+    half = math.floor(scene.bodies.half_width / 0.5e-6)
+    whole = strips.surface.heights[:columns, 50]
+    places = []
+    for index in range(strips.available_strips):
+        column = strips.strip(index).heights[:, 50]
+        middle = column.size // 2
+        under = column[middle - half : middle + half]
+        places.append({int(k) for k in np.argmin(np.abs(np.subtract.outer(under, whole)), axis=1)})
+    assert sum(len(place) for place in places) == len(set().union(*places))
