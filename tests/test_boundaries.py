@@ -104,6 +104,7 @@ def test_the_estimate_knows_the_contract_of_a_model_and_no_model():
         "with_boundary_friction_at",
         "prepared_with",
         "models_cheaper_than",
+        "models_that_may_answer",
         "models_up_to",
     }
     names = set()

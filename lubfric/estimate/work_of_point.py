@@ -5,7 +5,8 @@ import math
 from collections.abc import Collection, Container, Sequence
 from dataclasses import dataclass
 
-from ..models import AUTO, SharedWork, WorkEstimate, models_up_to
+from ..models import AUTO, Model, SharedWork, WorkEstimate, models_that_may_answer, models_up_to
+from ..models.shared import ExpectedViolations, Violation
 from ..samples import Sample
 from ..scene import Scene
 from ..surface import Surface
@@ -18,6 +19,7 @@ class PointWorkEstimate:
     Attributes
     ----------
     speed : of entrainment [m/s]
+    model : that is expected to answer
     asperities : whether asperities touch under the expected film of the total load (`WorkEstimate.asperities`)
     error : relative standard error of f after the first strips of the cheapest model
     strips : number of strips that ``numerics.sampling_tolerance`` needs, by the last model that has a line of its own
@@ -33,6 +35,7 @@ class PointWorkEstimate:
     """
 
     speed: float
+    model: Model
     asperities: str
     error: float
     strips: int
@@ -63,9 +66,11 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
         solved = [k for k in range(last + 1) if k == last or not _is_left_unsolved(estimates, k)]
     with_line = [k for k in solved if estimates[k].strips and math.isfinite(estimates[k].length)]
     line = estimates[max(with_line, default=0)]
+    answering = max((k for k in solved if estimates[k].has_answer), default=0)
     with_slow_strips = [k for k, model in enumerate(models) if model.has_slow_strips]
     return PointWorkEstimate(
         speed=speed,
+        model=models[answering],
         asperities=cheapest.asperities,
         error=cheapest.expected_sampling_error,
         strips=line.strips,
@@ -77,6 +82,26 @@ def estimated_work_of_point(scene: Scene, sample: Sample, surface: Surface, spee
         slow_strip_seconds=max((estimates[k].strip_seconds for k in with_slow_strips), default=0.0),
         longest_strip_seconds=max((estimates[k].longest_strip_seconds for k in with_slow_strips), default=0.0),
     )
+
+
+def expected_violations(scene: Scene, sample: Sample, surface: Surface, speeds: list[float]) -> ExpectedViolations:
+    """Return the limits that will be exceeded at ``speeds`` [m/s] (`Model.expected_violations`).
+
+    They are those of the cheapest model that may answer, with whose solution "auto" begins, and at each speed those that the
+    model that is expected to answer has in addition. ``sample`` and ``surface``: as of `estimated_work_of_point`.
+    """
+    first = models_that_may_answer(scene.numerics.model)[0]
+    expected = first.expected_violations(scene, speeds)
+    speeds_of: dict[str, tuple[Model, list[float]]] = {}
+    for speed in speeds:
+        model = estimated_work_of_point(scene, sample, surface, speed).model
+        speeds_of.setdefault(model.name, (model, []))[1].append(speed)
+    known = {violation.assumption for _, violation in expected}
+    more: list[tuple[float | None, Violation]] = []
+    for name, (model, at) in speeds_of.items():
+        if name != first.name:
+            more += [pair for pair in model.expected_violations(scene, at) if pair[1].assumption not in known]
+    return (*expected, *more)
 
 
 def _is_left_unsolved(estimates: Sequence[WorkEstimate], k: int) -> bool:

@@ -346,6 +346,15 @@ class Model(ABC):
         """Return what the model is, and how wide its interval, as text for a ``scene`` that names it."""
         return f"{self.name} model (numerics.model)"
 
+    def described_in_auto(self, scene: Scene, where: str, *, is_everywhere: bool) -> str:
+        """Return how the model takes part ``where`` numerics.model = "auto" is expected to take it, and what answers at
+        other speeds unless it ``is_everywhere``, as text. ``where``: speeds in words."""
+        return f"{self.name} model {where}"
+
+    def limit_of_work_in_auto(self) -> str:
+        """Return the work of a point above which numerics.model = "auto" leaves it to a cheaper model, as text; "": none."""
+        return ""
+
     def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:
         """Return the limits of the model that will be exceeded at ``speeds`` [m/s], by closed forms before the solve,
         each with its speed (None: at all speeds)."""

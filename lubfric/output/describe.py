@@ -6,9 +6,14 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from ..errors import InputError
-from ..estimate import FrictionResult, estimated_work_of_point, seconds_of_points
-from ..models import ALL_TOUCH, AUTO, FEW_TOUCH, NONE_TOUCHES, model_named, models_that_may_answer
-from ..models.deterministic import MOST_WORK_OF_POINT
+from ..estimate import (
+    FrictionResult,
+    PointWorkEstimate,
+    estimated_work_of_point,
+    expected_violations,
+    seconds_of_points,
+)
+from ..models import ALL_TOUCH, AUTO, FEW_TOUCH, NONE_TOUCHES, model_named, models_up_to
 from ..models.shared import (
     Assumption,
     ExpectedEffect,
@@ -25,7 +30,7 @@ from ..models.shared import (
 )
 from ..quantities import counted
 from ..samples import Sample, check_map, sample_of
-from ..scene import UNITS_OF_HISTORIES, Scene, has_moving_roughness, hint_unusual_values, why_gap_not_resolved
+from ..scene import UNITS_OF_HISTORIES, Scene, has_moving_roughness, hint_unusual_values
 from ..studies import WITHIN_WORDS, expected_speeds, in_words
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import (
@@ -52,16 +57,6 @@ TABLE_CAPTION = "estimate with closed forms: full-load film, asperity contact, a
 # Sections of ``lubfric info`` before and after that table: first what a user looks for.
 BEFORE_TABLE = ("model", "transient", "validity")
 AFTER_TABLE = ("bodies", "lubricant", "motion", "surface", "contact", "effects not modelled")
-# How the deterministic model takes part where the roughness is at rest, and where it moves.
-DETERMINISTIC_IN_WORDS = (
-    "load-sharing model, corrected by the deterministic model on some strips,",
-    "deterministic model with moving roughness",
-)
-# What answers at the other speeds.
-ELSEWHERE = (
-    "; elsewhere the load-sharing model, and the quick answer where heat changes f by more than 20 % or the film by more "
-    "than 30 %"
-)
 # Processor seconds of ``lubfric run`` beside its solves: 1.0 to start, and those of pictures and files.
 COMMAND_SECONDS = 2.4
 # Processor seconds of pictures and files, of these.
@@ -171,7 +166,6 @@ def estimate_scene(
         changing = [cost, *_histories(scene), *lines]
     elif cost:
         model.append(f"cost: {cost}; 'lubfric run' takes {in_words(beside)} more for start, pictures and files")
-    first_model = models_that_may_answer(scene.numerics.model)[0]
     at = [
         *((None, violation) for violation in beforehand(scene, sample, surface)),
         *(
@@ -179,7 +173,7 @@ def estimate_scene(
             for violation in violations_by_form(scene, sample.maps_before_extension, has_given_map=False)
         ),
         *((None, violation) for violation in violations_by_strips(*sample.sq_deviation(surface))),
-        *first_model.expected_violations(scene, sorted(set(speeds))),
+        *_expected_of_models(scene, sample, surface, sorted(set(speeds))),
     ]
     if scene.transient is not None:
         fastest = _fastest_moment(scene)
@@ -223,6 +217,15 @@ def estimate_scene(
     )
 
 
+def _expected_of_models(
+    scene: Scene, sample: Sample, surface: Surface, speeds: list[float]
+) -> tuple[tuple[float | None, Violation], ...]:
+    """Return the limits of the models that will be exceeded at ``speeds`` [m/s], each with its speed."""
+    if scene.transient is not None:
+        return run_model_of(scene).model.expected_violations(scene, speeds)
+    return expected_violations(scene, sample, surface, speeds)
+
+
 def _fastest_moment(scene: Scene) -> Scene:
     """Return the scene of a run in time at the moment of its largest entrainment speed; any other scene as it is."""
     if scene.transient is None:
@@ -251,7 +254,6 @@ def _model(
     """Return which model will answer at the ``speeds`` [m/s] and ``ratios``, and why; and the processor seconds of all
     of them (`lubfric.estimate.friction`; 0: not known here)."""
     name = scene.numerics.model
-    why = why_gap_not_resolved(scene)
     if scene.transient is not None:
         run = run_model_of(scene)
         rows = [run.described(scene)]
@@ -263,38 +265,36 @@ def _model(
     if len(ratios):
         points = [(scene.with_(motion={"slide_roll_ratio": ratio}), speeds[0]) for ratio in ratios]
     forecasts = [estimated_work_of_point(at, sample, surface, speed) for at, speed in points]
-    resolved = [one.speed for one in forecasts if one.slow_strips]
     strip = max((one.slow_strip_seconds for one in forecasts), default=0.0)
     if name != AUTO:
         rows = [model_named(name).described(scene)]
-    elif why:
-        rows = [f"load-sharing model alone: {why}; its model-form error is not known and not in the interval"]
-    elif not resolved and strip:
-        rows = [
-            "quick answer (deterministic model on long cells, calibrated); on its usual cells the deterministic model would take "
-            "too long"
-        ]
-    elif not resolved:
-        rows = ["load-sharing model alone: the film is thick or the surfaces are smooth, and both models agree"]
     else:
-        ends = dict.fromkeys(f"{speed:.3g}" for speed in (resolved[0], resolved[-1]))
-        to = f"with a target of {100 * scene.numerics.model_tolerance:g} % for the model-form error"
-        rows = [
-            f"{DETERMINISTIC_IN_WORDS[bool(strip)]} at {' to '.join(ends)} m/s, {to}"
-            + (ELSEWHERE if len(resolved) < len(points) else "")
-        ]
+        rows = [_in_auto(scene, forecasts)]
     if strip:
-        takes = f"one strip of moving roughness takes about {in_words(strip)} by the deterministic model"
+        slow = next(model for model in models_up_to(AUTO) if model.has_slow_strips)
+        takes = f"one strip of moving roughness takes about {in_words(strip)} by the {slow.name} model"
         longest = max(one.longest_strip_seconds for one in forecasts)
         if longest > strip:
             takes += f", and {in_words(longest)} if the error by its cells requires shorter ones"
         if not may_move_roughness(scene):
             takes = f"moving roughness is treated as stationary; {takes}"
         if name == AUTO:
-            takes += f"; above {MOST_WORK_OF_POINT:g} s of counted work, the quick answer replaces it"
+            takes += f"; {slow.limit_of_work_in_auto()}"
         rows.append(takes)
     many = len(ratios) or len(moving)
     return rows, seconds_of_points(forecasts, many)
+
+
+def _in_auto(scene: Scene, forecasts: Sequence[PointWorkEstimate]) -> str:
+    """Return which model "auto" is expected to take at the points of ``forecasts``, as text: the most expensive at any of
+    them, and where that is."""
+    expected = {point.model.name for point in forecasts}
+    cheapest = models_up_to(AUTO)[:1]
+    model = ([each for each in models_up_to(AUTO) if each.name in expected] or cheapest)[-1]
+    speeds = [point.speed for point in forecasts if point.model.name == model.name]
+    ends = dict.fromkeys(f"{speed:.3g}" for speed in (speeds[0], speeds[-1])) if speeds else {}
+    is_everywhere = len(speeds) == len(forecasts)
+    return model.described_in_auto(scene, f"at {' to '.join(ends)} m/s", is_everywhere=is_everywhere)
 
 
 def _histories(scene: Scene) -> list[str]:

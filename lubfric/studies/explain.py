@@ -11,8 +11,8 @@ from textwrap import shorten
 from typing import Any
 
 from ..errors import InputError
-from ..estimate import estimated_work_of_point, seconds_of_points
-from ..models import models_that_may_answer, prepare
+from ..estimate import estimated_work_of_point, expected_violations, seconds_of_points
+from ..models import prepare
 from ..models.shared import Assumption, Prepared, Violation, sentence, violations_by_unusual_inputs
 from ..quantities import counted, worded_value
 from ..scene import SLIDE_ROLL_RATIO_KEY
@@ -119,7 +119,7 @@ def _expected(prepared: Prepared, speeds: Sequence[float]) -> tuple[Violation, .
     values."""
     scene = prepared.scene
     at = list(speeds) or list(first_speeds(scene, prepared.surface.sq))
-    expected = models_that_may_answer(scene.numerics.model)[0].expected_violations(scene, at)
+    expected = expected_violations(scene, prepared.sample, prepared.surface, at)
     known = (*prepared.violations, *(violation for _, violation in expected))
     return tuple(violation for violation in known if violation.assumption != Assumption.USUAL_VALUES)
 

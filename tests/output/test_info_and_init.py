@@ -295,6 +295,29 @@ def test_info_of_a_model_that_takes_too_long_says_what_answers():
     assert result.model > 0.05 and np.isfinite(result.interval).all()
 
 
+def test_info_states_the_limits_of_the_model_that_auto_is_expected_to_take(monkeypatch):
+    """Where the deterministic model would take too long, they are those of the quick answer."""
+    monkeypatch.setattr("lubfric.models.deterministic.estimated_work.MOST_WORK_OF_POINT", 1e-3)
+    light = lubfric.load_scene("paper").with_(
+        bodies={"load": 2.0}, motion={"slide_roll_ratio": 0.1, "speeds": [0.03]}, numerics={"model": "quick"}
+    )
+    stated = {}
+    for name in ("quick", "auto"):
+        text = describe_scene(light.with_(numerics={"model": name}))
+        stated[name] = text.partition("  validity\n")[2].partition("\n  estimate")[0]
+    assert stated["auto"] == stated["quick"] and "The quick answer is not calibrated" in stated["auto"]
+
+
+def test_info_counts_no_strips_of_a_model_that_has_no_answer():
+    """Streamers are sheared in the load-sharing model alone, so it answers for every model."""
+    streamers = lubfric.load_scene("paper").with_(motion={"speeds": [0.03]}, numerics={"cavitated_shear": "striated"})
+    costs = set()
+    for name in ("paper", "quick", "auto"):
+        text = describe_scene(streamers.with_(numerics={"model": name}))
+        costs.add(text.partition("cost: ")[2].partition("\n")[0])
+    assert len(costs) == 1
+
+
 def test_info_says_what_a_strip_takes_if_its_cells_have_to_be_shorter():
     """On cells half a correlation length long along y a strip may be solved again; on the shorter cells of the scene, and with
     a wider target of the error, it is not."""

@@ -17,8 +17,9 @@ from ..shared import (
     why_no_rough_film,
 )
 from .answer import answer_of
+from .counted_work import MOST_WORK_OF_POINT
 from .estimated_work import estimated_work, why_too_costly
-from .heat_of_strip import why_too_hot
+from .heat_of_strip import too_hot_in_words, why_too_hot
 from .levels import Levels, TwoLevelEstimate, levels_of, solve_pairs, two_levels
 from .strip_on_two_grids import StripOnTwoGrids, sample_coarsening_of
 
@@ -71,6 +72,20 @@ class DeterministicModel(Model):
     @property
     def includes_motion(self) -> bool:
         return True
+
+    def described_in_auto(self, scene: Scene, where: str, *, is_everywhere: bool) -> str:
+        target = f"with a target of {100 * scene.numerics.model_tolerance:g} % for the model-form error"
+        elsewhere = (
+            ""
+            if is_everywhere
+            else f"; elsewhere the load-sharing model, and the quick answer where {too_hot_in_words()}"
+        )
+        if has_moving_roughness(scene):
+            return f"deterministic model with moving roughness {where}, {target}{elsewhere}"
+        return f"load-sharing model, corrected by the deterministic model on some strips, {where}, {target}{elsewhere}"
+
+    def limit_of_work_in_auto(self) -> str:
+        return f"above {MOST_WORK_OF_POINT:g} s of counted work, the quick answer replaces it"
 
     def check(self, scene: Scene, *, has_one_map_for_all_bodies: bool) -> None:
         check_resolved_gap(scene, has_one_map_for_all_bodies=has_one_map_for_all_bodies)

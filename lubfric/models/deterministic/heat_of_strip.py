@@ -64,3 +64,10 @@ def why_too_hot(heat: Heat | None) -> str:
         f"heat reduces the film to {factor:.2g} of its thickness, and f by {100 * change:.2g} %; the deterministic "
         f"model was checked down to {LEAST_FILM:g}, and up to {100 * MOST_CHANGE:g} %"
     )
+
+
+def too_hot_in_words() -> str:
+    """Return the heat from which `why_too_hot` has a reason, as text."""
+    return (
+        f"heat changes f by more than {100 * MOST_CHANGE:g} % or the film by more than {100 * (1 - LEAST_FILM):.0f} %"
+    )

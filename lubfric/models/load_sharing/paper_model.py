@@ -93,6 +93,11 @@ class PaperModel(Model):
         width = "its model-form error is not known and not in the interval"
         return f"load-sharing model of the paper (numerics.model): fast; {width if why_gap_not_resolved(scene) else 'its interval is wide'}"
 
+    def described_in_auto(self, scene: Scene, where: str, *, is_everywhere: bool) -> str:
+        if why := why_gap_not_resolved(scene):
+            return f"load-sharing model alone: {why}; its model-form error is not known and not in the interval"
+        return "load-sharing model alone: the film is thick or the surfaces are smooth, and both models agree"
+
     def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:
         return expected_in_film(scene, speeds)
 

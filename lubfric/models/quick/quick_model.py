@@ -215,6 +215,12 @@ class QuickModel(Model):
             f"error{unknown}"
         )
 
+    def described_in_auto(self, scene: Scene, where: str, *, is_everywhere: bool) -> str:
+        return (
+            "quick answer (deterministic model on long cells, calibrated); on its usual cells the deterministic model would take "
+            "too long"
+        )
+
     def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:
         known = error_model_of(scene).range
         at_all = out_of_range(scene, None, 0.0, known)
@@ -230,6 +236,8 @@ class QuickModel(Model):
         self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
     ) -> WorkEstimate:
         alone = PaperModel().estimate_work(scene, sample, surface, speed, None)
+        if why_gap_not_resolved(scene):
+            return replace(alone, seconds=0.0, has_answer=False, shared=())
         is_named = scene.numerics.model == self.name
         if alone.asperities == NONE_TOUCHES and alone.expected_model_error <= _error_of_thick_films(
             scene, surface.sq, speed
