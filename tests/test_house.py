@@ -25,6 +25,10 @@ ODD_WORDS = frozenset(
     "half_again settled Rubbing Foretold OneGap judged looks look".split()
 )
 FRAGMENT = re.compile(r"^(Of|Those|That of|The same|As)\b")
+# Two verbs, of which the first was put before an imperative.
+TWO_VERBS = re.compile(
+    r"^(Return|Yield) (add|assemble|build|compare|compute|draw|factorise|give|make|measure|put|raise|read|run|solve|take|write)\b"
+)
 # A dotted name of lubfric in backquotes.
 DOTTED = re.compile(r"`(lubfric(?:\.\w+)+)\b")
 # What stands in lubfric from before these rules: a number here may only fall.
@@ -130,6 +134,39 @@ def test_a_docstring_is_no_fragment(package):
     documented = [(path, node) for path, node in nodes(package) if isinstance(node, kinds) and ast.get_docstring(node)]
     fragments = [f"{path}:{node.lineno}" for path, node in documented if FRAGMENT.match(ast.get_docstring(node))]
     assert len(fragments) <= allowed(package, "fragments"), fragments
+    assert [f"{path}:{node.lineno}" for path, node in documented if TWO_VERBS.match(ast.get_docstring(node))] == []
+
+
+def yields(function: ast.FunctionDef) -> bool:
+    """Return whether a function is a generator: it, and no function inside it, yields."""
+    waiting = list(function.body)
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, (ast.Yield, ast.YieldFrom)):
+            return True
+        if not isinstance(node, (ast.FunctionDef, ast.ClassDef, ast.Lambda)):
+            waiting += ast.iter_child_nodes(node)
+    return False
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_a_generator_does_not_return(package):
+    functions = [(path, node) for path, node in nodes(package) if isinstance(node, ast.FunctionDef)]
+    wrong = [
+        f"{path}:{node.lineno}"
+        for path, node in functions
+        if (ast.get_docstring(node) or "").startswith("Return ") and yields(node)
+    ]
+    assert wrong == []
+
+
+@pytest.mark.parametrize(
+    "text, generator",
+    [("yield 1", True), ("for a in b:\n  yield from a", True), ("def g():\n  yield 1", False), ("return 1", False)],
+)
+def test_a_generator_is_seen(text, generator):
+    body = text.replace("\n", "\n  ")
+    assert yields(ast.parse(f"def f():\n  {body}").body[0]) == generator
 
 
 def is_private(module: str, name: str) -> bool:

@@ -85,7 +85,7 @@ Iterate = tuple[np.ndarray, np.ndarray, float, int]  # pressure, its displacemen
 
 
 def _printed(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
-    """Return the iterates of Appendix 2, Eqs. (14)-(22), in the sign of the paper: its g is minus the gap. They end
+    """Yield the iterates of Appendix 2, Eqs. (14)-(22), in the sign of the paper: its g is minus the gap. They end
     where one has no successor."""
     problem = contact.problem
     apply = contact.problem.operator.apply
@@ -119,7 +119,7 @@ def _printed(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
 
 
 def _consistent(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
-    """Return the iterates of the consistent form. Cells enter and leave the working set. Directions are kept
+    """Yield the iterates of the consistent form. Cells enter and leave the working set. Directions are kept
     (Polak-Ribiere, never negative), and epsilon follows from Eq. (8) after every step."""
     problem = contact.problem
     hardness = contact.problem.hardness

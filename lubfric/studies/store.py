@@ -134,7 +134,7 @@ class Store(RecordStore):
 def opened(
     folder: str | Path | None, classes: dict[str, type] = STORED_CLASSES, name: str = "store"
 ) -> Iterator[Store]:
-    """Return the `Store` in ``folder`` (None: none), which one caller at a time may fill. Raises `InputError` for a
+    """Yield the `Store` in ``folder`` (None: none), which one caller at a time may fill. Raises `InputError` for a
     second. ``name``: of the argument that gives the folder."""
     if folder is None:
         yield Store(None)

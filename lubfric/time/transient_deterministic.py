@@ -61,7 +61,7 @@ from .start import check_start
 
 TIME_ERROR = 2e-3  # of the film: local error of a step, unless it is said
 RUN_STEP_RESIDUAL = 1e-3  # residuals of a step
-MOST_NEWTON_STEPS = 25  # Newton steps in a step
+MOST_NEWTON_STEPS_IN_TIME = 25  # Newton steps in a step
 REST = 1e-6  # of the fastest entrainment (without any, of b over the duration): slower one counts as that
 LEAST_FLOW = 1e-3  # of the film of the fastest entrainment times that: what residuals are relative to, at least
 FIRST_STEP_CELLS = 0.1  # cells by which the fastest surface moves in the step after a start or a jump
@@ -170,9 +170,9 @@ class TransientDeterministic:
         solution = newton(
             self.problem_at(time),
             start,
-            Work(MOST_NEWTON_STEPS),
+            Work(MOST_NEWTON_STEPS_IN_TIME),
             tolerance=RUN_STEP_RESIDUAL,
-            most=MOST_NEWTON_STEPS,
+            most=MOST_NEWTON_STEPS_IN_TIME,
             history=history,
         )
         status = CONVERGED if solution.residual <= RUN_STEP_RESIDUAL else ITERATION_LIMIT

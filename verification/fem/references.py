@@ -148,7 +148,8 @@ ELASTIC_PIEZOVISCOUS = 1.311  # film of that limit over M^(-1/8) L^(3/4); likewi
 
 
 def moes(m: float, l: float) -> float:
-    """Return film where dp/dx = 0, incompressible."""
+    """Return the film h of Moes where dp/dx = 0 [-], in the unit above, by his numbers ``m`` (M, of the load) and ``l`` (L, of
+    the viscosity under pressure) [-]; incompressible. Joins the four limits as Nijenbanning et al. (1994) do."""
     ri = 3 / m
     ei = ISOVISCOUS_ELASTIC * m**-0.2
     rp = RIGID_PIEZOVISCOUS * l ** (2 / 3)
@@ -160,17 +161,17 @@ def moes(m: float, l: float) -> float:
 
 
 def grubin(u: float, g: float, w: float) -> float:
-    """Return h/R."""
+    """Return h/R [-] of Grubin's film."""
     return float(1.95 * (g * u) ** (8 / 11) * w ** (-1 / 11))
 
 
 def dowson_higginson(u: float, g: float, w: float) -> float:
-    """Return smallest h/R."""
+    """Return the smallest h/R [-] of Dowson and Higginson."""
     return float(2.65 * u**0.70 * g**0.54 * w**-0.13)
 
 
 def dowson_toyoda(u: float, g: float, w: float) -> float:
-    """Return central h/R."""
+    """Return the central h/R [-] of Dowson and Toyoda."""
     return float(3.06 * u**0.69 * g**0.56 * w**-0.10)
 
 
@@ -449,7 +450,7 @@ def schlenk(torque: float, rpm: float, viscosity: float) -> float:
 
 
 def fernandes(torque: float, rpm: float, viscosity: float, alpha: float) -> float:
-    """Return fernandes' mean friction of the gear `C14` by a modified Hersey number: 0.014 S_p^-0.25 S_g^0.25 X_L."""
+    """Return Fernandes' mean friction of the gear `C14` by a modified Hersey number: 0.014 S_p^-0.25 S_g^0.25 X_L."""
     hersey = C14.sum_speed(rpm) * viscosity * math.sqrt(alpha * C14.base[0] / torque)
     roughness = C14.ra / math.sqrt(C14.width * C14.radius)
     return float(0.014 * (roughness / hersey) ** 0.25 * LUBRICANT_FACTOR[0])

@@ -520,7 +520,7 @@ def _passing(
     cell = problem.spacing[0]
     heights_at = travelling(problem, bodies)
     shift = cells_in_a_step(bodies, step, cell)
-    beyond = max(abs(body.speed * step / cell - shift) for body in bodies)
+    part_of_cell = max(abs(body.speed * step / cell - shift) for body in bodies)
     return moments(
         lambda time: heights_at(begun + time),
         step,
@@ -529,7 +529,7 @@ def _passing(
         carries_imbalance=effort.carries_imbalance,
         linear_accuracy=effort.linear,
         shift=shift,
-        extrapolated=EXTRAPOLATED_TOGETHER if beyond <= SAME_CELLS else EXTRAPOLATED,
+        extrapolated=EXTRAPOLATED_TOGETHER if part_of_cell <= SAME_CELLS else EXTRAPOLATED,
     )
 
 

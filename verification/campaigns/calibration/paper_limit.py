@@ -13,7 +13,7 @@ MIDDLE = 0.07  # limiting stress over pressure of a usual mineral oil
 
 
 def band(level: str, run: Run = Run()) -> Iterator[Item]:
-    """Return f with the unknown limit and its interval, beside f solved with limits."""
+    """Compare f with the unknown limit and its interval with f solved with limits."""
     scene = lubfric.load_scene("paper")
     limits = (LIMIT_RANGE[0], MIDDLE, LIMIT_RANGE[1])
     rows = []

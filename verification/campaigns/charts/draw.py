@@ -14,10 +14,9 @@ EQUAL = 1e-5  # error of the pressure at which methods are compared
 
 
 def work_precision(name: str, points: list[Check], machine: str) -> Figure:
-    """Return draw error over time, one panel for each case. A ring marks the default, and bars extend from quartile to
-    quartile.
+    """Draw error over time, one panel for each case. A ring marks the default, and bars extend from quartile to quartile.
 
-        A solver with an error of 100 % has failed; its points are not drawn.
+    A solver with an error of 100 % has failed; its points are not drawn.
     """
     points = [p for p in points if p.at.get("apart") or p.measured < 1]
     names = list(dict.fromkeys(p.at["panel"] for p in points))

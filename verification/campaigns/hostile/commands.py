@@ -84,7 +84,7 @@ def words_of(draw: np.random.Generator) -> list[str]:
 
 
 def cases(draw: np.random.Generator, count: int) -> Iterator[HostileCase]:
-    """Return ``count`` commands."""
+    """Yield ``count`` commands."""
     for _ in range(count):
         words = words_of(draw)
         yield HostileCase("command", " ".join(words)[:200], partial(ended, words), may_pass=True)

@@ -65,7 +65,7 @@ def damaged(rng: np.random.Generator, content: bytes) -> tuple[bytes, str]:
 
 
 def cases(rng: np.random.Generator, count: int) -> Iterator[HostileCase]:
-    """Return at least ``count`` files: those written by hand, then damaged ones of each kind in turn."""
+    """Yield at least ``count`` files: those written by hand, then damaged ones of each kind in turn."""
     by_hand = list(_by_hand())
     yield from by_hand
     good = {

@@ -319,7 +319,7 @@ KINDS = (*READ, *REFUSED)
 
 
 def cases(draw: Draw, count: int) -> Iterator[HostileCase]:
-    """Return ``count`` cases: in turn one of each class."""
+    """Yield ``count`` cases: in turn one of each class."""
     for number in range(count):
         kind = KINDS[number % len(KINDS)]
         seed = int(draw.integers(2**31))

@@ -57,7 +57,7 @@ def unchanged(name: str, oil: Keywords) -> Iterator[Item]:
 def ended(
     label: str, run: TransientResult, steady: FrictionResult, tolerances: dict[str, tuple[str, float]]
 ) -> Iterator[Item]:
-    """Return the last values of a run in time and the steady ones."""
+    """Compare the last values of a run in time with the steady ones."""
     rows = [
         (what.replace("_", " "), unit, float(getattr(run, what)[-1]), getattr(steady, what), tolerance)
         for what, (unit, tolerance) in tolerances.items()

@@ -104,7 +104,7 @@ def press(
 
 
 def compliance(strip: HarmonicStrip) -> Compliance:
-    """Return factorise and solve once for every wave along y."""
+    """Return the compliance of the surface: factorise and solve once for every wave along y."""
     mesh = graded_mesh(strip)
     basis = Basis(mesh, ElementVector(ElementTriP2(), 3), intorder=4)
     depth = -mesh.p[1].min()

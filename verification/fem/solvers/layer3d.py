@@ -184,8 +184,8 @@ class Multigrid:
 
 
 def multigrid(layer: Layer3D, modes: np.ndarray | None = None) -> Multigrid:
-    """Return smoothed aggregation on the rigid-body modes (P. Vanek, J. Mandel & M. Brezina, Computing 56 (1996)
-    179-196, doi:10.1007/BF02238511).
+    """Return the multigrid hierarchy of a layer, by smoothed aggregation on the rigid-body modes (P. Vanek, J. Mandel &
+    M. Brezina, Computing 56 (1996) 179-196, doi:10.1007/BF02238511).
 
     ``modes`` replaces the near-null space, to see what becomes of the solve without it.
     """

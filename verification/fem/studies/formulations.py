@@ -74,7 +74,7 @@ def body(shape: str, x: np.ndarray, b: float) -> tuple[np.ndarray, np.ndarray, f
 
 
 def formulations(level: str) -> Iterator[Item]:
-    """Return the contacts solved for a given load, and by the paper's methods for the volume that this solution holds.
+    """Solve contacts for a given load, and by the paper's methods for the volume that this solution holds.
 
     There are three boundary conditions, elastic and with a plastic limit, cold starts, and a tolerance of 1e-6 on the
     residuals of the returned pressure. The printed algorithm and the test of Eq. (23) are tabulated with what they

@@ -380,7 +380,7 @@ def averages(case: StripCase, films: list[Fields]) -> dict[str, float]:
 def judged_films(
     name: str, case: StripCase, ours: list[Fields], elements: list[Fields], allowed: dict[str, float]
 ) -> Iterator[Item]:
-    """Return the checks of one case, of both programs at the same moments. ``allowed``: of each average, relative."""
+    """Yield the checks of one case, of both programs at the same moments. ``allowed``: of each average, relative."""
     hertz = case.contact.hertz_pressure
     mine = averages(case, ours)
     theirs = averages(case, elements)
