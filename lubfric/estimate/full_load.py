@@ -16,5 +16,5 @@ def full_load_numbers(scene: Scene, speed: float, sq: float, inlet_film_factor: 
     if speed == 0:
         return {"full_load_film": math.nan, "lambda_ratio": math.nan}
     factor = 1.0 if math.isnan(inlet_film_factor) else inlet_film_factor
-    film = scene.line_contact(speed).expected_film * factor
+    film = scene.line_contact(speed).expected_film_with(factor)
     return {"full_load_film": film, "lambda_ratio": film / sq if sq > 0 else math.inf}

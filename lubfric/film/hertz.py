@@ -143,6 +143,11 @@ class LineContact:
     def expected_film(self) -> float:
         """Return `moes_film` [m], as much thinner as shear and a starved inlet make it with closed forms; a rough
         guess. Shear thins it where the law of the flow is a power law at large rates (`ShearLaw.power_law_exponent`)."""
+        return self.expected_film_with(1.0)
+
+    def expected_film_with(self, inlet_factor: float) -> float:
+        """Return `expected_film` [m] where the heat of the inlet multiplies what flows in by ``inlet_factor`` [-]. A given film
+        that arrives (``inlet_film``) limits it, however warm the inlet is."""
         film = self.moes_film
         oil = self.lubricant
         law = oil.flow_law
@@ -152,6 +157,7 @@ class LineContact:
             film *= formulas.thinned_share(number, exponent, self.sliding / self.entrainment_speed)
         if oil.inlet_length is not None:
             film *= formulas.starved_share(oil.inlet_length, math.sqrt(2 * self.radius * film), self.half_width)
+        film *= inlet_factor
         return film if oil.inlet_film is None else min(film, oil.inlet_film)
 
     @property

@@ -388,7 +388,7 @@ def _film_in_words(scene: Scene, surface: Surface, speed: float, asperities: str
     ``speed`` [m/s], not 0, as text. ``asperities``: as of `asperities_in_words`."""
     line = scene.line_contact(abs(speed))
     inlet, is_used = inlet_at(scene, speed)
-    thickness = line.expected_film * (inlet.factor if is_used and inlet is not None else 1.0)
+    thickness = line.expected_film_with(inlet.factor if is_used and inlet is not None else 1.0)
     ratio = thickness / surface.sq if surface.sq > 0 else math.inf
     contact = asperities_in_words(asperities, ratio)
     return f"{line.M:.3g}", f"{line.L:.3g}", f"{thickness * 1e9:.4g}", f"{ratio:.3g}", contact

@@ -494,3 +494,16 @@ def test_a_range_in_words_is_answered_with_the_form_of_a_range(tmp_path, capsys)
     (tmp_path / "s.toml").write_text(SMALL_SCENE.to_toml())
     assert main(["run", str(tmp_path / "s.toml"), "--ratios", "0 to 0.5", "--out", str(tmp_path / "o")]) == 2
     assert "such as 0:0.5:11" in capsys.readouterr().err
+
+
+def test_info_says_that_load_sharing_answers_in_place_of_the_quick_model_under_a_starved_inlet():
+    """As the result does; the range of the calibration, which has flooded contacts only, is not mentioned."""
+    scene = lubfric.load_scene("paper").with_(
+        lubricant={"inlet_film": 100e-9, "eyring_stress": 5e6}, numerics={"model": "quick", "sampling": "patch"}
+    )
+    text = describe_scene(scene, [0.03])
+    assert "here by the load-sharing model in place of strips on long cells" in text
+    assert "calibrated for flooded contacts only" in text and "not calibrated for such contacts" not in text
+    result = lubfric.friction(scene, 0.03)
+    assert "load-sharing model in place of strips on long cells" in result.decision.text
+    assert not any("not calibrated for such contacts" in entry.consequence for entry in result.validity)

@@ -210,3 +210,17 @@ def test_a_notebook_shows_a_table_and_a_picture(point, curve, history):
     assert "&lt;b&gt;R&amp;D&lt;/b&gt;" in named._repr_html_() and "<b>" not in named._repr_html_()
     empty = replace(curve, coefficient=np.full(3, np.nan))
     assert "<table>" in empty._repr_html_()
+
+
+@pytest.mark.parametrize("speed", [0.5, 5.0, 50.0])
+def test_the_heat_of_the_inlet_does_not_thin_a_given_film_that_arrives(speed):
+    """A flooded film grows with the speed more slowly than without heat; of a starved one what arrives is what there is."""
+    scene = lubfric.load_scene("paper").with_(
+        lubricant={"viscosity": None, "pressure_viscosity_coefficient": None, "grade": "ISO VG 460"}
+        | {"viscosity_index": 95, "temperature": "40 °C"},
+        numerics={"model": "paper", "sampling": "patch"},
+    )
+    flooded = lubfric.friction(scene, speed)
+    starved = lubfric.friction(scene.with_(lubricant={"inlet_film": 60e-9}), speed)
+    assert flooded.inlet_film_factor < 1.0 and flooded.full_load_film > 60e-9
+    assert starved.full_load_film == pytest.approx(60e-9, rel=1e-12)

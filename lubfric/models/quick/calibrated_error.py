@@ -22,7 +22,7 @@ from ..shared import Assumption, Violation, inlet_at, peak_hertz_pressure
 OUTSIDE = "the quick answer is not calibrated for such contacts; its model-form error is increased, at most three times"
 
 # The lambda ratio by which contacts are compared with those of the calibration.
-RATIO_IN_WORDS = "lambda ratio of a flooded film by Moes' formula"
+RATIO_IN_WORDS = "lambda ratio by closed forms"
 # What to do outside the calibration, and above its lambda ratios, where heat is often beyond what the deterministic model was checked for.
 BY_DETERMINISTIC = "use numerics.model = 'deterministic', which needs no calibration"
 WIDENED = "read f with its interval, which is wider for that"
@@ -161,7 +161,7 @@ def _full_load_factor(scene: Scene, speed: float) -> float:
     line = scene.line_contact(abs(speed))
     inlet, is_used = inlet_at(scene, speed)
     heat = inlet.factor if is_used and inlet is not None else 1.0
-    return heat * line.expected_film / line.moes_film
+    return line.expected_film_with(heat) / line.moes_film
 
 
 def reported(outside: Iterable[Outside]) -> Iterator[Outside]:

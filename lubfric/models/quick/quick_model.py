@@ -208,6 +208,8 @@ class QuickModel(Model):
         return True  # roughness that moves, moves on the long cells as well
 
     def described(self, scene: Scene) -> str:
+        if why := _why_not_calibrated(scene):
+            return f"quick answer (numerics.model), here by the {BY_LOAD_SHARING}; {why}"
         unknown = "; its model-form error is not known and not in the interval" if why_gap_not_resolved(scene) else ""
         strips = "one strip" if has_moving_roughness(scene) else f"one to {MOST_STRIPS} strips"
         return (
@@ -222,6 +224,8 @@ class QuickModel(Model):
         )
 
     def expected_violations(self, scene: Scene, speeds: list[float]) -> ExpectedViolations:
+        if _why_not_calibrated(scene):  # load sharing answers, without long cells
+            return expected_on_hertz(scene)
         known = error_model_of(scene).range
         at_all = out_of_range(scene, None, 0.0, known)
         expected: list[tuple[float | None, Violation]] = [(None, part.violation) for part in reported(at_all)]
