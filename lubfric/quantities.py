@@ -88,13 +88,13 @@ class Quantities(Generic[T]):
     )
     contact_load: T = quantity(
         *("N", "load carried by the rough contact", "F_C"),
-        error="split",
+        error="sharing",
         note="except by load sharing alone the load where the shear stress is f_b p, with saturated films of a Newtonian oil",
         follows_asperity_load=True,
         follows_sliding=True,
         is_controlled=True,
     )
-    film_load: T = quantity(*("N", "load carried by the film", "F_H"), error="split", is_controlled=True)
+    film_load: T = quantity(*("N", "load carried by the film", "F_H"), error="sharing", is_controlled=True)
     shear_force: T = quantity(
         *("N", "shear force of the film", "F_sh"),
         error="shear",
@@ -129,7 +129,7 @@ class Quantities(Generic[T]):
     )
     boundary_force: T = quantity(
         *("N", "friction force of the asperity contacts", "f_b F_C"),
-        error="split",
+        error="sharing",
         note="zero in pure rolling",
         is_friction=True,
         follows_asperity_load=True,
@@ -408,7 +408,7 @@ def names_with(fact: str) -> tuple[str, ...]:
 
 
 def depending_on(error: str) -> tuple[str, ...]:
-    """Return the names of the quantities whose error depends on ``error``: "split" (the division of the load), "shear",
+    """Return the names of the quantities whose error depends on ``error``: "sharing" (the division of the load), "shear",
     "area", "contacts", "film", "heat", or "all" of these."""
     return tuple(name for name, q in QUANTITIES.items() if q.error == error)
 

@@ -113,11 +113,11 @@ def errors_of(balanced: BalancedSample) -> PointErrors:
         why = NOT_WITHOUT_FILM
         of_film = (name for name in depending_on("film") if name != "mean_gap")
         reasons = dict.fromkeys((*of_film, *depending_on("heat")), f"{balance.why_no_film}: there is no film")
-        errors |= dict.fromkeys((*depending_on("split"), *depending_on("shear")), 0.0)
+        errors |= dict.fromkeys((*depending_on("sharing"), *depending_on("shear")), 0.0)
     elif response is None:
         numerical += film_sensitivity * solver.film_error
         errors = _given_load(balance, solver.film_error)
-        of_contact = (*depending_on("split"), *depending_on("area"), *depending_on("contacts"))
+        of_contact = (*depending_on("sharing"), *depending_on("area"), *depending_on("contacts"))
         reasons |= dict.fromkeys(of_contact, "without asperity contact it has no relative error")
         errors |= {"film_load": 0.0}
     else:

@@ -75,10 +75,10 @@ class Judge:
     pairs: tuple[tuple[MappedStrip, MappedStrip], ...] = ()
     film_tolerance: float = LOOSE
 
-    def sides(self, split: float) -> Sides:
+    def sides(self, log_load_ratio: float) -> Sides:
         """Return film and contacts at ln(F_H/F_C)."""
         load = self.prepared.scene.bodies.load
-        film_load = load / (1 + math.exp(-split))
+        film_load = load / (1 + math.exp(-log_load_ratio))
         film = self.film(film_load, film_load / load if self.scaled else 1.0)
         gap, mean_film, touching = self.pressed(self.strip, film, load - film_load)
         areas: list[float] = []
@@ -149,10 +149,10 @@ class Judge:
         inside = np.minimum(strip.x + dx / 2, half) - np.maximum(strip.x - dx / 2, -half)
         return np.clip(inside / dx, 0, 1)
 
-    def coefficient(self, split: float, sides: Sides) -> tuple[float, float]:
+    def coefficient(self, log_load_ratio: float, sides: Sides) -> tuple[float, float]:
         """Return f at a division of the load, and what the tolerance and the nodes of the film leave open of it."""
         scene = self.prepared.scene
-        contact_load = scene.bodies.load / (1 + math.exp(split))
+        contact_load = scene.bodies.load / (1 + math.exp(log_load_ratio))
         force, parts, spike = friction_force(scene, sides, contact_load, self.speed)
         return force / scene.bodies.load, (self.film_tolerance * parts + spike) / scene.bodies.load
 
@@ -218,10 +218,10 @@ def verdict(prepared: Prepared, result: FrictionResult) -> dict[str, float]:
             stated += BY_PIECES * result.uncertainty.sampling
             of_share = max(of_share, BY_PIECES * result.errors.contact_load * share)
         for closely in (False, True):  # cells that touch one by one: a secant of two balances may miss
-            (coefficient, open_), split = closed_again(judge, share, closely=closely)
+            (coefficient, open_), contact_share = closed_again(judge, share, closely=closely)
             allowed = stated * abs(result.coefficient) + open_ / ALLOWED["friction"]
             results["friction"] = abs(result.coefficient - coefficient) / allowed
-            results["contact share"] = abs(share - split) / of_share
+            results["contact share"] = abs(share - contact_share) / of_share
             if max(results[name] / ALLOWED[name] for name in ("friction", "contact share")) <= 1:
                 break
     return {name: value / ALLOWED[name] for name, value in results.items()}
@@ -247,15 +247,15 @@ def closed_again(judge: Judge, share: float, *, closely: bool = False) -> tuple[
     moved = -off / slope if slope > 0 else math.inf
     if closely or abs(moved) > NEAR:
         return _bracketed(judge, here)
-    split = here + moved
-    return (f + (f_beside - f) * moved / BESIDE, open_), 1 / (1 + math.exp(split))
+    log_load_ratio = here + moved
+    return (f + (f_beside - f) * moved / BESIDE, open_), 1 / (1 + math.exp(log_load_ratio))
 
 
 def _bracketed(judge: Judge, here: float) -> tuple[tuple[float, float], float]:
     """Close the balance as `closed_again` does, by a root between divisions on both sides of it."""
 
-    def surplus(split: float) -> float:
-        sides = judge.sides(split)
+    def surplus(log_load_ratio: float) -> float:
+        sides = judge.sides(log_load_ratio)
         return math.log(sides.gap / sides.mean_film)
 
     if surplus(40.0) <= 0:
@@ -268,5 +268,5 @@ def _bracketed(judge: Judge, here: float) -> tuple[tuple[float, float], float]:
     step = 0.1
     while surplus(high) < 0 and high < 40:
         high, step = high + step, 3 * step
-    split = brentq(surplus, low, high, xtol=ROOT) if high > low else low
-    return judge.coefficient(split, judge.sides(split)), 1 / (1 + math.exp(split))
+    log_load_ratio = brentq(surplus, low, high, xtol=ROOT) if high > low else low
+    return judge.coefficient(log_load_ratio, judge.sides(log_load_ratio)), 1 / (1 + math.exp(log_load_ratio))

@@ -135,7 +135,7 @@ class SharedLoad:
         return math.copysign(1.0, self.couette) * (self.couette + self.rolling)
 
     @property
-    def split(self) -> float:
+    def log_load_ratio(self) -> float:
         """ln(F_H/F_C)."""
         return math.log(self.film_load / self.contact_load)
 
@@ -161,9 +161,9 @@ def share_load(
     """
     tried: dict[float, SharedLoad] = {}
 
-    def at(split: float) -> float:
-        tried[split] = loads_at(bodies, split, refinements)
-        return tried[split].residual
+    def at(log_load_ratio: float) -> float:
+        tried[log_load_ratio] = loads_at(bodies, log_load_ratio, refinements)
+        return tried[log_load_ratio].residual
 
     def done() -> bool:
         return abs(best(tried).residual) <= tolerance or len(tried) >= max_evaluations
@@ -217,9 +217,9 @@ def root(f: Callable[[float], float], done: Callable[[], bool], guess: float, st
         fb = fc
 
 
-def loads_at(bodies: Bodies | FlatBodies, split: float, refinements: int) -> SharedLoad:
-    """Return film, contact and friction at ln(F_H/F_C) = ``split``."""
-    film_load = bodies.load / (1 + math.exp(-split))
+def loads_at(bodies: Bodies | FlatBodies, log_load_ratio: float, refinements: int) -> SharedLoad:
+    """Return film, contact and friction at ln(F_H/F_C) = ``log_load_ratio``."""
+    film_load = bodies.load / (1 + math.exp(-log_load_ratio))
     contact_load = bodies.load - film_load
     contact = replace(bodies.contact, load_per_width=film_load / bodies.width)
     if math.isfinite(contact.fluid.eyring_stress) and bodies.sliding:

@@ -75,7 +75,9 @@ def share_in_time(
     unit = step * contact.entrainment_speed / contact.half_width
     start = started(at, begun.film)
     steady = Moving(at=at, now=0.0, before=0.0, rates=REST, length=unit, pace=1.0, load=bodies.load)
-    state, moment, split = balanced(bodies, steady, start, begun.split, 0.0, tolerance, max_evaluations)
+    state, moment, log_load_ratio = balanced(
+        bodies, steady, start, begun.log_load_ratio, 0.0, tolerance, max_evaluations
+    )
     yield moment
     now = content(at, state.P, film_of(at, state))
     before = now
@@ -94,7 +96,9 @@ def share_in_time(
             pace=pace,
             load=bodies.load if load is None else load(time),
         )
-        state, moment, split = balanced(bodies, moving, state, split, time, tolerance, max_evaluations)
+        state, moment, log_load_ratio = balanced(
+            bodies, moving, state, log_load_ratio, time, tolerance, max_evaluations
+        )
         before = now
         now = content(at, state.P, film_of(at, state))
         yield moment
@@ -126,28 +130,28 @@ def balanced(
     """Return the film at the end of a step, the division of the load, and ln(F_H/F_C) at which the volumes agree."""
     tried: dict[float, tuple[TransientFilmState, SharedMoment]] = {}
 
-    def mismatch(split: float) -> float:
-        """Return (gap - film)/(gap + film) at ln(F_H/F_C) = ``split``."""
-        film_load = moving.load / (1 + np.exp(-split))
+    def mismatch(log_load_ratio: float) -> float:
+        """Return (gap - film)/(gap + film) at ln(F_H/F_C) = ``log_load_ratio``."""
+        film_load = moving.load / (1 + np.exp(-log_load_ratio))
         state = stepped(moving, start, film_load / bodies.load)
-        tried[split] = state, moment_of(bodies, moving, state, film_load, time)
-        return signed(split)
+        tried[log_load_ratio] = state, moment_of(bodies, moving, state, film_load, time)
+        return signed(log_load_ratio)
 
-    def signed(split: float) -> float:
-        moment = tried[split][1]
+    def signed(log_load_ratio: float) -> float:
+        moment = tried[log_load_ratio][1]
         return (moment.mean_gap - moment.mean_film) / (moment.mean_gap + moment.mean_film)
 
-    def residual(split: float) -> float:
-        return abs(signed(split))
+    def residual(log_load_ratio: float) -> float:
+        return abs(signed(log_load_ratio))
 
     def done() -> bool:
         return min(map(residual, tried), default=1.0) <= tolerance or len(tried) >= max_evaluations
 
     root(mismatch, done, guess, 0.05)
-    split = min(tried, key=residual)
-    if residual(split) > tolerance:
-        raise SolveError(f"load sharing in time: t = {time:g} s, volumes differ by {residual(split):.1e}")
-    return *tried[split], split
+    log_load_ratio = min(tried, key=residual)
+    if residual(log_load_ratio) > tolerance:
+        raise SolveError(f"load sharing in time: t = {time:g} s, volumes differ by {residual(log_load_ratio):.1e}")
+    return *tried[log_load_ratio], log_load_ratio
 
 
 def started(at: ehl.EHLSolution, film: ehl.EHLSolution) -> TransientFilmState:

@@ -67,7 +67,7 @@ def load_sharing(level: str) -> Iterator[Item]:
     for cells in grids:
         heights = rough(grids[-1], cells)
         body = strip(cells, fineness)
-        coarser = {p.speed: p.fem.split for p in points}
+        coarser = {p.speed: p.fem.log_load_ratio for p in points}
         points += [both(speed, heights, body, refinements, coarser.get(speed)) for speed in speeds]
     finest = points[-len(speeds) :]
     for p in finest:
@@ -127,15 +127,15 @@ def strip(cells: int, fineness: int, across: float | None = None) -> Compliance:
 
 
 def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int, known: float | None) -> Point:
-    """Return one speed by both methods. The finite-element root starts from no knowledge of the other's, but from the split
-    that was ``known`` on coarser cells."""
+    """Return one speed by both methods. The finite-element root starts from no knowledge of the other's, but from the
+    ln(F_H/F_C) that was ``known`` on coarser cells."""
     s = scene()
     cell = LENGTH / heights.shape[0]
     bodies = cylinder(s, speed, body, heights)
     guess, step = (0.0, 1.0) if known is None else (known, 0.05)
     solution = share_load(bodies, refinements=min(refinements, 1), guess=guess, step=step)
     if refinements > 1:
-        solution = share_load(bodies, refinements=refinements, guess=solution.split, step=0.01)
+        solution = share_load(bodies, refinements=refinements, guess=solution.log_load_ratio, step=0.01)
     model = averaged(prepare(s, lubfric.Surface(heights, (cell, cell))))
     return Point(heights.shape[0], speed, solution, lubfric.friction(model, speed, fields=True))
 
