@@ -20,6 +20,7 @@ from .uncertainty import NumberErrors, Uncertainty
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from ..film import EHLResult
     from ..models import Balance, DeterministicResult
 
 
@@ -102,6 +103,12 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         """The results of the deterministic strips, where they give the answer ("deterministic", "quick"); else None."""
         return cast("DeterministicResult | None", self._kept("deterministic"))
 
+    @property
+    def smooth_film(self) -> EHLResult | None:
+        """The film of smooth surfaces of the answer; None where the answer has none, as by the deterministic model."""
+        kept = self.details.get(self.decision.model)
+        return None if kept is None else kept.smooth_film
+
     def _kept(self, kind: str) -> ModelDetails | None:
         """Return the details of this kind that a model keeps, if there are any."""
         return next((kept for kept in self.details.values() if kept is not None and kept.kind == kind), None)
@@ -140,20 +147,26 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         """Draw the pressure of the rough contact in the plane, in some ``rows`` along the line, and the edges of the Hertz
         strip, dashed; returns the axes. Needs ``fields=True``, and contact."""
         axes = figures.axes_or_new(ax)
-        pressure, unit = figures.in_unit_for(self.pressure[:, rows], "Pa")
-        label = "contact pressure" if self.deterministic is None else "film and contact pressure"
-        figures.field_image(axes, self.x, self.y[rows], pressure, "magma_r", f"{label} ({unit})", vmin=0)
-        figures.hertz_strip(axes, float(self._field("half_width")))
+        fields = self._fields_with("pressure")
+        pressure, unit = figures.in_unit_for(fields.pressure[:, rows], "Pa")
+        figures.field_image(
+            axes, fields.x, fields.y[rows], pressure, "magma_r", f"{fields.pressure_label} ({unit})", vmin=0
+        )
+        figures.hertz_strip(axes, fields.half_width)
         share = self.contact_load / (self.contact_load + self.film_load)
         axes.set_title(f"U = {self.speed:.4g} m/s, $F_C/F_T$ = {share:.3g}", fontsize=10, wrap=True)
         return axes
 
     def _field(self, name: str) -> np.ndarray:
+        values: np.ndarray = getattr(self._fields_with(name), name)
+        return values
+
+    def _fields_with(self, name: str) -> ContactFields:
+        """Return the fields, of which ``name`` is requested. Raises `InputError` where there are none."""
         if self.fields is None:
             why = "it is separated" if self.contact_load == 0 else "it was not kept, or comes from a contact curve"
             raise InputError(f"this point has no {name} of its contact: {why}; solve one in contact with fields=True")
-        values: np.ndarray = getattr(self.fields, name)
-        return values
+        return self.fields
 
 
 def _interval(interval: tuple[float, float]) -> str:

@@ -19,6 +19,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..errors import Report
+from ..film import EHLResult
 from ..samples import Sample
 from ..scene import Scene
 from ..surface import Surface
@@ -60,6 +61,7 @@ class ContactFields:
     film : thickness of the smooth film [m], constant along y; by the deterministic model that of the rough gap
     shear : shear stress [Pa]; NaN where the solve has none
     half_width : of the Hertz strip of the total load [m]; NaN without one
+    pressure_includes_film : whether ``pressure`` is of film and contact together, in their rough gap
     """
 
     solve: str
@@ -72,12 +74,18 @@ class ContactFields:
     film: np.ndarray
     shear: np.ndarray
     half_width: float = math.nan
+    pressure_includes_film: bool = False
 
     def __post_init__(self) -> None:
         shape = (self.x.size, self.y.size)
         for name in ("heights", "pressure", "gap", "deflection", "film", "shear"):
             if getattr(self, name).shape != shape:
                 raise ValueError(f"{name} {getattr(self, name).shape} is not on the cells {shape} of the other fields")
+
+    @property
+    def pressure_label(self) -> str:
+        """What ``pressure`` is, as text."""
+        return "film and contact pressure" if self.pressure_includes_film else "contact pressure"
 
     @property
     def spacing(self) -> tuple[float, float]:
@@ -94,6 +102,11 @@ class ModelDetails:
     """
 
     kind: ClassVar[str] = ""
+
+    @property
+    def smooth_film(self) -> EHLResult | None:
+        """The film of smooth surfaces, on its own nodes; None: the model solved none."""
+        return None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -50,14 +50,12 @@ class DrawnContact:
     speed : entrainment speed [m/s]
     half_width : of the Hertz strip [m]; NaN without one
     fields : of one solve; None: there is no field of a contact
-    is_deterministic : whether they are of the deterministic model
     has_film : whether a smooth film was solved
     """
 
     speed: float
     half_width: float
     fields: ContactFields | None
-    is_deterministic: bool
     has_film: bool
 
 
@@ -67,8 +65,7 @@ def drawn_contact(prepared: Prepared, point: FrictionResult) -> DrawnContact:
         speed=point.speed,
         half_width=prepared.scene.bodies.half_width,
         fields=point.fields,
-        is_deterministic=point.deterministic is not None,
-        has_film=point.balance is not None and point.balance.film is not None,
+        has_film=point.smooth_film is not None,
     )
 
 
@@ -76,7 +73,7 @@ def drawn_contact(prepared: Prepared, point: FrictionResult) -> DrawnContact:
 def plot_contact(path: Path, contact: DrawnContact, options: PictureOptions = PictureOptions()) -> None:
     """Draw the fields of a ``contact``: of the deterministic model pressure, gap and shear stress from above; of load
     sharing the contact pressure from above, and film and surfaces on a section."""
-    if contact.is_deterministic:
+    if contact.fields is not None and contact.fields.pressure_includes_film:
         figure = _deterministic_picture(contact, options)
     else:
         figure = _two_pressures(contact, options)
@@ -85,7 +82,9 @@ def plot_contact(path: Path, contact: DrawnContact, options: PictureOptions = Pi
 
 def compared_contact(prepared: Prepared, point: FrictionResult) -> DrawnContact:
     """Return what a picture shows of the load-sharing model with which ``point`` is compared."""
-    return replace(drawn_contact(prepared, point), fields=point.compared_fields, is_deterministic=False)
+    films = [kept.smooth_film for kept in point.details.values() if kept is not None]
+    has_film = any(film is not None for film in films)
+    return replace(drawn_contact(prepared, point), fields=point.compared_fields, has_film=has_film)
 
 
 def _deterministic_picture(contact: DrawnContact, options: PictureOptions) -> Figure:

@@ -35,8 +35,8 @@ def fields_bytes(points: list[FrictionResult], half_width: float) -> bytes:
         "half_width": np.array(half_width),
     }
     for i, point in enumerate(points):
-        film = point.balance.film if point.balance else None
-        if film is not None and point.deterministic is None:
+        film = point.smooth_film
+        if film is not None:
             arrays |= {f"film_x_{i}": film.x, f"film_thickness_{i}": film.film_thickness}
             arrays[f"film_pressure_{i}"] = film.pressure
         if point.fields is not None:
@@ -78,12 +78,13 @@ def read_contact(path: Path, speed: float) -> DrawnContact:
     fields = None
     if f"solve_{i}" in arrays:
         of_point = {name: arrays[f"{name}_{i}"] for name in ("x", "y", *FIELDS)}
-        fields = ContactFields(solve=str(arrays[f"solve_{i}"]), **of_point)
+        fields = ContactFields(
+            solve=str(arrays[f"solve_{i}"]), **of_point, pressure_includes_film=f"strip_x_{i}" in arrays
+        )
     return DrawnContact(
         speed=float(speeds[i]),
         half_width=float(arrays["half_width"]),
         fields=fields,
-        is_deterministic=f"strip_x_{i}" in arrays,
         has_film=f"film_x_{i}" in arrays,
     )
 
@@ -98,8 +99,8 @@ def vtk_bytes(point: FrictionResult) -> bytes:
     assert fields is not None
     names = {"height": "heights", "pressure": "pressure", "gap": "gap", "film_thickness": "film", "shear": "shear"}
     arrays = {name: getattr(fields, of) for name, of in names.items()}
-    film = point.balance.film if point.balance else None
-    if film is not None and point.deterministic is None:
+    film = point.smooth_film
+    if film is not None:
         pressure = np.interp(fields.x, film.x, film.pressure, left=0.0, right=0.0)
         arrays["film_pressure"] = np.repeat(pressure[:, None], fields.y.size, axis=1)
     return grid_bytes(fields.x, fields.y, arrays, f"U = {point.speed:g} m/s, {fields.solve}")

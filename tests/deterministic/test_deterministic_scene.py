@@ -55,6 +55,13 @@ def test_a_sweep_keeps_fields_only_where_requested(point):
     assert curve.points[0].deterministic is None and curve.points[1].deterministic.pressure.shape[1] == 48
 
 
+def test_a_picture_names_the_pressure_that_its_fields_hold(point):
+    """Whatever the model that solved them keeps."""
+    axes = replace(point, details={}).plot_contact()
+    labels = [other.get_ylabel() for other in axes.figure.axes]
+    assert any(label.startswith("film and contact pressure") for label in labels) and point.smooth_film is None
+
+
 def test_a_result_can_be_stored(point):
     again = decode(b"".join(encode(point)), classes_of(lubfric.FrictionResult))
     assert np.array_equal(again.deterministic.pressure, point.deterministic.pressure)

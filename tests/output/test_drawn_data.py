@@ -206,9 +206,18 @@ def test_the_picture_of_a_starved_film_begins_where_its_pressure_does(figures):
     gap = np.full((61, 12), 6e-7)
     gap[30] = 4e-7
     fields = ContactFields(
-        solve="a strip", x=x, y=y, heights=gap, pressure=pressure, gap=gap, deflection=gap, film=gap, shear=pressure
+        solve="a strip",
+        x=x,
+        y=y,
+        heights=gap,
+        pressure=pressure,
+        gap=gap,
+        deflection=gap,
+        film=gap,
+        shear=pressure,
+        pressure_includes_film=True,
     )
-    contact = DrawnContact(speed=1.0, half_width=2e-5, fields=fields, is_deterministic=True, has_film=False)
+    contact = DrawnContact(speed=1.0, half_width=2e-5, fields=fields, has_film=False)
     plot_contact("x.png", contact)
     low, high = figures[0].axes[0].get_xlim()
     assert low == pytest.approx(-195, abs=1e-6) and high == pytest.approx(85, abs=1e-6)
@@ -320,12 +329,16 @@ def test_a_picture_of_a_wide_contact_is_not_blank(figures, rows, is_deterministi
     x = 1e-6 * (np.arange(64) - 31.5)
     field = 1e6 + np.random.default_rng(1).random((64, rows))
     names = ("heights", "pressure", "gap", "deflection", "film", "shear")
-    fields = ContactFields(solve="a strip", x=x, y=1e-6 * np.arange(rows), **dict.fromkeys(names, field))
+    fields = ContactFields(
+        solve="a strip",
+        x=x,
+        y=1e-6 * np.arange(rows),
+        **dict.fromkeys(names, field),
+        pressure_includes_film=is_deterministic,
+    )
     plot_contact(
         "x.png",
-        DrawnContact(
-            speed=1.0, half_width=2e-5, fields=fields, is_deterministic=is_deterministic, has_film=not is_deterministic
-        ),
+        DrawnContact(speed=1.0, half_width=2e-5, fields=fields, has_film=not is_deterministic),
     )
     (figure,) = figures
     figure.draw_without_rendering()

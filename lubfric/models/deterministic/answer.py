@@ -179,6 +179,7 @@ def fields_of(strip: StripSolution, where: str) -> ContactFields:
         film=result.gap,
         shear=result.shear,
         half_width=strip.problem.line.half_width,
+        pressure_includes_film=True,
     )
 
 

@@ -87,6 +87,10 @@ class Balance(Renamed, ModelDetails):
     _RENAMED = {"contact": "contact_state"}
 
     @property
+    def smooth_film(self) -> EHLResult | None:
+        return self.film
+
+    @property
     def log_load_ratio(self) -> float:
         """ln(F_H/F_C)."""
         if self.film_load <= 0:
