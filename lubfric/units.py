@@ -228,8 +228,8 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
         none = " is neither a number with a unit nor a known name" if named else " is not a number with a unit"
         comma = re.match(r"\s*[+-]?\d{1,40},\d{1,40}", value)
         none += f": write a point in decimals, {shown.replace(',', '.', 1).strip()}" if comma else ""
-        said = " has no unit: omit the quotes, or add one" if parts else none
-        raise InputError(f" = {shown!r}{said}", name, allowed)
+        message = " has no unit: omit the quotes, or add one" if parts else none
+        raise InputError(f" = {shown!r}{message}", name, allowed)
     (digits, written) = parts
     given = spelled(written)
     if given not in row:
@@ -238,15 +238,17 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
             allowed += "; a load per length times the length of the line, bodies.width, is the load"
         hrc = given == "HRC" and "HV" in row
         target = "a number without a unit" if unit == "-" else unit
-        said = f"is in {written}, which does not convert to {target}" if other else f"has an unknown unit, {written!r}"
+        message = (
+            f"is in {written}, which does not convert to {target}" if other else f"has an unknown unit, {written!r}"
+        )
         if named and not other:
             near = get_close_matches(value, [*named], n=3)
             meant = f" (did you mean {' or '.join(map(repr, near))}?)" if near else ""
-            said = f"is no known name{meant}, and no number with a known unit"
+            message = f"is no known name{meant}, and no number with a known unit"
         if unit == "Pa s" and other == "m2/s":
             allowed += "; a kinematic viscosity goes into nu40 (at 40 °C), together with nu100 or viscosity_index"
-        said = "is not a pressure; give HV: 57 HRC is 633 HV, 60: 697, 63: 772" if hrc else said
-        raise InputError(f" = {shown!r} {said}", name, allowed)
+        message = "is not a pressure; give HV: 57 HRC is 633 HV, 60: 697, 63: 772" if hrc else message
+        raise InputError(f" = {shown!r} {message}", name, allowed)
     try:
         return float(converted(Decimal(digits, _EXACT), given, unit))
     except (ArithmeticError, ValueError):
@@ -268,8 +270,8 @@ def check_all_have_units(name: str, values: Iterable[Any], units: Iterable[str])
         elif isinstance(value, (int, float)) and not isinstance(value, bool) and value != 0 and math.isfinite(value):
             bare.setdefault(unit, str(value))
     for unit in bare.keys() & with_unit.keys():
-        said = f" has {with_unit[unit][:40]!r} with a unit and {bare[unit][:40]} without one"
-        raise InputError(said, name, recommendation="give each its unit, or none; write a point in decimals, 1.5")
+        message = f" has {with_unit[unit][:40]!r} with a unit and {bare[unit][:40]} without one"
+        raise InputError(message, name, recommendation="give each its unit, or none; write a point in decimals, 1.5")
 
 
 def numbers_of(name: str, words: list[str], units: list[str]) -> list[float]:

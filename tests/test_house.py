@@ -22,7 +22,7 @@ PACKAGES = ("lubfric", "verification")
 # Words that say nothing of what a variable or a function is.
 ODD_WORDS = frozenset(
     "found told foretold doubts told_doubts lacks lacking missed missed_share felt beyond grown divided odds enlarged "
-    "half_again settled Rubbing Foretold OneGap judged looks look".split()
+    "half_again settled said Rubbing Foretold OneGap judged looks look".split()
 )
 FRAGMENT = re.compile(r"^(Of|Those|That of|The same|As)\b")
 # Two verbs, of which the first was put before an imperative.

@@ -116,9 +116,9 @@ def _client(distributed: Any, address: str) -> Any:
 
 
 def _no_scheduler(address: str, why: str) -> InputError:
-    said = f" = {validate.shown(address)}: no Dask scheduler answers ({validate.shown(why)})"
+    message = f" = {validate.shown(address)}: no Dask scheduler answers ({validate.shown(why)})"
     recommendation = "start one with 'dask scheduler', and give its address, tcp://host:8786"
-    return InputError(said, "--cluster", recommendation=recommendation)
+    return InputError(message, "--cluster", recommendation=recommendation)
 
 
 def spread(executor: Any, jobs: Iterable[Callable[[], Iterator[Any]]], at_a_time: int = IN_FLIGHT) -> Iterator[Any]:

@@ -94,8 +94,8 @@ def read_table(path: Path, content: bytes | None = None) -> Columns:
         columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
         return Columns({n: np.array(c, str if n in IN_WORDS else float) for n, c in columns.items()})
     except (ValueError, IndexError, csv.Error) as problem:
-        said = f"{path} is not a complete table of numbers ({shown(str(problem))})"
-        raise InputError(f"{said}; give a table that 'lubfric run' wrote") from None
+        message = f"{path} is not a complete table of numbers ({shown(str(problem))})"
+        raise InputError(f"{message}; give a table that 'lubfric run' wrote") from None
 
 
 def read_columns(
@@ -128,8 +128,8 @@ def read_columns(
     for line, row in rows[1:]:
         if any(field.strip() for field in row[len(headings) :]):
             hint = "; are its decimals written with a comma? Write a point, or separate the columns by semicolons"
-            said = f"file {path.name}, line {line}: {len(row)} values for {len(headings)} headings"
-            raise InputError(f"{said}{hint if len(row) > len(headings) + 1 else ''}")
+            message = f"file {path.name}, line {line}: {len(row)} values for {len(headings)} headings"
+            raise InputError(f"{message}{hint if len(row) > len(headings) + 1 else ''}")
     columns = []
     known = [*(name_and_unit(text)[0] for text in headings), *headings]
     for name, unit in zip(names, units):
@@ -150,9 +150,9 @@ def read_columns(
         tables = [table for table in UNITS.values() if unit is None or unit in table]
         if word and not any(word in table for table in tables):
             listed = ", ".join(other for table in tables for other in table)
-            said = f"file {path.name}, column {name!r}: unit {given!r} is not known here"
+            message = f"file {path.name}, column {name!r}: unit {given!r} is not known here"
             advice = next((of_other_kind[si] for si, row in UNITS.items() if word in row and si in of_other_kind), "")
-            raise InputError(said, allowed=f"{listed}, or no unit for SI", recommendation=advice)
+            raise InputError(message, allowed=f"{listed}, or no unit for SI", recommendation=advice)
         numbers = [_number(path, line, row, places[0], heading) for line, row in rows[1:]]
         columns.append([converted(number, word, unit or kind_of(word)) for number in numbers] if word else numbers)
     return columns
@@ -179,8 +179,8 @@ def _unit_of_column(path: Path, heading: str, name: str, stated: str | None) -> 
     named = [unit for unit in (name_and_unit(heading)[1], stated, name_and_unit(name)[1]) if unit is not None]
     for unit in named[1:]:
         if spelled(unit) != spelled(named[0]):
-            said = f"column {heading!r} of {path.name} is in {named[0]!r} and in {unit!r}"
-            raise InputError(said, recommendation="name one unit")
+            message = f"column {heading!r} of {path.name} is in {named[0]!r} and in {unit!r}"
+            raise InputError(message, recommendation="name one unit")
     return named[0] if named else None
 
 
@@ -262,8 +262,8 @@ def _rows(path: Path, names: Sequence[str]) -> list[tuple[int, list[str]]]:
         raise InputError(f"file {path.name} has {len(lines)} rows; it needs a heading and rows of numbers")
     for number, line in lines:
         if len(line) > LONGEST_LINE:
-            said = f"file {path.name}, line {number} has {len(line)} characters"
-            raise InputError(said, allowed=f"up to {LONGEST_LINE}")
+            message = f"file {path.name}, line {number} has {len(line)} characters"
+            raise InputError(message, allowed=f"up to {LONGEST_LINE}")
     try:
         heads = [[text.strip()[:LONGEST_HEADING] for text in _fields(line)] for _, line in lines[:-1][:TITLES]]
         known = [sum(map(bool, (_places(head, name) for name in names))) for head in heads]

@@ -210,8 +210,8 @@ def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
     """
     a = real_array(name, value, unit)
     if np.ma.is_masked(value):
-        said = f" has {np.count_nonzero(np.ma.getmaskarray(value))} of {a.size} values masked"
-        raise InputError(said, name, f"none (finite values in {unit})")
+        message = f" has {np.count_nonzero(np.ma.getmaskarray(value))} of {a.size} values masked"
+        raise InputError(message, name, f"none (finite values in {unit})")
     if a.ndim != ndim:
         raise InputError(f" has {a.ndim} axes (shape {a.shape})", name, f"exactly {ndim} [{unit}]")
     if a.size == 0:
@@ -220,8 +220,8 @@ def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
         furthest = max(float(a.max()), -float(a.min()))  # NaN where any value is
     if not math.isfinite(furthest):
         bad = a.size - np.count_nonzero(np.isfinite(a))
-        said = f" has {bad} of {a.size} values that are NaN or infinite"
-        raise InputError(said, name, f"finite values in {unit}")
+        message = f" has {bad} of {a.size} values that are NaN or infinite"
+        raise InputError(message, name, f"finite values in {unit}")
     most = SANE.get(unit, (SMALLEST_NUMBER, LARGEST_NUMBER))[1]
     if furthest > most:
         raise InputError(f" reaches {furthest:g} {unit}", name, f"up to {most:g} {unit}")
@@ -271,8 +271,8 @@ def real_array(name: str, value: Any, unit: str) -> np.ndarray:
         raise
     except (TypeError, ValueError, OverflowError, RecursionError):
         instead = f"its .heights [{unit}]" if hasattr(value, "heights") else ""
-        said = f" is {'a height map, ' if instead else ''}not an array of numbers in {unit}"
-        raise InputError(said, name, instead) from None
+        message = f" is {'a height map, ' if instead else ''}not an array of numbers in {unit}"
+        raise InputError(message, name, instead) from None
     if odd or numbers_given.dtype.kind not in NUMBER_KINDS:
         raise InputError(f" holds {odd or f'values of type {numbers_given.dtype}'}", name, f"real numbers in {unit}")
     with np.errstate(over="ignore"):
@@ -310,8 +310,8 @@ def installed(name: str, extra: str) -> Any:
     try:
         return import_module(name)
     except ImportError as problem:
-        said = f"this needs the package {name}: pip install 'lubfric[{extra}]' ({problem})"
-        raise InputError(said) from None
+        message = f"this needs the package {name}: pip install 'lubfric[{extra}]' ({problem})"
+        raise InputError(message) from None
 
 
 def keys(where: str, given: Iterable[Any], allowed: Iterable[str], other: Callable[[], dict[str, str]] = dict) -> None:
@@ -334,8 +334,8 @@ def pair(name: str, value: Any, check: Callable[[str, Any], T], what: str) -> tu
     if several and len(value) != 2:
         raise InputError(f" = {shown(value)} must be {what} or a pair of them, for x and y", name)
     if several and isinstance(value[0], str) != isinstance(value[1], str):
-        said = f" = {shown(value)} has one part with a unit and one without one"
-        raise InputError(said, name, recommendation="give each its unit, or none")
+        message = f" = {shown(value)} has one part with a unit and one without one"
+        raise InputError(message, name, recommendation="give each its unit, or none")
     first, second = (check(f"{name}[{i}]", part) for i, part in enumerate(value if several else (value, value)))
     return first, second
 

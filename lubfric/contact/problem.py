@@ -119,8 +119,8 @@ def contact_problem(
         }
         for name, value in required.items():
             if (built := getattr(operator, name)) != value:
-                said = f"operator was built for {name} = {built}, the contact has {value}"
-                raise InputError(said, recommendation="they must be the same")
+                message = f"operator was built for {name} = {built}, the contact has {value}"
+                raise InputError(message, recommendation="they must be the same")
     offset = float(gap0.min())
     gap0 = gap0 - offset if offset else gap0
     return ContactProblem(
@@ -164,8 +164,8 @@ def starting_point(problem: ContactProblem, start: object) -> ContactStart | Non
         raise InputError(f"start has shape {pressure.shape}; allowed: {problem.gap0.shape}, the shape of gap0")
     limit = ABSURD * problem.operator.e_prime
     if pressure.min() < 0 or pressure.max() > limit:
-        said = f"start has pressures from {pressure.min():g} to {pressure.max():g} Pa"
-        raise InputError(said, allowed=f"0 to {limit:g} Pa")
+        message = f"start has pressures from {pressure.min():g} to {pressure.max():g} Pa"
+        raise InputError(message, allowed=f"0 to {limit:g} Pa")
     if not pressure.any():
         return None
     if isinstance(start, ContactStart) and pressure.max() <= problem.hardness:

@@ -72,7 +72,7 @@ def _lubricant(prepared: Prepared, use: MethodUse) -> dict[str, bool]:
             "sheared flow": lubricant.flow_law is not None,
             "Dowson-Higginson": lubricant.density_law == "dowson-higginson",
             "viscosity over temperature": oil is not None,
-            "viscosity index": oil is not None and "viscosity_index" in oil.said,
+            "viscosity index": oil is not None and "viscosity_index" in oil.given_keys,
             "So and Klaus": estimate == "so-klaus",
             "Gold": estimate == "gold",
         }

@@ -38,8 +38,8 @@ def film_problem(line: LineContact) -> FilmProblem:
     if length is None:
         return problem
     if length <= half_width:
-        said = f" = {length:g} m lies inside the dry contact, where no film begins"
-        raise InputError(said, "inlet_length", f"more than its half-width {half_width:.4g} m")
+        message = f" = {length:g} m lies inside the dry contact, where no film begins"
+        raise InputError(message, "inlet_length", f"more than its half-width {half_width:.4g} m")
     return replace(problem, inlet=length / problem.length_unit)
 
 

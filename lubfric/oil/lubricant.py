@@ -100,8 +100,8 @@ class Lubricant(Shown):
         if self.viscosity_law == "roelands" and self.pressure_viscosity_coefficient == 0.0:
             raise InputError(" = 0 1/Pa has no Roelands exponent", alpha, "> 0 1/Pa, or viscosity_law = 'constant'")
         if self.viscosity_law == "roelands" and self.viscosity <= least:
-            said = f" = {self.viscosity:g} Pa s is out of range for the Roelands law"
-            raise InputError(said, "viscosity", f"> exp(-9.67) = {least:.4g} Pa s")
+            message = f" = {self.viscosity:g} Pa s is out of range for the Roelands law"
+            raise InputError(message, "viscosity", f"> exp(-9.67) = {least:.4g} Pa s")
         for kind, what in ((FLOW_LAWS, "two laws of one flow"), (LIMIT_LAWS, "two limits of one stress")):
             keys = [law.key for law in kind if getattr(self, law.key) is not None]
             if len(keys) > 1:
@@ -119,9 +119,9 @@ class Lubricant(Shown):
             return False
         limiting = [law.key for law in FLOW_LAWS if not law.is_power_law]
         if any(getattr(self, key) is not None for key in limiting):
-            said = f" = {AS_BOUNDARY!r} is for a lubricant whose stress grows without end, and the law of this one limits it"
+            message = f" = {AS_BOUNDARY!r} is for a lubricant whose stress grows without end, and the law of this one limits it"
             laws = " and ".join(limiting)
-            raise InputError(said, LimitingStress.key, f"a number, or omit {laws}")
+            raise InputError(message, LimitingStress.key, f"a number, or omit {laws}")
         object.__setattr__(self, LimitingStress.key, None)
         return True
 

@@ -50,9 +50,9 @@ def from_grade(grade: str, viscosity_index: float, **properties: Any) -> Oil:
     return _through(nu40, nu100, given, {"name": f"ISO VG {nu40 * 1e6:g}, VI {viscosity_index:g}"} | properties)
 
 
-def _through(nu40: float, nu100: float, said: dict[str, Any], properties: dict[str, Any]) -> Oil:
-    """Return an `Oil` by D341 through two viscosities [m²/s], which follow from what was ``said``."""
-    return Oil(viscosity_law=walther((AT_40, nu40), (AT_100, nu100), **said), **properties)
+def _through(nu40: float, nu100: float, given_keys: dict[str, Any], properties: dict[str, Any]) -> Oil:
+    """Return an `Oil` by D341 through two viscosities [m²/s], which follow from the ``given_keys``."""
+    return Oil(viscosity_law=walther((AT_40, nu40), (AT_100, nu100), **given_keys), **properties)
 
 
 def from_table(temperatures: Sequence[float], viscosities: Sequence[float], **properties: Any) -> Oil:
@@ -68,8 +68,8 @@ def named_oil(name: str, **properties: Any) -> Oil:
     spelled = {_letters(known): known for known in OILS}
     if _letters(name) not in spelled:
         near = validate.nearest(str(name).lower(), OILS)
-        said = f" = {validate.shown(name)} is not known{near}"
-        raise InputError(said, "lubricant.oil", ", ".join(OILS))
+        message = f" = {validate.shown(name)} is not known{near}"
+        raise InputError(message, "lubricant.oil", ", ".join(OILS))
     key = spelled[_letters(name)]
     row = OILS[key]
     law = walther(*zip((AT_40, AT_100), (nu * 1e-6 for nu in row["nu"])), oil=key)

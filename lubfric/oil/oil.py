@@ -133,13 +133,13 @@ class Oil(Shown):
         return law.n if isinstance(law, Walther) else law.piece(temperature).n
 
     @property
-    def said(self) -> dict[str, Any]:
+    def given_keys(self) -> dict[str, Any]:
         """Return the keys of [lubricant], with their values, that give this oil again."""
         law = self.viscosity_law
         if isinstance(law, ViscosityTable):
             viscosity: dict[str, Any] = {"viscosity_table": tuple(zip(law.temperatures, law.viscosities))}
         else:
-            viscosity = dict(law.said) or {"nu40": law(40 + CELSIUS), "nu100": law(100 + CELSIUS)}
+            viscosity = dict(law.given_keys) or {"nu40": law(40 + CELSIUS), "nu100": law(100 + CELSIUS)}
         given = {key: getattr(self, key) for key in ("base", "density", "density_slope", "conductivity")}
         given |= {"pressure_viscosity_coefficient": self.alpha, "alpha_estimate": self.estimate}
         return viscosity | {key: value for key, value in given.items() if value is not None}

@@ -68,9 +68,11 @@ class ShearLaw:
 
     def refuse(self, part: str, model: str, recommendation: str) -> NoReturn:
         """Raise `InputError`: this law does not have the ``part`` that the ``model`` needs."""
-        said = f" has a shear law without {part}, which {model} needs"
+        message = f" has a shear law without {part}, which {model} needs"
         raise InputError(
-            said, f"lubricant.{self.key}", recommendation=f"give it in lubfric/oil/shear_laws.py, or {recommendation}"
+            message,
+            f"lubricant.{self.key}",
+            recommendation=f"give it in lubfric/oil/shear_laws.py, or {recommendation}",
         )
 
     def f(self, s: float | np.ndarray) -> FloatArray:

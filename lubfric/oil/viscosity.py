@@ -45,12 +45,12 @@ class Walther:
     ``m``: intercept [-]; ``n``: slope [-], 2.5 to 4.5 for lubricating oils. The constant is 0.7. The exponential
     matters only below 2 mm²/s (6e-4 of nu there). D341 gives the law for 0.21 to 2e7 mm²/s. Between the two
     temperatures of its points it holds to a few percent for oils without wax. Outside them it is an extrapolation.
-    ``said``: the keys of [lubricant] that it follows from, with their values.
+    ``given_keys``: the keys of [lubricant] that it follows from, with their values.
     """
 
     m: float
     n: float
-    said: tuple[tuple[str, float | str], ...] = ()
+    given_keys: tuple[tuple[str, float | str], ...] = ()
 
     def __call__(self, temperature: float) -> float:
         """Return nu [m²/s] at ``temperature`` [K]."""
@@ -58,8 +58,8 @@ class Walther:
         return _viscosity(10 ** (10**power)) * 1e-6
 
 
-def walther(first: tuple[float, float], second: tuple[float, float], **said: float | str) -> Walther:
-    """Return `Walther` through two pairs (temperature [K], nu [m²/s]); nu must fall as the temperature rises. ``said``:
+def walther(first: tuple[float, float], second: tuple[float, float], **given_keys: float | str) -> Walther:
+    """Return `Walther` through two pairs (temperature [K], nu [m²/s]); nu must fall as the temperature rises. ``given_keys``:
     the keys of [lubricant] that the pairs follow from."""
     (cold, thick), (warm, thin) = sorted((first, second))
     checked_temperature(cold), checked_temperature(warm)
@@ -73,7 +73,7 @@ def walther(first: tuple[float, float], second: tuple[float, float], **said: flo
     raised = [nu + CONSTANT + math.exp(-1.47 - 1.84 * nu - 0.51 * nu**2) for nu in (thick * 1e6, thin * 1e6)]  # Z
     a, b = (math.log10(math.log10(z)) for z in raised)
     n = (a - b) / math.log10(warm / cold)
-    return Walther(a + n * math.log10(cold), n, tuple(said.items()))
+    return Walther(a + n * math.log10(cold), n, tuple(given_keys.items()))
 
 
 def _viscosity(raised: float) -> float:
@@ -98,8 +98,10 @@ class ViscosityTable:
 
     def __post_init__(self) -> None:
         if len(self.temperatures) != len(self.viscosities) or len(self.temperatures) < 2:
-            said = f"a viscosity table of {len(self.temperatures)} temperatures and {len(self.viscosities)} viscosities"
-            raise InputError(said, allowed="as many of both, at least two")
+            message = (
+                f"a viscosity table of {len(self.temperatures)} temperatures and {len(self.viscosities)} viscosities"
+            )
+            raise InputError(message, allowed="as many of both, at least two")
         if any(b <= a for a, b in zip(self.temperatures, self.temperatures[1:])):
             raise InputError(f"temperatures = {self.temperatures}; allowed: rising, in K")
         for i in range(1, len(self.temperatures)):
@@ -138,8 +140,8 @@ def viscosity_index(nu40: float, nu100: float) -> float:
         least = f"from 2e-6 m²/s (2 mm²/s), the viscosity index is not defined below{_millimetres(nu40, nu100)}"
         raise InputError(f" = {nu100:g} m²/s is out of range", "nu100", least)
     if nu40 <= nu100:
-        said = f" = {nu40:g} m²/s is not above nu100 = {nu100:g} m²/s"
-        raise InputError(said, "nu40", "nu40 > nu100 (swapped?)", also=("nu100",))
+        message = f" = {nu40:g} m²/s is not above nu100 = {nu100:g} m²/s"
+        raise InputError(message, "nu40", "nu40 > nu100 (swapped?)", also=("nu100",))
     if nu100 > 1e-2:
         error = InputError(f" = {nu100:g} m²/s is out of range", "nu100", "up to 0.01 m²/s")
         error.hint(_millimetres(nu40, nu100), asks=True)
@@ -180,11 +182,13 @@ def viscosity_at_100(nu40: float, index: float) -> float:
     at_40 = nu40 * 1e6
     least = LEAST_VISCOSITY_AT_100 * 1e6
     if at_40 <= least or _index(at_40, least) > index:
-        said = f" = {index:g} (-) with nu40 = {nu40:g} m²/s is less than 2e-6 m²/s at 100 °C, where it is not defined"
+        message = (
+            f" = {index:g} (-) with nu40 = {nu40:g} m²/s is less than 2e-6 m²/s at 100 °C, where it is not defined"
+        )
         instead = "give the kinematic viscosities at 40 and 100 °C instead"
-        raise InputError(said, "viscosity_index", recommendation=instead, also=("nu40",))
+        raise InputError(message, "viscosity_index", recommendation=instead, also=("nu40",))
     if _index(at_40, 0.999 * at_40) < index:
-        said = f" = {index:g} (-) has no oil of nu40 = {nu40:g} m²/s"
-        raise InputError(said, "viscosity_index", "a lower index", also=("nu40",))
+        message = f" = {index:g} (-) has no oil of nu40 = {nu40:g} m²/s"
+        raise InputError(message, "viscosity_index", "a lower index", also=("nu40",))
     root = brentq(lambda at_100: _index(at_40, at_100) - index, least, 0.999 * at_40, xtol=1e-13, rtol=1e-14)
     return root * 1e-6

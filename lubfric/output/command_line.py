@@ -66,8 +66,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         say(f"lubfric: the memory is not enough ({needed}); allow more, or give a smaller map or fewer cells")
         return 1
     except KeyboardInterrupt as error:
-        said, code = error.args if len(error.args) == 2 else ("interrupted", INTERRUPTED)
-        say(f"lubfric: {said}")
+        message, code = error.args if len(error.args) == 2 else ("interrupted", INTERRUPTED)
+        say(f"lubfric: {message}")
         return code
 
 

@@ -161,10 +161,10 @@ def keeping(what: Callable[[], str]) -> Iterator[None]:
         yield
     except KeyboardInterrupt as error:
         kept = what()
-        said = f"interrupted; {kept}: the same command continues from there"
+        message = f"interrupted; {kept}: the same command continues from there"
         if not kept:
-            said = "interrupted; nothing is solved so far that could be kept: the same command begins again"
-        raise KeyboardInterrupt(said, *error.args[1:] or (INTERRUPTED,)) from None
+            message = "interrupted; nothing is solved so far that could be kept: the same command begins again"
+        raise KeyboardInterrupt(message, *error.args[1:] or (INTERRUPTED,)) from None
 
 
 UNFINISHED = "unfinished"
@@ -436,10 +436,10 @@ class RunFolder:
                 f"{self.unfinished.parent} keeps the points of an interrupted run of other inputs; the command of that run continues it"
             )
 
-    def put(self, patterns: Iterable[str] = (), said: Iterable[str] = ()) -> None:
+    def put(self, patterns: Iterable[str] = (), lines: Iterable[str] = ()) -> None:
         """Put ``contents`` in the folder, remove what else of ours matches ``patterns``, and say so."""
         OwnFiles(self.path).replace(self.contents, patterns)
-        for text in said:
+        for text in lines:
             say(text)
         names = ", ".join(sorted(self.contents))
         say(f"wrote {names} to {self.path} in {time.perf_counter() - self.begun:.1f} s")

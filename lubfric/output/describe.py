@@ -308,9 +308,9 @@ def _histories(scene: Scene) -> list[str]:
             low, high = history.range(plan.duration)
             laps = periods(history, plan.duration)
             reverses = ": the motion reverses" if name == "speed" and low < 0 < high else ""
-            said = f"{name}: {type(history).__name__.lower()}, {low:.4g} to {high:.4g} {unit}"
+            row = f"{name}: {type(history).__name__.lower()}, {low:.4g} to {high:.4g} {unit}"
             repeated = f", {laps:.3g} {'period' if laps == 1 else 'periods'}" if laps else ""
-            rows.append(f"{said}{repeated}{reverses}")
+            rows.append(f"{row}{repeated}{reverses}")
     start = "steady if there is entrainment, else at rest" if plan.initial == "auto" else plan.initial
     if plan.initial_film is not None:
         start = f"film of {worded(plan.initial_film, 'm')}"

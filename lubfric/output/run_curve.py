@@ -351,9 +351,9 @@ def _width(arguments: Namespace) -> float | None:
         return None
     number = number_of("--width", arguments.width, "m")
     if NARROWEST <= number / 1e3 <= WIDEST_PICTURE and re.search(r"[a-z]", arguments.width) is None:
-        said = f" = {number:g} m is out of range"
+        message = f" = {number:g} m is out of range"
         ways = f"did you mean '{number:g} mm'?"
-        raise InputError(said, "--width", f"{NARROWEST:g} to {WIDEST_PICTURE:g} m", ways)
+        raise InputError(message, "--width", f"{NARROWEST:g} to {WIDEST_PICTURE:g} m", ways)
     return validate.number("--width", number, "m", minimum=NARROWEST, maximum=WIDEST_PICTURE)
 
 
@@ -434,19 +434,19 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
     name, _, unit, plural = curve.SWEPT
     points = [(value, p.uncertainty) for value, p in zip(getattr(curve, name), curve.points) if p is not None]
     noted = [point for point in points if point[1].notes]
-    said = []
+    lines = []
     few = [value for value, known in points if known.has_few_contacts]
     if noted:
         at, worst = max(noted, key=lambda p: p[1].sampling if math.isfinite(p[1].sampling) else math.inf)
         others = counted(len(noted) - 1, f"more {plural}")
         more = f", where its sampling error is largest (result.json has {others})" if len(noted) > 1 else ""
-        said.append(f"uncertainty of f {at_value(at, unit, plural)}{more}: {'; '.join(worst.notes)}")
+        lines.append(f"uncertainty of f {at_value(at, unit, plural)}{more}: {'; '.join(worst.notes)}")
         if few and few != [at]:
             where = ", ".join(at_value(value, unit, plural) for value in few)
-            said.append(f"few asperity contacts carry the load {where}: these intervals are too narrow")
+            lines.append(f"few asperity contacts carry the load {where}: these intervals are too narrow")
     if scene.numerics.accept and any(e.severe for i in range(len(curve.points)) for e in curve.violations(i)):
-        said.append("accepted outside the range of the model (--accept): the marked coefficients have no meaning")
-    return said
+        lines.append("accepted outside the range of the model (--accept): the marked coefficients have no meaning")
+    return lines
 
 
 def _raise_if_failed(curve: studies.CurveResult) -> None:

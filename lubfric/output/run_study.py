@@ -76,8 +76,8 @@ def run_study(arguments: Namespace) -> None:
         report = Report(
             "study", ITERATION_LIMIT, iterations=result.solved - result.failed, residual=float("inf"), tolerance=0.0
         )
-        said = f"{result.failed} of {counted(result.solved, 'points')} failed; first: {result.failures[0]}"
-        raise ConvergenceError(said, report, result)
+        message = f"{result.failed} of {counted(result.solved, 'points')} failed; first: {result.failures[0]}"
+        raise ConvergenceError(message, report, result)
 
 
 # The file of a study folder that says what was solved: with the scene, all that `lubfric study` needs to repeat it.

@@ -316,27 +316,27 @@ def _checked_wear(scene: Scene, distance: Any, coefficient: Any, hardness: Any) 
         hardness = tuple(validate.number("hardness", value, "Pa", minimum=1.0, maximum=1e14) for value in hardness)
     if distance > 0 and coefficient > 0:
         if scene.motion.slide_roll_ratio == 0:
-            said = " = 0: in pure rolling no surface point slides, and nothing wears by Archard's law"
-            raise InputError(said, "motion.slide_roll_ratio", "a value other than 0, or omit distance")
+            message = " = 0: in pure rolling no surface point slides, and nothing wears by Archard's law"
+            raise InputError(message, "motion.slide_roll_ratio", "a value other than 0, or omit distance")
         if scene.motion.entrainment_speed == 0:
-            said = " = 0 m/s: wear needs the film at the speed of the running-in"
-            raise InputError(said, "motion.entrainment_speed", "a speed other than 0 m/s")
+            message = " = 0 m/s: wear needs the film at the speed of the running-in"
+            raise InputError(message, "motion.entrainment_speed", "a speed other than 0 m/s")
         if scene.contact.model != "half-space":
-            said = f" = {scene.contact.model!r} has no asperity pressure on the cells of the map"
-            raise InputError(said, "contact.model", "'half-space' for wear")
+            message = f" = {scene.contact.model!r} has no asperity pressure on the cells of the map"
+            raise InputError(message, "contact.model", "'half-space' for wear")
         model = scene.numerics.model
         if model != AUTO and not model_named(model).takes_wear:
-            said = f" = {model!r}: wear takes its asperity pressure from the load-sharing model"
+            message = f" = {model!r}: wear takes its asperity pressure from the load-sharing model"
             takers = " or ".join(repr(name) for name in (AUTO, *(one.name for one in MODELS if one.takes_wear)))
-            raise InputError(said, "numerics.model", f"{takers} for wear")
+            raise InputError(message, "numerics.model", f"{takers} for wear")
     return {"distance": distance, "coefficient": coefficient, "hardness": hardness}
 
 
 def _whole(scene: Scene, surface: Surface | None) -> Surface:
     """Return the map to run in, checked."""
     if scene.bodies.hardness is None:
-        said = " is not given: an elastic contact does not yield, so its surface does not run in"
-        raise InputError(said, "bodies.hardness", "1 to 1e14 Pa (hardened steel: about 6e9 to 8e9 Pa)")
+        message = " is not given: an elastic contact does not yield, so its surface does not run in"
+        raise InputError(message, "bodies.hardness", "1 to 1e14 Pa (hardened steel: about 6e9 to 8e9 Pa)")
     if surface is None:
         if scene.counterface is not None:
             raise InputError(

@@ -66,9 +66,9 @@ class FrictionTable:
         """Return f_b at a sliding speed [m/s] or a temperature [K]. Raises `InputError` outside the table."""
         unit = FRICTION_OVER[self.over]
         if not self.at[0] * (1 - 1e-9) <= at <= self.at[-1] * (1 + 1e-9):
-            said = f", a table over {self.over}, has no value at {at:g} {unit}"
+            message = f", a table over {self.over}, has no value at {at:g} {unit}"
             raise InputError(
-                said, BOUNDARY_FRICTION_KEY, f"{self.at[0]:g} to {self.at[-1]:g} {unit}", "make the table longer"
+                message, BOUNDARY_FRICTION_KEY, f"{self.at[0]:g} to {self.at[-1]:g} {unit}", "make the table longer"
             )
         return float(np.interp(at, self.at, self.values))
 
@@ -128,12 +128,12 @@ class Bodies(Shown):
             table = "a FrictionTable, by boundary_friction_coefficient = { sliding_speed = [...], values = [...] }"
             validate.instance("bodies.boundary_friction_table", self.boundary_friction_table, FrictionTable, table)
         if self.hardness is not None and self.mean_hertz_pressure >= self.hardness:
-            said = (
+            message = (
                 f" = {self.load:g} N is above the product of hardness and Hertz area: the bodies would yield everywhere"
             )
             most = self.hardness * 2 * self.half_width * self.width
             allowed = f"below {most:.4g} N (check the units of the load, the width, the radii and the hardness)"
-            raise InputError(said, "bodies.load", allowed, also=("bodies.hardness",))
+            raise InputError(message, "bodies.load", allowed, also=("bodies.hardness",))
         for name, unit in (("conductivity", "W/(m K)"), ("volumetric_heat", "J/(m^3 K)")):
             both = pair(f"bodies.{name}", getattr(self, name), unit)
             object.__setattr__(self, name, tuple(validate.positive(f"bodies.{name}", v, unit) for v in both))
@@ -229,20 +229,20 @@ class ContactDomain(Shown):
         validate.python_fields(self, "contact")
         validate.in_range("contact", self)
         if self.geometry == "flat" and self.region != "hertz":
-            said = f" = {self.region!r} does nothing with geometry = 'flat', whose patch represents the Hertz strip"
-            raise InputError(said, "contact.region", "'hertz', or geometry = 'cylinder'")
+            message = f" = {self.region!r} does nothing with geometry = 'flat', whose patch represents the Hertz strip"
+            raise InputError(message, "contact.region", "'hertz', or geometry = 'cylinder'")
         if self.model == "half-space" and self.asperity_separation != "volume":
-            said = f" = {self.asperity_separation!r} does nothing with model = 'half-space'"
-            raise InputError(said, "contact.asperity_separation", "'volume', or model = 'summits' or 'patches'")
+            message = f" = {self.asperity_separation!r} does nothing with model = 'half-space'"
+            raise InputError(message, "contact.asperity_separation", "'volume', or model = 'summits' or 'patches'")
         if self.shape is not None:
             if not isinstance(self.shape, (tuple, list)) or len(self.shape) != 2:
-                said = f" = {validate.shown(self.shape)}"
-                raise InputError(said, "contact.shape", "a pair (nx, ny) of whole numbers >= 1")
+                message = f" = {validate.shown(self.shape)}"
+                raise InputError(message, "contact.shape", "a pair (nx, ny) of whole numbers >= 1")
             cells = "contact.shape (cells of contact.spacing)"
             nx, ny = (validate.integer(cells, n, minimum=1) for n in self.shape)
             if nx * ny > MOST_CONTACT_CELLS:
-                said = f" = {validate.shown(self.shape)} has {float(min(nx * ny, 10**300)):.3g} cells"
-                raise InputError(said, "contact.shape", f"up to {MOST_CONTACT_CELLS:.3g}")
+                message = f" = {validate.shown(self.shape)} has {float(min(nx * ny, 10**300)):.3g} cells"
+                raise InputError(message, "contact.shape", f"up to {MOST_CONTACT_CELLS:.3g}")
             object.__setattr__(self, "shape", (nx, ny))
         if self.spacing is not None:
             object.__setattr__(self, "spacing", lengths("contact.spacing", self.spacing))

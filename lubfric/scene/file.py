@@ -122,8 +122,8 @@ def read_toml(path: Path | Traversable, what: str) -> dict[str, Any]:
     except InputError:
         raise
     except (ValueError, RecursionError) as error:  # tomllib's own, integers too long, tables too deep
-        said = f"{what} {path} is not valid TOML: {validate.shown(str(error))}"
-        raise InputError(f"{said} ({_fault_in_words(str(error))})") from None
+        message = f"{what} {path} is not valid TOML: {validate.shown(str(error))}"
+        raise InputError(f"{message} ({_fault_in_words(str(error))})") from None
 
 
 def _fault_in_words(message: str) -> str:
@@ -160,8 +160,8 @@ def _map_path(name: str, given: str | Path, folder: Path) -> Path:
     )
     meant = f" (did you mean {' or '.join(map(repr, near))}?)" if near else ""
     where = f" in {folder}" if folder.name else ""
-    said = f" = {validate.shown(str(given))}: no such file{where}{meant}"
-    raise InputError(said, name, recommendation=f"give its complete path, or its path from {folder.resolve()}")
+    message = f" = {validate.shown(str(given))}: no such file{where}{meant}"
+    raise InputError(message, name, recommendation=f"give its complete path, or its path from {folder.resolve()}")
 
 
 def builtin_scenes() -> tuple[str, ...]:
@@ -243,14 +243,14 @@ def _read(source: object) -> tuple[dict[str, Any], Path, str]:
     """Return its tables, the folder that its files are relative to, and its name."""
     names = builtin_scenes()
     if not isinstance(source, (str, os.PathLike)):
-        said = f"scene {validate.shown(source)} is a {type(source).__name__}"
-        raise InputError(said, allowed=f"a path, or one of {names}")
+        message = f"scene {validate.shown(source)} is a {type(source).__name__}"
+        raise InputError(message, allowed=f"a path, or one of {names}")
     if str(source) in names:
         return read_toml(SCENES / f"{source}.toml", "scene"), Path(), str(source)
     path = validate.folder("scene", source) if isinstance(source, os.PathLike) else Path(source)
     if not os.path.isfile(path):
-        said = f"scene {validate.shown(str(source))} is neither a file nor a built-in scene"
-        raise InputError(f"{said}{_nearest_scene(path, names)}; built in: {', '.join(names)}")
+        message = f"scene {validate.shown(str(source))} is neither a file nor a built-in scene"
+        raise InputError(f"{message}{_nearest_scene(path, names)}; built in: {', '.join(names)}")
     return read_toml(path, "scene"), path.parent, os.fsencode(path.stem).decode("utf-8", "replace")
 
 

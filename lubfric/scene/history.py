@@ -121,8 +121,8 @@ class Table(History):
         falls = np.flatnonzero(np.diff(times) < 0.0)
         if falls.size:
             i = int(falls[0])
-            said = f" are not sorted: {times[i + 1]:g} s follows {times[i]:g} s (entry {i + 2})"
-            raise InputError(said, name, "times that do not decrease, in s")
+            message = f" are not sorted: {times[i + 1]:g} s follows {times[i]:g} s (entry {i + 2})"
+            raise InputError(message, name, "times that do not decrease, in s")
         if first > 0.0 or last <= first:
             raise InputError(f" run from {first:g} to {last:g} s", name, "from 0 s or before to a later time")
         if self.repeat and first != 0.0:

@@ -183,14 +183,14 @@ def _of_duration(plan: Transient | None) -> list[UnusualValue]:
         if isinstance(history, Harmonic):
             what = f"the period of {key} is {worded(length, 's')}"
             advice = "give the units of frequency and transient.duration"
-        said = ""
+        question = ""
         if parts < LEAST_PART_OF_HISTORY:
             limit = LEAST_PART_OF_HISTORY * length
-            said = f"{what}, {1.0 / parts:,.0f} times as long: is one of the two times in another unit?"
+            question = f"{what}, {1.0 / parts:,.0f} times as long: is one of the two times in another unit?"
         elif parts > MOST_PERIODS_OF_RUN:
             limit = MOST_PERIODS_OF_RUN * length
-            said = f"{what}, and the run has {parts:,.0f} of them, where two show a periodic motion: is one of the two times in another unit?"
-        if said:
+            question = f"{what}, and the run has {parts:,.0f} of them, where two show a periodic motion: is one of the two times in another unit?"
+        if question:
             unusual.append(
                 UnusualValue(
                     key="transient.duration",
@@ -198,7 +198,7 @@ def _of_duration(plan: Transient | None) -> list[UnusualValue]:
                     limit=limit,
                     unit="s",
                     written=duration,
-                    question=said,
+                    question=question,
                     advice=advice,
                 )
             )
@@ -298,9 +298,9 @@ def check_ratios(name: str, ratios: Any) -> None:
     if not sizes or not max(sizes) > MOST_RATIO or min(sizes) < LARGE_RATIO or math.isinf(max(sizes)):
         return
     most = max(sizes)
-    said = f": {most:g} is {100 * most:g} %, and above {MOST_RATIO:g} the surfaces move in opposite directions"
+    message = f": {most:g} is {100 * most:g} %, and above {MOST_RATIO:g} the surfaces move in opposite directions"
     stated = f'for {100 * most:g} % write "{100 * most:g} %"'
-    raise InputError(said, name, recommendation=f"did you mean {most:g} %? Write {most / 100:g}; {stated}")
+    raise InputError(message, name, recommendation=f"did you mean {most:g} %? Write {most / 100:g}; {stated}")
 
 
 def doubtful_values(section: str, given: Any) -> tuple[tuple[str, Any], ...]:

@@ -113,8 +113,8 @@ class Roughness(Shown):
             return 0.0
         sq = honed_sq(self.sk, self.spk, self.svk)
         if self.sq is not None and abs(self.sq - sq) > SAME_SQ * sq:
-            said = f" = {validate.shown(self.sq)} cannot be combined with sk, spk and svk, from which Sq {sq:.4g} m follows"
-            raise InputError(said, "surface.sq", recommendation="give sq, or sk, spk and svk (the others None)")
+            message = f" = {validate.shown(self.sq)} cannot be combined with sk, spk and svk, from which Sq {sq:.4g} m follows"
+            raise InputError(message, "surface.sq", recommendation="give sq, or sk, spk and svk (the others None)")
         return sq
 
 
@@ -135,8 +135,8 @@ def check_fields(given: dict[str, Any]) -> None:
     this, other = ("a map from a file", "generated") if generated else ("a generated map", "read from a file")
     for name, value in given.items():
         if name not in ("file", "sq", *PER_SQ) and (name in GENERATED) != generated:
-            said = f" = {validate.shown(value)} applies to {this}, and this one is {other}"
-            raise InputError(said, f"surface.{name}", recommendation="omit it")
+            message = f" = {validate.shown(value)} applies to {this}, and this one is {other}"
+            raise InputError(message, f"surface.{name}", recommendation="omit it")
 
 
 @contextmanager

@@ -78,8 +78,8 @@ class Scene(Shown):
         if self.numerics.heat == "on" and not self.lubricant.heats:
             by_numbers = "lubricant.temperature [K] and temperature_coefficient [1/K]"
             ways = f"give an oil (lubricant.grade, nu40, oil) or {by_numbers}, or heat = 'auto'"
-            said = " = 'on' needs the temperature coefficient of the viscosity"
-            raise InputError(said, "numerics.heat", recommendation=ways)
+            message = " = 'on' needs the temperature coefficient of the viscosity"
+            raise InputError(message, "numerics.heat", recommendation=ways)
         sliding = self.motion.slide_roll_ratio * self.motion.entrainment_speed
         friction = self.bodies.boundary_friction(sliding, self.lubricant.temperature)
         if friction != self.bodies.boundary_friction_coefficient:
@@ -87,28 +87,28 @@ class Scene(Shown):
         length = self.lubricant.inlet_length
         half_width = self.bodies.half_width
         if self.transient is not None and self.lubricant.shear_modulus is not None:
-            said = f" = {self.lubricant.shear_modulus:g} Pa cannot be combined with [transient]"
+            message = f" = {self.lubricant.shear_modulus:g} Pa cannot be combined with [transient]"
             raise InputError(
-                said, "lubricant.shear_modulus", recommendation="omit it: runs in time have no elastic shear"
+                message, "lubricant.shear_modulus", recommendation="omit it: runs in time have no elastic shear"
             )
         if self.transient is not None and self.lubricant.inlet_film is not None:
-            said = " cannot be combined with lubricant.inlet_film"
+            message = " cannot be combined with lubricant.inlet_film"
             raise InputError(
-                said,
+                message,
                 "transient",
                 recommendation="give a flooded inlet or lubricant.inlet_length: the one with which the scene without "
                 "[transient] has the film that arrives as its full_load_film, or half the height of a piston ring",
             )
         if length is not None and length <= half_width:
-            said = f" = {length:g} m lies inside the dry contact, where no film begins"
-            raise InputError(said, "lubricant.inlet_length", f"more than its half-width {half_width:.4g} m")
+            message = f" = {length:g} m lies inside the dry contact, where no film begins"
+            raise InputError(message, "lubricant.inlet_length", f"more than its half-width {half_width:.4g} m")
         for name, low, high in self.ranges:
             section, _, key = name.partition(".")
             value = value_of(self, name)
             if not low <= value <= high or low == high:
-                said = f" = {value:g} in {low:g} to {high:g}"
+                message = f" = {value:g} in {low:g} to {high:g}"
                 allowed = "[low, high] or [value, low, high], with the value between both ends"
-                raise InputError(said, name, allowed)
+                raise InputError(message, name, allowed)
             for end in (low, high):
                 replace(getattr(self, section), **{key: end})  # refuses an end that is no value of it
 
@@ -210,7 +210,7 @@ class Scene(Shown):
             if keys.get("oil") is not None:
                 oil = keys.pop("oil")  # in place of the numbers that follow from it
                 followed = fields_of(oil, keys["temperature"]) | {"temperature": ...}
-                keys = oil.said | {key: value for key, value in keys.items() if followed.get(key, ...) != value}
+                keys = oil.given_keys | {key: value for key, value in keys.items() if followed.get(key, ...) != value}
             over = keys.pop("boundary_friction_table", None)
             if over is not None:
                 keys["boundary_friction_coefficient"] = {over.over: over.at, "values": over.values}
@@ -256,8 +256,8 @@ def toml_value(value: Any) -> str:
     if isinstance(value, History):
         kind = next((kind for kind, known in HISTORY_KINDS.items() if type(value) is known), None)
         if kind is None:
-            said = f"a history of type {type(value).__name__} has no form in a scene file"
-            raise InputError(said, allowed=", ".join(HISTORY_KINDS))
+            message = f"a history of type {type(value).__name__} has no form in a scene file"
+            raise InputError(message, allowed=", ".join(HISTORY_KINDS))
         return toml_value({"kind": kind} | vars(value))
     if isinstance(value, bool):
         return "true" if value else "false"
@@ -315,8 +315,8 @@ def check_resolved_gap(scene: Scene, *, has_one_map_for_all_bodies: bool = False
     """Raise `InputError` for keys that the deterministic model does not take. ``has_one_map_for_all_bodies``: as in
     `why_gap_not_resolved`."""
     for name, value, instead in _not_taken(scene, has_one_map_for_all_bodies=has_one_map_for_all_bodies):
-        said = f" = {value!r} cannot be combined with numerics.model = 'deterministic'"
-        raise InputError(said, name, f"{instead}, or numerics.model = 'paper'")
+        message = f" = {value!r} cannot be combined with numerics.model = 'deterministic'"
+        raise InputError(message, name, f"{instead}, or numerics.model = 'paper'")
 
 
 def moving_bodies(scene: Scene) -> list[tuple[str, float]]:

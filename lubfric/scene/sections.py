@@ -88,8 +88,8 @@ def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[float, fl
     if name not in KEYS:
         return value, None
     if name == "lubricant.inlet_length" and isinstance(value, (list, tuple, dict)):
-        said = f" = {validate.shown(value)}: one number serves both directions of motion, at all times"
-        raise InputError(said, name, "a length, such as '0.3 mm'")
+        message = f" = {validate.shown(value)}: one number serves both directions of motion, at all times"
+        raise InputError(message, name, "a length, such as '0.3 mm'")
     known = typical(name)
     words = {**known, AS_BOUNDARY: AS_BOUNDARY} if name == "lubricant.limiting_stress_coefficient" else known
     given = without_unit(name, validate.python_value(value), KEYS[name].unit, words)
@@ -101,8 +101,8 @@ def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[float, fl
         raise InputError(f" = {validate.shown(value)}", name, "a number, [low, high], or [value, low, high]")
     low, high = given[-2:]
     if low > high:
-        said = f" = {validate.shown(value)}: low and high are exchanged"
-        raise InputError(said, name, recommendation="write [low, high] or [value, low, high]")
+        message = f" = {validate.shown(value)}: low and high are exchanged"
+        raise InputError(message, name, recommendation="write [low, high] or [value, low, high]")
     return (given[0] if len(given) == 3 else 0.5 * (low + high)), (float(low), float(high))
 
 

@@ -165,8 +165,8 @@ def _of_heights(key: str, per_sq: float) -> Callable[..., dict[str, Any]]:
 
     def plain(height: float, given: dict[str, float | str | None], old: Roughness | None) -> dict[str, float]:
         if given.get("file", getattr(old, "file", None)) is not None:
-            said = " is for generated maps, and this one is read from a file"
-            raise InputError(said, f"surface.{key}", recommendation="omit it, or scale the map by sq")
+            message = " is for generated maps, and this one is read from a file"
+            raise InputError(message, f"surface.{key}", recommendation="omit it, or scale the map by sq")
         return {"sq": validate.nonnegative(f"surface.{key}", height, "m", maximum=1.0) / per_sq}
 
     return plain
@@ -181,8 +181,8 @@ def resolve_oil(given: dict[str, Any], old: Lubricant | None) -> dict[str, Any]:
     """
     limit = given.get("limiting_stress_coefficient", getattr(old, "limiting_stress_coefficient", None))
     if limit is None and given.get("limiting_stress_offset", OFFSET) != OFFSET:
-        said = "limiting_stress_offset does nothing without limiting_stress_coefficient (some 0.05 to 0.1)"
-        raise InputError(f"[lubricant] {said}; give both, or neither")
+        message = "limiting_stress_offset does nothing without limiting_stress_coefficient (some 0.05 to 0.1)"
+        raise InputError(f"[lubricant] {message}; give both, or neither")
     before = getattr(old, "oil", None)
     if given.get("oil", "") is None or not any(key in given for key in (*SOURCES, *PROPERTIES)):
         if before is None:

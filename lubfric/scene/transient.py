@@ -72,11 +72,11 @@ class Transient:
         validate.in_range("transient", self)
         validate.integer("transient.outputs", self.outputs, minimum=1, maximum=1_000_000)
         if self.first_output >= self.duration:
-            said = f" = {self.first_output:g} s is not before the end of the run, {self.duration:g} s"
-            raise InputError(said, "transient.first_output", f"0 to below {self.duration:g} s")
+            message = f" = {self.first_output:g} s is not before the end of the run, {self.duration:g} s"
+            raise InputError(message, "transient.first_output", f"0 to below {self.duration:g} s")
         if self.initial_film is not None and self.initial != "auto":
-            said = f" = {self.initial!r} has no effect together with initial_film, from which the run starts"
-            raise InputError(said, "transient.initial", "one of the two")
+            message = f" = {self.initial!r} has no effect together with initial_film, from which the run starts"
+            raise InputError(message, "transient.initial", "one of the two")
         for name, unit in UNITS_OF_HISTORIES.items():
             given = getattr(self, name)
             if given is not None:
@@ -141,11 +141,11 @@ def checked_history(name: str, value: Any, unit: str, duration: float, *, positi
     if isinstance(given, Table):
         last = given.times[-1]
         if not given.repeat and last < duration * (1 - 1e-9):
-            said = f": the table ends at {last:g} s, the run lasts {duration:g} s"
-            raise InputError(said, name, recommendation="give a table as long as the run, or repeat = true")
+            message = f": the table ends at {last:g} s, the run lasts {duration:g} s"
+            raise InputError(message, name, recommendation="give a table as long as the run, or repeat = true")
         if given.repeat and duration > MOST_LAPS * last:
-            said = f": the table of {last:g} s is repeated {duration / last:.3g} times"
-            raise InputError(said, name, f"up to {MOST_LAPS:g}")
+            message = f": the table of {last:g} s is repeated {duration / last:.3g} times"
+            raise InputError(message, name, f"up to {MOST_LAPS:g}")
     least, most = HISTORY_LIMITS.get(unit, (1e-30, 1e30))
     for end in given.range(duration):
         validate.number(f"{name} during the run", end, unit, minimum=least if positive else -most, maximum=most)

@@ -84,8 +84,8 @@ def requested_speeds(scene: Scene, speeds: Any) -> tuple[float, ...]:
     if isinstance(speeds, str):
         if speeds == AUTO_SPEEDS:
             return ()
-        said = f"speeds in m/s, or {AUTO_SPEEDS!r}, where each curve chooses its own"
-        speeds = without_unit(f"speeds ({said})", speeds, "m/s")
+        meaning = f"speeds in m/s, or {AUTO_SPEEDS!r}, where each curve chooses its own"
+        speeds = without_unit(f"speeds ({meaning})", speeds, "m/s")
     if speeds is None:
         speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
     return each_once(validate.numbers("speeds", speeds, "m/s", LARGEST_SPEED).tolist())
@@ -220,8 +220,8 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
     if sq <= 0:
         raise InputError("speeds = 'auto' of a smooth surface (Sq = 0 m) needs a range; give motion.speed_range in m/s")
     if film_ratio(scene, sq, SLOWEST_SEARCHED) > THIN or film_ratio(scene, sq, FASTEST_SEARCHED) < FULL_FILM_RATIO:
-        said = " = 'auto' finds no range from boundary lubrication to a full film"
-        raise InputError(said, "speeds", recommendation="give motion.speed_range")
+        message = " = 'auto' finds no range from boundary lubrication to a full film"
+        raise InputError(message, "speeds", recommendation="give motion.speed_range")
     return _speed_of(scene, sq, THIN, SLOWEST_SEARCHED, FASTEST_SEARCHED), _speed_of(
         scene, sq, FULL_FILM_RATIO, SLOWEST_SEARCHED, FASTEST_SEARCHED
     )

@@ -120,9 +120,9 @@ class ResidualTests:
             )
         if not how:
             return ""
-        said = " and ".join(how) if self.systematic else how[0].replace("they are", "the residuals are")
+        how_in_words = " and ".join(how) if self.systematic else how[0].replace("they are", "the residuals are")
         return (
-            f"the fit does not describe the data: {said}. The intervals are not valid. Choose other parameters, wider "
+            f"the fit does not describe the data: {how_in_words}. The intervals are not valid. Choose other parameters, wider "
             "bounds or another model, or check the data"
             + ("; state their deviations if they are known" if self.too_far else "")
         )

@@ -154,11 +154,11 @@ class FitResult(Renamed, Shown):
             lines.append("# The fit does NOT describe the data: the values below have no meaning.")
         for key, ends in self.intervals.items():
             value, low, high = (worded_value(key, number) for number in (self.values[key], *ends))
-            said = f"fitted, {value}, 95 % interval {low} to {high}"
+            statement = f"fitted, {value}, 95 % interval {low} to {high}"
             if key in self.undetermined:
-                said = f"NOT DETERMINED by the data. Any value from {low} to {high} fits; {value} is one of them"
+                statement = f"NOT DETERMINED by the data. Any value from {low} to {high} fits; {value} is one of them"
             on_bound = "; it is on its bound" if key in self.at_bounds else ""
-            lines.append(f"# {key}: {said}{on_bound}.")
+            lines.append(f"# {key}: {statement}{on_bound}.")
         return "\n".join([*lines, "", self.scene.to_toml()])
 
     @property
@@ -214,10 +214,10 @@ class FitResult(Renamed, Shown):
         for key in self.undetermined:
             change = self.effects[key]
             where = "over its bounds it changes f by"
-            said = f"{where} {100 * change:.2g} %{'' if key in self.profiles else ', linearised'}"
+            reason = f"{where} {100 * change:.2g} %{'' if key in self.profiles else ', linearised'}"
             if math.isnan(change):
-                said = "f could not be solved at one of its bounds"
-            lines.append(f"the data do not determine {key}: {said}")
+                reason = "f could not be solved at one of its bounds"
+            lines.append(f"the data do not determine {key}: {reason}")
         for key in self.profiles:
             for side in self._limits_of(key) if len(self._limits_of(key)) == 1 else ():
                 other = {"lower": "upper", "upper": "lower"}[side]

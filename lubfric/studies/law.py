@@ -258,8 +258,8 @@ def _viscosity(T: FloatArray, eta: FloatArray, coefficient: FloatArray) -> dict[
         return {}
     if thin:
         allowed = f"above {LEAST_VISCOSITY:g} Pa s, or one temperature"
-        said = f" = {eta.min():.3g} Pa s is too thin for a law over temperature"
-        raise InputError(said, "lubricant.viscosity", allowed)
+        message = f" = {eta.min():.3g} Pa s is too thin for a law over temperature"
+        raise InputError(message, "lubricant.viscosity", allowed)
     x = np.log10(T)
     y = np.log10(np.log10(1e3 * eta + 0.7))
     if np.ptp(T) > 0:

@@ -114,8 +114,8 @@ def _prepared_as_planned(scene: Scene, key: str) -> Prepared:
         raise MapError(str(error)) from None
     if scene_key(scene, digest(read)) != key:
         names = " and ".join(str(rough.file) for rough in (scene.surface, scene.counterface) if rough and rough.file)
-        said = f"{names} has changed since the study was planned"
-        raise MapError(said, recommendation="plan the study again, in another folder if both maps are wanted")
+        message = f"{names} has changed since the study was planned"
+        raise MapError(message, recommendation="plan the study again, in another folder if both maps are wanted")
     return prepare_on_maps(scene, read)
 
 

@@ -55,6 +55,6 @@ def _entry(key: str, value: Any) -> str:
     """Return a line of a study file. Raises `InputError` for a value that it cannot hold."""
     parts = value if isinstance(value, list) else [value]
     if any(is_dataclass(part) or part is None for part in parts):
-        said = f"{key}: a section of a scene as an object, or None, has no form in a study file"
-        raise InputError(said, recommendation="a dict of its keys")
+        message = f"{key}: a section of a scene as an object, or None, has no form in a study file"
+        raise InputError(message, recommendation="a dict of its keys")
     return f"{toml_value(key)} = {toml_value(value)}"

@@ -113,8 +113,8 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         if self.between > DRAWN_ERROR:
             limit = f"a formula needs at most {percent(DRAWN_ERROR)}"
             error = percent(self.between) if np.isfinite(self.between) else "not known"
-            said = f"the estimated error of f between the solved speeds is {error}, and {limit}"
-            raise InputError(said, recommendation=MORE_SPEEDS)
+            message = f"the estimated error of f between the solved speeds is {error}, and {limit}"
+            raise InputError(message, recommendation=MORE_SPEEDS)
         low, high = self.uncertainty.interval.T
         curves = [(conditions_of(self.scene), self._curve)]
         return law_of(self.scene, curves, self.coefficient, low, high, self.uncertainty.model)
@@ -219,8 +219,8 @@ def _requested(speeds: str | ArrayLike | None, fields: Any, scene: Scene) -> tup
         return [], np.abs(kept).tolist()
     kept = [alike(speed, requested) for speed in kept]
     if not set(kept) <= set(requested):
-        said = f" = {fields!r} m/s are not all among the speeds of the curve"
-        raise InputError(said, "fields", recommendation="give some of them, or fields = True")
+        message = f" = {fields!r} m/s are not all among the speeds of the curve"
+        raise InputError(message, "fields", recommendation="give some of them, or fields = True")
     return requested, requested if fields is True else kept
 
 

@@ -149,9 +149,9 @@ def sample(ranges: Iterable[Any], count: int, sampler: str = "sobol", seed: int 
     if sampler == "sobol":
         if count & (count - 1):
             above = 2 ** count.bit_length()
-            said = f" = {count} of a Sobol sequence"
+            message = f" = {count} of a Sobol sequence"
             recommendation = f"write {above // 2} or {above}, or sampler = 'random' for {count} points"
-            raise InputError(said, "count", "powers of two", recommendation)
+            raise InputError(message, "count", "powers of two", recommendation)
         shares = qmc.Sobol(len(parts), seed=seed).random(count)
     else:
         shares = np.random.default_rng(seed).random((count, len(parts)))
@@ -172,8 +172,8 @@ def check_key(
         ways = (
             "give speeds = [...] in m/s, or a column speed of operating points (a fit takes those of the measurement)"
         )
-        said = f"{what}: {key!r} is what a curve is over"
-        raise InputError(said, recommendation=f"{ways}; motion.slide_roll_ratio is a key")
+        message = f"{what}: {key!r} is what a curve is over"
+        raise InputError(message, recommendation=f"{ways}; motion.slide_roll_ratio is a key")
     if not isinstance(key, str) or section not in sections:
         _refuse_key(what, scene, key, sections)
     part = getattr(scene, section) or Roughness  # a body without roughness has its keys all the same

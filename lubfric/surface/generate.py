@@ -128,14 +128,14 @@ def surface_generator(
     scales = lengths[0] / decay, lengths[1] / decay  # where the ACF is 1/e
     for axis, n, d, scale in zip("xy", shape, spacing, scales):
         name = f"correlation_length along {axis}"
-        said = f" is {scale:g} m at 1/e"
+        message = f" is {scale:g} m at 1/e"
         if scale < LEAST_CELLS_OF_LENGTH * d:
             raise InputError(
-                f"{said}, {scale / d:.3g} cells", name, f"at least {LEAST_CELLS_OF_LENGTH:g} cells of {d:g} m"
+                f"{message}, {scale / d:.3g} cells", name, f"at least {LEAST_CELLS_OF_LENGTH:g} cells of {d:g} m"
             )
         if n * d < 4 * scale:
             allowed = "at most a quarter of it (generate a larger map and crop it)"
-            raise InputError(f"{said}, the map {n * d:g} m", name, allowed)
+            raise InputError(f"{message}, the map {n * d:g} m", name, allowed)
     spectrum = _spectrum(shape, spacing, scales, acf, cutoff)
     expected = _expected_lengths(spectrum, shape, spacing, lengths, level)
     amplitude = np.sqrt(spectrum)
@@ -259,9 +259,11 @@ def _expected_lengths(
         length = first_crossing(np.arange(half) * spacing[axis], line[:half] / acf[0, 0], level)
         if abs(length / lengths[axis] - 1) > LENGTH_TOLERANCE:
             size = f"{shape[0] * spacing[0]:g} x {shape[1] * spacing[1]:g} m"
-            said = f" = {lengths[axis]:g} m is not possible: a periodic map of {size} with this cutoff has {length:g} m"
+            message = (
+                f" = {lengths[axis]:g} m is not possible: a periodic map of {size} with this cutoff has {length:g} m"
+            )
             allowed = f"within {LENGTH_TOLERANCE:.0%} (generate a larger map and crop it)"
-            raise InputError(said, f"correlation_length along {'xy'[axis]}", allowed)
+            raise InputError(message, f"correlation_length along {'xy'[axis]}", allowed)
         cutoffs.append(length)
     return cutoffs
 

@@ -135,8 +135,8 @@ class Stated:
 
 def contradiction(name: str, quantity: str, old: Statement | Stated, new: Statement | Stated) -> InputError:
     """Return the error of a file of which two lines contradict each other."""
-    said = f"file {name} contradicts itself about {quantity}: {old.worded()} and {new.worded()}"
-    return InputError(said, recommendation="remove the wrong line")
+    message = f"file {name} contradicts itself about {quantity}: {old.worded()} and {new.worded()}"
+    return InputError(message, recommendation="remove the wrong line")
 
 
 @dataclass(kw_only=True)
@@ -274,9 +274,9 @@ def _refuse_inverted(header: Header, statement: Statement) -> None:
     spoken = words - set(UNIT_WORDS)
     inverted = words & INVERTED and (words & TRUE or statement.numbers == (1.0,))
     if inverted or "positive" in words and words & DOWN or spoken == {"depth"} and not statement.numbers:
-        said = f"file {header.name}: {statement.worded()} does not define the sign of the heights"
+        message = f"file {header.name}: {statement.worded()} does not define the sign of the heights"
         recommendation = "remove the line where heights rise out of the material; else change their sign and remove it"
-        raise InputError(said, recommendation=recommendation)
+        raise InputError(message, recommendation=recommendation)
 
 
 def _file(header: Header, statement: Statement) -> None:
@@ -352,8 +352,8 @@ def _unit_alone(header: Header, statement: Statement, words: set[str], axis: str
         return
     if about_heights and not lateral:
         if unit not in LENGTHS:
-            said = f"file {header.name}, line {statement.line} {statement.text[:60]!r}: values are in {unit!r}"
-            raise InputError(said, allowed=f"heights in {', '.join(LENGTHS)}")
+            message = f"file {header.name}, line {statement.line} {statement.text[:60]!r}: values are in {unit!r}"
+            raise InputError(message, allowed=f"heights in {', '.join(LENGTHS)}")
         header.state("z unit", statement, LENGTHS[unit], unit)
     elif lateral and spoken & UNIT and unit in LENGTHS:
         header.state("xy unit", statement, LENGTHS[unit], unit)
@@ -486,8 +486,8 @@ def grid_of(
                 step = by_extent
             elif not by_extent * (1 - SAME_LENGTH) <= step <= length / max(count - 1, 1) * (1 + SAME_LENGTH):
                 parts = f"{header.stated['d' + axis].worded()} and {header.stated[extent].worded()}"
-                said = f"file {header.name}: {count} points along {axis} do not agree with {parts}"
-                raise InputError(said, recommendation="remove the wrong line")
+                message = f"file {header.name}: {count} points along {axis} do not agree with {parts}"
+                raise InputError(message, recommendation="remove the wrong line")
         steps.append(step)
     dx, dy = steps
     notes = []
@@ -511,8 +511,8 @@ def _direction(header: Header, lines: int, columns: int) -> tuple[bool, bool]:
         down = (nx in (None, lines)) and (ny in (None, columns))
         if not along and not down:
             where = " and ".join(header.stated[q].worded() for q in ("nx", "ny") if q in header.stated)
-            said = f"file {header.name}: the table has {lines} lines of {columns} numbers, and its header {where}"
-            raise InputError(said, recommendation="give the whole file, or remove the wrong lines")
+            message = f"file {header.name}: the table has {lines} lines of {columns} numbers, and its header {where}"
+            raise InputError(message, recommendation="give the whole file, or remove the wrong lines")
         if along != down:
             return along, True
         if header.program:
@@ -538,5 +538,5 @@ def _goes_only_down(header: Header, lines: int, columns: int) -> bool:
 def _agree(header: Header, quantity: str, count: int, what: str) -> None:
     stated = header.stated.get(quantity)
     if stated is not None and stated.value != count:
-        said = f"file {header.name}: the table has {count} {what}, and its header {stated.worded()}"
-        raise InputError(said, recommendation="give the whole file, or remove the wrong line")
+        message = f"file {header.name}: the table has {count} {what}, and its header {stated.worded()}"
+        raise InputError(message, recommendation="give the whole file, or remove the wrong line")

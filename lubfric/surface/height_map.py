@@ -203,8 +203,8 @@ class Surface(FrozenArrays, Shown):
             for name, index in (("s_filter", s), ("l_filter", l))
         )
         if s is not None and l is not None and s >= l:
-            said = f"s_filter = {s:g} m and l_filter = {l:g} m remove all waves"
-            raise InputError(said, recommendation="give an s_filter below l_filter")
+            message = f"s_filter = {s:g} m and l_filter = {l:g} m remove all waves"
+            raise InputError(message, recommendation="give an s_filter below l_filter")
         new = self
         if s is not None:
             new = new._with(new._mean(s), f"S-filter: waves shorter than {s:.4e} m taken out")
@@ -249,8 +249,8 @@ class Surface(FrozenArrays, Shown):
         first = tuple((n - m) // 2 for n, m in zip(self.shape, shape)) if start is None else tuple(start)
         for axis in range(2):
             if not 0 <= first[axis] <= self.shape[axis] - shape[axis]:
-                said = f" = {shape[axis]} points from {first[axis]} is outside the map"
-                raise InputError(said, f"shape[{axis}]", f"within 0..{self.shape[axis]}")
+                message = f" = {shape[axis]} points from {first[axis]} is outside the map"
+                raise InputError(message, f"shape[{axis}]", f"within 0..{self.shape[axis]}")
         cut = tuple(slice(s, s + n) for s, n in zip(first, shape))
         mask = None if self.mask is None else self.mask[cut]
         periodic_axes_left = tuple(p and n == m for p, n, m in zip(self.periodic_axes, self.shape, shape))
@@ -289,8 +289,8 @@ class Surface(FrozenArrays, Shown):
 
     def _filled(self, purpose: str) -> Surface:
         if not np.isfinite(self.heights).all():
-            said = f"{100 * self.missing_fraction:.3g} % of the heights are unmeasured (NaN)"
-            raise InputError(f"{said}; {purpose} takes none: call level() and fill() first")
+            message = f"{100 * self.missing_fraction:.3g} % of the heights are unmeasured (NaN)"
+            raise InputError(f"{message}; {purpose} takes none: call level() and fill() first")
         return self
 
     def combined(self, other: Surface) -> Surface:
@@ -341,8 +341,8 @@ def _mask(given: Any, heights: Any, shape: tuple[int, ...]) -> np.ndarray | None
     measured."""
     measured = np.ones(shape, bool) if given is None else np.array(given)
     if measured.dtype.kind != "b" or measured.shape != shape:
-        said = f" has shape {measured.shape} and type {measured.dtype}"
-        raise InputError(said, "mask", f"true (measured) and false in shape {shape}")
+        message = f" has shape {measured.shape} and type {measured.dtype}"
+        raise InputError(message, "mask", f"true (measured) and false in shape {shape}")
     if np.ma.is_masked(heights):
         measured &= ~np.ma.getmaskarray(heights)
     if measured.size and not measured.any():

@@ -61,14 +61,14 @@ def honed_heights(
     Raises `InputError` for grooves that the cells do not resolve, or a map too short for them.
     """
     for axis, n, step in zip("xy", shape, spacing):
-        said = f" = {honing.groove_width:g} m"
+        message = f" = {honing.groove_width:g} m"
         if honing.groove_width < LEAST_CELLS_OF_GROOVE * step:
             raise InputError(
-                said, "groove_width", f"at least {LEAST_CELLS_OF_GROOVE:g} cells of {step:g} m along {axis}"
+                message, "groove_width", f"at least {LEAST_CELLS_OF_GROOVE:g} cells of {step:g} m along {axis}"
             )
         if n * step < SHORTEST_MAP * honing.groove_width:
             allowed = f"at most {1 / SHORTEST_MAP:g} of the map, {n * step:g} m along {axis}"
-            raise InputError(said, "groove_width", allowed)
+            raise InputError(message, "groove_width", allowed)
     longest = min(GROOVE_LENGTH_RATIO * honing.groove_width, 0.5 * min(n * step for n, step in zip(shape, spacing)))
     half = np.radians(0.5 * honing.angle)
     filters = [_oriented(shape, spacing, sign * half, longest, honing.groove_width) for sign in (-1.0, 1.0)]

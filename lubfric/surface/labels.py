@@ -49,11 +49,11 @@ def _check_coordinate(coordinate: Any, axis: Any, step: float) -> None:
     if not (np.abs(steps - step) <= LABEL_TOLERANCE * step).all():
         least = steps.min()
         largest = steps.max()
-        said = (
+        message = (
             f"heights has coordinates {axis!r} with steps of {least:.4g} to {largest:.4g} m, and spacing = {step:.4g} m"
         )
         raise InputError(
-            said, recommendation="give the spacing of the coordinates, or heights without them (heights.values)"
+            message, recommendation="give the spacing of the coordinates, or heights without them (heights.values)"
         )
 
 

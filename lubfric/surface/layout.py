@@ -41,10 +41,12 @@ def kind_of_table(name: str, table: np.ndarray) -> str:
     if min(lines, columns) == 1 and max(lines, columns) >= PROFILE_LINES:
         return "profile"
     if lines < columns and lines <= 3 and columns >= LONG_LIST:
-        said = f"file {name} has {lines} lines of {columns} numbers, which is not a map"
+        message = f"file {name} has {lines} lines of {columns} numbers, which is not a map"
         if _rises(table[0]):
-            said += ": the first line rises like a coordinate"
-        raise InputError(said, recommendation="give points as three columns x y z, a profile as generate_surface says")
+            message += ": the first line rises like a coordinate"
+        raise InputError(
+            message, recommendation="give points as three columns x y z, a profile as generate_surface says"
+        )
     if columns == 2 and lines >= PROFILE_LINES:
         if _rises(table[:, 0]):
             return "profile"
@@ -57,8 +59,8 @@ def kind_of_table(name: str, table: np.ndarray) -> str:
             if _is_grid(table[:, first], table[:, first + 1]):
                 if columns == 3:
                     return "points"
-                said = f"file {name} has {columns} columns, of which two are coordinates of a grid"
-                raise InputError(said, recommendation="leave only the three columns x y z")
+                message = f"file {name} has {columns} columns, of which two are coordinates of a grid"
+                raise InputError(message, recommendation="leave only the three columns x y z")
         if columns == 3 and lines >= LONG_LIST:
             if _rises(table[:, 0]):
                 return "profile"
@@ -72,10 +74,10 @@ def _explain_points(name: str, table: np.ndarray) -> None:
         for axis, column in zip("xy", range(2)):
             grid_lines(axis, table[:, column])
     except InputError as problem:
-        said = f"file {name} has three columns, and they are not points x y z on a grid: {problem.said}"
-        raise InputError(said, allowed=problem.allowed) from None
-    said = f"file {name} has {len(table)} lines of three numbers, and they are not points x y z on a grid"
-    raise InputError(said, allowed="each point of the grid once, with most of them")
+        message = f"file {name} has three columns, and they are not points x y z on a grid: {problem.said}"
+        raise InputError(message, allowed=problem.allowed) from None
+    message = f"file {name} has {len(table)} lines of three numbers, and they are not points x y z on a grid"
+    raise InputError(message, allowed="each point of the grid once, with most of them")
 
 
 def _is_grid(x: np.ndarray, y: np.ndarray) -> bool:
@@ -139,7 +141,7 @@ def refuse_profile(
     """Raise `InputError` for a profile, with the statistics that make a surface of it. ``spacing`` [m]: as the user gives it,
     which the first column must not contradict."""
     values = table.ravel() if min(table.shape) == 1 else table[:, 1]
-    said = f"file {name} contains a profile of {values.size} points, not a map of heights"
+    message = f"file {name} contains a profile of {values.size} points, not a map of heights"
     recommendation = (
         "measure a map; or generate a surface with the statistics of the profile: [surface] sq and correlation_length = "
         "[along, across the motion] in place of file"
@@ -156,14 +158,14 @@ def refuse_profile(
             unit = units[2]
         scale = LENGTHS.get(unit) or LENGTH_UNITS.get(unit)
         sq = float(z.std())
-        said += f" (Sq {sq:.4g} {unit or 'in the unit of the file'} about its mean line"
+        message += f" (Sq {sq:.4g} {unit or 'in the unit of the file'} about its mean line"
         if scale is not None:
-            said = f"{said[: said.rindex('(')]}(Sq {sq * scale:.4e} m about its mean line"
+            message = f"{message[: message.rindex('(')]}(Sq {sq * scale:.4e} m about its mean line"
         length = _correlation_steps(z)
         if length is not None:
-            said += f", correlation length {_length_in_words(length, table, units, spacing)}"
-        said += ")"
-    raise InputError(said, recommendation=recommendation)
+            message += f", correlation length {_length_in_words(length, table, units, spacing)}"
+        message += ")"
+    raise InputError(message, recommendation=recommendation)
 
 
 def _length_in_words(

@@ -28,14 +28,14 @@ def gridded(name: str, table: np.ndarray) -> tuple[np.ndarray, tuple[float, floa
     lines = [grid_lines(axis, table[:, column]) for column, axis in enumerate("xy")]
     (i, nx, dx, off_x), (j, ny, dy, off_y) = lines
     if nx * ny > len(table) / LEAST_GIVEN_SHARE:
-        said = f": {len(table)} points on a grid of {nx} x {ny}"
-        raise InputError(said, f"file {name}", "a uniform grid with most of its points")
+        message = f": {len(table)} points on a grid of {nx} x {ny}"
+        raise InputError(message, f"file {name}", "a uniform grid with most of its points")
     heights = np.full((nx, ny), np.nan)
     count = np.zeros((nx, ny), int)
     np.add.at(count, (i, j), 1)
     if count.max() > 1:
-        said = f": {np.count_nonzero(count > 1)} grid points are given more than once"
-        raise InputError(said, f"file {name}", recommendation="give each once")
+        message = f": {np.count_nonzero(count > 1)} grid points are given more than once"
+        raise InputError(message, f"file {name}", recommendation="give each once")
     heights[i, j] = table[:, 2]
     off = float(max(np.abs(off_x).max(), np.abs(off_y).max()))
     notes: tuple[str, ...] = ()
@@ -67,8 +67,8 @@ def grid_lines(name: str, coordinate: np.ndarray) -> tuple[np.ndarray, int, floa
         worst = min(worst, float(np.abs(off).max()))
         if np.abs(off).max() <= JITTER and index.min() == 0:
             return index, int(index.max()) + 1, float(step), off
-    said = f"spacing along {name} is not uniform: a point is {worst:.2g} steps off its grid line"
-    raise InputError(said, allowed=f"at most {JITTER:g} of the step")
+    message = f"spacing along {name} is not uniform: a point is {worst:.2g} steps off its grid line"
+    raise InputError(message, allowed=f"at most {JITTER:g} of the step")
 
 
 def _interpolated(

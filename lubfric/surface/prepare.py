@@ -49,8 +49,8 @@ def fitted_form(
             fits.append((float(np.vdot(residual, residual)), float(np.abs(residual).max()), fitted, terms))
     if not fits:
         curve = "line" if form == "plane" else "line or conic"
-        said = f"{np.count_nonzero(valid)} measured points lie on one {curve}"
-        raise InputError(said, allowed=f"points that fix the {len(FORM_POWERS[form][0])} terms of the form {form!r}")
+        message = f"{np.count_nonzero(valid)} measured points lie on one {curve}"
+        raise InputError(message, allowed=f"points that fix the {len(FORM_POWERS[form][0])} terms of the form {form!r}")
     _, most, fitted, terms = min(fits, key=lambda fit: fit[0])
     if most <= LEFT_BY_FORM * np.abs(z).max():
         fitted = np.where(valid, heights, fitted)

@@ -106,8 +106,8 @@ def read_surface(
             return _prepared(replace(surface, source=path.name), level=level, fill=fill, form=form)
     except MemoryError:
         size = path.stat().st_size
-        said = f"path = {str(path)!r} with {size:.3g} bytes does not fit into the memory that this process may use"
-        raise InputError(said, recommendation="give a smaller part of the map, or allow more memory") from None
+        message = f"path = {str(path)!r} with {size:.3g} bytes does not fit into the memory that this process may use"
+        raise InputError(message, recommendation="give a smaller part of the map, or allow more memory") from None
 
 
 def _read(path: Path, head: bytes, spacing: Any, unit: Any, decimal: str | None, missing_value: Any) -> Surface:
@@ -115,8 +115,8 @@ def _read(path: Path, head: bytes, spacing: Any, unit: Any, decimal: str | None,
     suffix = path.suffix.lower()
     binary = b"\0" in head and not head.startswith((b"\xff\xfe", b"\xfe\xff"))  # no text: .dat of an interferometer
     if head.startswith(SURFER_BINARY):
-        said = f"path = {str(path)!r} is a binary grid of Surfer"
-        raise InputError(said, recommendation="save it as a Surfer 6 text grid (DSAA)")
+        message = f"path = {str(path)!r} is a binary grid of Surfer"
+        raise InputError(message, recommendation="save it as a Surfer 6 text grid (DSAA)")
     if head.lstrip(b"\xef\xbb\xbf \r\n").startswith(ISO_TEXT):
         return _plain(path, ".txt", spacing, unit, decimal, missing_value)
     by_instrument = suffix in TEXT and binary or suffix not in SUFFIXES and suffix in INSTRUMENTS
@@ -126,8 +126,8 @@ def _read(path: Path, head: bytes, spacing: Any, unit: Any, decimal: str | None,
     if suffix in SUFFIXES:
         return _plain(path, suffix, spacing, unit, decimal, missing_value)
     others = f"with SurfaceTopography ({HINT}) {', '.join(INSTRUMENTS)}"
-    said = f"path = {validate.shown(str(path))} has the unknown suffix {validate.shown(suffix)}"
-    raise InputError(said, allowed=f"{', '.join(SUFFIXES)}, and {others}")
+    message = f"path = {validate.shown(str(path))} has the unknown suffix {validate.shown(suffix)}"
+    raise InputError(message, allowed=f"{', '.join(SUFFIXES)}, and {others}")
 
 
 def _opened(path: Any) -> tuple[Path, bytes]:
@@ -172,8 +172,8 @@ def _plain(path: Path, suffix: str, spacing: Any, unit: Any, decimal: str | None
         if kind == "profile":
             refuse_profile(path.name, heights, None, units)
         if kind == "points":
-            said = f"path = {str(path)!r} contains points x y z on a grid, not a map of heights"
-            raise InputError(said, recommendation="write them as text with the suffix .xyz")
+            message = f"path = {str(path)!r} contains points x y z on a grid, not a map of heights"
+            raise InputError(message, recommendation="write them as text with the suffix .xyz")
         if missing_value is not None and heights.dtype.kind == "f":
             missing_value = float(heights.dtype.type(missing_value))  # in the precision of the file
         scale = LENGTH_UNITS["m" if units is None else units[2]]
@@ -194,8 +194,8 @@ def _plain(path: Path, suffix: str, spacing: Any, unit: Any, decimal: str | None
 def _refuse(suffix: str, **given: Any) -> None:
     for name, value in given.items():
         if value is not None:
-            said = f" = {value!r} is given, and this {suffix} file states its own or has none"
-            raise InputError(said, name, recommendation="omit it")
+            message = f" = {value!r} is given, and this {suffix} file states its own or has none"
+            raise InputError(message, name, recommendation="omit it")
 
 
 def _masked(
@@ -214,8 +214,8 @@ def _masked(
         unread = f"{' and '.join(unread_sizes)} may state it, without a name and a unit that are known"
         why = unread if unread_sizes else "the file does not carry it"
         why = next((note for note in notes if note.startswith("steps of")), why)
-        said = f"spacing of {path.name} is missing: {why}"
-        raise InputError(said, allowed="one length or (dx, dy) in m (surface.spacing), dx from line to line")
+        message = f"spacing of {path.name} is missing: {why}"
+        raise InputError(message, allowed="one length or (dx, dy) in m (surface.spacing), dx from line to line")
     measured = ~np.isnan(heights)
     for value in missing_values:
         if value is not None:
@@ -225,9 +225,9 @@ def _masked(
     if infinite.size:
         i, j = infinite[0]
         more = f", and {len(infinite) - 1} more" if len(infinite) > 1 else ""
-        said = f" = {heights[i, j]:g}{more}"
+        message = f" = {heights[i, j]:g}{more}"
         raise InputError(
-            said, f"heights[{i}, {j}] of {path.name}", "finite heights, and NaN where nothing was measured"
+            message, f"heights[{i}, {j}] of {path.name}", "finite heights, and NaN where nothing was measured"
         )
     if not measured.any():
         raise InputError(f"heights: none of {heights.size} values is measured; allowed: measured heights in m")
@@ -284,8 +284,8 @@ def _read_npy(path: Path) -> np.ndarray:
     except Exception as problem:  # the header is Python text: any error of its parser, or of the map made from it
         raise InputError(f"{name} is not a readable .npy array ({validate.shown(str(problem))})") from None
     if not isinstance(data, np.ndarray) or data.dtype.kind not in "iuf" or data.ndim != 2 or data.size == 0:
-        said = f" holds {getattr(data, 'dtype', type(data))} of shape {getattr(data, 'shape', None)}"
-        raise InputError(said, name, "real numbers with 2 axes [m]")
+        message = f" holds {getattr(data, 'dtype', type(data))} of shape {getattr(data, 'shape', None)}"
+        raise InputError(message, name, "real numbers with 2 axes [m]")
     points(f"{name}: shape", data.shape)
     return np.array(data)
 
@@ -307,8 +307,8 @@ def _instrument(path: Path) -> Surface:
         sizes = topography.physical_sizes
         unit = topography.unit
     except Exception as problem:  # the package raises many kinds for files it cannot read
-        said = f" cannot be read by SurfaceTopography ({type(problem).__name__}: {validate.shown(str(problem))})"
-        raise InputError(said, name, recommendation="give a complete file of a format it knows") from problem
+        message = f" cannot be read by SurfaceTopography ({type(problem).__name__}: {validate.shown(str(problem))})"
+        raise InputError(message, name, recommendation="give a complete file of a format it knows") from problem
     if unit not in LENGTH_UNITS:
         raise InputError(
             f": heights are in {validate.shown(unit)}", name, f"a channel of heights in {', '.join(LENGTH_UNITS)}"

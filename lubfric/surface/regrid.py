@@ -30,8 +30,10 @@ def pair(name: str, value: Any) -> tuple[int, int]:
 def points(name: str, shape: tuple[int, ...]) -> None:
     """Check that a grid of that many points fits into memory."""
     if math.prod(shape) > MOST_MAP_POINTS:
-        said = f" = {validate.shown(shape)} has some 1e{math.log10(math.prod(shape)):.0f} points"  # of any whole number
-        raise InputError(said, name, f"up to {MOST_MAP_POINTS:.3g}")
+        message = (
+            f" = {validate.shown(shape)} has some 1e{math.log10(math.prod(shape)):.0f} points"  # of any whole number
+        )
+        raise InputError(message, name, f"up to {MOST_MAP_POINTS:.3g}")
 
 
 def changed(
@@ -168,12 +170,12 @@ def _check_size(parts: list[Surface], spacing: tuple[float, float]) -> None:
         shape = tuple(math.floor(length / step * (1 + EQUAL_LENGTHS)) for length, step in zip(surface.size, spacing))
         if math.prod(shape) > MOST_MAP_POINTS:
             name = surface.source or "a map"
-            said = f"{name} on the finer cells of both maps, {worded(spacing[0], 'm')} x {worded(spacing[1], 'm')}"
+            cells = f"{name} on the finer cells of both maps, {worded(spacing[0], 'm')} x {worded(spacing[1], 'm')}"
             ways = (
                 "coarser cells of the finer map, surface.resampled(spacing=...), or a smaller part of the larger map, "
             )
             raise InputError(
-                f": {shape[0]} x {shape[1]} points of {said}",
+                f": {shape[0]} x {shape[1]} points of {cells}",
                 "sum of two maps",
                 f"up to {MOST_MAP_POINTS:.3g} points",
                 f"give {ways}surface.cropped(...)",

@@ -33,8 +33,8 @@ def read_sdf(
         raise InputError(f"unit = {units[2]!r} is given, and {name} carries its own (m)", recommendation="omit it")
     records = text.split("*")
     if len(records) < 3:
-        said = f"{name} is cut off: it has {len(records) - 1} of the marks '*' that end its header and its heights"
-        raise InputError(said, recommendation="give the whole file")
+        message = f"{name} is cut off: it has {len(records) - 1} of the marks '*' that end its header and its heights"
+        raise InputError(message, recommendation="give the whole file")
     magic, *lines = records[0].splitlines()
     fields = _fields(name, lines)
     nx, ny = (int(_number(name, fields, field, whole=True)) for field in COUNT_FIELDS)
@@ -82,8 +82,8 @@ def _heights(name: str, record: str, count: int) -> FloatArray:
     """Return the numbers of the second record, NaN where it says that a point is unmeasured."""
     words = record.split()
     if len(words) != count:
-        said = f"{name} has {len(words)} heights, and its header states {count}"
-        raise InputError(said, recommendation="give the whole file")
+        message = f"{name} has {len(words)} heights, and its header states {count}"
+        raise InputError(message, recommendation="give the whole file")
     try:
         return np.array(["nan" if word.lower() in UNMEASURED_WORDS else word for word in words], float)
     except ValueError as problem:

@@ -124,8 +124,8 @@ def check_spacing(spacing: tuple[float, float], *, advice: str = WHERE_GIVEN_UNI
     """Raise `InputError` for a ``spacing`` [m] that no map of a rough surface has; ``advice``: what to do."""
     dx, dy = spacing
     if not all(SHORTEST_SPACING <= step <= LONGEST_SPACING for step in spacing):
-        said = f" = {dx:.3g} m" if dx == dy else f" = {dx:.3g} x {dy:.3g} m"
-        raise InputError(said, "spacing", f"{SHORTEST_SPACING:g} to {LONGEST_SPACING:g} m in a map", advice)
+        message = f" = {dx:.3g} m" if dx == dy else f" = {dx:.3g} x {dy:.3g} m"
+        raise InputError(message, "spacing", f"{SHORTEST_SPACING:g} to {LONGEST_SPACING:g} m in a map", advice)
 
 
 def check_scale(surface: Surface, *, advice: str = WHERE_UNIT_IS_WRONG) -> None:
@@ -190,8 +190,8 @@ def first_crossing(lags: np.ndarray, acf: np.ndarray, decay_level: float) -> flo
     level = validate.number("decay_level", decay_level, "(-)", above=0.0, maximum=0.99)
     below = np.flatnonzero(acf <= level)
     if below.size == 0:
-        said = f"the autocorrelation stays above decay_level = {level:g} up to {lags[-1]:g} m"
-        raise InputError(said, allowed="a map at least twice as long as its correlation length")
+        message = f"the autocorrelation stays above decay_level = {level:g} up to {lags[-1]:g} m"
+        raise InputError(message, allowed="a map at least twice as long as its correlation length")
     i = below[0]
     high = acf[i - 1]
     low = acf[i]

@@ -31,8 +31,8 @@ def read_surfer(
     """
     name = f"path = {str(path)!r}"
     if units is None:
-        said = f"{name} is a grid of Surfer, which does not state the units of x, y and the heights"
-        raise InputError(said, recommendation="give unit, such as 'um', or (unit of x and y, unit of the heights)")
+        message = f"{name} is a grid of Surfer, which does not state the units of x, y and the heights"
+        raise InputError(message, recommendation="give unit, such as 'um', or (unit of x and y, unit of the heights)")
     words = text.split()[1:]
     try:
         numbers = np.array(words, float)
@@ -40,8 +40,8 @@ def read_surfer(
     except ValueError:
         raise InputError(f"{name} begins as a grid of Surfer and has words among its numbers") from None
     if nx < 2 or ny < 2 or numbers.size != HEADER + nx * ny or not np.isfinite(numbers).all():
-        said = f"{name} has {max(numbers.size - HEADER, 0)} heights, and its header states {nx} x {ny}"
-        raise InputError(said, recommendation="give the whole file")
+        message = f"{name} has {max(numbers.size - HEADER, 0)} heights, and its header states {nx} x {ny}"
+        raise InputError(message, recommendation="give the whole file")
     x_low, x_high, y_low, y_high, lowest, highest = numbers[2:HEADER]
     if not (x_low < x_high and y_low < y_high):
         raise InputError(f"{name} states x from {x_low:g} to {x_high:g} and y from {y_low:g} to {y_high:g}")
@@ -50,8 +50,8 @@ def read_surfer(
         raise InputError(f"{name} has no point that is not blank")
     ends = np.array([np.nanmin(values), np.nanmax(values)])
     if np.abs(ends - (lowest, highest)).max() > SAME_HEIGHT * max(ends[1] - ends[0], np.abs(ends).max()):
-        said = f"{name} states heights from {lowest:g} to {highest:g} and has {ends[0]:g} to {ends[1]:g}"
-        raise InputError(said, recommendation="export it again")
+        message = f"{name} states heights from {lowest:g} to {highest:g} and has {ends[0]:g} to {ends[1]:g}"
+        raise InputError(message, recommendation="export it again")
     steps = (LENGTH_UNITS[units[0]] * (x_high - x_low) / (nx - 1), LENGTH_UNITS[units[1]] * (y_high - y_low) / (ny - 1))
     notes = (f"grid of Surfer, x, y and heights in {', '.join(units)} as given", "x runs along the lines of the file")
     return LENGTH_UNITS[units[2]] * values.reshape(ny, nx).T, steps, notes

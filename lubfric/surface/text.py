@@ -169,8 +169,8 @@ def _refuse_smd(path: Path, text: str) -> None:
         step = LENGTHS[axes["CX"][3].lower()] * float(axes["CX"][4] if spacing is None else spacing[2])
         z = np.array([float(words[0]) for words in lines[begin + 1 : end] if words])
     except (KeyError, ValueError, IndexError, OverflowError):
-        said = f"path = {str(path)!r} is a profile (PRF) whose records are not those of ISO 5436-2"
-        raise InputError(said, recommendation="measure a map") from None
+        message = f"path = {str(path)!r} is a profile (PRF) whose records are not those of ISO 5436-2"
+        raise InputError(message, recommendation="measure a map") from None
     refuse_profile(path.name, np.stack([step * np.arange(z.size), scale * z], axis=1), None, ("m", "m", "m"))
 
 
@@ -194,11 +194,11 @@ def _matrix(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
     if grid.steps is not None and table.own_spacing is not None:
         _same_spacing(path, table.own_spacing, grid.steps, either=grid.either)
     if border is not None:
-        numbers, coordinates, said = _coordinates(
+        numbers, coordinates, new_notes = _coordinates(
             path, table, border, numbers, across=grid.across, spacing=spacing, steps=steps
         )
         steps = coordinates if steps is None else steps
-        notes += said
+        notes += new_notes
     notes += (*table.notes, *grid.notes)
     if grid.steps is not None and steps is not None and not grid.either:
         lines = sorted({header.stated[name].line for name in ("dx", "dy", "width", "height") if name in header.stated})
@@ -245,9 +245,9 @@ def _refuse_unreconciled(path: Path, unread: list[Statement], counts: tuple[int,
             is_count = statement.unit is None and number in (nx, ny, nx * ny)
             is_length = any(abs(number * u / length - 1) < SAME_SPACING for u in units for length in lengths)
             if not (is_count or is_length):
-                said = f"does not agree with a map of {nx} x {ny} points, {steps[0]:.4g} x {steps[1]:.4g} m each"
+                message = f"does not agree with a map of {nx} x {ny} points, {steps[0]:.4g} x {steps[1]:.4g} m each"
                 advice = "correct the line or the spacing; or write '#' before it if it does not describe the map"
-                raise _wrong(path, statement.line, statement.text, f"{said}; {advice}")
+                raise _wrong(path, statement.line, statement.text, f"{message}; {advice}")
 
 
 def _unitless_steps(path: Path, header: Header, spacing: Pair) -> tuple[str, ...]:
@@ -262,9 +262,9 @@ def _unitless_steps(path: Path, header: Header, spacing: Pair) -> tuple[str, ...
         steps = steps_in_unit(header, unit)
         if _are_all_near(steps, spacing) or _are_all_near(steps, spacing[::-1]):
             return ()
-    said = f"spacing = {spacing[0]:g}, {spacing[1]:g} m is given, and file {path.name} states {stated[0].worded()}"
+    message = f"spacing = {spacing[0]:g}, {spacing[1]:g} m is given, and file {path.name} states {stated[0].worded()}"
     raise InputError(
-        said, allowed="that in m, mm, um or nm", recommendation="give it, or remove the wrong line from the file"
+        message, allowed="that in m, mm, um or nm", recommendation="give it, or remove the wrong line from the file"
     )
 
 
@@ -280,16 +280,16 @@ def _coordinates(
     if unit is None and expected is not None:
         unit = next((u for u in LATERAL if _are_all_near([s and s * u for s in pair], expected)), None)
         if unit is None:
-            said = f"file {path.name}: {border.worded()} with steps of {' and '.join(f'{s:g}' for s in known)}"
-            raise InputError(said, allowed=f"steps of {expected[0]:g} and {expected[1]:g} m in m, mm, um or nm")
+            message = f"file {path.name}: {border.worded()} with steps of {' and '.join(f'{s:g}' for s in known)}"
+            raise InputError(message, allowed=f"steps of {expected[0]:g} and {expected[1]:g} m in m, mm, um or nm")
     note = f"{border.worded()} taken off"
     if unit is None:
-        said = f"file {path.name}: {border.worded()}, and no line states their unit"
-        raise InputError(said, recommendation="give spacing in m, or write '# xy unit = um' above the table")
+        message = f"file {path.name}: {border.worded()}, and no line states their unit"
+        raise InputError(message, recommendation="give spacing in m, or write '# xy unit = um' above the table")
     if pair[0] is None or pair[1] is None:
         if expected is None:
-            said = f"file {path.name}: {border.worded()}, and the other step is not stated"
-            raise InputError(said, recommendation="give spacing = (dx, dy) in m")
+            message = f"file {path.name}: {border.worded()}, and the other step is not stated"
+            raise InputError(message, recommendation="give spacing = (dx, dy) in m")
         return numbers, None, (note,)
     return numbers, (pair[0] * unit, pair[1] * unit), (note,)
 
@@ -302,8 +302,10 @@ def _same_spacing(path: Path, given: tuple[float, float], steps: tuple[float, fl
     """Raise `InputError` where the spacing that the caller gives is not the one that the file states."""
     if _are_all_near(given, steps) or either and _are_all_near(given, steps[::-1]):
         return
-    said = f"spacing = {given[0]:g}, {given[1]:g} m is given, and file {path.name} states {steps[0]:g}, {steps[1]:g} m"
-    raise InputError(said, recommendation="omit spacing, or remove the wrong line from the file")
+    message = (
+        f"spacing = {given[0]:g}, {given[1]:g} m is given, and file {path.name} states {steps[0]:g}, {steps[1]:g} m"
+    )
+    raise InputError(message, recommendation="omit spacing, or remove the wrong line from the file")
 
 
 def _height_scale(path: Path, table: NumberTable, units: Units) -> tuple[float, tuple[str, ...]]:
@@ -313,8 +315,8 @@ def _height_scale(path: Path, table: NumberTable, units: Units) -> tuple[float, 
     factor = header.value("z factor") or 1.0
     if stated is not None:
         if units is not None and LENGTH_UNITS[units[2]] != stated.value:
-            said = f"unit = {units[2]!r} is given, and file {path.name} says {stated.unit}: {stated.worded()}"
-            raise InputError(said, recommendation="omit unit, or remove the wrong line from the file")
+            message = f"unit = {units[2]!r} is given, and file {path.name} says {stated.unit}: {stated.worded()}"
+            raise InputError(message, recommendation="omit unit, or remove the wrong line from the file")
         return stated.value * factor, (f"heights in {stated.unit} by {stated.worded()}",)
     if units is None:
         _refuse_unit_words(path, table)
@@ -330,19 +332,19 @@ def _refuse_unit_words(path: Path, table: NumberTable, *, points: bool = False) 
             of_heights = OF_HEIGHTS.search(text[:1000])
             if of_heights:
                 unit = UNIT_WORDS[of_heights[1].lower()]
-                said = f"says that the heights are in {unit}, and unit is not given, which means m"
-                raise _wrong(path, number, text, f"{said}; allowed: unit = {unit!r}, or 'm' if it is m after all")
+                message = f"says that the heights are in {unit}, and unit is not given, which means m"
+                raise _wrong(path, number, text, f"{message}; allowed: unit = {unit!r}, or 'm' if it is m after all")
             continue
         words = re.findall(r"[a-zµμ]+", text[:1000].lower())
         named = list(
             dict.fromkeys(UNIT_WORDS[word] for word in words if word in UNIT_WORDS and word not in ("m", "in"))
         )
         if named:
-            said = f"names {' and '.join(named)}, and unit is not given, which means m for every column"
+            message = f"names {' and '.join(named)}, and unit is not given, which means m for every column"
             ways = f"unit = {named[0]!r}, or 'm' if it is m after all"
             if points:
                 ways = f"unit = {named[0]!r} for all columns, or unit = {(named[0], named[-1])!r} for x and y, and z"
-            raise _wrong(path, number, text, f"{said}; allowed: {ways}")
+            raise _wrong(path, number, text, f"{message}; allowed: {ways}")
 
 
 # --- a list of points --------------------------------------------------------------------------
@@ -357,8 +359,10 @@ def _points(path: Path, table: NumberTable, units: Units, spacing: Pair) -> Text
     notes = table.notes
     if named is not None:
         if units is not None and [LENGTH_UNITS[unit] for unit in units] != [LENGTHS[unit] for unit in named[0]]:
-            said = f"unit = {', '.join(units)} is given, and file {path.name} says {', '.join(named[0])}: {named[1]!r}"
-            raise InputError(said, recommendation="omit unit, or correct the headings")
+            message = (
+                f"unit = {', '.join(units)} is given, and file {path.name} says {', '.join(named[0])}: {named[1]!r}"
+            )
+            raise InputError(message, recommendation="omit unit, or correct the headings")
         scales = [LENGTHS[unit] for unit in named[0]]
         notes += (f"columns in {', '.join(named[0])} by {named[1][:60]!r}",)
     elif {"z unit", "xy unit"} & set(table.header.stated):
@@ -382,12 +386,12 @@ def _stated_scales(path: Path, table: NumberTable, units: Units) -> list[float]:
         unit = None if units is None else units[place]
         given = None if unit is None else LENGTH_UNITS[unit]
         if statement is not None and given is not None and statement.value != given:
-            said = f"unit = {unit!r} is given, and file {path.name} says {statement.unit}: {statement.worded()}"
-            raise InputError(said, recommendation="omit unit, or remove the wrong line from the file")
+            message = f"unit = {unit!r} is given, and file {path.name} says {statement.unit}: {statement.worded()}"
+            raise InputError(message, recommendation="omit unit, or remove the wrong line from the file")
         scale = given if statement is None else statement.value
         if scale is None:
-            said = f"file {path.name} does not state the unit of {'the heights' if place == 2 else 'x and y'}"
-            raise InputError(said, recommendation="give unit = (unit of x, of y, of z), such as ('mm', 'mm', 'um')")
+            message = f"file {path.name} does not state the unit of {'the heights' if place == 2 else 'x and y'}"
+            raise InputError(message, recommendation="give unit = (unit of x, of y, of z), such as ('mm', 'mm', 'um')")
         scales.append(scale)
     return scales
 
@@ -544,8 +548,8 @@ def _numbers(path: Path, lines: Lines, separator: str | None) -> np.ndarray:
     try:
         return np.loadtxt([text for _, text in lines], delimiter=separator, ndmin=2, comments=None)
     except ValueError as problem:
-        said = f"path = {str(path)!r} is not a table of numbers: {_fault(lines, separator) or problem}"
-        raise InputError(said, recommendation="use lines of equally many numbers, 'nan' where unmeasured") from None
+        message = f"path = {str(path)!r} is not a table of numbers: {_fault(lines, separator) or problem}"
+        raise InputError(message, recommendation="use lines of equally many numbers, 'nan' where unmeasured") from None
 
 
 def _begins_a_block(comment: str) -> bool:
@@ -567,8 +571,8 @@ def _own_spacing(path: Path, comments: Lines) -> tuple[float, float] | None:
         except ValueError:
             pair = []
         if len(pair) not in (1, 2):
-            said = f"spacing in {path.name}: {validate.shown(line)}"
-            raise InputError(said, allowed="'# spacing = dx dy' in m")
+            message = f"spacing in {path.name}: {validate.shown(line)}"
+            raise InputError(message, allowed="'# spacing = dx dy' in m")
         stated = validate.spacing("spacing", pair if len(pair) == 2 else pair[0])
         if spacing not in (None, stated):
             raise InputError(f"file {path.name} states its spacing twice: {spacing} and {stated} m")
@@ -626,8 +630,8 @@ def _marks(path: Path, lines: Lines, decimal: str | None) -> tuple[str | None, b
         if commas and decimal == ".":
             raise _wrong(path, *commas[0], "has a comma inside a number and decimal = '.'; give decimal = ','")
         if decimal is None and commas and _may_be_thousands(lines):
-            said = "has commas that can be decimal marks or marks of thousands, as all others have"
-            raise _wrong(path, *commas[0], f"{said}; give decimal = ',', or write the numbers without them")
+            message = "has commas that can be decimal marks or marks of thousands, as all others have"
+            raise _wrong(path, *commas[0], f"{message}; give decimal = ',', or write the numbers without them")
         return separator, bool(commas) or decimal == ","
     if decimal == ".":
         return ",", False
@@ -637,8 +641,8 @@ def _marks(path: Path, lines: Lines, decimal: str | None) -> tuple[str | None, b
     ways = (all(way.fullmatch(text.removesuffix(",")) for _, text in lines) for way in (_BOTH_WAYS, _COMMA_BLANK))
     if inside and any(ways):
         ways_out = "decimal = '.' (all separate) or ',' (decimal marks, unless a blank follows), or another separator"
-        said = "and all others have commas that can separate values or be decimal marks"
-        raise _wrong(path, *commas[0], f"{said}; give {ways_out}")
+        message = "and all others have commas that can separate values or be decimal marks"
+        raise _wrong(path, *commas[0], f"{message}; give {ways_out}")
     return ",", False
 
 

@@ -49,16 +49,16 @@ def read_zygo(
         resolution = int(header[RESOLUTION_LINE][0])
         intensities = int(header[INTENSITIES][2]) * int(header[INTENSITIES][3])
     except (ValueError, IndexError):
-        said = f"{name} begins as a text file of Zygo, but its header has another layout"
-        raise InputError(said, recommendation="export it from MetroPro or Mx again, or as .x3p or .datx") from None
+        message = f"{name} begins as a text file of Zygo, but its header has another layout"
+        raise InputError(message, recommendation="export it from MetroPro or Mx again, or as .x3p or .datx") from None
     blocks = _blocks(lines[end + 1 :])
     if not (nx > 0 and ny > 0 and nx * ny <= len(text) and np.isfinite(optics).all() and pitch >= 0 and blocks):
         raise InputError(f"{name} is cut off, or states a map of {nx} x {ny} points with a pixel of {pitch:g} m")
     if text.startswith(POINTS_TITLE):
         if units is None:
-            said = f"{name} is a list of points of Zygo, which does not state the unit of its heights"
+            message = f"{name} is a list of points of Zygo, which does not state the unit of its heights"
             way = "give unit: MetroPro writes 'um'; Mx writes the unit that was set (for waves: export again in nm)"
-            raise InputError(said, recommendation=way)
+            raise InputError(message, recommendation=way)
         heights = LENGTH_UNITS[units[2]] * _points(name, blocks[0], (x0, y0), (nx, ny))
         notes: tuple[str, ...] = (f"points of Zygo, heights in {units[2]} as given",)
     else:
@@ -67,8 +67,8 @@ def read_zygo(
         waves = COUNTS_OF_A_WAVE.get(resolution)
         scale = optics[1] * optics[2] * optics[4]
         if waves is None or not scale > 0:
-            said = f"{name} has the phase resolution {resolution} and {scale:g} m a wave"
-            raise InputError(said, allowed=f"{', '.join(map(str, COUNTS_OF_A_WAVE))}, and a wave above 0")
+            message = f"{name} has the phase resolution {resolution} and {scale:g} m a wave"
+            raise InputError(message, allowed=f"{', '.join(map(str, COUNTS_OF_A_WAVE))}, and a wave above 0")
         heights = scale / waves * _phases(name, blocks[-1], len(blocks) - 1, intensities, (nx, ny))
         notes = (f"phases of Zygo, {scale / waves:.6g} m each",)
     return heights, (pitch, pitch) if pitch > 0 else None, notes

@@ -110,8 +110,8 @@ def _start(line_history: LineHistory, tolerance: float) -> tuple[Setting, Step, 
         setting = make_setting(line_history, tolerance)
         return setting, setting.undeformed(line_history.initial_film), {}
     if line_history.speed.before(0.0) == 0.0:
-        said = " = 0 m/s before t = 0 carries no steady film"
-        raise InputError(said, "entrainment_speed", recommendation="give initial_film > 0 m, or a speed")
+        message = " = 0 m/s before t = 0 carries no steady film"
+        raise InputError(message, "entrainment_speed", recommendation="give initial_film > 0 m, or a speed")
     for finer in NODE_FACTORS:
         setting = make_setting(line_history, tolerance, finer=finer)
         start, error = steady_start(setting)

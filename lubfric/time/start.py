@@ -73,9 +73,9 @@ def check_load_sharing(base: Scene) -> None:
                 f" = {value!r} is not for a run in time", f"numerics.{name}", ", ".join(map(repr, allowed))
             )
     if load.range(transient.duration)[1] > base.bodies.load * (1 + 1e-9):
-        said = f" rises to {load.range(transient.duration)[1]:g} N"
+        message = f" rises to {load.range(transient.duration)[1]:g} N"
         most = f"up to bodies.load = {base.bodies.load:g} N"
-        raise InputError(said, "transient.load", f"{most}, whose Hertz strip is the area A")
+        raise InputError(message, "transient.load", f"{most}, whose Hertz strip is the area A")
     for time in sampled_times(base) if base.bodies.boundary_friction_table is not None else ():
         scene_at(base, time)  # raises where the table of f_b has no value
     check_start(base)
@@ -128,8 +128,10 @@ def _flying(model: TransientLoadSharing, film: float) -> Step:
     step = _untouched(model, model.setting.undeformed(film))
     state = step.payload.state
     if volume_residual(state) > 0.0:
-        said = f": the surfaces touch at {state.mean_film:g} m of mean film"
-        raise InputError(said, "transient.initial_film", f"above {film_under(state.mean_gap):g} m, or initial = 'rest'")
+        message = f": the surfaces touch at {state.mean_film:g} m of mean film"
+        raise InputError(
+            message, "transient.initial_film", f"above {film_under(state.mean_gap):g} m, or initial = 'rest'"
+        )
     return step
 
 
@@ -143,9 +145,9 @@ def _resting(model: TransientLoadSharing) -> Step:
     undeformed_gap = setting.undeformed(0.0).terms.H
     film = film_under(state.mean_gap) - float(model.mean_row @ undeformed_gap)
     if film <= 0.0:
-        said = "at rest there is no gap for a film under the undeformed cylinder"
+        message = "at rest there is no gap for a film under the undeformed cylinder"
         ways = "initial = 'steady' with an entrainment speed, or transient.initial_film"
-        raise InputError(f"{said}; give {ways}")
+        raise InputError(f"{message}; give {ways}")
     undeformed = setting.undeformed(film)
     state = replace(state, mean_film=float(model.mean_row @ undeformed.terms.H))
     return replace(undeformed, payload=ContactStep(load, state, START_SOFTNESS * state.mean_gap))

@@ -128,9 +128,9 @@ class TransientDeterministic:
         speed = np.max([0 * times, *(_body_speed(self.scene, body, times) for body in self.heights)], axis=0)
         way = np.append(0.0, np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(times)))
         if way[-1] > MOST_PASSED_CELLS * dx:
-            said = f" = {duration:g} s: the roughness would move by {way[-1] / dx:.2g} cells, a step each"
+            message = f" = {duration:g} s: the roughness would move by {way[-1] / dx:.2g} cells, a step each"
             recommendation = "a shorter run, or numerics.model = 'paper'"
-            raise InputError(said, "transient.duration", f"up to {MOST_PASSED_CELLS:g} cells", recommendation)
+            raise InputError(message, "transient.duration", f"up to {MOST_PASSED_CELLS:g} cells", recommendation)
         return tuple(np.interp(dx * np.arange(1, math.floor(way[-1] / dx) + 1), way, times).tolist())
 
     def problem_at(self, time: float) -> Problem:

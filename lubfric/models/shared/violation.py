@@ -156,9 +156,9 @@ def refused(violations: tuple[Violation, ...], *, accept: bool, result: object =
     """Raise `ValidityError` with ``result`` if one of ``violations`` is severe, unless ``accept``."""
     severe = [violation for violation in violations if violation.severe]
     if severe and not accept:
-        said = " ".join(violation.text for violation in severe)
+        message = " ".join(violation.text for violation in severe)
         advice = "numerics.accept = true (on the command line --accept) keeps the result, marked."
-        raise ValidityError(f"{said} {advice}", tuple(severe), result)
+        raise ValidityError(f"{message} {advice}", tuple(severe), result)
 
 
 def violations_of(point: Any, error: Exception | None) -> tuple[Violation, ...]:

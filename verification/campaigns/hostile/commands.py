@@ -93,12 +93,12 @@ def cases(draw: np.random.Generator, count: int) -> Iterator[HostileCase]:
 def ended(words: list[str], folder: Path) -> str:
     """Run the command in ``folder``. Raise `UncleanEndError` where it ends as none should."""
     write_inputs(folder)
-    said = io.StringIO()
-    with contextlib.chdir(folder), contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(said):
+    errors = io.StringIO()
+    with contextlib.chdir(folder), contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(errors):
         try:
             code = main(words)
         except SystemExit as end:  # of the parser of arguments
             code = end.code if isinstance(end.code, int) else 2
-    if code not in CODES or code and not said.getvalue().strip():
-        raise UncleanEndError(f"exit code {code}: {said.getvalue()[-200:]}")
+    if code not in CODES or code and not errors.getvalue().strip():
+        raise UncleanEndError(f"exit code {code}: {errors.getvalue()[-200:]}")
     return f"exit code {code}"

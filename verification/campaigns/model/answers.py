@@ -183,10 +183,10 @@ def compared(
         if any(here := [group in (*groups, "all") for groups, _ in result])
     ]
     yield Table(name, f"The default answer, and load sharing alone, compared with {source}", COLUMNS, rows)
-    for way, said in (("default", "default answer"), ("load sharing", "load sharing alone")):
+    for way, label in (("default", "default answer"), ("load sharing", "load sharing alone")):
         inside = float(np.mean(every[way][:, 1] <= every[way][:, 2])) if result else math.nan
         yield Check(
-            f"{said}: share of {len(result)} intervals with f",
+            f"{label}: share of {len(result)} intervals with f",
             inside,
             expected=1.0,
             tolerance=0.1,

@@ -49,10 +49,10 @@ class HarmonicStrip:
     fineness: int = 1
 
     def __post_init__(self) -> None:
-        said = f"shape = {self.shape}, spacing = {self.spacing} m, fineness = {self.fineness}"
+        message = f"shape = {self.shape}, spacing = {self.spacing} m, fineness = {self.fineness}"
         fits = not self.shape[0] % 2 and min(self.shape) >= 2 and min(self.spacing) > 0
-        require(fits and 8 * self.shape[0] <= 1 << SIDE, said, f"nx even, 2 to {(1 << SIDE) // 8} cells, > 0 m")
-        require(0 <= self.fineness <= 4, said, "fineness 0 to 4")
+        require(fits and 8 * self.shape[0] <= 1 << SIDE, message, f"nx even, 2 to {(1 << SIDE) // 8} cells, > 0 m")
+        require(0 <= self.fineness <= 4, message, "fineness 0 to 4")
 
     @property
     def half(self) -> float:

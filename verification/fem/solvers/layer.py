@@ -87,9 +87,9 @@ def graded_mesh(width: float, thickness: float, strip: float, fine: float, growt
 
     The mesh is mirrored about x = 0, so that the nodes on the two sides lie at the same depths.
     """
-    said = f"width {width}, thickness {thickness}, strip {strip}, fine {fine}, growth {growth}"
+    message = f"width {width}, thickness {thickness}, strip {strip}, fine {fine}, growth {growth}"
     fits = 0 < fine < strip <= width / 2 and thickness > 0 and growth > 0
-    require(fits, said, "0 < fine < strip <= width/2, thickness > 0, growth > 0")
+    require(fits, message, "0 < fine < strip <= width/2, thickness > 0, growth > 0")
     cells = np.maximum(1, np.round(np.array([width / 2, thickness]) / min(width / 2, thickness))).astype(int)
     mesh = MeshTri.init_tensor(np.linspace(0, width / 2, cells[0] + 1), np.linspace(-thickness, 0, cells[1] + 1))
 

@@ -44,11 +44,11 @@ class Layer3D:
         levels = np.asarray(self.levels, dtype=float)
         object.__setattr__(self, "levels", levels)
         fits = self.degree in ELEMENTS and all(n >= 2 * self.degree and n % self.degree == 0 for n in self.shape)
-        said = f"shape = {self.shape}, degree = {self.degree}"
-        require(fits, said, "degree 1 or 2, nodes a multiple of the degree, two cells at least")
+        message = f"shape = {self.shape}, degree = {self.degree}"
+        require(fits, message, "degree 1 or 2, nodes a multiple of the degree, two cells at least")
         ascending = levels.ndim == 1 and levels.size > 1 and bool(np.all(np.diff(levels) > 0)) and levels[-1] == 0
-        said = f"size = {self.size}, levels = {levels}"
-        require(min(self.size) > 0 and ascending, said, "lengths > 0, levels ascending to 0")
+        message = f"size = {self.size}, levels = {levels}"
+        require(min(self.size) > 0 and ascending, message, "lengths > 0, levels ascending to 0")
 
     @property
     def cells(self) -> tuple[int, int]:

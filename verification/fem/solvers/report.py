@@ -15,10 +15,10 @@ class InputError(ValueError):
     """An input outside its allowed range, raised before any work."""
 
 
-def require(fits: bool, said: str, allowed: str) -> None:  # noqa: FBT001 - a condition, as of an assertion
-    """`InputError` with what was ``said`` and what is ``allowed``, where it does not fit."""
+def require(fits: bool, message: str, allowed: str) -> None:  # noqa: FBT001 - a condition, as of an assertion
+    """Raise `InputError` with the ``message`` and what is ``allowed``, where it does not fit."""
     if not fits:
-        raise InputError(f"{said}; allowed: {allowed}")
+        raise InputError(f"{message}; allowed: {allowed}")
 
 
 class SolveError(RuntimeError):

@@ -86,9 +86,9 @@ class RoughLine:
     floor: float | None = None
 
     def __post_init__(self) -> None:
-        said = f"cells = {self.cells}, inlet = {self.inlet} m, outlet = {self.outlet} m"
+        message = f"cells = {self.cells}, inlet = {self.inlet} m, outlet = {self.outlet} m"
         even = not (self.cells[0] % 2 or self.cells[1] % 2)
-        require(even and self.inlet < 0 < self.outlet and self.period > 0, said, "even numbers, inlet < 0 < outlet")
+        require(even and self.inlet < 0 < self.outlet and self.period > 0, message, "even numbers, inlet < 0 < outlet")
 
     @property
     def spacing(self) -> tuple[float, float]:
